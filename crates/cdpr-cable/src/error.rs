@@ -1,0 +1,53 @@
+//! What can be wrong with a question about a cable.
+
+/// Why a cable could not be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CableError {
+    /// An input is not a number that a cable can have.
+    #[error("{field} is {value}: expected {expected}")]
+    InvalidInput {
+        /// Name of the input.
+        field: &'static str,
+        /// The value that was given, in the unit named in `expected`.
+        value: f64,
+        /// What would be right.
+        expected: &'static str,
+    },
+    /// No unstrained length gives so small a tension: the cable's own weight demands more over this span.
+    #[error(
+        "a tension of {tension} N at the anchor point is too small: over this span the weight of the cable alone demands {least} N; \
+         raise the tension"
+    )]
+    TensionTooSmall {
+        /// The tension asked for [N].
+        tension: f64,
+        /// The least tension at the anchor point that any unstrained length gives [N].
+        least: f64,
+    },
+    /// The iteration ended without reaching rounding accuracy.
+    #[error(
+        "no equilibrium of the cable found after {iterations} iterations: {residual:e} m remain open at its end"
+    )]
+    NotConverged {
+        /// Iterations made.
+        iterations: usize,
+        /// Distance between the wanted end position and the best one found [m].
+        residual: f64,
+    },
+}
+
+/// Magnitudes beyond this are refused, so that no product of four of them overflows.
+const LARGEST: f64 = 1e30;
+
+pub(crate) fn check(
+    field: &'static str,
+    value: f64,
+    admissible: bool,
+    expected: &'static str,
+) -> Result<(), CableError> {
+    if admissible && value.abs() <= LARGEST {
+        Ok(())
+    } else {
+        Err(CableError::InvalidInput { field, value, expected })
+    }
+}

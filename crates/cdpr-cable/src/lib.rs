@@ -1,0 +1,36 @@
+//! Statics of one sagging elastic cable between two points (Irvine's elastic catenary).
+//!
+//! Frame: the vertical plane of the cable, exit point B at the origin, anchor point A at `(x, z)`, `z` up, `x >= 0`.
+//! Force: `(fx, fz)` [N] is the force applied *to the cable at A*; whatever hangs on the cable receives its opposite.
+//!
+//! | question | answer |
+//! |---|---|
+//! | where is A for a force at A? | [`Catenary::end_position`] |
+//! | what is the force for an end position and an unstrained length? | [`end_force`] |
+//! | what unstrained length gives a wanted tension at A? | [`length_for_tension`] |
+//! | how stiff, how much energy, what shape? | the other methods of [`Catenary`] |
+//!
+//! ```
+//! use cdpr_cable::{Cable, Vector2, end_force};
+//!
+//! let cable = Cable { weight_per_length: 0.9957, axial_stiffness: 1.28e6 }; // [N/m], [N]
+//! let solution = end_force(&cable, 4.3, Vector2::new(4.1, -1.7))?; // 4.3 m of cable, A 1.7 m below B
+//! let catenary = solution.catenary;
+//! assert!((catenary.end_position() - Vector2::new(4.1, -1.7)).norm() < 1e-12);
+//! println!("tension at the platform {:.1} N, sag {:.1} mm", catenary.anchor_tension(), 1e3 * catenary.sag());
+//! # Ok::<(), cdpr_cable::CableError>(())
+//! ```
+//!
+//! The crate does no input or output, holds no state and knows no robot.
+
+mod catenary;
+mod error;
+mod shape;
+mod solve;
+mod tensioned;
+
+pub use catenary::{Cable, Catenary, Compliance};
+pub use error::CableError;
+pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+pub use solve::{Solution, end_force};
+pub use tensioned::length_for_tension;

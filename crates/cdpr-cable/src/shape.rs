@@ -1,0 +1,126 @@
+//! The shape of a cable in equilibrium, along its unstrained arc length `s` from the exit point B.
+//!
+//! The piece of cable between B and `s` is itself a catenary of unstrained length `s` that carries `(fx, V0 + w s)` at
+//! its end: every point comes from the same equations (1)-(2) as the end.
+
+use crate::catenary::Catenary;
+use nalgebra::Vector2;
+
+impl Catenary {
+    /// The piece between B and the unstrained arc length `s`, which is clamped to `[0, L]`.
+    fn up_to(&self, s: f64) -> Catenary {
+        let s = s.clamp(0.0, self.unstrained_length);
+        let vertical = self.exit_vertical_force() + self.cable.weight_per_length * s;
+        Catenary { unstrained_length: s, force: Vector2::new(self.force.x, vertical), ..*self }
+    }
+
+    /// Position `(x, z)` [m] of the point at unstrained arc length `s` [m] from B, clamped to `[0, L]`.
+    pub fn point(&self, s: f64) -> Vector2<f64> {
+        if s <= 0.0 { Vector2::zeros() } else { self.up_to(s).end_position() }
+    }
+
+    /// Tension [N] at unstrained arc length `s` [m] from B, clamped to `[0, L]`.
+    pub fn tension(&self, s: f64) -> f64 {
+        self.up_to(s).anchor_tension()
+    }
+
+    /// `points` positions [m] from B to A at equal unstrained distances (2 at least).
+    pub fn profile(&self, points: usize) -> Vec<Vector2<f64>> {
+        let last = points.max(2) - 1;
+        (0..=last).map(|k| self.point(self.unstrained_length * k as f64 / last as f64)).collect()
+    }
+
+    /// Unstrained arc length [m] from B at which the cable is lowest: where it is level, or its lower end.
+    pub fn lowest_arc_length(&self) -> f64 {
+        let (w, v0) = (self.cable.weight_per_length, self.exit_vertical_force());
+        if w > 0.0 {
+            (-v0 / w).clamp(0.0, self.unstrained_length)
+        } else if v0 < 0.0 {
+            self.unstrained_length
+        } else {
+            0.0
+        }
+    }
+
+    /// The lowest point of the cable [m].
+    pub fn lowest_point(&self) -> Vector2<f64> {
+        self.point(self.lowest_arc_length())
+    }
+
+    /// Sag [m]: the greatest distance of the cable from its chord, measured across the chord (Irvine 1981, section 2.5).
+    pub fn sag(&self) -> f64 {
+        let end = self.end_position();
+        let chord = end.norm();
+        if self.cable.weight_per_length == 0.0 || chord == 0.0 {
+            return 0.0;
+        }
+        // The cable is parallel to its chord where V/fx = z/x.
+        let v = if end.x > 0.0 { self.force.x * end.y / end.x } else { 0.0 };
+        let point = self.point((v - self.exit_vertical_force()) / self.cable.weight_per_length);
+        (point.x * end.y - point.y * end.x).abs() / chord
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Cable, Catenary, Vector2, end_force};
+    use approx::assert_relative_eq;
+
+    const CABLE: Cable = Cable { weight_per_length: 2.0, axial_stiffness: 1e6 };
+
+    fn hanging(length: f64, x: f64, z: f64) -> Catenary {
+        end_force(&CABLE, length, Vector2::new(x, z)).unwrap().catenary
+    }
+
+    #[test]
+    fn the_profile_runs_from_exit_to_anchor_point() {
+        let catenary = hanging(6.0, 4.0, 1.0);
+        let profile = catenary.profile(11);
+        assert_eq!(profile.len(), 11);
+        assert_eq!(profile[0], Vector2::zeros());
+        assert_relative_eq!(profile[10], Vector2::new(4.0, 1.0), epsilon = 1e-13);
+    }
+
+    #[test]
+    fn a_level_span_is_lowest_in_the_middle_by_its_sag() {
+        let catenary = hanging(6.0, 5.0, 0.0);
+        assert_relative_eq!(catenary.lowest_arc_length(), 3.0, epsilon = 1e-12);
+        assert_relative_eq!(catenary.lowest_point().y, -catenary.sag(), max_relative = 1e-12);
+    }
+
+    #[test]
+    fn a_shallow_cable_has_the_sag_of_a_parabola() {
+        let catenary = hanging(3.0 - 1e-3, 3.0, 0.0);
+        let parabola = 2.0 * 3.0 * 3.0 / (8.0 * catenary.force.x);
+        assert_relative_eq!(catenary.sag(), parabola, max_relative = 1e-3);
+    }
+
+    #[test]
+    fn no_point_lies_farther_from_the_chord_than_the_sag() {
+        let catenary = hanging(7.0, 3.0, -2.0);
+        let chord = catenary.end_position().normalize();
+        let distances = catenary.profile(1001).into_iter().map(|p| (p.x * chord.y - p.y * chord.x).abs());
+        let greatest = distances.fold(0.0, f64::max);
+        assert!(greatest <= catenary.sag() * (1.0 + 1e-12));
+        assert_relative_eq!(greatest, catenary.sag(), max_relative = 1e-5);
+    }
+
+    #[test]
+    fn the_tension_is_that_of_the_ends_at_the_ends() {
+        let catenary = hanging(7.0, 3.0, -2.0);
+        assert_relative_eq!(catenary.tension(0.0), catenary.exit_tension(), max_relative = 1e-15);
+        assert_relative_eq!(catenary.tension(7.0), catenary.anchor_tension(), max_relative = 1e-13);
+    }
+
+    #[test]
+    fn the_potential_energy_is_elastic_energy_plus_lifted_weight() {
+        let catenary = hanging(7.0, 3.0, -2.0);
+        let parts = 20_000;
+        let ds = catenary.unstrained_length / f64::from(parts);
+        let energy: f64 = (0..parts)
+            .map(|k| ds * (f64::from(k) + 0.5))
+            .map(|s| ds * (catenary.tension(s).powi(2) / (2.0 * 1e6) + 2.0 * catenary.point(s).y))
+            .sum();
+        assert_relative_eq!(catenary.potential_energy(), energy, max_relative = 1e-7);
+    }
+}

@@ -1,0 +1,128 @@
+//! The unstrained length that gives a wanted tension at the anchor point.
+//!
+//! Over a given span the tension at A falls as cable is paid out, passes a minimum, and rises again with the weight of
+//! the cable that hangs below. The answer is the shorter cable of the two. Newton's method on the direction θ of the
+//! force and the length `L`, with `f = T (cos θ, sin θ)`:
+//!
+//! ```text
+//! (x, z)(f, L) = end,      d(x, z)/dθ = C (-fz, fx),      d(x, z)/dL = (fx, V0) (1/T0 + 1/EA)
+//! ```
+//!
+//! with C the flexibility; where that does not end on the falling branch, bisection of the tension over the length.
+
+use crate::catenary::{Cable, Catenary};
+use crate::error::{CableError, check};
+use crate::solve::{Solution, check_end, end_force};
+use nalgebra::{Matrix2, Vector2};
+
+/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, that has the tension `tension` [N] at its end A.
+///
+/// # Errors
+/// [`CableError::InvalidInput`] for values no cable can have, [`CableError::TensionTooSmall`] where the cable's weight
+/// alone demands more, with the least tension there is.
+pub fn length_for_tension(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<Solution, CableError> {
+    cable.validate()?;
+    check_end(end)?;
+    check("tension", tension, tension > 0.0, "a finite, positive tension [N]")?;
+    let chord = end.norm();
+    check("end", chord, chord > 0.0, "an end position away from the exit point [m]")?;
+    match newton(cable, end, tension) {
+        Some(solution) => Ok(solution),
+        None => bisect(cable, end, tension),
+    }
+}
+
+fn newton(cable: &Cable, end: Vector2<f64>, tension: f64) -> Option<Solution> {
+    let chord = end.norm();
+    let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
+    // Start: a straight spring, turned by half its weight and lengthened by the sag of a parabola.
+    let length = chord / (1.0 + tension / ea);
+    let across = w * end.x / (chord * tension);
+    let pull = end * (tension / chord) + Vector2::new(0.0, 0.5 * w * length);
+    let mut now = Catenary {
+        cable: *cable,
+        unstrained_length: length * (1.0 + (across * length).powi(2) / 24.0),
+        force: pull * (tension / pull.norm()),
+    };
+    for iteration in 1..=20 {
+        let compliance = now.compliance();
+        let turn = compliance.flexibility * Vector2::new(-now.force.y, now.force.x);
+        let jacobian = Matrix2::from_columns(&[turn, now.end_per_length()]);
+        let step = jacobian.try_inverse()? * (end - compliance.end);
+        let (sin, cos) = step.x.sin_cos();
+        let (fx, fz) = (now.force.x, now.force.y);
+        now.force = Vector2::new(cos * fx - sin * fz, sin * fx + cos * fz);
+        now.force *= tension / now.force.norm();
+        now.unstrained_length += step.y;
+        if !(step.norm() < 1e3 && now.unstrained_length > 0.0 && now.force.x >= -1e-9 * tension) {
+            return None;
+        }
+        if step.x.abs() <= 1e-8 && step.y.abs() <= 1e-8 * length {
+            now.force.x = now.force.x.max(0.0);
+            let solution = Solution::of(now, end, iteration);
+            let at_rounding = solution.residual <= 64.0 * f64::EPSILON * (chord + now.unstrained_length);
+            return (at_rounding && tension_slope(&now) < 0.0).then_some(solution);
+        }
+    }
+    None
+}
+
+/// dT/dL [N/m] with both ends held: negative on the branch of the shorter cable.
+fn tension_slope(catenary: &Catenary) -> f64 {
+    -catenary.force.dot(&(catenary.in_plane_stiffness() * catenary.end_per_length()))
+        / catenary.anchor_tension()
+}
+
+fn bisect(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<Solution, CableError> {
+    let chord = end.norm();
+    let weight = cable.weight_per_length * chord;
+    let solve = |length: f64| end_force(cable, length, end).map(|solution| solution.catenary);
+    // A cable short enough to carry the wanted tension and its own weight on top.
+    let mut short = chord / (1.0 + (tension + weight) / cable.axial_stiffness);
+    while solve(short)?.anchor_tension() < tension {
+        short *= 0.5;
+    }
+    // A cable long enough to have passed the least tension; a weightless one ends with no tension at all.
+    let mut long = 2.0 * chord;
+    while cable.weight_per_length > 0.0 && tension_slope(&solve(long)?) < 0.0 {
+        long *= 2.0;
+    }
+    let (mut falling, mut rising) = (short, long);
+    let mut hit = None;
+    for _ in 0..200 {
+        let middle = 0.5 * (falling + rising);
+        if middle <= falling || middle >= rising {
+            break;
+        }
+        let catenary = solve(middle)?;
+        if catenary.anchor_tension() <= tension {
+            hit = Some(middle);
+            break;
+        }
+        if tension_slope(&catenary) < 0.0 {
+            falling = middle;
+        } else {
+            rising = middle;
+        }
+    }
+    let Some(mut low) = hit else {
+        let least = solve(falling)?.anchor_tension().min(solve(rising)?.anchor_tension());
+        return Err(CableError::TensionTooSmall { tension, least });
+    };
+    let mut high = short;
+    let mut iterations = 0;
+    while iterations < 200 {
+        let middle = 0.5 * (low + high);
+        if middle >= low || middle <= high {
+            break;
+        }
+        iterations += 1;
+        if solve(middle)?.anchor_tension() > tension {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    let solution = end_force(cable, low, end)?;
+    Ok(Solution { iterations, ..solution })
+}

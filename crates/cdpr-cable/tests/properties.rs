@@ -1,0 +1,125 @@
+//! Properties of the cable's inverse problems over many decades of weight, stiffness, length and slack.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_cable::{Cable, CableError, Catenary, Vector2, end_force, length_for_tension};
+use proptest::prelude::*;
+
+/// A cable, its unstrained length, and an end position between right below or above the exit point and level with it;
+/// the chord is between a hundredth of the length (folded) and a stretch of a percent.
+fn any_span() -> impl Strategy<Value = (Cable, f64, Vector2<f64>)> {
+    (
+        -5.0..2.5f64,
+        4.0..9.0f64,
+        -0.5..2.5f64,
+        prop_oneof![-9.0..0.0f64, Just(f64::NEG_INFINITY)],
+        any::<bool>(),
+        chord(),
+    )
+        .prop_map(|(w, ea, l, x, up, chord)| {
+            let cable = Cable { weight_per_length: 10f64.powf(w), axial_stiffness: 10f64.powf(ea) };
+            let length = 10f64.powf(l);
+            let x = 10f64.powf(x);
+            let z = (1.0 - x * x).sqrt() * if up { 1.0 } else { -1.0 };
+            (cable, length, Vector2::new(x, z) * (chord * length))
+        })
+}
+
+/// Chord over unstrained length.
+fn chord() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        0.01..1.0f64,
+        (-9.0..-1.0f64).prop_map(|e| 1.0 - 10f64.powf(e)),
+        (-9.0..-2.0f64).prop_map(|e| 1.0 + 10f64.powf(e))
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_span_has_an_end_force_to_rounding((cable, length, end) in any_span()) {
+        let solution = end_force(&cable, length, end);
+        prop_assert!(solution.is_ok(), "{solution:?}");
+        let solution = solution.unwrap();
+        prop_assert!(solution.iterations <= 30, "{} iterations", solution.iterations);
+        prop_assert!(solution.catenary.force.x >= 0.0);
+    }
+
+    #[test]
+    fn the_end_force_gives_back_the_length_for_its_tension((cable, length, end) in any_span()) {
+        let catenary = end_force(&cable, length, end).unwrap().catenary;
+        let tension = catenary.anchor_tension();
+        match length_for_tension(&cable, end, tension) {
+            Ok(solution) => {
+                let found = solution.catenary;
+                prop_assert!(found.unstrained_length <= length * (1.0 + 1e-6));
+                // One unit in the last place of the length is worth EA epsilon newtons.
+                let rounding = 8.0 * f64::EPSILON * cable.axial_stiffness;
+                prop_assert!((found.anchor_tension() - tension).abs() < 1e-9 * tension + rounding);
+                let open = (found.end_position() - end).norm();
+                prop_assert!(open < 1e-12 * (end.norm() + found.unstrained_length), "{open:e}");
+            }
+            // At the very bottom of the tension curve, rounding decides on which side the tension lies.
+            Err(CableError::TensionTooSmall { least, .. }) => prop_assert!(least < tension * (1.0 + 1e-9)),
+            Err(error) => prop_assert!(false, "{error}"),
+        }
+    }
+
+    #[test]
+    fn a_tension_that_is_too_small_is_below_that_of_any_length((cable, length, end) in any_span(), fraction in 0.01..1.0f64) {
+        let tension = fraction * cable.weight_per_length * end.norm();
+        if let Err(error) = length_for_tension(&cable, end, tension) {
+            let CableError::TensionTooSmall { least, .. } = error else { panic!("{error}") };
+            let any = end_force(&cable, length, end).unwrap().catenary.anchor_tension();
+            let rounding = 8.0 * f64::EPSILON * cable.axial_stiffness;
+            prop_assert!(tension < least && least <= any * (1.0 + 1e-9) + rounding, "{tension} {least} {any}");
+        }
+    }
+
+    #[test]
+    fn more_cable_means_less_tension_until_its_weight_takes_over((cable, length, end) in any_span()) {
+        // The potential energy is convex in the end position: stiffness is positive definite.
+        let k = end_force(&cable, length, end).unwrap().catenary.in_plane_stiffness();
+        prop_assert!(k.m11 > 0.0 && k.m22 > 0.0 && k.determinant() > 0.0, "{k}");
+    }
+}
+
+#[test]
+fn inputs_that_no_cable_has_are_named() {
+    let cable = Cable { weight_per_length: 1.0, axial_stiffness: 1e6 };
+    let end = Vector2::new(3.0, -1.0);
+    let field = |result: Result<_, CableError>| match result {
+        Err(CableError::InvalidInput { field, .. }) => field,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(field(end_force(&Cable { weight_per_length: -1.0, ..cable }, 3.0, end)), "weight_per_length");
+    assert_eq!(field(end_force(&Cable { axial_stiffness: 0.0, ..cable }, 3.0, end)), "axial_stiffness");
+    assert_eq!(field(end_force(&cable, f64::NAN, end)), "unstrained_length");
+    assert_eq!(field(end_force(&cable, 3.0, Vector2::new(-1.0, 0.0))), "end.x");
+    assert_eq!(field(end_force(&cable, 3.0, Vector2::new(1.0, f64::INFINITY))), "end.z");
+    assert_eq!(field(length_for_tension(&cable, end, 0.0)), "tension");
+    assert_eq!(field(length_for_tension(&cable, Vector2::zeros(), 5.0)), "end");
+}
+
+#[test]
+fn a_slack_weightless_cable_carries_nothing() {
+    let cable = Cable { weight_per_length: 0.0, axial_stiffness: 1e6 };
+    let slack = end_force(&cable, 5.0, Vector2::new(3.0, -1.0)).unwrap().catenary;
+    assert_eq!(slack.force, Vector2::zeros());
+    assert_eq!(slack.sag(), 0.0);
+}
+
+#[test]
+fn the_force_is_continuous_from_nearly_vertical_to_vertical() {
+    let cable = Cable { weight_per_length: 1.0, axial_stiffness: 1e6 };
+    for z in [-6.0, -4.0, 0.0, 4.0, 6.0] {
+        let vertical = end_force(&cable, 5.0, Vector2::new(0.0, z)).unwrap().catenary;
+        for x in [1e-6, 1e-12, 1e-25, 1e-40, 1e-300] {
+            let near: Catenary = end_force(&cable, 5.0, Vector2::new(x, z)).unwrap().catenary;
+            let error = (near.force - vertical.force).norm();
+            let stiffness = 1e6 / 5.0;
+            assert!(error < 1e-6 + 2.0 * stiffness * x, "z {z}, x {x:e}: {error:e}");
+        }
+    }
+}
