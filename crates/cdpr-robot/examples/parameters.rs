@@ -1,0 +1,13 @@
+//! The uncertain parameters of CAROCA, with their nominal values.
+
+#![allow(clippy::print_stdout)]
+
+use cdpr_robot::{Parameter, Robot, RobotError};
+
+fn main() -> Result<(), RobotError> {
+    let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+    for parameter in Parameter::all(robot.cables.len()) {
+        println!("{parameter:16} {:>14} {}", parameter.nominal(&robot), parameter.unit());
+    }
+    Ok(())
+}

@@ -1,0 +1,202 @@
+//! The robot file, `cdpr-robot/1`: JSON, SI units, base frame with z up. Described by [`json_schema`].
+
+use crate::error::RobotError;
+use crate::json::from_json;
+use crate::robot::{CableProperties, Platform, Robot, RobotCable, TensionLimits};
+use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Name and version of the format.
+pub const FORMAT: &str = "cdpr-robot/1";
+
+/// A cable-driven parallel robot. SI units; base frame with z up; gravity along -z.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "cdpr-robot/1")]
+struct RobotFile {
+    /// Always "cdpr-robot/1".
+    format: String,
+    /// Name of the robot.
+    name: String,
+    /// Where the values come from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    source: Option<String>,
+    /// Acceleration due to gravity [m/s²].
+    gravity: f64,
+    /// The moving platform.
+    platform: PlatformEntry,
+    /// Properties of every cable that has none of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cable: Option<PropertiesEntry>,
+    /// Limits of every cable's tension at the platform.
+    tension_limits: LimitsEntry,
+    /// The cables, 6 at least.
+    cables: Vec<CableEntry>,
+}
+
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct PlatformEntry {
+    /// Mass [kg].
+    mass: f64,
+    /// Centre of mass in the platform frame [m].
+    center_of_mass: [f64; 3],
+}
+
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
+#[serde(deny_unknown_fields)]
+struct PropertiesEntry {
+    /// Diameter [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    diameter: Option<f64>,
+    /// Section that carries the tension [m²]; that of the full circle of the diameter if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    section: Option<f64>,
+    /// Mass per unstrained length [kg/m].
+    linear_density: f64,
+    /// Young's modulus [Pa].
+    youngs_modulus: f64,
+    /// Breaking force [N].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    breaking_force: Option<f64>,
+}
+
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct LimitsEntry {
+    /// Least tension [N].
+    min: f64,
+    /// Greatest tension [N].
+    max: f64,
+}
+
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct CableEntry {
+    /// Exit point in the base frame [m].
+    exit_point: [f64; 3],
+    /// Anchor point in the platform frame [m].
+    anchor_point: [f64; 3],
+    /// Properties of this cable, if they differ from the common ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cable: Option<PropertiesEntry>,
+}
+
+/// The JSON Schema of the robot file, as pretty-printed text.
+pub fn json_schema() -> String {
+    format!("{:#}\n", schemars::schema_for!(RobotFile).as_value())
+}
+
+impl Robot {
+    /// Reads and validates a robot file.
+    ///
+    /// # Errors
+    /// [`RobotError::Format`] with field, line and column for a file of another shape; [`RobotError::Invalid`] for a value
+    /// that no robot can have.
+    pub fn from_json(text: &str) -> Result<Self, RobotError> {
+        let file: RobotFile = from_json(text)?;
+        if file.format != FORMAT {
+            return Err(RobotError::invalid("format", format!("{:?}", file.format), format!("{FORMAT:?}")));
+        }
+        let robot = file.into_robot()?;
+        robot.validate()?;
+        Ok(robot)
+    }
+
+    /// Writes the robot file; every cable carries its own properties unless all are the same.
+    pub fn to_json(&self) -> String {
+        let entries: Vec<PropertiesEntry> =
+            self.cables.iter().map(|cable| entry(&cable.properties)).collect();
+        let shared = self.cables.windows(2).all(|pair| pair[0].properties == pair[1].properties);
+        let file = RobotFile {
+            format: FORMAT.to_owned(),
+            name: self.name.clone(),
+            source: self.source.clone(),
+            gravity: self.gravity,
+            platform: PlatformEntry {
+                mass: self.platform.mass,
+                center_of_mass: self.platform.center_of_mass.into(),
+            },
+            cable: entries.first().copied().filter(|_| shared),
+            tension_limits: LimitsEntry { min: self.tension_limits.min, max: self.tension_limits.max },
+            cables: self
+                .cables
+                .iter()
+                .zip(&entries)
+                .map(|(cable, entry)| CableEntry {
+                    exit_point: cable.exit_point.into(),
+                    anchor_point: cable.anchor_point.into(),
+                    cable: (!shared).then_some(*entry),
+                })
+                .collect(),
+        };
+        serde_json::to_string_pretty(&file).unwrap_or_default()
+    }
+}
+
+impl RobotFile {
+    fn into_robot(self) -> Result<Robot, RobotError> {
+        let shared = self.cable.map(|entry| properties(&entry, "cable")).transpose()?;
+        let cables = self
+            .cables
+            .iter()
+            .enumerate()
+            .map(|(i, cable)| {
+                let own =
+                    cable.cable.map(|entry| properties(&entry, &format!("cables[{i}].cable"))).transpose()?;
+                let properties = own.or(shared).ok_or_else(|| {
+                    RobotError::invalid(
+                        format!("cables[{i}].cable"),
+                        "missing",
+                        "properties of this cable, or a common `cable` entry for all",
+                    )
+                })?;
+                Ok(RobotCable {
+                    exit_point: Vector3::from(cable.exit_point),
+                    anchor_point: Vector3::from(cable.anchor_point),
+                    properties,
+                })
+            })
+            .collect::<Result<_, RobotError>>()?;
+        Ok(Robot {
+            name: self.name,
+            source: self.source,
+            gravity: self.gravity,
+            platform: Platform {
+                mass: self.platform.mass,
+                center_of_mass: Vector3::from(self.platform.center_of_mass),
+            },
+            tension_limits: TensionLimits { min: self.tension_limits.min, max: self.tension_limits.max },
+            cables,
+        })
+    }
+}
+
+fn properties(entry: &PropertiesEntry, field: &str) -> Result<CableProperties, RobotError> {
+    let full_circle = entry.diameter.map(|d| 0.25 * std::f64::consts::PI * d * d);
+    let section = entry.section.or(full_circle).ok_or_else(|| {
+        RobotError::invalid(
+            format!("{field}.section"),
+            "missing",
+            "a section [m²], or a diameter [m] to compute it from",
+        )
+    })?;
+    Ok(CableProperties {
+        section,
+        linear_density: entry.linear_density,
+        youngs_modulus: entry.youngs_modulus,
+        diameter: entry.diameter,
+        breaking_force: entry.breaking_force,
+    })
+}
+
+fn entry(properties: &CableProperties) -> PropertiesEntry {
+    PropertiesEntry {
+        diameter: properties.diameter,
+        section: Some(properties.section),
+        linear_density: properties.linear_density,
+        youngs_modulus: properties.youngs_modulus,
+        breaking_force: properties.breaking_force,
+    }
+}

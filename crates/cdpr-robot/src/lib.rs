@@ -1,0 +1,35 @@
+//! A cable-driven parallel robot as data: exit points, anchor points, platform, cables, tension limits; its pose, the
+//! wrench on it, its wrench matrix; and the vector of its uncertain parameters.
+//!
+//! Frames: the base frame `F_b` has `z` up, gravity acts along `-z`; the platform frame `F_p` sits at the platform's
+//! reference point P. Units are SI throughout. Signs and symbols: `docs/NOTATION.md` of the repository.
+//!
+//! ```
+//! use cdpr_robot::{Parameter, Pose, Robot, deviations};
+//!
+//! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+//! assert_eq!(robot.cables.len(), 8);
+//! let span = robot.span(&Pose::at(0.0, 0.0, 1.75), 0); // from B_1 to A_1, Eq. (1) of the paper
+//! assert!((span.norm() - 4.4444).abs() < 1e-4);
+//! assert_eq!(Parameter::all(robot.cables.len()).len(), 62);
+//! let heavier = deviations(8, &[("mass", 18.0), ("b1.z", 0.03)])?;
+//! assert_eq!(robot.perturbed(&heavier)?.robot.platform.mass, 198.0);
+//! # Ok::<(), cdpr_robot::RobotError>(())
+//! ```
+//!
+//! The crate does no input or output: it reads and writes text in memory.
+
+mod error;
+mod format;
+mod json;
+mod parameter;
+mod pose;
+mod robot;
+
+pub use error::RobotError;
+pub use format::{FORMAT, json_schema};
+pub use json::{JsonError, from_json};
+pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
+pub use parameter::{Axis, Parameter, Perturbed, deviations};
+pub use pose::{Pose, Wrench};
+pub use robot::{CableProperties, Platform, Robot, RobotCable, TensionLimits};

@@ -1,0 +1,254 @@
+//! The uncertain parameters of a robot as one vector: section 4 of Baklouti, Caro, Courteille (CableCon 2017).
+//!
+//! For n cables there are `6 + 7n` parameters (62 for 8 cables): the platform's mass, the cables' linear density and
+//! modulus, the coordinates of every anchor and exit point, the centre of mass, and an offset of every tension
+//! set-point. A *deviation* is added to the nominal value.
+
+use crate::error::RobotError;
+use crate::robot::Robot;
+use std::fmt;
+use std::str::FromStr;
+
+/// Coordinate axis of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[allow(missing_docs)]
+pub enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+impl Axis {
+    const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+
+    fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// One uncertain parameter. Cables count from 0 here and from 1 in names (`a1.x`, as in the literature).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Parameter {
+    /// Mass of the platform [kg]: `mass`.
+    Mass,
+    /// Mass per length of all cables [kg/m]: `linear_density`.
+    LinearDensity,
+    /// Young's modulus of all cables [Pa]: `youngs_modulus`.
+    YoungsModulus,
+    /// Coordinate of an anchor point in the platform frame [m]: `a1.x`.
+    AnchorPoint(usize, Axis),
+    /// Coordinate of an exit point in the base frame [m]: `b1.x`.
+    ExitPoint(usize, Axis),
+    /// Coordinate of the centre of mass in the platform frame [m]: `cog.x`.
+    CenterOfMass(Axis),
+    /// Offset of a cable's tension set-point [N]: `dt1`.
+    TensionOffset(usize),
+}
+
+impl Parameter {
+    /// All parameters of a robot with `cables` cables, in the order of the parameter vector.
+    pub fn all(cables: usize) -> Vec<Self> {
+        let points = |parameter: fn(usize, Axis) -> Self| {
+            (0..cables).flat_map(move |i| Axis::ALL.map(move |axis| parameter(i, axis)))
+        };
+        [Self::Mass, Self::LinearDensity, Self::YoungsModulus]
+            .into_iter()
+            .chain(points(Self::AnchorPoint))
+            .chain(points(Self::ExitPoint))
+            .chain(Axis::ALL.map(Self::CenterOfMass))
+            .chain((0..cables).map(Self::TensionOffset))
+            .collect()
+    }
+
+    /// Name of the group that a study can give one law: `a` for all anchor points, `b`, `cog`, `dt`; the parameter's own
+    /// name for the three scalars.
+    pub fn group(&self) -> &'static str {
+        match self {
+            Self::Mass => "mass",
+            Self::LinearDensity => "linear_density",
+            Self::YoungsModulus => "youngs_modulus",
+            Self::AnchorPoint(..) => "a",
+            Self::ExitPoint(..) => "b",
+            Self::CenterOfMass(_) => "cog",
+            Self::TensionOffset(_) => "dt",
+        }
+    }
+
+    /// SI unit.
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Mass => "kg",
+            Self::LinearDensity => "kg/m",
+            Self::YoungsModulus => "Pa",
+            Self::AnchorPoint(..) | Self::ExitPoint(..) | Self::CenterOfMass(_) => "m",
+            Self::TensionOffset(_) => "N",
+        }
+    }
+
+    /// Nominal value in `robot`, in [`Parameter::unit`]; of the first cable for what all cables share, zero for an offset.
+    pub fn nominal(&self, robot: &Robot) -> f64 {
+        match *self {
+            Self::Mass => robot.platform.mass,
+            Self::LinearDensity => robot.cables[0].properties.linear_density,
+            Self::YoungsModulus => robot.cables[0].properties.youngs_modulus,
+            Self::AnchorPoint(i, axis) => robot.cables[i].anchor_point[axis.index()],
+            Self::ExitPoint(i, axis) => robot.cables[i].exit_point[axis.index()],
+            Self::CenterOfMass(axis) => robot.platform.center_of_mass[axis.index()],
+            Self::TensionOffset(_) => 0.0,
+        }
+    }
+
+    fn add(&self, deviation: f64, perturbed: &mut Perturbed) {
+        let Perturbed { robot, tension_offsets } = perturbed;
+        match *self {
+            Self::Mass => robot.platform.mass += deviation,
+            Self::LinearDensity => {
+                robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density += deviation);
+            }
+            Self::YoungsModulus => {
+                robot.cables.iter_mut().for_each(|cable| cable.properties.youngs_modulus += deviation);
+            }
+            Self::AnchorPoint(i, axis) => robot.cables[i].anchor_point[axis.index()] += deviation,
+            Self::ExitPoint(i, axis) => robot.cables[i].exit_point[axis.index()] += deviation,
+            Self::CenterOfMass(axis) => robot.platform.center_of_mass[axis.index()] += deviation,
+            Self::TensionOffset(i) => tension_offsets[i] += deviation,
+        }
+    }
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let letter = |axis: &Axis| ["x", "y", "z"][axis.index()];
+        match self {
+            Self::AnchorPoint(i, axis) => write!(f, "a{}.{}", i + 1, letter(axis)),
+            Self::ExitPoint(i, axis) => write!(f, "b{}.{}", i + 1, letter(axis)),
+            Self::CenterOfMass(axis) => write!(f, "cog.{}", letter(axis)),
+            Self::TensionOffset(i) => write!(f, "dt{}", i + 1),
+            scalar => f.write_str(scalar.group()),
+        }
+    }
+}
+
+impl FromStr for Parameter {
+    type Err = RobotError;
+
+    fn from_str(name: &str) -> Result<Self, RobotError> {
+        parse(name).ok_or_else(|| RobotError::UnknownParameter {
+            name: name.to_owned(),
+            expected: "mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ..."
+                .to_owned(),
+        })
+    }
+}
+
+fn parse(name: &str) -> Option<Parameter> {
+    match name {
+        "mass" => return Some(Parameter::Mass),
+        "linear_density" => return Some(Parameter::LinearDensity),
+        "youngs_modulus" => return Some(Parameter::YoungsModulus),
+        _ => {}
+    }
+    let cable = |number: &str| number.parse::<usize>().ok()?.checked_sub(1);
+    if let Some(number) = name.strip_prefix("dt") {
+        return cable(number).map(Parameter::TensionOffset);
+    }
+    let (point, axis) = name.split_once('.')?;
+    let axis = match axis {
+        "x" => Axis::X,
+        "y" => Axis::Y,
+        "z" => Axis::Z,
+        _ => return None,
+    };
+    match point {
+        "cog" => Some(Parameter::CenterOfMass(axis)),
+        _ => match point.split_at_checked(1)? {
+            ("a", number) => Some(Parameter::AnchorPoint(cable(number)?, axis)),
+            ("b", number) => Some(Parameter::ExitPoint(cable(number)?, axis)),
+            _ => None,
+        },
+    }
+}
+
+/// A robot with its deviations applied.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Perturbed {
+    /// The robot as it would really be.
+    pub robot: Robot,
+    /// Offset dt_i of every cable's tension set-point [N].
+    pub tension_offsets: Vec<f64>,
+}
+
+impl Robot {
+    /// The robot with one deviation added to each of its parameters, in the order of [`Parameter::all`].
+    ///
+    /// # Errors
+    /// [`RobotError::DeviationCount`]; [`RobotError::Invalid`] if the perturbed robot is none (a negative mass, say).
+    pub fn perturbed(&self, deviations: &[f64]) -> Result<Perturbed, RobotError> {
+        let parameters = Parameter::all(self.cables.len());
+        if deviations.len() != parameters.len() {
+            return Err(RobotError::DeviationCount { given: deviations.len(), parameters: parameters.len() });
+        }
+        let mut perturbed = Perturbed { robot: self.clone(), tension_offsets: vec![0.0; self.cables.len()] };
+        for (parameter, deviation) in parameters.iter().zip(deviations) {
+            if !deviation.is_finite() {
+                return Err(RobotError::invalid(parameter.to_string(), deviation, "a finite deviation"));
+            }
+            parameter.add(*deviation, &mut perturbed);
+        }
+        perturbed.robot.validate()?;
+        Ok(perturbed)
+    }
+}
+
+/// The deviation vector of a robot with `cables` cables that is zero but for the named parameters.
+///
+/// # Errors
+/// [`RobotError::UnknownParameter`] for a name that such a robot does not have.
+pub fn deviations(cables: usize, named: &[(&str, f64)]) -> Result<Vec<f64>, RobotError> {
+    let parameters = Parameter::all(cables);
+    let mut deviations = vec![0.0; parameters.len()];
+    for (name, deviation) in named {
+        let parameter: Parameter = name.parse()?;
+        let place =
+            parameters.iter().position(|p| *p == parameter).ok_or_else(|| RobotError::UnknownParameter {
+                name: (*name).to_owned(),
+                expected: format!("those of a robot with {cables} cables"),
+            })?;
+        deviations[place] += deviation;
+    }
+    Ok(deviations)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn eight_cables_have_the_62_parameters_of_the_paper() {
+        let names: Vec<String> = Parameter::all(8).iter().map(ToString::to_string).collect();
+        assert_eq!(names.len(), 62);
+        assert_eq!(names[..4], ["mass", "linear_density", "youngs_modulus", "a1.x"]);
+        assert_eq!(names[26..28], ["a8.z", "b1.x"]);
+        assert_eq!(names[50..55], ["b8.z", "cog.x", "cog.y", "cog.z", "dt1"]);
+        assert_eq!(names[61], "dt8");
+        let geometric = Parameter::all(8).iter().filter(|p| p.unit() == "m").count();
+        assert_eq!((geometric, 62 - geometric), (51, 11));
+    }
+
+    #[test]
+    fn names_are_read_back() {
+        for cables in 6..=16 {
+            for parameter in Parameter::all(cables) {
+                assert_eq!(parameter.to_string().parse(), Ok(parameter));
+            }
+        }
+        for name in ["", "a", "a0.x", "a1.w", "a1", "b.x", "dt", "dt0", "c1.x", "Mass", "ä1.x"] {
+            assert!(name.parse::<Parameter>().is_err(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_parameter_of_a_cable_that_is_not_there_is_refused() {
+        assert!(matches!(deviations(8, &[("b9.x", 0.1)]), Err(RobotError::UnknownParameter { .. })));
+    }
+}

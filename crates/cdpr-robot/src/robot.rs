@@ -1,0 +1,230 @@
+//! The robot: geometry, platform, cables, limits, and what follows from them at a pose.
+//!
+//! ```text
+//! r_i = p + R a_i - b_i                      from exit point B_i to anchor point A_i (Eq. (1) of the paper)
+//! W = [ u_i ; (R a_i) x u_i ],  W t + w = 0  with u_i the unit pull of cable i on the platform, w all other loads (Eq. (3))
+//! ```
+
+use crate::error::RobotError;
+use crate::pose::{Pose, Wrench};
+use cdpr_cable::Cable;
+use nalgebra::{Matrix6xX, Vector3};
+
+/// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Robot {
+    /// Name.
+    pub name: String,
+    /// Where the values come from.
+    pub source: Option<String>,
+    /// Acceleration due to gravity, along -z of the base frame [m/s²].
+    pub gravity: f64,
+    /// The platform.
+    pub platform: Platform,
+    /// Limits of every cable's tension at the platform.
+    pub tension_limits: TensionLimits,
+    /// The cables with their points, in the order of their numbers.
+    pub cables: Vec<RobotCable>,
+}
+
+/// The moving platform.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Platform {
+    /// Mass [kg].
+    pub mass: f64,
+    /// Centre of mass G in the platform frame [m].
+    pub center_of_mass: Vector3<f64>,
+}
+
+/// Limits of a cable's tension at its anchor point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TensionLimits {
+    /// Least tension [N], positive.
+    pub min: f64,
+    /// Greatest tension [N].
+    pub max: f64,
+}
+
+/// One cable of the robot and the two points it joins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RobotCable {
+    /// Exit point b_i in the base frame [m].
+    pub exit_point: Vector3<f64>,
+    /// Anchor point a_i in the platform frame [m].
+    pub anchor_point: Vector3<f64>,
+    /// What the cable is made of.
+    pub properties: CableProperties,
+}
+
+/// What a cable is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CableProperties {
+    /// Section S that carries the tension [m²].
+    pub section: f64,
+    /// Mass per unstrained length rho [kg/m].
+    pub linear_density: f64,
+    /// Young's modulus E [Pa].
+    pub youngs_modulus: f64,
+    /// Diameter [m], if known.
+    pub diameter: Option<f64>,
+    /// Breaking force [N], if known.
+    pub breaking_force: Option<f64>,
+}
+
+impl CableProperties {
+    /// Axial stiffness EA = E S [N].
+    pub fn axial_stiffness(&self) -> f64 {
+        self.youngs_modulus * self.section
+    }
+}
+
+impl Robot {
+    /// The mechanics of cable `i`: weight per length w = rho g and axial stiffness E S.
+    pub fn cable(&self, i: usize) -> Cable {
+        let properties = &self.cables[i].properties;
+        Cable {
+            weight_per_length: properties.linear_density * self.gravity,
+            axial_stiffness: properties.axial_stiffness(),
+        }
+    }
+
+    /// s_i = R a_i: from P to anchor point i, in the base frame [m].
+    pub fn anchor_arm(&self, pose: &Pose, i: usize) -> Vector3<f64> {
+        pose.rotation * self.cables[i].anchor_point
+    }
+
+    /// r_i = p + R a_i - b_i: from exit point i to anchor point i, in the base frame [m] (Eq. (1)).
+    pub fn span(&self, pose: &Pose, i: usize) -> Vector3<f64> {
+        pose.position + self.anchor_arm(pose, i) - self.cables[i].exit_point
+    }
+
+    /// Weight of the platform and of an additional `payload` [kg] at its centre of mass, as a wrench about P.
+    pub fn weight(&self, pose: &Pose, payload: f64) -> Wrench {
+        let force = Vector3::new(0.0, 0.0, -(self.platform.mass + payload) * self.gravity);
+        let arm = pose.rotation * self.platform.center_of_mass;
+        Wrench { force, moment: arm.cross(&force) }
+    }
+
+    /// Wrench matrix W, 6 x n: column i is the wrench on the platform of a unit tension in cable i, which pulls the
+    /// platform along `pulls[i]` (unit vector in the base frame; for a sagging cable its end tangent, away from the platform).
+    pub fn wrench_matrix(&self, pose: &Pose, pulls: &[Vector3<f64>]) -> Matrix6xX<f64> {
+        let mut matrix = Matrix6xX::zeros(pulls.len());
+        for (i, pull) in pulls.iter().enumerate() {
+            let moment = self.anchor_arm(pose, i).cross(pull);
+            matrix.fixed_view_mut::<3, 1>(0, i).copy_from(pull);
+            matrix.fixed_view_mut::<3, 1>(3, i).copy_from(&moment);
+        }
+        matrix
+    }
+
+    /// Root mean square distance of the anchor points from P [m]: the length that makes rotations comparable with
+    /// translations.
+    pub fn platform_size(&self) -> f64 {
+        let sum: f64 = self.cables.iter().map(|cable| cable.anchor_point.norm_squared()).sum();
+        (sum / self.cables.len() as f64).sqrt()
+    }
+
+    /// Checks every value and that the points can hold a platform.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] names the field as in the robot file, its value and what would be right.
+    pub fn validate(&self) -> Result<(), RobotError> {
+        let named = |name: &'static str| move || name.to_owned();
+        require(named("gravity"), self.gravity, self.gravity >= 0.0, "a finite number, zero or more [m/s²]")?;
+        let Platform { mass, center_of_mass } = &self.platform;
+        require(named("platform.mass"), *mass, *mass > 0.0, "a finite, positive mass [kg]")?;
+        finite(named("platform.center_of_mass"), center_of_mass)?;
+        let TensionLimits { min, max } = self.tension_limits;
+        require(named("tension_limits.min"), min, min > 0.0, "a finite, positive tension [N]")?;
+        require(named("tension_limits.max"), max, max > min, "a finite tension above tension_limits.min")?;
+        if self.cables.len() < 6 {
+            return Err(RobotError::invalid(
+                "cables",
+                format!("a list of {}", self.cables.len()),
+                "at least 6 cables: fewer cannot hold six degrees of freedom",
+            ));
+        }
+        for (i, cable) in self.cables.iter().enumerate() {
+            finite(|| format!("cables[{i}].exit_point"), &cable.exit_point)?;
+            finite(|| format!("cables[{i}].anchor_point"), &cable.anchor_point)?;
+            self.validate_properties(i)?;
+        }
+        self.validate_points()
+    }
+
+    fn validate_properties(&self, i: usize) -> Result<(), RobotError> {
+        let p = &self.cables[i].properties;
+        let field = |name: &'static str| {
+            move || {
+                // What all cables share is named as the file's common entry.
+                let shared = self.cables.iter().all(|cable| cable.properties == *p);
+                if shared { format!("cable.{name}") } else { format!("cables[{i}].cable.{name}") }
+            }
+        };
+        let (rho, e) = (p.linear_density, p.youngs_modulus);
+        require(field("section"), p.section, p.section > 0.0, "a finite, positive section [m²]")?;
+        require(field("linear_density"), rho, rho >= 0.0, "a finite mass per length, zero or more [kg/m]")?;
+        require(field("youngs_modulus"), e, e > 0.0, "a finite, positive modulus [Pa]")?;
+        let diameter = p.diameter.unwrap_or(f64::MIN_POSITIVE);
+        require(field("diameter"), diameter, diameter > 0.0, "a finite, positive diameter [m]")?;
+        let force = p.breaking_force.unwrap_or(f64::MIN_POSITIVE);
+        require(field("breaking_force"), force, force > 0.0, "a finite, positive force [N]")
+    }
+
+    /// Points so degenerate that no pose can be held: two cables in the same place, all points on one line.
+    fn validate_points(&self) -> Result<(), RobotError> {
+        let same = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).norm() < 1e-9;
+        for (j, second) in self.cables.iter().enumerate() {
+            for (i, first) in self.cables[..j].iter().enumerate() {
+                if same(&first.exit_point, &second.exit_point)
+                    && same(&first.anchor_point, &second.anchor_point)
+                {
+                    return Err(RobotError::invalid(
+                        format!("cables[{j}]"),
+                        "coincident with another cable",
+                        format!("exit or anchor point different from those of cables[{i}]"),
+                    ));
+                }
+            }
+        }
+        let exits: Vec<_> = self.cables.iter().map(|cable| cable.exit_point).collect();
+        let anchors: Vec<_> = self.cables.iter().map(|cable| cable.anchor_point).collect();
+        for (name, points) in [("exit_point", exits), ("anchor_point", anchors)] {
+            if on_one_line(&points) {
+                return Err(RobotError::invalid(
+                    format!("cables[*].{name}"),
+                    "on one line",
+                    "points that span a plane at least: no cable could resist a moment about that line",
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// `field` is asked for its name only where it is needed: every perturbed robot is validated.
+fn require(
+    field: impl Fn() -> String,
+    value: f64,
+    admissible: bool,
+    expected: &str,
+) -> Result<(), RobotError> {
+    if value.is_finite() && admissible { Ok(()) } else { Err(RobotError::invalid(field(), value, expected)) }
+}
+
+fn finite(field: impl Fn() -> String, point: &Vector3<f64>) -> Result<(), RobotError> {
+    for (axis, value) in point.iter().enumerate() {
+        require(|| format!("{}[{axis}]", field()), *value, true, "a finite number [m]")?;
+    }
+    Ok(())
+}
+
+fn on_one_line(points: &[Vector3<f64>]) -> bool {
+    let spread = |from: &Vector3<f64>| {
+        points.iter().map(move |p| p - from).max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
+    };
+    let Some(first) = points.first() else { return true };
+    let Some(longest) = spread(first) else { return true };
+    let length = longest.norm();
+    length < 1e-9 || points.iter().all(|p| (p - first).cross(&longest).norm() < 1e-9 * length * length)
+}

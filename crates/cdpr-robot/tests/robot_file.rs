@@ -1,0 +1,142 @@
+//! Robot files: what is read, and what is refused with which words.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{Pose, Robot, RobotError, Rotation3, Vector3, Wrench, deviations};
+
+const CAROCA: &str = include_str!("../../../data/robots/caroca.json");
+const COGIRO: &str = include_str!("../../../data/robots/cogiro.json");
+
+#[test]
+fn the_robot_files_are_read_and_written_back() {
+    for text in [CAROCA, COGIRO] {
+        let robot = Robot::from_json(text).unwrap();
+        assert_eq!(robot.cables.len(), 8);
+        assert_eq!(Robot::from_json(&robot.to_json()).unwrap(), robot);
+    }
+}
+
+#[test]
+fn a_cable_may_have_its_own_properties() {
+    let own = r#""anchor_point": [0.2, 0.15, 0.125], "cable": {"diameter": 0.006, "linear_density": 0.2, "youngs_modulus": 9e10}"#;
+    let robot = Robot::from_json(&CAROCA.replacen(r#""anchor_point": [0.2, 0.15, 0.125]"#, own, 1)).unwrap();
+    assert_eq!(robot.cables[0].properties.linear_density, 0.2);
+    assert!((robot.cables[0].properties.section - 2.827_433e-5).abs() < 1e-11);
+    assert_eq!(robot.cables[1].properties.linear_density, 0.1015);
+    assert_eq!(Robot::from_json(&robot.to_json()).unwrap(), robot);
+}
+
+/// The message for CAROCA's file with `from` replaced by `to`.
+fn refusal(from: &str, to: &str) -> String {
+    assert!(CAROCA.contains(from), "{from}");
+    Robot::from_json(&CAROCA.replacen(from, to, 1)).unwrap_err().to_string()
+}
+
+#[test]
+fn a_bad_file_is_refused_with_field_value_and_remedy() {
+    let cases = [
+        (r#""mass": 180.0, "#, "", "line 6, column 43: platform: missing field `mass`"),
+        (
+            r#""mass": 180.0"#,
+            r#""mas": 180.0"#,
+            "line 6, column 20: platform.mas: unknown field `mas`, expected `mass` or `center_of_mass`",
+        ),
+        (r#""mass": 180.0"#, r#""mass": NaN"#, "line 6, column 24: platform.mass: expected value"),
+        (
+            r#""mass": 180.0"#,
+            r#""mass": "heavy""#,
+            "line 6, column 30: platform.mass: invalid type: string \"heavy\", expected f64",
+        ),
+        (r#""mass": 180.0"#, r#""mass": 1e999"#, "line 6, column 28: platform.mass: number out of range"),
+        (r#""mass": 180.0"#, r#""mass": -1"#, "platform.mass is -1: expected a finite, positive mass [kg]"),
+        (
+            "1.2566370614e-5",
+            "-1.2e-5",
+            "cable.section is -0.000012: expected a finite, positive section [m²]",
+        ),
+        ("1.022e11", "0", "cable.youngs_modulus is 0: expected a finite, positive modulus [Pa]"),
+        (
+            r#""min": 1.0, "max": 10290.0"#,
+            r#""min": 20.0, "max": 10.0"#,
+            "tension_limits.max is 10: expected a finite tension above tension_limits.min",
+        ),
+        ("cdpr-robot/1", "cdpr-robot/9", "format is \"cdpr-robot/9\": expected \"cdpr-robot/1\""),
+        (
+            "[-3.5, 2, 3.5]",
+            "[-3.5, 2]",
+            "line 10, column 28: cables[0].exit_point: invalid length 2, expected an array of length 3",
+        ),
+    ];
+    for (from, to, expected) in cases {
+        assert_eq!(refusal(from, to), expected);
+    }
+}
+
+#[test]
+fn points_that_hold_no_platform_are_refused() {
+    let robot = Robot::from_json(CAROCA).unwrap();
+    let refusal = |change: &dyn Fn(&mut Robot)| {
+        let mut robot = robot.clone();
+        change(&mut robot);
+        robot.validate().unwrap_err().to_string()
+    };
+    let five = refusal(&|robot| robot.cables.truncate(5));
+    assert_eq!(
+        five,
+        "cables is a list of 5: expected at least 6 cables: fewer cannot hold six degrees of freedom"
+    );
+    let twice = refusal(&|robot| robot.cables[2].anchor_point = robot.cables[0].anchor_point);
+    assert_eq!(
+        twice,
+        "cables[2] is coincident with another cable: expected exit or anchor point different from those of cables[0]"
+    );
+    let line = refusal(&|robot| {
+        for (i, cable) in robot.cables.iter_mut().enumerate() {
+            cable.anchor_point = Vector3::new(0.1, 0.2, 0.3) * i as f64;
+        }
+    });
+    assert!(line.starts_with("cables[*].anchor_point is on one line"), "{line}");
+    let nan = refusal(&|robot| robot.cables[3].exit_point.y = f64::NAN);
+    assert_eq!(nan, "cables[3].exit_point[1] is NaN: expected a finite number [m]");
+}
+
+#[test]
+fn a_perturbation_moves_exactly_the_named_parameters() {
+    let robot = Robot::from_json(CAROCA).unwrap();
+    let values =
+        deviations(8, &[("a2.y", 0.01), ("cog.z", -0.02), ("dt3", 5.0), ("youngs_modulus", -1e9)]).unwrap();
+    let perturbed = robot.perturbed(&values).unwrap();
+    let mut expected = robot.clone();
+    expected.cables[1].anchor_point.y += 0.01;
+    expected.platform.center_of_mass.z -= 0.02;
+    expected.cables.iter_mut().for_each(|cable| cable.properties.youngs_modulus -= 1e9);
+    assert_eq!(perturbed.robot, expected);
+    assert_eq!(perturbed.tension_offsets, [0.0, 0.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+}
+
+#[test]
+fn a_perturbation_that_leaves_no_robot_is_refused() {
+    let robot = Robot::from_json(CAROCA).unwrap();
+    let result = robot.perturbed(&deviations(8, &[("mass", -200.0)]).unwrap());
+    assert!(matches!(result, Err(RobotError::Invalid { field, .. }) if field == "platform.mass"));
+    assert_eq!(robot.perturbed(&[0.0; 61]), Err(RobotError::DeviationCount { given: 61, parameters: 62 }));
+}
+
+#[test]
+fn the_wrench_matrix_turns_pulls_into_force_and_moment_about_p() {
+    let robot = Robot::from_json(COGIRO).unwrap();
+    let pose = Pose {
+        position: Vector3::new(0.5, -0.3, 2.0),
+        rotation: Rotation3::new(Vector3::new(0.1, -0.2, 0.3)),
+    };
+    let pulls: Vec<_> = (0..8).map(|i| -robot.span(&pose, i).normalize()).collect();
+    let tensions = nalgebra::DVector::from_fn(8, |i, _| 100.0 + 10.0 * i as f64);
+    let wrench = robot.wrench_matrix(&pose, &pulls) * &tensions;
+    let mut expected = Wrench::zero();
+    for (i, pull) in pulls.iter().enumerate() {
+        let force = pull * tensions[i];
+        let at = pose.rotation * robot.cables[i].anchor_point;
+        expected = expected + Wrench { force, moment: at.cross(&force) };
+    }
+    assert!((wrench - expected.to_vector()).norm() < 1e-10);
+}
