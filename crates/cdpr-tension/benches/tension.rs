@@ -1,0 +1,30 @@
+//! Tension distribution: the closed form, and a problem with an active bound.
+
+use cdpr_robot::{Pose, Robot, TensionLimits};
+use cdpr_tension::{Method, Problem, distribute};
+use criterion::{Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+
+#[allow(clippy::unwrap_used)]
+fn tension(criterion: &mut Criterion) {
+    let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
+    let pose = Pose::at(1.0, 0.5, 2.0);
+    let pulls: Vec<_> = (0..8).map(|i| -robot.span(&pose, i).normalize()).collect();
+    let wrench_matrix = robot.wrench_matrix(&pose, &pulls);
+    let wrench = robot.weight(&pose, 0.0).to_vector();
+    let mut group = criterion.benchmark_group("tension");
+    for (name, min, method) in
+        [("closed form", 1.0, Method::ClosedForm), ("clarabel", 450.0, Method::ActiveSet)]
+    {
+        let limits = TensionLimits { min, max: 10290.0 };
+        let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &[0.0; 8], limits };
+        let solution = distribute(&problem).unwrap();
+        assert_eq!(solution.method, method);
+        assert!(solution.residual.norm() < 1e-9);
+        group.bench_function(name, |b| b.iter(|| distribute(black_box(&problem))));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, tension);
+criterion_main!(benches);

@@ -1,0 +1,158 @@
+//! The two quadratic programs, in Clarabel's form `min ½ xᵀPx + qᵀx  s.t.  Ax + s = b, s in a cone`. No other module names
+//! Clarabel.
+
+use crate::distribution::{Bound, Problem, TensionError};
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{
+    DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus,
+    SupportedConeT::{NonnegativeConeT, ZeroConeT},
+};
+
+/// What the solver says about problem (1).
+pub(crate) enum Outcome {
+    /// Tensions, and the bounds whose slack is smaller than their multiplier.
+    Solved { tensions: Vec<f64>, active: Vec<Option<Bound>> },
+    /// A certificate of infeasibility was found.
+    Infeasible,
+}
+
+/// Problem (1): P = I, q = -t_ref, equality rows W t = -w, then t <= t_max, then -t <= -t_min.
+pub(crate) fn solve(problem: &Problem) -> Result<Outcome, TensionError> {
+    let n = problem.reference.len();
+    let size = problem.scale();
+    let wrench = problem.wrench_matrix;
+    let rows = (0..6).map(|row| (0..n).map(|column| wrench[(row, column)]).collect());
+    let a = CscMatrix::from(&rows.chain(bound_rows(n, n)).collect::<Vec<Vec<f64>>>());
+    let b: Vec<f64> = problem.wrench.iter().map(|w| -w / size).chain(bounds(problem, size)).collect();
+    let q: Vec<f64> = problem.reference.iter().map(|t| -t / size).collect();
+    let cones = [ZeroConeT(6), NonnegativeConeT(2 * n)];
+    let mut solver =
+        DefaultSolver::new(&CscMatrix::identity(n), &q, &a, &b, &cones, settings()?).map_err(refused)?;
+    solver.solve();
+    let solution = &solver.solution;
+    match solution.status {
+        SolverStatus::Solved | SolverStatus::AlmostSolved => {
+            let (slack, multiplier) = (&solution.s[6..], &solution.z[6..]);
+            let active = (0..n)
+                .map(|i| {
+                    if slack[n + i] < multiplier[n + i] {
+                        Some(Bound::Min)
+                    } else if slack[i] < multiplier[i] {
+                        Some(Bound::Max)
+                    } else {
+                        None
+                    }
+                })
+                .collect();
+            Ok(Outcome::Solved { tensions: solution.x.iter().map(|t| t * size).collect(), active })
+        }
+        SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => Ok(Outcome::Infeasible),
+        status => Err(TensionError::Solver { status: status.to_string() }),
+    }
+}
+
+/// The tensions within the bounds that leave the least `|W t + w|`, force and moment weighed 1 N to 1 N m: with the open
+/// wrench `e = W t + w` as further unknowns, P = 0 for t (plus 1e-9 for uniqueness) and I for e.
+pub(crate) fn least_residual(problem: &Problem) -> Result<Vec<f64>, TensionError> {
+    let n = problem.reference.len();
+    let size = problem.scale();
+    let wrench = problem.wrench_matrix;
+    let diagonal: Vec<f64> = (0..n + 6).map(|i| if i < n { 1e-9 } else { 1.0 }).collect();
+    let p = CscMatrix::from(
+        &(0..n + 6)
+            .map(|i| (0..n + 6).map(|j| if i == j { diagonal[i] } else { 0.0 }).collect())
+            .collect::<Vec<Vec<f64>>>(),
+    );
+    let rows = (0..6).map(|row| {
+        (0..n + 6)
+            .map(|column| match column.checked_sub(n) {
+                None => wrench[(row, column)],
+                Some(open) => {
+                    if open == row {
+                        -1.0
+                    } else {
+                        0.0
+                    }
+                }
+            })
+            .collect()
+    });
+    let a = CscMatrix::from(&rows.chain(bound_rows(n, n + 6)).collect::<Vec<Vec<f64>>>());
+    let b: Vec<f64> = problem.wrench.iter().map(|w| -w / size).chain(bounds(problem, size)).collect();
+    let cones = [ZeroConeT(6), NonnegativeConeT(2 * n)];
+    let mut solver =
+        DefaultSolver::new(&p, &vec![0.0; n + 6], &a, &b, &cones, settings()?).map_err(refused)?;
+    solver.solve();
+    match solver.solution.status {
+        SolverStatus::Solved | SolverStatus::AlmostSolved => {
+            let limits = problem.limits;
+            Ok(solver.solution.x[..n].iter().map(|t| (t * size).clamp(limits.min, limits.max)).collect())
+        }
+        status => Err(TensionError::Solver { status: status.to_string() }),
+    }
+}
+
+/// Rows of t <= t_max and -t <= -t_min for n tensions among `columns` unknowns.
+fn bound_rows(n: usize, columns: usize) -> impl Iterator<Item = Vec<f64>> {
+    [1.0, -1.0].into_iter().flat_map(move |sign| {
+        (0..n).map(move |i| (0..columns).map(|column| if column == i { sign } else { 0.0 }).collect())
+    })
+}
+
+fn bounds(problem: &Problem, size: f64) -> impl Iterator<Item = f64> {
+    let (n, limits) = (problem.reference.len(), problem.limits);
+    (0..2 * n).map(move |i| if i < n { limits.max / size } else { -limits.min / size })
+}
+
+impl Problem<'_> {
+    /// A tension to scale the problem by [N], so that the solver's tolerances are relative.
+    fn scale(&self) -> f64 {
+        let force = self.wrench.fixed_rows::<3>(0).norm();
+        let reference = self.reference.iter().fold(0.0, |size: f64, t| size.max(t.abs()));
+        force.max(reference).max(self.limits.min.abs()).max(f64::MIN_POSITIVE)
+    }
+}
+
+fn settings() -> Result<DefaultSettings<f64>, TensionError> {
+    DefaultSettingsBuilder::default()
+        .verbose(false)
+        .build()
+        .map_err(|error| TensionError::Solver { status: error.to_string() })
+}
+
+fn refused(error: impl std::fmt::Display) -> TensionError {
+    TensionError::Solver { status: error.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closed_form;
+    use cdpr_robot::{Pose, Robot};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn where_no_bound_is_active_the_qp_finds_the_closed_form(
+            x in -2.5..2.5f64, y in -1.2..1.2f64, z in 0.5..3.0f64, reference in 0.0..1000.0f64,
+        ) {
+            let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
+            let pose = Pose::at(x, y, z);
+            let pulls: Vec<_> = (0..8).map(|i| -robot.span(&pose, i).normalize()).collect();
+            let problem = Problem {
+                wrench_matrix: &robot.wrench_matrix(&pose, &pulls),
+                wrench: robot.weight(&pose, 0.0).to_vector(),
+                reference: &[reference; 8],
+                limits: robot.tension_limits,
+            };
+            let closed = closed_form(&problem).unwrap();
+            prop_assume!(closed.min() > problem.limits.min && closed.max() < problem.limits.max);
+            let Outcome::Solved { tensions, active } = solve(&problem).unwrap() else { panic!("infeasible") };
+            prop_assert!(active.iter().all(Option::is_none));
+            // Clarabel stops at 1e-8, relative to the problem's scale.
+            for (qp, closed) in tensions.iter().zip(&closed) {
+                prop_assert!((qp - closed).abs() < 1e-4 * problem.scale(), "{qp} {closed}");
+            }
+        }
+    }
+}
