@@ -1,0 +1,94 @@
+//! Inverse model, direct model (near, far, slack; over the number of cables) and a whole deflection.
+
+#![allow(clippy::unwrap_used)]
+
+use cdpr_robot::{Pose, Robot, RobotCable, Vector3};
+use cdpr_statics::{Load, Start, Tangent, deflection, direct, inverse};
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+
+fn caroca() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+/// A suspended robot with `n` cables between a ring of exit points and a drum.
+fn ring(n: usize) -> Robot {
+    let mut robot = caroca();
+    let properties = robot.cables[0].properties;
+    let cable = |i: usize| {
+        let around = std::f64::consts::TAU * i as f64 / n as f64;
+        let (anchor, height) = if i.is_multiple_of(2) { (around + 0.5, 0.3) } else { (around - 0.5, -0.3) };
+        RobotCable {
+            exit_point: Vector3::new(5.0 * around.cos(), 5.0 * around.sin(), 4.0),
+            anchor_point: Vector3::new(0.5 * anchor.cos(), 0.5 * anchor.sin(), height),
+            properties,
+        }
+    };
+    robot.cables = (0..n).map(cable).collect();
+    robot
+}
+
+fn inverse_model(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("inverse");
+    for (name, pose) in [("symmetric", Pose::at(0.0, 0.0, 1.75)), ("near a corner", Pose::at(3.2, 1.7, 3.0))]
+    {
+        let robot = caroca();
+        let solution = inverse(&robot, &pose, &Load::none(), None).unwrap();
+        assert!(solution.residual.force < 1e-9);
+        group.bench_function(name, |b| {
+            b.iter(|| inverse(black_box(&robot), black_box(&pose), &Load::none(), None));
+        });
+    }
+    group.finish();
+}
+
+fn direct_model(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("direct");
+    let robot = caroca();
+    let pose = Pose::at(0.4, -0.3, 1.75);
+    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let slack: Vec<f64> =
+        wanted.lengths.iter().enumerate().map(|(i, l)| if i % 4 == 1 { l + 0.3 } else { *l }).collect();
+    let far = pose.moved(Vector3::new(0.3, 0.2, -0.3), Vector3::new(0.15, -0.1, 0.15));
+    let cases = [
+        ("near, 50 kg added", &wanted.lengths, Load::payload(50.0), Start::Near(&wanted.equilibrium)),
+        ("far, 0.5 m and 0.25 rad", &wanted.lengths, Load::none(), Start::Pose(&far)),
+        ("two cables slack", &slack, Load::none(), Start::Pose(&pose)),
+    ];
+    for (name, lengths, load, start) in cases {
+        let found = direct(&robot, lengths, &load, start).unwrap();
+        assert!(found.report.residual.force < 1e-8, "{name}: {:?}", found.report);
+        group
+            .bench_function(name, |b| b.iter(|| direct(black_box(&robot), black_box(lengths), &load, start)));
+    }
+    for n in [6, 8, 12, 16] {
+        let robot = ring(n);
+        let pose = Pose::at(0.1, 0.2, 1.5);
+        let lengths: Vec<f64> = (0..n).map(|i| 0.9999 * robot.span(&pose, i).norm()).collect();
+        let start = direct(&robot, &lengths, &Load::none(), Start::Pose(&pose)).unwrap();
+        let near = Start::Near(&start.equilibrium);
+        let load = Load::payload(5.0);
+        assert!(direct(&robot, &lengths, &load, near).unwrap().report.residual.force < 1e-8);
+        group.bench_with_input(BenchmarkId::new("near, cables", n), &n, |b, _| {
+            b.iter(|| direct(black_box(&robot), black_box(&lengths), &load, near));
+        });
+    }
+    group.finish();
+}
+
+fn whole_deflection(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("deflection");
+    let (robot, pose, load) = (caroca(), Pose::at(0.0, 0.0, 1.75), Load::payload(50.0));
+    let found = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
+    assert!((1e3 * found.rms() - 1.33125).abs() < 1e-4);
+    group.bench_function("inverse and two direct models", |b| {
+        b.iter(|| deflection(black_box(&robot), black_box(&pose), &[0.0; 8], &load));
+    });
+    group.bench_function("tangent", |b| {
+        b.iter(|| Tangent::at(black_box(&robot), &found.lengths, &Load::none(), &found.unloaded));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, inverse_model, direct_model, whole_deflection);
+criterion_main!(benches);

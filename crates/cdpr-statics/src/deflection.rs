@@ -1,0 +1,97 @@
+//! Static deflection under a load: the difference of two equilibria, Eq. (4).
+//!
+//! The inverse model fixes the unstrained lengths for a wanted pose under the platform's own weight; offsets of the tension
+//! set-points change those lengths; then the direct model runs without and with the load. The deflection is
+//! `dp = p_loaded - p_unloaded`.
+
+use crate::direct::{DirectSolution, Start, direct};
+use crate::error::StaticsError;
+use crate::inverse::{inverse, lengths_for_tensions};
+use crate::model::{Equilibrium, Load};
+use crate::tangent::Tangent;
+use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_tension::offset;
+
+/// The platform without and with a load, on the same cable lengths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deflection {
+    /// Unstrained lengths [m].
+    pub lengths: Vec<f64>,
+    /// Equilibrium under the platform's own weight.
+    pub unloaded: DirectSolution,
+    /// Equilibrium with the load added.
+    pub loaded: DirectSolution,
+}
+
+impl Deflection {
+    /// dp = p_loaded - p_unloaded [m], Eq. (4).
+    pub fn displacement(&self) -> Vector3<f64> {
+        self.loaded.equilibrium.pose.position - self.unloaded.equilibrium.pose.position
+    }
+
+    /// What the paper calls the RMS of the static deflection: the Euclidean norm of dp [m].
+    pub fn rms(&self) -> f64 {
+        self.displacement().norm()
+    }
+
+    /// The displacement dp [m] that the stiffness at the unloaded pose predicts for `load`.
+    ///
+    /// # Errors
+    /// As [`Tangent::new`].
+    pub fn small_displacement(&self, robot: &Robot, load: &Load) -> Result<Vector3<f64>, StaticsError> {
+        let tangent = Tangent::at(robot, &self.lengths, &Load::none(), &self.unloaded)?;
+        let pose = &self.unloaded.equilibrium.pose;
+        let added = load.total(robot, pose).to_vector() - Load::none().total(robot, pose).to_vector();
+        Ok(tangent.displacement(&cdpr_robot::Wrench::from_vector(&added)).fixed_rows::<3>(0).into())
+    }
+}
+
+/// Deflection under `load` at the wanted pose `pose`, with `tension_offsets` [N] added to the least-norm tension set-points.
+///
+/// # Errors
+/// Those of the inverse and the direct model.
+pub fn deflection(
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+    load: &Load,
+) -> Result<Deflection, StaticsError> {
+    StaticsError::one_per_cable("tension_offsets", tension_offsets, robot.cables.len())?;
+    let wanted = inverse(robot, pose, &Load::none(), None)?;
+    let set_points = offset(&wanted.tensions, tension_offsets, robot.tension_limits);
+    let (lengths, start) = lengths_for_tensions(robot, pose, &set_points)?;
+    deflection_from(robot, lengths, load, &start)
+}
+
+/// Deflection under `load` for given unstrained lengths [m], searched from `start`.
+///
+/// # Errors
+/// Those of the direct model.
+pub fn deflection_from(
+    robot: &Robot,
+    lengths: Vec<f64>,
+    load: &Load,
+    start: &Equilibrium,
+) -> Result<Deflection, StaticsError> {
+    let unloaded = direct(robot, &lengths, &Load::none(), Start::Near(start))?;
+    let loaded = direct(robot, &lengths, load, Start::Near(&unloaded.equilibrium))?;
+    Ok(Deflection { lengths, unloaded, loaded })
+}
+
+/// Deflections of one pose under several loads, in the order of the loads.
+pub type PoseDeflections = Result<Vec<Result<Deflection, StaticsError>>, StaticsError>;
+
+/// Deflections dp_{j,k} of all poses j under all loads k (Eq. (4)); the inverse model runs once a pose. A pose that cannot be
+/// held and a load that cannot be borne are answers, not ends.
+pub fn deflections(robot: &Robot, poses: &[Pose], loads: &[Load]) -> Vec<PoseDeflections> {
+    poses
+        .iter()
+        .map(|pose| {
+            let wanted = inverse(robot, pose, &Load::none(), None)?;
+            Ok(loads
+                .iter()
+                .map(|load| deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium))
+                .collect())
+        })
+        .collect()
+}

@@ -1,0 +1,181 @@
+//! The `6 + 2n` equations of an equilibrium, assembled, with their Jacobian. No other module names faer.
+//!
+//! Unknowns: the motion (dp, dφ) of the platform, then (fx, fz) of every cable at A. Equations, in this order:
+//!
+//! ```text
+//! sum F_i - F = 0                        force balance of the platform [N]               (3)
+//! sum s_i x F_i - M = 0                  moment balance about P [N m]                    (3)
+//! (h_i, z_i) - (x, z)(f_i, L_i) = 0      each cable spans its two points [m]         (1), (2)
+//! ```
+//!
+//! with `F_i = fx e_h + fz e_z`, `e_h` the horizontal direction of `r_i`, and (F, M) weight and load. Their derivatives:
+//!
+//! ```text
+//! dF_i = e_h dfx + e_z dfz + (fx/h) e_l e_lᵀ dr_i,    dr_i = dp - [s_i] dφ,    e_l = e_z x e_h
+//! d(s_i x F_i) = [s_i] dF_i + [F_i][s_i] dφ,          dM = [F_w][R c] dφ
+//! d(h_i, z_i) = (e_hᵀ, e_zᵀ) dr_i,                    d(x, z) = C_i df_i
+//! ```
+
+use crate::model::{Equilibrium, Model};
+use cdpr_robot::{Matrix3, Vector3};
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use nalgebra::{DMatrix, DVector};
+
+/// Cross-product matrix [v].
+pub(crate) fn cross(v: &Vector3<f64>) -> Matrix3<f64> {
+    v.cross_matrix()
+}
+
+/// Left-hand sides of all equations.
+pub(crate) fn residual(model: &Model, equilibrium: &Equilibrium) -> DVector<f64> {
+    let pose = &equilibrium.pose;
+    let mut residual = DVector::zeros(6 + 2 * model.cables());
+    let total = model.load.total(model.robot, pose);
+    let (mut force, mut moment) = (-total.force, -total.moment);
+    for (i, cable_force) in equilibrium.cable_forces.iter().enumerate() {
+        let span = model.span(pose, i);
+        let f = span.lift(*cable_force);
+        force += f;
+        moment += model.robot.anchor_arm(pose, i).cross(&f);
+        let open = span.end - model.catenary(i, *cable_force).end_position();
+        residual.fixed_rows_mut::<2>(6 + 2 * i).copy_from(&open);
+    }
+    residual.fixed_rows_mut::<3>(0).copy_from(&force);
+    residual.fixed_rows_mut::<3>(3).copy_from(&moment);
+    residual
+}
+
+/// Derivatives of [`residual`] with respect to (dp, dφ, fx_1, fz_1, ..., fx_n, fz_n).
+pub(crate) fn jacobian(model: &Model, equilibrium: &Equilibrium) -> DMatrix<f64> {
+    let pose = &equilibrium.pose;
+    let size = 6 + 2 * model.cables();
+    let mut jacobian = DMatrix::zeros(size, size);
+    let weight = model.robot.weight(pose, model.load.payload).force;
+    let center = pose.rotation * model.robot.platform.center_of_mass;
+    let mut rotation_of_moment = -cross(&weight) * cross(&center);
+    for (i, cable_force) in equilibrium.cable_forces.iter().enumerate() {
+        let span = model.span(pose, i);
+        let s = cross(&model.robot.anchor_arm(pose, i));
+        let compliance = model.catenary(i, *cable_force).compliance();
+        let lateral = Vector3::new(-span.azimuth.y, span.azimuth.x, 0.0);
+        let swing = lateral * lateral.transpose() * compliance.lateral_stiffness;
+        let place = 6 + 2 * i;
+        let mut add = |row: usize, column: usize, block: Matrix3<f64>| {
+            let mut view = jacobian.fixed_view_mut::<3, 3>(row, column);
+            view += block;
+        };
+        add(0, 0, swing);
+        add(0, 3, -swing * s);
+        add(3, 0, s * swing);
+        rotation_of_moment += cross(&span.lift(*cable_force)) * s - s * swing * s;
+        for (j, direction) in [cdpr_robot::Vector2::x(), cdpr_robot::Vector2::y()].into_iter().enumerate() {
+            let axis = span.lift(direction);
+            let turned = s * axis;
+            jacobian.fixed_view_mut::<3, 1>(0, place + j).copy_from(&axis);
+            jacobian.fixed_view_mut::<3, 1>(3, place + j).copy_from(&turned);
+            jacobian.fixed_view_mut::<1, 3>(place + j, 0).copy_from(&axis.transpose());
+            jacobian.fixed_view_mut::<1, 3>(place + j, 3).copy_from(&turned.transpose());
+        }
+        jacobian.fixed_view_mut::<2, 2>(place, place).copy_from(&-compliance.flexibility);
+    }
+    jacobian.fixed_view_mut::<3, 3>(3, 3).copy_from(&rotation_of_moment);
+    jacobian
+}
+
+/// The assembled Jacobian at an equilibrium, factored once for any number of right-hand sides.
+pub(crate) struct Factored {
+    lu: PartialPivLu<f64>,
+    size: usize,
+}
+
+impl Factored {
+    pub(crate) fn new(jacobian: &DMatrix<f64>) -> Self {
+        let size = jacobian.nrows();
+        let matrix = faer::Mat::from_fn(size, size, |i, j| jacobian[(i, j)]);
+        Self { lu: matrix.partial_piv_lu(), size }
+    }
+
+    /// `J⁻¹ right`, column by column.
+    pub(crate) fn solve(&self, right: &DMatrix<f64>) -> DMatrix<f64> {
+        let right = faer::Mat::from_fn(self.size, right.ncols(), |i, j| right[(i, j)]);
+        let solution = self.lu.solve(&right);
+        DMatrix::from_fn(self.size, solution.ncols(), |i, j| solution[(i, j)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Load;
+    use crate::newton::newton_step;
+    use crate::trust_region::cables_at;
+    use cdpr_robot::{Pose, Robot, Vector2, Wrench};
+    use proptest::prelude::*;
+
+    fn moved(equilibrium: &Equilibrium, step: &DVector<f64>) -> Equilibrium {
+        let cable_forces = equilibrium.cable_forces.iter().enumerate();
+        Equilibrium {
+            pose: equilibrium.pose.moved(step.fixed_rows::<3>(0).into(), step.fixed_rows::<3>(3).into()),
+            cable_forces: cable_forces
+                .map(|(i, force)| force + Vector2::new(step[6 + 2 * i], step[7 + 2 * i]))
+                .collect(),
+        }
+    }
+
+    /// CAROCA or CoGiRo somewhere, with cables from taut to slack and a wrench.
+    fn any_state() -> impl Strategy<Value = (Robot, Vec<f64>, Load, Pose)> {
+        let slack = prop::collection::vec(prop_oneof![-1e-3..1e-3f64, 1e-3..0.2f64], 8);
+        (any::<bool>(), prop::array::uniform6(-1.0..1.0f64), prop::array::uniform6(-1.0..1.0f64), slack)
+            .prop_map(|(caroca, m, w, slack)| {
+                let (text, height) = if caroca {
+                    (include_str!("../../../data/robots/caroca.json"), 1.75)
+                } else {
+                    (include_str!("../../../data/robots/cogiro.json"), 2.5)
+                };
+                let robot = Robot::from_json(text).unwrap();
+                let pose = Pose::at(2.0 * m[0], m[1], height + m[2])
+                    .moved(Vector3::zeros(), 0.3 * Vector3::new(m[3], m[4], m[5]));
+                let lengths = (0..8).map(|i| robot.span(&pose, i).norm() * (1.0 + slack[i])).collect();
+                let wrench = Wrench {
+                    force: 100.0 * Vector3::new(w[0], w[1], w[2]),
+                    moment: 20.0 * Vector3::new(w[3], w[4], w[5]),
+                };
+                (robot, lengths, Load { payload: 20.0, wrench }, pose)
+            })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn the_jacobian_is_the_derivative_of_the_equations((robot, lengths, load, pose) in any_state()) {
+            let model = Model::new(&robot, &lengths, &load).unwrap();
+            let state = cables_at(&model, &pose).unwrap();
+            let jacobian = jacobian(&model, &state);
+            for column in 0..jacobian.ncols() {
+                let force = state.cable_forces.get(column.wrapping_sub(6) / 2);
+                let h = if column < 6 { 1e-4 } else { force.map_or(1.0, |f| 2e-4 * f.x.max(1e-3 * f.norm())) };
+                let at = |h: f64| {
+                    let mut step = DVector::zeros(jacobian.nrows());
+                    step[column] = h;
+                    residual(&model, &moved(&state, &step))
+                };
+                let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+                let error = (&slope - jacobian.column(column)).norm();
+                let rounding = 1e-15 * (at(0.0).norm() + 1e4) / h;
+                prop_assert!(error < 1e-6 * jacobian.column(column).norm() + rounding, "column {column}: {error:e}");
+            }
+        }
+
+        #[test]
+        fn eliminating_the_cables_is_newtons_step_of_the_assembled_equations((robot, lengths, load, pose) in any_state()) {
+            let model = Model::new(&robot, &lengths, &load).unwrap();
+            let state = cables_at(&model, &pose).unwrap();
+            let right = -residual(&model, &state);
+            let assembled = Factored::new(&jacobian(&model, &state)).solve(&DMatrix::from_column_slice(right.len(), 1, right.as_slice()));
+            let reduced = newton_step(&model, &state).unwrap();
+            let expected = assembled.fixed_view::<6, 1>(0, 0);
+            prop_assert!((reduced - expected).norm() < 1e-6 * expected.norm(), "{reduced} {expected}");
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! What can go wrong on the way to an equilibrium.
+
+use crate::direct::Residual;
+use cdpr_cable::CableError;
+use cdpr_robot::{Pose, RobotError};
+use cdpr_tension::TensionError;
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StaticsError {
+    /// The robot or its perturbation is none.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// No tensions hold the pose, or their problem could not be solved.
+    #[error("at position ({x}, {y}, {z}) m: {source}", x = position[0], y = position[1], z = position[2])]
+    Tension {
+        /// Position of the platform [m].
+        position: [f64; 3],
+        /// The reason.
+        source: TensionError,
+    },
+    /// A cable cannot do what is asked of it.
+    #[error("cable {}: {source}", index + 1)]
+    Cable {
+        /// Number of the cable, from 0.
+        index: usize,
+        /// The reason.
+        source: CableError,
+    },
+    /// An input is not a number that it can be, or not one per cable.
+    #[error("{field} is {value}: expected {expected}")]
+    Invalid {
+        /// The input.
+        field: String,
+        /// What was given.
+        value: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// Tensions and cable directions did not settle together.
+    #[error(
+        "inverse model: after {rounds} rounds the platform's wrench is still open by {force:e} N and {moment:e} N m"
+    )]
+    InverseNotConverged {
+        /// Rounds made.
+        rounds: usize,
+        /// Open force [N].
+        force: f64,
+        /// Open moment [N m].
+        moment: f64,
+    },
+    /// No equilibrium was found; the best attempt.
+    #[error(
+        "direct model: no equilibrium found in {iterations} iterations; at best, at ({:.4}, {:.4}, {:.4}) m, {:e} N and {:e} N m stay open",
+        pose.position.x, pose.position.y, pose.position.z, residual.force, residual.moment
+    )]
+    DirectNotConverged {
+        /// Iterations made.
+        iterations: usize,
+        /// The pose with the smallest open wrench.
+        pose: Box<Pose>,
+        /// What stays open there.
+        residual: Residual,
+    },
+}
+
+impl StaticsError {
+    /// Name of the kind of failure, for counting: `infeasible_tension`, `tension_too_small`, ...
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Robot(_) => "invalid_robot",
+            Self::Tension { source: TensionError::Infeasible { .. }, .. } => "infeasible_tension",
+            Self::Tension { .. } => "tension_solver",
+            Self::Cable { source: CableError::TensionTooSmall { .. }, .. } => "tension_too_small",
+            Self::Cable { .. } => "cable",
+            Self::Invalid { .. } => "invalid_input",
+            Self::InverseNotConverged { .. } => "inverse_not_converged",
+            Self::DirectNotConverged { .. } => "direct_not_converged",
+        }
+    }
+
+    pub(crate) fn cable(index: usize) -> impl Fn(CableError) -> Self {
+        move |source| Self::Cable { index, source }
+    }
+
+    pub(crate) fn one_per_cable(field: &str, values: &[f64], cables: usize) -> Result<(), Self> {
+        if values.len() == cables {
+            return Ok(());
+        }
+        Err(Self::Invalid {
+            field: field.to_owned(),
+            value: format!("a list of {}", values.len()),
+            expected: format!("one value for each of the {cables} cables"),
+        })
+    }
+}

@@ -1,0 +1,42 @@
+//! Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
+//!
+//! | question | function |
+//! |---|---|
+//! | which unstrained lengths hold a pose (IEGM)? | [`inverse`] |
+//! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
+//! | how far does it give under a load (Eq. (4))? | [`deflection`], [`deflections`] |
+//! | how stiff is it, how do lengths and loads move it? | [`Tangent`] |
+//!
+//! The equations are (1)-(4) of Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
+//! Cable-Driven Parallel Robots* (CableCon 2017), with Irvine's catenary of crate `cdpr-cable` as (2). An equilibrium is a
+//! pose and the two components of every cable's end force: `6 + 2n` unknowns for as many equations. Every answer carries
+//! the residuals of all of them.
+//!
+//! ```
+//! use cdpr_robot::{Pose, Robot};
+//! use cdpr_statics::{Load, deflection};
+//!
+//! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+//! let pose = Pose::at(0.0, 0.0, 1.75);
+//! let deflection = deflection(&robot, &pose, &[0.0; 8], &Load::payload(50.0))?;
+//! assert!((1e3 * deflection.rms() - 1.33125).abs() < 1e-4); // [mm]
+//! assert!(deflection.loaded.report.residual.force < 1e-8); // [N]
+//! # Ok::<(), cdpr_statics::StaticsError>(())
+//! ```
+
+mod deflection;
+mod direct;
+mod equations;
+mod error;
+mod inverse;
+mod model;
+mod newton;
+mod tangent;
+mod trust_region;
+
+pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections};
+pub use direct::{DirectSolution, Method, Report, Residual, Start, direct};
+pub use error::StaticsError;
+pub use inverse::{InverseSolution, inverse, lengths_for_tensions};
+pub use model::{Equilibrium, Load};
+pub use tangent::Tangent;

@@ -1,0 +1,302 @@
+//! Inverse, direct and linearised model against each other and against what mechanics demands.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench};
+use cdpr_statics::{
+    Equilibrium, Load, Start, StaticsError, Tangent, deflection, deflections, direct, inverse,
+    lengths_for_tensions,
+};
+use proptest::prelude::*;
+
+fn caroca() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+fn cogiro() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap()
+}
+
+/// A suspended robot with `n` cables that alternate between the upper and the lower rim of a drum-shaped platform.
+fn drum(n: usize, jitter: &[f64], mass: f64) -> Robot {
+    let properties = caroca().cables[0].properties;
+    let cables = (0..n)
+        .map(|i| {
+            let around = std::f64::consts::TAU * i as f64 / n as f64;
+            let [a, b, c] = [jitter[3 * i], jitter[3 * i + 1], jitter[3 * i + 2]];
+            let anchor = around + if i % 2 == 0 { 0.5 } else { -0.5 };
+            let height = if i % 2 == 0 { 0.3 } else { -0.3 };
+            RobotCable {
+                exit_point: Vector3::new((5.0 + a) * around.cos(), (5.0 + b) * around.sin(), 4.0 + c),
+                anchor_point: Vector3::new(
+                    (0.5 + 0.1 * b) * anchor.cos(),
+                    0.5 * anchor.sin(),
+                    height + 0.1 * a,
+                ),
+                properties,
+            }
+        })
+        .collect();
+    Robot {
+        name: format!("drum with {n} cables"),
+        source: None,
+        gravity: 9.81,
+        platform: Platform { mass, center_of_mass: Vector3::new(0.02, -0.01, -0.05) },
+        tension_limits: TensionLimits { min: 1.0, max: 1e5 },
+        cables,
+    }
+}
+
+fn moment(x: f64, y: f64, z: f64) -> Wrench {
+    Wrench { force: Vector3::zeros(), moment: Vector3::new(x, y, z) }
+}
+
+#[test]
+fn nominal_deflections_of_caroca() {
+    let robot = caroca();
+    let rms = |pose| 1e3 * deflection(&robot, &pose, &[0.0; 8], &Load::payload(50.0)).unwrap().rms();
+    assert!((rms(Pose::at(0.0, 0.0, 1.75)) - 1.33125).abs() < 1e-4);
+    assert!((rms(Pose::at(3.2, 1.7, 3.0)) - 0.82217).abs() < 1e-4);
+}
+
+#[test]
+fn a_symmetric_platform_sinks_straight_down_and_opposite_cables_share_the_load() {
+    let robot = caroca();
+    let found = deflection(&robot, &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0)).unwrap();
+    let dp = found.displacement();
+    assert!(dp.z < 0.0 && dp.xy().norm() < 1e-12);
+    for tensions in [found.unloaded.equilibrium.tensions(), found.loaded.equilibrium.tensions()] {
+        // Half a turn about the vertical takes cable 1 to 8, 2 to 7, 3 to 6 and 4 to 5.
+        assert!((0..4).all(|i| (tensions[i] - tensions[7 - i]).abs() < 1e-8), "{tensions:?}");
+    }
+}
+
+#[test]
+fn the_stiffness_at_the_unloaded_pose_underestimates_what_sag_gives_up() {
+    let robot = caroca();
+    for pose in [Pose::at(0.0, 0.0, 1.75), Pose::at(3.2, 1.7, 3.0)] {
+        let load = Load::payload(50.0);
+        let exact = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
+        let small = exact.small_displacement(&robot, &load).unwrap();
+        let error = (small - exact.displacement()).norm() / exact.rms();
+        println!(
+            "{:?}: exact {:.5} mm, small-displacement {:.5} mm",
+            pose.position,
+            1e3 * exact.rms(),
+            1e3 * small.norm()
+        );
+        assert!(error > 1e-3 && error < 0.2, "{error}");
+        // For a small load both agree.
+        let gram = Load::payload(1e-3);
+        let exact = deflection(&robot, &pose, &[0.0; 8], &gram).unwrap();
+        let small = exact.small_displacement(&robot, &gram).unwrap();
+        assert!((small - exact.displacement()).norm() < 1e-4 * exact.rms());
+    }
+}
+
+#[test]
+fn a_set_of_poses_and_loads_is_a_table_in_which_one_bad_pose_spoils_no_other() {
+    let robot = caroca();
+    let poses = [Pose::at(0.0, 0.0, 1.75), Pose::at(0.0, 0.0, 9.0), Pose::at(1.0, 0.5, 2.0)];
+    let loads = [Load::none(), Load::payload(50.0), Load::wrench(moment(10.0, 0.0, 5.0))];
+    let table = deflections(&robot, &poses, &loads);
+    assert!(matches!(&table[1], Err(error) if error.kind() == "infeasible_tension"));
+    for j in [0, 2] {
+        let row = table[j].as_ref().unwrap();
+        assert!(row[0].as_ref().unwrap().rms() < 1e-12);
+        let alone = deflection(&robot, &poses[j], &[0.0; 8], &loads[1]).unwrap();
+        assert!((row[1].as_ref().unwrap().displacement() - alone.displacement()).norm() < 1e-11);
+    }
+}
+
+#[test]
+fn a_pose_above_the_frame_is_refused_with_what_stays_open() {
+    let error = inverse(&caroca(), &Pose::at(0.0, 0.0, 5.0), &Load::none(), None).unwrap_err();
+    let text = error.to_string();
+    assert!(
+        text.starts_with(
+            "at position (0, 0, 5) m: no tensions between 1 N and 10290 N balance the wrench: at best"
+        ),
+        "{text}"
+    );
+}
+
+#[test]
+fn inputs_that_are_none_are_named() {
+    let robot = caroca();
+    let pose = Pose::at(0.0, 0.0, 1.75);
+    let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+    let text = |result: Result<_, StaticsError>| result.unwrap_err().to_string();
+    let solve = |lengths: &[f64], load: &Load, start: &Pose| {
+        direct(&robot, lengths, load, Start::Pose(start)).map(|_| ())
+    };
+    assert_eq!(
+        text(solve(&lengths[..7], &Load::none(), &pose)),
+        "lengths is a list of 7: expected one value for each of the 8 cables"
+    );
+    let mut negative = lengths.clone();
+    negative[2] = -1.0;
+    assert_eq!(
+        text(solve(&negative, &Load::none(), &pose)),
+        "lengths[2] is -1: expected a finite, positive unstrained length [m]"
+    );
+    assert_eq!(
+        text(solve(&lengths, &Load::payload(f64::NAN), &pose)),
+        "load.payload is NaN: expected a finite mass [kg]"
+    );
+    assert!(text(solve(&lengths, &Load::none(), &Pose::at(f64::NAN, 0.0, 0.0))).starts_with("start is [NaN"));
+}
+
+#[test]
+fn a_tension_below_what_the_span_demands_names_the_cable() {
+    let error = lengths_for_tensions(&caroca(), &Pose::at(3.2, 1.7, 3.0), &[1.0; 8]).unwrap_err();
+    assert_eq!(error.kind(), "tension_too_small");
+    assert!(error.to_string().starts_with("cable 1: a tension of 1 N"), "{error}");
+}
+
+fn assert_same_pose(a: &Pose, b: &Pose, meters: f64, radians: f64) -> Result<(), TestCaseError> {
+    let motion = a.motion_to(b);
+    let (position, angle) = (motion.fixed_rows::<3>(0).norm(), motion.fixed_rows::<3>(3).norm());
+    prop_assert!(position < meters && angle < radians, "{position:e} m, {angle:e} rad");
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_direct_model_is_the_inverse_of_the_inverse_model(
+        x in -0.8..0.8f64, y in -0.8..0.8f64, z in 0.1..0.8f64, turn in prop::array::uniform3(-0.1..0.1f64),
+        away in prop::array::uniform6(-0.1..0.1f64), payload in 0.0..50.0f64, which in any::<bool>(),
+    ) {
+        let robot = if which { caroca() } else { cogiro() };
+        let top = robot.cables[0].exit_point;
+        let pose = Pose::at(x * top.x, y * top.y, z * top.z).moved(Vector3::zeros(), turn.into());
+        let load = Load::payload(payload);
+        let Ok(wanted) = inverse(&robot, &pose, &load, None) else { return Ok(()) };
+        let forces = wanted.tensions.iter().sum::<f64>();
+        prop_assert!(wanted.residual.force < 1e-11 * forces, "{:?}", wanted.residual);
+        prop_assert!(wanted.residual.closure < 1e-13 * top.norm(), "{:?}", wanted.residual);
+        let start = pose.moved(
+            Vector3::new(away[0], away[1], away[2]), Vector3::new(away[3], away[4], away[5]));
+        for start in [Start::Near(&wanted.equilibrium), Start::Pose(&start)] {
+            let found = direct(&robot, &wanted.lengths, &load, start).unwrap();
+            // One equilibrium among several may lie nearer to a start 0.1 m away, but not to the pose itself.
+            if matches!(start, Start::Near(_)) || found.report.slack.is_empty() {
+                assert_same_pose(&found.equilibrium.pose, &pose, 1e-9, 1e-9)?;
+            }
+        }
+    }
+
+    #[test]
+    fn every_number_of_cables_from_6_to_16_finds_its_balance(
+        n in 6..=16usize, jitter in prop::collection::vec(-0.5..0.5f64, 48), mass in 5.0..500.0f64,
+        slack in prop::collection::vec(-5e-4..2e-2f64, 16), turn in -0.2..0.2f64,
+    ) {
+        let robot = drum(n, &jitter, mass);
+        robot.validate().unwrap();
+        let start = Pose::at(0.2, -0.1, 1.5).moved(Vector3::zeros(), Vector3::new(0.0, 0.0, turn));
+        let lengths: Vec<f64> = (0..n).map(|i| robot.span(&start, i).norm() * (1.0 + slack[i])).collect();
+        let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&start)).unwrap();
+        let weight = mass * 9.81;
+        prop_assert!(found.report.residual.force < 1e-8 * weight, "{:?}", found.report);
+        prop_assert!(found.report.residual.closure < 1e-12);
+        // Stable: the stiffness is positive definite.
+        let tangent = Tangent::at(&robot, &lengths, &Load::none(), &found).unwrap();
+        prop_assert!(tangent.stiffness().symmetric_eigenvalues().min() > 0.0);
+    }
+
+    #[test]
+    fn turning_the_whole_robot_about_the_vertical_turns_the_answer(
+        about in -3.0..3.0f64, x in -2.0..2.0f64, y in -1.0..1.0f64, shift in prop::array::uniform3(-10.0..10.0f64),
+    ) {
+        let robot = caroca();
+        let turn = Rotation3::new(Vector3::new(0.0, 0.0, about));
+        let shift = Vector3::from(shift);
+        let mut turned = robot.clone();
+        turned.cables.iter_mut().for_each(|cable| cable.exit_point = turn * cable.exit_point + shift);
+        let pose = Pose::at(x, y, 1.5);
+        let turned_pose = Pose { position: turn * pose.position + shift, rotation: turn };
+        let wrench = Wrench { force: Vector3::new(20.0, -30.0, -200.0), moment: Vector3::new(5.0, 3.0, -8.0) };
+        let turned_wrench = Wrench { force: turn * wrench.force, moment: turn * wrench.moment };
+        let here = deflection(&robot, &pose, &[0.0; 8], &Load::wrench(wrench)).unwrap();
+        let there = deflection(&turned, &turned_pose, &[0.0; 8], &Load::wrench(turned_wrench)).unwrap();
+        prop_assert!((turn * here.displacement() - there.displacement()).norm() < 1e-12);
+    }
+
+    #[test]
+    fn the_mirrored_robot_gives_the_mirrored_answer(x in 0.1..2.0f64, y in -1.0..1.0f64, fy in -50.0..50.0f64) {
+        let robot = caroca();
+        let mirror = |v: &Vector3<f64>| Vector3::new(-v.x, v.y, v.z);
+        let mut mirrored = robot.clone();
+        for cable in &mut mirrored.cables {
+            cable.exit_point = mirror(&cable.exit_point);
+            cable.anchor_point = mirror(&cable.anchor_point);
+        }
+        let force = Vector3::new(30.0, fy, -400.0);
+        let load = |force| Load::wrench(Wrench { force, moment: Vector3::zeros() });
+        let here = deflection(&robot, &Pose::at(x, y, 1.5), &[0.0; 8], &load(force)).unwrap();
+        let there = deflection(&mirrored, &Pose::at(-x, y, 1.5), &[0.0; 8], &load(mirror(&force))).unwrap();
+        prop_assert!((mirror(&here.displacement()) - there.displacement()).norm() < 1e-12);
+    }
+
+    #[test]
+    fn the_tangent_is_the_derivative_of_the_direct_model(
+        x in -2.5..2.5f64, y in -1.3..1.3f64, z in 0.5..2.8f64, payload in 0.0..50.0f64, cable in 0..8usize,
+        component in 0..6usize,
+    ) {
+        let robot = caroca();
+        let load = Load::payload(payload);
+        let Ok(wanted) = inverse(&robot, &Pose::at(x, y, z), &load, None) else { return Ok(()) };
+        let solve = |lengths: &[f64], load: &Load| {
+            direct(&robot, lengths, load, Start::Near(&wanted.equilibrium)).unwrap().equilibrium.pose
+        };
+        let pose = solve(&wanted.lengths, &load);
+        let tangent = Tangent::new(&robot, &wanted.lengths, &load, &wanted.equilibrium).unwrap();
+        // Winching one cable.
+        let at = |h: f64| {
+            let mut lengths = wanted.lengths.clone();
+            lengths[cable] += h;
+            pose.motion_to(&solve(&lengths, &load))
+        };
+        // Neither at a cable that is about to go slack: there the stiffness changes within micrometres.
+        prop_assume!(wanted.tensions.iter().all(|t| *t > 30.0));
+        let h = 1e-6;
+        let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+        let exact: nalgebra::Vector6<f64> = tangent.pose_per_length().column(cable).into_owned();
+        prop_assert!((slope - exact).norm() < 1e-5 * exact.norm(), "{slope} {exact}");
+        // Pushing.
+        let mut unit = nalgebra::Vector6::zeros();
+        unit[component] = 1.0;
+        let at = |h: f64| {
+            let load = Load { wrench: Wrench::from_vector(&(unit * h)), ..load };
+            pose.motion_to(&solve(&wanted.lengths, &load))
+        };
+        let h = 0.05;
+        let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+        let exact = tangent.displacement(&Wrench::from_vector(&unit));
+        prop_assert!((slope - exact).norm() < 1e-5 * exact.norm(), "{slope} {exact}");
+        // The Cartesian stiffness is what is left of the assembled equations without the cables.
+        let inverse = tangent.stiffness().try_inverse().unwrap();
+        prop_assert!((inverse * unit - exact).norm() < 1e-6 * exact.norm());
+    }
+}
+
+#[test]
+fn the_start_is_not_returned_as_an_answer() {
+    let robot = caroca();
+    let lengths = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap().lengths;
+    let start = Pose::at(1.0, 0.7, 0.9).moved(Vector3::zeros(), Vector3::new(0.2, 0.1, -0.2));
+    let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&start)).unwrap();
+    assert!(start.motion_to(&found.equilibrium.pose).norm() > 0.5);
+    assert!(found.report.residual.force < 1e-8);
+}
+
+#[test]
+fn forces_that_do_not_fit_the_robot_are_not_used_as_a_start() {
+    let robot = caroca();
+    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
+    let short = Equilibrium { pose: wanted.equilibrium.pose, cable_forces: Vec::new() };
+    let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&short)).unwrap();
+    assert!(wanted.equilibrium.pose.motion_to(&found.equilibrium.pose).norm() < 1e-10);
+}

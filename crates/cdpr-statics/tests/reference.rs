@@ -1,0 +1,95 @@
+//! The direct model against equilibria computed in 40-digit arithmetic (`data/reference/README.md`).
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{
+    CableProperties, Matrix3, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
+};
+use cdpr_statics::{Load, Start, direct};
+use serde_json::Value;
+
+fn number(value: &Value) -> f64 {
+    match value {
+        Value::String(digits) => digits.parse().unwrap(),
+        value => value.as_f64().unwrap(),
+    }
+}
+
+fn vector(value: &Value) -> Vector3<f64> {
+    Vector3::from_fn(|i, _| number(&value[i]))
+}
+
+fn rotation(value: &Value) -> Rotation3<f64> {
+    Rotation3::from_matrix_unchecked(Matrix3::from_fn(|i, j| number(&value[i][j])))
+}
+
+fn robot(case: &Value) -> Robot {
+    let gravity = number(&case["gravity"]);
+    let properties = CableProperties {
+        section: 1.0,
+        linear_density: number(&case["weight_per_length"]) / gravity,
+        youngs_modulus: number(&case["axial_stiffness"]),
+        diameter: None,
+        breaking_force: None,
+    };
+    let (exits, anchors) =
+        (case["exit_points"].as_array().unwrap(), case["anchor_points"].as_array().unwrap());
+    Robot {
+        name: case["kind"].as_str().unwrap().to_owned(),
+        source: None,
+        gravity,
+        platform: Platform { mass: number(&case["mass"]), center_of_mass: vector(&case["center_of_mass"]) },
+        tension_limits: TensionLimits { min: 1.0, max: 1e6 },
+        cables: exits
+            .iter()
+            .zip(anchors)
+            .map(|(b, a)| RobotCable { exit_point: vector(b), anchor_point: vector(a), properties })
+            .collect(),
+    }
+}
+
+#[test]
+fn equilibria_match_40_digit_arithmetic() {
+    let cases: Vec<Value> =
+        serde_json::from_str(include_str!("../../../data/reference/equilibria.json")).unwrap();
+    assert_eq!(cases.len(), 24);
+    let mut failures = Vec::new();
+    for case in &cases {
+        let robot = robot(case);
+        let lengths: Vec<f64> = case["unstrained_lengths"].as_array().unwrap().iter().map(number).collect();
+        let wrench =
+            Wrench { force: vector(&case["external_force"]), moment: vector(&case["external_moment"]) };
+        let start =
+            Pose { position: vector(&case["start_position"]), rotation: rotation(&case["start_rotation"]) };
+        let expected = Pose { position: vector(&case["position"]), rotation: rotation(&case["rotation"]) };
+        let solution = match direct(&robot, &lengths, &Load::wrench(wrench), Start::Pose(&start)) {
+            Ok(solution) => solution,
+            Err(error) => {
+                failures.push(format!("{}: {error}", robot.name));
+                continue;
+            }
+        };
+        let motion = expected.motion_to(&solution.equilibrium.pose);
+        let (position, angle) = (motion.fixed_rows::<3>(0).norm(), motion.fixed_rows::<3>(3).norm());
+        let force = solution
+            .equilibrium
+            .cable_forces
+            .iter()
+            .enumerate()
+            .map(|(i, f)| {
+                (f.x - number(&case["cable_force_horizontal"][i]))
+                    .hypot(f.y - number(&case["cable_force_vertical"][i]))
+            })
+            .fold(0.0, f64::max);
+        let report = &solution.report;
+        let line = format!(
+            "{:14} {:9.1e} m {:9.1e} rad {:9.1e} N, {:?} {} iterations, slack {:?}",
+            robot.name, position, angle, force, report.method, report.iterations, report.slack
+        );
+        println!("{line}");
+        if !(position < 1e-9 && angle < 1e-9 && force < 1e-6) {
+            failures.push(line);
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
