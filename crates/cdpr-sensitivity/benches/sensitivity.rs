@@ -1,0 +1,68 @@
+//! Designs, effects and fits over the number of observations N, for 62 uniform inputs as in the source paper.
+
+use std::hint::black_box;
+
+use cdpr_sensitivity::{
+    Bootstrap, Family, Input, Law, Sample, SampleDesign, SensitivityError, SobolDesign, Steps, fit_all,
+    student_effects,
+};
+use criterion::{BenchmarkId, Criterion};
+
+const INPUTS: usize = 62;
+
+fn inputs() -> Vec<Input> {
+    let law = Law::Uniform { min: -0.03, max: 0.03 };
+    let steps = Steps::Nearest { step: 0.0012 };
+    (0..INPUTS).map(|i| Input::stepped(format!("x{i}"), law, steps)).collect()
+}
+
+/// The sum of the inputs, for each row.
+fn sums(design: &SobolDesign) -> Result<Vec<Option<f64>>, SensitivityError> {
+    let mut row = [0.0; INPUTS];
+    let mut sum = |index| {
+        design.row(index, &mut row)?;
+        Ok(Some(row.iter().sum()))
+    };
+    (0..design.points()).map(&mut sum).collect()
+}
+
+fn main() -> Result<(), SensitivityError> {
+    let mut criterion = Criterion::default().configure_from_args().sample_size(10);
+    let mut group = criterion.benchmark_group("sensitivity");
+    for points in [512, 2048, 8192] {
+        let plain = SobolDesign::new(inputs(), 0, points)?;
+        let scrambled = plain.replicate(1);
+        let outputs = sums(&plain)?;
+        let sample = Sample::new(&outputs)?;
+        let bootstrap = Bootstrap { resamples: 200, seed: 1 };
+
+        let effects = student_effects(&plain, &outputs)?;
+        // Above the middle: levels 1 to 24 of full weight and level 25 of half of it, of mean 312.5 / 24.5.
+        let mean = effects.effects.iter().map(|effect| effect.effect).sum::<f64>() / INPUTS as f64;
+        assert!((mean / (2.0 * 0.0012 * 312.5 / 24.5) - 1.0).abs() < 0.02);
+        // A sum of 62 variables: certainly no uniform law, and the deviation of the normal one is known.
+        let fits = fit_all(&sample, bootstrap)?;
+        assert_eq!(fits.last().map(|fit| fit.family), Some(Family::Uniform));
+        let std = 0.03 * (INPUTS as f64 / 3.0).sqrt();
+        let normal = fits.iter().find(|fit| fit.family == Family::Normal);
+        assert!(normal.is_some_and(|fit| (fit.law.std() / std - 1.0).abs() < 0.1), "{normal:?}");
+        for design in [&plain, &scrambled] {
+            // Point 0 of the plain sequence, all inputs at -0.03, has no counterpart: -1.86 / N.
+            assert!((Sample::new(&sums(design)?)?.summary().mean).abs() < 3.0 / points as f64);
+        }
+
+        group.bench_function(BenchmarkId::new("sobol", points), |b| b.iter(|| black_box(sums(&plain))));
+        group.bench_function(BenchmarkId::new("scrambled", points), |b| {
+            b.iter(|| black_box(sums(&scrambled)));
+        });
+        group.bench_function(BenchmarkId::new("effects", points), |b| {
+            b.iter(|| black_box(student_effects(&plain, &outputs)));
+        });
+        group.bench_function(BenchmarkId::new("fit_all", points), |b| {
+            b.iter(|| black_box(fit_all(&sample, bootstrap)));
+        });
+    }
+    group.finish();
+    criterion.final_summary();
+    Ok(())
+}

@@ -1,0 +1,68 @@
+//! Designs of experiments, laws, fits and effects, for any model: plain numbers in, plain numbers out.
+//!
+//! | step | module |
+//! |---|---|
+//! | which inputs, with which law and steps | [`law`], [`input`] |
+//! | at which points to run the model | [`design`], on [`sobol`] |
+//! | what the output looks like | [`summary`] |
+//! | which law it follows | [`mod@fit`] |
+//! | which input matters | [`effect`] |
+//!
+//! What holds throughout:
+//!
+//! - a row of a design is had from its index alone: a parallel map gives the same numbers on any number of threads;
+//! - what is random has a seed, an argument without a default;
+//! - an observation that failed is `None`: counted beside the results, part of no mean;
+//! - an estimator takes the design that the outputs belong to.
+//!
+//! ```
+//! use cdpr_sensitivity::{Input, Law, Sample, SampleDesign, SobolDesign, student_effects};
+//!
+//! # fn main() -> Result<(), cdpr_sensitivity::SensitivityError> {
+//! // y = 3 x1 - x2, and an x3 that does nothing.
+//! let unit = Law::Uniform { min: -1.0, max: 1.0 };
+//! let inputs = ["x1", "x2", "x3"].map(|name| Input::continuous(name, unit)).to_vec();
+//! let design = SobolDesign::new(inputs, 0, 2048)?;
+//!
+//! let mut row = [0.0; 3];
+//! let mut outputs = Vec::new();
+//! for index in 0..design.points() {
+//!     design.row(index, &mut row)?;
+//!     outputs.push(Some(3.0 * row[0] - row[1]));
+//! }
+//!
+//! let effects = student_effects(&design, &outputs)?;
+//! let signed: Vec<f64> = effects.effects.iter().map(|effect| effect.effect).collect();
+//! assert!((signed[0] - 3.0).abs() < 0.01); // b (max - min) / 2
+//! assert!((signed[1] + 1.0).abs() < 0.01);
+//! assert!(signed[2].abs() < 0.01);
+//!
+//! let median = Sample::new(&outputs)?.quantile(0.5)?;
+//! assert!(median.abs() < 0.01);
+//! # Ok(())
+//! # }
+//! ```
+
+#[doc = include_str!("../README.md")]
+#[cfg(doctest)]
+struct Readme;
+
+pub mod design;
+pub mod effect;
+pub mod error;
+mod estimate;
+pub mod fit;
+pub mod input;
+pub mod law;
+mod normal;
+pub mod sobol;
+pub mod summary;
+
+pub use design::{RandomDesign, SampleDesign, SobolDesign};
+pub use effect::{Effect, EffectInterval, Effects, effect_intervals, student_effects};
+pub use error::SensitivityError;
+pub use fit::{Bootstrap, Family, Fit, best, fit, fit_all, ks_distance};
+pub use input::{Input, Steps};
+pub use law::Law;
+pub use sobol::Sobol;
+pub use summary::{Bins, Histogram, Sample, Summary};

@@ -1,0 +1,229 @@
+//! Fits against `scipy`, and p-values that hold for fitted parameters.
+#![allow(clippy::panic, clippy::unwrap_used)]
+
+use approx::assert_relative_eq;
+use cdpr_sensitivity::{
+    Bootstrap, Family, Input, Law, RandomDesign, Sample, SampleDesign, SensitivityError, best, fit, fit_all,
+};
+use proptest::prelude::*;
+
+#[derive(serde::Deserialize)]
+struct Reference {
+    samples: Vec<ReferenceSample>,
+}
+
+#[derive(serde::Deserialize)]
+struct ReferenceSample {
+    name: String,
+    values: Vec<f64>,
+    fits: Vec<ReferenceFit>,
+}
+
+#[derive(serde::Deserialize)]
+struct ReferenceFit {
+    family: Family,
+    law: serde_json::Value,
+    log_likelihood: f64,
+    ks_distance: f64,
+}
+
+const FEW: Bootstrap = Bootstrap { resamples: 19, seed: 1 };
+
+fn draw(law: Law, count: usize, seed: u64) -> Sample {
+    let design = RandomDesign::new(vec![Input::continuous("x", law)], count, seed).unwrap();
+    let mut row = [0.0];
+    let mut value = |index| {
+        design.row(index, &mut row).unwrap();
+        row[0]
+    };
+    Sample::of_values(&(0..count).map(&mut value).collect::<Vec<_>>()).unwrap()
+}
+
+fn reference() -> Vec<ReferenceSample> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/reference/fits.json");
+    serde_json::from_str::<Reference>(&std::fs::read_to_string(path).unwrap()).unwrap().samples
+}
+
+#[test]
+fn parameters_likelihoods_and_distances_are_those_of_scipy() {
+    let samples = reference();
+    assert_eq!(samples.len(), 5);
+    for ReferenceSample { name, values, fits } in samples {
+        let sample = Sample::of_values(&values).unwrap();
+        let n = values.len() as f64;
+        assert_eq!(fits.len(), 7);
+        for expected in fits {
+            let found = fit(&sample, expected.family, FEW).unwrap();
+            let law = serde_json::to_value(found.law).unwrap();
+            let (family, parameters) = expected.law.as_object().unwrap().iter().next().unwrap();
+            for (field, value) in parameters.as_object().unwrap() {
+                let (found, value) = (law[family][field].as_f64().unwrap(), value.as_f64().unwrap());
+                assert!(
+                    (found - value).abs() <= 1e-8 * (1.0 + value.abs()),
+                    "{name}: {family}.{field} = {found}"
+                );
+            }
+            let log_likelihood = expected.log_likelihood;
+            assert_relative_eq!(found.log_likelihood, log_likelihood, max_relative = 1e-9, epsilon = 1e-9);
+            assert_relative_eq!(found.ks_distance, expected.ks_distance, max_relative = 1e-6);
+            assert_relative_eq!(found.aic, 4.0 - 2.0 * log_likelihood, max_relative = 1e-9, epsilon = 1e-8);
+            assert_relative_eq!(
+                found.bic,
+                2.0 * n.ln() - 2.0 * log_likelihood,
+                max_relative = 1e-9,
+                epsilon = 1e-8
+            );
+        }
+    }
+}
+
+#[test]
+fn fit_all_sorts_by_akaike_and_agrees_with_the_single_fits() {
+    for ReferenceSample { name, values, .. } in reference() {
+        let sample = Sample::of_values(&values).unwrap();
+        let fits = fit_all(&sample, FEW).unwrap();
+        assert_eq!(fits.len(), 7);
+        assert!(fits.is_sorted_by(|one, other| one.aic <= other.aic));
+        for all in &fits {
+            assert_eq!(*all, fit(&sample, all.family, FEW).unwrap());
+        }
+        match name.as_str() {
+            "quasi_uniform" => assert_eq!(fits[0].family, Family::Uniform),
+            "normal" => assert_eq!(fits[0].family, Family::Normal),
+            "skewed" => assert_eq!(fits[0].family, Family::Weibull),
+            "heavy_tails" => assert_eq!(fits[0].family, Family::Laplace),
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn each_family_is_found_again_in_a_large_sample_of_its_own() {
+    let laws = [
+        (Family::Uniform, Law::Uniform { min: 1.12, max: 1.63 }),
+        (Family::Normal, Law::Normal { mean: 1.33, std: 0.018 }),
+        (Family::Logistic, Law::Logistic { location: 1.33, scale: 0.02 }),
+        (Family::Laplace, Law::Laplace { location: 1.33, scale: 0.02 }),
+        (Family::Gumbel, Law::Gumbel { location: -1.33, scale: 0.2 }),
+        (Family::LogNormal, Law::LogNormal { log_mean: 0.3, log_std: 0.5 }),
+        (Family::Weibull, Law::Weibull { shape: 1.5, scale: 1.4 }),
+    ];
+    for (family, law) in laws {
+        let fits = fit_all(&draw(law, 4000, 17), Bootstrap { resamples: 99, seed: 4 }).unwrap();
+        assert_eq!(fits[0].family, family);
+        assert!(fits[0].p_value > 0.01, "{:?}", fits[0]);
+        assert_relative_eq!(fits[0].law.mean(), law.mean(), max_relative = 0.05);
+        assert_relative_eq!(fits[0].law.std(), law.std(), max_relative = 0.05);
+        // Four thousand values tell all other families apart, but not a narrow normal law from a lognormal one.
+        for other in &fits[1..] {
+            let neighbour = family == Family::Normal && other.family == Family::LogNormal;
+            assert!(other.p_value < 0.05 || neighbour, "{family:?} {other:?}");
+        }
+    }
+}
+
+#[test]
+fn p_values_of_a_true_family_are_uniform_although_its_parameters_are_fitted() {
+    for (family, law) in [
+        (Family::Normal, Law::Normal { mean: 1.34, std: 0.14 }),
+        (Family::Uniform, Law::Uniform { min: 1.12, max: 1.63 }),
+        (Family::Weibull, Law::Weibull { shape: 9.0, scale: 1.4 }),
+    ] {
+        let studies = 400;
+        let p_value = |study| {
+            let bootstrap = Bootstrap { resamples: 99, seed: study + 1000 };
+            fit(&draw(law, 40, study), family, bootstrap).unwrap().p_value
+        };
+        let p_values: Vec<f64> = (0..studies).map(p_value).collect();
+        // Four standard deviations of a count of 400. The p-values of the law as if it were known would lie
+        // above one half nearly always.
+        for level in [0.1, 0.5, 0.9] {
+            let share = p_values.iter().filter(|&&p| p <= level).count() as f64 / studies as f64;
+            let deviation = (level * (1.0 - level) / studies as f64).sqrt();
+            assert!((share - level).abs() < 4.0 * deviation, "{family:?}: {share} of p-values up to {level}");
+        }
+    }
+}
+
+#[test]
+fn p_values_depend_on_the_seed_and_not_on_the_number_of_threads() {
+    let sample = Sample::of_values(&[0.9, 1.0, 1.2, 1.7, 2.1]).unwrap();
+    let run = |threads, seed| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| fit_all(&sample, Bootstrap { resamples: 50, seed }).unwrap())
+    };
+    assert_eq!(run(1, 5), run(4, 5));
+    assert_ne!(run(1, 5), run(1, 6));
+}
+
+#[test]
+fn values_of_either_sign_are_fitted_without_the_families_of_positive_values() {
+    let sample = Sample::of_values(&[-1.0, 0.5, 2.0, 3.0, 0.1]).unwrap();
+    let families: Vec<Family> = fit_all(&sample, FEW).unwrap().iter().map(|fit| fit.family).collect();
+    assert_eq!(families.len(), 5);
+    assert!(!families.contains(&Family::LogNormal) && !families.contains(&Family::Weibull));
+    let error = fit(&sample, Family::Weibull, FEW).unwrap_err();
+    assert_eq!(error, SensitivityError::NotPositive { family: Family::Weibull, minimum: -1.0 });
+}
+
+#[test]
+fn constant_and_tiny_samples_and_no_resamples_are_errors() {
+    let error = fit_all(&Sample::of_values(&[1.5; 8]).unwrap(), FEW).unwrap_err();
+    assert_eq!(error, SensitivityError::ConstantSample { value: 1.5, count: 8 });
+    let error = fit_all(&Sample::of_values(&[1.0, 2.0]).unwrap(), FEW).unwrap_err();
+    assert!(matches!(error, SensitivityError::OutOfRange { value: 2, minimum: 3, .. }));
+    let none = Bootstrap { resamples: 0, seed: 0 };
+    let error = fit_all(&Sample::of_values(&[1.0, 2.0, 3.0]).unwrap(), none).unwrap_err();
+    assert!(matches!(error, SensitivityError::OutOfRange { field: "resamples", .. }));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn fits_follow_a_change_of_unit_and_origin(
+        values in prop::collection::vec(-1.0..1.0_f64, 3..40), unit in 1e-6..1e6_f64, origin in -10.0..10.0_f64,
+    ) {
+        let sample = Sample::of_values(&values).unwrap();
+        prop_assume!(sample.sorted()[0] + 1e-3 < sample.sorted()[values.len() - 1]);
+        let moved: Vec<f64> = values.iter().map(|value| unit * (value + origin)).collect();
+        let moved = Sample::of_values(&moved).unwrap();
+        for family in [Family::Uniform, Family::Normal, Family::Logistic, Family::Laplace, Family::Gumbel] {
+            let (one, other) = (fit(&sample, family, FEW).unwrap(), fit(&moved, family, FEW).unwrap());
+            assert_relative_eq!(other.law.mean(), unit * (one.law.mean() + origin), max_relative = 1e-6, epsilon = 1e-6 * unit);
+            assert_relative_eq!(other.law.std(), unit * one.law.std(), max_relative = 1e-6);
+            assert_relative_eq!(other.ks_distance, one.ks_distance, epsilon = 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_likelihood_has_a_maximum_however_far_the_outliers(
+        values in prop::collection::vec(-300.0..300.0_f64, 3..40),
+    ) {
+        // Powers of ten from -13 to 13, of either sign.
+        let values: Vec<f64> = values.iter().map(|x| (x.abs() / 10.0 - 17.0).exp().copysign(*x)).collect();
+        let sample = Sample::of_values(&values).unwrap();
+        for fit in fit_all(&sample, FEW).unwrap() {
+            prop_assert!(fit.law.validate().is_ok() && fit.log_likelihood.is_finite(), "{fit:?}");
+        }
+    }
+}
+
+#[test]
+fn of_laws_that_the_sample_supports_alike_the_most_common_one_is_preferred() {
+    let sample = Sample::of_values(&reference()[0].values).unwrap();
+    let fits = |aics: [f64; 3]| -> Vec<_> {
+        let families = [Family::LogNormal, Family::Normal, Family::Uniform];
+        let fits = families.into_iter().zip(aics).map(|(family, aic)| {
+            let mut found = fit(&sample, family, FEW).unwrap();
+            found.aic = aic;
+            found
+        });
+        fits.collect()
+    };
+    let preferred = |aics| best(&fits(aics)).map(|fit| fit.family);
+    assert_eq!(preferred([-10.0, -8.5, 0.0]), Some(Family::Normal));
+    assert_eq!(preferred([-10.0, -7.5, 0.0]), Some(Family::LogNormal));
+    assert_eq!(preferred([-10.0, -9.5, -8.0]), Some(Family::Uniform));
+    assert_eq!(best(&[]), None);
+}
