@@ -33,4 +33,4 @@ pub use catenary::{Cable, Catenary, Compliance};
 pub use error::CableError;
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use solve::{Solution, end_force};
-pub use tensioned::length_for_tension;
+pub use tensioned::{length_for_tension, length_for_tension_near};

@@ -21,33 +21,59 @@ use nalgebra::{Matrix2, Vector2};
 /// [`CableError::InvalidInput`] for values no cable can have, [`CableError::TensionTooSmall`] where the cable's weight
 /// alone demands more, with the least tension there is.
 pub fn length_for_tension(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<Solution, CableError> {
-    cable.validate()?;
-    check_end(end)?;
-    check("tension", tension, tension > 0.0, "a finite, positive tension [N]")?;
-    let chord = end.norm();
-    check("end", chord, chord > 0.0, "an end position away from the exit point [m]")?;
-    match newton(cable, end, tension) {
+    check_inputs(cable, end, tension)?;
+    match newton(taut_start(cable, end, tension), end, tension) {
         Some(solution) => Ok(solution),
         None => bisect(cable, end, tension),
     }
 }
 
-fn newton(cable: &Cable, end: Vector2<f64>, tension: f64) -> Option<Solution> {
+/// The same, begun at a catenary with nearly this end position and tension.
+///
+/// # Errors
+/// As [`length_for_tension`].
+pub fn length_for_tension_near(
+    near: &Catenary,
+    end: Vector2<f64>,
+    tension: f64,
+) -> Result<Solution, CableError> {
+    check_inputs(&near.cable, end, tension)?;
+    let scale = tension / near.anchor_tension();
+    let start = Catenary { force: near.force * scale, ..*near };
+    match newton(start, end, tension) {
+        Some(solution) => Ok(solution),
+        None => length_for_tension(&near.cable, end, tension),
+    }
+}
+
+fn check_inputs(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<(), CableError> {
+    cable.validate()?;
+    check_end(end)?;
+    check("tension", tension, tension > 0.0, "a finite, positive tension [N]")?;
+    check("end", end.norm(), end.norm() > 0.0, "an end position away from the exit point [m]")
+}
+
+/// A straight spring, turned by half its weight and lengthened by the sag of a parabola.
+fn taut_start(cable: &Cable, end: Vector2<f64>, tension: f64) -> Catenary {
     let chord = end.norm();
     let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
-    // Start: a straight spring, turned by half its weight and lengthened by the sag of a parabola.
     let length = chord / (1.0 + tension / ea);
     let across = w * end.x / (chord * tension);
     let pull = end * (tension / chord) + Vector2::new(0.0, 0.5 * w * length);
-    let mut now = Catenary {
+    Catenary {
         cable: *cable,
         unstrained_length: length * (1.0 + (across * length).powi(2) / 24.0),
         force: pull * (tension / pull.norm()),
-    };
+    }
+}
+
+fn newton(start: Catenary, end: Vector2<f64>, tension: f64) -> Option<Solution> {
+    let chord = end.norm();
+    let mut now = start;
+    let mut compliance = now.compliance();
     for iteration in 1..=20 {
-        let compliance = now.compliance();
         let turn = compliance.flexibility * Vector2::new(-now.force.y, now.force.x);
-        let jacobian = Matrix2::from_columns(&[turn, now.end_per_length()]);
+        let jacobian = Matrix2::from_columns(&[turn, compliance.end_per_length]);
         let step = jacobian.try_inverse()? * (end - compliance.end);
         let (sin, cos) = step.x.sin_cos();
         let (fx, fz) = (now.force.x, now.force.y);
@@ -57,11 +83,17 @@ fn newton(cable: &Cable, end: Vector2<f64>, tension: f64) -> Option<Solution> {
         if !(step.norm() < 1e3 && now.unstrained_length > 0.0 && now.force.x >= -1e-9 * tension) {
             return None;
         }
-        if step.x.abs() <= 1e-8 && step.y.abs() <= 1e-8 * length {
-            now.force.x = now.force.x.max(0.0);
-            let solution = Solution::of(now, end, iteration);
-            let at_rounding = solution.residual <= 64.0 * f64::EPSILON * (chord + now.unstrained_length);
-            return (at_rounding && tension_slope(&now) < 0.0).then_some(solution);
+        now.force.x = now.force.x.max(0.0);
+        compliance = now.compliance();
+        if step.x.abs() <= 1e-8 && step.y.abs() <= 1e-8 * chord {
+            let residual = (end - compliance.end).norm();
+            let at_rounding = residual <= 64.0 * f64::EPSILON * (chord + now.unstrained_length);
+            let shorter = now.force.dot(&compliance.force_per_length()) < 0.0;
+            return (at_rounding && shorter).then_some(Solution {
+                catenary: now,
+                iterations: iteration,
+                residual,
+            });
         }
     }
     None
@@ -69,8 +101,7 @@ fn newton(cable: &Cable, end: Vector2<f64>, tension: f64) -> Option<Solution> {
 
 /// dT/dL [N/m] with both ends held: negative on the branch of the shorter cable.
 fn tension_slope(catenary: &Catenary) -> f64 {
-    -catenary.force.dot(&(catenary.in_plane_stiffness() * catenary.end_per_length()))
-        / catenary.anchor_tension()
+    catenary.force.dot(&catenary.compliance().force_per_length()) / catenary.anchor_tension()
 }
 
 fn bisect(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<Solution, CableError> {

@@ -79,6 +79,20 @@ impl Family {
     }
 }
 
+impl std::fmt::Display for Family {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Self::Uniform => "uniform",
+            Self::Normal => "normal",
+            Self::Logistic => "logistic",
+            Self::Laplace => "Laplace",
+            Self::Gumbel => "Gumbel",
+            Self::LogNormal => "lognormal",
+            Self::Weibull => "Weibull",
+        })
+    }
+}
+
 /// The samples of the bootstrap, Eq. (3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bootstrap {

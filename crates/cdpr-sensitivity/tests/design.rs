@@ -12,7 +12,7 @@ fn normal() -> Vec<Input> {
     vec![Input::continuous("x", Law::Normal { mean: 0.0, std: 1.0 })]
 }
 
-fn rows(design: &(impl SampleDesign + Sync), threads: usize) -> Vec<Vec<f64>> {
+fn rows(design: &impl SampleDesign, threads: usize) -> Vec<Vec<f64>> {
     let row = |index| {
         let mut row = vec![f64::NAN; design.inputs().len()];
         design.row(index, &mut row).unwrap();

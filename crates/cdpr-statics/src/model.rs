@@ -79,7 +79,7 @@ pub(crate) struct Span {
 
 impl Span {
     pub(crate) fn new(span: Vector3<f64>) -> Self {
-        let h = span.x.hypot(span.y);
+        let h = span.xy().norm();
         let azimuth = if h > 0.0 { Vector2::new(span.x / h, span.y / h) } else { Vector2::x() };
         Self { azimuth, end: Vector2::new(h, span.z) }
     }

@@ -39,7 +39,7 @@ impl Tangent {
             let catenary = model.catenary(i, *force);
             let s = robot.anchor_arm(&equilibrium.pose, i);
             balance.add_cable(&s, &span.lift(*force), &catenary.stiffness(span.azimuth));
-            end_per_length.push(catenary.end_per_length());
+            end_per_length.push(catenary.compliance().end_per_length);
         }
         Ok(Self {
             factored: Factored::new(&jacobian(&model, equilibrium)),

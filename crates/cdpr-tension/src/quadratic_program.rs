@@ -132,6 +132,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
         #[test]
         fn where_no_bound_is_active_the_qp_finds_the_closed_form(
             x in -2.5..2.5f64, y in -1.2..1.2f64, z in 0.5..3.0f64, reference in 0.0..1000.0f64,

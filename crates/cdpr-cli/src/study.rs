@@ -1,0 +1,216 @@
+//! `cdpr study run`: each part of a study is written as soon as it is done, so that nothing computed is lost with what fails
+//! after it.
+
+use cdpr_report::{Points, ReportError};
+use cdpr_study::{
+    IndexMap, Study, StudyError, StudySummary, Summary, SurfaceSummary, analyse, check_folder, compare,
+    compute_surface, observe, write_figure, write_observations, write_summary, write_surface,
+};
+use comfy_table::{Table, presets};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// What was asked for.
+pub(crate) struct Settings {
+    pub(crate) study: PathBuf,
+    pub(crate) out: PathBuf,
+    pub(crate) observations: Option<usize>,
+    pub(crate) threads: Option<u16>,
+}
+
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum RunError {
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    #[error("figure {name}: {source}")]
+    Figure { name: String, source: ReportError },
+    #[error("cannot start {threads} threads: {source}")]
+    Threads { threads: u16, source: rayon::ThreadPoolBuildError },
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
+    if let Some(threads) = settings.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+        pool.map_err(|source| RunError::Threads { threads, source })?;
+    }
+    let clock = Instant::now();
+    let mut study = Study::open(&settings.study)?;
+    if let Some(observations) = settings.observations {
+        study.set_observations(observations)?;
+    }
+    check_folder(&settings.out)?;
+    let mut run = Run { settings, progress: progress(&study), studies: IndexMap::new(), timings: Vec::new() };
+    for name in study.file.samplings.keys() {
+        run.sampling(&study, name)?;
+    }
+    for name in study.file.surfaces.keys() {
+        run.surface(&study, name)?;
+    }
+    run.point_effects()?;
+    let mut summary = Summary {
+        study: study.file.name.clone(),
+        robot: study.robot.name.clone(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        payload: study.file.payload,
+        seed: study.file.seed,
+        studies: run.studies,
+        comparison: Vec::new(),
+    };
+    summary.comparison = compare(&study.file.comparison, &summary);
+    let path = write_summary(&settings.out, &summary)?;
+    run.progress.finish_and_clear();
+    print_results(&summary);
+    print_comparison(&summary);
+    for (name, seconds) in &run.timings {
+        println!("{name:24} {seconds:6.2} s");
+    }
+    println!("{:24} {:6.2} s", "all", clock.elapsed().as_secs_f64());
+    println!("\nresults in {}", path.parent().unwrap_or(&path).display());
+    Ok(())
+}
+
+/// A run under way.
+struct Run<'a> {
+    settings: &'a Settings,
+    progress: ProgressBar,
+    studies: IndexMap<String, StudySummary>,
+    timings: Vec<(String, f64)>,
+}
+
+impl Run<'_> {
+    fn sampling(&mut self, study: &Study, name: &str) -> Result<(), RunError> {
+        let clock = Instant::now();
+        self.progress.set_message(name.to_owned());
+        let tick = || self.progress.inc(1);
+        let sampling = study.sampling(name)?;
+        let observations = observe(&sampling, &tick);
+        write_observations(&self.settings.out, &sampling, &observations)?;
+        let summary = analyse(&sampling, &observations, &tick)?;
+        self.figure(name, cdpr_report::histogram(&summary))?;
+        if !summary.signed_effects_mm.is_empty() {
+            self.figure(&format!("{name}_effects"), cdpr_report::signed_effects(&summary, 20))?;
+        }
+        self.studies.insert(name.to_owned(), StudySummary::Sampling(Box::new(summary)));
+        self.timings.push((name.to_owned(), clock.elapsed().as_secs_f64()));
+        Ok(())
+    }
+
+    fn surface(&mut self, study: &Study, name: &str) -> Result<(), RunError> {
+        let clock = Instant::now();
+        self.progress.set_message(name.to_owned());
+        let surface = study.surface(name)?;
+        let result = compute_surface(&surface, &|| self.progress.inc(1));
+        write_surface(&self.settings.out, &surface, &result)?;
+        let summary = SurfaceSummary::new(&surface, &result);
+        self.figure(name, cdpr_report::surface(&summary, &result))?;
+        self.studies.insert(name.to_owned(), StudySummary::Surface(summary));
+        self.timings.push((name.to_owned(), clock.elapsed().as_secs_f64()));
+        Ok(())
+    }
+
+    /// The effects of anchor and exit points of all samplings that have them, one panel each.
+    fn point_effects(&self) -> Result<(), RunError> {
+        for (name, letter, points) in
+            [("anchor_points", "a1.x", Points::Anchor), ("exit_points", "b1.x", Points::Exit)]
+        {
+            let samplings: Vec<_> = self
+                .studies
+                .iter()
+                .filter_map(|(name, study)| match study {
+                    StudySummary::Sampling(sampling) if sampling.t_student.contains_key(letter) => {
+                        Some((name.as_str(), sampling.as_ref()))
+                    }
+                    _ => None,
+                })
+                .collect();
+            if !samplings.is_empty() {
+                self.figure(name, cdpr_report::point_effects(&samplings, points))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn figure(&self, name: &str, svg: Result<String, ReportError>) -> Result<(), RunError> {
+        let svg = svg.map_err(|source| RunError::Figure { name: name.to_owned(), source })?;
+        write_figure(&self.settings.out, name, &svg)?;
+        Ok(())
+    }
+}
+
+/// A bar with rate and time left over all observations, replicates and grid points; silent when not on a terminal.
+fn progress(study: &Study) -> ProgressBar {
+    let file = &study.file;
+    let samplings = file.samplings.values().map(|s| s.observations * (1 + file.replicates)).sum::<usize>();
+    let surfaces = file.surfaces.values().map(|s| s.x.points * s.y.points).sum::<usize>();
+    let template = "{msg:24} {bar:30} {pos}/{len} observations, {per_sec}, {eta} left";
+    let bar = ProgressBar::new((samplings + surfaces) as u64);
+    match ProgressStyle::with_template(template) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
+fn table(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::UTF8_FULL_CONDENSED).set_header(header);
+    table
+}
+
+fn print_results(summary: &Summary) {
+    println!("{}: {}\n", summary.robot, summary.study);
+    let mut rows = table(&["study", "n", "failed", "nominal", "mean", "std", "min", "max", "[mm]  best fit"]);
+    for (name, study) in &summary.studies {
+        rows.add_row(match study {
+            StudySummary::Sampling(s) => {
+                let best = s.fits.iter().find(|fit| fit.law == s.best_fit);
+                let best = best.map(|fit| format!("{}, p = {:.3}", fit.law, fit.p_value));
+                let rms = [s.rms_mm.nominal, s.rms_mm.mean, s.rms_mm.std, s.rms_mm.min, s.rms_mm.max];
+                let counts = [s.observations, s.failed.values().sum()].map(|count| count.to_string());
+                row(name, counts, rms.map(Some), best.unwrap_or_default())
+            }
+            StudySummary::Surface(s) => {
+                let rms = [Some(s.rms_mm.nominal), None, None, s.rms_mm.min, s.rms_mm.max];
+                let counts = [s.observations, s.failed.values().sum()].map(|count| count.to_string());
+                row(name, counts, rms, String::new())
+            }
+        });
+    }
+    println!("{rows}\n");
+    for (name, study) in &summary.studies {
+        let failed = match study {
+            StudySummary::Sampling(s) => &s.failed,
+            StudySummary::Surface(s) => &s.failed,
+        };
+        for (kind, count) in failed.iter().filter(|(_, count)| **count > 0) {
+            println!("{name}: {count} failed: {kind}");
+        }
+    }
+}
+
+fn row(name: &str, counts: [String; 2], rms: [Option<f64>; 5], last: String) -> Vec<String> {
+    let rms = rms.map(|value| value.map_or_else(String::new, |value| format!("{value:.4}")));
+    [name.to_owned()].into_iter().chain(counts).chain(rms).chain([last]).collect()
+}
+
+fn print_comparison(summary: &Summary) {
+    if summary.comparison.is_empty() {
+        return;
+    }
+    let mut rows = table(&["figure", "quantity", "paper", "computed", "unit", "verdict"]);
+    for r in &summary.comparison {
+        let cells = [
+            &r.figure,
+            &r.quantity,
+            &r.paper.to_string(),
+            &r.computed.to_string(),
+            &r.unit,
+            &r.verdict.to_string(),
+        ];
+        rows.add_row(cells.map(String::clone));
+    }
+    println!("{rows}");
+    println!(
+        "reproduced: within half of the published figure's last digit plus 1 % of it; words: the same\n"
+    );
+}

@@ -1,0 +1,227 @@
+//! `cdpr study run` as a user meets it: results, and every kind of bad input.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+fn data(file: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file);
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// A folder with CAROCA and a small study of it, to be spoiled.
+struct Bench {
+    folder: TempDir,
+    robot: Value,
+    study: Value,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let mut study: Value = serde_json::from_str(&data("studies/caroca.json")).unwrap();
+        study["robot"] = json!("robot.json");
+        study["replicates"] = json!(2);
+        study["bootstrap_resamples"] = json!(10);
+        for sampling in study["samplings"].as_object_mut().unwrap().values_mut() {
+            sampling["observations"] = json!(64);
+        }
+        for surface in study["surfaces"].as_object_mut().unwrap().values_mut() {
+            surface["x"]["points"] = json!(5);
+            surface["y"]["points"] = json!(4);
+        }
+        let robot = serde_json::from_str(&data("robots/caroca.json")).unwrap();
+        Self { folder: TempDir::new().unwrap(), robot, study }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        std::fs::write(self.path("robot.json"), format!("{:#}", self.robot)).unwrap();
+        std::fs::write(self.path("study.json"), format!("{:#}", self.study)).unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
+        command
+            .current_dir(self.folder.path())
+            .args(["study", "run", "study.json", "--out", "out"])
+            .args(arguments);
+        command.output().unwrap()
+    }
+
+    /// The message of a run that must fail, without panicking.
+    fn refusal(&self, arguments: &[&str]) -> String {
+        let output = self.run(arguments);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_ne!(output.status.code(), Some(0), "{text}");
+        assert!(!text.contains("panicked"), "{text}");
+        text
+    }
+}
+
+#[test]
+fn a_study_writes_tables_figures_and_a_summary() {
+    let bench = Bench::new();
+    let output = bench.run(&[]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.stderr.is_empty(), "progress is silent when not on a terminal");
+    assert!(text.contains("not reproduced") && text.contains("surface_E_rho"));
+    let summary: Value =
+        serde_json::from_str(&std::fs::read_to_string(bench.path("out/summary.json")).unwrap()).unwrap();
+    let mechanical = &summary["studies"]["mechanical"];
+    assert_eq!(mechanical["observations"], 64);
+    assert_eq!(mechanical["failed"]["infeasible_tension"], 0);
+    assert_eq!(mechanical["t_student"].as_object().unwrap().len(), 62);
+    assert!((mechanical["rms_mm"]["nominal"].as_f64().unwrap() - 1.33125).abs() < 1e-4);
+    assert!(mechanical["fits"].as_array().unwrap().iter().any(|fit| fit["law"] == "uniform"));
+    assert_eq!(summary["comparison"].as_array().unwrap().len(), 22);
+    assert!(
+        summary["comparison"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|row| { row["verdict"] == "reproduced" || row["verdict"] == "not reproduced" })
+    );
+    let table = std::fs::read_to_string(bench.path("out/mechanical.csv")).unwrap();
+    let mut lines = table.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(header.len(), 1 + 62 + 4 + 2);
+    assert_eq!((header[1], header[62], header[66], header[67]), ("mass", "dt8", "rms_mm", "status"));
+    assert_eq!(lines.count(), 64);
+    assert_eq!(std::fs::read_to_string(bench.path("out/surface_E_rho.csv")).unwrap().lines().count(), 1 + 20);
+    for figure in
+        ["mechanical", "geometrical", "surface_E_rho", "surface_rho_m", "anchor_points", "exit_points"]
+    {
+        let svg = std::fs::read_to_string(bench.path(&format!("out/{figure}.svg"))).unwrap();
+        assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"), "{figure}");
+    }
+}
+
+#[test]
+fn the_files_are_the_same_on_any_number_of_threads() {
+    let bench = Bench::new();
+    let files = |threads: &str| -> Vec<Vec<u8>> {
+        assert!(bench.run(&["--threads", threads]).status.success());
+        ["summary.json", "geometrical_asymmetric.csv"]
+            .map(|file| std::fs::read(bench.path("out").join(file)).unwrap())
+            .into()
+    };
+    assert_eq!(files("1"), files("4"));
+}
+
+/// Spoils one value of the robot or the study and expects the message to hold all the given words.
+fn refused(spoil: impl Fn(&mut Value, &mut Value), words: &[&str]) {
+    let mut bench = Bench::new();
+    let Bench { robot, study, .. } = &mut bench;
+    spoil(robot, study);
+    let message = bench.refusal(&[]);
+    for word in words {
+        assert!(message.contains(word), "`{word}` is not in: {message}");
+    }
+    assert!(!bench.path("out").exists(), "nothing is made for a study that cannot run");
+}
+
+#[test]
+fn bad_robots_are_refused_with_file_field_value_and_remedy() {
+    let file = "error: robot.json: ";
+    refused(
+        |r, _| r["platform"] = json!({"center_of_mass": [0, 0, 0]}),
+        &[file, "line", "platform: missing field `mass`"],
+    );
+    refused(
+        |r, _| r["platform"]["mas"] = json!(1),
+        &[file, "platform.mas: unknown field `mas`", "expected `mass`"],
+    );
+    refused(|r, _| r["gravity"] = json!(null), &[file, "gravity: invalid type: null, expected f64"]);
+    refused(
+        |r, _| r["cables"].as_array_mut().unwrap().truncate(5),
+        &[file, "cables is a list of 5", "at least 6 cables"],
+    );
+    refused(|r, _| r["cables"][3] = r["cables"][1].clone(), &[file, "cables[3] is coincident", "cables[1]"]);
+    refused(
+        |r, _| r["cable"]["section"] = json!(-1e-5),
+        &[file, "cable.section is -0.00001", "positive section [m²]"],
+    );
+    refused(
+        |r, _| r["tension_limits"]["min"] = json!(20000),
+        &[file, "tension_limits.max is 10290", "above tension_limits.min"],
+    );
+    refused(
+        |r, _| r["cables"][0]["exit_point"] = json!([1, 2]),
+        &[file, "cables[0].exit_point: invalid length 2"],
+    );
+}
+
+#[test]
+fn bad_studies_are_refused_with_file_field_value_and_remedy() {
+    let file = "error: study.json: ";
+    refused(|_, s| s["payload"] = json!(-5), &[file, "payload is -5", "zero or more [kg]"]);
+    refused(|_, s| s["samplngs"] = json!({}), &[file, "unknown field `samplngs`", "expected one of"]);
+    refused(|_, s| s["format"] = json!("cdpr-study/7"), &[file, "format is cdpr-study/7", "cdpr-study/1"]);
+    refused(|_, s| s["replicates"] = json!(1), &[file, "replicates is 1", "at least 2"]);
+    refused(|_, s| s["confidence"] = json!(95), &[file, "confidence is 95", "between 0 and 1"]);
+    refused(
+        |_, s| s["samplings"]["mechanical"]["error_model"] = json!("table_5"),
+        &[file, "samplings.mechanical.error_model is table_5", "one of table_3, table_4"],
+    );
+    refused(
+        |_, s| s["error_models"]["table_3"]["masss"] = s["error_models"]["table_3"]["mass"].clone(),
+        &[file, "masss", "a parameter"],
+    );
+    refused(
+        |_, s| s["error_models"]["table_3"]["mass"]["law"] = json!({"uniform": {"min": 1.0, "max": -1.0}}),
+        &["error_models.table_3", "mass", "max"],
+    );
+    refused(
+        |_, s| s["surfaces"]["surface_E_rho"]["x"]["points"] = json!(1),
+        &[file, "surfaces.surface_E_rho.x.points is 1", "at least 2"],
+    );
+    refused(
+        |_, s| s["samplings"]["geometrical"]["pose"]["position"] = json!([0, 0, 5]),
+        &[
+            file,
+            "samplings.geometrical.pose.position is [0.0, 0.0, 5.0]",
+            "no tensions between 1 N and 10290 N balance the wrench",
+        ],
+    );
+    refused(|_, s| s["robot"] = json!("nowhere.json"), &["error: cannot read nowhere.json: No such file"]);
+}
+
+#[test]
+fn bad_arguments_are_refused() {
+    let bench = Bench::new();
+    assert!(bench.refusal(&["--observations", "1"]).contains("observations is 1: expected at least 2"));
+    assert!(bench.refusal(&["--observations", "many"]).contains("invalid value 'many' for '--observations"));
+    assert!(bench.refusal(&["--threads", "0"]).contains("0 is not in 1"));
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_refused_before_anything_runs() {
+    let bench = Bench::new();
+    std::fs::write(bench.path("out"), "a file").unwrap();
+    assert!(bench.refusal(&[]).starts_with("error: cannot write out: "));
+}
+
+#[test]
+fn observations_that_fail_stop_nothing() {
+    let mut bench = Bench::new();
+    // Tension limits so tight that most perturbed robots have no distribution; the nominal one has.
+    bench.robot["tension_limits"] = json!({"min": 500.0, "max": 650.0});
+    let output = bench.run(&[]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    // At the non-symmetric pose even the nominal robot has none: that is said before anything runs.
+    assert!(!output.status.success(), "{text}");
+    bench.study["samplings"].as_object_mut().unwrap().remove("geometrical_asymmetric");
+    bench.study["comparison"] = json!([]);
+    let output = bench.run(&[]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let summary: Value =
+        serde_json::from_str(&std::fs::read_to_string(bench.path("out/summary.json")).unwrap()).unwrap();
+    let failed = summary["studies"]["mechanical"]["failed"]["infeasible_tension"].as_u64().unwrap();
+    assert!(failed > 0 && failed < 64, "{failed}");
+    let table = std::fs::read_to_string(bench.path("out/mechanical.csv")).unwrap();
+    assert_eq!(table.lines().filter(|line| line.contains(",infeasible_tension,")).count() as u64, failed);
+}

@@ -1,0 +1,48 @@
+//! Figures of CAROCA's study, with few observations: `cargo run --release -p cdpr-report --example figures -- FOLDER`.
+//!
+//! A second argument is the number of observations of each sampling.
+
+#![allow(clippy::print_stdout)]
+
+use cdpr_report::{Points, histogram, point_effects, signed_effects, surface};
+use cdpr_study::{Study, SurfaceSummary, analyse, check_folder, compute_surface, observe, write_figure};
+use std::path::Path;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let folder = arguments.next().ok_or("which folder are the figures to be written to?")?;
+    let observations = arguments.next().map_or(Ok(200), |number| number.parse())?;
+    check_folder(folder.as_ref())?;
+    let write = |name: &str, svg: &str| -> Result<(), Box<dyn std::error::Error>> {
+        println!("{}", write_figure(folder.as_ref(), name, svg)?.display());
+        Ok(())
+    };
+
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/studies/caroca.json");
+    let mut study = Study::open(&path)?;
+    study.set_observations(observations)?;
+
+    let mut summaries = Vec::new();
+    for name in study.file.samplings.keys() {
+        let sampling = study.sampling(name)?;
+        let summary = analyse(&sampling, &observe(&sampling, &|| ()), &|| ())?;
+        write(name, &histogram(&summary)?)?;
+        write(&format!("{name}_effects"), &signed_effects(&summary, 20)?)?;
+        summaries.push((name.as_str(), summary));
+    }
+    // Fig. 5b and 5c: the symmetric pose above the other one.
+    let geometrical: Vec<_> = summaries
+        .iter()
+        .filter(|(name, _)| name.starts_with("geometrical"))
+        .map(|(name, summary)| (*name, summary))
+        .collect();
+    write("anchor_points", &point_effects(&geometrical, Points::Anchor)?)?;
+    write("exit_points", &point_effects(&geometrical, Points::Exit)?)?;
+
+    for name in study.file.surfaces.keys() {
+        let prepared = study.surface(name)?;
+        let result = compute_surface(&prepared, &|| ());
+        write(name, &surface(&SurfaceSummary::new(&prepared, &result), &result)?)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,37 @@
+//! Static figures of study results, ready for a paper: one function a figure, results in, SVG text out. No file is written.
+//!
+//! | figure of the paper | function |
+//! |---|---|
+//! | 4a, 5a: distribution of the RMS with its fitted laws | [`histogram`] |
+//! | 4b, 4c: RMS over two parameters | [`surface`] |
+//! | 5b, 5c: t-Student of the points' coordinates | [`point_effects`] |
+//! | none: signed effects with their intervals | [`signed_effects`] |
+//!
+//! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of Cable-Driven Parallel
+//! Robots*, 2017. All figures are 700 px wide on white; colours are those of Okabe and Ito and viridis, both safe for the
+//! colour-blind. The same results give the same bytes.
+//!
+//! ```no_run
+//! use cdpr_study::{Study, analyse, observe, write_figure};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let study = Study::open("data/studies/caroca.json".as_ref())?;
+//! let sampling = study.sampling("mechanical")?;
+//! let summary = analyse(&sampling, &observe(&sampling, &|| ()), &|| ())?;
+//! write_figure("results".as_ref(), "mechanical", &cdpr_report::histogram(&summary)?)?;
+//! # Ok(())
+//! # }
+//! ```
+
+mod effects;
+mod error;
+mod histogram;
+mod points;
+mod style;
+mod surface;
+
+pub use effects::signed_effects;
+pub use error::ReportError;
+pub use histogram::histogram;
+pub use points::{Points, point_effects};
+pub use surface::surface;

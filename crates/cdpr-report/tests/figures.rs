@@ -1,0 +1,248 @@
+//! What has to be in each figure, and what has no figure.
+
+#![allow(clippy::unwrap_used)]
+
+use cdpr_report::{Points, ReportError, histogram, point_effects, signed_effects, surface};
+use cdpr_sensitivity::{Family, Histogram, Law};
+use cdpr_statics::StaticsError;
+use cdpr_study::{
+    FitSummary, NominalSummary, RmsSummary, SamplingSummary, SignedEffect, Study, SurfaceResult,
+    SurfaceSummary,
+};
+
+fn sampling() -> SamplingSummary {
+    let fit = |law, parameters, aic| FitSummary {
+        law,
+        parameters,
+        log_likelihood: 0.0,
+        aic,
+        bic: aic,
+        ks: 0.01,
+        p_value: 0.5,
+    };
+    let rms = RmsSummary {
+        mean: 1.35,
+        std: 0.1375,
+        min: 1.1,
+        max: 1.6,
+        nominal: 1.33,
+        q01: 1.11,
+        q25: 1.22,
+        median: 1.35,
+        q75: 1.47,
+        q99: 1.59,
+    };
+    let effect = |effect, half| SignedEffect { effect, low: effect - half, high: effect + half };
+    let t_student = (1..=8).flat_map(|i| ["x", "y", "z"].map(|axis| (format!("b{i}.{axis}"), i as f64)));
+    SamplingSummary {
+        title: "Everything, E < 104 & \"rest\"".to_owned(),
+        pose: [0.0, 0.0, 1.75],
+        observations: 101,
+        failed: [("infeasible_tension".to_owned(), 1)].into(),
+        rms_mm: rms,
+        nominal: NominalSummary {
+            displacement_mm: [0.0, 0.0, -1.33],
+            small_displacement_rms_mm: 1.3,
+            unloaded_tensions: vec![574.0; 8],
+            loaded_tensions: vec![730.0; 8],
+        },
+        fits: vec![
+            fit(Family::Uniform, Law::Uniform { min: 1.1, max: 1.6 }, 10.0),
+            fit(Family::Normal, Law::Normal { mean: 1.35, std: 0.1375 }, 25.0),
+        ],
+        best_fit: Family::Uniform,
+        histogram: Histogram { edges: vec![1.1, 1.2, 1.3, 1.4, 1.5, 1.6], counts: vec![20, 22, 0, 38, 20] },
+        t_student: t_student.chain([("mass".to_owned(), 3.0)]).collect(),
+        signed_effects_mm: [
+            ("mass".to_owned(), effect(-0.02, 0.004)),
+            ("b2.x".to_owned(), effect(0.03, 0.005)),
+            ("dt1".to_owned(), effect(0.001, 0.002)),
+        ]
+        .into(),
+        replicates: 8,
+        confidence: 0.95,
+    }
+}
+
+fn grid() -> (SurfaceSummary, SurfaceResult) {
+    let (x, y) = (vec![84.2e9, 102.2e9, 120.2e9], vec![162.0, 198.0]);
+    let failure = || StaticsError::Invalid { field: "x".into(), value: "y".into(), expected: "z".into() };
+    let rms_mm = vec![Ok(1.6), Ok(1.61), Err(failure()), Ok(1.35), Ok(1.1), Ok(1.12)];
+    let result = SurfaceResult { x, y, rms_mm };
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json");
+    let study = Study::open(file.as_ref()).unwrap();
+    let mut summary = SurfaceSummary::new(&study.surface("surface_E_rho").unwrap(), &result);
+    summary.title = "E and m".to_owned();
+    summary.parameters[1] = "mass".to_owned();
+    (summary, result)
+}
+
+/// All figures that these results have.
+fn figures() -> [String; 4] {
+    let (summary, result) = grid();
+    let sampling = sampling();
+    [
+        histogram(&sampling).unwrap(),
+        surface(&summary, &result).unwrap(),
+        point_effects(&[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap(),
+        signed_effects(&sampling, 20).unwrap(),
+    ]
+}
+
+/// Filled rectangles, without the background.
+fn rectangles(svg: &str) -> usize {
+    svg.matches("<rect ").count() - 1
+}
+
+/// Texts, in the order of the file.
+fn texts(svg: &str) -> Vec<&str> {
+    svg.split("<text ").skip(1).map(|rest| rest.split(['>', '<']).nth(1).unwrap().trim()).collect()
+}
+
+#[test]
+fn every_figure_is_700_px_wide_and_has_only_finite_coordinates_inside_of_it() {
+    for svg in figures() {
+        assert!(svg.starts_with("<svg width=\"700\" height=\""), "{}", &svg[..60]);
+        assert!(svg.trim_end().ends_with("</svg>"));
+        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        for attribute in [" x=\"", " x1=\"", " x2=\""] {
+            for rest in svg.split(attribute).skip(1) {
+                let x: f64 = rest.split('"').next().unwrap().parse().unwrap();
+                assert!((0.0..=7000.0).contains(&x), "{x}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_histogram_has_a_bar_for_each_bin_and_names_the_best_law() {
+    let svg = histogram(&sampling()).unwrap();
+    assert_eq!(rectangles(&svg), 5);
+    let texts = texts(&svg);
+    for text in [
+        "RMS of the static deflection [mm]",
+        "density [1/mm]",
+        "mean 1.350, standard deviation 0.138, min 1.100, max 1.600, nominal 1.330 mm; 101 observations, 1 failed",
+        "uniform (preferred)",
+        "normal (AIC +15)",
+        "nominal",
+    ] {
+        assert!(texts.contains(&text), "{text}: {texts:?}");
+    }
+}
+
+#[test]
+fn the_bars_of_a_histogram_are_a_density() {
+    // Heights in units of the picture; the bin of 20 of 100 in 0.1 mm is 2 / mm high, just as the uniform law.
+    let svg = histogram(&sampling()).unwrap();
+    let height = |bar: usize| -> f64 {
+        let rect = svg.split("<rect ").nth(bar + 2).unwrap();
+        rect.split("height=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+    };
+    assert!((height(3) / height(0) - 1.9).abs() < 0.01);
+    assert_eq!(height(2), 0.0);
+    assert_eq!(height(4), height(0));
+}
+
+#[test]
+fn titles_are_escaped() {
+    let svg = histogram(&sampling()).unwrap();
+    assert!(svg.contains("Everything, E &lt; 104 &amp; &quot;rest&quot;"));
+}
+
+#[test]
+fn a_surface_has_a_cell_for_each_point_and_shows_the_failed_ones() {
+    let (summary, mut result) = grid();
+    let svg = surface(&summary, &result).unwrap();
+    let failed = texts(&svg).join("\n");
+    for text in
+        ["E and m", "Young&apos;s modulus E [GPa]", "mass of the platform m [kg]", "RMS [mm]", "failed"]
+    {
+        assert!(failed.contains(text), "{text}: {failed}");
+    }
+    assert!(texts(&svg).contains(&"100"), "GPa, not Pa");
+    result.rms_mm[2] = Ok(1.3);
+    let whole = surface(&summary, &result).unwrap();
+    assert_eq!(rectangles(&svg), rectangles(&whole));
+    assert_eq!(rectangles(&whole), 6 + 128);
+    assert!(!texts(&whole).contains(&"failed"));
+}
+
+#[test]
+fn points_have_three_bars_each_and_a_panel_a_sampling() {
+    let sampling = sampling();
+    let svg = point_effects(&[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap();
+    assert_eq!(rectangles(&svg), 2 * 8 * 3);
+    let texts = texts(&svg);
+    for text in ["B1", "B8", "x", "y", "z", "t-Student index [-]"] {
+        assert!(texts.contains(&text), "{text}: {texts:?}");
+    }
+    assert!(!texts.contains(&"A1"));
+}
+
+#[test]
+fn signed_effects_are_sorted_by_size_and_cut_off() {
+    let summary = sampling();
+    let svg = signed_effects(&summary, 2).unwrap();
+    assert_eq!(rectangles(&svg), 2);
+    let texts = texts(&svg);
+    assert!(texts.contains(&"signed effect on the RMS of the static deflection [mm]"));
+    assert!(texts.contains(&"2 of 3 parameters; intervals of 95 % confidence from 8 replicates"));
+    let place = |name| texts.iter().position(|text| *text == name);
+    // Rows are drawn from the bottom up.
+    assert!(place("mass").unwrap() < place("b2.x").unwrap());
+    assert_eq!(place("dt1"), None);
+}
+
+#[test]
+fn without_data_there_is_no_figure() {
+    let mut empty = sampling();
+    empty.histogram.counts = vec![0; 5];
+    empty.signed_effects_mm.clear();
+    assert!(matches!(histogram(&empty), Err(ReportError::Empty { .. })));
+    assert!(matches!(signed_effects(&empty, 20), Err(ReportError::Empty { .. })));
+    assert!(matches!(signed_effects(&sampling(), 0), Err(ReportError::Empty { .. })));
+    assert!(matches!(point_effects(&[], Points::Exit), Err(ReportError::Empty { .. })));
+    assert!(matches!(point_effects(&[("a", &empty)], Points::Anchor), Err(ReportError::Empty { .. })));
+    let (summary, mut result) = grid();
+    let failure = result.rms_mm[2].clone();
+    result.rms_mm.fill(failure);
+    assert!(matches!(surface(&summary, &result), Err(ReportError::Empty { .. })));
+}
+
+#[test]
+fn what_has_no_place_on_an_axis_is_refused() {
+    let invalid = |figure: Result<String, ReportError>| matches!(figure, Err(ReportError::Invalid { .. }));
+    let change = |change: fn(&mut SamplingSummary)| {
+        let mut summary = sampling();
+        change(&mut summary);
+        summary
+    };
+    assert!(invalid(histogram(&change(|s| s.rms_mm.nominal = f64::NAN))));
+    assert!(invalid(histogram(&change(|s| s.histogram.edges[2] = s.histogram.edges[1]))));
+    assert!(invalid(histogram(&change(|s| s.histogram.edges.truncate(5)))));
+    let nan = change(|s| s.t_student.values_mut().for_each(|t| *t = f64::NAN));
+    assert!(invalid(point_effects(&[("a", &nan)], Points::Exit)));
+    let wide = SignedEffect { effect: 0.0, low: f64::NEG_INFINITY, high: f64::INFINITY };
+    let mut summary = sampling();
+    summary.signed_effects_mm.insert("mass".to_owned(), wide);
+    assert!(invalid(signed_effects(&summary, 1)));
+
+    let (mut summary, mut result) = grid();
+    result.rms_mm[0] = Ok(f64::INFINITY);
+    assert!(invalid(surface(&summary, &result)));
+    result.rms_mm.pop();
+    assert!(invalid(surface(&summary, &result)));
+    summary.parameters[0] = "modulus".to_owned();
+    assert!(invalid(surface(&summary, &result)));
+}
+
+#[test]
+fn a_surface_on_which_nothing_varies_has_a_figure() {
+    let (summary, mut result) = grid();
+    for noise in [0.0, 2.3e-16] {
+        result.rms_mm.fill(Ok(1.5));
+        result.rms_mm[0] = Ok(1.5 + noise);
+        assert_eq!(rectangles(&surface(&summary, &result).unwrap()), 6 + 128);
+    }
+}

@@ -1,0 +1,75 @@
+//! What can go wrong with a study.
+
+use cdpr_robot::{JsonError, RobotError};
+use cdpr_sensitivity::SensitivityError;
+use cdpr_statics::StaticsError;
+use std::path::PathBuf;
+
+/// Why a study could not be read, run or written. A failed observation is none of these: it is a result.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// A file could not be read.
+    #[error("cannot read {path}: {source}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A file could not be written, or a folder not made.
+    #[error("cannot write {path}: {source}")]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The text is no study file.
+    #[error("{path}: {source}")]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// Place and reason.
+        source: JsonError,
+    },
+    /// The robot file is none.
+    #[error("{path}: {source}")]
+    Robot {
+        /// The file.
+        path: PathBuf,
+        /// Place and reason.
+        source: RobotError,
+    },
+    /// A value that no study can have.
+    #[error("{path}: {field} is {value}: expected {expected}")]
+    Invalid {
+        /// The file.
+        path: PathBuf,
+        /// Path of the field.
+        field: String,
+        /// What was given.
+        value: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// The nominal robot cannot hold the study's pose or bear its load.
+    #[error("{path}: {field} is {value}: expected a pose that the nominal robot can hold: {source}")]
+    Nominal {
+        /// The file.
+        path: PathBuf,
+        /// Path of the field.
+        field: String,
+        /// The position [m].
+        value: String,
+        /// The reason.
+        source: Box<StaticsError>,
+    },
+    /// The statistics of a sampling cannot be computed; its observations can.
+    #[error("{study}: {source}")]
+    Statistics {
+        /// Name of the sampling.
+        study: String,
+        /// The reason.
+        source: SensitivityError,
+    },
+}

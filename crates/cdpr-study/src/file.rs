@@ -1,0 +1,176 @@
+//! The study file, `cdpr-study/1`: JSON, SI units unless a name says otherwise. Described by [`json_schema`].
+
+use cdpr_sensitivity::{Law, Steps};
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Name and version of the format.
+pub const STUDY_FORMAT: &str = "cdpr-study/1";
+
+/// A set of samplings and surfaces of one robot's static deflection. SI units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "cdpr-study/1")]
+pub struct StudyFile {
+    /// Always "cdpr-study/1".
+    pub format: String,
+    /// Name of the study.
+    pub name: String,
+    /// Where its values come from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
+    /// Robot file, relative to this file.
+    pub robot: String,
+    /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
+    pub payload: f64,
+    /// Seed of everything random (replicates, bootstrap): same seed, same numbers.
+    pub seed: u64,
+    /// Scrambled replicates of each sampling, from which the intervals of signed effects come; 0 or at least 2.
+    pub replicates: usize,
+    /// Confidence of those intervals, between 0 and 1.
+    pub confidence: f64,
+    /// Samples of the parametric bootstrap behind the p-value of each fitted law.
+    pub bootstrap_resamples: usize,
+    /// Error models by name: the deviation of each uncertain parameter. Keys are parameters (`mass`, `b3.z`) or groups of them
+    /// (`a`, `b`, `cog`, `dt`); a parameter's own entry goes before its group's.
+    pub error_models: IndexMap<String, IndexMap<String, InputSpec>>,
+    /// Samplings by name: all uncertain parameters at once, at points of Sobol's sequence.
+    #[serde(default)]
+    pub samplings: IndexMap<String, SamplingSpec>,
+    /// Surfaces by name: two parameters over a grid, all others nominal.
+    #[serde(default)]
+    pub surfaces: IndexMap<String, SurfaceSpec>,
+    /// Published figures to stand beside the computed ones.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub comparison: Vec<ComparisonSpec>,
+}
+
+/// Law and steps of a parameter's deviation from its nominal value, in the parameter's SI unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InputSpec {
+    /// Law of the deviation.
+    pub law: Law,
+    /// Steps it is rounded to; continuous if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<Steps>,
+}
+
+/// Wanted pose of the platform.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PoseSpec {
+    /// Position of P in the base frame [m].
+    pub position: [f64; 3],
+    /// Unit quaternion (w, x, y, z); no rotation if left out.
+    #[serde(default = "no_rotation")]
+    pub quaternion: [f64; 4],
+}
+
+fn no_rotation() -> [f64; 4] {
+    [1.0, 0.0, 0.0, 0.0]
+}
+
+/// A sampling of all uncertain parameters at one pose.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SamplingSpec {
+    /// Title for tables and figures.
+    pub title: String,
+    /// Wanted pose.
+    pub pose: PoseSpec,
+    /// Name of the error model.
+    pub error_model: String,
+    /// Number of observations.
+    pub observations: usize,
+    /// Index in Sobol's sequence of the first one.
+    #[serde(default)]
+    pub first_index: u32,
+}
+
+/// A surface of the deflection over two parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceSpec {
+    /// Title for tables and figures.
+    pub title: String,
+    /// Wanted pose.
+    pub pose: PoseSpec,
+    /// First axis.
+    pub x: AxisSpec,
+    /// Second axis.
+    pub y: AxisSpec,
+}
+
+/// One axis of a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AxisSpec {
+    /// Name of the parameter.
+    pub parameter: String,
+    /// Least deviation from its nominal value, in its SI unit.
+    pub min: f64,
+    /// Greatest deviation.
+    pub max: f64,
+    /// Points of the grid, 2 at least.
+    pub points: usize,
+}
+
+/// A published figure: a number or a word, and which of ours to compare it with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ComparisonSpec {
+    /// Where it is published, such as `4a`.
+    pub figure: String,
+    /// What it is, in words.
+    pub quantity: String,
+    /// Name of the sampling or surface.
+    pub study: String,
+    /// The statistic of ours.
+    pub statistic: Statistic,
+    /// What is published.
+    pub paper: crate::comparison::Value,
+    /// Unit; empty for a word.
+    pub unit: String,
+    /// Last printed digit of a published number, such as 0.01; 0 for a word.
+    #[serde(default)]
+    pub last_digit: f64,
+}
+
+/// A number or word of ours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Statistic {
+    /// Mean of the RMS [mm].
+    Mean,
+    /// Its standard deviation [mm].
+    Std,
+    /// Its least value [mm].
+    Min,
+    /// Its greatest value [mm].
+    Max,
+    /// Greatest minus least value [mm].
+    Spread,
+    /// Greatest minus least value over the mean [%].
+    RelativeSpread,
+    /// The fitted law preferred by AIC.
+    BestFit,
+    /// The two anchor points with the largest t (largest of their coordinates).
+    DominantAnchorPoints,
+    /// The two exit points with the largest t.
+    DominantExitPoints,
+    /// Whether the largest t of an anchor point is at most 1.5 times the smallest: `nearly equal` or `unequal`.
+    AnchorPointEquality,
+    /// The same of the exit points.
+    ExitPointEquality,
+    /// Largest tension of the nominal robot under its own weight [N].
+    UnloadedTension,
+    /// Largest tension of the nominal robot with the payload [N].
+    LoadedTension,
+}
+
+/// The JSON Schema of the study file, as pretty-printed text.
+pub fn json_schema() -> String {
+    format!("{:#}\n", schemars::schema_for!(StudyFile).as_value())
+}

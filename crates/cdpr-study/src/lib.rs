@@ -1,0 +1,43 @@
+//! Studies: which parameters of a robot are uncertain and by how much, where and under which load its deflection is
+//! observed, and what comes out.
+//!
+//! A study file (`cdpr-study/1`, JSON) names a robot file, error models, and any number of *samplings* (all parameters
+//! perturbed at once, as in section 5 of Baklouti, Caro, Courteille 2017) and *surfaces* (two parameters over a grid). Each
+//! runs in parallel with the same numbers on any number of threads. An observation that fails is data: counted by reason, named
+//! in the table, never an end.
+//!
+//! ```no_run
+//! use cdpr_study::{Study, analyse, observe};
+//!
+//! let study = Study::open("data/studies/caroca.json".as_ref())?;
+//! let sampling = study.sampling("mechanical")?;
+//! let observations = observe(&sampling, &|| ());
+//! let summary = analyse(&sampling, &observations, &|| ())?;
+//! println!("{:.3} mm +- {:.3} mm", summary.rms_mm.mean, summary.rms_mm.std);
+//! # Ok::<(), cdpr_study::StudyError>(())
+//! ```
+
+mod comparison;
+mod error;
+mod file;
+mod observation;
+mod output;
+mod sampling;
+mod study;
+mod surface;
+
+pub use cdpr_sensitivity::Family;
+pub use comparison::{ComparisonRow, Value, Verdict, compare};
+pub use error::StudyError;
+pub use file::{
+    AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, Statistic, StudyFile,
+    SurfaceSpec, json_schema,
+};
+pub use indexmap::IndexMap;
+pub use observation::{Observation, Observations, observe};
+pub use output::{
+    StudySummary, Summary, check_folder, write_figure, write_observations, write_summary, write_surface,
+};
+pub use sampling::{FitSummary, NominalSummary, RmsSummary, SamplingSummary, SignedEffect, analyse};
+pub use study::{Sampling, Study, Surface};
+pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};

@@ -1,0 +1,198 @@
+//! What a sampling says: summary, fitted laws, effects.
+
+use crate::error::StudyError;
+use crate::observation::{Observations, observe_design};
+use crate::study::Sampling;
+use cdpr_robot::Robot;
+use cdpr_sensitivity::{
+    Bootstrap, Family, Fit, Histogram, Law, Sample, SampleDesign, SensitivityError, SobolDesign, best,
+    effect_intervals, fit_all, student_effects,
+};
+use cdpr_statics::Deflection;
+use indexmap::IndexMap;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Results of one sampling; serialised into `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SamplingSummary {
+    /// Title.
+    pub title: String,
+    /// Position of the wanted pose [m].
+    pub pose: [f64; 3],
+    /// Number of observations, failed ones included.
+    pub observations: usize,
+    /// Failed observations by kind.
+    pub failed: BTreeMap<String, usize>,
+    /// Summary of the RMS.
+    pub rms_mm: RmsSummary,
+    /// The nominal robot at this pose.
+    pub nominal: NominalSummary,
+    /// Fitted laws by ascending AIC.
+    pub fits: Vec<FitSummary>,
+    /// Family preferred by AIC: the least, or the most common of those that the sample supports alike (within 2).
+    pub best_fit: Family,
+    /// Histogram of the RMS [mm].
+    pub histogram: Histogram,
+    /// The paper's t-Student index by parameter (section 5.2). On Sobol points its significance levels do not hold.
+    pub t_student: IndexMap<String, f64>,
+    /// Signed effect by parameter: mean RMS in the upper half of its range minus that in the lower half, with an interval
+    /// from scrambled replicates.
+    pub signed_effects_mm: IndexMap<String, SignedEffect>,
+    /// Scrambled replicates behind those intervals.
+    pub replicates: usize,
+    /// Their confidence.
+    pub confidence: f64,
+}
+
+/// Summary of the RMS of the static deflection [mm].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct RmsSummary {
+    pub mean: f64,
+    pub std: f64,
+    pub min: f64,
+    pub max: f64,
+    /// Of the nominal robot.
+    pub nominal: f64,
+    /// 1 % quantile (Hyndman and Fan's type 7, as the others).
+    pub q01: f64,
+    /// Lower quartile.
+    pub q25: f64,
+    pub median: f64,
+    /// Upper quartile.
+    pub q75: f64,
+    /// 99 % quantile.
+    pub q99: f64,
+}
+
+/// The nominal robot under the study's load.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NominalSummary {
+    /// dp [mm].
+    pub displacement_mm: [f64; 3],
+    /// |dp| that the stiffness at the unloaded pose predicts [mm]; section 3.3 of the paper says why it differs.
+    pub small_displacement_rms_mm: f64,
+    /// Tension of every cable under the platform's own weight [N].
+    pub unloaded_tensions: Vec<f64>,
+    /// Tension of every cable with the payload [N].
+    pub loaded_tensions: Vec<f64>,
+}
+
+/// A law fitted to the RMS [mm].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FitSummary {
+    /// Family.
+    pub law: Family,
+    /// The law of largest likelihood, in mm.
+    pub parameters: Law,
+    /// Natural logarithm of its likelihood.
+    pub log_likelihood: f64,
+    /// Akaike's criterion.
+    pub aic: f64,
+    /// Schwarz's criterion.
+    pub bic: f64,
+    /// Kolmogorov-Smirnov distance.
+    pub ks: f64,
+    /// p-value of that distance for fitted parameters, by parametric bootstrap.
+    pub p_value: f64,
+}
+
+/// Signed effect of a parameter [mm] and its confidence interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct SignedEffect {
+    pub effect: f64,
+    pub low: f64,
+    pub high: f64,
+}
+
+impl NominalSummary {
+    pub(crate) fn new(robot: &Robot, nominal: &Deflection, load: &cdpr_statics::Load) -> Self {
+        // The stiffness exists wherever the equilibrium does.
+        let small = nominal.small_displacement(robot, load).map_or(f64::NAN, |dp| dp.norm());
+        Self {
+            displacement_mm: (1e3 * nominal.displacement()).into(),
+            small_displacement_rms_mm: 1e3 * small,
+            unloaded_tensions: nominal.unloaded.equilibrium.tensions(),
+            loaded_tensions: nominal.loaded.equilibrium.tensions(),
+        }
+    }
+}
+
+impl From<Fit> for FitSummary {
+    fn from(fit: Fit) -> Self {
+        let Fit { family, law, log_likelihood, aic, bic, ks_distance, p_value } = fit;
+        Self { law: family, parameters: law, log_likelihood, aic, bic, ks: ks_distance, p_value }
+    }
+}
+
+/// Analyses the observations of a sampling. The replicates behind the intervals of signed effects are run here; `tick` is
+/// called after each of their observations.
+///
+/// # Errors
+/// [`StudyError::Statistics`] where too few observations succeeded.
+pub fn analyse(
+    sampling: &Sampling,
+    observations: &Observations,
+    tick: &(dyn Fn() + Sync),
+) -> Result<SamplingSummary, StudyError> {
+    statistics(sampling, observations, tick)
+        .map_err(|source| StudyError::Statistics { study: format!("samplings.{}", sampling.name), source })
+}
+
+fn statistics(
+    sampling: &Sampling,
+    observations: &Observations,
+    tick: &(dyn Fn() + Sync),
+) -> Result<SamplingSummary, SensitivityError> {
+    let settings = &sampling.study.file;
+    let outputs = observations.rms_mm();
+    let sample = Sample::new(&outputs)?;
+    let summary = sample.summary();
+    let bootstrap = Bootstrap { resamples: settings.bootstrap_resamples, seed: settings.seed };
+    let fits = fit_all(&sample, bootstrap)?;
+    let best_fit = best(&fits).map_or(Family::Normal, |fit| fit.family);
+    let effects = student_effects(&sampling.design, &outputs)?;
+    let replicates: Vec<(SobolDesign, Vec<Option<f64>>)> = (1..=settings.replicates as u64)
+        .map(|k| {
+            let design = sampling.design.replicate(settings.seed.wrapping_add(k));
+            let outputs = observe_design(sampling, &design, tick).rms_mm();
+            (design, outputs)
+        })
+        .collect();
+    let signed_effects_mm = if replicates.is_empty() {
+        IndexMap::new()
+    } else {
+        effect_intervals(&replicates, settings.confidence)?
+            .into_iter()
+            .map(|e| (e.input, SignedEffect { effect: e.effect, low: e.low, high: e.high }))
+            .collect()
+    };
+    Ok(SamplingSummary {
+        title: sampling.title.to_owned(),
+        pose: sampling.pose.position.into(),
+        observations: sampling.design.points(),
+        failed: observations.failed(),
+        rms_mm: RmsSummary {
+            mean: summary.mean,
+            std: summary.std,
+            min: summary.min,
+            max: summary.max,
+            nominal: 1e3 * sampling.nominal.rms(),
+            q01: sample.quantile(0.01)?,
+            q25: sample.quantile(0.25)?,
+            median: sample.quantile(0.5)?,
+            q75: sample.quantile(0.75)?,
+            q99: sample.quantile(0.99)?,
+        },
+        nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
+        fits: fits.into_iter().map(FitSummary::from).collect(),
+        best_fit,
+        histogram: sample.histogram(cdpr_sensitivity::Bins::FreedmanDiaconis)?,
+        t_student: effects.effects.into_iter().map(|effect| (effect.input, effect.student)).collect(),
+        signed_effects_mm,
+        replicates: settings.replicates,
+        confidence: settings.confidence,
+    })
+}

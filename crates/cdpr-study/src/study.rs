@@ -1,0 +1,298 @@
+//! A study read from its file and checked, ready to run.
+
+use crate::error::StudyError;
+use crate::file::{AxisSpec, InputSpec, PoseSpec, STUDY_FORMAT, StudyFile};
+use cdpr_robot::{Parameter, Pose, Robot, Vector3, from_json};
+use cdpr_sensitivity::{Input, SobolDesign};
+use cdpr_statics::{Deflection, Load, deflection};
+use indexmap::IndexMap;
+use std::path::{Path, PathBuf};
+
+/// A study with its robot.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Where it was read from.
+    pub path: PathBuf,
+    /// What the file says.
+    pub file: StudyFile,
+    /// The nominal robot.
+    pub robot: Robot,
+}
+
+/// One sampling of a study, ready to run.
+#[derive(Clone, Debug)]
+pub struct Sampling<'a> {
+    /// Name in the study.
+    pub name: &'a str,
+    /// Title for tables and figures.
+    pub title: &'a str,
+    /// The nominal robot.
+    pub robot: &'a Robot,
+    /// Wanted pose.
+    pub pose: Pose,
+    /// The load whose effect is observed.
+    pub load: Load,
+    /// Uncertain inputs (deviations by parameter name) at points of Sobol's sequence.
+    pub design: SobolDesign,
+    /// Where each input of the design stands in [`Parameter::all`].
+    pub places: Vec<usize>,
+    /// The nominal robot's deflection.
+    pub nominal: Deflection,
+    /// The rest of the study's settings.
+    pub study: &'a Study,
+}
+
+/// One surface of a study, ready to run.
+#[derive(Clone, Debug)]
+pub struct Surface<'a> {
+    /// Name in the study.
+    pub name: &'a str,
+    /// Title for tables and figures.
+    pub title: &'a str,
+    /// The nominal robot.
+    pub robot: &'a Robot,
+    /// Wanted pose.
+    pub pose: Pose,
+    /// The load whose effect is observed.
+    pub load: Load,
+    /// First axis: place in [`Parameter::all`] and deviations.
+    pub x: (Parameter, usize, Vec<f64>),
+    /// Second axis.
+    pub y: (Parameter, usize, Vec<f64>),
+    /// The nominal robot's deflection.
+    pub nominal: Deflection,
+}
+
+impl Study {
+    /// Reads and checks a study file and its robot file. Every sampling and surface is prepared once, so that what is wrong
+    /// with the last one is said before the first one runs.
+    ///
+    /// # Errors
+    /// [`StudyError`] naming file, field, value and what would be right.
+    pub fn open(path: &Path) -> Result<Self, StudyError> {
+        Self::from_json(&read(path)?, path)
+    }
+
+    /// The same from text; `path` names the text in errors, and the robot file is looked for beside it.
+    ///
+    /// # Errors
+    /// As [`Study::open`].
+    pub fn from_json(text: &str, path: &Path) -> Result<Self, StudyError> {
+        let file: StudyFile =
+            from_json(text).map_err(|source| StudyError::Format { path: path.to_owned(), source })?;
+        let robot_path = path.parent().unwrap_or(Path::new(".")).join(&file.robot);
+        let robot = Robot::from_json(&read(&robot_path)?)
+            .map_err(|source| StudyError::Robot { path: robot_path, source })?;
+        let study = Self { path: path.to_owned(), file, robot };
+        study.validate()?;
+        Ok(study)
+    }
+
+    /// Gives every sampling this number of observations.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] for fewer than 2.
+    pub fn set_observations(&mut self, observations: usize) -> Result<(), StudyError> {
+        self.file.samplings.values_mut().for_each(|sampling| sampling.observations = observations);
+        self.validate()
+    }
+
+    fn validate(&self) -> Result<(), StudyError> {
+        let file = &self.file;
+        if file.format != STUDY_FORMAT {
+            return Err(self.invalid("format", &file.format, STUDY_FORMAT));
+        }
+        if !(file.payload.is_finite() && file.payload >= 0.0) {
+            return Err(self.invalid("payload", file.payload, "a finite mass, zero or more [kg]"));
+        }
+        if file.replicates == 1 {
+            return Err(self.invalid("replicates", 1, "none (0), or at least 2 for an interval"));
+        }
+        if !(file.confidence > 0.0 && file.confidence < 1.0) {
+            return Err(self.invalid("confidence", file.confidence, "a number between 0 and 1"));
+        }
+        if file.bootstrap_resamples == 0 {
+            return Err(self.invalid("bootstrap_resamples", 0, "at least 1"));
+        }
+        if file.samplings.is_empty() && file.surfaces.is_empty() {
+            return Err(self.invalid("samplings", "empty", "at least one sampling or surface"));
+        }
+        for name in file.samplings.keys().chain(file.surfaces.keys()) {
+            let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+            if name.is_empty() || !name.chars().all(plain) {
+                return Err(self.invalid(
+                    "samplings",
+                    name,
+                    "names of letters, digits, `_` and `-`: they name files",
+                ));
+            }
+        }
+        if let Some(name) = file.surfaces.keys().find(|name| file.samplings.contains_key(*name)) {
+            return Err(self.invalid(&format!("surfaces.{name}"), name, "a name that no sampling has"));
+        }
+        for name in file.samplings.keys() {
+            self.sampling(name)?;
+        }
+        for name in file.surfaces.keys() {
+            self.surface(name)?;
+        }
+        for (i, row) in file.comparison.iter().enumerate() {
+            if !file.samplings.contains_key(&row.study) && !file.surfaces.contains_key(&row.study) {
+                let field = format!("comparison[{i}].study");
+                return Err(self.invalid(&field, &row.study, "the name of a sampling or surface"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Prepares the sampling called `name`.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] for a name or setting that is none, [`StudyError::Nominal`] where the nominal robot cannot
+    /// hold the pose.
+    pub fn sampling(&self, name: &str) -> Result<Sampling<'_>, StudyError> {
+        let field = format!("samplings.{name}");
+        let Some((name, spec)) = self.file.samplings.get_key_value(name) else {
+            return Err(self.invalid(&field, "missing", &keys(&self.file.samplings)));
+        };
+        let Some(model) = self.file.error_models.get(&spec.error_model) else {
+            let expected = keys(&self.file.error_models);
+            return Err(self.invalid(&format!("{field}.error_model"), &spec.error_model, &expected));
+        };
+        let (inputs, places) = self.inputs(&spec.error_model, model)?;
+        if spec.observations < 2 {
+            return Err(self.invalid(&format!("{field}.observations"), spec.observations, "at least 2"));
+        }
+        let design = SobolDesign::new(inputs, spec.first_index, spec.observations)
+            .map_err(|source| StudyError::Statistics { study: name.clone(), source })?;
+        let pose = self.pose(&field, &spec.pose)?;
+        let load = Load::payload(self.file.payload);
+        let nominal = self.nominal(&field, &pose, &load)?;
+        Ok(Sampling {
+            name,
+            title: &spec.title,
+            robot: &self.robot,
+            pose,
+            load,
+            design,
+            places,
+            nominal,
+            study: self,
+        })
+    }
+
+    /// Prepares the surface called `name`.
+    ///
+    /// # Errors
+    /// As [`Study::sampling`].
+    pub fn surface(&self, name: &str) -> Result<Surface<'_>, StudyError> {
+        let field = format!("surfaces.{name}");
+        let Some((name, spec)) = self.file.surfaces.get_key_value(name) else {
+            return Err(self.invalid(&field, "missing", &keys(&self.file.surfaces)));
+        };
+        let pose = self.pose(&field, &spec.pose)?;
+        let load = Load::payload(self.file.payload);
+        let x = self.axis(&format!("{field}.x"), &spec.x)?;
+        let y = self.axis(&format!("{field}.y"), &spec.y)?;
+        let nominal = self.nominal(&field, &pose, &load)?;
+        Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal })
+    }
+
+    /// The inputs of an error model in the order of the parameter vector, with their places in it.
+    fn inputs(
+        &self,
+        name: &str,
+        model: &IndexMap<String, InputSpec>,
+    ) -> Result<(Vec<Input>, Vec<usize>), StudyError> {
+        let parameters = Parameter::all(self.robot.cables.len());
+        let names: Vec<String> = parameters.iter().map(ToString::to_string).collect();
+        for key in model.keys() {
+            if !names.contains(key) && !parameters.iter().any(|parameter| parameter.group() == key) {
+                let expected = "a parameter (mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...) \
+                                or a group of them (a, b, cog, dt)";
+                return Err(self.invalid(&format!("error_models.{name}"), key, expected));
+            }
+        }
+        let mut inputs = Vec::new();
+        let mut places = Vec::new();
+        for (place, (parameter, own)) in parameters.iter().zip(names).enumerate() {
+            if let Some(InputSpec { law, steps }) = model.get(&own).or_else(|| model.get(parameter.group())) {
+                let input = Input { name: own, law: *law, steps: *steps };
+                input.validate().map_err(|source| StudyError::Statistics {
+                    study: format!("error_models.{name}"),
+                    source,
+                })?;
+                inputs.push(input);
+                places.push(place);
+            }
+        }
+        if inputs.is_empty() {
+            return Err(self.invalid(
+                &format!("error_models.{name}"),
+                "empty",
+                "at least one uncertain parameter",
+            ));
+        }
+        Ok((inputs, places))
+    }
+
+    fn axis(&self, field: &str, spec: &AxisSpec) -> Result<(Parameter, usize, Vec<f64>), StudyError> {
+        let parameters = Parameter::all(self.robot.cables.len());
+        let known =
+            spec.parameter.parse().ok().and_then(|p| Some((p, parameters.iter().position(|q| *q == p)?)));
+        let Some((parameter, place)) = known else {
+            return Err(self.invalid(
+                &format!("{field}.parameter"),
+                &spec.parameter,
+                "a parameter of the robot",
+            ));
+        };
+        if !(spec.min.is_finite() && spec.max.is_finite() && spec.min < spec.max) {
+            let range = format!("{} to {}", spec.min, spec.max);
+            return Err(self.invalid(field, range, "finite deviations, min below max"));
+        }
+        if spec.points < 2 {
+            return Err(self.invalid(&format!("{field}.points"), spec.points, "at least 2"));
+        }
+        let step = (spec.max - spec.min) / (spec.points - 1) as f64;
+        Ok((parameter, place, (0..spec.points).map(|k| spec.min + step * k as f64).collect()))
+    }
+
+    fn pose(&self, field: &str, spec: &PoseSpec) -> Result<Pose, StudyError> {
+        Pose::with_quaternion(Vector3::from(spec.position), spec.quaternion).ok_or_else(|| {
+            let value = format!("{spec:?}");
+            self.invalid(
+                &format!("{field}.pose"),
+                value,
+                "a finite position [m] and a quaternion that is not zero",
+            )
+        })
+    }
+
+    fn nominal(&self, field: &str, pose: &Pose, load: &Load) -> Result<Deflection, StudyError> {
+        let no_offsets = vec![0.0; self.robot.cables.len()];
+        deflection(&self.robot, pose, &no_offsets, load).map_err(|source| StudyError::Nominal {
+            path: self.path.clone(),
+            field: format!("{field}.pose.position"),
+            value: format!("{:?}", pose.position.as_slice()),
+            source: Box::new(source),
+        })
+    }
+
+    fn invalid(&self, field: &str, value: impl ToString, expected: &str) -> StudyError {
+        StudyError::Invalid {
+            path: self.path.clone(),
+            field: field.to_owned(),
+            value: value.to_string(),
+            expected: expected.to_owned(),
+        }
+    }
+}
+
+fn keys<T>(map: &IndexMap<String, T>) -> String {
+    format!("one of {}", map.keys().cloned().collect::<Vec<_>>().join(", "))
+}
+
+fn read(path: &Path) -> Result<String, StudyError> {
+    std::fs::read_to_string(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })
+}

@@ -1,0 +1,92 @@
+//! Surfaces: the deflection over a grid of two parameters.
+
+use crate::observation::observe_one;
+use crate::study::Surface;
+use cdpr_robot::Parameter;
+use cdpr_statics::StaticsError;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// The deflection over a grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceResult {
+    /// Values of the first parameter (nominal value plus deviation), in its SI unit.
+    pub x: Vec<f64>,
+    /// Values of the second parameter.
+    pub y: Vec<f64>,
+    /// RMS [mm] at `x[i], y[j]`, in place `i * y.len() + j`; or why there is none.
+    pub rms_mm: Vec<Result<f64, StaticsError>>,
+}
+
+/// Results of one surface; serialised into `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SurfaceSummary {
+    /// Title.
+    pub title: String,
+    /// Position of the wanted pose [m].
+    pub pose: [f64; 3],
+    /// Points of the grid.
+    pub observations: usize,
+    /// Failed points by kind.
+    pub failed: BTreeMap<String, usize>,
+    /// Parameters of the two axes.
+    pub parameters: [String; 2],
+    /// Extremes of the RMS and its nominal value [mm].
+    pub rms_mm: SurfaceRms,
+}
+
+/// Extremes of the RMS over a surface [mm]; absent where no point succeeded.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct SurfaceRms {
+    pub min: Option<f64>,
+    pub max: Option<f64>,
+    pub nominal: f64,
+}
+
+/// Runs a surface in parallel; `tick` is called after each point.
+pub fn compute_surface(surface: &Surface, tick: &(dyn Fn() + Sync)) -> SurfaceResult {
+    let parameters = Parameter::all(surface.robot.cables.len()).len();
+    let (x, x_place, x_deviations) = &surface.x;
+    let (y, y_place, y_deviations) = &surface.y;
+    let columns = y_deviations.len();
+    let rms_mm = (0..x_deviations.len() * columns)
+        .into_par_iter()
+        .map(|k| {
+            let mut deviations = vec![0.0; parameters];
+            deviations[*x_place] += x_deviations[k / columns];
+            deviations[*y_place] += y_deviations[k % columns];
+            let outcome = observe_one(surface.robot, &surface.pose, &surface.load, &deviations);
+            tick();
+            outcome.map(|observation| observation.rms_mm())
+        })
+        .collect();
+    let values = |parameter: &Parameter, deviations: &[f64]| {
+        deviations.iter().map(|deviation| parameter.nominal(surface.robot) + deviation).collect()
+    };
+    SurfaceResult { x: values(x, x_deviations), y: values(y, y_deviations), rms_mm }
+}
+
+impl SurfaceSummary {
+    /// Summarises a surface.
+    pub fn new(surface: &Surface, result: &SurfaceResult) -> Self {
+        let succeeded = || result.rms_mm.iter().filter_map(|rms| rms.as_ref().ok().copied());
+        let mut failed = BTreeMap::new();
+        for error in result.rms_mm.iter().filter_map(|rms| rms.as_ref().err()) {
+            *failed.entry(error.kind().to_owned()).or_default() += 1;
+        }
+        Self {
+            title: surface.title.to_owned(),
+            pose: surface.pose.position.into(),
+            observations: result.rms_mm.len(),
+            failed,
+            parameters: [surface.x.0.to_string(), surface.y.0.to_string()],
+            rms_mm: SurfaceRms {
+                min: succeeded().reduce(f64::min),
+                max: succeeded().reduce(f64::max),
+                nominal: 1e3 * surface.nominal.rms(),
+            },
+        }
+    }
+}
