@@ -1,0 +1,83 @@
+//! Tasks of this repository: `cargo xtask TASK`. Spawns what it runs; links no numerics.
+
+#![allow(clippy::print_stderr)]
+
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+const HELP: &str = "\
+usage: cargo xtask TASK
+
+tasks:
+  caroca-study [--out DIR] [--observations N] [--threads N]
+                 the study of Baklouti, Caro, Courteille (CableCon 2017) beside its figures; DIR is target/caroca-study
+  bench [ARGS]   all criterion benchmarks
+  schemas        write the JSON Schemas of the file formats to docs/schemas
+  help           this text";
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let task = arguments.next();
+    let rest: Vec<String> = arguments.collect();
+    match task.as_deref() {
+        Some("caroca-study") => caroca_study(rest),
+        Some("bench") => cargo(&[&["bench", "--workspace"], strs(&rest).as_slice()].concat()),
+        Some("schemas") => schemas(),
+        Some("help") => {
+            eprintln!("{HELP}");
+            ExitCode::SUCCESS
+        }
+        Some(other) => {
+            eprintln!("error: no task is called `{other}`\n\n{HELP}");
+            ExitCode::FAILURE
+        }
+        None => {
+            eprintln!("{HELP}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn caroca_study(mut rest: Vec<String>) -> ExitCode {
+    // Paths that the user gives are relative to where the user is; the default lies in the repository.
+    if !rest.iter().any(|argument| argument == "--out" || argument.starts_with("--out=")) {
+        rest.extend(["--out".to_owned(), root().join("target/caroca-study").display().to_string()]);
+    }
+    let study = root().join("data/studies/caroca.json").display().to_string();
+    let run = ["run", "--release", "--quiet", "--package", "cdpr-cli", "--", "study", "run", &study];
+    eprintln!("building the program (a few minutes the first time), then running {study}");
+    cargo(&[&run, strs(&rest).as_slice()].concat())
+}
+
+fn schemas() -> ExitCode {
+    for (package, example) in [("cdpr-robot", "robot_schema"), ("cdpr-study", "study_schema")] {
+        let code = cargo(&["run", "--quiet", "--package", package, "--example", example]);
+        if code != ExitCode::SUCCESS {
+            return code;
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
+}
+
+fn strs(arguments: &[String]) -> Vec<&str> {
+    arguments.iter().map(String::as_str).collect()
+}
+
+fn cargo(arguments: &[&str]) -> ExitCode {
+    let manifest = root().join("Cargo.toml").display().to_string();
+    let (subcommand, rest) = arguments.split_at(1);
+    let mut command = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()));
+    command.args(subcommand).args(["--manifest-path", &manifest]).args(rest);
+    match command.status() {
+        Ok(status) if status.success() => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("error: cannot start {:?}: {error}", command.get_program());
+            ExitCode::FAILURE
+        }
+    }
+}
