@@ -7,7 +7,8 @@ use cdpr_study::{
     compute_surface, observe, write_figure, write_observations, write_summary, write_surface,
 };
 use comfy_table::{Table, presets};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -85,8 +86,13 @@ impl Run<'_> {
         let tick = || self.progress.inc(1);
         let sampling = study.sampling(name)?;
         let observations = observe(&sampling, &tick);
-        write_observations(&self.settings.out, &sampling, &observations)?;
-        let summary = analyse(&sampling, &observations, &tick)?;
+        // The table is written whether or not its statistics can be computed.
+        let (written, summary) = rayon::join(
+            || write_observations(&self.settings.out, &sampling, &observations),
+            || analyse(&sampling, &observations, &tick),
+        );
+        written?;
+        let summary = summary?;
         self.figure(name, cdpr_report::histogram(&summary))?;
         if !summary.signed_effects_mm.is_empty() {
             self.figure(&format!("{name}_effects"), cdpr_report::signed_effects(&summary, 20))?;
@@ -143,10 +149,14 @@ fn progress(study: &Study) -> ProgressBar {
     let file = &study.file;
     let samplings = file.samplings.values().map(|s| s.observations * (1 + file.replicates)).sum::<usize>();
     let surfaces = file.surfaces.values().map(|s| s.x.points * s.y.points).sum::<usize>();
-    let template = "{msg:24} {bar:30} {pos}/{len} observations, {per_sec}, {eta} left";
+    let template = "{msg:24} {bar:30} {pos}/{len} observations, {rate}, {eta} left";
+    let rate = |state: &ProgressState, out: &mut dyn Write| {
+        // Nothing to be done about a terminal that takes no text.
+        let _ = write!(out, "{:.0}/s", state.per_sec());
+    };
     let bar = ProgressBar::new((samplings + surfaces) as u64);
     match ProgressStyle::with_template(template) {
-        Ok(style) => bar.with_style(style),
+        Ok(style) => bar.with_style(style.with_key("rate", rate)),
         Err(_) => bar,
     }
 }

@@ -11,10 +11,12 @@ use std::str::FromStr;
 
 /// Coordinate axis of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[allow(missing_docs)]
 pub enum Axis {
+    /// First axis.
     X,
+    /// Second axis.
     Y,
+    /// Third axis; vertical in the base frame.
     Z,
 }
 

@@ -75,6 +75,15 @@ pub fn direct(
         Start::Pose(pose) => pose,
         Start::Near(equilibrium) => &equilibrium.pose,
     };
+    if let Start::Near(Equilibrium { cable_forces, .. }) = start
+        && cable_forces.len() != model.cables()
+    {
+        return Err(StaticsError::Invalid {
+            field: "start.cable_forces".to_owned(),
+            value: format!("a list of {}", cable_forces.len()),
+            expected: format!("one force for each of the {} cables", model.cables()),
+        });
+    }
     if !pose.is_finite() {
         return Err(StaticsError::Invalid {
             field: "start".to_owned(),
@@ -83,8 +92,8 @@ pub fn direct(
         });
     }
     let equilibrium = match start {
-        Start::Near(equilibrium) if equilibrium.cable_forces.len() == model.cables() => equilibrium.clone(),
-        _ => cables_at(&model, pose)?,
+        Start::Near(equilibrium) => equilibrium.clone(),
+        Start::Pose(pose) => cables_at(&model, pose)?,
     };
     if let Some(converged) = newton(&model, equilibrium) {
         return Ok(solution(&model, converged, Method::Newton));

@@ -53,14 +53,20 @@ impl fmt::Display for Verdict {
 
 /// One row of the comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[allow(missing_docs)]
 pub struct ComparisonRow {
+    /// Where it is published.
     pub figure: String,
+    /// What it is, in words.
     pub quantity: String,
+    /// Name of the sampling or surface it was computed from.
     pub study: String,
+    /// The published figure.
     pub paper: Value,
+    /// Ours.
     pub computed: Value,
+    /// Unit of both; empty for a word.
     pub unit: String,
+    /// Whether they agree.
     pub verdict: Verdict,
 }
 

@@ -33,9 +33,10 @@ pub struct Summary {
 /// Results of a sampling or a surface.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
-#[allow(missing_docs)]
 pub enum StudySummary {
+    /// Of a sampling.
     Sampling(Box<SamplingSummary>),
+    /// Of a surface.
     Surface(SurfaceSummary),
 }
 

@@ -47,11 +47,14 @@ pub struct SamplingSummary {
 
 /// Summary of the RMS of the static deflection [mm].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[allow(missing_docs)]
 pub struct RmsSummary {
+    /// Mean.
     pub mean: f64,
+    /// Standard deviation, with n - 1.
     pub std: f64,
+    /// Least value.
     pub min: f64,
+    /// Greatest value.
     pub max: f64,
     /// Of the nominal robot.
     pub nominal: f64,
@@ -59,6 +62,7 @@ pub struct RmsSummary {
     pub q01: f64,
     /// Lower quartile.
     pub q25: f64,
+    /// Median.
     pub median: f64,
     /// Upper quartile.
     pub q75: f64,
@@ -100,10 +104,12 @@ pub struct FitSummary {
 
 /// Signed effect of a parameter [mm] and its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[allow(missing_docs)]
 pub struct SignedEffect {
+    /// Mean over the replicates.
     pub effect: f64,
+    /// Lower end of the interval.
     pub low: f64,
+    /// Upper end of the interval.
     pub high: f64,
 }
 

@@ -38,10 +38,12 @@ pub struct SurfaceSummary {
 
 /// Extremes of the RMS over a surface [mm]; absent where no point succeeded.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[allow(missing_docs)]
 pub struct SurfaceRms {
+    /// Least value.
     pub min: Option<f64>,
+    /// Greatest value.
     pub max: Option<f64>,
+    /// Of the nominal robot.
     pub nominal: f64,
 }
 
