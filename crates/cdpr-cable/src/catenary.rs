@@ -141,8 +141,9 @@ impl Catenary {
         self.force.dot(&terms.end_position()) - terms.complementary_energy()
     }
 
-    /// A slack cable without weight carries nothing and resists nothing.
-    fn is_limp(&self) -> bool {
+    /// Whether this is a slack cable without weight: it carries nothing, resists nothing and has no shape, so that end
+    /// position and flexibility mean nothing.
+    pub fn is_limp(&self) -> bool {
         self.force == Vector2::zeros() && self.cable.weight_per_length == 0.0
     }
 

@@ -51,7 +51,10 @@ pub fn end_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Re
     )?;
     check_end(end)?;
     let at = |force| Catenary { cable: *cable, unstrained_length, force };
-    if cable.weight_per_length == 0.0 {
+    // So small a weight vanishes beside the stiffness, and its square below the smallest number.
+    if cable.weight_per_length * unstrained_length <= 1e-100 * cable.axial_stiffness {
+        let cable = &Cable { weight_per_length: 0.0, ..*cable };
+        let at = |force| Catenary { cable: *cable, unstrained_length, force };
         return Ok(Solution::of(at(spring_force(cable, unstrained_length, end)), end, 0));
     }
     // Closer to the vertical than this, the horizontal force is below rounding of the weight.

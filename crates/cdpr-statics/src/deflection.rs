@@ -57,6 +57,13 @@ pub fn deflection(
     load: &Load,
 ) -> Result<Deflection, StaticsError> {
     StaticsError::one_per_cable("tension_offsets", tension_offsets, robot.cables.len())?;
+    if let Some((i, offset)) = tension_offsets.iter().enumerate().find(|(_, offset)| !offset.is_finite()) {
+        return Err(StaticsError::Invalid {
+            field: format!("tension_offsets[{i}]"),
+            value: offset.to_string(),
+            expected: "a finite offset [N]".to_owned(),
+        });
+    }
     let wanted = inverse(robot, pose, &Load::none(), None)?;
     let set_points = offset(&wanted.tensions, tension_offsets, robot.tension_limits);
     let (lengths, start) = lengths_for_tensions(robot, pose, &set_points)?;

@@ -116,12 +116,15 @@ impl Residual {
         Self { closure, force: r.fixed_rows::<3>(0).norm(), moment: r.fixed_rows::<3>(3).norm() }
     }
 
-    /// Whether what is open is explained by the rounding of lengths and of forces: the closure by that of the robot's size,
-    /// the wrench by that of the tensions, and of lengths times the cables' stiffness.
+    /// Whether what is open is explained by rounding: the closure by that of lengths and coordinates, the wrench by that of
+    /// the tensions and the load.
     pub(crate) fn is_rounding(&self, model: &Model, equilibrium: &Equilibrium) -> bool {
         let tensions: f64 = equilibrium.cable_forces.iter().map(Vector2::norm).sum();
         let load = model.load.total(model.robot, &equilibrium.pose);
         let forces = tensions + load.force.norm() + load.moment.norm() / model.arm();
-        self.closure <= 1e-13 * model.size() && self.force + self.moment / model.arm() <= 1e-12 * forces
+        let far = |i: usize| equilibrium.pose.position.norm() + model.robot.cables[i].exit_point.norm();
+        let coordinates = (0..model.cables()).map(far).fold(0.0, f64::max);
+        self.closure <= 1e-13 * model.size() + 4.0 * f64::EPSILON * coordinates
+            && self.force + self.moment / model.arm() <= 1e-12 * forces
     }
 }

@@ -37,7 +37,13 @@ pub(crate) fn residual(model: &Model, equilibrium: &Equilibrium) -> DVector<f64>
         let f = span.lift(*cable_force);
         force += f;
         moment += model.robot.anchor_arm(pose, i).cross(&f);
-        let open = span.end - model.catenary(i, *cable_force).end_position();
+        let catenary = model.catenary(i, *cable_force);
+        let open = if catenary.is_limp() {
+            // A slack cable without weight has no shape; it is open by what it is too short.
+            span.end * (1.0 - model.lengths[i] / span.end.norm().max(model.lengths[i]))
+        } else {
+            span.end - catenary.end_position()
+        };
         residual.fixed_rows_mut::<2>(6 + 2 * i).copy_from(&open);
     }
     residual.fixed_rows_mut::<3>(0).copy_from(&force);
@@ -56,10 +62,16 @@ pub(crate) fn jacobian(model: &Model, equilibrium: &Equilibrium) -> DMatrix<f64>
     for (i, cable_force) in equilibrium.cable_forces.iter().enumerate() {
         let span = model.span(pose, i);
         let s = cross(&model.robot.anchor_arm(pose, i));
-        let compliance = model.catenary(i, *cable_force).compliance();
+        let place = 6 + 2 * i;
+        let catenary = model.catenary(i, *cable_force);
+        if catenary.is_limp() {
+            // Its force stays zero.
+            jacobian.fixed_view_mut::<2, 2>(place, place).fill_with_identity();
+            continue;
+        }
+        let compliance = catenary.compliance();
         let lateral = Vector3::new(-span.azimuth.y, span.azimuth.x, 0.0);
         let swing = lateral * lateral.transpose() * compliance.lateral_stiffness;
-        let place = 6 + 2 * i;
         let mut add = |row: usize, column: usize, block: Matrix3<f64>| {
             let mut view = jacobian.fixed_view_mut::<3, 3>(row, column);
             view += block;

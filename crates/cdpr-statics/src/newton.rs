@@ -91,7 +91,12 @@ impl Linearised {
         let mut cables = Vec::with_capacity(model.cables());
         for (i, force) in state.cable_forces.iter().enumerate() {
             let span = model.span(&state.pose, i);
-            let compliance = model.catenary(i, *force).compliance();
+            let catenary = model.catenary(i, *force);
+            if catenary.is_limp() {
+                cables.push((span, Vector2::zeros(), Matrix2::zeros()));
+                continue;
+            }
+            let compliance = catenary.compliance();
             let in_plane = compliance.in_plane_stiffness();
             let predicted = force + in_plane * (span.end - compliance.end);
             let s = model.robot.anchor_arm(&state.pose, i);

@@ -9,7 +9,7 @@ use crate::equations::{Factored, jacobian};
 use crate::error::StaticsError;
 use crate::model::{Equilibrium, Load, Model};
 use crate::newton::Balance;
-use cdpr_robot::{Matrix6xX, Robot, Vector6, Wrench};
+use cdpr_robot::{Matrix6xX, Robot, Vector2, Vector6, Wrench};
 use nalgebra::{DMatrix, Matrix6};
 
 /// The linearised model at an equilibrium.
@@ -17,7 +17,7 @@ pub struct Tangent {
     factored: Factored,
     stiffness: Matrix6<f64>,
     /// d(x, z)/dL of every cable at constant force [m/m].
-    end_per_length: Vec<cdpr_robot::Vector2<f64>>,
+    end_per_length: Vec<Vector2<f64>>,
 }
 
 impl Tangent {
@@ -39,7 +39,9 @@ impl Tangent {
             let catenary = model.catenary(i, *force);
             let s = robot.anchor_arm(&equilibrium.pose, i);
             balance.add_cable(&s, &span.lift(*force), &catenary.stiffness(span.azimuth));
-            end_per_length.push(catenary.compliance().end_per_length);
+            // Paying out a slack cable without weight moves nothing.
+            let limp = catenary.is_limp();
+            end_per_length.push(if limp { Vector2::zeros() } else { catenary.compliance().end_per_length });
         }
         Ok(Self {
             factored: Factored::new(&jacobian(&model, equilibrium)),
@@ -62,7 +64,9 @@ impl Tangent {
     }
 
     /// Cartesian stiffness matrix, 6 x 6, of (dp, dφ) in the base frame about P [N/m, N/rad, N, N m/rad]: the Hessian of the
-    /// potential, cables' sag and weight included. Symmetric; positive definite where the equilibrium is stable.
+    /// potential, cables' sag and weight included. Symmetric; positive definite where the equilibrium is stable. A moment of
+    /// constant components M has no potential: its unsymmetric part [M]/2, which depends on how rotations are counted, is
+    /// left out here and contained in [`Tangent::displacement`].
     pub fn stiffness(&self) -> &Matrix6<f64> {
         &self.stiffness
     }

@@ -93,7 +93,11 @@ pub(crate) fn minimise(model: &Model, start: &Pose) -> Result<Converged, Statics
         let motion = step.component_mul(&scale);
         let (dp, dphi): (Vector3<f64>, Vector3<f64>) =
             (motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
-        let next = Point::new(model, &now.equilibrium.pose.moved(dp, dphi))?;
+        let Ok(next) = Point::new(model, &now.equilibrium.pose.moved(dp, dphi)) else {
+            // A trial pose at which a cable has no answer is none.
+            radius = 0.25 * step.norm();
+            continue;
+        };
         let gain = now.potential - next.potential + model.load.wrench.moment.dot(&dphi);
         let noise = 1e-13 * (now.potential.abs() + next.potential.abs());
         // Where the gain drowns in rounding, the gradient decides.

@@ -4,7 +4,7 @@
 
 use cdpr_robot::{Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
-    Equilibrium, Load, Start, StaticsError, Tangent, deflection, deflections, direct, inverse,
+    Equilibrium, Load, Method, Start, StaticsError, Tangent, deflection, deflections, direct, inverse,
     lengths_for_tensions,
 };
 use proptest::prelude::*;
@@ -72,20 +72,21 @@ fn a_symmetric_platform_sinks_straight_down_and_opposite_cables_share_the_load()
 }
 
 #[test]
-fn the_stiffness_at_the_unloaded_pose_underestimates_what_sag_gives_up() {
+fn the_stiffness_at_the_unloaded_pose_predicts_more_than_the_deflection() {
     let robot = caroca();
-    for pose in [Pose::at(0.0, 0.0, 1.75), Pose::at(3.2, 1.7, 3.0)] {
+    // The load tightens the cables, which then sag less and give less.
+    for (pose, expected) in [(Pose::at(0.0, 0.0, 1.75), 1.33640), (Pose::at(3.2, 1.7, 3.0), 0.85916)] {
         let load = Load::payload(50.0);
         let exact = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
         let small = exact.small_displacement(&robot, &load).unwrap();
-        let error = (small - exact.displacement()).norm() / exact.rms();
         println!(
-            "{:?}: exact {:.5} mm, small-displacement {:.5} mm",
+            "{:?}: exact {:.5} mm, small {:.5} mm",
             pose.position,
             1e3 * exact.rms(),
             1e3 * small.norm()
         );
-        assert!(error > 1e-3 && error < 0.2, "{error}");
+        assert!(small.norm() > exact.rms());
+        assert!((1e3 * small.norm() - expected).abs() < 1e-5);
         // For a small load both agree.
         let gram = Load::payload(1e-3);
         let exact = deflection(&robot, &pose, &[0.0; 8], &gram).unwrap();
@@ -148,10 +149,69 @@ fn inputs_that_are_none_are_named() {
 }
 
 #[test]
-fn a_tension_below_what_the_span_demands_names_the_cable() {
-    let error = lengths_for_tensions(&caroca(), &Pose::at(3.2, 1.7, 3.0), &[1.0; 8]).unwrap_err();
-    assert_eq!(error.kind(), "tension_too_small");
-    assert!(error.to_string().starts_with("cable 1: a tension of 1 N"), "{error}");
+fn a_tension_below_what_the_span_demands_is_raised_to_it() {
+    let robot = caroca();
+    let pose = Pose::at(3.2, 1.7, 3.0);
+    let (lengths, equilibrium) = lengths_for_tensions(&robot, &pose, &[1.0; 8]).unwrap();
+    assert!(equilibrium.tensions()[0] > 4.0 && equilibrium.tensions()[0] < 6.0);
+    // There is no less: paying out more cable raises the tension again.
+    let mut longer = lengths;
+    longer[0] *= 1.05;
+    let span = robot.span(&pose, 0);
+    let end = cdpr_robot::Vector2::new(span.xy().norm(), span.z);
+    let more = cdpr_cable::end_force(&robot.cable(0), longer[0], end).unwrap().catenary;
+    assert!(more.anchor_tension() > equilibrium.tensions()[0]);
+}
+
+#[test]
+fn poses_are_held_with_cables_that_hang_as_loosely_as_their_weight_allows() {
+    let robot = caroca();
+    let mut at_bound = 0;
+    for i in 0..300 {
+        let share = |k: usize| (i * k % 300) as f64 / 300.0;
+        let pose = Pose::at(6.4 * share(1) - 3.2, 3.4 * share(7) - 1.7, 0.3 + 2.7 * share(53));
+        let wanted = match inverse(&robot, &pose, &Load::none(), None) {
+            Ok(wanted) => wanted,
+            Err(error) => {
+                assert_eq!(error.kind(), "infeasible_tension", "{error}");
+                continue;
+            }
+        };
+        at_bound += usize::from(wanted.active.iter().any(Option::is_some));
+        assert!(wanted.residual.force < 1e-7, "{:?}", wanted.residual);
+        let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+        assert!(pose.motion_to(&found.equilibrium.pose).norm() < 1e-8);
+    }
+    assert!(at_bound > 10, "{at_bound}");
+}
+
+#[test]
+fn a_slack_cable_without_weight_is_the_limit_of_a_light_one() {
+    let solve = |density: f64| {
+        let mut robot = caroca();
+        robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density = density);
+        let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
+        let mut lengths = wanted.lengths;
+        lengths[0] *= 1.05;
+        let found = direct(&robot, &lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+        assert!(found.report.slack.contains(&0));
+        let tangent = Tangent::at(&robot, &lengths, &Load::none(), &found).unwrap();
+        (found.equilibrium.pose, tangent.displacement(&moment(1.0, 0.0, 0.0)))
+    };
+    let (pose, turn) = solve(0.0);
+    for density in [1e-6, 1e-9, 1e-12] {
+        let (near, near_turn) = solve(density);
+        assert!(pose.motion_to(&near).norm() < 1e-7 + 10.0 * density, "{density}");
+        assert!((turn - near_turn).norm() < 1e-3 * turn.norm());
+    }
+}
+
+#[test]
+fn an_offset_that_is_no_number_is_named() {
+    let mut offsets = [0.0; 8];
+    offsets[2] = f64::NAN;
+    let error = deflection(&caroca(), &Pose::at(0.0, 0.0, 1.75), &offsets, &Load::payload(50.0)).unwrap_err();
+    assert_eq!(error.to_string(), "tension_offsets[2] is NaN: expected a finite offset [N]");
 }
 
 fn assert_same_pose(a: &Pose, b: &Pose, meters: f64, radians: f64) -> Result<(), TestCaseError> {
@@ -167,13 +227,15 @@ proptest! {
     #[test]
     fn the_direct_model_is_the_inverse_of_the_inverse_model(
         x in -0.8..0.8f64, y in -0.8..0.8f64, z in 0.1..0.8f64, turn in prop::array::uniform3(-0.1..0.1f64),
-        away in prop::array::uniform6(-0.1..0.1f64), payload in 0.0..50.0f64, which in any::<bool>(),
+        away in prop::array::uniform6(-0.02..0.02f64), payload in 0.0..50.0f64, which in any::<bool>(),
     ) {
         let robot = if which { caroca() } else { cogiro() };
         let top = robot.cables[0].exit_point;
         let pose = Pose::at(x * top.x, y * top.y, z * top.z).moved(Vector3::zeros(), turn.into());
         let load = Load::payload(payload);
-        let Ok(wanted) = inverse(&robot, &pose, &load, None) else { return Ok(()) };
+        let wanted = inverse(&robot, &pose, &load, None);
+        prop_assume!(wanted.is_ok());
+        let wanted = wanted.unwrap();
         let forces = wanted.tensions.iter().sum::<f64>();
         prop_assert!(wanted.residual.force < 1e-11 * forces, "{:?}", wanted.residual);
         prop_assert!(wanted.residual.closure < 1e-13 * top.norm(), "{:?}", wanted.residual);
@@ -181,7 +243,7 @@ proptest! {
             Vector3::new(away[0], away[1], away[2]), Vector3::new(away[3], away[4], away[5]));
         for start in [Start::Near(&wanted.equilibrium), Start::Pose(&start)] {
             let found = direct(&robot, &wanted.lengths, &load, start).unwrap();
-            // One equilibrium among several may lie nearer to a start 0.1 m away, but not to the pose itself.
+            // A slack cable lets several equilibria exist side by side.
             if matches!(start, Start::Near(_)) || found.report.slack.is_empty() {
                 assert_same_pose(&found.equilibrium.pose, &pose, 1e-9, 1e-9)?;
             }
@@ -204,6 +266,25 @@ proptest! {
         // Stable: the stiffness is positive definite.
         let tangent = Tangent::at(&robot, &lengths, &Load::none(), &found).unwrap();
         prop_assert!(tangent.stiffness().symmetric_eigenvalues().min() > 0.0);
+    }
+
+    #[test]
+    fn inverse_and_direct_model_agree_for_6_to_16_cables(
+        n in 6..=16usize, jitter in prop::collection::vec(-0.5..0.5f64, 48), mass in 5.0..500.0f64,
+        x in -0.5..0.5f64, y in -0.5..0.5f64, turn in -0.05..0.05f64,
+    ) {
+        let robot = drum(n, &jitter, mass);
+        let pose = Pose::at(x, y, 1.5).moved(Vector3::zeros(), Vector3::new(0.0, 0.0, turn));
+        match inverse(&robot, &pose, &Load::none(), None) {
+            Ok(wanted) => {
+                let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+                // A pose of six cables may be an unstable equilibrium: then another one is found, and said so.
+                if found.report.method == Method::Newton {
+                    assert_same_pose(&found.equilibrium.pose, &pose, 1e-8, 1e-8)?;
+                }
+            }
+            Err(error) => prop_assert_eq!(error.kind(), "infeasible_tension"),
+        }
     }
 
     #[test]
@@ -247,7 +328,9 @@ proptest! {
     ) {
         let robot = caroca();
         let load = Load::payload(payload);
-        let Ok(wanted) = inverse(&robot, &Pose::at(x, y, z), &load, None) else { return Ok(()) };
+        let wanted = inverse(&robot, &Pose::at(x, y, z), &load, None);
+        prop_assume!(wanted.is_ok());
+        let wanted = wanted.unwrap();
         let solve = |lengths: &[f64], load: &Load| {
             direct(&robot, lengths, load, Start::Near(&wanted.equilibrium)).unwrap().equilibrium.pose
         };

@@ -16,7 +16,7 @@ fn tension(criterion: &mut Criterion) {
     for (name, min, method) in
         [("closed form", 1.0, Method::ClosedForm), ("clarabel", 450.0, Method::ActiveSet)]
     {
-        let limits = TensionLimits { min, max: 10290.0 };
+        let limits = &[TensionLimits { min, max: 10290.0 }; 8];
         let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &[0.0; 8], limits };
         let solution = distribute(&problem).unwrap();
         assert_eq!(solution.method, method);

@@ -12,7 +12,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let wrench_matrix = robot.wrench_matrix(&pose, &pulls);
     let wrench = robot.weight(&pose, 0.0).to_vector();
     for min in [1.0, 200.0, 400.0, 600.0, 800.0] {
-        let limits = TensionLimits { min, max: 10290.0 };
+        let limits = &[TensionLimits { min, max: 10290.0 }; 8];
         match distribute(&Problem { wrench_matrix: &wrench_matrix, wrench, reference: &[0.0; 8], limits }) {
             Ok(solution) => println!("at least {min} N, {:?}: {:.1?}", solution.method, solution.tensions),
             Err(error) => println!("at least {min} N: {error}"),

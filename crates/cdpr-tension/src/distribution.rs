@@ -13,8 +13,8 @@ pub struct Problem<'a> {
     pub wrench: Vector6<f64>,
     /// Reference tensions t_ref, n of them [N]; zeros for the least-norm distribution.
     pub reference: &'a [f64],
-    /// Bounds of every tension [N].
-    pub limits: TensionLimits,
+    /// Bounds of each tension, n of them [N].
+    pub limits: &'a [TensionLimits],
 }
 
 /// A bound that a tension rests on.
@@ -33,7 +33,7 @@ pub enum Method {
     ClosedForm,
     /// Clarabel's active bounds, digits from the optimality conditions.
     ActiveSet,
-    /// Clarabel's own solution, to its tolerance of about 1e-8.
+    /// Clarabel's own solution, to its tolerances: the optimality conditions with its active bounds are singular.
     InteriorPoint,
 }
 
@@ -59,9 +59,9 @@ pub enum TensionError {
          change the pose, the load or the limits"
     )]
     Infeasible {
-        /// Least tension allowed [N].
+        /// Least tension allowed in any cable [N].
         min: f64,
-        /// Greatest tension allowed [N].
+        /// Greatest tension allowed in any cable [N].
         max: f64,
         /// Norm of the open force in the best attempt [N].
         force: f64,
@@ -89,7 +89,7 @@ pub enum TensionError {
 }
 
 /// Relative size of rounding in the tensions that is not taken for a crossed bound.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING: f64 = 1e-11;
 
 /// Solves problem (1).
 ///
@@ -99,14 +99,14 @@ pub fn distribute(problem: &Problem) -> Result<Distribution, TensionError> {
     problem.validate()?;
     let n = problem.reference.len();
     if let Some(tensions) = closed_form(problem)
-        && tensions.iter().all(|t| problem.limits.min <= *t && *t <= problem.limits.max)
+        && tensions.iter().zip(problem.limits).all(|(t, limits)| limits.min <= *t && *t <= limits.max)
     {
         return Ok(problem.distribution(tensions.as_slice().to_vec(), vec![None; n], Method::ClosedForm));
     }
     match solve(problem)? {
         Outcome::Infeasible => Err(problem.infeasible()?),
-        Outcome::Solved { tensions, active } => Ok(match polish(problem, &active) {
-            Some(tensions) => problem.distribution(tensions, active, Method::ActiveSet),
+        Outcome::Solved { tensions, active } => Ok(match polish(problem, active.clone()) {
+            Some((tensions, active)) => problem.distribution(tensions, active, Method::ActiveSet),
             None => problem.distribution(tensions, active, Method::InteriorPoint),
         }),
     }
@@ -135,25 +135,56 @@ pub fn offset(tensions: &[f64], offsets: &[f64], limits: TensionLimits) -> Vec<f
     tensions.iter().zip(offsets).map(|(t, dt)| (t + dt).max(limits.min)).collect()
 }
 
-/// With the given bounds active, the optimum solves `t_F = t_ref - W_Fᵀ λ`, `W t + w = 0` over the free cables F.
-/// `None` where the active set is not the optimal one or leaves too few cables.
-fn polish(problem: &Problem, active: &[Option<Bound>]) -> Option<Vec<f64>> {
+/// Tensions, and the bound each rests on.
+type Polished = (Vec<f64>, Vec<Option<Bound>>);
+
+/// The optimum to rounding from a guess of the active bounds: solve with those bounds, take in the bound that is crossed
+/// most or let go the one whose multiplier has the wrong sign most, until neither is left. `None` where that does not end or
+/// leaves fewer than six cables free.
+fn polish(problem: &Problem, mut active: Vec<Option<Bound>>) -> Option<Polished> {
+    for _ in 0..4 * active.len() {
+        let (tensions, slopes) = with_active(problem, &active)?;
+        let size = tensions.iter().fold(1.0, |size: f64, t| size.max(t.abs()));
+        let wrong = |i: usize| {
+            let TensionLimits { min, max } = problem.limits[i];
+            // At a bound the objective must grow into the interior.
+            match active[i] {
+                None if min - tensions[i] > tensions[i] - max => (min - tensions[i], Some(Bound::Min)),
+                None => (tensions[i] - max, Some(Bound::Max)),
+                Some(Bound::Min) => (-slopes[i], None),
+                Some(Bound::Max) => (slopes[i], None),
+            }
+        };
+        let worst = (0..active.len()).map(|i| (i, wrong(i))).max_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
+        let (i, (violation, bound)) = worst;
+        if violation <= ROUNDING * size {
+            let clamped =
+                tensions.iter().zip(problem.limits).map(|(t, limits)| t.clamp(limits.min, limits.max));
+            return Some((clamped.collect(), active));
+        }
+        active[i] = bound;
+    }
+    None
+}
+
+/// With the given bounds active, the optimum solves `t_F = t_ref - W_Fᵀ λ`, `W t + w = 0` over the free cables F. Returns the
+/// tensions and the slope `t_i - t_ref,i + w_iᵀ λ` of the objective with respect to each.
+fn with_active(problem: &Problem, active: &[Option<Bound>]) -> Option<(Vec<f64>, Vec<f64>)> {
     let w = problem.wrench_matrix;
-    let TensionLimits { min, max } = problem.limits;
     let mut tensions: Vec<f64> = active
         .iter()
-        .map(|bound| match bound {
-            Some(Bound::Min) => min,
-            Some(Bound::Max) => max,
+        .zip(problem.limits)
+        .map(|(bound, limits)| match bound {
+            Some(Bound::Min) => limits.min,
+            Some(Bound::Max) => limits.max,
             None => 0.0,
         })
         .collect();
     let free: Vec<usize> = (0..active.len()).filter(|i| active[*i].is_none()).collect();
-    let (k, n) = (free.len(), active.len());
-    if k < 6 || k == n {
+    let k = free.len();
+    if k < 6 {
         return None;
     }
-    // One system in (t_F, λ), by least squares: a bound may be active where the multiplier is zero.
     let free_matrix = DMatrix::from_fn(6, k, |row, column| w[(row, free[column])]);
     let mut kkt = DMatrix::zeros(k + 6, k + 6);
     kkt.view_mut((0, 0), (k, k)).fill_with_identity();
@@ -167,18 +198,8 @@ fn polish(problem: &Problem, active: &[Option<Bound>]) -> Option<Vec<f64>> {
     }
     let multipliers = Vector6::from_fn(|row, _| solution[k + row]);
     let slopes = w.transpose() * multipliers;
-    let size = tensions.iter().fold(1.0, |size: f64, t| size.max(t.abs()));
-    let feasible = tensions.iter().all(|t| min - ROUNDING * size <= *t && *t <= max + ROUNDING * size);
-    // At a bound the objective must grow into the interior: t - t_ref + Wᵀλ is >= 0 at the least, <= 0 at the greatest tension.
-    let optimal = active.iter().enumerate().all(|(i, bound)| {
-        let slope = tensions[i] - problem.reference[i] + slopes[i];
-        match bound {
-            Some(Bound::Min) => slope >= -1e-9 * size,
-            Some(Bound::Max) => slope <= 1e-9 * size,
-            None => true,
-        }
-    });
-    (feasible && optimal).then(|| tensions.iter().map(|t| t.clamp(min, max)).collect())
+    let slopes = (0..active.len()).map(|i| tensions[i] - problem.reference[i] + slopes[i]).collect();
+    Some((tensions, slopes))
 }
 
 impl Problem<'_> {
@@ -191,7 +212,13 @@ impl Problem<'_> {
                 expected: "one reference tension for each column of the wrench matrix",
             });
         }
-        let TensionLimits { min, max } = self.limits;
+        if self.limits.len() != n {
+            return Err(TensionError::Invalid {
+                field: "limits",
+                value: format!("of {} cables", self.limits.len()),
+                expected: "limits for each column of the wrench matrix",
+            });
+        }
         let finite =
             |field, mut values: Box<dyn Iterator<Item = &f64> + '_>| match values.find(|v| !v.is_finite()) {
                 Some(value) => {
@@ -202,11 +229,16 @@ impl Problem<'_> {
         finite("wrench_matrix", Box::new(self.wrench_matrix.iter()))?;
         finite("wrench", Box::new(self.wrench.iter()))?;
         finite("reference", Box::new(self.reference.iter()))?;
-        if min.is_finite() && max.is_finite() && min <= max {
-            Ok(())
-        } else {
-            let value = format!("{min} N to {max} N");
-            Err(TensionError::Invalid { field: "limits", value, expected: "finite limits, the least first" })
+        match self.limits.iter().find(|l| !(l.min.is_finite() && l.max.is_finite() && l.min <= l.max)) {
+            None => Ok(()),
+            Some(TensionLimits { min, max }) => {
+                let value = format!("{min} N to {max} N");
+                Err(TensionError::Invalid {
+                    field: "limits",
+                    value,
+                    expected: "finite limits, the least first",
+                })
+            }
         }
     }
 
@@ -223,8 +255,8 @@ impl Problem<'_> {
         let tensions = least_residual(self)?;
         let open = self.open_wrench(&tensions);
         Ok(TensionError::Infeasible {
-            min: self.limits.min,
-            max: self.limits.max,
+            min: self.limits.iter().map(|limits| limits.min).fold(f64::INFINITY, f64::min),
+            max: self.limits.iter().map(|limits| limits.max).fold(0.0, f64::max),
             force: open.fixed_rows::<3>(0).norm(),
             moment: open.fixed_rows::<3>(3).norm(),
             tensions,

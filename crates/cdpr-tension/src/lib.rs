@@ -28,7 +28,7 @@
 //!     wrench_matrix: &robot.wrench_matrix(&pose, &pulls),
 //!     wrench: robot.weight(&pose, 0.0).to_vector(),
 //!     reference: &[0.0; 8],
-//!     limits: robot.tension_limits,
+//!     limits: &[robot.tension_limits; 8],
 //! })?;
 //! assert!(solution.tensions.iter().all(|t| (500.0..700.0).contains(t)));
 //! # Ok::<(), Box<dyn std::error::Error>>(())

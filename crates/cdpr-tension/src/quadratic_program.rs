@@ -85,8 +85,8 @@ pub(crate) fn least_residual(problem: &Problem) -> Result<Vec<f64>, TensionError
     solver.solve();
     match solver.solution.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {
-            let limits = problem.limits;
-            Ok(solver.solution.x[..n].iter().map(|t| (t * size).clamp(limits.min, limits.max)).collect())
+            let tensions = solver.solution.x[..n].iter().zip(problem.limits);
+            Ok(tensions.map(|(t, limits)| (t * size).clamp(limits.min, limits.max)).collect())
         }
         status => Err(TensionError::Solver { status: status.to_string() }),
     }
@@ -100,8 +100,8 @@ fn bound_rows(n: usize, columns: usize) -> impl Iterator<Item = Vec<f64>> {
 }
 
 fn bounds(problem: &Problem, size: f64) -> impl Iterator<Item = f64> {
-    let (n, limits) = (problem.reference.len(), problem.limits);
-    (0..2 * n).map(move |i| if i < n { limits.max / size } else { -limits.min / size })
+    let upper = problem.limits.iter().map(move |limits| limits.max / size);
+    upper.chain(problem.limits.iter().map(move |limits| -limits.min / size))
 }
 
 impl Problem<'_> {
@@ -109,7 +109,7 @@ impl Problem<'_> {
     fn scale(&self) -> f64 {
         let force = self.wrench.fixed_rows::<3>(0).norm();
         let reference = self.reference.iter().fold(0.0, |size: f64, t| size.max(t.abs()));
-        force.max(reference).max(self.limits.min.abs()).max(f64::MIN_POSITIVE)
+        force.max(reference).max(f64::MIN_POSITIVE)
     }
 }
 
@@ -145,10 +145,10 @@ mod tests {
                 wrench_matrix: &robot.wrench_matrix(&pose, &pulls),
                 wrench: robot.weight(&pose, 0.0).to_vector(),
                 reference: &[reference; 8],
-                limits: robot.tension_limits,
+                limits: &[robot.tension_limits; 8],
             };
             let closed = closed_form(&problem).unwrap();
-            prop_assume!(closed.min() > problem.limits.min && closed.max() < problem.limits.max);
+            prop_assume!(closed.min() > robot.tension_limits.min && closed.max() < robot.tension_limits.max);
             let Outcome::Solved { tensions, active } = solve(&problem).unwrap() else { panic!("infeasible") };
             prop_assert!(active.iter().all(Option::is_none));
             // Clarabel stops at 1e-8, relative to the problem's scale.
