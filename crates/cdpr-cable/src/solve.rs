@@ -32,7 +32,7 @@ impl Solution {
 
 const MAX_ITERATIONS: usize = 200;
 
-/// A step below this, relative to the force, is followed by one below rounding: Newton's method squares it.
+/// A step below this, relative to the force at either end, is followed by one below rounding: Newton's method squares it.
 const LAST_STEP: f64 = 1e-8;
 
 /// The force on a cable of unstrained length `unstrained_length` [m] whose end A lies at `end = (x, z)` [m], `x >= 0`.
@@ -115,8 +115,10 @@ fn newton(start: Catenary, end: Vector2<f64>) -> Result<Solution, CableError> {
         };
         let moved = next.force - now.force;
         let at_rounding = next_open.x.abs() <= rounding.x && next_open.y.abs() <= rounding.y;
-        let last = moved.x.abs() <= LAST_STEP * next.force.x
-            && moved.y.abs() <= LAST_STEP * (next.anchor_tension() + next.exit_tension());
+        // A full step so small: the next one is below rounding.
+        let last = fraction == 1.0
+            && moved.x.abs() <= LAST_STEP * next.force.x
+            && moved.y.abs() <= LAST_STEP * next.anchor_tension().min(next.exit_tension());
         (now, compliance, open) = (next, next_compliance, next_open);
         if last || at_rounding {
             return accept(now, end, iteration);

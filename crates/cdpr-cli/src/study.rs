@@ -4,7 +4,7 @@
 use cdpr_report::{Points, ReportError};
 use cdpr_study::{
     IndexMap, Study, StudyError, StudySummary, Summary, SurfaceSummary, analyse, check_folder, compare,
-    compute_surface, observe, write_figure, write_observations, write_summary, write_surface,
+    compute_surface, observe, remove_summary, write_figure, write_observations, write_summary, write_surface,
 };
 use comfy_table::{Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -24,8 +24,6 @@ pub(crate) struct Settings {
 pub(crate) enum RunError {
     #[error(transparent)]
     Study(#[from] StudyError),
-    #[error("figure {name}: {source}")]
-    Figure { name: String, source: ReportError },
     #[error("cannot start {threads} threads: {source}")]
     Threads { threads: u16, source: rayon::ThreadPoolBuildError },
 }
@@ -41,6 +39,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
         study.set_observations(observations)?;
     }
     check_folder(&settings.out)?;
+    remove_summary(&settings.out)?;
     let mut run = Run { settings, progress: progress(&study), studies: IndexMap::new(), timings: Vec::new() };
     for name in study.file.samplings.keys() {
         run.sampling(&study, name)?;
@@ -92,7 +91,6 @@ impl Run<'_> {
             || analyse(&sampling, &observations, &tick),
         );
         written?;
-        let summary = summary?;
         self.figure(name, cdpr_report::histogram(&summary))?;
         if !summary.signed_effects_mm.is_empty() {
             self.figure(&format!("{name}_effects"), cdpr_report::signed_effects(&summary, 20))?;
@@ -137,9 +135,12 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// Writes a figure, or notes why there is none: results that cannot be drawn are results nevertheless.
     fn figure(&self, name: &str, svg: Result<String, ReportError>) -> Result<(), RunError> {
-        let svg = svg.map_err(|source| RunError::Figure { name: name.to_owned(), source })?;
-        write_figure(&self.settings.out, name, &svg)?;
+        match svg {
+            Ok(svg) => write_figure(&self.settings.out, name, &svg).map(|_| ())?,
+            Err(error) => self.progress.suspend(|| eprintln!("note: no figure {name}: {error}")),
+        }
         Ok(())
     }
 }
@@ -173,11 +174,12 @@ fn print_results(summary: &Summary) {
     for (name, study) in &summary.studies {
         rows.add_row(match study {
             StudySummary::Sampling(s) => {
-                let best = s.fits.iter().find(|fit| fit.law == s.best_fit);
+                let best = s.fits.iter().find(|fit| Some(fit.law) == s.best_fit);
                 let best = best.map(|fit| format!("{}, p = {:.3}", fit.law, fit.p_value));
-                let rms = [s.rms_mm.nominal, s.rms_mm.mean, s.rms_mm.std, s.rms_mm.min, s.rms_mm.max];
+                let rms = s.rms_mm.as_ref();
+                let rms = rms.map_or([None; 5], |r| [r.nominal, r.mean, r.std, r.min, r.max].map(Some));
                 let counts = [s.observations, s.failed.values().sum()].map(|count| count.to_string());
-                row(name, counts, rms.map(Some), best.unwrap_or_default())
+                row(name, counts, rms, best.unwrap_or_default())
             }
             StudySummary::Surface(s) => {
                 let rms = [Some(s.rms_mm.nominal), None, None, s.rms_mm.min, s.rms_mm.max];
@@ -192,6 +194,11 @@ fn print_results(summary: &Summary) {
             StudySummary::Sampling(s) => &s.failed,
             StudySummary::Surface(s) => &s.failed,
         };
+        if let StudySummary::Sampling(s) = study {
+            for note in &s.notes {
+                println!("{name}: {note}");
+            }
+        }
         for (kind, count) in failed.iter().filter(|(_, count)| **count > 0) {
             println!("{name}: {count} failed: {kind}");
         }

@@ -89,7 +89,7 @@ fn a_study_writes_tables_figures_and_a_summary() {
     let mut lines = table.lines();
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();
     assert_eq!(header.len(), 1 + 62 + 4 + 2);
-    assert_eq!((header[1], header[62], header[66], header[67]), ("mass", "dt8", "rms_mm", "status"));
+    assert_eq!((header[1], header[62], header[66], header[67]), ("d_mass", "d_dt8", "rms_mm", "status"));
     assert_eq!(lines.count(), 64);
     assert_eq!(std::fs::read_to_string(bench.path("out/surface_E_rho.csv")).unwrap().lines().count(), 1 + 20);
     for figure in
@@ -173,7 +173,7 @@ fn bad_studies_are_refused_with_file_field_value_and_remedy() {
     );
     refused(
         |_, s| s["error_models"]["table_3"]["mass"]["law"] = json!({"uniform": {"min": 1.0, "max": -1.0}}),
-        &["error_models.table_3", "mass", "max"],
+        &[file, "error_models.table_3", "mass", "max"],
     );
     refused(
         |_, s| s["surfaces"]["surface_E_rho"]["x"]["points"] = json!(1),
@@ -193,7 +193,7 @@ fn bad_studies_are_refused_with_file_field_value_and_remedy() {
 #[test]
 fn bad_arguments_are_refused() {
     let bench = Bench::new();
-    assert!(bench.refusal(&["--observations", "1"]).contains("observations is 1: expected at least 2"));
+    assert!(bench.refusal(&["--observations", "1"]).contains("observations is 1: expected at least 3"));
     assert!(bench.refusal(&["--observations", "many"]).contains("invalid value 'many' for '--observations"));
     assert!(bench.refusal(&["--threads", "0"]).contains("0 is not in 1"));
 }

@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut summaries = Vec::new();
     for name in study.file.samplings.keys() {
         let sampling = study.sampling(name)?;
-        let summary = analyse(&sampling, &observe(&sampling, &|| ()), &|| ())?;
+        let summary = analyse(&sampling, &observe(&sampling, &|| ()), &|| ());
         write(name, &histogram(&summary)?)?;
         write(&format!("{name}_effects"), &signed_effects(&summary, 20)?)?;
         summaries.push((name.as_str(), summary));

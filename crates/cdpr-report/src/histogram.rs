@@ -25,13 +25,14 @@ const POINTS: usize = 600;
 /// [`ReportError::Empty`] without counts, [`ReportError::Invalid`] for bins without width, not one edge more than bins, or a
 /// value that is not finite.
 pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
-    let bars = densities(&summary.histogram)?;
-    let rms = &summary.rms_mm;
+    let empty = ReportError::Empty { what: "histogram" };
+    let (Some(histogram), Some(rms)) = (&summary.histogram, &summary.rms_mm) else { return Err(empty) };
+    let bars = densities(histogram)?;
     let nominal = ReportError::finite("rms_mm.nominal", rms.nominal)?;
     let mut fits: Vec<&FitSummary> = summary.fits.iter().collect();
     // The preferred law first, then by AIC.
     fits.sort_by(|one, other| {
-        let place = |fit: &FitSummary| (fit.law != summary.best_fit, fit.aic);
+        let place = |fit: &FitSummary| (Some(fit.law) != summary.best_fit, fit.aic);
         place(one).partial_cmp(&place(other)).unwrap_or(std::cmp::Ordering::Equal)
     });
     fits.truncate(LAWS.len());

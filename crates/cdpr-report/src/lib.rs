@@ -17,7 +17,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let study = Study::open("data/studies/caroca.json".as_ref())?;
 //! let sampling = study.sampling("mechanical")?;
-//! let summary = analyse(&sampling, &observe(&sampling, &|| ()), &|| ())?;
+//! let summary = analyse(&sampling, &observe(&sampling, &|| ()), &|| ());
 //! write_figure("results".as_ref(), "mechanical", &cdpr_report::histogram(&summary)?)?;
 //! # Ok(())
 //! # }

@@ -39,10 +39,10 @@ fn sampling() -> SamplingSummary {
         pose: [0.0, 0.0, 1.75],
         observations: 101,
         failed: [("infeasible_tension".to_owned(), 1)].into(),
-        rms_mm: rms,
+        rms_mm: Some(rms),
         nominal: NominalSummary {
             displacement_mm: [0.0, 0.0, -1.33],
-            small_displacement_rms_mm: 1.3,
+            small_displacement_rms_mm: Some(1.3),
             unloaded_tensions: vec![574.0; 8],
             loaded_tensions: vec![730.0; 8],
         },
@@ -50,8 +50,12 @@ fn sampling() -> SamplingSummary {
             fit(Family::Uniform, Law::Uniform { min: 1.1, max: 1.6 }, 10.0),
             fit(Family::Normal, Law::Normal { mean: 1.35, std: 0.1375 }, 25.0),
         ],
-        best_fit: Family::Uniform,
-        histogram: Histogram { edges: vec![1.1, 1.2, 1.3, 1.4, 1.5, 1.6], counts: vec![20, 22, 0, 38, 20] },
+        best_fit: Some(Family::Uniform),
+        histogram: Some(Histogram {
+            edges: vec![1.1, 1.2, 1.3, 1.4, 1.5, 1.6],
+            counts: vec![20, 22, 0, 38, 20],
+        }),
+        notes: Vec::new(),
         t_student: t_student.chain([("mass".to_owned(), 3.0)]).collect(),
         signed_effects_mm: [
             ("mass".to_owned(), effect(-0.02, 0.004)),
@@ -197,7 +201,7 @@ fn signed_effects_are_sorted_by_size_and_cut_off() {
 #[test]
 fn without_data_there_is_no_figure() {
     let mut empty = sampling();
-    empty.histogram.counts = vec![0; 5];
+    empty.histogram.as_mut().unwrap().counts = vec![0; 5];
     empty.signed_effects_mm.clear();
     assert!(matches!(histogram(&empty), Err(ReportError::Empty { .. })));
     assert!(matches!(signed_effects(&empty, 20), Err(ReportError::Empty { .. })));
@@ -218,9 +222,12 @@ fn what_has_no_place_on_an_axis_is_refused() {
         change(&mut summary);
         summary
     };
-    assert!(invalid(histogram(&change(|s| s.rms_mm.nominal = f64::NAN))));
-    assert!(invalid(histogram(&change(|s| s.histogram.edges[2] = s.histogram.edges[1]))));
-    assert!(invalid(histogram(&change(|s| s.histogram.edges.truncate(5)))));
+    assert!(invalid(histogram(&change(|s| s.rms_mm.as_mut().unwrap().nominal = f64::NAN))));
+    assert!(invalid(histogram(&change(|s| {
+        let edges = &mut s.histogram.as_mut().unwrap().edges;
+        edges[2] = edges[1];
+    }))));
+    assert!(invalid(histogram(&change(|s| s.histogram.as_mut().unwrap().edges.truncate(5)))));
     let nan = change(|s| s.t_student.values_mut().for_each(|t| *t = f64::NAN));
     assert!(invalid(point_effects(&[("a", &nan)], Points::Exit)));
     let wide = SignedEffect { effect: 0.0, low: f64::NEG_INFINITY, high: f64::INFINITY };

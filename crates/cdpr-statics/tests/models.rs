@@ -283,7 +283,10 @@ proptest! {
                     assert_same_pose(&found.equilibrium.pose, &pose, 1e-8, 1e-8)?;
                 }
             }
-            Err(error) => prop_assert_eq!(error.kind(), "infeasible_tension"),
+            // Where the active bounds are not found within the turns, that is said.
+            Err(error) => {
+                prop_assert!(["infeasible_tension", "inverse_not_converged"].contains(&error.kind()), "{error}");
+            }
         }
     }
 

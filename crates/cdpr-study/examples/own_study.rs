@@ -23,13 +23,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let sampling = study.sampling("middle")?;
     let clock = Instant::now();
     let observations = observe(&sampling, &|| ());
-    let summary = analyse(&sampling, &observations, &|| ())?;
-    println!(
-        "deflection {:.3} mm +- {:.3} mm ({:.2?})",
-        summary.rms_mm.mean,
-        summary.rms_mm.std,
-        clock.elapsed()
-    );
+    let summary = analyse(&sampling, &observations, &|| ());
+    let rms = summary.rms_mm.ok_or("too few observations succeeded")?;
+    println!("deflection {:.3} mm +- {:.3} mm ({:.2?})", rms.mean, rms.std, clock.elapsed());
     let mut effects: Vec<_> = summary.signed_effects_mm.iter().collect();
     effects.sort_by(|a, b| b.1.effect.abs().total_cmp(&a.1.effect.abs()));
     for (parameter, effect) in effects.iter().take(5) {

@@ -110,7 +110,7 @@ fn computed(statistic: Statistic, study: &StudySummary) -> Option<Value> {
 }
 
 fn of_sampling(statistic: Statistic, sampling: &SamplingSummary) -> Option<Value> {
-    let rms = &sampling.rms_mm;
+    let rms = sampling.rms_mm.as_ref()?;
     let largest = |tensions: &[f64]| tensions.iter().copied().reduce(f64::max);
     let number = match statistic {
         Statistic::Mean => rms.mean,
@@ -122,7 +122,7 @@ fn of_sampling(statistic: Statistic, sampling: &SamplingSummary) -> Option<Value
         Statistic::UnloadedTension => largest(&sampling.nominal.unloaded_tensions)?,
         Statistic::LoadedTension => largest(&sampling.nominal.loaded_tensions)?,
         Statistic::BestFit => {
-            let name = serde_json::to_value(sampling.best_fit).ok()?;
+            let name = serde_json::to_value(sampling.best_fit?).ok()?;
             return Some(Value::Text(name.as_str()?.to_owned()));
         }
         Statistic::DominantAnchorPoints => return dominant(&point_effects(sampling, 'a')),

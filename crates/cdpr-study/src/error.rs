@@ -64,11 +64,13 @@ pub enum StudyError {
         /// The reason.
         source: Box<StaticsError>,
     },
-    /// The statistics of a sampling cannot be computed; its observations can.
-    #[error("{study}: {source}")]
+    /// A law, its steps or a design that is none.
+    #[error("{path}: {field}: {source}")]
     Statistics {
-        /// Name of the sampling.
-        study: String,
+        /// The file.
+        path: PathBuf,
+        /// Path of the field.
+        field: String,
         /// The reason.
         source: SensitivityError,
     },

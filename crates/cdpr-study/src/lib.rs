@@ -12,8 +12,10 @@
 //! let study = Study::open("data/studies/caroca.json".as_ref())?;
 //! let sampling = study.sampling("mechanical")?;
 //! let observations = observe(&sampling, &|| ());
-//! let summary = analyse(&sampling, &observations, &|| ())?;
-//! println!("{:.3} mm +- {:.3} mm", summary.rms_mm.mean, summary.rms_mm.std);
+//! let summary = analyse(&sampling, &observations, &|| ());
+//! if let Some(rms) = summary.rms_mm {
+//!     println!("{:.3} mm +- {:.3} mm", rms.mean, rms.std);
+//! }
 //! # Ok::<(), cdpr_study::StudyError>(())
 //! ```
 
@@ -36,7 +38,8 @@ pub use file::{
 pub use indexmap::IndexMap;
 pub use observation::{Observation, Observations, observe};
 pub use output::{
-    StudySummary, Summary, check_folder, write_figure, write_observations, write_summary, write_surface,
+    StudySummary, Summary, check_folder, remove_summary, write_figure, write_observations, write_summary,
+    write_surface,
 };
 pub use sampling::{FitSummary, NominalSummary, RmsSummary, SamplingSummary, SignedEffect, analyse};
 pub use study::{Sampling, Study, Surface};

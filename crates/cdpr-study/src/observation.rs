@@ -40,14 +40,18 @@ impl Observations {
 
     /// Number of failed observations by kind of failure; the usual kinds are always listed.
     pub fn failed(&self) -> BTreeMap<String, usize> {
-        let usual =
-            ["infeasible_tension", "tension_too_small", "inverse_not_converged", "direct_not_converged"];
-        let mut failed: BTreeMap<String, usize> = usual.map(|kind| (kind.to_owned(), 0)).into();
-        for error in self.outcomes.iter().filter_map(|outcome| outcome.as_ref().err()) {
-            *failed.entry(error.kind().to_owned()).or_default() += 1;
-        }
-        failed
+        count_failed(self.outcomes.iter().filter_map(|outcome| outcome.as_ref().err()))
     }
+}
+
+/// Failures by kind; the usual kinds are always listed.
+pub(crate) fn count_failed<'a>(errors: impl Iterator<Item = &'a StaticsError>) -> BTreeMap<String, usize> {
+    let usual = ["infeasible_tension", "inverse_not_converged", "direct_not_converged"];
+    let mut failed: BTreeMap<String, usize> = usual.map(|kind| (kind.to_owned(), 0)).into();
+    for error in errors {
+        *failed.entry(error.kind().to_owned()).or_default() += 1;
+    }
+    failed
 }
 
 /// Deflection of `robot` with `deviations` added to its parameters (in the order of [`Parameter::all`]).

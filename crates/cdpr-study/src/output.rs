@@ -52,7 +52,22 @@ pub fn check_folder(folder: &Path) -> Result<(), StudyError> {
     std::fs::remove_file(&probe).map_err(write)
 }
 
-/// Writes `NAME.csv`: one row an observation, with all deviations (in SI units), dp, RMS, status and reason.
+/// Removes the summary of an earlier run, which the tables to come would no longer belong to.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn remove_summary(folder: &Path) -> Result<(), StudyError> {
+    let path = folder.join("summary.json");
+    match std::fs::remove_file(&path) {
+        Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+            Err(StudyError::Write { path, source })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes `NAME.csv`: one row an observation, with the deviation of each parameter from its nominal value (`d_mass`, ... in
+/// SI units), dp, RMS, status and reason.
 ///
 /// # Errors
 /// [`StudyError::Write`].
@@ -64,7 +79,7 @@ pub fn write_observations(
     let inputs = sampling.design.inputs();
     let header = ["index".to_owned()]
         .into_iter()
-        .chain(inputs.iter().map(|input| input.name.clone()))
+        .chain(inputs.iter().map(|input| format!("d_{}", input.name)))
         .chain(["dx_mm", "dy_mm", "dz_mm", "rms_mm", "status", "reason"].map(str::to_owned));
     let mut row = vec![0.0; inputs.len()];
     let rows = observations.outcomes.iter().enumerate().map(|(index, outcome)| {
@@ -88,7 +103,7 @@ pub fn write_observations(
     write_csv(folder.join(format!("{}.csv", sampling.name)), header.collect(), rows)
 }
 
-/// Writes `NAME.csv`: one row a grid point, with both parameters (in SI units), RMS and status.
+/// Writes `NAME.csv`: one row a grid point, with the values of both parameters (in SI units), RMS and status.
 ///
 /// # Errors
 /// [`StudyError::Write`].

@@ -1,6 +1,5 @@
 //! What a sampling says: summary, fitted laws, effects.
 
-use crate::error::StudyError;
 use crate::observation::{Observations, observe_design};
 use crate::study::Sampling;
 use cdpr_robot::Robot;
@@ -24,16 +23,16 @@ pub struct SamplingSummary {
     pub observations: usize,
     /// Failed observations by kind.
     pub failed: BTreeMap<String, usize>,
-    /// Summary of the RMS.
-    pub rms_mm: RmsSummary,
+    /// Summary of the RMS; absent if fewer than two observations succeeded.
+    pub rms_mm: Option<RmsSummary>,
     /// The nominal robot at this pose.
     pub nominal: NominalSummary,
-    /// Fitted laws by ascending AIC.
+    /// Fitted laws by ascending AIC; none where they cannot be fitted.
     pub fits: Vec<FitSummary>,
     /// Family preferred by AIC: the least, or the most common of those that the sample supports alike (within 2).
-    pub best_fit: Family,
+    pub best_fit: Option<Family>,
     /// Histogram of the RMS [mm].
-    pub histogram: Histogram,
+    pub histogram: Option<Histogram>,
     /// The paper's t-Student index by parameter (section 5.2). On Sobol points its significance levels do not hold.
     pub t_student: IndexMap<String, f64>,
     /// Signed effect by parameter: mean RMS in the upper half of its range minus that in the lower half, with an interval
@@ -43,6 +42,8 @@ pub struct SamplingSummary {
     pub replicates: usize,
     /// Their confidence.
     pub confidence: f64,
+    /// What could not be computed, and why.
+    pub notes: Vec<String>,
 }
 
 /// Summary of the RMS of the static deflection [mm].
@@ -76,7 +77,7 @@ pub struct NominalSummary {
     /// dp [mm].
     pub displacement_mm: [f64; 3],
     /// |dp| that the stiffness at the unloaded pose predicts [mm]; section 3.3 of the paper says why it differs.
-    pub small_displacement_rms_mm: f64,
+    pub small_displacement_rms_mm: Option<f64>,
     /// Tension of every cable under the platform's own weight [N].
     pub unloaded_tensions: Vec<f64>,
     /// Tension of every cable with the payload [N].
@@ -98,7 +99,8 @@ pub struct FitSummary {
     pub bic: f64,
     /// Kolmogorov-Smirnov distance.
     pub ks: f64,
-    /// p-value of that distance for fitted parameters, by parametric bootstrap.
+    /// p-value of that distance for fitted parameters, by parametric bootstrap: at least 1/(resamples + 1), and for
+    /// independent observations; on Sobol points it is an indication.
     pub p_value: f64,
 }
 
@@ -115,11 +117,10 @@ pub struct SignedEffect {
 
 impl NominalSummary {
     pub(crate) fn new(robot: &Robot, nominal: &Deflection, load: &cdpr_statics::Load) -> Self {
-        // The stiffness exists wherever the equilibrium does.
-        let small = nominal.small_displacement(robot, load).map_or(f64::NAN, |dp| dp.norm());
+        let small = nominal.small_displacement(robot, load).map(|dp| 1e3 * dp.norm()).ok();
         Self {
             displacement_mm: (1e3 * nominal.displacement()).into(),
-            small_displacement_rms_mm: 1e3 * small,
+            small_displacement_rms_mm: small,
             unloaded_tensions: nominal.unloaded.equilibrium.tensions(),
             loaded_tensions: nominal.loaded.equilibrium.tensions(),
         }
@@ -134,32 +135,78 @@ impl From<Fit> for FitSummary {
 }
 
 /// Analyses the observations of a sampling. The replicates behind the intervals of signed effects are run here; `tick` is
-/// called after each of their observations.
-///
-/// # Errors
-/// [`StudyError::Statistics`] where too few observations succeeded.
+/// called after each of their observations. What cannot be computed from too few observations is left out and named in
+/// [`SamplingSummary::notes`].
 pub fn analyse(
     sampling: &Sampling,
     observations: &Observations,
     tick: &(dyn Fn() + Sync),
-) -> Result<SamplingSummary, StudyError> {
-    statistics(sampling, observations, tick)
-        .map_err(|source| StudyError::Statistics { study: format!("samplings.{}", sampling.name), source })
-}
-
-fn statistics(
-    sampling: &Sampling,
-    observations: &Observations,
-    tick: &(dyn Fn() + Sync),
-) -> Result<SamplingSummary, SensitivityError> {
+) -> SamplingSummary {
     let settings = &sampling.study.file;
     let outputs = observations.rms_mm();
-    let sample = Sample::new(&outputs)?;
-    let summary = sample.summary();
+    let mut notes = Vec::new();
+    let mut note = |what: &str, error: SensitivityError| notes.push(format!("{what}: {error}"));
+    let sample = Sample::new(&outputs).map_err(|error| note("rms_mm", error)).ok();
     let bootstrap = Bootstrap { resamples: settings.bootstrap_resamples, seed: settings.seed };
-    let fits = fit_all(&sample, bootstrap)?;
-    let best_fit = best(&fits).map_or(Family::Normal, |fit| fit.family);
-    let effects = student_effects(&sampling.design, &outputs)?;
+    let fits = match sample.as_ref().map(|sample| fit_all(sample, bootstrap)) {
+        Some(Ok(fits)) => fits,
+        Some(Err(error)) => {
+            note("fits", error);
+            Vec::new()
+        }
+        None => Vec::new(),
+    };
+    let best_fit = best(&fits).map(|fit| fit.family);
+    let t_student = student_effects(&sampling.design, &outputs)
+        .map(|effects| effects.effects.into_iter().map(|effect| (effect.input, effect.student)).collect());
+    let signed = signed_effects(sampling, tick);
+    SamplingSummary {
+        title: sampling.title.to_owned(),
+        pose: sampling.pose.position.into(),
+        observations: sampling.design.points(),
+        failed: observations.failed(),
+        rms_mm: sample.as_ref().and_then(|sample| RmsSummary::new(sample, 1e3 * sampling.nominal.rms()).ok()),
+        nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
+        fits: fits.into_iter().map(FitSummary::from).collect(),
+        best_fit,
+        histogram: sample.and_then(|sample| sample.histogram(cdpr_sensitivity::Bins::FreedmanDiaconis).ok()),
+        t_student: t_student.unwrap_or_else(|error| {
+            note("t_student", error);
+            IndexMap::new()
+        }),
+        signed_effects_mm: signed.unwrap_or_else(|error| {
+            note("signed_effects_mm", error);
+            IndexMap::new()
+        }),
+        replicates: settings.replicates,
+        confidence: settings.confidence,
+        notes,
+    }
+}
+
+impl RmsSummary {
+    fn new(sample: &Sample, nominal: f64) -> Result<Self, SensitivityError> {
+        let summary = sample.summary();
+        Ok(Self {
+            mean: summary.mean,
+            std: summary.std,
+            min: summary.min,
+            max: summary.max,
+            nominal,
+            q01: sample.quantile(0.01)?,
+            q25: sample.quantile(0.25)?,
+            median: sample.quantile(0.5)?,
+            q75: sample.quantile(0.75)?,
+            q99: sample.quantile(0.99)?,
+        })
+    }
+}
+
+fn signed_effects(
+    sampling: &Sampling,
+    tick: &(dyn Fn() + Sync),
+) -> Result<IndexMap<String, SignedEffect>, SensitivityError> {
+    let settings = &sampling.study.file;
     let replicates: Vec<(SobolDesign, Vec<Option<f64>>)> = (1..=settings.replicates as u64)
         .map(|k| {
             let design = sampling.design.replicate(settings.seed.wrapping_add(k));
@@ -167,38 +214,12 @@ fn statistics(
             (design, outputs)
         })
         .collect();
-    let signed_effects_mm = if replicates.is_empty() {
-        IndexMap::new()
-    } else {
-        effect_intervals(&replicates, settings.confidence)?
-            .into_iter()
-            .map(|e| (e.input, SignedEffect { effect: e.effect, low: e.low, high: e.high }))
-            .collect()
-    };
-    Ok(SamplingSummary {
-        title: sampling.title.to_owned(),
-        pose: sampling.pose.position.into(),
-        observations: sampling.design.points(),
-        failed: observations.failed(),
-        rms_mm: RmsSummary {
-            mean: summary.mean,
-            std: summary.std,
-            min: summary.min,
-            max: summary.max,
-            nominal: 1e3 * sampling.nominal.rms(),
-            q01: sample.quantile(0.01)?,
-            q25: sample.quantile(0.25)?,
-            median: sample.quantile(0.5)?,
-            q75: sample.quantile(0.75)?,
-            q99: sample.quantile(0.99)?,
-        },
-        nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
-        fits: fits.into_iter().map(FitSummary::from).collect(),
-        best_fit,
-        histogram: sample.histogram(cdpr_sensitivity::Bins::FreedmanDiaconis)?,
-        t_student: effects.effects.into_iter().map(|effect| (effect.input, effect.student)).collect(),
-        signed_effects_mm,
-        replicates: settings.replicates,
-        confidence: settings.confidence,
-    })
+    if replicates.is_empty() {
+        return Ok(IndexMap::new());
+    }
+    let intervals = effect_intervals(&replicates, settings.confidence)?;
+    Ok(intervals
+        .into_iter()
+        .map(|e| (e.input, SignedEffect { effect: e.effect, low: e.low, high: e.high }))
+        .collect())
 }

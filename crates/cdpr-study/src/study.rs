@@ -1,9 +1,10 @@
 //! A study read from its file and checked, ready to run.
 
+use crate::comparison::Value;
 use crate::error::StudyError;
-use crate::file::{AxisSpec, InputSpec, PoseSpec, STUDY_FORMAT, StudyFile};
+use crate::file::{AxisSpec, InputSpec, PoseSpec, STUDY_FORMAT, Statistic, StudyFile};
 use cdpr_robot::{Parameter, Pose, Robot, Vector3, from_json};
-use cdpr_sensitivity::{Input, SobolDesign};
+use cdpr_sensitivity::{Input, SensitivityError, SobolDesign};
 use cdpr_statics::{Deflection, Load, deflection};
 use indexmap::IndexMap;
 use std::path::{Path, PathBuf};
@@ -91,7 +92,7 @@ impl Study {
     /// Gives every sampling this number of observations.
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for fewer than 2.
+    /// [`StudyError::Invalid`] for fewer than 3.
     pub fn set_observations(&mut self, observations: usize) -> Result<(), StudyError> {
         self.file.samplings.values_mut().for_each(|sampling| sampling.observations = observations);
         self.validate()
@@ -130,6 +131,9 @@ impl Study {
         if let Some(name) = file.surfaces.keys().find(|name| file.samplings.contains_key(*name)) {
             return Err(self.invalid(&format!("surfaces.{name}"), name, "a name that no sampling has"));
         }
+        for (name, model) in &file.error_models {
+            self.inputs(name, model)?;
+        }
         for name in file.samplings.keys() {
             self.sampling(name)?;
         }
@@ -140,6 +144,24 @@ impl Study {
             if !file.samplings.contains_key(&row.study) && !file.surfaces.contains_key(&row.study) {
                 let field = format!("comparison[{i}].study");
                 return Err(self.invalid(&field, &row.study, "the name of a sampling or surface"));
+            }
+            let of_surface = matches!(row.statistic, Statistic::Min | Statistic::Max | Statistic::Spread);
+            if file.surfaces.contains_key(&row.study) && !of_surface {
+                let field = format!("comparison[{i}].statistic");
+                return Err(self.invalid(
+                    &field,
+                    format!("{:?}", row.statistic),
+                    "min, max or spread for a surface",
+                ));
+            }
+            if matches!(row.paper, Value::Number(_)) && !(row.last_digit.is_finite() && row.last_digit > 0.0)
+            {
+                let field = format!("comparison[{i}].last_digit");
+                return Err(self.invalid(
+                    &field,
+                    row.last_digit,
+                    "the last printed digit of the number, such as 0.01",
+                ));
             }
         }
         Ok(())
@@ -160,11 +182,15 @@ impl Study {
             return Err(self.invalid(&format!("{field}.error_model"), &spec.error_model, &expected));
         };
         let (inputs, places) = self.inputs(&spec.error_model, model)?;
-        if spec.observations < 2 {
-            return Err(self.invalid(&format!("{field}.observations"), spec.observations, "at least 2"));
+        if spec.observations < 3 {
+            return Err(self.invalid(
+                &format!("{field}.observations"),
+                spec.observations,
+                "at least 3, for laws to be fitted",
+            ));
         }
         let design = SobolDesign::new(inputs, spec.first_index, spec.observations)
-            .map_err(|source| StudyError::Statistics { study: name.clone(), source })?;
+            .map_err(|source| self.statistics(field.clone(), source))?;
         let pose = self.pose(&field, &spec.pose)?;
         let load = Load::payload(self.file.payload);
         let nominal = self.nominal(&field, &pose, &load)?;
@@ -218,10 +244,7 @@ impl Study {
         for (place, (parameter, own)) in parameters.iter().zip(names).enumerate() {
             if let Some(InputSpec { law, steps }) = model.get(&own).or_else(|| model.get(parameter.group())) {
                 let input = Input { name: own, law: *law, steps: *steps };
-                input.validate().map_err(|source| StudyError::Statistics {
-                    study: format!("error_models.{name}"),
-                    source,
-                })?;
+                input.validate().map_err(|source| self.statistics(format!("error_models.{name}"), source))?;
                 inputs.push(input);
                 places.push(place);
             }
@@ -277,6 +300,10 @@ impl Study {
             value: format!("{:?}", pose.position.as_slice()),
             source: Box::new(source),
         })
+    }
+
+    fn statistics(&self, field: String, source: SensitivityError) -> StudyError {
+        StudyError::Statistics { path: self.path.clone(), field, source }
     }
 
     fn invalid(&self, field: &str, value: impl ToString, expected: &str) -> StudyError {

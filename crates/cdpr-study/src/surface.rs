@@ -1,6 +1,6 @@
 //! Surfaces: the deflection over a grid of two parameters.
 
-use crate::observation::observe_one;
+use crate::observation::{count_failed, observe_one};
 use crate::study::Surface;
 use cdpr_robot::Parameter;
 use cdpr_statics::StaticsError;
@@ -74,10 +74,7 @@ impl SurfaceSummary {
     /// Summarises a surface.
     pub fn new(surface: &Surface, result: &SurfaceResult) -> Self {
         let succeeded = || result.rms_mm.iter().filter_map(|rms| rms.as_ref().ok().copied());
-        let mut failed = BTreeMap::new();
-        for error in result.rms_mm.iter().filter_map(|rms| rms.as_ref().err()) {
-            *failed.entry(error.kind().to_owned()).or_default() += 1;
-        }
+        let failed = count_failed(result.rms_mm.iter().filter_map(|rms| rms.as_ref().err()));
         Self {
             title: surface.title.to_owned(),
             pose: surface.pose.position.into(),
