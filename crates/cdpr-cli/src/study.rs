@@ -227,7 +227,8 @@ fn print_comparison(summary: &Summary) {
         rows.add_row(cells.map(String::clone));
     }
     println!("{rows}");
+    println!("reproduced: within half of the published figure's last digit plus 1 % of it; words: the same");
     println!(
-        "reproduced: within half of the published figure's last digit plus 1 % of it; words: the same\n"
+        "points: by the largest t of their coordinates; nearly equal: the largest at most 1.5 times the smallest\n"
     );
 }
