@@ -44,7 +44,7 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
         rest.extend(["--out".to_owned(), root().join("target/caroca-study").display().to_string()]);
     }
     let study = root().join("data/studies/caroca.json").display().to_string();
-    let run = ["run", "--release", "--quiet", "--package", "cdpr-cli", "--", "study", "run", &study];
+    let run = ["run", "--release", "--package", "cdpr-cli", "--", "study", "run", &study];
     eprintln!("building the program (a few minutes the first time), then running {study}");
     cargo(&[&run, strs(&rest).as_slice()].concat())
 }

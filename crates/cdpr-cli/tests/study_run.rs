@@ -225,3 +225,34 @@ fn observations_that_fail_stop_nothing() {
     let table = std::fs::read_to_string(bench.path("out/mechanical.csv")).unwrap();
     assert_eq!(table.lines().filter(|line| line.contains(",infeasible_tension,")).count() as u64, failed);
 }
+
+#[test]
+fn what_cannot_be_computed_from_the_observations_left_is_noted_and_the_rest_written() {
+    let mut bench = Bench::new();
+    // Every heavier platform fails: no mean over the upper half of the mass.
+    bench.robot["tension_limits"] = json!({"min": 1.0, "max": 578.5});
+    bench.study["samplings"].as_object_mut().unwrap().remove("geometrical_asymmetric");
+    bench.study["comparison"] = json!([]);
+    std::fs::create_dir(bench.path("out")).unwrap();
+    std::fs::write(bench.path("out/summary.json"), "of an earlier run").unwrap();
+    let output = bench.run(&[]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("mechanical: t_student: input `mass`: 0 observations above the middle"), "{text}");
+    let summary: Value =
+        serde_json::from_str(&std::fs::read_to_string(bench.path("out/summary.json")).unwrap()).unwrap();
+    let mechanical = &summary["studies"]["mechanical"];
+    assert!(mechanical["rms_mm"]["mean"].as_f64().unwrap() > 1.0);
+    assert_eq!(mechanical["t_student"], json!({}));
+    assert!(mechanical["notes"][0].as_str().unwrap().starts_with("t_student: "));
+}
+
+#[test]
+fn an_unbounded_law_at_the_first_point_of_the_sequence_names_the_field_to_change() {
+    let law = json!({"law": {"normal": {"mean": 0.0, "std": 1.0}}});
+    let file = "error: study.json: samplings.mechanical.first_index: ";
+    refused(
+        |_, s| s["error_models"]["table_3"]["mass"] = law.clone(),
+        &[file, "`mass` is unbounded below", "start at index 1"],
+    );
+}

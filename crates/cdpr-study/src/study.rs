@@ -190,7 +190,7 @@ impl Study {
             ));
         }
         let design = SobolDesign::new(inputs, spec.first_index, spec.observations)
-            .map_err(|source| self.statistics(field.clone(), source))?;
+            .map_err(|source| self.statistics(format!("{field}.first_index"), source))?;
         let pose = self.pose(&field, &spec.pose)?;
         let load = Load::payload(self.file.payload);
         let nominal = self.nominal(&field, &pose, &load)?;
