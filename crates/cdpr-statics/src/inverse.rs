@@ -55,8 +55,9 @@ const ABOVE_LEAST: f64 = 1.001;
 /// possible to `reference` [N] (one for each cable) within the robot's limits; `None` for the least-norm tensions.
 ///
 /// # Errors
-/// [`StaticsError::Tension`] where no tensions within the limits hold the pose; [`StaticsError::Cable`] for a cable without
-/// length; [`StaticsError::InverseNotConverged`].
+/// [`StaticsError::Tension`] where no tensions within the limits hold the pose; [`StaticsError::Cable`] where a cable's own
+/// weight demands more than the greatest tension; [`StaticsError::Invalid`] for a pose or reference that is none;
+/// [`StaticsError::InverseNotConverged`].
 pub fn inverse(
     robot: &Robot,
     pose: &Pose,
@@ -137,20 +138,23 @@ impl Inverse<'_> {
                 Problem { wrench_matrix: &wrench_matrix, wrench, reference: self.reference, limits: &limits };
             let distribution = distribute(&problem)
                 .map_err(|source| StaticsError::Tension { position: self.pose.position.into(), source })?;
-            let found = match self.newton(&spans, &limits, &distribution)? {
+            let end = match self.newton(&spans, &limits, &distribution)? {
+                Turn::Lost => self.catenaries(&spans, &distribution.tensions)?,
+                end => end,
+            };
+            match end {
                 Turn::Solved { catenaries, tensions } => {
                     return self.solution(&catenaries, tensions, distribution.active, turn);
                 }
-                Turn::Catenaries(catenaries) => Turn::Catenaries(catenaries),
-                Turn::TooSmall { cable, least } => Turn::TooSmall { cable, least },
-                Turn::Lost => self.catenaries(&spans, &distribution.tensions)?,
-            };
-            match found {
                 Turn::TooSmall { cable, least } => {
-                    limits[cable].min = limits[cable].min.max(ABOVE_LEAST * least);
-                    limits[cable].max = limits[cable].max.max(limits[cable].min);
+                    let TensionLimits { min, max } = &mut limits[cable];
+                    if ABOVE_LEAST * least > *max {
+                        let source = CableError::TensionTooSmall { tension: *max, least };
+                        return Err(StaticsError::Cable { index: cable, source });
+                    }
+                    *min = min.max(ABOVE_LEAST * least);
                 }
-                Turn::Solved { catenaries, .. } | Turn::Catenaries(catenaries) => {
+                Turn::Catenaries(catenaries) => {
                     for ((pull, span), catenary) in pulls.iter_mut().zip(&spans).zip(&catenaries) {
                         let tangent = -span.lift(catenary.force) / catenary.anchor_tension();
                         // The first turns go all the way; later ones are damped, should they swing.

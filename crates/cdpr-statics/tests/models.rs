@@ -207,6 +207,15 @@ fn a_slack_cable_without_weight_is_the_limit_of_a_light_one() {
 }
 
 #[test]
+fn a_greatest_tension_below_what_a_cable_weighs_is_refused() {
+    let mut robot = caroca();
+    robot.tension_limits = TensionLimits { min: 1.0, max: 2.0 };
+    robot.platform.mass = 0.1;
+    let error = inverse(&robot, &Pose::at(3.2, 1.7, 3.0), &Load::none(), None).unwrap_err();
+    assert!(["tension_too_small", "infeasible_tension"].contains(&error.kind()), "{error}");
+}
+
+#[test]
 fn an_offset_that_is_no_number_is_named() {
     let mut offsets = [0.0; 8];
     offsets[2] = f64::NAN;
