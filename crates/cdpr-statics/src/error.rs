@@ -39,11 +39,11 @@ pub enum StaticsError {
     },
     /// Tensions and cable directions did not settle together.
     #[error(
-        "inverse model: after {rounds} rounds the platform's wrench is still open by {force:e} N and {moment:e} N m"
+        "inverse model: after {turns} turns the platform's wrench is still open by {force:e} N and {moment:e} N m"
     )]
     InverseNotConverged {
-        /// Rounds made.
-        rounds: usize,
+        /// Turns of distribution and Newton's method made.
+        turns: usize,
         /// Open force [N].
         force: f64,
         /// Open moment [N m].

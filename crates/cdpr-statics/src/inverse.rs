@@ -168,7 +168,7 @@ impl Inverse<'_> {
             }
         }
         Err(StaticsError::InverseNotConverged {
-            rounds: MAX_TURNS,
+            turns: MAX_TURNS,
             force: open.fixed_rows::<3>(0).norm(),
             moment: open.fixed_rows::<3>(3).norm(),
         })

@@ -209,10 +209,10 @@ fn a_slack_cable_without_weight_is_the_limit_of_a_light_one() {
 #[test]
 fn a_greatest_tension_below_what_a_cable_weighs_is_refused() {
     let mut robot = caroca();
-    robot.tension_limits = TensionLimits { min: 1.0, max: 2.0 };
-    robot.platform.mass = 0.1;
+    robot.tension_limits = TensionLimits { min: 0.5, max: 4.5 };
+    robot.platform.mass = 0.55;
     let error = inverse(&robot, &Pose::at(3.2, 1.7, 3.0), &Load::none(), None).unwrap_err();
-    assert!(["tension_too_small", "infeasible_tension"].contains(&error.kind()), "{error}");
+    assert!(error.kind() == "tension_too_small", "{error}");
 }
 
 #[test]
@@ -292,9 +292,8 @@ proptest! {
                     assert_same_pose(&found.equilibrium.pose, &pose, 1e-8, 1e-8)?;
                 }
             }
-            // Where the active bounds are not found within the turns, that is said.
             Err(error) => {
-                prop_assert!(["infeasible_tension", "inverse_not_converged"].contains(&error.kind()), "{error}");
+                prop_assert!(error.kind() == "infeasible_tension", "{error}");
             }
         }
     }

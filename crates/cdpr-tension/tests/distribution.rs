@@ -70,7 +70,7 @@ proptest! {
         let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &reference, limits };
         match distribute(&problem) {
             Ok(solution) => {
-                let tolerance = if solution.method == Method::InteriorPoint { 1e-4 } else { 1e-9 };
+                let tolerance = if solution.method == Method::InteriorPoint { 1e-6 } else { 1e-9 };
                 let error = optimality_error(&problem, &solution);
                 prop_assert!(error < tolerance, "{error:e} by {:?}", solution.method);
             }
