@@ -37,8 +37,16 @@
 //! ```text
 //! U* = (L/2) [ (fz + V0)²/(2s) + s/2 + 2 fx² φ/s ] + (L/2EA) [ fx² + (fz² + fz V0 + V0²)/3 ]   (6)
 //! ```
+//!
+//! and the potential energy `V = f·r - U*`, with `m = (fz + V0)/2`, `d = w L/2` and `A = fx² + m²` freed of what cancels:
+//!
+//! ```text
+//! V = (L/s) [ fx² q² ψ + 2 m d - d²/2 - d² (2A + d² - 4m²)/(2 (T T0 + A)) ]
+//!   + (L/2EA) [ fx² + m² + 2 m d - d²/3 ]                                                      (7)
+//! ```
 
 use crate::error::{CableError, check};
+use crate::real::Real;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 /// What a cable is made of, per metre of unstrained length.
@@ -90,7 +98,7 @@ pub struct Compliance {
 impl Catenary {
     /// Position `(x, z)` of A relative to B [m], equations (1)-(2).
     pub fn end_position(&self) -> Vector2<f64> {
-        self.terms().end_position()
+        self.terms().end_position().into()
     }
 
     /// End position, in-plane flexibility and lateral stiffness at once.
@@ -134,11 +142,10 @@ impl Catenary {
         self.terms().complementary_energy()
     }
 
-    /// Potential energy [J]: elastic energy plus the work done against gravity, zero for a massless cable at rest with
-    /// its weight at the height of B. As a function of the end position its gradient is the force at A.
+    /// Potential energy V [J], equation (7): elastic energy plus the work done against gravity, zero for a massless cable at
+    /// rest with its weight at the height of B. As a function of the end position its gradient is the force at A.
     pub fn potential_energy(&self) -> f64 {
-        let terms = self.terms();
-        self.force.dot(&terms.end_position()) - terms.complementary_energy()
+        self.terms().potential_energy()
     }
 
     /// Whether this is a slack cable without weight: it carries nothing, resists nothing and has no shape, so that end
@@ -147,8 +154,8 @@ impl Catenary {
         self.force == Vector2::zeros() && self.cable.weight_per_length == 0.0
     }
 
-    fn terms(&self) -> Terms {
-        Terms::new(self)
+    fn terms(&self) -> Terms<f64> {
+        Terms::of(self)
     }
 }
 
@@ -184,96 +191,54 @@ impl Compliance {
     }
 }
 
-/// The quantities that equations (1)-(6) share.
-struct Terms {
-    fx: f64,
-    fz: f64,
-    v0: f64,
-    length: f64,
-    ea: f64,
-    weight: f64,
-    /// fx², kept away from zero by 1e-60 of the squared forces, so that a folded cable stays regular.
-    fx2: f64,
-    /// T, tension at A.
-    t: f64,
-    /// T0, tension at B.
-    t0: f64,
-    /// s = T + T0.
-    s: f64,
+/// End position, flexibility and lateral flexibility of a catenary, over any kind of number.
+#[derive(Clone, Copy, Debug)]
+pub struct Response<T> {
+    /// End position (x, z) [m], equations (1)-(2).
+    pub end: [T; 2],
+    /// Flexibility dx/dfx, dx/dfz = dz/dfx, dz/dfz [m/N], equations (3)-(5).
+    pub flexibility: [T; 3],
+    /// x/fx [m/N]: lateral flexibility.
+    pub lateral: T,
 }
 
-impl Terms {
-    fn new(catenary: &Catenary) -> Self {
-        let Catenary { cable, unstrained_length: length, force } = *catenary;
-        let weight = cable.weight_per_length * length;
-        let (fx, fz) = (force.x, force.y);
-        let v0 = fz - weight;
-        let floor = 1e-30 * (fz.abs() + weight);
-        let fx2 = fx * fx + floor * floor + f64::MIN_POSITIVE;
-        let t = (fx2 + fz * fz).sqrt();
-        let t0 = (fx2 + v0 * v0).sqrt();
-        Self { fx, fz, v0, length, ea: cable.axial_stiffness, weight, fx2, t, t0, s: t + t0 }
-    }
+/// The response of a cable with weight per length `w` [N/m], axial stiffness `ea` [N] and unstrained length `length` [m] to
+/// the force `[fx, fz]` [N] at A. Where `fx` is below 1e-25 of the other forces, `fx²` is raised by 1e-60 of their squares, which keeps
+/// a vertical folded cable regular.
+pub fn response<T: Real>(w: T, ea: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
+    Terms::new(w, ea, length, fx, fz).response()
+}
 
-    /// m = (fx² + fz² + V0²)/(T T0 - fz V0), with which D = fx² (1 + m) without cancellation where fz V0 < 0.
-    fn fold(&self) -> f64 {
-        (self.fx2 + self.fz * self.fz + self.v0 * self.v0) / (self.t * self.t0 - self.fz * self.v0)
-    }
+/// The quantities that equations (1)-(7) share.
+struct Terms<T> {
+    fx: T,
+    fz: T,
+    v0: T,
+    length: T,
+    ea: T,
+    weight: T,
+    fx2: T,
+    /// T, tension at A.
+    t: T,
+    /// T0, tension at B.
+    t0: T,
+    /// s = T + T0.
+    s: T,
+}
 
-    /// D = fx² + T T0 + fz V0.
-    fn d(&self) -> f64 {
-        let p = self.fz * self.v0;
-        if p >= 0.0 { self.fx2 + self.t * self.t0 + p } else { self.fx2 * (1.0 + self.fold()) }
-    }
-
-    /// (q², ψ(q²)).
-    fn sag_terms(&self) -> (f64, f64) {
-        let q = self.weight / self.s;
-        let q2 = q * q;
-        let psi = if q2 < SERIES_LIMIT {
-            sag_series(q2)
-        } else {
-            // atanh q = ln((1 + q)/sqrt(1 - q²)), with 1 - q² = 2D/s²
-            let atanh = ((1.0 + q) * self.s / (2.0 * self.d()).sqrt()).ln();
-            (atanh / q - 1.0) / q2
-        };
-        (q2, psi)
-    }
-
-    fn end_position(&self) -> Vector2<f64> {
-        let (q2, psi) = self.sag_terms();
-        self.end_position_with(1.0 + q2 * psi)
-    }
-
-    fn end_position_with(&self, phi: f64) -> Vector2<f64> {
-        let x = self.fx * self.length * (1.0 / self.ea + 2.0 * phi / self.s);
-        let z = self.length * ((self.fz - 0.5 * self.weight) / self.ea + (self.fz + self.v0) / self.s);
-        Vector2::new(x, z)
+impl Terms<f64> {
+    fn of(catenary: &Catenary) -> Self {
+        let Catenary { cable, unstrained_length, force } = *catenary;
+        Self::new(cable.weight_per_length, cable.axial_stiffness, unstrained_length, force.x, force.y)
     }
 
     fn compliance(&self) -> Compliance {
-        let Self { fx, fz, v0, length, ea, fx2, t, t0, s, .. } = *self;
-        let (q2, psi) = self.sag_terms();
-        let phi = 1.0 + q2 * psi;
-        let tt0 = t * t0;
-        let p = fz * v0;
-        let squares = fz * fz + v0 * v0;
-        let (g, n_over_d) = if p >= 0.0 {
-            let d = fx2 + tt0 + p;
-            (fx2 / d, (fx2 * squares + 2.0 * p * (p + tt0)) / d)
-        } else {
-            let m = self.fold();
-            let g = 1.0 / (1.0 + m);
-            (g, g * (squares + 2.0 * p * m))
-        };
-        let zz = length * (1.0 / ea + s * g / tt0);
-        let xz = -fx * length * (fz + v0) / (tt0 * s);
-        let xx = length * (1.0 / ea + 2.0 * q2 * psi / s + n_over_d / (s * tt0));
+        let Response { end: [x, z], flexibility: [xx, xz, zz], lateral } = self.response();
         Compliance {
-            end: self.end_position_with(phi),
+            end: Vector2::new(x, z),
             flexibility: Matrix2::new(xx, xz, xz, zz),
-            lateral_stiffness: 1.0 / (length * (1.0 / ea + 2.0 * phi / s)),
-            end_per_length: Vector2::new(fx, v0) * (1.0 / t0 + 1.0 / ea),
+            lateral_stiffness: 1.0 / lateral,
+            end_per_length: Vector2::new(self.fx, self.v0) * (1.0 / self.t0 + 1.0 / self.ea),
         }
     }
 
@@ -284,6 +249,95 @@ impl Terms {
         let inextensible = (fz + v0) * (fz + v0) / (2.0 * s) + 0.5 * s + 2.0 * fx * fx * phi / s;
         let elastic = (fx * fx + (fz * fz + fz * v0 + v0 * v0) / 3.0) / ea;
         0.5 * length * (inextensible + elastic)
+    }
+
+    fn potential_energy(&self) -> f64 {
+        let Self { fx, fz, v0, length, weight, ea, fx2, t, t0, s } = *self;
+        let (q2, psi) = self.sag_terms();
+        let (d, m) = (0.5 * weight, 0.5 * (fz + v0));
+        let a = fx2 + m * m;
+        let rest = d * d * (2.0 * a + d * d - 4.0 * m * m) / (t * t0 + a);
+        let gravity = length * (fx * fx * q2 * psi + 2.0 * m * d - 0.5 * (d * d + rest)) / s;
+        let elastic = 0.5 * length * (fx * fx + m * m + 2.0 * m * d - d * d / 3.0) / ea;
+        gravity + elastic
+    }
+}
+
+impl<T: Real> Terms<T> {
+    fn new(w: T, ea: T, length: T, fx: T, fz: T) -> Self {
+        let weight = w * length;
+        let others = fz.value().abs() + weight.value();
+        let mut fx2 = fx * fx;
+        if fx.value() <= (1e-25 * others).max(1e-150) {
+            fx2 = fx2 + (1e-60 * others * others + f64::MIN_POSITIVE);
+        }
+        let v0 = fz - weight;
+        let t = (fx2 + fz * fz).sqrt();
+        let t0 = (fx2 + v0 * v0).sqrt();
+        Self { fx, fz, v0, length, ea, weight, fx2, t, t0, s: t + t0 }
+    }
+
+    /// m = (fx² + fz² + V0²)/(T T0 - fz V0), with which D = fx² (1 + m) without cancellation where fz V0 < 0.
+    fn fold(&self) -> T {
+        (self.fx2 + self.fz * self.fz + self.v0 * self.v0) / (self.t * self.t0 - self.fz * self.v0)
+    }
+
+    /// D = fx² + T T0 + fz V0.
+    fn d(&self) -> T {
+        let p = self.fz * self.v0;
+        if p.value() >= 0.0 { self.fx2 + self.t * self.t0 + p } else { self.fx2 * (self.fold() + 1.0) }
+    }
+
+    /// (q², ψ(q²)).
+    fn sag_terms(&self) -> (T, T) {
+        let q = self.weight / self.s;
+        let q2 = q * q;
+        let psi = if q2.value() < SERIES_LIMIT {
+            sag_series(q2)
+        } else {
+            // atanh q = ln((1 + q)/sqrt(1 - q²)), with 1 - q² = 2D/s²
+            let atanh = ((q + 1.0) * self.s / (self.d() * 2.0).sqrt()).ln();
+            (atanh / q + -1.0) / q2
+        };
+        (q2, psi)
+    }
+
+    fn end_position(&self) -> [T; 2] {
+        let (q2, psi) = self.sag_terms();
+        [self.fx * self.lateral(q2 * psi + 1.0), self.height()]
+    }
+
+    /// x/fx = L [1/EA + 2φ/s], equation (1).
+    fn lateral(&self, phi: T) -> T {
+        self.length * (T::of(1.0) / self.ea + phi * 2.0 / self.s)
+    }
+
+    /// z, equation (2).
+    fn height(&self) -> T {
+        let Self { fz, v0, length, ea, weight, s, .. } = *self;
+        length * ((fz + weight * -0.5) / ea + (fz + v0) / s)
+    }
+
+    fn response(&self) -> Response<T> {
+        let Self { fx, fz, v0, length, ea, fx2, t, t0, s, .. } = *self;
+        let (q2, psi) = self.sag_terms();
+        let lateral = self.lateral(q2 * psi + 1.0);
+        let tt0 = t * t0;
+        let p = fz * v0;
+        let squares = fz * fz + v0 * v0;
+        let (g, n_over_d) = if p.value() >= 0.0 {
+            let d = fx2 + tt0 + p;
+            (fx2 / d, (fx2 * squares + p * 2.0 * (p + tt0)) / d)
+        } else {
+            let m = self.fold();
+            let g = T::of(1.0) / (m + 1.0);
+            (g, g * (squares + p * 2.0 * m))
+        };
+        let stretch = T::of(1.0) / ea;
+        let zz = length * (stretch + s * g / tt0);
+        let xz = -fx * length * (fz + v0) / (tt0 * s);
+        let xx = length * (stretch + q2 * psi * 2.0 / s + n_over_d / (s * tt0));
+        Response { end: [fx * lateral, self.height()], flexibility: [xx, xz, zz], lateral }
     }
 }
 
@@ -302,10 +356,12 @@ const SERIES: [f64; 17] = {
 };
 
 /// ψ(q²) = (atanh(q)/q - 1)/q² = 1/3 + q²/5 + q⁴/7 + ... for q² < 0.1, to rounding.
-fn sag_series(q2: f64) -> f64 {
+fn sag_series<T: Real>(q2: T) -> T {
     // A taut cable has q² below 1e-3: six terms leave 1e-18.
-    let terms = if q2 < 1e-3 { &SERIES[..6] } else { &SERIES[..] };
-    terms.iter().rev().fold(0.0, |sum, term| sum * q2 + term)
+    let terms = if q2.value() < 1e-3 { &SERIES[..6] } else { &SERIES[..] };
+    let sum = terms.iter().rev().fold(T::of(0.0), |sum, term| sum * q2 + *term);
+    // The rest, below q²ⁿ/((2n + 3)(1 - q²)), and the rounding of the coefficients, below that of the first.
+    sum.within(1e-16)
 }
 
 #[cfg(test)]
@@ -338,6 +394,14 @@ mod tests {
         let end =
             catenary(Cable { weight_per_length: w, axial_stiffness: ea }, length, fx, fz).end_position();
         assert_relative_eq!(end, Vector2::new(x, z), max_relative = 1e-14);
+    }
+
+    #[test]
+    fn a_stiff_taut_cable_keeps_the_digits_of_its_energy() {
+        // f·r and U* are 1e5 J each; 40-digit arithmetic gives their difference.
+        let cable = Cable { weight_per_length: 1e-3, axial_stiffness: 1e9 };
+        let taut = catenary(cable, 100.0, 800.0, 600.0);
+        assert_relative_eq!(taut.potential_energy(), 3.0497866520994881, max_relative = 1e-14);
     }
 
     #[test]

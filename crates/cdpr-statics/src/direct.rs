@@ -1,11 +1,13 @@
 //! Direct elasto-geometrical model (DEGM): the pose for given unstrained lengths.
 
-use crate::equations::residual;
+use crate::continuation::{Path, Setting, follow_from};
+use crate::equations::{State, residual};
 use crate::error::StaticsError;
 use crate::model::{Equilibrium, Load, Model};
 use crate::newton::{Converged, newton};
+use crate::stability::Stability;
 use crate::trust_region::{cables_at, minimise};
-use cdpr_robot::{Pose, Robot, Vector2};
+use cdpr_robot::{Pose, Robot, Vector2, Vector3, Wrench};
 
 /// Where the search begins.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +25,8 @@ pub enum Method {
     Newton,
     /// Trust region on the potential, ended by Newton's method.
     TrustRegion,
+    /// The equilibrium without the load's moment, followed while the moment was raised.
+    Continuation,
 }
 
 /// What stays open in the original `6 + 2n` equations.
@@ -49,21 +53,28 @@ pub struct Report {
     pub slack: Vec<usize>,
 }
 
-/// A stable equilibrium of the platform.
+/// An equilibrium of the platform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectSolution {
     /// Pose and cable forces.
     pub equilibrium: Equilibrium,
     /// How it was found, with residuals.
     pub report: Report,
+    /// Whether it holds, and how far it is from losing hold.
+    pub stability: Stability,
 }
 
-/// A stable equilibrium for the unstrained lengths `lengths` [m] and a load, near the start where Newton's method converges,
-/// else downhill of it.
+/// A strain beyond which a linear, small-strain cable describes nothing: steel and fibre ropes break at less.
+const MAX_STRAIN: f64 = 0.1;
+
+/// A stable equilibrium for the unstrained lengths `lengths` [m] and a load, near the start where Newton's method converges to
+/// one, else downhill of the start. Without a moment there always is one: the cables' elasticity bounds the potential from below.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] for lengths, loads or a start that are none; [`StaticsError::DirectNotConverged`] with the best
-/// pose found. The start is never returned as an answer.
+/// [`StaticsError::Invalid`] for lengths, loads or a start that are none; [`StaticsError::TooShort`] where the equilibrium
+/// strains a cable by more than 10 %; [`StaticsError::EquilibriumLost`] where none is found under the load's moment and the one
+/// without it disappears on the way; [`StaticsError::DirectNotConverged`] with the best pose found. The start is never returned as an
+/// answer.
 pub fn direct(
     robot: &Robot,
     lengths: &[f64],
@@ -71,47 +82,119 @@ pub fn direct(
     start: Start,
 ) -> Result<DirectSolution, StaticsError> {
     let model = Model::new(robot, lengths, load)?;
+    let start = checked(&model, start)?;
+    let pose = start.pose;
+    match newton(&model, start) {
+        Some(converged) if converged.stability.is_stable() => solution(&model, converged, Method::Newton),
+        _ => settle(&model, &pose),
+    }
+}
+
+/// As [`direct`], but an unstable equilibrium is an answer, too, where Newton's method converges to one: a platform that balances like
+/// a pendulum upside down.
+///
+/// # Errors
+/// As [`direct`].
+pub fn direct_any(
+    robot: &Robot,
+    lengths: &[f64],
+    load: &Load,
+    start: Start,
+) -> Result<DirectSolution, StaticsError> {
+    let model = Model::new(robot, lengths, load)?;
+    let start = checked(&model, start)?;
+    let pose = start.pose;
+    match newton(&model, start) {
+        Some(converged) => solution(&model, converged, Method::Newton),
+        None => settle(&model, &pose),
+    }
+}
+
+/// The start as a state of the model.
+fn checked(model: &Model, start: Start) -> Result<Equilibrium, StaticsError> {
+    let invalid = |field: &str, value: String, expected: String| {
+        Err(StaticsError::Invalid { field: field.to_owned(), value, expected })
+    };
     let pose = match start {
         Start::Pose(pose) => pose,
         Start::Near(equilibrium) => &equilibrium.pose,
     };
-    if let Start::Near(Equilibrium { cable_forces, .. }) = start
-        && cable_forces.len() != model.cables()
-    {
-        return Err(StaticsError::Invalid {
-            field: "start.cable_forces".to_owned(),
-            value: format!("a list of {}", cable_forces.len()),
-            expected: format!("one force for each of the {} cables", model.cables()),
-        });
-    }
     if !pose.is_finite() {
-        return Err(StaticsError::Invalid {
-            field: "start".to_owned(),
-            value: format!("{:?}", pose.position.as_slice()),
-            expected: "a finite pose".to_owned(),
-        });
+        return invalid("start", format!("{:?}", pose.position.as_slice()), "a finite pose".to_owned());
     }
-    let equilibrium = match start {
-        Start::Near(equilibrium) => equilibrium.clone(),
-        Start::Pose(pose) => cables_at(&model, pose)?,
-    };
-    if let Some(converged) = newton(&model, equilibrium) {
-        return Ok(solution(&model, converged, Method::Newton));
+    match start {
+        Start::Pose(pose) => cables_at(model, pose),
+        Start::Near(equilibrium) if equilibrium.cable_forces.len() == model.cables() => {
+            Ok(equilibrium.clone())
+        }
+        Start::Near(equilibrium) => invalid(
+            "start.cable_forces",
+            format!("a list of {}", equilibrium.cable_forces.len()),
+            format!("one force for each of the {} cables", model.cables()),
+        ),
     }
-    Ok(solution(&model, minimise(&model, pose)?, Method::TrustRegion))
 }
 
-fn solution(model: &Model, converged: Converged, method: Method) -> DirectSolution {
-    let Converged { equilibrium, iterations, residual } = converged;
-    let slack = (0..model.cables())
-        .filter(|i| model.lengths[*i] >= model.span(&equilibrium.pose, *i).end.norm())
-        .collect();
-    DirectSolution { equilibrium, report: Report { method, iterations, residual, slack } }
+/// The stable equilibrium downhill of a pose. A moment has no potential: where it keeps the descent from ending, the equilibrium
+/// without it is followed while the moment is raised.
+fn settle(model: &Model, pose: &Pose) -> Result<DirectSolution, StaticsError> {
+    let error = match descend(model, pose) {
+        Err(error @ StaticsError::DirectNotConverged { .. }) => error,
+        outcome => return outcome,
+    };
+    let wrench = model.load.wrench;
+    if wrench.moment == Vector3::zeros() {
+        return Err(error);
+    }
+    let resting = Load { wrench: Wrench { moment: Vector3::zeros(), ..wrench }, ..*model.load };
+    let without = Model { load: &resting, ..*model };
+    let first = descend(&without, pose)?;
+    let [from, to] =
+        [&resting, model.load].map(|load| Setting { lengths: model.lengths.to_vec(), load: *load });
+    let Path { mut steps, lost } = follow_from(model.robot, &from, &to, first)?;
+    match (steps.pop(), lost) {
+        (Some(last), None) => {
+            let mut solution = last.solution;
+            solution.report.method = Method::Continuation;
+            Ok(solution)
+        }
+        (_, Some(loss)) => Err(StaticsError::EquilibriumLost {
+            share: loss.share,
+            least_stiffness: loss.before.stability.least_stiffness(),
+            pose: Box::new(loss.before.equilibrium.pose),
+        }),
+        (None, None) => Err(error),
+    }
+}
+
+/// The minimum of the potential downhill of a pose.
+pub(crate) fn descend(model: &Model, pose: &Pose) -> Result<DirectSolution, StaticsError> {
+    solution(model, minimise(model, pose)?, Method::TrustRegion)
+}
+
+pub(crate) fn solution(
+    model: &Model,
+    converged: Converged,
+    method: Method,
+) -> Result<DirectSolution, StaticsError> {
+    let Converged { equilibrium, iterations, residual, stability, .. } = converged;
+    let mut slack = Vec::new();
+    for (i, force) in equilibrium.cable_forces.iter().enumerate() {
+        let (length, chord) = (model.lengths[i], model.span(&equilibrium.pose, i).end.norm());
+        let strain = force.norm() / model.cable(i).axial_stiffness;
+        if strain > MAX_STRAIN {
+            return Err(StaticsError::TooShort { index: i, length, distance: chord, strain });
+        }
+        if length >= chord {
+            slack.push(i);
+        }
+    }
+    Ok(DirectSolution { equilibrium, report: Report { method, iterations, residual, slack }, stability })
 }
 
 impl Residual {
     pub(crate) fn of(model: &Model, equilibrium: &Equilibrium) -> Self {
-        let r = residual(model, equilibrium);
+        let r = residual(model, &State::from(equilibrium));
         let closure = (0..model.cables()).map(|i| r.fixed_rows::<2>(6 + 2 * i).norm()).fold(0.0, f64::max);
         Self { closure, force: r.fixed_rows::<3>(0).norm(), moment: r.fixed_rows::<3>(3).norm() }
     }

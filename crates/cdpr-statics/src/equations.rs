@@ -17,32 +17,112 @@
 //! ```
 
 use crate::model::{Equilibrium, Model};
+use cdpr_cable::{Real, Response, response};
 use cdpr_robot::{Matrix3, Vector3};
 use faer::linalg::solvers::{PartialPivLu, Solve};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, DVector, Scalar, Vector2};
+use num_traits::{One, Zero};
+
+/// Numbers that the equations can be evaluated with: doubles, intervals.
+pub(crate) trait Number:
+    Real + Scalar + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign
+{
+}
+
+impl<T: Real + Scalar + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign> Number for T {}
+
+/// The unknowns: pose and cable forces.
+pub(crate) struct State<T> {
+    pub(crate) position: Vector3<T>,
+    pub(crate) rotation: Matrix3<T>,
+    pub(crate) forces: Vec<Vector2<T>>,
+}
+
+impl From<&Equilibrium> for State<f64> {
+    fn from(equilibrium: &Equilibrium) -> Self {
+        Self {
+            position: equilibrium.pose.position,
+            rotation: *equilibrium.pose.rotation.matrix(),
+            forces: equilibrium.cable_forces.clone(),
+        }
+    }
+}
 
 /// Cross-product matrix [v].
-pub(crate) fn cross(v: &Vector3<f64>) -> Matrix3<f64> {
-    v.cross_matrix()
+pub(crate) fn cross<T: Number>(v: &Vector3<T>) -> Matrix3<T> {
+    let o = T::zero();
+    Matrix3::new(o, -v.z, v.y, v.z, o, -v.x, -v.y, v.x, o)
+}
+
+/// Cable i at a state.
+struct Strung<T> {
+    /// s_i = R a_i.
+    arm: Vector3<T>,
+    /// Horizontal direction e_h from B towards A.
+    azimuth: Vector2<T>,
+    /// (h, z).
+    end: Vector2<T>,
+    /// F_i.
+    force: Vector3<T>,
+    /// `None` for a slack cable without weight.
+    response: Option<Response<T>>,
+}
+
+impl<T: Number> Strung<T> {
+    fn new(model: &Model, state: &State<T>, i: usize) -> Self {
+        let cable = &model.robot.cables[i];
+        let arm = state.rotation * cable.anchor_point.map(T::of);
+        let r = state.position + arm - cable.exit_point.map(T::of);
+        let h = (r.x * r.x + r.y * r.y).sqrt();
+        let azimuth =
+            if h.value() > 0.0 { Vector2::new(r.x / h, r.y / h) } else { Vector2::new(T::one(), T::zero()) };
+        let f = state.forces[i];
+        let p = &cable.properties;
+        let w = T::of(p.linear_density) * T::of(model.robot.gravity);
+        let limp = model.catenary(i, Vector2::new(f.x.value(), f.y.value())).is_limp();
+        let ea = T::of(p.youngs_modulus) * T::of(p.section);
+        Self {
+            arm,
+            azimuth,
+            end: Vector2::new(h, r.z),
+            force: Vector3::new(f.x * azimuth.x, f.x * azimuth.y, f.y),
+            response: (!limp).then(|| response(w, ea, T::of(model.lengths[i]), [f.x, f.y])),
+        }
+    }
+
+    fn lift(&self, x: T, z: T) -> Vector3<T> {
+        Vector3::new(x * self.azimuth.x, x * self.azimuth.y, z)
+    }
+}
+
+/// Weight of platform and payload [N], and the arm of its centre of mass [m].
+fn weight<T: Number>(model: &Model, state: &State<T>) -> (Vector3<T>, Vector3<T>) {
+    let platform = &model.robot.platform;
+    let mass = T::of(platform.mass) + T::of(model.load.payload);
+    let weight = Vector3::new(T::zero(), T::zero(), -(mass * T::of(model.robot.gravity)));
+    (weight, state.rotation * platform.center_of_mass.map(T::of))
 }
 
 /// Left-hand sides of all equations.
-pub(crate) fn residual(model: &Model, equilibrium: &Equilibrium) -> DVector<f64> {
-    let pose = &equilibrium.pose;
-    let mut residual = DVector::zeros(6 + 2 * model.cables());
-    let total = model.load.total(model.robot, pose);
-    let (mut force, mut moment) = (-total.force, -total.moment);
-    for (i, cable_force) in equilibrium.cable_forces.iter().enumerate() {
-        let span = model.span(pose, i);
-        let f = span.lift(*cable_force);
-        force += f;
-        moment += model.robot.anchor_arm(pose, i).cross(&f);
-        let catenary = model.catenary(i, *cable_force);
-        let open = if catenary.is_limp() {
+pub(crate) fn residual<T: Number>(model: &Model, state: &State<T>) -> DVector<T> {
+    let mut residual = DVector::from_element(6 + 2 * model.cables(), T::zero());
+    let (weight, center) = weight(model, state);
+    let load = &model.load.wrench;
+    let mut force = -(weight + load.force.map(T::of));
+    let mut moment = -(center.cross(&weight) + load.moment.map(T::of));
+    for i in 0..model.cables() {
+        let cable = Strung::new(model, state, i);
+        force += cable.force;
+        moment += cable.arm.cross(&cable.force);
+        let open = match cable.response {
+            Some(Response { end: [x, z], .. }) => cable.end - Vector2::new(x, z),
             // A slack cable without weight has no shape; it is open by what it is too short.
-            span.end * (1.0 - model.lengths[i] / span.end.norm().max(model.lengths[i]))
-        } else {
-            span.end - catenary.end_position()
+            None => {
+                let chord = (cable.end.x * cable.end.x + cable.end.y * cable.end.y).sqrt();
+                let length = T::of(model.lengths[i]);
+                let short = chord.value() > length.value();
+                if short { cable.end * (T::one() - length / chord) } else { Vector2::from_element(T::zero()) }
+            }
         };
         residual.fixed_rows_mut::<2>(6 + 2 * i).copy_from(&open);
     }
@@ -52,43 +132,41 @@ pub(crate) fn residual(model: &Model, equilibrium: &Equilibrium) -> DVector<f64>
 }
 
 /// Derivatives of [`residual`] with respect to (dp, dφ, fx_1, fz_1, ..., fx_n, fz_n).
-pub(crate) fn jacobian(model: &Model, equilibrium: &Equilibrium) -> DMatrix<f64> {
-    let pose = &equilibrium.pose;
+pub(crate) fn jacobian<T: Number>(model: &Model, state: &State<T>) -> DMatrix<T> {
     let size = 6 + 2 * model.cables();
-    let mut jacobian = DMatrix::zeros(size, size);
-    let weight = model.robot.weight(pose, model.load.payload).force;
-    let center = pose.rotation * model.robot.platform.center_of_mass;
-    let mut rotation_of_moment = -cross(&weight) * cross(&center);
-    for (i, cable_force) in equilibrium.cable_forces.iter().enumerate() {
-        let span = model.span(pose, i);
-        let s = cross(&model.robot.anchor_arm(pose, i));
+    let mut jacobian = DMatrix::from_element(size, size, T::zero());
+    let (weight, center) = weight(model, state);
+    let mut rotation_of_moment = -(cross(&weight) * cross(&center));
+    for i in 0..model.cables() {
+        let cable = Strung::new(model, state, i);
         let place = 6 + 2 * i;
-        let catenary = model.catenary(i, *cable_force);
-        if catenary.is_limp() {
+        let Some(Response { flexibility: [xx, xz, zz], lateral, .. }) = cable.response else {
             // Its force stays zero.
             jacobian.fixed_view_mut::<2, 2>(place, place).fill_with_identity();
             continue;
-        }
-        let compliance = catenary.compliance();
-        let lateral = Vector3::new(-span.azimuth.y, span.azimuth.x, 0.0);
-        let swing = lateral * lateral.transpose() * compliance.lateral_stiffness;
-        let mut add = |row: usize, column: usize, block: Matrix3<f64>| {
+        };
+        let s = cross(&cable.arm);
+        let sideways = Vector3::new(-cable.azimuth.y, cable.azimuth.x, T::zero());
+        let swing = sideways * sideways.transpose() * (T::one() / lateral);
+        let mut add = |row: usize, column: usize, block: Matrix3<T>| {
             let mut view = jacobian.fixed_view_mut::<3, 3>(row, column);
             view += block;
         };
         add(0, 0, swing);
-        add(0, 3, -swing * s);
+        add(0, 3, -(swing * s));
         add(3, 0, s * swing);
-        rotation_of_moment += cross(&span.lift(*cable_force)) * s - s * swing * s;
-        for (j, direction) in [cdpr_robot::Vector2::x(), cdpr_robot::Vector2::y()].into_iter().enumerate() {
-            let axis = span.lift(direction);
+        rotation_of_moment += cross(&cable.force) * s - s * swing * s;
+        for (j, axis) in
+            [cable.lift(T::one(), T::zero()), cable.lift(T::zero(), T::one())].into_iter().enumerate()
+        {
             let turned = s * axis;
             jacobian.fixed_view_mut::<3, 1>(0, place + j).copy_from(&axis);
             jacobian.fixed_view_mut::<3, 1>(3, place + j).copy_from(&turned);
             jacobian.fixed_view_mut::<1, 3>(place + j, 0).copy_from(&axis.transpose());
             jacobian.fixed_view_mut::<1, 3>(place + j, 3).copy_from(&turned.transpose());
         }
-        jacobian.fixed_view_mut::<2, 2>(place, place).copy_from(&-compliance.flexibility);
+        let flexibility = nalgebra::Matrix2::new(-xx, -xz, -xz, -zz);
+        jacobian.fixed_view_mut::<2, 2>(place, place).copy_from(&flexibility);
     }
     jacobian.fixed_view_mut::<3, 3>(3, 3).copy_from(&rotation_of_moment);
     jacobian
@@ -105,6 +183,11 @@ impl Factored {
         let size = jacobian.nrows();
         let matrix = faer::Mat::from_fn(size, size, |i, j| jacobian[(i, j)]);
         Self { lu: matrix.partial_piv_lu(), size }
+    }
+
+    /// `J⁻¹`.
+    pub(crate) fn inverse(&self) -> DMatrix<f64> {
+        self.solve(&DMatrix::identity(self.size, self.size))
     }
 
     /// `J⁻¹ right`, column by column.
@@ -163,14 +246,14 @@ mod tests {
         fn the_jacobian_is_the_derivative_of_the_equations((robot, lengths, load, pose) in any_state()) {
             let model = Model::new(&robot, &lengths, &load).unwrap();
             let state = cables_at(&model, &pose).unwrap();
-            let jacobian = jacobian(&model, &state);
+            let jacobian = jacobian(&model, &State::from(&state));
             for column in 0..jacobian.ncols() {
                 let force = state.cable_forces.get(column.wrapping_sub(6) / 2);
                 let h = if column < 6 { 1e-4 } else { force.map_or(1.0, |f| 2e-4 * f.x.max(1e-3 * f.norm())) };
                 let at = |h: f64| {
                     let mut step = DVector::zeros(jacobian.nrows());
                     step[column] = h;
-                    residual(&model, &moved(&state, &step))
+                    residual(&model, &State::from(&moved(&state, &step)))
                 };
                 let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
                 let error = (&slope - jacobian.column(column)).norm();
@@ -183,8 +266,8 @@ mod tests {
         fn eliminating_the_cables_is_newtons_step_of_the_assembled_equations((robot, lengths, load, pose) in any_state()) {
             let model = Model::new(&robot, &lengths, &load).unwrap();
             let state = cables_at(&model, &pose).unwrap();
-            let right = -residual(&model, &state);
-            let assembled = Factored::new(&jacobian(&model, &state)).solve(&DMatrix::from_column_slice(right.len(), 1, right.as_slice()));
+            let right = -residual(&model, &State::from(&state));
+            let assembled = Factored::new(&jacobian(&model, &State::from(&state))).solve(&DMatrix::from_column_slice(right.len(), 1, right.as_slice()));
             let reduced = newton_step(&model, &state).unwrap();
             let expected = assembled.fixed_view::<6, 1>(0, 0);
             prop_assert!((reduced - expected).norm() < 1e-6 * expected.norm(), "{reduced} {expected}");

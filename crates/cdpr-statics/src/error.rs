@@ -49,6 +49,44 @@ pub enum StaticsError {
         /// Open moment [N m].
         moment: f64,
     },
+    /// The platform can only hold by straining a cable beyond all bounds.
+    #[error(
+        "cable {}: {length} m are too short: its points are {distance:.4} m apart at the equilibrium, a strain of {:.1} %; pay out cable",
+        index + 1, 100.0 * strain
+    )]
+    TooShort {
+        /// Number of the cable, from 0.
+        index: usize,
+        /// Its unstrained length [m].
+        length: f64,
+        /// Distance of its points at the equilibrium [m].
+        distance: f64,
+        /// Its largest strain T/EA.
+        strain: f64,
+    },
+    /// No stable equilibrium was found under the load's moment, and the one without it disappears while the moment is raised.
+    #[error(
+        "direct model: the equilibrium at ({:.4}, {:.4}, {:.4}) m is lost at {:.3} % of the load's moment",
+        pose.position.x, pose.position.y, pose.position.z, 100.0 * share
+    )]
+    EquilibriumLost {
+        /// Share of the moment at which it is lost, 0 to 1.
+        share: f64,
+        /// The last stiffness of the softest motion [N/m], see [`crate::Stability`].
+        least_stiffness: f64,
+        /// The last stable pose.
+        pose: Box<Pose>,
+    },
+    /// The distance to the exact equilibrium could not be bounded.
+    #[error(
+        "not certified: {reason} (closest attempt: the enclosing box maps to {growth:.3e} times itself, below 1 is a proof)"
+    )]
+    NotCertified {
+        /// What stood in the way.
+        reason: &'static str,
+        /// Size of the image of the last box, relative to the box.
+        growth: f64,
+    },
     /// No equilibrium was found; the best attempt.
     #[error(
         "direct model: no equilibrium found in {iterations} iterations; at best, at ({:.4}, {:.4}, {:.4}) m, {:e} N and {:e} N m stay open",
@@ -75,6 +113,9 @@ impl StaticsError {
             Self::Cable { .. } => "cable",
             Self::Invalid { .. } => "invalid_input",
             Self::InverseNotConverged { .. } => "inverse_not_converged",
+            Self::TooShort { .. } => "cable_too_short",
+            Self::EquilibriumLost { .. } => "equilibrium_lost",
+            Self::NotCertified { .. } => "not_certified",
             Self::DirectNotConverged { .. } => "direct_not_converged",
         }
     }

@@ -24,19 +24,28 @@
 //! # Ok::<(), cdpr_statics::StaticsError>(())
 //! ```
 
+mod certificate;
+mod continuation;
 mod deflection;
 mod direct;
 mod equations;
 mod error;
+mod interval;
 mod inverse;
+mod many;
 mod model;
 mod newton;
+mod stability;
 mod tangent;
 mod trust_region;
 
+pub use certificate::{Certificate, certify};
+pub use continuation::{Loss, LossKind, Path, PathStep, Setting, follow};
 pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections};
-pub use direct::{DirectSolution, Method, Report, Residual, Start, direct};
+pub use direct::{DirectSolution, Method, Report, Residual, Start, direct, direct_any};
 pub use error::StaticsError;
 pub use inverse::{InverseSolution, inverse, lengths_for_tensions};
+pub use many::{Equilibria, Found, Starts, direct_all};
 pub use model::{Equilibrium, Load};
+pub use stability::Stability;
 pub use tangent::Tangent;

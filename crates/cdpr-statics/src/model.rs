@@ -130,6 +130,11 @@ impl<'a> Model<'a> {
         Span::new(self.robot.span(pose, i))
     }
 
+    /// The same, for a known arm `R a_i`.
+    pub(crate) fn span_at(&self, pose: &Pose, i: usize, arm: &Vector3<f64>) -> Span {
+        Span::new(pose.position + arm - self.robot.cables[i].exit_point)
+    }
+
     pub(crate) fn catenary(&self, i: usize, force: Vector2<f64>) -> Catenary {
         Catenary { cable: self.cable(i), unstrained_length: self.lengths[i], force }
     }

@@ -19,14 +19,19 @@
 use crate::direct::Residual;
 use crate::equations::cross;
 use crate::model::{Equilibrium, Model, Span};
+use crate::stability::Stability;
+use cdpr_cable::end_force;
 use cdpr_robot::{Pose, Vector2, Vector3, Vector6};
 use nalgebra::{Matrix2, Matrix3, Matrix6};
 
-/// What the iteration ended with.
+/// What the iteration ended with: an equilibrium, stable or not.
 pub(crate) struct Converged {
     pub(crate) equilibrium: Equilibrium,
     pub(crate) iterations: usize,
     pub(crate) residual: Residual,
+    pub(crate) stability: Stability,
+    /// The first step (dp, ρ dφ): what the linearisation at the start predicts [m].
+    pub(crate) first_step: Vector6<f64>,
 }
 
 const MAX_ITERATIONS: usize = 15;
@@ -78,32 +83,53 @@ impl Balance {
     }
 }
 
-/// The linearised model at a state: the platform's balance with predicted forces, and what each cable adds to its prediction.
+/// A cable in the linearised model.
+struct Linear {
+    span: Span,
+    /// s_i = R a_i [m].
+    arm: Vector3<f64>,
+    /// Predicted force `f_i + K_i c_i` [N].
+    predicted: Vector2<f64>,
+    /// K_i [N/m].
+    in_plane: Matrix2<f64>,
+}
+
+/// The linearised model at a state: the platform's balance with predicted forces, what each cable adds to its prediction, and
+/// what the state itself leaves open.
 struct Linearised {
     balance: Balance,
-    /// Span, predicted force `f_i + K_i c_i` and in-plane stiffness K_i of every cable.
-    cables: Vec<(Span, Vector2<f64>, Matrix2<f64>)>,
+    cables: Vec<Linear>,
+    residual: Residual,
 }
 
 impl Linearised {
     fn new(model: &Model, state: &Equilibrium) -> Self {
         let mut balance = Balance::of_load(model, &state.pose);
+        let mut open = balance.gradient;
+        let mut closure: f64 = 0.0;
         let mut cables = Vec::with_capacity(model.cables());
         for (i, force) in state.cable_forces.iter().enumerate() {
-            let span = model.span(&state.pose, i);
+            let arm = model.robot.anchor_arm(&state.pose, i);
+            let span = model.span_at(&state.pose, i, &arm);
             let catenary = model.catenary(i, *force);
             if catenary.is_limp() {
-                cables.push((span, Vector2::zeros(), Matrix2::zeros()));
+                closure = closure.max(span.end.norm() - model.lengths[i]);
+                cables.push(Linear { span, arm, predicted: Vector2::zeros(), in_plane: Matrix2::zeros() });
                 continue;
             }
             let compliance = catenary.compliance();
             let in_plane = compliance.in_plane_stiffness();
-            let predicted = force + in_plane * (span.end - compliance.end);
-            let s = model.robot.anchor_arm(&state.pose, i);
-            balance.add_cable(&s, &span.lift(predicted), &compliance.stiffness(span.azimuth));
-            cables.push((span, predicted, in_plane));
+            let miss = span.end - compliance.end;
+            closure = closure.max(miss.norm());
+            let actual = span.lift(*force);
+            let moment = arm.cross(&actual);
+            open += Vector6::new(actual.x, actual.y, actual.z, moment.x, moment.y, moment.z);
+            let predicted = force + in_plane * miss;
+            balance.add_cable(&arm, &span.lift(predicted), &compliance.stiffness(span.azimuth));
+            cables.push(Linear { span, arm, predicted, in_plane });
         }
-        Self { balance, cables }
+        let (force, moment) = (open.fixed_rows::<3>(0).norm(), open.fixed_rows::<3>(3).norm());
+        Self { balance, cables, residual: Residual { closure, force, moment } }
     }
 
     /// The motion (dp, dφ) that balances the linearised platform. `None` if its stiffness is singular.
@@ -112,12 +138,24 @@ impl Linearised {
     }
 }
 
-/// Newton's method from `start`. `None` if it does not converge, or not to a stable equilibrium.
+/// Newton's method from `start`. `None` if it does not converge.
 pub(crate) fn newton(model: &Model, start: Equilibrium) -> Option<Converged> {
     let (size, arm) = (model.size(), model.arm());
     let mut now = start;
-    for iteration in 1..=MAX_ITERATIONS {
+    let mut first_step = None;
+    let mut last = false;
+    for iteration in 0..=MAX_ITERATIONS {
+        tighten(model, &mut now)?;
         let linearised = Linearised::new(model, &now);
+        if last && linearised.residual.is_rounding(model, &now) {
+            return Some(Converged {
+                equilibrium: now,
+                iterations: iteration,
+                residual: linearised.residual,
+                stability: Stability::new(&linearised.balance.symmetric_hessian(), arm),
+                first_step: first_step.unwrap_or_else(Vector6::zeros),
+            });
+        }
         let step = linearised.step()?;
         let (dp, dphi): (Vector3<f64>, Vector3<f64>) =
             (step.fixed_rows::<3>(0).into(), step.fixed_rows::<3>(3).into());
@@ -126,24 +164,36 @@ pub(crate) fn newton(model: &Model, start: Equilibrium) -> Option<Converged> {
         if !(moved < 0.3 * size && dphi.norm() < 0.7) {
             return None;
         }
-        for (i, (span, predicted, in_plane)) in linearised.cables.iter().enumerate() {
-            let s = model.robot.anchor_arm(&now.pose, i);
-            let force = predicted + in_plane * span.project(&(dp + dphi.cross(&s)));
+        let pose = now.pose.moved(dp, dphi);
+        for (i, (force, cable)) in now.cable_forces.iter_mut().zip(&linearised.cables).enumerate() {
+            *force = cable.predicted + cable.in_plane * cable.span.project(&(dp + dphi.cross(&cable.arm)));
             if force.x < 0.0 {
-                return None;
-            }
-            now.cable_forces[i] = force;
-        }
-        now.pose = now.pose.moved(dp, dphi);
-        if moved <= LAST_STEP * size {
-            let residual = Residual::of(model, &now);
-            if residual.is_rounding(model, &now) {
-                linearised.balance.symmetric_hessian().cholesky()?;
-                return Some(Converged { equilibrium: now, iterations: iteration, residual });
+                // The cable passed the vertical: in its new plane the same force points forwards.
+                let pull = cable.span.lift(*force);
+                force.x = model.span(&pose, i).project(&pull).x;
+                if force.x < -1e-12 * force.y.abs() {
+                    return None;
+                }
+                force.x = force.x.max(0.0);
             }
         }
+        now.pose = pose;
+        first_step
+            .get_or_insert_with(|| Vector6::new(dp.x, dp.y, dp.z, arm * dphi.x, arm * dphi.y, arm * dphi.z));
+        last = moved <= LAST_STEP * size;
     }
     None
+}
+
+/// Gives slack cables without weight whose points have come too far apart the force of their stretch.
+fn tighten(model: &Model, state: &mut Equilibrium) -> Option<()> {
+    for (i, force) in state.cable_forces.iter_mut().enumerate() {
+        if model.catenary(i, *force).is_limp() {
+            let end = model.span(&state.pose, i).end;
+            *force = end_force(&model.cable(i), model.lengths[i], end).ok()?.catenary.force;
+        }
+    }
+    Some(())
 }
 
 /// One step (dp, dφ) from a state, for comparison with the assembled equations.

@@ -5,7 +5,7 @@
 //! deflection of a robot with sagging cables; both are here to be compared.
 
 use crate::direct::DirectSolution;
-use crate::equations::{Factored, jacobian};
+use crate::equations::{Factored, State, jacobian};
 use crate::error::StaticsError;
 use crate::model::{Equilibrium, Load, Model};
 use crate::newton::Balance;
@@ -44,7 +44,7 @@ impl Tangent {
             end_per_length.push(if limp { Vector2::zeros() } else { catenary.compliance().end_per_length });
         }
         Ok(Self {
-            factored: Factored::new(&jacobian(&model, equilibrium)),
+            factored: Factored::new(&jacobian(&model, &State::from(equilibrium))),
             stiffness: balance.symmetric_hessian(),
             end_per_length,
         })

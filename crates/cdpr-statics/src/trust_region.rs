@@ -8,24 +8,31 @@
 //!
 //! and a stable one a minimum. A trust region on Π in the variables (dp, ρ dφ), ρ the platform's size, goes downhill from
 //! any start; its model is the Hessian of `newton`, and its subproblem is solved in the eigenvectors of that Hessian
-//! (Conn, Gould, Toint, *Trust-Region Methods*, 2000, section 7.3). A moment of constant components has no potential; the
+//! (Conn, Gould, Toint, *Trust-Region Methods*, 2000, section 7.3). Taut cables make valleys that are steep across and curved along:
+//! a step that goes uphill may be followed by two more before it is judged (a non-monotone method, their chapter 10), with which
+//! strides along the valley are several times longer. A moment of constant components has no potential; the
 //! work it does over each step stands in for one.
 
 use crate::direct::Residual;
 use crate::error::StaticsError;
 use crate::model::{Equilibrium, Model};
 use crate::newton::{Balance, Converged, newton};
-use cdpr_cable::end_force;
-use cdpr_robot::{Pose, Vector2, Vector3, Vector6};
-use nalgebra::{Matrix6, SymmetricEigen};
+use cdpr_cable::{end_force, end_force_near};
+use cdpr_robot::{Pose, Vector2, Vector6};
+use nalgebra::{Matrix6, SymmetricEigen, UnitQuaternion};
 
-const MAX_ITERATIONS: usize = 1000;
+const MAX_ITERATIONS: usize = 3000;
+
+/// Steps that may follow one which went uphill before it is taken back.
+const SECOND_LOOKS: usize = 2;
 
 /// A pose with its cables in equilibrium.
 struct Point {
     equilibrium: Equilibrium,
     /// Potential without the work of the load's moment [J].
     potential: f64,
+    /// What rounding may add to the potential [J].
+    noise: f64,
     /// In (dp, ρ dφ) [N].
     gradient: Vector6<f64>,
     /// In (dp, ρ dφ) [N/m].
@@ -44,26 +51,67 @@ pub(crate) fn cables_at(model: &Model, pose: &Pose) -> Result<Equilibrium, Stati
 }
 
 impl Point {
-    fn new(model: &Model, pose: &Pose) -> Result<Self, StaticsError> {
-        let equilibrium = cables_at(model, pose)?;
+    fn new(model: &Model, equilibrium: Equilibrium) -> Self {
+        let pose = &equilibrium.pose;
         let mut balance = Balance::of_load(model, pose);
         let weight = model.robot.weight(pose, model.load.payload).force;
         let center = pose.rotation * model.robot.platform.center_of_mass;
         let mut potential = -(weight + model.load.wrench.force).dot(&pose.position) - weight.dot(&center);
+        let mut noise = f64::EPSILON * potential.abs();
         for (i, force) in equilibrium.cable_forces.iter().enumerate() {
             let span = model.span(pose, i);
             let catenary = model.catenary(i, *force);
+            if catenary.is_limp() {
+                continue;
+            }
             potential += catenary.potential_energy();
+            // The span itself is rounded, and the force is the slope of the energy over it.
+            noise += f64::EPSILON * force.norm() * (span.end.norm() + pose.position.norm());
             let s = model.robot.anchor_arm(pose, i);
             balance.add_cable(&s, &span.lift(*force), &catenary.stiffness(span.azimuth));
         }
         let scale = scale(model);
-        Ok(Self {
-            equilibrium,
-            potential,
+        Self {
             gradient: balance.gradient.component_mul(&scale),
             hessian: balance.symmetric_hessian().component_mul(&(scale * scale.transpose())),
-        })
+            potential,
+            noise,
+            equilibrium,
+        }
+    }
+
+    /// The point a step (dp, ρ dφ) away. `None` where a cable has no answer.
+    fn moved(&self, model: &Model, step: &Vector6<f64>) -> Option<Self> {
+        let motion = step.component_mul(&scale(model));
+        let mut pose =
+            self.equilibrium.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
+        // Thousands of products of rotations are none any more; nor is the quaternion of such a matrix a unit.
+        let quaternion = UnitQuaternion::from_rotation_matrix(&pose.rotation).into_inner();
+        pose.rotation = UnitQuaternion::new_normalize(quaternion).to_rotation_matrix();
+        let solve = |(i, force): (usize, &Vector2<f64>)| {
+            let mut near = model.catenary(i, *force);
+            let (before, end) = (model.span(&self.equilibrium.pose, i).end, model.span(&pose, i).end);
+            let predicted = force + near.in_plane_stiffness() * (end - before);
+            if (0.3 * force.x..3.0 * force.x).contains(&predicted.x) {
+                near.force = predicted;
+            }
+            end_force_near(&near, end).ok().map(|solution| solution.catenary.force)
+        };
+        let cable_forces =
+            self.equilibrium.cable_forces.iter().enumerate().map(solve).collect::<Option<_>>()?;
+        Some(Self::new(model, Equilibrium { pose, cable_forces }))
+    }
+
+    /// By how much the potential falls, less the work of the load's moment, on the way to `next` by `step`.
+    fn gain(&self, model: &Model, next: &Self, step: &Vector6<f64>) -> f64 {
+        let noise = self.noise + next.noise;
+        let moment = model.load.wrench.moment / model.arm();
+        let gain = self.potential - next.potential + moment.dot(&step.fixed_rows::<3>(3));
+        if gain.abs() > 100.0 * noise {
+            return gain;
+        }
+        // Where the difference drowns in rounding the slopes at both ends tell it.
+        -0.5 * (self.gradient + next.gradient).dot(step)
     }
 }
 
@@ -76,42 +124,40 @@ fn scale(model: &Model) -> Vector6<f64> {
 /// The minimum of the potential that lies downhill of `start`.
 pub(crate) fn minimise(model: &Model, start: &Pose) -> Result<Converged, StaticsError> {
     let size = model.size();
-    let scale = scale(model);
-    let mut now = Point::new(model, start)?;
+    let mut now = Point::new(model, cables_at(model, start)?);
     let mut radius = 0.05 * size;
+    let mut polish_below = f64::INFINITY;
     for iteration in 1..=MAX_ITERATIONS {
+        let slope = now.gradient.norm();
         let tensions: f64 = now.equilibrium.cable_forces.iter().map(Vector2::norm).sum();
-        if now.gradient.norm() <= 1e-4 * tensions
-            && let Some(polished) = newton(model, now.equilibrium.clone())
-        {
-            let away = now.equilibrium.pose.motion_to(&polished.equilibrium.pose).component_div(&scale);
-            if away.norm() <= radius.max(1e-3 * size) {
-                return Ok(Converged { iterations: iteration + polished.iterations, ..polished });
+        if slope <= (1e-4 * tensions).min(polish_below) {
+            polish_below = 0.1 * slope;
+            if let Some(minimum) = polish(model, &now, radius) {
+                return Ok(Converged { iterations: iteration + minimum.iterations, ..minimum });
             }
         }
         let (step, predicted) = subproblem(&now.gradient, &now.hessian, radius);
-        let motion = step.component_mul(&scale);
-        let (dp, dphi): (Vector3<f64>, Vector3<f64>) =
-            (motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
-        let Ok(next) = Point::new(model, &now.equilibrium.pose.moved(dp, dphi)) else {
-            // A trial pose at which a cable has no answer is none.
+        let Some(mut next) = now.moved(model, &step) else {
             radius = 0.25 * step.norm();
             continue;
         };
-        let gain = now.potential - next.potential + model.load.wrench.moment.dot(&dphi);
-        let noise = 1e-13 * (now.potential.abs() + next.potential.abs());
-        // Where the gain drowns in rounding, the gradient decides.
-        let ratio = if predicted <= 10.0 * noise {
-            if next.gradient.norm() < now.gradient.norm() { 1.0 } else { 0.0 }
-        } else {
-            gain / predicted
-        };
-        if ratio < 0.25 {
+        let mut gain = now.gain(model, &next, &step);
+        // A curved valley: the step left its floor, further ones of the same kind find back to it.
+        for _ in 0..SECOND_LOOKS {
+            if gain >= 0.25 * predicted {
+                break;
+            }
+            let (second, _) = subproblem(&next.gradient, &next.hessian, radius);
+            let Some(after) = next.moved(model, &second) else { break };
+            gain += next.gain(model, &after, &second);
+            next = after;
+        }
+        if gain < 0.25 * predicted {
             radius = 0.25 * step.norm();
-        } else if ratio > 0.75 && step.norm() > 0.9 * radius {
+        } else if gain > 0.75 * predicted && step.norm() > 0.9 * radius {
             radius = (2.0 * radius).min(size);
         }
-        if ratio > 1e-4 {
+        if gain > 1e-4 * predicted {
             now = next;
         }
         if radius <= 1e-15 * size {
@@ -119,6 +165,14 @@ pub(crate) fn minimise(model: &Model, start: &Pose) -> Result<Converged, Statics
         }
     }
     Err(not_converged(model, &now, MAX_ITERATIONS))
+}
+
+/// The minimum that Newton's method finds from a point, if it is one and near.
+fn polish(model: &Model, point: &Point, radius: f64) -> Option<Converged> {
+    let minimum = newton(model, point.equilibrium.clone())?;
+    let motion = point.equilibrium.pose.motion_to(&minimum.equilibrium.pose);
+    let away = motion.component_div(&scale(model)).norm();
+    (minimum.stability.is_stable() && away <= radius.max(1e-3 * model.size())).then_some(minimum)
 }
 
 fn not_converged(model: &Model, best: &Point, iterations: usize) -> StaticsError {
@@ -140,18 +194,25 @@ fn subproblem(gradient: &Vector6<f64>, hessian: &Matrix6<f64>, radius: f64) -> (
     let floor = (-least).max(0.0) + 1e-12 * largest;
     let mut x = at(if least > 1e-12 * largest { 0.0 } else { floor });
     if x.norm() > radius {
-        // |x(shift)| falls from above the radius to below it.
+        // 1/|x(shift)| is almost linear in the shift: Newton's method for |x| = radius, kept between two bounds.
         let (mut low, mut high) =
             (if least > 1e-12 * largest { 0.0 } else { floor }, floor + g.norm() / radius);
-        for _ in 0..100 {
-            let middle = 0.5 * (low + high);
-            if at(middle).norm() > radius {
-                low = middle;
-            } else {
-                high = middle;
+        let mut shift = low;
+        for _ in 0..50 {
+            x = at(shift);
+            let length = x.norm();
+            if (length - radius).abs() <= 1e-3 * radius {
+                break;
             }
+            if length > radius {
+                low = shift;
+            } else {
+                high = shift;
+            }
+            let slope = x.zip_map(&values, |x, value| x * x / (value + shift)).sum();
+            let newton = shift + length * length / slope * (length - radius) / radius;
+            shift = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
         }
-        x = at(high);
     } else if least < -1e-12 * largest {
         // Negative curvature and no slope along it: go to the edge of the region in that direction.
         let direction = values.imin();
@@ -174,7 +235,7 @@ mod tests {
         assert!((inside - Vector6::new(-1.0, 1.0, -1.0, 1.0, -1.0, 1.0)).norm() < 1e-12);
         assert!((gain - 10.5).abs() < 1e-12);
         let (edge, _) = subproblem(&gradient, &hessian, 1e-3);
-        assert!((edge.norm() - 1e-3).abs() < 1e-12);
+        assert!((edge.norm() - 1e-3).abs() <= 1e-6);
         assert!((edge.normalize() + gradient.normalize()).norm() < 1e-2);
     }
 

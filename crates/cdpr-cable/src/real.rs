@@ -1,0 +1,52 @@
+//! What the equations of the catenary ask of a number, so that they stand once for floating point, intervals or dual numbers.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A kind of real number: a double, an interval of them, a number with its derivative.
+pub trait Real:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Mul<f64, Output = Self>
+{
+    /// The exact number `value`.
+    fn of(value: f64) -> Self;
+
+    /// A double nearby: decides which of two equivalent formulas is used.
+    fn value(self) -> f64;
+
+    /// Square root of a number that is not negative.
+    fn sqrt(self) -> Self;
+
+    /// Natural logarithm of a positive number.
+    fn ln(self) -> Self;
+
+    /// This number, known to within `error` only: the rest of a series. Kinds that do not bound errors ignore it.
+    fn within(self, error: f64) -> Self;
+}
+
+impl Real for f64 {
+    fn of(value: f64) -> Self {
+        value
+    }
+
+    fn value(self) -> f64 {
+        self
+    }
+
+    fn sqrt(self) -> Self {
+        Self::sqrt(self)
+    }
+
+    fn ln(self) -> Self {
+        Self::ln(self)
+    }
+
+    fn within(self, _error: f64) -> Self {
+        self
+    }
+}

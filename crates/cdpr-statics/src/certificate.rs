@@ -1,0 +1,275 @@
+//! Proof, in floating point, that an exact equilibrium lies within a stated distance of a computed one.
+//!
+//! With the `6 + 2n` equations `g(x) = 0`, an approximate inverse `Y` of their Jacobian and a box `X = x̃ + [-r, r]`, Krawczyk's
+//! operator
+//!
+//! ```text
+//! K(X) = x̃ - Y g(x̃) + (I - Y g'(X)) (X - x̃)
+//! ```
+//!
+//! maps the box into its own interior only if X holds exactly one solution, which then lies in K(X) (Krawczyk 1969; Moore,
+//! Kearfott, Cloud 2009, theorem 8.2). `g(x̃)` and `g'(X)` are evaluated with the intervals of `interval`, rounded outwards, from
+//! the same source as the equations themselves: the proof is about the catenary, not about an approximation of it. The inputs, as
+//! doubles, are taken as exact.
+//!
+//! Rotations near R̃ are `R = cay(δ) R̃` with Cayley's map
+//!
+//! ```text
+//! cay(δ) = I + ([δ] + [δ]²/2)/(1 + |δ|²/4),      dφ = (I + [δ]/2) dδ/(1 + |δ|²/4)
+//! ```
+//!
+//! which needs no angle functions; |δ| is never less than the angle. R̃ is the exact rotation of the quaternion in doubles.
+//!
+//! The Hessian H of the potential over the box, `A + B C⁻¹ Bᵀ` from the blocks of g', gives the stability. With a factor of its
+//! middle, `L Lᵀ`, and `|L⁻¹ H L⁻ᵀ - I| <= η < 1` over the box, `H >= (1 - η) L Lᵀ` is positive definite.
+
+use crate::direct::DirectSolution;
+use crate::equations::{Factored, State, cross, jacobian, residual};
+use crate::error::StaticsError;
+use crate::interval::Interval;
+use crate::model::{Load, Model};
+use cdpr_cable::Real;
+use cdpr_robot::{Matrix3, Robot, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix6, UnitQuaternion, Vector2};
+
+/// A proved statement: the `6 + 2n` equations have exactly one solution in a box around the computed one, and it is no farther
+/// from it than this.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certificate {
+    /// Bound on the distance of P [m].
+    pub position: f64,
+    /// Bound on the angle [rad].
+    pub rotation: f64,
+    /// Bound on the error of every cable's end force [N].
+    pub force: f64,
+    /// Lower bound of the smallest eigenvalue of the stiffness at the exact equilibrium [N/m], in the scaling of
+    /// [`crate::Stability`]. Above zero the equilibrium is proved stable.
+    pub least_stiffness: f64,
+}
+
+impl Certificate {
+    /// Whether the exact equilibrium is proved stable.
+    pub fn is_stable(&self) -> bool {
+        self.least_stiffness > 0.0
+    }
+}
+
+const MAX_BOXES: usize = 12;
+
+/// Proves that an exact equilibrium lies near `solution`, and how near.
+///
+/// # Errors
+/// [`StaticsError::Invalid`] for lengths or loads that are none; [`StaticsError::NotCertified`] where no box could be proved to hold
+/// an equilibrium: a cable that hangs vertically or folded, or stiffnesses so different that rounding hides the equilibrium.
+pub fn certify(
+    robot: &Robot,
+    lengths: &[f64],
+    load: &Load,
+    solution: &DirectSolution,
+) -> Result<Certificate, StaticsError> {
+    let model = Model::new(robot, lengths, load)?;
+    let equilibrium = &solution.equilibrium;
+    StaticsError::one_per_cable(
+        "solution.equilibrium.cable_forces",
+        &equilibrium.tensions(),
+        model.cables(),
+    )?;
+    let failed = |reason, growth| StaticsError::NotCertified { reason, growth };
+    let state = State::from(equilibrium);
+    let rotation = exact_rotation(&state.rotation);
+    let at = |radius: &DVector<f64>| enclose(&state, &rotation, radius);
+    let size = 6 + 2 * model.cables();
+
+    let inverse = Factored::new(&jacobian(&model, &state)).inverse();
+    if inverse.iter().any(|y| !y.is_finite()) {
+        return Err(failed("the equations are singular here", f64::INFINITY));
+    }
+    let open = residual(&model, &at(&DVector::zeros(size)).state);
+    let defect = DVector::from_fn(size, |i, _| dot(&inverse, i, open.iter()));
+    // No component of the box is much smaller than rounding: the others would push it out of itself.
+    let floor = DVector::from_fn(size, |i, _| match i {
+        0..3 => f64::EPSILON * model.size(),
+        3..6 => f64::EPSILON * model.size() / model.arm(),
+        _ => f64::EPSILON * equilibrium.cable_forces[(i - 6) / 2].norm(),
+    });
+    let mut radius = floor.zip_map(&defect, |floor, defect| 2.0 * defect.magnitude() + floor);
+    let mut growth = f64::INFINITY;
+    for _ in 0..MAX_BOXES {
+        let boxed = at(&radius);
+        if let Some(reason) = degenerate(&model, &boxed.state) {
+            return Err(failed(reason, growth));
+        }
+        let jacobian = turned(jacobian(&model, &boxed.state), &boxed.per_delta);
+        // (I - Y g'(X)) (X - x̃), by magnitudes.
+        let mut image = defect.map(Interval::magnitude);
+        for column in 0..size {
+            for row in 0..size {
+                let product = dot(&inverse, row, jacobian.column(column).iter());
+                let left = if row == column { Interval::of(1.0) - product } else { product };
+                image[row] = (image[row] + (left.magnitude() * radius[column]).next_up()).next_up();
+            }
+        }
+        growth = image.iter().zip(&radius).map(|(image, radius)| image / radius).fold(0.0, f64::max);
+        if image.iter().zip(&radius).all(|(image, radius)| image < radius) {
+            let least_stiffness = least_stiffness(&model, &jacobian);
+            return Ok(bounds(&state, &rotation, &image, least_stiffness));
+        }
+        if !image.iter().all(|image| image.is_finite()) {
+            break;
+        }
+        radius = floor.zip_map(&image, |floor, image| 1.5 * image + floor);
+    }
+    Err(failed("no box maps into itself", growth))
+}
+
+/// A box of states, with the derivative dφ/dδ over it.
+struct Boxed {
+    state: State<Interval>,
+    per_delta: Matrix3<Interval>,
+}
+
+fn enclose(state: &State<f64>, rotation: &Matrix3<Interval>, radius: &DVector<f64>) -> Boxed {
+    let half = |value: f64| Interval::of(value);
+    let delta = Vector3::from_fn(|i, _| Interval::around(0.0, radius[3 + i]));
+    let skew = cross(&delta);
+    let denominator = Interval::of(1.0) + (delta.x * delta.x + delta.y * delta.y + delta.z * delta.z) * 0.25;
+    let factor = Interval::of(1.0) / denominator;
+    let one = Matrix3::identity();
+    let turn = one + (skew + skew * skew * half(0.5)) * factor;
+    Boxed {
+        state: State {
+            position: Vector3::from_fn(|i, _| Interval::around(state.position[i], radius[i])),
+            rotation: turn * rotation,
+            forces: state
+                .forces
+                .iter()
+                .enumerate()
+                .map(|(i, f)| Vector2::from_fn(|j, _| Interval::around(f[j], radius[6 + 2 * i + j])))
+                .collect(),
+        },
+        per_delta: (one + skew * half(0.5)) * factor,
+    }
+}
+
+/// The rotation matrix of the quaternion nearest to `rotation`, exactly: of any quaternion, divided by its own square.
+fn exact_rotation(rotation: &Matrix3<f64>) -> Matrix3<Interval> {
+    let matrix = cdpr_robot::Rotation3::from_matrix_unchecked(*rotation);
+    let q = UnitQuaternion::from_rotation_matrix(&matrix);
+    let [w, x, y, z] = [q.w, q.i, q.j, q.k].map(Interval::of);
+    let square = w * w + x * x + y * y + z * z;
+    let two = |a: Interval| a * 2.0 / square;
+    Matrix3::new(
+        (w * w + x * x - y * y - z * z) / square,
+        two(x * y - w * z),
+        two(x * z + w * y),
+        two(x * y + w * z),
+        (w * w - x * x + y * y - z * z) / square,
+        two(y * z - w * x),
+        two(x * z - w * y),
+        two(y * z + w * x),
+        (w * w - x * x - y * y + z * z) / square,
+    )
+}
+
+/// What the equations cannot be enclosed for.
+fn degenerate(model: &Model, state: &State<Interval>) -> Option<&'static str> {
+    for (i, force) in state.forces.iter().enumerate() {
+        let middle = Vector2::new(force.x.value(), force.y.value());
+        let catenary = model.catenary(i, middle);
+        if catenary.is_limp() {
+            let cable = &model.robot.cables[i];
+            let arm = state.rotation * cable.anchor_point.map(Interval::of);
+            let r = state.position + arm - cable.exit_point.map(Interval::of);
+            if (r.x * r.x + r.y * r.y + r.z * r.z).sqrt().high >= model.lengths[i] {
+                return Some("a slack cable without weight is about to become taut");
+            }
+            continue;
+        }
+        // Far above the guard of `cdpr_cable::response`.
+        if force.x.low <= 1e-15 * (middle.norm() + catenary.weight()) {
+            return Some("a cable hangs vertically or folded");
+        }
+    }
+    None
+}
+
+/// Row `row` of Y times a column of intervals.
+fn dot<'a>(inverse: &DMatrix<f64>, row: usize, column: impl Iterator<Item = &'a Interval>) -> Interval {
+    let mut sum = Interval::of(0.0);
+    for (y, value) in inverse.row(row).iter().zip(column) {
+        // Most of g' is exactly zero.
+        if *value != Interval::of(0.0) {
+            sum = sum + *value * *y;
+        }
+    }
+    sum
+}
+
+/// The derivatives with respect to φ turned into those with respect to δ.
+fn turned(mut jacobian: DMatrix<Interval>, per_delta: &Matrix3<Interval>) -> DMatrix<Interval> {
+    for mut row in jacobian.row_iter_mut() {
+        let by_phi = [row[3], row[4], row[5]];
+        for j in 0..3 {
+            row[3 + j] =
+                by_phi[0] * per_delta[(0, j)] + by_phi[1] * per_delta[(1, j)] + by_phi[2] * per_delta[(2, j)];
+        }
+    }
+    jacobian
+}
+
+/// Lower bound of the smallest eigenvalue of the symmetric Hessian over the box, in (dp, ρ dφ).
+fn least_stiffness(model: &Model, jacobian: &DMatrix<Interval>) -> f64 {
+    let mut hessian: Matrix6<Interval> = jacobian.fixed_view::<6, 6>(0, 0).into_owned();
+    for i in 0..model.cables() {
+        let place = 6 + 2 * i;
+        let [xx, xz, zz] = [(0, 0), (0, 1), (1, 1)].map(|(r, c)| -jacobian[(place + r, place + c)]);
+        let determinant = xx * zz - xz * xz;
+        let stiffness = [[zz / determinant, -(xz / determinant)], [-(xz / determinant), xx / determinant]];
+        for row in 0..6 {
+            for column in 0..6 {
+                for (j, stiffness) in stiffness.iter().enumerate() {
+                    for (k, stiffness) in stiffness.iter().enumerate() {
+                        hessian[(row, column)] +=
+                            jacobian[(row, place + j)] * *stiffness * jacobian[(place + k, column)];
+                    }
+                }
+            }
+        }
+    }
+    let arm = model.arm();
+    let scale = |i: usize| if i < 3 { 1.0 } else { 1.0 / arm };
+    let symmetric = Matrix6::from_fn(|i, j| {
+        (hessian[(i, j)] + hessian[(j, i)]) * 0.5 * Interval::of(scale(i)) * Interval::of(scale(j))
+    });
+    let middle = symmetric.map(Interval::value);
+    let Some(inverse) = middle.cholesky().and_then(|factor| factor.l().try_inverse()) else {
+        return middle.symmetric_eigenvalues().min().min(0.0);
+    };
+    let inverse = inverse.map(Interval::of);
+    let near_identity = inverse * symmetric * inverse.transpose() - Matrix6::identity();
+    let norm = near_identity
+        .row_iter()
+        .map(|row| row.iter().map(|x| x.magnitude()).sum::<f64>())
+        .fold(0.0, f64::max);
+    // The eigenvalues of the middle are computed to a few roundings of its norm; so is L Lᵀ.
+    let rounding = 64.0 * f64::EPSILON * middle.norm();
+    (1.0 - norm * (1.0 + 1e-14)) * (middle.symmetric_eigenvalues().min() - rounding)
+}
+
+fn bounds(
+    state: &State<f64>,
+    rotation: &Matrix3<Interval>,
+    image: &DVector<f64>,
+    least_stiffness: f64,
+) -> Certificate {
+    let up = |x: f64| x * (1.0 + 4.0 * f64::EPSILON);
+    let norm = |from: usize, count: usize| up(image.rows(from, count).norm());
+    // The rotation that was handed out is not exactly that of its quaternion.
+    let off = Matrix3::from_fn(|i, j| (rotation[(i, j)] - Interval::of(state.rotation[(i, j)])).magnitude());
+    Certificate {
+        position: norm(0, 3),
+        rotation: up(norm(3, 3) + off.norm()),
+        force: (0..state.forces.len()).map(|i| norm(6 + 2 * i, 2)).fold(0.0, f64::max),
+        least_stiffness,
+    }
+}

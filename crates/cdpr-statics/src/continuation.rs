@@ -1,0 +1,134 @@
+//! Following an equilibrium while lengths or load change, up to where it is lost.
+//!
+//! Between two settings everything changes linearly with a share `λ` from 0 to 1. From an equilibrium at λ, the first step of
+//! Newton's method at λ + h is the tangent's prediction. A step is taken only where the iteration ends near that prediction and at a
+//! stable equilibrium; else h shrinks. At a turning point the remaining share δ makes the pose move like `sqrt δ`: steps then fall
+//! geometrically, and where h is below 1e-9 the equilibrium is lost (Allgower and Georg, *Introduction to Numerical Continuation
+//! Methods*, 2003, chapter 2). So a jump of the platform is reported, not stepped over.
+
+use crate::direct::{DirectSolution, Method, Start, descend, direct, solution};
+use crate::error::StaticsError;
+use crate::model::{Equilibrium, Load, Model};
+use crate::newton::{Converged, newton};
+use cdpr_robot::{Robot, Vector6, Wrench};
+
+/// What is set from outside: unstrained lengths and load.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// Unstrained length of every cable [m].
+    pub lengths: Vec<f64>,
+    /// Load on the platform.
+    pub load: Load,
+}
+
+/// Equilibria between two settings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// Stable equilibria in the order of their shares, the first at 0; the last at 1 unless the equilibrium was lost.
+    pub steps: Vec<PathStep>,
+    /// Where the equilibrium was lost, if it was.
+    pub lost: Option<Loss>,
+}
+
+/// One equilibrium of a path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathStep {
+    /// Share of the change, from 0 at the first setting to 1 at the second.
+    pub share: f64,
+    /// The equilibrium.
+    pub solution: DirectSolution,
+}
+
+/// How an equilibrium ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LossKind {
+    /// It meets an unstable one and both disappear: a turning point.
+    TurningPoint,
+    /// It goes on as an unstable one: a bifurcation.
+    Bifurcation,
+}
+
+/// The end of an equilibrium, and where the platform goes from there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loss {
+    /// Share of the change at which it is lost, to 1e-9.
+    pub share: f64,
+    /// How it ends.
+    pub kind: LossKind,
+    /// The last stable equilibrium before.
+    pub before: Box<DirectSolution>,
+    /// The stable equilibrium downhill, a millionth of the change later: the platform jumps there.
+    pub after: Result<Box<DirectSolution>, StaticsError>,
+}
+
+/// Steps of the share below this are not taken.
+const LEAST_STEP: f64 = 1e-9;
+
+/// What the iteration may add to its prediction, relative to it.
+const MAX_CORRECTION: f64 = 0.2;
+
+/// Follows the stable equilibrium near `start` from one setting to another.
+///
+/// # Errors
+/// Those of [`direct`] at the first setting. That the equilibrium is lost on the way is an answer, not an error.
+pub fn follow(robot: &Robot, from: &Setting, to: &Setting, start: Start) -> Result<Path, StaticsError> {
+    Model::new(robot, &to.lengths, &to.load)?;
+    let first = direct(robot, &from.lengths, &from.load, start)?;
+    follow_from(robot, from, to, first)
+}
+
+pub(crate) fn follow_from(
+    robot: &Robot,
+    from: &Setting,
+    to: &Setting,
+    first: DirectSolution,
+) -> Result<Path, StaticsError> {
+    let size = Model::new(robot, &from.lengths, &from.load)?.size();
+    let mut steps = vec![PathStep { share: 0.0, solution: first.clone() }];
+    let (mut share, mut now, mut step) = (0.0, first, 0.1);
+    while share < 1.0 {
+        let next = if share + step >= 1.0 { 1.0 } else { share + step };
+        let setting = between(from, to, next);
+        let model = Model::new(robot, &setting.lengths, &setting.load)?;
+        let found = newton(&model, now.equilibrium.clone());
+        let kind = match found.filter(|found| is_near_prediction(&model, &now.equilibrium, found, size)) {
+            Some(found) if found.stability.is_stable() => {
+                now = solution(&model, found, Method::Continuation)?;
+                steps.push(PathStep { share: next, solution: now.clone() });
+                (share, step) = (next, 2.0 * (next - share));
+                continue;
+            }
+            Some(_) => LossKind::Bifurcation,
+            None => LossKind::TurningPoint,
+        };
+        step = 0.25 * (next - share);
+        if step < LEAST_STEP {
+            let beyond = between(from, to, (share + 1e-6).min(1.0));
+            let model = Model::new(robot, &beyond.lengths, &beyond.load)?;
+            let after = descend(&model, &now.equilibrium.pose).map(Box::new);
+            let lost = Some(Loss { share, kind, before: Box::new(now), after });
+            return Ok(Path { steps, lost });
+        }
+    }
+    Ok(Path { steps, lost: None })
+}
+
+/// Whether the iteration ended near what its first step predicted: on the same branch.
+fn is_near_prediction(model: &Model, from: &Equilibrium, found: &Converged, size: f64) -> bool {
+    let arm = model.arm();
+    let mut motion: Vector6<f64> = from.pose.motion_to(&found.equilibrium.pose);
+    motion.fixed_rows_mut::<3>(3).scale_mut(arm);
+    (motion - found.first_step).norm() <= MAX_CORRECTION * found.first_step.norm() + 1e-7 * size
+}
+
+fn between(from: &Setting, to: &Setting, share: f64) -> Setting {
+    let mix = |a: f64, b: f64| if share == 1.0 { b } else { a + share * (b - a) };
+    let (a, b) = (from.load.wrench.to_vector(), to.load.wrench.to_vector());
+    Setting {
+        lengths: from.lengths.iter().zip(&to.lengths).map(|(a, b)| mix(*a, *b)).collect(),
+        load: Load {
+            payload: mix(from.load.payload, to.load.payload),
+            wrench: Wrench::from_vector(&a.zip_map(&b, mix)),
+        },
+    }
+}

@@ -1,0 +1,216 @@
+//! Intervals that enclose: every operation is rounded outwards by one unit in the last place, which covers the half unit that
+//! IEEE 754 allows `+ - * /` and `sqrt`. The logarithm is widened by four units; the C libraries document at most one or two.
+//!
+//! An operation without an answer (a division by an interval around zero, the root of a negative number) gives the whole line,
+//! with which no proof succeeds. Moore, Kearfott, Cloud, *Introduction to Interval Analysis* (2009), chapter 2.
+
+use cdpr_cable::Real;
+use num_traits::{One, Zero};
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// All numbers from `low` to `high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Interval {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+}
+
+impl Interval {
+    const LINE: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
+
+    /// Encloses `low..=high`, both known to half a unit in the last place.
+    fn outward(low: f64, high: f64) -> Self {
+        if low.is_nan() || high.is_nan() {
+            return Self::LINE;
+        }
+        Self { low: low.next_down(), high: high.next_up() }
+    }
+
+    /// The numbers within `radius` of `middle`.
+    pub(crate) fn around(middle: f64, radius: f64) -> Self {
+        Self::outward(middle - radius, middle + radius)
+    }
+
+    /// The largest absolute value.
+    pub(crate) fn magnitude(self) -> f64 {
+        self.low.abs().max(self.high.abs())
+    }
+}
+
+impl Add for Interval {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self::outward(self.low + other.low, self.high + other.high)
+    }
+}
+
+impl Sub for Interval {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self::outward(self.low - other.high, self.high - other.low)
+    }
+}
+
+impl Neg for Interval {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self { low: -self.high, high: -self.low }
+    }
+}
+
+impl Mul for Interval {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        if self.is_zero() || other.is_zero() {
+            return Self::zero();
+        }
+        let [a, b, c, d] =
+            [self.low * other.low, self.low * other.high, self.high * other.low, self.high * other.high];
+        if a.is_nan() || b.is_nan() || c.is_nan() || d.is_nan() {
+            return Self::LINE;
+        }
+        Self::outward(a.min(b).min(c).min(d), a.max(b).max(c).max(d))
+    }
+}
+
+impl Div for Interval {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        if other.low <= 0.0 && other.high >= 0.0 {
+            return Self::LINE;
+        }
+        self * Self::outward(1.0 / other.high, 1.0 / other.low)
+    }
+}
+
+impl Add<f64> for Interval {
+    type Output = Self;
+
+    fn add(self, other: f64) -> Self {
+        self + Self::of(other)
+    }
+}
+
+impl Mul<f64> for Interval {
+    type Output = Self;
+
+    fn mul(self, other: f64) -> Self {
+        self * Self::of(other)
+    }
+}
+
+impl AddAssign for Interval {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Interval {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl MulAssign for Interval {
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl Zero for Interval {
+    fn zero() -> Self {
+        Self { low: 0.0, high: 0.0 }
+    }
+
+    fn is_zero(&self) -> bool {
+        self.low == 0.0 && self.high == 0.0
+    }
+}
+
+impl One for Interval {
+    fn one() -> Self {
+        Self { low: 1.0, high: 1.0 }
+    }
+}
+
+impl Real for Interval {
+    fn of(value: f64) -> Self {
+        if value.is_nan() { Self::LINE } else { Self { low: value, high: value } }
+    }
+
+    fn value(self) -> f64 {
+        0.5 * (self.low + self.high)
+    }
+
+    fn sqrt(self) -> Self {
+        if self.low < 0.0 { Self::LINE } else { Self::outward(self.low.sqrt(), self.high.sqrt()) }
+    }
+
+    fn ln(self) -> Self {
+        if self.low <= 0.0 {
+            return Self::LINE;
+        }
+        let (low, high) = (self.low.ln(), self.high.ln());
+        let wide =
+            Self { low: low - 4.0 * f64::EPSILON * low.abs(), high: high + 4.0 * f64::EPSILON * high.abs() };
+        Self::outward(wide.low, wide.high)
+    }
+
+    fn within(self, error: f64) -> Self {
+        self + Self::around(0.0, error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn encloses(interval: Interval, value: f64) -> bool {
+        interval.low <= value && value <= interval.high
+    }
+
+    #[test]
+    fn a_division_around_zero_and_the_root_of_a_negative_number_are_the_whole_line() {
+        let around_zero = Interval { low: -1.0, high: 2.0 };
+        assert_eq!(Interval::one() / around_zero, Interval::LINE);
+        assert_eq!(around_zero.sqrt(), Interval::LINE);
+        assert_eq!(around_zero.ln(), Interval::LINE);
+        assert_eq!(Interval::of(f64::NAN), Interval::LINE);
+        assert_eq!(Interval::LINE * Interval::of(0.0), Interval::of(0.0));
+    }
+
+    #[test]
+    fn a_third_is_enclosed_though_no_double_is_one() {
+        let third = Interval::one() / Interval::of(3.0);
+        assert!(third.low < 1.0 / 3.0 && 1.0 / 3.0 <= third.high && third.high - third.low < 1e-15);
+        let one = third + third + third;
+        assert!(encloses(one, 1.0) && one.high - one.low < 2e-15);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Every pair of members has its result inside.
+        #[test]
+        fn operations_enclose_those_of_their_members(
+            a in -1e3..1e3f64, b in -1e3..1e3f64, ra in 0.0..10.0f64, rb in 0.0..10.0f64,
+            s in -1.0..1.0f64, t in -1.0..1.0f64,
+        ) {
+            let (x, y) = (Interval::around(a, ra), Interval::around(b, rb));
+            let (u, v) = (a + s * ra, b + t * rb);
+            prop_assert!(encloses(x + y, u + v));
+            prop_assert!(encloses(x - y, u - v));
+            prop_assert!(encloses(x * y, u * v));
+            prop_assert!(encloses(x / y, u / v) || v == 0.0);
+            prop_assert!(encloses((x * x).sqrt(), u.abs()) || (x * x).low < 0.0);
+            prop_assert!(u <= 0.0 || encloses(x.ln(), u.ln()));
+            prop_assert!(encloses(x.within(0.5), u + 0.5 * s));
+        }
+    }
+}

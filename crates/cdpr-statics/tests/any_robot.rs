@@ -1,0 +1,154 @@
+//! The direct model over random robots, poses, lengths, loads and starts: an equilibrium to rounding, or an outcome that is true.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{
+    CableProperties, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
+};
+use cdpr_statics::{Load, Start, StaticsError, certify, direct};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+const CASES: u64 = 100_000;
+
+/// A robot with cables wound out, loaded, and where the search for its pose begins.
+struct Case {
+    robot: Robot,
+    lengths: Vec<f64>,
+    load: Load,
+    start: Pose,
+}
+
+fn log_uniform(rng: &mut ChaCha8Rng, from: f64, to: f64) -> f64 {
+    from * (to / from).powf(rng.random::<f64>())
+}
+
+fn direction(rng: &mut ChaCha8Rng) -> Vector3<f64> {
+    loop {
+        let v = Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0));
+        if (0.1..1.0).contains(&v.norm()) {
+            return v.normalize();
+        }
+    }
+}
+
+/// Robots of 1 m to 300 m, suspended or held from all sides; steel to rubber, light to heavy cables; taut to slack.
+fn case(seed: u64) -> Case {
+    let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+    let n = rng.random_range(6..=16);
+    let size = log_uniform(rng, 1.0, 300.0);
+    let platform = size * log_uniform(rng, 0.02, 0.3);
+    let mass = log_uniform(rng, 0.1, 100.0) * size;
+    let weight = mass * 9.81;
+    let suspended = rng.random_bool(0.5);
+    let properties = CableProperties {
+        section: 1e-5,
+        // All cables together weigh from a ten thousandth of the platform to ten times as much.
+        linear_density: log_uniform(rng, 1e-4, 10.0) * mass / (size * n as f64),
+        // The platform's weight stretches one cable by 1e-6 to 1e-2 of its length.
+        youngs_modulus: weight / log_uniform(rng, 1e-6, 1e-2) / 1e-5,
+        diameter: None,
+        breaking_force: None,
+    };
+    let cables = (0..n)
+        .map(|_| {
+            let exit = Vector3::from_fn(|_, _| rng.random_range(-0.5..0.5) * size);
+            let height = if suspended { 0.5 * size * (1.0 + 0.2 * exit.z / size) } else { exit.z };
+            RobotCable {
+                exit_point: Vector3::new(exit.x, exit.y, height),
+                anchor_point: Vector3::from_fn(|_, _| rng.random_range(-0.5..0.5) * platform),
+                properties,
+            }
+        })
+        .collect();
+    let center_of_mass = Vector3::from_fn(|_, _| rng.random_range(-0.2..0.2) * platform);
+    let robot = Robot {
+        name: format!("random robot {seed}"),
+        source: None,
+        gravity: 9.81,
+        platform: Platform { mass, center_of_mass },
+        tension_limits: TensionLimits { min: 1.0, max: 1e9 },
+        cables,
+    };
+    let position = Vector3::from_fn(|_, _| rng.random_range(-0.3..0.3) * size);
+    let turn = direction(rng) * rng.random_range(0.0..0.5);
+    let pose = Pose { position, rotation: Rotation3::new(turn) };
+    let looseness = [1e-4, 1e-2, 0.3][rng.random_range(0..3)];
+    let lengths = (0..n)
+        .map(|i| robot.span(&pose, i).norm() * (1.0 + looseness * rng.random_range(-0.05..1.0)))
+        .collect();
+    let away = [0.003, 0.05, 0.5][rng.random_range(0..3)];
+    let start = pose.moved(direction(rng) * away * size, direction(rng) * (2.0 * away).min(3.0));
+    let wrench = if rng.random_bool(0.3) {
+        let force = direction(rng) * weight * rng.random_range(0.0..0.5);
+        let moment = direction(rng) * weight * platform * 0.1 * f64::from(u8::from(rng.random_bool(0.3)));
+        Wrench { force, moment }
+    } else {
+        Wrench::zero()
+    };
+    let payload = if rng.random_bool(0.5) { mass * rng.random_range(0.0..0.5) } else { 0.0 };
+    Case { robot, lengths, load: Load { payload, wrench }, start }
+}
+
+/// What became of a case; the certificate of an equilibrium beside it.
+fn outcome(case: &Case) -> (String, Option<String>) {
+    let Case { robot, lengths, load, start } = case;
+    let weight = (robot.platform.mass + load.payload) * robot.gravity;
+    let size = lengths.iter().copied().fold(0.0, f64::max);
+    match direct(robot, lengths, load, Start::Pose(start)) {
+        Ok(found) => {
+            let residual = found.report.residual;
+            assert!(
+                residual.force <= 1e-8 * weight && residual.closure <= 1e-10 * size,
+                "{}: {residual:?}",
+                robot.name
+            );
+            assert!(found.stability.is_stable() && found.stability.least_stiffness() > 0.0, "{}", robot.name);
+            let proof = match certify(robot, lengths, load, &found) {
+                Ok(proof) => {
+                    assert!(proof.position <= 1e-6 * size, "{}: {proof:?}", robot.name);
+                    if proof.is_stable() { "proved, stable" } else { "proved, stability open" }.to_owned()
+                }
+                Err(error) => error.to_string().split(" (").next().unwrap().to_owned(),
+            };
+            (format!("stable equilibrium by {:?}", found.report.method), Some(proof))
+        }
+        // Strained by more than 10 %: then every cable is no longer than the two points it has to join allow.
+        Err(error @ StaticsError::TooShort { index, length, distance, strain }) => {
+            assert!(strain > 0.1 && distance > length && length == lengths[index], "{}: {error}", robot.name);
+            (error.kind().to_owned(), None)
+        }
+        // A moment is not conservative: the platform may turn for ever, and only then is there no minimum.
+        Err(error) => {
+            assert!(load.wrench.moment != Vector3::zeros(), "{}: {error}", robot.name);
+            if let StaticsError::EquilibriumLost { share, .. } = error {
+                assert!((0.0..1.0).contains(&share), "{}: {error}", robot.name);
+            }
+            (error.kind().to_owned(), None)
+        }
+    }
+}
+
+#[test]
+fn any_robot_finds_an_equilibrium_or_says_truly_why_not() {
+    let outcomes: Vec<_> = (0..CASES).into_par_iter().map(|seed| outcome(&case(seed))).collect();
+    let mut counts = BTreeMap::<String, u64>::new();
+    for (outcome, proof) in outcomes {
+        *counts.entry(outcome).or_default() += 1;
+        if let Some(proof) = proof {
+            *counts.entry(format!("    {proof}")).or_default() += 1;
+        }
+    }
+    println!("{CASES} random robots, lengths, loads and starts:");
+    for (outcome, count) in &counts {
+        println!("{count:8} {outcome}");
+    }
+    let found = counts
+        .iter()
+        .filter(|(outcome, _)| outcome.starts_with("stable equilibrium"))
+        .map(|(_, n)| n)
+        .sum::<u64>();
+    assert!(found >= CASES * 98 / 100, "{counts:?}");
+}

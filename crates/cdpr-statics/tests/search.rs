@@ -1,0 +1,238 @@
+//! Stability, certificates, many starts and continuation.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{Platform, Pose, Robot, RobotCable, TensionLimits, Vector3, Wrench};
+use cdpr_statics::{
+    DirectSolution, Load, LossKind, Method, Setting, Start, Starts, StaticsError, certify, direct,
+    direct_all, direct_any, follow, inverse,
+};
+
+fn caroca() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+/// A platform on six cables in threefold symmetry, drawn up and down at a triangle of radius `radius`, with its centre of mass
+/// `height` above it.
+fn tripod(radius: f64, height: f64, mass: f64) -> Robot {
+    let properties = caroca().cables[0].properties;
+    let cable = |i: usize| {
+        let around = std::f64::consts::TAU * (i / 2) as f64 / 3.0;
+        let up = if i.is_multiple_of(2) { 2.0 } else { -2.0 };
+        RobotCable {
+            exit_point: Vector3::new(3.0 * around.cos(), 3.0 * around.sin(), up),
+            anchor_point: Vector3::new(
+                radius * (around + 0.3 * up).cos(),
+                radius * (around + 0.3 * up).sin(),
+                0.0,
+            ),
+            properties,
+        }
+    };
+    Robot {
+        name: "tripod".to_owned(),
+        source: None,
+        gravity: 9.81,
+        platform: Platform { mass, center_of_mass: Vector3::new(0.0, 0.0, height) },
+        tension_limits: TensionLimits { min: 1.0, max: 1e5 },
+        cables: (0..6).map(cable).collect(),
+    }
+}
+
+/// Its cables, shortened by a share of their spans at the origin.
+fn tightened(robot: &Robot, share: f64) -> Vec<f64> {
+    let pose = Pose::at(0.0, 0.0, 0.0);
+    (0..robot.cables.len()).map(|i| robot.span(&pose, i).norm() * (1.0 - share)).collect()
+}
+
+fn distance(a: &DirectSolution, b: &DirectSolution) -> f64 {
+    a.equilibrium.pose.motion_to(&b.equilibrium.pose).norm()
+}
+
+#[test]
+fn a_platform_standing_on_its_head_is_an_equilibrium_but_not_a_stable_one() {
+    let robot = tripod(0.1, 1.0, 300.0);
+    let lengths = tightened(&robot, 1e-3);
+    let upright = Pose::at(0.0, 0.0, 0.0);
+    let head = direct_any(&robot, &lengths, &Load::none(), Start::Pose(&upright)).unwrap();
+    let axis = |solution: &DirectSolution| solution.equilibrium.pose.rotation * Vector3::z();
+    assert!((axis(&head) - Vector3::z()).norm() < 1e-9, "{}", axis(&head));
+    assert!(!head.stability.is_stable() && head.stability.least_stiffness() < 0.0);
+    // It may fall to either side, and being symmetric equally fast.
+    assert_eq!(head.stability.unstable_directions(), 2);
+    let [first, second, ..] = head.stability.eigenvalues();
+    assert!((first - second).abs() < 1e-6 * first.abs());
+    // Asked for a stable one, the platform turns over and hangs.
+    let hanging = direct(&robot, &lengths, &Load::none(), Start::Pose(&upright)).unwrap();
+    assert!(hanging.stability.is_stable() && hanging.report.residual.force < 1e-8);
+    assert!(axis(&hanging).z < 0.0);
+}
+
+#[test]
+fn many_starts_find_the_platform_on_its_head_and_hanging() {
+    let robot = tripod(0.1, 1.0, 300.0);
+    let lengths = tightened(&robot, 1e-3);
+    let starts = Starts { center: Pose::at(0.0, 0.0, 0.0), reach: 0.2, turn: 1.5, count: 60 };
+    let all = direct_all(&robot, &lengths, &Load::none(), &starts).unwrap();
+    assert_eq!(all.failed, []);
+    for found in &all.found {
+        assert!(found.solution.report.residual.force < 1e-7, "{:?}", found.solution.report);
+    }
+    let (stable, unstable): (Vec<_>, Vec<_>) =
+        all.found.iter().partition(|found| found.solution.stability.is_stable());
+    println!("{} stable, {} unstable equilibria", stable.len(), unstable.len());
+    assert!(!stable.is_empty() && !unstable.is_empty());
+    // By symmetry a third of a turn takes equilibria to equilibria: the stable ones have the same height.
+    assert_eq!(all.found.iter().position(|found| !found.solution.stability.is_stable()), Some(stable.len()));
+    for (i, first) in all.found.iter().enumerate() {
+        for second in &all.found[..i] {
+            assert!(distance(&first.solution, &second.solution) > 1e-6);
+        }
+    }
+    assert_eq!(direct_all(&robot, &lengths, &Load::none(), &starts).unwrap(), all);
+}
+
+#[test]
+fn starts_that_are_none_are_named() {
+    let robot = tripod(0.3, 0.0, 50.0);
+    let lengths = tightened(&robot, 1e-3);
+    let starts = Starts { center: Pose::at(0.0, 0.0, 0.0), reach: 0.1, turn: 0.1, count: 0 };
+    let text = |starts: Starts| direct_all(&robot, &lengths, &Load::none(), &starts).unwrap_err().to_string();
+    assert_eq!(text(starts), "starts.count is 0: expected one start or more");
+    let text = text(Starts { count: 1, reach: f64::NAN, ..starts });
+    assert!(text.starts_with("starts.reach is NaN: expected a finite number, zero or more"), "{text}");
+}
+
+#[test]
+fn a_platform_loaded_on_top_falls_over_and_the_fall_is_reported() {
+    // Upright and stable while light; the payload sits a metre above the cables.
+    for (aside, kind) in [(0.0, LossKind::Bifurcation), (0.003, LossKind::TurningPoint)] {
+        let mut robot = tripod(0.1, 1.0, 5.0);
+        robot.platform.center_of_mass.x = aside;
+        let lengths = tightened(&robot, 2e-4);
+        let setting = |payload| Setting { lengths: lengths.clone(), load: Load::payload(payload) };
+        let start = Pose::at(0.0, 0.0, 0.0);
+        let (empty, full) = (setting(0.0), setting(3000.0));
+        let path = follow(&robot, &empty, &full, Start::Pose(&start)).unwrap();
+        let loss = path.lost.unwrap();
+        println!(
+            "{kind:?}: lost at {:.3} kg, {:.2e} N/m left",
+            3000.0 * loss.share,
+            loss.before.stability.least_stiffness()
+        );
+        assert_eq!(loss.kind, kind);
+        assert!(loss.share > 0.0 && loss.share < 1.0);
+        let stiffness: Vec<f64> =
+            path.steps.iter().map(|step| step.solution.stability.least_stiffness()).collect();
+        assert!(loss.before.stability.least_stiffness() < 1e-2 * stiffness[0], "{stiffness:?}");
+        // It jumps, and far.
+        let after = loss.after.unwrap();
+        assert!(after.stability.is_stable() && distance(&loss.before, &after) > 0.5);
+        // A ten thousandth earlier there is an equilibrium close by, a ten thousandth later none.
+        for (share, stays) in [(loss.share - 1e-4, true), (loss.share + 1e-4, false)] {
+            let load = Load::payload(3000.0 * share);
+            let found = direct(&robot, &lengths, &load, Start::Near(&loss.before.equilibrium)).unwrap();
+            assert_eq!(distance(&found, &loss.before) < 0.2, stays, "{share}");
+        }
+    }
+}
+
+#[test]
+fn winching_a_cable_and_back_ends_where_it_began() {
+    let robot = caroca();
+    let pose = Pose::at(0.5, -0.3, 1.5);
+    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let mut wound = wanted.lengths.clone();
+    wound[0] -= 0.02;
+    wound[5] += 0.3;
+    let from = Setting { lengths: wanted.lengths.clone(), load: Load::none() };
+    let to = Setting { lengths: wound, load: Load::payload(50.0) };
+    let there = follow(&robot, &from, &to, Start::Near(&wanted.equilibrium)).unwrap();
+    assert_eq!(there.lost, None);
+    let end = &there.steps.last().unwrap().solution;
+    assert_eq!((there.steps[0].share, there.steps.last().unwrap().share), (0.0, 1.0));
+    assert_eq!(end.report.method, Method::Continuation);
+    assert!(end.report.residual.force < 1e-7, "{:?}", end.report);
+    assert!(!end.report.slack.is_empty(), "{:?}", end.report);
+    let back = follow(&robot, &to, &from, Start::Near(&end.equilibrium)).unwrap();
+    assert!(distance(&back.steps.last().unwrap().solution, &there.steps[0].solution) < 1e-9);
+}
+
+#[test]
+fn cables_half_as_long_as_they_should_be_are_too_short() {
+    let robot = caroca();
+    let pose = Pose::at(0.0, 0.0, 1.75);
+    let lengths: Vec<f64> = (0..8).map(|i| 0.5 * robot.span(&pose, i).norm()).collect();
+    let error = direct(&robot, &lengths, &Load::none(), Start::Pose(&pose)).unwrap_err();
+    assert_eq!(error.kind(), "cable_too_short");
+    let StaticsError::TooShort { length, distance, strain, .. } = error else { panic!("{error}") };
+    assert!(strain > 0.1 && distance > 1.1 * length);
+}
+
+#[test]
+fn a_moment_that_no_equilibrium_can_bear_is_said_so() {
+    // Six loose cables cannot keep a drum from turning about the vertical.
+    let robot = tripod(0.3, 0.0, 50.0);
+    let lengths = tightened(&robot, -0.05);
+    let load = |z| Load::wrench(Wrench { force: Vector3::zeros(), moment: Vector3::new(0.0, 0.0, z) });
+    let start = Pose::at(0.0, 0.0, 0.0);
+    assert!(direct(&robot, &lengths, &load(1.0), Start::Pose(&start)).unwrap().stability.is_stable());
+    let error = direct(&robot, &lengths, &load(1e6), Start::Pose(&start)).unwrap_err();
+    assert!(["equilibrium_lost", "cable_too_short"].contains(&error.kind()), "{error}");
+}
+
+#[test]
+fn a_cable_that_becomes_vertical_on_the_way_is_passed() {
+    let mut robot = caroca();
+    // The exit point of the first cable right above its anchor point at the start.
+    let start = Pose::at(0.3, 0.2, 1.5);
+    let above = start.position + robot.cables[0].anchor_point;
+    robot.cables[0].exit_point = Vector3::new(above.x, above.y, 3.5);
+    for (x, y) in [(0.0, 0.0), (-0.4, 0.3), (0.6, -0.2)] {
+        let pose = Pose::at(0.3 + x, 0.2 + y, 1.6);
+        let lengths: Vec<f64> = (0..8).map(|i| 1.0005 * robot.span(&pose, i).norm()).collect();
+        let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&start)).unwrap();
+        assert!(found.report.residual.force < 1e-8 && found.stability.is_stable(), "{:?}", found.report);
+    }
+}
+
+#[test]
+fn a_certificate_bounds_the_distance_of_a_solution_that_is_off() {
+    let robot = caroca();
+    let pose = Pose::at(1.0, 0.5, 2.0);
+    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let load = Load::payload(50.0);
+    let exact = direct(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium)).unwrap();
+    let proof = certify(&robot, &wanted.lengths, &load, &exact).unwrap();
+    println!("proved: {proof:?}");
+    assert!(proof.position < 1e-12 && proof.rotation < 1e-12 && proof.force < 1e-7);
+    let least = exact.stability.least_stiffness();
+    assert!(proof.is_stable() && proof.least_stiffness <= least && proof.least_stiffness > 0.9 * least);
+    for off in [1e-12, 1e-9, 1e-6, 1e-3] {
+        let mut moved = exact.clone();
+        let away = off * Vector3::new(0.6, 0.0, -0.8);
+        moved.equilibrium.pose = exact.equilibrium.pose.moved(away, away);
+        match certify(&robot, &wanted.lengths, &load, &moved) {
+            Ok(proof) => {
+                assert!(proof.position > 0.99 * off && proof.rotation > 0.99 * off, "{off}: {proof:?}")
+            }
+            Err(error) => assert!(error.kind() == "not_certified" && off > 1e-8, "{off}: {error}"),
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_proved_says_why() {
+    // A cable that hangs exactly vertical: its plane has no direction.
+    let mut robot = tripod(0.3, -0.5, 50.0);
+    for i in 0..6 {
+        let cable = &mut robot.cables[i];
+        let radius = [0.3, 0.5][i % 2];
+        cable.anchor_point *= radius / 0.3;
+        cable.exit_point = cable.anchor_point + Vector3::new(0.0, 0.0, 2.0);
+    }
+    let lengths = vec![2.0; 6];
+    let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&Pose::at(0.0, 0.0, 0.0)));
+    let error = certify(&robot, &lengths, &Load::none(), &found.unwrap()).unwrap_err();
+    assert!(error.to_string().starts_with("not certified: "), "{error}");
+}
