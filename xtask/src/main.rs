@@ -11,6 +11,9 @@ usage: cargo xtask TASK
 tasks:
   caroca-study [--out DIR] [--observations N] [--threads N]
                  the study of Baklouti, Caro, Courteille (CableCon 2017) beside its figures; DIR is target/caroca-study
+  robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
+                 how often the direct model finds CoGiRo's true pose from a wrong start, by the protocol of Mahnke and Caverly
+                 (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
   bench [ARGS]   all criterion benchmarks
   schemas        write the JSON Schemas of the file formats to docs/schemas
   help           this text";
@@ -21,6 +24,7 @@ fn main() -> ExitCode {
     let rest: Vec<String> = arguments.collect();
     match task.as_deref() {
         Some("caroca-study") => caroca_study(rest),
+        Some("robustness") => robustness(rest),
         Some("bench") => cargo(&[&["bench", "--workspace"], strs(&rest).as_slice()].concat()),
         Some("schemas") => schemas(),
         Some("help") => {
@@ -39,14 +43,31 @@ fn main() -> ExitCode {
 }
 
 fn caroca_study(mut rest: Vec<String>) -> ExitCode {
-    // Paths that the user gives are relative to where the user is; the default lies in the repository.
-    if !rest.iter().any(|argument| argument == "--out" || argument.starts_with("--out=")) {
-        rest.extend(["--out".to_owned(), root().join("target/caroca-study").display().to_string()]);
-    }
+    default(&mut rest, "--out", "target/caroca-study");
     let study = root().join("data/studies/caroca.json").display().to_string();
-    let run = ["run", "--release", "--package", "cdpr-cli", "--", "study", "run", &study];
     eprintln!("building the program (a few minutes the first time), then running {study}");
-    cargo(&[&run, strs(&rest).as_slice()].concat())
+    cdpr(&["study", "run", &study], &rest)
+}
+
+fn robustness(mut rest: Vec<String>) -> ExitCode {
+    default(&mut rest, "--out", "target/robustness");
+    default(&mut rest, "--robot", "data/robots/cogiro.json");
+    eprintln!("building the program (a few minutes the first time), then looking for poses");
+    cdpr(&["robustness"], &rest)
+}
+
+/// Adds `option` with a path in the repository, unless the user gives one: that is relative to where the user is.
+fn default(arguments: &mut Vec<String>, option: &str, path: &str) {
+    let given = format!("{option}=");
+    if !arguments.iter().any(|argument| argument == option || argument.starts_with(&given)) {
+        arguments.extend([option.to_owned(), root().join(path).display().to_string()]);
+    }
+}
+
+/// Builds and runs the program.
+fn cdpr(command: &[&str], rest: &[String]) -> ExitCode {
+    let run = ["run", "--release", "--package", "cdpr-cli", "--"];
+    cargo(&[&run, command, strs(rest).as_slice()].concat())
 }
 
 fn schemas() -> ExitCode {

@@ -2,6 +2,7 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+mod robustness;
 mod study;
 
 use clap::{Parser, Subcommand};
@@ -22,6 +23,27 @@ enum Command {
     Study {
         #[command(subcommand)]
         command: StudyCommand,
+    },
+    /// Measure how often the direct model finds the true pose from a wrong start.
+    #[command(
+        after_help = "Example: cdpr robustness --robot data/robots/cogiro.json --poses 1000 --out robustness"
+    )]
+    Robustness {
+        /// Robot file (JSON, `cdpr-robot/1`); the protocols are made for CoGiRo.
+        #[arg(long)]
+        robot: PathBuf,
+        /// Poses of the protocol of Mahnke and Caverly.
+        #[arg(long, default_value_t = 10_000)]
+        poses: usize,
+        /// Its Young's modulus of all cables [Pa]; the thirty poses keep the robot's.
+        #[arg(long, default_value_t = 35e9, allow_negative_numbers = true)]
+        modulus: f64,
+        /// Seed of poses and starts. The same seed gives the same numbers, but for the times.
+        #[arg(long, default_value_t = 2017)]
+        seed: u64,
+        /// Folder for the results; made if missing.
+        #[arg(long, default_value = "robustness")]
+        out: PathBuf,
     },
 }
 
@@ -45,9 +67,15 @@ enum StudyCommand {
 }
 
 fn main() -> ExitCode {
-    let Arguments { command: Command::Study { command } } = Arguments::parse();
-    let StudyCommand::Run { study, out, observations, threads } = command;
-    let result = study::run(&study::Settings { study, out, observations, threads });
+    let result = match Arguments::parse().command {
+        Command::Study { command: StudyCommand::Run { study, out, observations, threads } } => {
+            study::run(&study::Settings { study, out, observations, threads })
+        }
+        Command::Robustness { robot, poses, modulus, seed, out } => {
+            let settings = robustness::Settings { robot, poses, modulus, seed, out };
+            robustness::run(&settings).map_err(study::RunError::from)
+        }
+    };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

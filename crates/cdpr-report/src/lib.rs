@@ -6,6 +6,7 @@
 //! | 4b, 4c: RMS over two parameters | [`surface`] |
 //! | 5b, 5c: t-Student of the points' coordinates | [`point_effects`] |
 //! | none: signed effects with their intervals | [`signed_effects`] |
+//! | none: answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
 //! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of Cable-Driven Parallel
 //! Robots*, 2017. All figures are 700 px wide on white; colours are those of Okabe and Ito and viridis, both safe for the
@@ -27,6 +28,7 @@ mod effects;
 mod error;
 mod histogram;
 mod points;
+mod robustness;
 mod style;
 mod surface;
 
@@ -34,4 +36,5 @@ pub use effects::signed_effects;
 pub use error::ReportError;
 pub use histogram::histogram;
 pub use points::{Points, point_effects};
+pub use robustness::{found_poses, success_share};
 pub use surface::surface;

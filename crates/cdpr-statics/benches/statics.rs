@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use cdpr_robot::{Pose, Robot, RobotCable, Vector3};
-use cdpr_statics::{Load, Start, Tangent, deflection, direct, inverse};
+use cdpr_statics::{Load, Setting, Start, Tangent, certify, deflection, direct, follow, inverse};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -76,6 +76,29 @@ fn direct_model(criterion: &mut Criterion) {
     group.finish();
 }
 
+fn proofs_and_searches(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("direct");
+    let robot = caroca();
+    let pose = Pose::at(0.4, -0.3, 1.75);
+    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let load = Load::payload(50.0);
+    let found = direct(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium)).unwrap();
+    let proof = certify(&robot, &wanted.lengths, &load, &found).unwrap();
+    assert!(proof.position < 1e-12 && proof.is_stable());
+    group.bench_function("certificate", |b| {
+        b.iter(|| certify(black_box(&robot), black_box(&wanted.lengths), &load, &found));
+    });
+    assert!(found.stability.least_stiffness() > 0.0);
+    group.bench_function("least stiffness", |b| b.iter(|| black_box(&found).stability.least_stiffness()));
+    let from = Setting { lengths: wanted.lengths.clone(), load: Load::none() };
+    let to = Setting { lengths: wanted.lengths.clone(), load };
+    assert_eq!(follow(&robot, &from, &to, Start::Near(&wanted.equilibrium)).unwrap().lost, None);
+    group.bench_function("followed to 50 kg", |b| {
+        b.iter(|| follow(black_box(&robot), &from, &to, Start::Near(&wanted.equilibrium)));
+    });
+    group.finish();
+}
+
 fn whole_deflection(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("deflection");
     let (robot, pose, load) = (caroca(), Pose::at(0.0, 0.0, 1.75), Load::payload(50.0));
@@ -90,5 +113,5 @@ fn whole_deflection(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, inverse_model, direct_model, whole_deflection);
+criterion_group!(benches, inverse_model, direct_model, proofs_and_searches, whole_deflection);
 criterion_main!(benches);

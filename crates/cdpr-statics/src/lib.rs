@@ -4,6 +4,10 @@
 //! |---|---|
 //! | which unstrained lengths hold a pose (IEGM)? | [`inverse`] |
 //! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
+//! | does it stay there, how far is it from not staying? | [`DirectSolution::stability`] |
+//! | how exact is that, proved? | [`certify`] |
+//! | where else could it stand? | [`direct_all`], [`direct_any`] |
+//! | where does it go while cables are wound or loads change, and where does it jump? | [`follow`] |
 //! | how far does it give under a load (Eq. (4))? | [`deflection`], [`deflections`] |
 //! | how stiff is it, how do lengths and loads move it? | [`Tangent`] |
 //!

@@ -6,12 +6,15 @@
 //! Π(p, R) = sum V_i(p + R a_i - b_i) - F·p - F_w·R c
 //! ```
 //!
-//! and a stable one a minimum. A trust region on Π in the variables (dp, ρ dφ), ρ the platform's size, goes downhill from
-//! any start; its model is the Hessian of `newton`, and its subproblem is solved in the eigenvectors of that Hessian
-//! (Conn, Gould, Toint, *Trust-Region Methods*, 2000, section 7.3). Taut cables make valleys that are steep across and curved along:
-//! a step that goes uphill may be followed by two more before it is judged (a non-monotone method, their chapter 10), with which
-//! strides along the valley are several times longer. A moment of constant components has no potential; the
-//! work it does over each step stands in for one.
+//! and a stable one a minimum. A trust region on Π in the variables (dp, l dφ), l half of the robot's size, goes downhill from any
+//! start; its model is the Hessian of `newton`, and its subproblem is solved in the eigenvectors of that Hessian (Conn, Gould,
+//! Toint, *Trust-Region Methods*, 2000, section 7.3). The length l binds rotations: a region that allows steps of a tenth of the
+//! robot turns the platform by a fifth of a radian at most, which keeps the search in the valley where it began.
+//!
+//! Taut cables make valleys that are steep across and curved along: a step that goes uphill may be followed by two more before it is
+//! judged (a non-monotone method, their chapter 10), with which strides along the valley are several times longer.
+//!
+//! A moment of constant components has no potential; the work it does over each step stands in for one.
 
 use crate::direct::Residual;
 use crate::error::StaticsError;
@@ -23,6 +26,9 @@ use nalgebra::{Matrix6, SymmetricEigen, UnitQuaternion};
 
 const MAX_ITERATIONS: usize = 3000;
 
+/// Radius of the first region, relative to the robot's size.
+const FIRST_RADIUS: f64 = 0.05;
+
 /// Steps that may follow one which went uphill before it is taken back.
 const SECOND_LOOKS: usize = 2;
 
@@ -33,9 +39,9 @@ struct Point {
     potential: f64,
     /// What rounding may add to the potential [J].
     noise: f64,
-    /// In (dp, ρ dφ) [N].
+    /// In (dp, l dφ) [N].
     gradient: Vector6<f64>,
-    /// In (dp, ρ dφ) [N/m].
+    /// In (dp, l dφ) [N/m].
     hessian: Matrix6<f64>,
 }
 
@@ -80,7 +86,7 @@ impl Point {
         }
     }
 
-    /// The point a step (dp, ρ dφ) away. `None` where a cable has no answer.
+    /// The point a step (dp, l dφ) away. `None` where a cable has no answer.
     fn moved(&self, model: &Model, step: &Vector6<f64>) -> Option<Self> {
         let motion = step.component_mul(&scale(model));
         let mut pose =
@@ -105,7 +111,7 @@ impl Point {
     /// By how much the potential falls, less the work of the load's moment, on the way to `next` by `step`.
     fn gain(&self, model: &Model, next: &Self, step: &Vector6<f64>) -> f64 {
         let noise = self.noise + next.noise;
-        let moment = model.load.wrench.moment / model.arm();
+        let moment = model.load.wrench.moment * scale(model)[3];
         let gain = self.potential - next.potential + moment.dot(&step.fixed_rows::<3>(3));
         if gain.abs() > 100.0 * noise {
             return gain;
@@ -115,9 +121,9 @@ impl Point {
     }
 }
 
-/// From (dp, ρ dφ) to (dp, dφ).
+/// From (dp, l dφ) to (dp, dφ).
 fn scale(model: &Model) -> Vector6<f64> {
-    let turn = 1.0 / model.arm();
+    let turn = 2.0 / model.size();
     Vector6::new(1.0, 1.0, 1.0, turn, turn, turn)
 }
 
@@ -125,7 +131,7 @@ fn scale(model: &Model) -> Vector6<f64> {
 pub(crate) fn minimise(model: &Model, start: &Pose) -> Result<Converged, StaticsError> {
     let size = model.size();
     let mut now = Point::new(model, cables_at(model, start)?);
-    let mut radius = 0.05 * size;
+    let mut radius = FIRST_RADIUS * size;
     let mut polish_below = f64::INFINITY;
     for iteration in 1..=MAX_ITERATIONS {
         let slope = now.gradient.norm();

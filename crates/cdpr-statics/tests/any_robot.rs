@@ -13,6 +13,9 @@ use std::collections::BTreeMap;
 
 const CASES: u64 = 100_000;
 
+/// Every so many answers one is certified.
+const CERTIFIED: u64 = 10;
+
 /// A robot with cables wound out, loaded, and where the search for its pose begins.
 struct Case {
     robot: Robot,
@@ -93,7 +96,7 @@ fn case(seed: u64) -> Case {
 }
 
 /// What became of a case; the certificate of an equilibrium beside it.
-fn outcome(case: &Case) -> (String, Option<String>) {
+fn outcome(case: &Case, certified: bool) -> (String, Option<String>) {
     let Case { robot, lengths, load, start } = case;
     let weight = (robot.platform.mass + load.payload) * robot.gravity;
     let size = lengths.iter().copied().fold(0.0, f64::max);
@@ -106,14 +109,14 @@ fn outcome(case: &Case) -> (String, Option<String>) {
                 robot.name
             );
             assert!(found.stability.is_stable() && found.stability.least_stiffness() > 0.0, "{}", robot.name);
-            let proof = match certify(robot, lengths, load, &found) {
+            let prove = || match certify(robot, lengths, load, &found) {
                 Ok(proof) => {
                     assert!(proof.position <= 1e-6 * size, "{}: {proof:?}", robot.name);
                     if proof.is_stable() { "proved, stable" } else { "proved, stability open" }.to_owned()
                 }
                 Err(error) => error.to_string().split(" (").next().unwrap().to_owned(),
             };
-            (format!("stable equilibrium by {:?}", found.report.method), Some(proof))
+            (format!("stable equilibrium by {:?}", found.report.method), certified.then(prove))
         }
         // Strained by more than 10 %: then every cable is no longer than the two points it has to join allow.
         Err(error @ StaticsError::TooShort { index, length, distance, strain }) => {
@@ -133,7 +136,8 @@ fn outcome(case: &Case) -> (String, Option<String>) {
 
 #[test]
 fn any_robot_finds_an_equilibrium_or_says_truly_why_not() {
-    let outcomes: Vec<_> = (0..CASES).into_par_iter().map(|seed| outcome(&case(seed))).collect();
+    let outcomes: Vec<_> =
+        (0..CASES).into_par_iter().map(|seed| outcome(&case(seed), seed % CERTIFIED == 0)).collect();
     let mut counts = BTreeMap::<String, u64>::new();
     for (outcome, proof) in outcomes {
         *counts.entry(outcome).or_default() += 1;

@@ -74,4 +74,41 @@ pub enum StudyError {
         /// The reason.
         source: SensitivityError,
     },
+    /// A setting that no test of robustness can have.
+    #[error("{field} is {value}: expected {expected}")]
+    Setting {
+        /// The setting.
+        field: String,
+        /// What was given.
+        value: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// The robot holds hardly any pose of a region.
+    #[error(
+        "poses is {wanted}: expected at most as many as the robot holds, but of {drawn} poses drawn {found} are held in a stable \
+         equilibrium, {infeasible} are infeasible and {unstable} unstable"
+    )]
+    TooFewPoses {
+        /// Poses asked for.
+        wanted: usize,
+        /// Poses collected.
+        found: usize,
+        /// Poses drawn.
+        drawn: usize,
+        /// Those that the inverse model has no answer for.
+        infeasible: usize,
+        /// Those whose equilibrium the direct model does not stay at.
+        unstable: usize,
+    },
+}
+
+impl StudyError {
+    pub(crate) fn setting(
+        field: impl Into<String>,
+        value: impl ToString,
+        expected: impl Into<String>,
+    ) -> Self {
+        Self::Setting { field: field.into(), value: value.to_string(), expected: expected.into() }
+    }
 }

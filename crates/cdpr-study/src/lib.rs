@@ -6,6 +6,8 @@
 //! runs in parallel with the same numbers on any number of threads. An observation that fails is data: counted by reason, named
 //! in the table, never an end.
 //!
+//! [`run_robustness`] asks another question: how often the direct model finds the true pose from a wrong start.
+//!
 //! ```no_run
 //! use cdpr_study::{Study, analyse, observe};
 //!
@@ -24,6 +26,7 @@ mod error;
 mod file;
 mod observation;
 mod output;
+mod robustness;
 mod sampling;
 mod study;
 mod surface;
@@ -38,9 +41,14 @@ pub use file::{
 pub use indexmap::IndexMap;
 pub use observation::{Observation, Observations, observe};
 pub use output::{
-    StudySummary, Summary, check_folder, remove_summary, write_figure, write_observations, write_summary,
-    write_surface,
+    StudySummary, Summary, check_folder, remove_summary, write_figure, write_observations, write_refused,
+    write_robustness, write_solves, write_summary, write_surface,
+};
+pub use robustness::{
+    Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
+    Published, Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread,
+    StartOffset, anchor_distance, run_robustness,
 };
 pub use sampling::{FitSummary, NominalSummary, RmsSummary, SamplingSummary, SignedEffect, analyse};
-pub use study::{Sampling, Study, Surface};
+pub use study::{Sampling, Study, Surface, open_robot};
 pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};

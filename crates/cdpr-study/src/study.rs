@@ -82,8 +82,7 @@ impl Study {
         let file: StudyFile =
             from_json(text).map_err(|source| StudyError::Format { path: path.to_owned(), source })?;
         let robot_path = path.parent().unwrap_or(Path::new(".")).join(&file.robot);
-        let robot = Robot::from_json(&read(&robot_path)?)
-            .map_err(|source| StudyError::Robot { path: robot_path, source })?;
+        let robot = open_robot(&robot_path)?;
         let study = Self { path: path.to_owned(), file, robot };
         study.validate()?;
         Ok(study)
@@ -314,6 +313,15 @@ impl Study {
             expected: expected.to_owned(),
         }
     }
+}
+
+/// Reads and checks a robot file.
+///
+/// # Errors
+/// [`StudyError::Read`]; [`StudyError::Robot`] naming file, field, value and what would be right.
+pub fn open_robot(path: &Path) -> Result<Robot, StudyError> {
+    let robot = Robot::from_json(&read(path)?);
+    robot.map_err(|source| StudyError::Robot { path: path.to_owned(), source })
 }
 
 fn keys<T>(map: &IndexMap<String, T>) -> String {
