@@ -199,7 +199,7 @@ fn dot<'a>(inverse: &DMatrix<f64>, row: usize, column: impl Iterator<Item = &'a 
     for (y, value) in inverse.row(row).iter().zip(column) {
         // Most of g' is exactly zero.
         if *value != Interval::of(0.0) {
-            sum = sum + *value * *y;
+            sum += *value * *y;
         }
     }
     sum

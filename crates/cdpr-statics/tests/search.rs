@@ -214,7 +214,7 @@ fn a_certificate_bounds_the_distance_of_a_solution_that_is_off() {
         moved.equilibrium.pose = exact.equilibrium.pose.moved(away, away);
         match certify(&robot, &wanted.lengths, &load, &moved) {
             Ok(proof) => {
-                assert!(proof.position > 0.99 * off && proof.rotation > 0.99 * off, "{off}: {proof:?}")
+                assert!(proof.position > 0.99 * off && proof.rotation > 0.99 * off, "{off}: {proof:?}");
             }
             Err(error) => assert!(error.kind() == "not_certified" && off > 1e-8, "{off}: {error}"),
         }
