@@ -2,6 +2,8 @@
 
 #![allow(clippy::print_stderr)]
 
+mod peers;
+
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
@@ -15,6 +17,7 @@ tasks:
                  how often the direct model finds CoGiRo's true pose from a wrong start, by the protocol of Mahnke and Caverly
                  (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
   bench [ARGS]   all criterion benchmarks
+  bench-peers    the direct model and an observation beside SciPy, Octave and Ceres, where installed: docs/PEERS.md
   schemas        write the JSON Schemas of the file formats to docs/schemas
   help           this text";
 
@@ -26,6 +29,7 @@ fn main() -> ExitCode {
         Some("caroca-study") => caroca_study(rest),
         Some("robustness") => robustness(rest),
         Some("bench") => cargo(&[&["bench", "--workspace"], strs(&rest).as_slice()].concat()),
+        Some("bench-peers") => peers::bench(),
         Some("schemas") => schemas(),
         Some("help") => {
             eprintln!("{HELP}");

@@ -1,0 +1,163 @@
+"""Direct model and one observation with SciPy: python3 direct.py PROBLEM.json, result as JSON on stdout.
+
+Unknowns of the direct model: p, rotation vector v with R = exp([v]), force (fx, fz) on every cable at its anchor point A_i.
+Equations, with r_i = p + R a_i - b_i, h_i and z_i its horizontal length and height, e_i = (r_x/h, r_y/h):
+
+    sum F_i = m g,  F_i = (fx e_i, fz),  g = (0, 0, -9.81) m/s^2                                  [N]     (3)
+    sum (R a_i) x F_i = (R c) x m g                                                               [N m]   (3)
+    h = fx L/EA + fx/w (asinh(fz/fx) - asinh((fz - w L)/fx))                                      [mm]    (2a)
+    z = fz L/EA - w L^2/(2 EA) + (sqrt(fx^2 + fz^2) - sqrt(fx^2 + (fz - w L)^2))/w                [mm]    (2b)
+
+Inverse model: least-norm tensions t = -W^T (W W^T)^-1 w_ex, W from the directions of the cables at the platform; then for
+every cable the unknowns (angle, L) of (2) with fx = t cos, fz = t sin; again, until the directions stop moving.
+
+Observation: inverse model of the robot with deviations, tension offsets dt, lengths for these, direct model without and
+with the payload, difference of the positions.
+
+Solver: least_squares with forward differences; "lm" (MINPACK) is faster here than "trf" and "dogbox".
+"""
+
+import json
+import math
+import statistics
+import sys
+import time
+
+import numpy as np
+import scipy
+from scipy.optimize import least_squares
+
+# Steps end it (1e-8 is the default); the sum of squares goes down to rounding.
+OPTIONS = {"method": "lm", "x_scale": "jac", "xtol": 1e-8, "ftol": 1e-15, "gtol": 1e-15}
+
+
+def catenary(fx, fz, length, w, ea):
+    """End (x, z) of a cable: (2)."""
+    v0 = fz - w * length
+    x = fx * length / ea + fx / w * (np.arcsinh(fz / fx) - np.arcsinh(v0 / fx))
+    z = fz * length / ea - w * length**2 / (2 * ea) + (np.hypot(fx, fz) - np.hypot(fx, v0)) / w
+    return x, z
+
+
+def turned(v):
+    """Rotation exp([v])."""
+    x, y, z = v
+    angle = math.sqrt(x * x + y * y + z * z)
+    half = math.sin(0.5 * angle) / angle if angle > 0 else 0.5
+    # From the quaternion (cos(angle/2), half v).
+    w, x, y, z = math.cos(0.5 * angle), half * x, half * y, half * z
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+class Robot:
+    """Robot with the parameter vector: mass, density, modulus, a (24), b (24), centre of mass, dt (8)."""
+
+    def __init__(self, problem, parameters):
+        self.g = problem["gravity"]
+        self.mass, density, modulus = parameters[:3]
+        self.w, self.ea = density * self.g, modulus * problem["section"]
+        self.a, self.b = parameters[3:27].reshape(8, 3), parameters[27:51].reshape(8, 3)
+        self.center, self.dt = parameters[51:54], parameters[54:62]
+
+    def wrench(self, mass, center):
+        """Weight of `mass` at `center` from P: force and moment."""
+        return -mass * self.g * np.array([0, 0, 1, center[1], -center[0], 0])
+
+    def span(self, position, arms):
+        """Horizontal directions of the cables, end (h, z) of each."""
+        r = position + arms - self.b
+        h = np.hypot(r[:, 0], r[:, 1])
+        return r[:, :2] / h[:, None], h, r[:, 2]
+
+    def residual(self, x, lengths, mass):
+        """The 22 equations."""
+        rotation = turned(x[3:6])
+        fx, fz = x[6::2], x[7::2]
+        arms = self.a @ rotation.T
+        e, h, z = self.span(x[:3], arms)
+        forces = np.column_stack([fx[:, None] * e, fz])
+        m = arms.T @ forces
+        moment = [m[1, 2] - m[2, 1], m[2, 0] - m[0, 2], m[0, 1] - m[1, 0]]
+        balance = np.concatenate([forces.sum(0), moment]) - self.wrench(mass, rotation @ self.center)
+        xc, zc = catenary(fx, fz, lengths, self.w, self.ea)
+        return np.concatenate([balance, 1e3 * (h - xc), 1e3 * (z - zc)])
+
+    def direct(self, lengths, payload, start):
+        """Unknowns at the equilibrium."""
+        return least_squares(self.residual, start, args=(lengths, self.mass + payload), **OPTIONS).x
+
+    def held(self, tensions, h, z, start):
+        """Angles and lengths of cables with given ends and tensions."""
+
+        def residual(x):
+            xc, zc = catenary(tensions * np.cos(x[:8]), tensions * np.sin(x[:8]), x[8:], self.w, self.ea)
+            return np.concatenate([h - xc, z - zc])
+
+        x = least_squares(residual, start, **OPTIONS).x
+        return x[:8], x[8:]
+
+    def inverse(self, position):
+        """Least-norm tensions, angles, lengths at a position with R = 1."""
+        e, h, z = self.span(position, self.a)
+        angles, lengths = np.arctan2(z, h), np.hypot(h, z)
+        while True:
+            pulls = -np.column_stack([np.cos(angles)[:, None] * e, np.sin(angles)])
+            matrix = np.vstack([pulls.T, np.cross(self.a, pulls).T])
+            tensions = -matrix.T @ np.linalg.solve(matrix @ matrix.T, self.wrench(self.mass, self.center))
+            before = angles
+            angles, lengths = self.held(tensions, h, z, np.concatenate([angles, lengths]))
+            if np.abs(angles - before).max() < 1e-12:
+                return tensions, angles, lengths
+
+    def observation(self, position, payload):
+        """Displacement dp under the payload."""
+        tensions, angles, lengths = self.inverse(position)
+        _, h, z = self.span(position, self.a)
+        tensions = tensions + self.dt
+        angles, lengths = self.held(tensions, h, z, np.concatenate([angles, lengths]))
+        forces = np.column_stack([tensions * np.cos(angles), tensions * np.sin(angles)])
+        unloaded = self.direct(lengths, 0.0, np.concatenate([position, np.zeros(3), forces.ravel()]))
+        return self.direct(lengths, payload, unloaded)[:3] - unloaded[:3]
+
+
+def timed(solve, repeats):
+    """Result, and CPU times [us]; the first call is not timed."""
+    result, times = solve(), []
+    for _ in range(repeats):
+        begin = time.process_time()
+        solve()
+        times.append(1e6 * (time.process_time() - begin))
+    return result, times
+
+
+def main():
+    with open(sys.argv[1]) as file:
+        problem = json.load(file)
+    nominal, position = np.array(problem["parameters"]), np.array(problem["position"])
+    payload, lengths, repeats = problem["payload"], np.array(problem["lengths"]), problem["repeats"]
+    start = np.concatenate([position, np.zeros(3), np.ravel(problem["forces"])])
+    robot = Robot(problem, nominal)
+    direct, direct_times = timed(lambda: robot.direct(lengths, payload, start), repeats)
+    displacements, times = [], []
+    for deviation in np.array(problem["deviations"]):
+        result, taken = timed(lambda: Robot(problem, nominal + deviation).observation(position, payload), repeats)
+        displacements.append(result.tolist())
+        times += taken
+    answer = {
+        "version": scipy.__version__,
+        "solver": f"least_squares {OPTIONS['method']}, forward differences",
+        "direct_us": statistics.median(direct_times),
+        "direct_position": direct[:3].tolist(),
+        "observation_us": statistics.median(times),
+        "displacements": displacements,
+    }
+    json.dump(answer, sys.stdout)
+
+
+main()
