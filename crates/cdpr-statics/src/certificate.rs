@@ -20,8 +20,9 @@
 //!
 //! which needs no angle functions; |δ| is never less than the angle. R̃ is the exact rotation of the quaternion in doubles.
 //!
-//! The Hessian H of the potential over the box, `A + B C⁻¹ Bᵀ` from the blocks of g', gives the stability. With a factor of its
-//! middle, `L Lᵀ`, and `|L⁻¹ H L⁻ᵀ - I| <= η < 1` over the box, `H >= (1 - η) L Lᵀ` is positive definite.
+//! The Hessian H of the potential over the box, `A + B C⁻¹ Bᵀ` from the blocks of g', gives the stability. With any matrix M, such as
+//! the inverse factor of the middle of H, `|M H Mᵀ - I| <= η < 1` over the box makes H positive definite, its eigenvalues no less
+//! than `(1 - η)/λ_max(MᵀM)`.
 
 use crate::direct::DirectSolution;
 use crate::equations::{Factored, State, cross, jacobian, residual};
@@ -84,29 +85,32 @@ pub fn certify(
     if inverse.iter().any(|y| !y.is_finite()) {
         return Err(failed("the equations are singular here", f64::INFINITY));
     }
+    let multiplier = Multiplier::new(inverse);
     let open = residual(&model, &at(&DVector::zeros(size)).state);
-    let defect = DVector::from_fn(size, |i, _| dot(&inverse, i, open.iter()));
+    let (middle, error) = multiplier.times(&DMatrix::from_column_slice(size, 1, open.as_slice()));
+    let defect = DVector::from_fn(size, |i, _| (middle[i].abs() + error[i]).next_up());
     // No component of the box is much smaller than rounding: the others would push it out of itself.
     let floor = DVector::from_fn(size, |i, _| match i {
         0..3 => f64::EPSILON * model.size(),
         3..6 => f64::EPSILON * model.size() / model.arm(),
         _ => f64::EPSILON * equilibrium.cable_forces[(i - 6) / 2].norm(),
     });
-    let mut radius = floor.zip_map(&defect, |floor, defect| 2.0 * defect.magnitude() + floor);
+    let mut radius = floor.zip_map(&defect, |floor, defect| 2.0 * defect + floor);
     let mut growth = f64::INFINITY;
     for _ in 0..MAX_BOXES {
         let boxed = at(&radius);
         if let Some(reason) = degenerate(&model, &boxed.state) {
             return Err(failed(reason, growth));
         }
-        let jacobian = turned(jacobian(&model, &boxed.state), &boxed.per_delta);
+        let jacobian = jacobian(&model, &boxed.state);
         // (I - Y g'(X)) (X - x̃), by magnitudes.
-        let mut image = defect.map(Interval::magnitude);
+        let (product, error) = multiplier.times(&turned(jacobian.clone(), &boxed.per_delta));
+        let mut image = defect.clone();
         for column in 0..size {
             for row in 0..size {
-                let product = dot(&inverse, row, jacobian.column(column).iter());
-                let left = if row == column { Interval::of(1.0) - product } else { product };
-                image[row] = (image[row] + (left.magnitude() * radius[column]).next_up()).next_up();
+                let one = if row == column { 1.0 } else { 0.0 };
+                let left = ((one - product[(row, column)]).abs().next_up() + error[(row, column)]).next_up();
+                image[row] = (image[row] + (left * radius[column]).next_up()).next_up();
             }
         }
         growth = image.iter().zip(&radius).map(|(image, radius)| image / radius).fold(0.0, f64::max);
@@ -193,16 +197,28 @@ fn degenerate(model: &Model, state: &State<Interval>) -> Option<&'static str> {
     None
 }
 
-/// Row `row` of Y times a column of intervals.
-fn dot<'a>(inverse: &DMatrix<f64>, row: usize, column: impl Iterator<Item = &'a Interval>) -> Interval {
-    let mut sum = Interval::of(0.0);
-    for (y, value) in inverse.row(row).iter().zip(column) {
-        // Most of g' is exactly zero.
-        if *value != Interval::of(0.0) {
-            sum += *value * *y;
-        }
+/// Y, ready to multiply matrices of intervals.
+struct Multiplier {
+    matrix: DMatrix<f64>,
+    magnitudes: DMatrix<f64>,
+}
+
+impl Multiplier {
+    fn new(matrix: DMatrix<f64>) -> Self {
+        Self { magnitudes: matrix.abs(), matrix }
     }
-    sum
+
+    /// Middles and error bounds of Y times a matrix of intervals: the product of the middles in ordinary arithmetic, and
+    /// `|Y| (radii + (n + 2) ε |middles|)`, which covers the radii and its rounding in whatever order it sums (Rump 1999). The bound is
+    /// raised by its own rounding.
+    fn times(&self, factor: &DMatrix<Interval>) -> (DMatrix<f64>, DMatrix<f64>) {
+        let share = (self.matrix.nrows() + 2) as f64 * f64::EPSILON;
+        let middles = factor.map(Interval::value);
+        let errors =
+            factor.zip_map(&middles, |interval, middle| interval.radius_about(middle) + share * middle.abs());
+        let bounds = (&self.magnitudes * errors).map(|bound| bound * (1.0 + 2.0 * share) + f64::MIN_POSITIVE);
+        (&self.matrix * middles, bounds)
+    }
 }
 
 /// The derivatives with respect to φ turned into those with respect to δ.
@@ -242,18 +258,29 @@ fn least_stiffness(model: &Model, jacobian: &DMatrix<Interval>) -> f64 {
         (hessian[(i, j)] + hessian[(j, i)]) * 0.5 * Interval::of(scale(i)) * Interval::of(scale(j))
     });
     let middle = symmetric.map(Interval::value);
-    let Some(inverse) = middle.cholesky().and_then(|factor| factor.l().try_inverse()) else {
-        return middle.symmetric_eigenvalues().min().min(0.0);
+    let by_factor = middle.cholesky().and_then(|factor| factor.l().try_inverse()).map(|inverse| {
+        let enclosed = inverse.map(Interval::of);
+        let eta = row_norm(&(enclosed * symmetric * enclosed.transpose() - Matrix6::identity()));
+        // The largest eigenvalue is computed to a few roundings of itself.
+        (1.0 - eta).next_down()
+            / ((inverse.transpose() * inverse).symmetric_eigenvalues().max() * (1.0 + 1e-13))
+    });
+    match by_factor {
+        Some(bound) if bound > 0.0 => bound,
+        // Weyl: the eigenvalues differ from those of the middle by no more than the norm of the radii.
+        _ => {
+            let radii = row_norm(&(symmetric - middle.map(Interval::of)));
+            middle.symmetric_eigenvalues().min() - radii - 64.0 * f64::EPSILON * middle.norm()
+        }
+    }
+}
+
+/// An upper bound of the largest sum of magnitudes in a row, and so of the matrix's norm if it is symmetric.
+fn row_norm(matrix: &Matrix6<Interval>) -> f64 {
+    let sum = |row: nalgebra::RowVector6<Interval>| {
+        row.iter().fold(0.0, |sum: f64, x| (sum + x.magnitude()).next_up())
     };
-    let inverse = inverse.map(Interval::of);
-    let near_identity = inverse * symmetric * inverse.transpose() - Matrix6::identity();
-    let norm = near_identity
-        .row_iter()
-        .map(|row| row.iter().map(|x| x.magnitude()).sum::<f64>())
-        .fold(0.0, f64::max);
-    // The eigenvalues of the middle are computed to a few roundings of its norm; so is L Lᵀ.
-    let rounding = 64.0 * f64::EPSILON * middle.norm();
-    (1.0 - norm * (1.0 + 1e-14)) * (middle.symmetric_eigenvalues().min() - rounding)
+    matrix.row_iter().map(|row| sum(row.into_owned())).fold(0.0, f64::max)
 }
 
 fn bounds(

@@ -31,6 +31,11 @@ impl Interval {
         Self::outward(middle - radius, middle + radius)
     }
 
+    /// How far the interval reaches from `middle`, rounded up.
+    pub(crate) fn radius_about(self, middle: f64) -> f64 {
+        (self.high - middle).max(middle - self.low).next_up().max(0.0)
+    }
+
     /// The largest absolute value.
     pub(crate) fn magnitude(self) -> f64 {
         self.low.abs().max(self.high.abs())
