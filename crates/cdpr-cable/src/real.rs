@@ -19,6 +19,9 @@ pub trait Real:
     /// A double nearby: decides which of two equivalent formulas is used.
     fn value(self) -> f64;
 
+    /// A double that it does not exceed.
+    fn upper(self) -> f64;
+
     /// Square root of a number that is not negative.
     fn sqrt(self) -> Self;
 
@@ -35,6 +38,10 @@ impl Real for f64 {
     }
 
     fn value(self) -> f64 {
+        self
+    }
+
+    fn upper(self) -> f64 {
         self
     }
 

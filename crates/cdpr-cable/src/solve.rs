@@ -26,7 +26,13 @@ pub struct Solution {
 
 impl Solution {
     pub(crate) fn of(catenary: Catenary, end: Vector2<f64>, iterations: usize) -> Self {
-        Self { catenary, iterations, residual: (end - catenary.end_position()).norm() }
+        // A slack cable without weight has no shape: it is open by what it is too short.
+        let residual = if catenary.is_limp() {
+            (end.norm() - catenary.unstrained_length).max(0.0)
+        } else {
+            (end - catenary.end_position()).norm()
+        };
+        Self { catenary, iterations, residual }
     }
 }
 
@@ -54,8 +60,7 @@ pub fn end_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Re
     )?;
     check_end(end)?;
     let at = |force| Catenary { cable: *cable, unstrained_length, force };
-    // So small a weight vanishes beside the stiffness, and its square below the smallest number.
-    if cable.weight_per_length * unstrained_length <= 1e-100 * cable.axial_stiffness {
+    if cable.is_weightless(unstrained_length) {
         let cable = &Cable { weight_per_length: 0.0, ..*cable };
         let at = |force| Catenary { cable: *cable, unstrained_length, force };
         return Ok(Solution::of(at(spring_force(cable, unstrained_length, end)), end, 0));
@@ -82,7 +87,7 @@ pub fn end_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Re
 /// # Errors
 /// As [`end_force`].
 pub fn end_force_near(near: &Catenary, end: Vector2<f64>) -> Result<Solution, CableError> {
-    let regular = near.force.x > 0.0 && near.weight() > 1e-100 * near.cable.axial_stiffness;
+    let regular = near.force.x > 0.0 && !near.cable.is_weightless(near.unstrained_length);
     if regular && end.x > 1e-30 * near.unstrained_length && end.x.is_finite() && end.y.is_finite() {
         let begun = newton(*near, end, MAX_ITERATIONS_NEAR);
         // A start so far off that it ends at a nearly folded cable, of which everything is explained by rounding, is none.
@@ -156,7 +161,9 @@ fn rounding(catenary: &Catenary, compliance: &Compliance, end: Vector2<f64>) -> 
 
 fn accept(catenary: Catenary, end: Vector2<f64>, iterations: usize) -> Result<Solution, CableError> {
     let solution = Solution::of(catenary, end, iterations);
-    if solution.residual <= 16.0 * rounding(&catenary, &catenary.compliance(), end).norm() {
+    // However much rounding may explain, an end farther off than this is none.
+    let largest = 1e-9 * (catenary.unstrained_length + end.norm());
+    if solution.residual <= (16.0 * rounding(&catenary, &catenary.compliance(), end).norm()).min(largest) {
         Ok(solution)
     } else {
         Err(CableError::NotConverged { iterations, residual: solution.residual })

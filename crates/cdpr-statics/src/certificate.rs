@@ -25,7 +25,7 @@
 //! than `(1 - η)/λ_max(MᵀM)`.
 
 use crate::direct::DirectSolution;
-use crate::equations::{Factored, State, cross, jacobian, residual};
+use crate::equations::{Factored, NEAR_VERTICAL, State, Strung, cross, jacobian, residual};
 use crate::error::StaticsError;
 use crate::interval::Interval;
 use crate::model::{Load, Model};
@@ -41,7 +41,7 @@ pub struct Certificate {
     pub position: f64,
     /// Bound on the angle [rad].
     pub rotation: f64,
-    /// Bound on the error of every cable's end force [N].
+    /// Bound on the error of every cable's end force (fx, fz) in its own plane [N].
     pub force: f64,
     /// Lower bound of the smallest eigenvalue of the stiffness at the exact equilibrium [N/m], in the scaling of
     /// [`crate::Stability`]. Above zero the equilibrium is proved stable.
@@ -180,17 +180,17 @@ fn degenerate(model: &Model, state: &State<Interval>) -> Option<&'static str> {
     for (i, force) in state.forces.iter().enumerate() {
         let middle = Vector2::new(force.x.value(), force.y.value());
         let catenary = model.catenary(i, middle);
+        let end = Strung::new(model, state, i).end;
         if catenary.is_limp() {
-            let cable = &model.robot.cables[i];
-            let arm = state.rotation * cable.anchor_point.map(Interval::of);
-            let r = state.position + arm - cable.exit_point.map(Interval::of);
-            if (r.x * r.x + r.y * r.y + r.z * r.z).sqrt().high >= model.lengths[i] {
+            if (end.x * end.x + end.y * end.y).sqrt().high >= model.lengths[i] {
                 return Some("a slack cable without weight is about to become taut");
             }
             continue;
         }
-        // Far above the guard of `cdpr_cable::response`.
-        if force.x.low <= 1e-15 * (middle.norm() + catenary.weight()) {
+        // Far above the guards of `cdpr_cable::response` and of the Jacobian; NaN is refused, too.
+        let regular = force.x.low > 1e-15 * (middle.norm() + catenary.weight())
+            && end.x.low > 2.0 * NEAR_VERTICAL * end.y.magnitude();
+        if !regular {
             return Some("a cable hangs vertically or folded");
         }
     }

@@ -3,7 +3,7 @@
 //! Between two settings everything changes linearly with a share `λ` from 0 to 1. From an equilibrium at λ, the first step of
 //! Newton's method at λ + h is the tangent's prediction. A step is taken only where the iteration ends near that prediction and at a
 //! stable equilibrium; else h shrinks. At a turning point the remaining share δ makes the pose move like `sqrt δ`: steps then fall
-//! geometrically, and where h is below 1e-9 the equilibrium is lost (Allgower and Georg, *Introduction to Numerical Continuation
+//! geometrically, and where h is below 1e-9 the equilibrium is lost, unless the one downhill a millionth later is the same (Allgower and Georg, *Introduction to Numerical Continuation
 //! Methods*, 2003, chapter 2). So a jump of the platform is reported, not stepped over.
 
 use crate::direct::{DirectSolution, Method, Start, descend, direct, solution};
@@ -46,23 +46,32 @@ pub enum LossKind {
     TurningPoint,
     /// It goes on as an unstable one: a bifurcation.
     Bifurcation,
+    /// It strains a cable by more than 10 %.
+    Overstrained,
+    /// It was not followed further: 10 000 steps were made.
+    StepLimit,
 }
 
 /// The end of an equilibrium, and where the platform goes from there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loss {
-    /// Share of the change at which it is lost, to 1e-9.
+    /// Share of the change at which it is lost, to 4e-9.
     pub share: f64,
     /// How it ends.
     pub kind: LossKind,
     /// The last stable equilibrium before.
     pub before: Box<DirectSolution>,
-    /// The stable equilibrium downhill, a millionth of the change later: the platform jumps there.
+    /// The stable equilibrium downhill, a millionth of the change later: the platform jumps there. Why there is none otherwise.
     pub after: Result<Box<DirectSolution>, StaticsError>,
 }
 
 /// Steps of the share below this are not taken.
 const LEAST_STEP: f64 = 1e-9;
+
+const MAX_STEPS: usize = 10_000;
+
+/// An equilibrium nearer than this share of the robot's size is the same one behind a kink: a cable that has just become taut.
+const SAME: f64 = 1e-5;
 
 /// What the iteration may add to its prediction, relative to it.
 const MAX_CORRECTION: f64 = 0.2;
@@ -93,7 +102,14 @@ pub(crate) fn follow_from(
         let found = newton(&model, now.equilibrium.clone());
         let kind = match found.filter(|found| is_near_prediction(&model, &now.equilibrium, found, size)) {
             Some(found) if found.stability.is_stable() => {
-                now = solution(&model, found, Method::Continuation)?;
+                match solution(&model, found, Method::Continuation) {
+                    Ok(solution) if steps.len() < MAX_STEPS => now = solution,
+                    outcome => {
+                        let kind = if outcome.is_ok() { LossKind::StepLimit } else { LossKind::Overstrained };
+                        let lost = Loss { share, kind, before: Box::new(now), after: outcome.map(Box::new) };
+                        return Ok(Path { steps, lost: Some(lost) });
+                    }
+                }
                 steps.push(PathStep { share: next, solution: now.clone() });
                 (share, step) = (next, 2.0 * (next - share));
                 continue;
@@ -103,10 +119,19 @@ pub(crate) fn follow_from(
         };
         step = 0.25 * (next - share);
         if step < LEAST_STEP {
-            let beyond = between(from, to, (share + 1e-6).min(1.0));
-            let model = Model::new(robot, &beyond.lengths, &beyond.load)?;
-            let after = descend(&model, &now.equilibrium.pose).map(Box::new);
-            let lost = Some(Loss { share, kind, before: Box::new(now), after });
+            let beyond = (share + 1e-6).min(1.0);
+            let setting = between(from, to, beyond);
+            let model = Model::new(robot, &setting.lengths, &setting.load)?;
+            let after = descend(&model, &now.equilibrium.pose);
+            if let Ok(same) = &after
+                && motion(&model, &now.equilibrium, &same.equilibrium).norm() <= SAME * size
+            {
+                now = same.clone();
+                steps.push(PathStep { share: beyond, solution: now.clone() });
+                (share, step) = (beyond, 1e-6);
+                continue;
+            }
+            let lost = Some(Loss { share, kind, before: Box::new(now), after: after.map(Box::new) });
             return Ok(Path { steps, lost });
         }
     }
@@ -115,10 +140,15 @@ pub(crate) fn follow_from(
 
 /// Whether the iteration ended near what its first step predicted: on the same branch.
 fn is_near_prediction(model: &Model, from: &Equilibrium, found: &Converged, size: f64) -> bool {
-    let arm = model.arm();
-    let mut motion: Vector6<f64> = from.pose.motion_to(&found.equilibrium.pose);
-    motion.fixed_rows_mut::<3>(3).scale_mut(arm);
+    let motion = motion(model, from, &found.equilibrium);
     (motion - found.first_step).norm() <= MAX_CORRECTION * found.first_step.norm() + 1e-7 * size
+}
+
+/// (dp, ρ dφ) from one equilibrium to another [m].
+fn motion(model: &Model, from: &Equilibrium, to: &Equilibrium) -> Vector6<f64> {
+    let mut motion = from.pose.motion_to(&to.pose);
+    motion.fixed_rows_mut::<3>(3).scale_mut(model.arm());
+    motion
 }
 
 fn between(from: &Setting, to: &Setting, share: f64) -> Setting {

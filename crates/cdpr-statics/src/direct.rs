@@ -1,6 +1,6 @@
 //! Direct elasto-geometrical model (DEGM): the pose for given unstrained lengths.
 
-use crate::continuation::{Path, Setting, follow_from};
+use crate::continuation::{Loss, LossKind, Path, Setting, follow_from};
 use crate::equations::{State, residual};
 use crate::error::StaticsError;
 use crate::model::{Equilibrium, Load, Model};
@@ -68,12 +68,13 @@ pub struct DirectSolution {
 const MAX_STRAIN: f64 = 0.1;
 
 /// A stable equilibrium for the unstrained lengths `lengths` [m] and a load, near the start where Newton's method converges to
-/// one, else downhill of the start. Without a moment there always is one: the cables' elasticity bounds the potential from below.
+/// one, else downhill of the start. Without a moment the potential always has a minimum: the cables' elasticity bounds it from below.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] for lengths, loads or a start that are none; [`StaticsError::TooShort`] where the equilibrium
-/// strains a cable by more than 10 %; [`StaticsError::EquilibriumLost`] where none is found under the load's moment and the one
-/// without it disappears on the way; [`StaticsError::DirectNotConverged`] with the best pose found. The start is never returned as an
+/// [`StaticsError::Invalid`] for lengths, loads or a start that are none; [`StaticsError::Overstrained`] where the equilibrium
+/// strains a cable by more than 10 %; [`StaticsError::Indifferent`] where nothing determines the pose; [`StaticsError::EquilibriumLost`] where none is found under the load's moment and the one
+/// without it disappears on the way; [`StaticsError::DirectNotConverged`] with the last pose; [`StaticsError::Robot`] where it is the
+/// robot's values that are none. The start is never returned as an
 /// answer.
 pub fn direct(
     robot: &Robot,
@@ -85,7 +86,10 @@ pub fn direct(
     let start = checked(&model, start)?;
     let pose = start.pose;
     match newton(&model, start) {
-        Some(converged) if converged.stability.is_stable() => solution(&model, converged, Method::Newton),
+        // A strained equilibrium far from the start need not be the one downhill.
+        Some(converged) if converged.stability.is_stable() => {
+            solution(&model, converged, Method::Newton).or_else(|_| settle(&model, &pose))
+        }
         _ => settle(&model, &pose),
     }
 }
@@ -125,7 +129,18 @@ fn checked(model: &Model, start: Start) -> Result<Equilibrium, StaticsError> {
     match start {
         Start::Pose(pose) => cables_at(model, pose),
         Start::Near(equilibrium) if equilibrium.cable_forces.len() == model.cables() => {
-            Ok(equilibrium.clone())
+            match equilibrium
+                .cable_forces
+                .iter()
+                .position(|force| !(force.x.is_finite() && force.y.is_finite()))
+            {
+                None => Ok(equilibrium.clone()),
+                Some(i) => invalid(
+                    &format!("start.cable_forces[{i}]"),
+                    format!("{:?}", equilibrium.cable_forces[i].as_slice()),
+                    "finite components [N]".to_owned(),
+                ),
+            }
         }
         Start::Near(equilibrium) => invalid(
             "start.cable_forces",
@@ -142,22 +157,26 @@ fn settle(model: &Model, pose: &Pose) -> Result<DirectSolution, StaticsError> {
         Err(error @ StaticsError::DirectNotConverged { .. }) => error,
         outcome => return outcome,
     };
+    // Fields are public: what looks like a hard problem may be a robot that is none.
+    model.robot.validate()?;
     let wrench = model.load.wrench;
     if wrench.moment == Vector3::zeros() {
         return Err(error);
     }
     let resting = Load { wrench: Wrench { moment: Vector3::zeros(), ..wrench }, ..*model.load };
     let without = Model { load: &resting, ..*model };
-    let first = descend(&without, pose)?;
+    let Ok(first) = descend(&without, pose) else { return Err(error) };
     let [from, to] =
         [&resting, model.load].map(|load| Setting { lengths: model.lengths.to_vec(), load: *load });
     let Path { mut steps, lost } = follow_from(model.robot, &from, &to, first)?;
+    let iterations = steps.iter().map(|step| step.solution.report.iterations).sum();
     match (steps.pop(), lost) {
         (Some(last), None) => {
             let mut solution = last.solution;
-            solution.report.method = Method::Continuation;
+            solution.report = Report { method: Method::Continuation, iterations, ..solution.report };
             Ok(solution)
         }
+        (_, Some(Loss { kind: LossKind::Overstrained, after: Err(error), .. })) => Err(error),
         (_, Some(loss)) => Err(StaticsError::EquilibriumLost {
             share: loss.share,
             least_stiffness: loss.before.stability.least_stiffness(),
@@ -181,9 +200,11 @@ pub(crate) fn solution(
     let mut slack = Vec::new();
     for (i, force) in equilibrium.cable_forces.iter().enumerate() {
         let (length, chord) = (model.lengths[i], model.span(&equilibrium.pose, i).end.norm());
-        let strain = force.norm() / model.cable(i).axial_stiffness;
+        let catenary = model.catenary(i, *force);
+        let tension = catenary.anchor_tension().max(catenary.exit_tension());
+        let strain = tension / model.cable(i).axial_stiffness;
         if strain > MAX_STRAIN {
-            return Err(StaticsError::TooShort { index: i, length, distance: chord, strain });
+            return Err(StaticsError::Overstrained { index: i, length, distance: chord, strain });
         }
         if length >= chord {
             slack.push(i);

@@ -55,27 +55,30 @@ pub(crate) fn cross<T: Number>(v: &Vector3<T>) -> Matrix3<T> {
 }
 
 /// Cable i at a state.
-struct Strung<T> {
+pub(crate) struct Strung<T> {
     /// s_i = R a_i.
     arm: Vector3<T>,
     /// Horizontal direction e_h from B towards A.
     azimuth: Vector2<T>,
     /// (h, z).
-    end: Vector2<T>,
+    pub(crate) end: Vector2<T>,
     /// F_i.
     force: Vector3<T>,
     /// `None` for a slack cable without weight.
     response: Option<Response<T>>,
 }
 
+/// Nearer to the vertical than this, `fx/h` of a cable that need not fit its points means nothing, and its limit stands in.
+pub(crate) const NEAR_VERTICAL: f64 = 1e-9;
+
 impl<T: Number> Strung<T> {
-    fn new(model: &Model, state: &State<T>, i: usize) -> Self {
+    pub(crate) fn new(model: &Model, state: &State<T>, i: usize) -> Self {
         let cable = &model.robot.cables[i];
         let arm = state.rotation * cable.anchor_point.map(T::of);
         let r = state.position + arm - cable.exit_point.map(T::of);
         let h = (r.x * r.x + r.y * r.y).sqrt();
         let azimuth =
-            if h.value() > 0.0 { Vector2::new(r.x / h, r.y / h) } else { Vector2::new(T::one(), T::zero()) };
+            if h.value() == 0.0 { Vector2::new(T::one(), T::zero()) } else { Vector2::new(r.x / h, r.y / h) };
         let f = state.forces[i];
         let p = &cable.properties;
         let w = T::of(p.linear_density) * T::of(model.robot.gravity);
@@ -147,7 +150,10 @@ pub(crate) fn jacobian<T: Number>(model: &Model, state: &State<T>) -> DMatrix<T>
         };
         let s = cross(&cable.arm);
         let sideways = Vector3::new(-cable.azimuth.y, cable.azimuth.x, T::zero());
-        let swing = sideways * sideways.transpose() * (T::one() / lateral);
+        let (h, z) = (cable.end.x, cable.end.y);
+        let near_vertical = Real::value(h) <= NEAR_VERTICAL * Real::value(z).abs();
+        let lateral = if near_vertical { T::one() / lateral } else { state.forces[i].x / h };
+        let swing = sideways * sideways.transpose() * lateral;
         let mut add = |row: usize, column: usize, block: Matrix3<T>| {
             let mut view = jacobian.fixed_view_mut::<3, 3>(row, column);
             view += block;

@@ -49,19 +49,20 @@ pub enum StaticsError {
         /// Open moment [N m].
         moment: f64,
     },
-    /// The platform can only hold by straining a cable beyond all bounds.
+    /// The equilibrium found strains a cable by more than 10 %, where a linear, small-strain cable describes nothing.
     #[error(
-        "cable {}: {length} m are too short: its points are {distance:.4} m apart at the equilibrium, a strain of {:.1} %; pay out cable",
+        "cable {}: {length} m of it, {distance:.4} m between its points, are strained by {:.1} % at the equilibrium found: too short or \
+         too soft for this load",
         index + 1, 100.0 * strain
     )]
-    TooShort {
+    Overstrained {
         /// Number of the cable, from 0.
         index: usize,
         /// Its unstrained length [m].
         length: f64,
         /// Distance of its points at the equilibrium [m].
         distance: f64,
-        /// Its largest strain T/EA.
+        /// Its largest strain: the larger of its two end tensions over EA.
         strain: f64,
     },
     /// No stable equilibrium was found under the load's moment, and the one without it disappears while the moment is raised.
@@ -87,15 +88,24 @@ pub enum StaticsError {
         /// Size of the image of the last box, relative to the box.
         growth: f64,
     },
-    /// No equilibrium was found; the best attempt.
+    /// Nothing determines the pose: every pose near this one is an equilibrium, as without weight on slack cables without weight.
     #[error(
-        "direct model: no equilibrium found in {iterations} iterations; at best, at ({:.4}, {:.4}, {:.4}) m, {:e} N and {:e} N m stay open",
+        "direct model: nothing determines the pose; every one near ({:.4}, {:.4}, {:.4}) m is an equilibrium",
+        pose.position.x, pose.position.y, pose.position.z
+    )]
+    Indifferent {
+        /// One of the poses.
+        pose: Box<Pose>,
+    },
+    /// No equilibrium was found; where the search ended.
+    #[error(
+        "direct model: no equilibrium found in {iterations} iterations; where the search ended, at ({:.4}, {:.4}, {:.4}) m, {:e} N and {:e} N m stay open",
         pose.position.x, pose.position.y, pose.position.z, residual.force, residual.moment
     )]
     DirectNotConverged {
         /// Iterations made.
         iterations: usize,
-        /// The pose with the smallest open wrench.
+        /// The pose where the search ended.
         pose: Box<Pose>,
         /// What stays open there.
         residual: Residual,
@@ -113,7 +123,8 @@ impl StaticsError {
             Self::Cable { .. } => "cable",
             Self::Invalid { .. } => "invalid_input",
             Self::InverseNotConverged { .. } => "inverse_not_converged",
-            Self::TooShort { .. } => "cable_too_short",
+            Self::Overstrained { .. } => "cable_overstrained",
+            Self::Indifferent { .. } => "indifferent",
             Self::EquilibriumLost { .. } => "equilibrium_lost",
             Self::NotCertified { .. } => "not_certified",
             Self::DirectNotConverged { .. } => "direct_not_converged",

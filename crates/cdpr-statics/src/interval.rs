@@ -152,6 +152,10 @@ impl Real for Interval {
         0.5 * (self.low + self.high)
     }
 
+    fn upper(self) -> f64 {
+        self.high
+    }
+
     fn sqrt(self) -> Self {
         if self.low < 0.0 { Self::LINE } else { Self::outward(self.low.sqrt(), self.high.sqrt()) }
     }

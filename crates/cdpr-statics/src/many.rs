@@ -37,6 +37,9 @@ pub struct Equilibria {
     pub failed: Vec<StaticsError>,
 }
 
+/// The root of x⁷ = x + 1, the golden ratio of six dimensions.
+const GOLDEN: f64 = 1.112_775_684_278_705_5;
+
 /// Two answers are the same equilibrium within this share of the robot's size.
 const SAME: f64 = 1e-7;
 
@@ -46,9 +49,7 @@ impl Starts {
         if index == 0 {
             return self.center;
         }
-        // The root of x⁷ = x + 1.
-        let golden: f64 = (0..60).fold(1.1, |x, _| (1.0 + x).powf(1.0 / 7.0));
-        let share = |axis: i32| 2.0 * (0.5 + index as f64 * golden.powi(-axis - 1)).fract() - 1.0;
+        let share = |axis: i32| 2.0 * (0.5 + index as f64 * GOLDEN.powi(-axis - 1)).fract() - 1.0;
         self.center.moved(
             self.reach * Vector3::new(share(0), share(1), share(2)),
             self.turn * Vector3::new(share(3), share(4), share(5)),
@@ -69,6 +70,13 @@ pub fn direct_all(
     starts: &Starts,
 ) -> Result<Equilibria, StaticsError> {
     let model = Model::new(robot, lengths, load)?;
+    if !starts.center.is_finite() {
+        return Err(StaticsError::Invalid {
+            field: "starts.center".to_owned(),
+            value: format!("{:?}", starts.center.position.as_slice()),
+            expected: "a finite pose".to_owned(),
+        });
+    }
     for (field, value) in [("starts.reach", starts.reach), ("starts.turn", starts.turn)] {
         if !(value.is_finite() && value >= 0.0) {
             let expected = "a finite number, zero or more [m, rad]".to_owned();

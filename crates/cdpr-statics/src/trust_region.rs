@@ -143,6 +143,10 @@ pub(crate) fn minimise(model: &Model, start: &Pose) -> Result<Converged, Statics
             }
         }
         let (step, predicted) = subproblem(&now.gradient, &now.hessian, radius);
+        if !(predicted > 0.0) {
+            // Neither slope nor negative curvature (or no number): there is nowhere to go.
+            return Err(not_converged(model, &now, iteration));
+        }
         let Some(mut next) = now.moved(model, &step) else {
             radius = 0.25 * step.norm();
             continue;
@@ -181,12 +185,13 @@ fn polish(model: &Model, point: &Point, radius: f64) -> Option<Converged> {
     (minimum.stability.is_stable() && away <= radius.max(1e-3 * model.size())).then_some(minimum)
 }
 
-fn not_converged(model: &Model, best: &Point, iterations: usize) -> StaticsError {
-    StaticsError::DirectNotConverged {
-        iterations,
-        pose: Box::new(best.equilibrium.pose),
-        residual: Residual::of(model, &best.equilibrium),
+fn not_converged(model: &Model, last: &Point, iterations: usize) -> StaticsError {
+    let pose = Box::new(last.equilibrium.pose);
+    let residual = Residual::of(model, &last.equilibrium);
+    if residual.is_rounding(model, &last.equilibrium) {
+        return StaticsError::Indifferent { pose };
     }
+    StaticsError::DirectNotConverged { iterations, pose, residual }
 }
 
 /// The step that minimises `g·x + ½ xᵀHx` over `|x| <= radius`, and the decrease it promises.

@@ -16,7 +16,9 @@ pub use summary::{Draws, ProtocolSummary, RobustnessRow, RobustnessSummary, Spre
 use crate::error::StudyError;
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_sensitivity::{RandomDesign, SampleDesign};
-use cdpr_statics::{DirectSolution, Load, Method, Residual, Start, StaticsError, direct, inverse};
+use cdpr_statics::{
+    DirectSolution, Load, Method, Residual, Start, StaticsError, direct, direct_any, inverse,
+};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::time::Instant;
@@ -255,10 +257,13 @@ fn draw(robot: &Robot, design: &RandomDesign, index: usize) -> Result<HeldPose, 
     let pose = Pose::at(x, y, z).moved(Vector3::zeros(), angle * axis);
     let refuse = |refusal| Box::new(RefusedPose { draw: index, pose, refusal });
     let held = inverse(robot, &pose, &Load::none(), None).map_err(|e| refuse(Refusal::Infeasible(e)))?;
-    let found = direct(robot, &held.lengths, &Load::none(), Start::Near(&held.equilibrium))
+    let found = direct_any(robot, &held.lengths, &Load::none(), Start::Near(&held.equilibrium))
         .map_err(|error| refuse(Refusal::Unanswered(error)))?;
+    // What the direct model itself does from the true pose is not asked: only whether the equilibrium there is stable.
     let motion = pose.motion_to(&found.equilibrium.pose);
-    if motion.fixed_rows::<3>(0).norm().max(motion.fixed_rows::<3>(3).norm()) > STABLE {
+    if !found.stability.is_stable()
+        || motion.fixed_rows::<3>(0).norm().max(motion.fixed_rows::<3>(3).norm()) > STABLE
+    {
         return Err(refuse(Refusal::Unstable));
     }
     Ok(HeldPose { draw: index, pose, lengths: held.lengths, directions: [away, about] })
