@@ -2,6 +2,7 @@
 
 #![allow(clippy::print_stderr)]
 
+mod fuzz;
 mod peers;
 
 use std::path::Path;
@@ -18,6 +19,7 @@ tasks:
                  (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
   bench [ARGS]   all criterion benchmarks
   bench-peers    the direct model and an observation beside SciPy, Octave and Ceres, where installed: docs/PEERS.md
+  fuzz [SECONDS] every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   schemas        write the JSON Schemas of the file formats to docs/schemas
   help           this text";
 
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
         Some("robustness") => robustness(rest),
         Some("bench") => cargo(&[&["bench", "--workspace"], strs(&rest).as_slice()].concat()),
         Some("bench-peers") => peers::bench(),
+        Some("fuzz") => fuzz::run(&rest),
         Some("schemas") => schemas(),
         Some("help") => {
             eprintln!("{HELP}");

@@ -29,6 +29,15 @@
 //!          N = fx² (fz² + V0²) + 2 fz V0 (fz V0 + T T0)
 //! ```
 //!
+//! and its determinant, every term of which is positive,
+//!
+//! ```text
+//! det C = L² [ (1/EA) (1/EA + xx + zz) + 2 q² ψ g/(T T0) ],                                (8)
+//! ```
+//!
+//! with `xx` and `zz` the other terms of the brackets of (5) and (3) (the determinant of the inextensible cable is
+//! `4 sinh²h (h/tanh h - 1)/(w² cosh u cosh u0)` with `tanh h = q`).
+//!
 //! For `fz V0 < 0` (the cable dips below both ends) `T T0 + fz V0` is formed as
 //! `fx² (fx² + fz² + V0²)/(T T0 - fz V0)`, so that nothing cancels for a cable that hangs folded (`fx -> 0`).
 //!
@@ -45,7 +54,7 @@
 //!   + (L/2EA) [ fx² + m² + 2 m d - d²/3 ]                                                      (7)
 //! ```
 
-use crate::error::{CableError, check};
+use crate::error::{CableError, SMALLEST, check};
 use crate::real::Real;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
@@ -59,14 +68,19 @@ pub struct Cable {
 }
 
 impl Cable {
-    /// Checks that the weight is finite and not negative, the stiffness finite and positive.
+    /// Checks that the weight is zero or from 1e-30 N/m to 1e30 N/m, the stiffness from 1e-30 N to 1e30 N.
     ///
     /// # Errors
     /// [`CableError::InvalidInput`] names the field.
     pub fn validate(&self) -> Result<(), CableError> {
         let Self { weight_per_length: w, axial_stiffness: ea } = *self;
-        check("weight_per_length", w, w >= 0.0, "a finite weight per length, zero or more [N/m]")?;
-        check("axial_stiffness", ea, ea > 0.0, "a finite, positive axial stiffness [N]")
+        check(
+            "weight_per_length",
+            w,
+            w == 0.0 || w >= SMALLEST,
+            "a weight per length, zero or from 1e-30 to 1e30 [N/m]",
+        )?;
+        check("axial_stiffness", ea, ea >= SMALLEST, "an axial stiffness from 1e-30 to 1e30 [N]")
     }
 }
 
@@ -95,6 +109,8 @@ pub struct Compliance {
     pub end: Vector2<f64>,
     /// In-plane flexibility `d(x, z)/d(fx, fz)` [m/N], equations (3)-(5).
     pub flexibility: Matrix2<f64>,
+    /// Determinant of the flexibility [m²/N²], equation (8): the difference of its products loses the digits of taut, stiff cables.
+    pub determinant: f64,
     /// Out-of-plane stiffness `fx/x` [N/m]; regular for a vertical cable, where `fx = x = 0`.
     pub lateral_stiffness: f64,
     /// Derivative of the end position with respect to the unstrained length at constant force at A [m/m]: the unit tangent
@@ -170,8 +186,7 @@ impl Compliance {
     /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m].
     pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
         let c = &self.flexibility;
-        let determinant = c.m11 * c.m22 - c.m12 * c.m21;
-        Matrix2::new(c.m22, -c.m12, -c.m21, c.m11) / determinant
+        Matrix2::new(c.m22, -c.m12, -c.m21, c.m11) / self.determinant
     }
 
     /// Derivative of the force at A with respect to the unstrained length with both ends held [N/m].
@@ -205,6 +220,8 @@ pub struct Response<T> {
     pub end: [T; 2],
     /// Flexibility dx/dfx, dx/dfz = dz/dfx, dz/dfz [m/N], equations (3)-(5).
     pub flexibility: [T; 3],
+    /// Determinant of the flexibility [m²/N²], equation (8).
+    pub determinant: T,
     /// x/fx [m/N]: lateral flexibility.
     pub lateral: T,
 }
@@ -240,10 +257,11 @@ impl Terms<f64> {
     }
 
     fn compliance(&self) -> Compliance {
-        let Response { end: [x, z], flexibility: [xx, xz, zz], lateral } = self.response();
+        let Response { end: [x, z], flexibility: [xx, xz, zz], determinant, lateral } = self.response();
         Compliance {
             end: Vector2::new(x, z),
             flexibility: Matrix2::new(xx, xz, xz, zz),
+            determinant,
             lateral_stiffness: 1.0 / lateral,
             end_per_length: Vector2::new(self.fx, self.v0) * (1.0 / self.t0 + 1.0 / self.ea),
         }
@@ -341,10 +359,16 @@ impl<T: Real> Terms<T> {
             (g, g * (squares + p * 2.0 * m))
         };
         let stretch = T::of(1.0) / ea;
-        let zz = length * (stretch + s * g / tt0);
+        let sag_zz = s * g / tt0;
+        let sag_xx = q2 * psi * 2.0 / s + n_over_d / (s * tt0);
         let xz = -fx * length * (fz + v0) / (tt0 * s);
-        let xx = length * (stretch + q2 * psi * 2.0 / s + n_over_d / (s * tt0));
-        Response { end: [fx * lateral, self.height()], flexibility: [xx, xz, zz], lateral }
+        let determinant = (stretch + sag_xx + sag_zz) * stretch + q2 * psi * 2.0 * g / tt0;
+        Response {
+            end: [fx * lateral, self.height()],
+            flexibility: [length * (stretch + sag_xx), xz, length * (stretch + sag_zz)],
+            determinant: length * determinant * length,
+            lateral,
+        }
     }
 }
 
@@ -401,6 +425,14 @@ mod tests {
         let end =
             catenary(Cable { weight_per_length: w, axial_stiffness: ea }, length, fx, fz).end_position();
         assert_relative_eq!(end, Vector2::new(x, z), max_relative = 1e-14);
+    }
+
+    #[test]
+    fn a_straight_spring_is_as_stiff_across_as_its_tension_makes_it() {
+        let spring = catenary(Cable { weight_per_length: 0.0, axial_stiffness: 1e6 }, 10.0, 1e-11, 1e-11);
+        // EA/L along and T/L across the direction (1, 1).
+        let k = spring.in_plane_stiffness();
+        assert_relative_eq!(k, Matrix2::new(5e4, 5e4, 5e4, 5e4), max_relative = 1e-12);
     }
 
     #[test]
@@ -482,6 +514,8 @@ mod tests {
         fn the_flexibility_is_positive_definite(c in any_catenary()) {
             let f = c.compliance().flexibility;
             prop_assert!(f.m11 > 0.0 && f.m22 > 0.0 && f.determinant() > 0.0);
+            let products = f.m11 * f.m22 + f.m12 * f.m21;
+            prop_assert!((c.compliance().determinant - f.determinant()).abs() < 1e-14 * products);
         }
 
         #[test]

@@ -39,6 +39,9 @@ pub enum CableError {
 /// Magnitudes beyond this are refused, so that no product of four of them overflows.
 const LARGEST: f64 = 1e30;
 
+/// Lengths, stiffnesses and tensions below this are refused, so that no quotient of such products overflows.
+pub(crate) const SMALLEST: f64 = 1e-30;
+
 pub(crate) fn check(
     field: &'static str,
     value: f64,

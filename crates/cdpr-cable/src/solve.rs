@@ -10,7 +10,7 @@
 //! A vertical cable (`x = 0`) is linear in each of three regimes: hanging taut, folded, pulled up from below.
 
 use crate::catenary::{Cable, Catenary, Compliance};
-use crate::error::{CableError, check};
+use crate::error::{CableError, SMALLEST, check};
 use nalgebra::Vector2;
 
 /// A cable in equilibrium between two given points, with what was left open.
@@ -55,8 +55,8 @@ pub fn end_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Re
     check(
         "unstrained_length",
         unstrained_length,
-        unstrained_length > 0.0,
-        "a finite, positive unstrained length [m]",
+        unstrained_length >= SMALLEST,
+        "an unstrained length from 1e-30 to 1e30 [m]",
     )?;
     check_end(end)?;
     let at = |force| Catenary { cable: *cable, unstrained_length, force };
@@ -130,7 +130,8 @@ fn newton(start: Catenary, end: Vector2<f64>, iterations: usize) -> Result<Solut
                 break Some((next, next_compliance, next_open));
             }
             fraction *= 0.5;
-            if fraction < 1e-6 {
+            // A cable just as long as its chord, nearly vertical: its first useful step is a ten billionth.
+            if fraction < 1e-14 {
                 break None;
             }
         };

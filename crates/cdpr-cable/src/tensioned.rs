@@ -11,7 +11,7 @@
 //! with C the flexibility; where that does not end on the falling branch, bisection of the tension over the length.
 
 use crate::catenary::{Cable, Catenary};
-use crate::error::{CableError, check};
+use crate::error::{CableError, SMALLEST, check};
 use crate::solve::{Solution, check_end, end_force};
 use nalgebra::{Matrix2, Vector2};
 
@@ -24,7 +24,14 @@ pub fn length_for_tension(cable: &Cable, end: Vector2<f64>, tension: f64) -> Res
     check_inputs(cable, end, tension)?;
     match newton(taut_start(cable, end, tension), end, tension) {
         Some(solution) => Ok(solution),
-        None => bisect(cable, end, tension),
+        None => bisect(cable, end, tension).map_err(|error| match error {
+            CableError::InvalidInput { field: "unstrained_length", .. } => CableError::InvalidInput {
+                field: "end",
+                value: end.norm(),
+                expected: "an end position that a cable of 1e-30 m to 1e30 m reaches with this tension",
+            },
+            error => error,
+        }),
     }
 }
 
@@ -49,8 +56,8 @@ pub fn length_for_tension_near(
 fn check_inputs(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<(), CableError> {
     cable.validate()?;
     check_end(end)?;
-    check("tension", tension, tension > 0.0, "a finite, positive tension [N]")?;
-    check("end", end.norm(), end.norm() > 0.0, "an end position away from the exit point [m]")
+    check("tension", tension, tension >= SMALLEST, "a tension from 1e-30 to 1e30 [N]")?;
+    check("end", end.norm(), end.norm() >= SMALLEST, "an end position away from the exit point [m]")
 }
 
 /// A straight spring, turned by half its weight and lengthened by the sag of a parabola.

@@ -179,6 +179,12 @@ fn bad_studies_are_refused_with_file_field_value_and_remedy() {
         |_, s| s["surfaces"]["surface_E_rho"]["x"]["points"] = json!(1),
         &[file, "surfaces.surface_E_rho.x.points is 1", "at least 2"],
     );
+    for points in [10_001, u64::MAX] {
+        refused(
+            |_, s| s["surfaces"]["surface_E_rho"]["x"]["points"] = json!(points),
+            &[file, &format!("surfaces.surface_E_rho.x.points is {points}"), "at most 10000"],
+        );
+    }
     refused(
         |_, s| s["samplings"]["geometrical"]["pose"]["position"] = json!([0, 0, 5]),
         &[

@@ -16,18 +16,26 @@ pub struct JsonError {
     pub message: String,
 }
 
-/// Reads a value from JSON text.
+impl JsonError {
+    fn new(field: String, error: &serde_json::Error) -> Self {
+        // serde_json ends its message with the place, which is given apart.
+        let message = error.to_string();
+        let message = message.split(" at line ").next().unwrap_or_default().to_owned();
+        Self { field, line: error.line(), column: error.column(), message }
+    }
+}
+
+/// Reads a value from JSON text, all of it.
 ///
 /// # Errors
 /// [`JsonError`] with field, line and column.
 pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
-    let deserializer = &mut serde_json::Deserializer::from_str(text);
-    serde_path_to_error::deserialize(deserializer).map_err(|error| {
+    let mut deserializer = serde_json::Deserializer::from_str(text);
+    let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
         let field = error.path().to_string();
-        let inner = error.into_inner();
-        // serde_json ends its message with the place, which is given apart.
-        let message = inner.to_string();
-        let message = message.split(" at line ").next().unwrap_or_default().to_owned();
-        JsonError { field, line: inner.line(), column: inner.column(), message }
-    })
+        JsonError::new(field, &error.into_inner())
+    })?;
+    // What follows the value is looked at, too: half a file may have been pasted behind another.
+    deserializer.end().map_err(|error| JsonError::new(".".to_owned(), &error))?;
+    Ok(value)
 }

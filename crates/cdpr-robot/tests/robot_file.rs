@@ -26,6 +26,30 @@ fn a_cable_may_have_its_own_properties() {
     assert_eq!(Robot::from_json(&robot.to_json()).unwrap(), robot);
 }
 
+#[test]
+fn every_double_is_written_and_read_back_to_the_last_bit() {
+    // Decimals whose nearest double is not found by multiplying digits with a power of ten.
+    for mass in
+        [180.123_456_789_012_35, 9.007_199_254_740_993e15, 1.0 / 3e300, 2.2250738585072014e-308, 5e-324]
+    {
+        let mut robot = Robot::from_json(CAROCA).unwrap();
+        robot.platform.mass = mass;
+        robot.gravity = 1.1 * mass;
+        robot.platform.center_of_mass.x = -mass / 3.0;
+        assert_eq!(Robot::from_json(&robot.to_json()).unwrap(), robot);
+    }
+}
+
+#[test]
+fn a_file_with_something_behind_its_end_is_refused() {
+    let refusal =
+        |tail: &str| Robot::from_json(&format!("{}{tail}", CAROCA.trim_end())).unwrap_err().to_string();
+    let last = CAROCA.trim_end().lines().count();
+    assert_eq!(refusal("\n}"), format!("line {}, column 1: .: trailing characters", last + 1));
+    assert!(refusal(CAROCA).ends_with("trailing characters"));
+    assert!(Robot::from_json(&format!("{CAROCA}\n\t ")).is_ok());
+}
+
 /// The message for CAROCA's file with `from` replaced by `to`.
 fn refusal(from: &str, to: &str) -> String {
     assert!(CAROCA.contains(from), "{from}");

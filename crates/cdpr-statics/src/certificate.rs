@@ -115,7 +115,7 @@ pub fn certify(
         }
         growth = image.iter().zip(&radius).map(|(image, radius)| image / radius).fold(0.0, f64::max);
         if image.iter().zip(&radius).all(|(image, radius)| image < radius) {
-            let least_stiffness = least_stiffness(&model, &jacobian);
+            let least_stiffness = least_stiffness(&model, &boxed.state, &jacobian);
             return Ok(bounds(&state, &rotation, &image, least_stiffness));
         }
         if !image.iter().all(|image| image.is_finite()) {
@@ -234,12 +234,14 @@ fn turned(mut jacobian: DMatrix<Interval>, per_delta: &Matrix3<Interval>) -> DMa
 }
 
 /// Lower bound of the smallest eigenvalue of the symmetric Hessian over the box, in (dp, ρ dφ).
-fn least_stiffness(model: &Model, jacobian: &DMatrix<Interval>) -> f64 {
+fn least_stiffness(model: &Model, state: &State<Interval>, jacobian: &DMatrix<Interval>) -> f64 {
     let mut hessian: Matrix6<Interval> = jacobian.fixed_view::<6, 6>(0, 0).into_owned();
     for i in 0..model.cables() {
         let place = 6 + 2 * i;
         let [xx, xz, zz] = [(0, 0), (0, 1), (1, 1)].map(|(r, c)| -jacobian[(place + r, place + c)]);
-        let determinant = xx * zz - xz * xz;
+        // Of a slack cable without weight only the ones on the diagonal are left.
+        let determinant =
+            Strung::new(model, state, i).response.map_or(xx * zz, |response| response.determinant);
         let stiffness = [[zz / determinant, -(xz / determinant)], [-(xz / determinant), xx / determinant]];
         for row in 0..6 {
             for column in 0..6 {

@@ -65,7 +65,7 @@ pub(crate) struct Strung<T> {
     /// F_i.
     force: Vector3<T>,
     /// `None` for a slack cable without weight.
-    response: Option<Response<T>>,
+    pub(crate) response: Option<Response<T>>,
 }
 
 /// Nearer to the vertical than this, `fx/h` of a cable that need not fit its points means nothing, and its limit stands in.

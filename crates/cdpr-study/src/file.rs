@@ -113,7 +113,7 @@ pub struct AxisSpec {
     pub min: f64,
     /// Greatest deviation.
     pub max: f64,
-    /// Points of the grid, 2 at least.
+    /// Points of the grid, 2 to 10000.
     pub points: usize,
 }
 

@@ -64,6 +64,9 @@ pub struct Surface<'a> {
     pub nominal: Deflection,
 }
 
+/// Points of one axis of a surface, which is held in memory as a whole.
+const MOST_POINTS: usize = 10_000;
+
 impl Study {
     /// Reads and checks a study file and its robot file. Every sampling and surface is prepared once, so that what is wrong
     /// with the last one is said before the first one runs.
@@ -273,11 +276,14 @@ impl Study {
             let range = format!("{} to {}", spec.min, spec.max);
             return Err(self.invalid(field, range, "finite deviations, min below max"));
         }
-        if spec.points < 2 {
-            return Err(self.invalid(&format!("{field}.points"), spec.points, "at least 2"));
+        if !(2..=MOST_POINTS).contains(&spec.points) {
+            let expected = format!("at least 2, at most {MOST_POINTS}");
+            return Err(self.invalid(&format!("{field}.points"), spec.points, &expected));
         }
-        let step = (spec.max - spec.min) / (spec.points - 1) as f64;
-        Ok((parameter, place, (0..spec.points).map(|k| spec.min + step * k as f64).collect()))
+        let last = (spec.points - 1) as f64;
+        // Weighted ends: the distance between them need not be a number, and the last point is `max` itself.
+        let point = |k: usize| spec.min * ((last - k as f64) / last) + spec.max * (k as f64 / last);
+        Ok((parameter, place, (0..spec.points).map(point).collect()))
     }
 
     fn pose(&self, field: &str, spec: &PoseSpec) -> Result<Pose, StudyError> {
@@ -330,4 +336,21 @@ fn keys<T>(map: &IndexMap<String, T>) -> String {
 
 fn read(path: &Path) -> Result<String, StudyError> {
     std::fs::read_to_string(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_ends_at_its_ends_however_far_apart_they_are() {
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json"));
+        let study = Study::open(path).unwrap();
+        for (min, max) in [(-0.3, 0.1), (f64::MIN, f64::MAX), (-5e-324, 5e-324)] {
+            let spec = AxisSpec { parameter: "mass".to_owned(), min, max, points: 7 };
+            let (_, _, points) = study.axis("x", &spec).unwrap();
+            assert_eq!((points[0], points[6]), (min, max));
+            assert!(points.is_sorted() && points.iter().all(|point| point.is_finite()), "{points:?}");
+        }
+    }
 }

@@ -1,0 +1,24 @@
+//! Everything a catenary is asked, for any six doubles.
+
+#![no_main]
+
+use cdpr_fuzz::{cable, mutate};
+use libfuzzer_sys::{fuzz_mutator, fuzz_target};
+use std::sync::LazyLock;
+
+static CASES: LazyLock<Vec<[f64; 6]>> = LazyLock::new(|| {
+    mutate::references([
+        "weight_per_length",
+        "axial_stiffness",
+        "unstrained_length",
+        "force_x",
+        "force_z",
+        "x",
+    ])
+});
+
+fuzz_target!(|numbers: [f64; 6]| cable::catenary(numbers));
+
+fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
+    mutate::numbers(data, size, max_size, seed, &CASES)
+});
