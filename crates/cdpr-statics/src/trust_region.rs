@@ -143,7 +143,7 @@ pub(crate) fn minimise(model: &Model, start: &Pose) -> Result<Converged, Statics
             }
         }
         let (step, predicted) = subproblem(&now.gradient, &now.hessian, radius);
-        if !(predicted > 0.0) {
+        if predicted.is_nan() || predicted <= 0.0 {
             // Neither slope nor negative curvature (or no number): there is nowhere to go.
             return Err(not_converged(model, &now, iteration));
         }

@@ -32,7 +32,7 @@ pub fn robot(text: &str) {
             finite_equilibrium(&equilibrium, &residual);
             assert_eq!((lengths.len(), tensions.len()), (n, n));
             match direct(&robot, &lengths, &Load::none(), Start::Near(&equilibrium)) {
-                Ok(DirectSolution { equilibrium, report }) => {
+                Ok(DirectSolution { equilibrium, report, .. }) => {
                     finite_equilibrium(&equilibrium, &report.residual);
                 }
                 Err(error) => assert!(!error.to_string().is_empty()),
