@@ -26,13 +26,15 @@
 mod catenary;
 mod error;
 mod real;
+mod response;
 mod shape;
 mod solve;
 mod tensioned;
 
-pub use catenary::{Cable, Catenary, Compliance, Response, response};
+pub use catenary::{Cable, Catenary, Compliance};
 pub use error::CableError;
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use real::Real;
+pub use response::{Response, response};
 pub use solve::{Solution, end_force, end_force_near};
 pub use tensioned::{length_for_tension, length_for_tension_near};

@@ -205,6 +205,27 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
+        /// What rounding takes away from sums and products of doubles is exactly known, and inside.
+        #[test]
+        fn rounding_goes_outwards(a in -1e3..1e3f64, b in -1e3..1e3f64) {
+            let inside = |interval: Interval, rounded: f64, error: f64| {
+                encloses(interval, rounded)
+                    && (error <= 0.0 || rounded < interval.high)
+                    && (error >= 0.0 || interval.low < rounded)
+            };
+            let (x, y) = (Interval::of(a), Interval::of(b));
+            let product = a * b;
+            prop_assert!(inside(x * y, product, a.mul_add(b, -product)));
+            // Knuth's sum of two numbers.
+            let sum = a + b;
+            let b_rounded = sum - a;
+            prop_assert!(inside(x + y, sum, (a - (sum - b_rounded)) + (b - b_rounded)));
+            let quotient = a / b;
+            prop_assert!(b == 0.0 || inside(x / y, quotient, -quotient.mul_add(b, -a) * b.signum()));
+            let root = a.abs().sqrt();
+            prop_assert!(inside(Interval::of(a.abs()).sqrt(), root, -root.mul_add(root, -a.abs())));
+        }
+
         /// Every pair of members has its result inside.
         #[test]
         fn operations_enclose_those_of_their_members(

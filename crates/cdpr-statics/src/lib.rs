@@ -18,13 +18,19 @@
 //!
 //! ```
 //! use cdpr_robot::{Pose, Robot};
-//! use cdpr_statics::{Load, deflection};
+//! use cdpr_statics::{Load, certify, deflection};
 //!
 //! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
 //! let pose = Pose::at(0.0, 0.0, 1.75);
 //! let deflection = deflection(&robot, &pose, &[0.0; 8], &Load::payload(50.0))?;
 //! assert!((1e3 * deflection.rms() - 1.33125).abs() < 1e-4); // [mm]
 //! assert!(deflection.loaded.report.residual.force < 1e-8); // [N]
+//!
+//! // Does it stay there, and how exactly is that known?
+//! let loaded = &deflection.loaded;
+//! let proof = certify(&robot, &deflection.lengths, &Load::payload(50.0), loaded)?;
+//! assert!(loaded.stability.is_stable() && proof.is_stable());
+//! println!("exact to {:.0e} m, softest motion {:.0} N/m", proof.position, loaded.stability.least_stiffness());
 //! # Ok::<(), cdpr_statics::StaticsError>(())
 //! ```
 
