@@ -123,3 +123,34 @@ fn the_force_is_continuous_from_nearly_vertical_to_vertical() {
         }
     }
 }
+
+#[test]
+fn a_cable_just_as_long_as_its_nearly_vertical_chord_has_an_answer() {
+    // Found by fuzzing: the first useful step of the iteration is a ten billionth of Newton's.
+    for (w, ea, length, x, z) in [
+        (0.5, 210271321.24244624, 9.180005734997088, 5.925331874304136e-9, 9.180005734997087),
+        (0.9237890551427004, 12988399.791309489, 7.836113166613779, 1.5618510981075536e-8, -7.83611316661323),
+    ] {
+        let cable = Cable { weight_per_length: w, axial_stiffness: ea };
+        let solution = end_force(&cable, length, Vector2::new(x, z)).unwrap();
+        assert!(solution.residual < 1e-14 * length, "{solution:?}");
+    }
+}
+
+#[test]
+fn magnitudes_whose_quotients_overflow_are_refused() {
+    let text = |w, ea, length, x| {
+        let cable = Cable { weight_per_length: w, axial_stiffness: ea };
+        end_force(&cable, length, Vector2::new(x, 0.0)).unwrap_err().to_string()
+    };
+    assert_eq!(
+        text(1.0, 1e6, 1e-180, 1e-151),
+        format!("unstrained_length is {}: expected an unstrained length from 1e-30 to 1e30 [m]", 1e-180)
+    );
+    assert!(
+        text(0.5, 1e-40, 1.0, 1.0).starts_with("axial_stiffness is 0.0"),
+        "{}",
+        text(0.5, 1e-40, 1.0, 1.0)
+    );
+    assert!(text(1e-40, 1e6, 1.0, 1.0).contains("zero or from 1e-30 to 1e30"));
+}
