@@ -269,7 +269,8 @@ fn least_stiffness(model: &Model, state: &State<Interval>, jacobian: &DMatrix<In
     });
     match by_factor {
         Some(bound) if bound > 0.0 => bound,
-        // Weyl: the eigenvalues differ from those of the middle by no more than the norm of the radii.
+        // Weyl: the eigenvalues differ from those of the middle by no more than the norm of the radii; those are computed to
+        // within 64 roundings of the norm.
         _ => {
             let radii = row_norm(&(symmetric - middle.map(Interval::of)));
             middle.symmetric_eigenvalues().min() - radii - 64.0 * f64::EPSILON * middle.norm()

@@ -48,14 +48,14 @@ pub enum LossKind {
     Bifurcation,
     /// It strains a cable by more than 10 %.
     Overstrained,
-    /// It was not followed further: 10 000 steps were made.
+    /// It was not followed further, lost or not: 10 000 steps and still none of the wanted size.
     StepLimit,
 }
 
 /// The end of an equilibrium, and where the platform goes from there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loss {
-    /// Share of the change at which it is lost, to 4e-9.
+    /// Share of the change at which it is lost: of the last equilibrium, to 4e-9 for a turning point or bifurcation.
     pub share: f64,
     /// How it ends.
     pub kind: LossKind,
@@ -103,11 +103,11 @@ pub(crate) fn follow_from(
         let kind = match found.filter(|found| is_near_prediction(&model, &now.equilibrium, found, size)) {
             Some(found) if found.stability.is_stable() => {
                 match solution(&model, found, Method::Continuation) {
-                    Ok(solution) if steps.len() < MAX_STEPS => now = solution,
-                    outcome => {
-                        let kind = if outcome.is_ok() { LossKind::StepLimit } else { LossKind::Overstrained };
-                        let lost = Loss { share, kind, before: Box::new(now), after: outcome.map(Box::new) };
-                        return Ok(Path { steps, lost: Some(lost) });
+                    Ok(solution) => now = solution,
+                    Err(error) => {
+                        let kind = LossKind::Overstrained;
+                        let lost = Some(Loss { share, kind, before: Box::new(now), after: Err(error) });
+                        return Ok(Path { steps, lost });
                     }
                 }
                 steps.push(PathStep { share: next, solution: now.clone() });
@@ -118,12 +118,15 @@ pub(crate) fn follow_from(
             None => LossKind::TurningPoint,
         };
         step = 0.25 * (next - share);
-        if step < LEAST_STEP {
+        let limit = steps.len() >= MAX_STEPS;
+        let kind = if limit { LossKind::StepLimit } else { kind };
+        if step < LEAST_STEP || limit {
             let beyond = (share + 1e-6).min(1.0);
             let setting = between(from, to, beyond);
             let model = Model::new(robot, &setting.lengths, &setting.load)?;
             let after = descend(&model, &now.equilibrium.pose);
             if let Ok(same) = &after
+                && !limit
                 && motion(&model, &now.equilibrium, &same.equilibrium).norm() <= SAME * size
             {
                 now = same.clone();

@@ -72,26 +72,17 @@ const MAX_STRAIN: f64 = 0.1;
 ///
 /// # Errors
 /// [`StaticsError::Invalid`] for lengths, loads or a start that are none; [`StaticsError::Overstrained`] where the equilibrium
-/// strains a cable by more than 10 %; [`StaticsError::Indifferent`] where nothing determines the pose; [`StaticsError::EquilibriumLost`] where none is found under the load's moment and the one
-/// without it disappears on the way; [`StaticsError::DirectNotConverged`] with the last pose; [`StaticsError::Robot`] where it is the
-/// robot's values that are none. The start is never returned as an
-/// answer.
+/// strains a cable by more than 10 %; [`StaticsError::Indifferent`] where nothing determines the pose;
+/// [`StaticsError::EquilibriumLost`] where none is found under the load's moment and the one without it disappears on the way;
+/// [`StaticsError::DirectNotConverged`] with the last pose; [`StaticsError::Robot`] where it is the robot's values that are none.
+/// The start is never returned as an answer.
 pub fn direct(
     robot: &Robot,
     lengths: &[f64],
     load: &Load,
     start: Start,
 ) -> Result<DirectSolution, StaticsError> {
-    let model = Model::new(robot, lengths, load)?;
-    let start = checked(&model, start)?;
-    let pose = start.pose;
-    match newton(&model, start) {
-        // A strained equilibrium far from the start need not be the one downhill.
-        Some(converged) if converged.stability.is_stable() => {
-            solution(&model, converged, Method::Newton).or_else(|_| settle(&model, &pose))
-        }
-        _ => settle(&model, &pose),
-    }
+    search(&Model::new(robot, lengths, load)?, start, Stability::is_stable)
 }
 
 /// As [`direct`], but an unstable equilibrium is an answer, too, where Newton's method converges to one: a platform that balances like
@@ -105,12 +96,22 @@ pub fn direct_any(
     load: &Load,
     start: Start,
 ) -> Result<DirectSolution, StaticsError> {
-    let model = Model::new(robot, lengths, load)?;
-    let start = checked(&model, start)?;
+    search(&Model::new(robot, lengths, load)?, start, |_| true)
+}
+
+fn search(
+    model: &Model,
+    start: Start,
+    accepted: impl Fn(&Stability) -> bool,
+) -> Result<DirectSolution, StaticsError> {
+    let start = checked(model, start)?;
     let pose = start.pose;
-    match newton(&model, start) {
-        Some(converged) => solution(&model, converged, Method::Newton),
-        None => settle(&model, &pose),
+    match newton(model, start) {
+        // A strained equilibrium far from the start need not be the one downhill.
+        Some(converged) if accepted(&converged.stability) => {
+            solution(model, converged, Method::Newton).or_else(|_| settle(model, &pose))
+        }
+        _ => settle(model, &pose),
     }
 }
 
@@ -177,6 +178,7 @@ fn settle(model: &Model, pose: &Pose) -> Result<DirectSolution, StaticsError> {
             Ok(solution)
         }
         (_, Some(Loss { kind: LossKind::Overstrained, after: Err(error), .. })) => Err(error),
+        (_, Some(Loss { kind: LossKind::StepLimit, .. })) => Err(error),
         (_, Some(loss)) => Err(StaticsError::EquilibriumLost {
             share: loss.share,
             least_stiffness: loss.before.stability.least_stiffness(),

@@ -250,3 +250,23 @@ fn what_cannot_be_proved_says_why() {
     let error = certify(&robot, &lengths, &Load::none(), &found.unwrap()).unwrap_err();
     assert!(error.to_string().starts_with("not certified: a cable hangs vertically or folded"), "{error}");
 }
+
+#[test]
+fn winding_all_cables_in_ends_where_they_are_strained_and_keeps_what_was_found() {
+    let robot = caroca();
+    let pose = Pose::at(0.0, 0.0, 1.75);
+    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let from = Setting { lengths: wanted.lengths.clone(), load: Load::none() };
+    let to = Setting { lengths: wanted.lengths.iter().map(|length| 0.8 * length).collect(), ..from.clone() };
+    let path = follow(&robot, &from, &to, Start::Near(&wanted.equilibrium)).unwrap();
+    let loss = path.lost.unwrap();
+    assert_eq!((loss.kind, loss.after.unwrap_err().kind()), (LossKind::Overstrained, "cable_overstrained"));
+    // Every equilibrium that was kept is strained by less than 10 %.
+    assert_eq!(path.steps.last().unwrap().share, loss.share);
+    assert!(path.steps.len() > 2 && loss.share > 0.0 && loss.share < 1.0);
+    let stiffness = robot.cables[0].properties.axial_stiffness();
+    for step in &path.steps {
+        let largest = step.solution.equilibrium.tensions().into_iter().fold(0.0, f64::max);
+        assert!(largest < 0.1 * stiffness, "{largest} N at {}", step.share);
+    }
+}
