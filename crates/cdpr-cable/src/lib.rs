@@ -35,6 +35,6 @@ pub use catenary::{Cable, Catenary, Compliance};
 pub use error::CableError;
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use real::{Field, Real};
-pub use response::{Response, TAUT, response, taut_end, taut_response};
+pub use response::{Response, TAUT, TautEnd, response, taut_end, taut_response};
 pub use solve::{Solution, end_force, end_force_near};
 pub use tensioned::{length_for_tension, length_for_tension_near};

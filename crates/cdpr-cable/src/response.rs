@@ -103,12 +103,24 @@ pub fn taut_response<T: Field>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) ->
     terms.assemble(q2, taut_series(q2), terms.shape_of_the_taut())
 }
 
-/// End position and slackness of a taut cable alone, see [`taut_response`].
+/// End of a taut cable.
+#[derive(Clone, Copy, Debug)]
+pub struct TautEnd<T> {
+    /// End position (x, z) [m], equations (1)-(2).
+    pub end: [T; 2],
+    /// T [N].
+    pub tension: T,
+    /// q².
+    pub slackness: T,
+}
+
+/// What [`taut_response`] says of the end alone.
 #[inline(always)]
-pub fn taut_end<T: Field>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> ([T; 2], T) {
+pub fn taut_end<T: Field>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> TautEnd<T> {
     let terms = Terms::with_square(w, stretch, length, fx, fz, fx * fx);
-    let q2 = terms.slackness();
-    ([fx * terms.lateral(q2 * taut_series(q2) + 1.0), terms.height()], q2)
+    let slackness = terms.slackness();
+    let x = fx * terms.lateral(slackness * taut_series(slackness) + 1.0);
+    TautEnd { end: [x, terms.height()], tension: terms.t, slackness }
 }
 
 /// The quantities that equations (1)-(9) share.

@@ -141,11 +141,23 @@ impl Prepared {
             return self.law.quantile(u);
         };
         let (level, step) = match steps {
-            Steps::Nearest { step } => (round((self.law.quantile(u) - middle) / step).max(lowest), step),
+            Steps::Nearest { step } => {
+                let quantile = match self.law {
+                    Law::Uniform { min, max } => min + u * (max - min),
+                    law => law.quantile(u),
+                };
+                (round((quantile - middle) / step), step)
+            }
             Steps::EqualMass { step } => (lowest + (u * (highest - lowest + 1.0)).floor(), step),
         };
-        (middle + level.min(highest) * step).max(min).min(max)
+        within(middle + within(level, lowest, highest) * step, min, max)
     }
+}
+
+/// `x` clamped; no number stays none.
+fn within(x: f64, min: f64, max: f64) -> f64 {
+    let x = if x < min { min } else { x };
+    if x > max { max } else { x }
 }
 
 /// `f64::round` without the call into a library that processors of the common denominator need for it.

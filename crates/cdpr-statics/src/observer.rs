@@ -11,7 +11,7 @@ use crate::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::model::{Equilibrium, Load, Model, Span};
 use crate::taut::{Cable, Open, Robots, Settings, observe, six, three};
 use cdpr_cable::Field;
-use cdpr_robot::{Parameter, Pose, Robot, RobotError, Vector3, Vector6};
+use cdpr_robot::{Parameter, Pose, Robot, Vector3, Vector6};
 use nalgebra::DVector;
 use std::array::from_fn;
 
@@ -26,7 +26,15 @@ pub struct Observation {
     pub loaded: Residual,
 }
 
+impl Observation {
+    /// What the paper calls the RMS of the static deflection: |dp| [m].
+    pub fn rms(&self) -> f64 {
+        self.displacement.norm()
+    }
+}
+
 /// A robot whose parameters deviate, observed at a wanted pose under a load.
+#[derive(Clone, Debug)]
 pub struct Observer<'a> {
     robot: &'a Robot,
     pose: Pose,
@@ -37,6 +45,7 @@ pub struct Observer<'a> {
 }
 
 /// The nominal robot at the wanted pose.
+#[derive(Clone, Debug)]
 struct Nominal {
     equilibrium: Equilibrium,
     lengths: Vec<f64>,
@@ -71,21 +80,16 @@ impl<'a> Observer<'a> {
     }
 
     /// The same for any number of robots: `deviations` has a row of all parameters for each, one after the other. An answer depends on
-    /// its own row alone, to the last digit, and agrees with [`Observer::observe`] to rounding.
-    ///
-    /// # Errors
-    /// [`StaticsError::Robot`] unless the rows are complete. A robot that fails is an answer.
-    pub fn observe_all(
-        &self,
-        deviations: &[f64],
-    ) -> Result<Vec<Result<Observation, StaticsError>>, StaticsError> {
-        let incomplete = deviations.len() % self.parameters;
-        if incomplete != 0 {
-            return Err(RobotError::DeviationCount { given: incomplete, parameters: self.parameters }.into());
-        }
-        let taut = dispatch(Batch { observer: self, deviations });
+    /// its own row alone, to the last digit, and agrees with [`Observer::observe`] to rounding. An incomplete last row is a robot that
+    /// fails.
+    pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Observation, StaticsError>> {
         let rows = deviations.chunks_exact(self.parameters);
-        Ok(taut.into_iter().zip(rows).map(|(taut, row)| taut.map_or_else(|| self.observe(row), Ok)).collect())
+        let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
+        let taut =
+            dispatch(Batch { observer: self, deviations: &deviations[..rows.len() * self.parameters] });
+        let outcomes =
+            taut.into_iter().zip(rows).map(|(taut, row)| taut.map_or_else(|| self.observe(row), Ok));
+        outcomes.chain(incomplete.map(|row| self.observe(row))).collect()
     }
 }
 

@@ -22,7 +22,7 @@
 
 use crate::direct::MAX_STRAIN;
 use crate::lanes::{Lanes, Mask, Simd};
-use cdpr_cable::{Field, TAUT, taut_end, taut_response};
+use cdpr_cable::{Field, TAUT, TautEnd, taut_end, taut_response};
 
 /// A point or a vector in the base frame.
 type Space<S> = [Lanes<S>; 3];
@@ -105,8 +105,14 @@ pub(crate) struct Outcome<S: Simd> {
 
 const MAX_ITERATIONS: usize = 8;
 
-/// A step below this, relative to what it changes, is followed by one below rounding.
-const LAST_STEP: f64 = 1e-7;
+/// A step below this, relative to what it changes, is followed by one below rounding: Newton's method squares it.
+const LAST_STEP: f64 = 1e-8;
+
+/// The same for lengths and forces at the wanted pose, relative to the longest cable and the sum of tensions.
+const LAST_CHANGE: f64 = 1e-7;
+
+/// The same for tensions that are still to be offset: what is left of them then changes no position by more than 1e-12 m.
+const LAST_DISTRIBUTION: f64 = 3e-6;
 
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
@@ -119,27 +125,22 @@ pub(crate) fn observe<S: Simd>(simd: S, robots: &mut Robots<S>, settings: &Setti
     let within = distribute(robots, &spans, settings);
     let held = hold(robots, &spans, settings);
 
-    let mut linear = Vec::with_capacity(spans.len());
     let own = Load { weight: robots.weight, force: [zero; 3] };
-    let start = robots.linearise(&own, &mut linear, settings);
+    let mut tangent = Tangent::new(zero, spans.len());
+    let all = zero.less_or_equal(zero);
+    let closure = robots.linearise(&own, &mut tangent, all);
     // The lengths close at the wanted pose.
-    let closed = start.open.closure.less_or_equal(zero.all(settings.rounding * settings.rounding));
-    let (standing, unloaded) = robots.settle(&own, start, &mut linear, settings, within & held & closed);
+    let closed = closure.less_or_equal(zero.all(settings.rounding * settings.rounding));
+    let (standing, unloaded) = robots.settle(&own, &mut tangent, settings, within & held & closed);
     let stood = robots.position;
 
     let payload = Load { weight: zero.all(settings.payload), force: three(|k| zero.all(settings.force[k])) };
     let load = Load { weight: own.weight + payload.weight, force: payload.force };
     // The first step follows the linearisation at hand.
-    let mut start = unloaded;
     let added = payload.wrench(&robots.center);
-    start.gradient = six(|k| start.gradient[k] - added[k]);
-    let (valid, loaded) = robots.settle(&load, start, &mut linear, settings, standing);
-    Outcome {
-        valid,
-        displacement: three(|k| robots.position[k] - stood[k]),
-        unloaded: unloaded.open,
-        loaded: loaded.open,
-    }
+    tangent.gradient = six(|k| tangent.gradient[k] - added[k]);
+    let (valid, loaded) = robots.settle(&load, &mut tangent, settings, standing);
+    Outcome { valid, displacement: three(|k| robots.position[k] - stood[k]), unloaded, loaded }
 }
 
 /// From exit to anchor point: azimuth and (h, z).
@@ -221,7 +222,7 @@ impl<S: Simd> Held<S> {
 #[inline(always)]
 fn distribute<S: Simd>(robots: &mut Robots<S>, spans: &[Span<S>], settings: &Settings) -> Mask<S> {
     let zero = robots.weight.all(0.0);
-    let last_step = zero.all(LAST_STEP);
+    let last_change = zero.all(LAST_DISTRIBUTION);
     let weight = Load { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
     let mut going = zero.less_or_equal(zero);
     let mut linear = Vec::with_capacity(spans.len());
@@ -253,15 +254,14 @@ fn distribute<S: Simd>(robots: &mut Robots<S>, spans: &[Span<S>], settings: &Set
             moved = moved.max(held.change(cable, dt, going, settings));
         }
         robots.multipliers = six(|k| going.select(robots.multipliers[k] + step[k], robots.multipliers[k]));
-        going = going & !moved.less_or_equal(last_step);
+        going = going & !moved.less_or_equal(last_change);
         if !going.any() {
             break;
         }
     }
     let mut within = !going;
     for cable in &robots.cables {
-        let tension = dot(&cable.force, &cable.force).sqrt();
-        let (_, slackness) = taut_end(cable.weight, cable.stretch, cable.length, cable.force);
+        let TautEnd { tension, slackness, .. } = cable.end();
         within = within
             & zero.less_or_equal(cable.force[0])
             & slackness.less_or_equal(zero.all(TAUT))
@@ -283,7 +283,7 @@ fn hold<S: Simd>(robots: &mut Robots<S>, spans: &[Span<S>], settings: &Settings)
         for _ in 0..MAX_ITERATIONS {
             let held = Held::new(cable, &span.end);
             let moved = held.change(cable, set_point - held.tension, going, settings);
-            going = going & !moved.less_or_equal(zero.all(LAST_STEP));
+            going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
             if !going.any() {
                 break;
             }
@@ -309,6 +309,7 @@ impl<S: Simd> Load<S> {
 }
 
 /// A cable linearised about a force that need not fit its ends: `df = K (c + d(h, z))`, as in [`crate::newton`].
+#[derive(Clone, Copy)]
 struct Linear<S: Simd> {
     azimuth: Plane<S>,
     /// f + K c.
@@ -318,26 +319,37 @@ struct Linear<S: Simd> {
 }
 
 /// The platform between linearised cables.
-#[derive(Clone, Copy)]
-struct Balance<S: Simd> {
+struct Tangent<S: Simd> {
+    cables: Vec<Linear<S>>,
     /// Gradient of the potential with the predicted forces.
     gradient: Wrench<S>,
     /// Its derivative, factored.
     factored: Factored<S>,
-    /// What the state itself leaves open.
-    open: Open<S>,
-    /// Lanes that could be an equilibrium: open by rounding, stable, with cables that are pulled, taut and not overstrained.
-    holds: Mask<S>,
+}
+
+impl<S: Simd> Tangent<S> {
+    #[inline(always)]
+    fn new(zero: Lanes<S>, cables: usize) -> Self {
+        let cable = Linear { azimuth: [zero; 2], predicted: [zero; 2], stiffness: [zero; 3] };
+        Self { cables: vec![cable; cables], gradient: [zero; 6], factored: Factored::new([[zero; 6]; 6]) }
+    }
+}
+
+impl<S: Simd> Cable<S> {
+    #[inline(always)]
+    fn end(&self) -> TautEnd<Lanes<S>> {
+        taut_end(self.weight, self.stretch, self.length, self.force)
+    }
 }
 
 impl<S: Simd> Robots<S> {
+    /// Linearises the lanes that are `going`. Returns the largest squared miss of a cable.
     #[inline(always)]
-    fn linearise(&self, load: &Load<S>, linear: &mut Vec<Linear<S>>, settings: &Settings) -> Balance<S> {
+    fn linearise(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) -> Lanes<S> {
         let zero = self.weight.all(0.0);
         let wrench = load.wrench(&self.center);
         let mut gradient = six(|k| -wrench[k]);
-        let mut open = Open { closure: zero, wrench: gradient };
-        let (mut tensions, mut slackness, mut strain) = (load.weight, zero, zero);
+        let mut closure = zero;
         let [cx, cy, cz] = self.center;
         // -[F_w][R c]: weight is vertical.
         let mut hessian = [[zero; 6]; 6];
@@ -345,23 +357,15 @@ impl<S: Simd> Robots<S> {
         hessian[4][4] = hessian[3][3];
         hessian[3][5] = load.weight * cx;
         hessian[4][5] = load.weight * cy;
-        linear.clear();
-        let mut pulled = zero.less_or_equal(zero);
-        for cable in &self.cables {
-            let Span { azimuth, end } = Span::new(&self.position, cable);
-            let [c, s] = azimuth;
+        for (cable, linear) in self.cables.iter().zip(&mut tangent.cables) {
+            let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
             let [fx, fz] = cable.force;
             let response = taut_response(cable.weight, cable.stretch, cable.length, cable.force);
-            pulled = pulled & zero.less_or_equal(fx);
-            tensions += response.tension;
-            slackness = slackness.max(response.slackness);
-            strain = strain.max((response.tension + cable.weight * cable.length) * cable.stretch);
             let [xx, xz, zz] = response.flexibility;
             let inverse = response.determinant.recip();
             let k = [zz * inverse, -xz * inverse, xx * inverse];
-            let miss = [end[0] - response.end[0], end[1] - response.end[1]];
-            open.closure = open.closure.max(dot(&miss, &miss));
-            add(&mut open.wrench, &cable.arm, &[fx * c, fx * s, fz]);
+            let miss = [h - response.end[0], z - response.end[1]];
+            closure = closure.max(dot(&miss, &miss));
             let predicted = [fx + k[0] * miss[0] + k[1] * miss[1], fz + k[1] * miss[0] + k[2] * miss[1]];
             let force = [predicted[0] * c, predicted[0] * s, predicted[1]];
             add(&mut gradient, &cable.arm, &force);
@@ -370,57 +374,89 @@ impl<S: Simd> Robots<S> {
             let (xy, xz, yz) = (kc * s - swing * c, k[1] * c, k[1] * s);
             let space = [[kc * c + swing * s, xy, xz], [xy, ks * s + lateral * c * c, yz], [xz, yz, k[2]]];
             add_stiffness(&mut hessian, &cable.arm, &force, &space);
-            linear.push(Linear { azimuth, predicted, stiffness: k });
+            let old = *linear;
+            linear.azimuth = [going.select(c, old.azimuth[0]), going.select(s, old.azimuth[1])];
+            linear.predicted =
+                [going.select(predicted[0], old.predicted[0]), going.select(predicted[1], old.predicted[1])];
+            linear.stiffness = three(|j| going.select(k[j], old.stiffness[j]));
         }
         for row in 3..6 {
             for column in 0..3 {
                 hessian[row][column] = hessian[column][row];
             }
         }
-        let factored = Factored::new(hessian);
-        let (force, moment) = halves(&open.wrench);
-        let unbalanced = dot(&force, &force).sqrt() + dot(&moment, &moment).sqrt() * (1.0 / settings.arm);
-        let holds = factored.positive
-            & pulled
-            & open.closure.less_or_equal(zero.all(settings.rounding * settings.rounding))
-            & unbalanced.less_or_equal(tensions * FORCE_ROUNDING)
-            & slackness.less_or_equal(zero.all(TAUT))
-            & strain.less_or_equal(zero.all(MAX_STRAIN));
-        Balance { gradient, factored, open, holds }
+        tangent.gradient = six(|k| going.select(gradient[k], tangent.gradient[k]));
+        tangent.factored.replace(&Factored::new(hessian), going);
+        closure
     }
 
-    /// Newton's method on the direct model from a linearisation, in the lanes `alive`. Returns the lanes that found an equilibrium, and
-    /// the linearisation there.
+    /// What the platforms leave open, and the lanes where that is rounding and all cables are pulled, taut and not overstrained.
+    #[inline(always)]
+    fn residual(&self, load: &Load<S>, settings: &Settings) -> (Open<S>, Mask<S>) {
+        let zero = self.weight.all(0.0);
+        let wrench = load.wrench(&self.center);
+        let mut open = Open { closure: zero, wrench: six(|k| -wrench[k]) };
+        let mut tensions = load.weight;
+        let mut sound = zero.less_or_equal(zero);
+        for cable in &self.cables {
+            let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
+            let TautEnd { end, tension, slackness } = cable.end();
+            let miss = [h - end[0], z - end[1]];
+            open.closure = open.closure.max(dot(&miss, &miss));
+            let [fx, fz] = cable.force;
+            add(&mut open.wrench, &cable.arm, &[fx * c, fx * s, fz]);
+            tensions += tension;
+            let strain = (tension + cable.weight * cable.length) * cable.stretch;
+            sound = sound
+                & zero.less_or_equal(fx)
+                & slackness.less_or_equal(zero.all(TAUT))
+                & strain.less_or_equal(zero.all(MAX_STRAIN));
+        }
+        let (force, moment) = halves(&open.wrench);
+        let unbalanced = dot(&force, &force).sqrt() + dot(&moment, &moment).sqrt() * (1.0 / settings.arm);
+        let holds = sound
+            & open.closure.less_or_equal(zero.all(settings.rounding * settings.rounding))
+            & unbalanced.less_or_equal(tensions * FORCE_ROUNDING);
+        (open, holds)
+    }
+
+    /// Newton's method on the direct model from a linearisation, in the lanes `alive`. Returns the lanes that found a stable equilibrium,
+    /// and what it leaves open; the linearisation is then one nearby.
     #[inline(always)]
     fn settle(
         &mut self,
         load: &Load<S>,
-        start: Balance<S>,
-        linear: &mut Vec<Linear<S>>,
+        tangent: &mut Tangent<S>,
         settings: &Settings,
         alive: Mask<S>,
-    ) -> (Mask<S>, Balance<S>) {
-        let zero = self.weight.all(0.0);
-        let square = |length: f64| zero.all(length * length);
-        let mut balance = start;
+    ) -> (Mask<S>, Open<S>) {
+        let square = |length: f64| self.weight.all(length * length);
+        let (farthest, turned_most) = (square(0.3 * settings.size), square(0.1));
+        let last_step = square(LAST_STEP * settings.size);
         let (mut going, mut found) = (alive, alive & !alive);
+        let mut open = Open { closure: last_step, wrench: tangent.gradient };
         for _ in 0..MAX_ITERATIONS {
-            let step = balance.factored.solve(&six(|k| -balance.gradient[k]));
+            let gradient = six(|k| -tangent.gradient[k]);
+            let step = tangent.factored.solve(&gradient);
             let (translation, rotation) = halves(&step);
             let turned = dot(&rotation, &rotation);
             let moved = dot(&translation, &translation) + turned * (settings.arm * settings.arm);
             // Farther than this the linearisation means nothing, and no number is farther.
-            going =
-                going & moved.less_or_equal(square(0.3 * settings.size)) & turned.less_or_equal(square(0.1));
-            self.apply(&translation, &rotation, turned, linear, going);
-            balance = self.linearise(load, linear, settings);
-            let last = going & moved.less_or_equal(square(LAST_STEP * settings.size)) & balance.holds;
-            (found, going) = (found | last, going & !last);
+            going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
+            self.apply(&translation, &rotation, turned, &tangent.cables, going);
+            let last = going & moved.less_or_equal(last_step);
+            if last.any() {
+                let (left, holds) = self.residual(load, settings);
+                let done = last & holds & tangent.factored.positive;
+                open = left;
+                (found, going) = (found | done, going & !done);
+            }
             if !going.any() {
                 break;
             }
+            self.linearise(load, tangent, going);
         }
-        (found, balance)
+        (found, open)
     }
 
     /// Moves the platforms and the forces of their cables where `going`.
@@ -525,6 +561,16 @@ impl<S: Simd> Factored<S> {
             }
         }
         Self { lu, pivots_inv, positive }
+    }
+
+    /// Takes over another one in the lanes that are `going`.
+    #[inline(always)]
+    fn replace(&mut self, other: &Self, going: Mask<S>) {
+        for row in 0..6 {
+            self.lu[row] = six(|column| going.select(other.lu[row][column], self.lu[row][column]));
+        }
+        self.pivots_inv = six(|k| going.select(other.pivots_inv[k], self.pivots_inv[k]));
+        self.positive = (going & other.positive) | (!going & self.positive);
     }
 
     #[inline(always)]
