@@ -35,6 +35,7 @@
 //! ```
 
 mod certificate;
+mod chain;
 mod continuation;
 mod deflection;
 mod direct;
@@ -42,6 +43,7 @@ mod equations;
 mod error;
 mod interval;
 mod inverse;
+mod lane_algebra;
 mod lanes;
 mod many;
 mod model;
