@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use cdpr_robot::{Pose, Robot, RobotCable, Vector3};
-use cdpr_statics::{Load, Setting, Start, Tangent, certify, deflection, direct, follow, inverse};
+use cdpr_statics::{Load, Setting, Start, Tangent, Tracker, certify, deflection, direct, follow, inverse};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -76,6 +76,28 @@ fn direct_model(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// A control loop: every cable wound by up to a millimetre between two solves.
+fn tracking(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("direct");
+    let robot = caroca();
+    let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none(), None).unwrap();
+    let load = Load::payload(50.0);
+    let wound: Vec<f64> =
+        wanted.lengths.iter().enumerate().map(|(i, l)| l + 1e-3 * (i as f64).sin()).collect();
+    let mut tracker = Tracker::new(&robot, &wanted.lengths, &load, &wanted.equilibrium).unwrap();
+    let expected = direct(&robot, &wound, &load, Start::Near(&wanted.equilibrium)).unwrap().equilibrium.pose;
+    let found = tracker.update(&wound, &load).unwrap().pose;
+    assert!((found.position - expected.position).norm() < 1e-12);
+    let mut there = false;
+    group.bench_function("tracked, 1 mm", |b| {
+        b.iter(|| {
+            there = !there;
+            tracker.update(black_box(if there { &wanted.lengths } else { &wound }), &load).is_ok()
+        });
+    });
+    group.finish();
+}
+
 fn proofs_and_searches(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("direct");
     let robot = caroca();
@@ -113,5 +135,5 @@ fn whole_deflection(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, inverse_model, direct_model, proofs_and_searches, whole_deflection);
+criterion_group!(benches, inverse_model, direct_model, tracking, proofs_and_searches, whole_deflection);
 criterion_main!(benches);

@@ -4,11 +4,13 @@
 //! |---|---|
 //! | which unstrained lengths hold a pose (IEGM)? | [`inverse`] |
 //! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
+//! | and for the next lengths and load, in a microsecond or two? | [`Tracker`] |
 //! | does it stay there, how far is it from not staying? | [`DirectSolution::stability`] |
 //! | how exact is that, proved? | [`certify`] |
 //! | where else could it stand? | [`direct_all`], [`direct_any`] |
 //! | where does it go while cables are wound or loads change, and where does it jump? | [`follow`] |
 //! | how far does it give under a load (Eq. (4))? | [`deflection`], [`deflections`] |
+//! | and with other parameters, a million times? | [`Observer`] |
 //! | how stiff is it, how do lengths and loads move it? | [`Tangent`] |
 //!
 //! The equations are (1)-(4) of Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
@@ -52,6 +54,7 @@ mod observer;
 mod stability;
 mod tangent;
 mod taut;
+mod tracker;
 mod trust_region;
 
 pub use certificate::{Certificate, certify};
@@ -65,3 +68,4 @@ pub use model::{Equilibrium, Load};
 pub use observer::{Observation, Observer};
 pub use stability::Stability;
 pub use tangent::Tangent;
+pub use tracker::Tracker;

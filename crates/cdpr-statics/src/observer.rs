@@ -210,6 +210,7 @@ fn perturb<S: Simd>(
         cables,
         position: three(|k| all(pose.position[k])),
         center: rotate(point(&robot.platform.center_of_mass, center)),
+        frame: Vec::new(),
         weight: mass * robot.gravity,
     };
     let multipliers = six(|k| all(nominal.multipliers[k]));
@@ -218,9 +219,8 @@ fn perturb<S: Simd>(
 
 fn residuals<S: Simd>(open: &Open<S>) -> [Residual; MAX_LANES] {
     let closure = open.closure.to_array();
-    let wrench = open.wrench.map(Lanes::to_array);
-    let norm = |first: usize, lane: usize| Vector3::from_fn(|k, _| wrench[first + k][lane]).norm();
-    from_fn(|lane| Residual { closure: closure[lane].sqrt(), force: norm(0, lane), moment: norm(3, lane) })
+    let [force, moment] = open.norms();
+    from_fn(|lane| Residual { closure: closure[lane].sqrt(), force: force[lane], moment: moment[lane] })
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 
 use crate::direct::MAX_STRAIN;
 use crate::lane_algebra::{Factored, Space, Wrench, add, cross, dot, halves, six, three};
-use crate::lanes::{Lanes, Mask, Simd};
+use crate::lanes::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_cable::{Field, TAUT, TautEnd, taut_end, taut_response};
 
 /// A vector in a cable's vertical plane: along the azimuth, upwards.
@@ -33,8 +33,18 @@ pub(crate) struct Robots<S: Simd> {
     pub(crate) position: Space<S>,
     /// R c, the arm of the centre of mass [m].
     pub(crate) center: Space<S>,
+    /// Other vectors that turn with the platform.
+    pub(crate) frame: Vec<Space<S>>,
     /// Weight of the platform [N].
     pub(crate) weight: Lanes<S>,
+}
+
+impl<S: Simd> Open<S> {
+    /// Norms of force [N] and moment [N m], one a lane.
+    pub(crate) fn norms(&self) -> [[f64; MAX_LANES]; 2] {
+        let (force, moment) = halves(&self.wrench);
+        [dot(&force, &force).sqrt().to_array(), dot(&moment, &moment).sqrt().to_array()]
+    }
 }
 
 /// Lengths that positions are compared with [m].
@@ -274,8 +284,10 @@ impl<S: Simd> Robots<S> {
             cable.force = [going.select(force[0], cable.force[0]), going.select(force[1], cable.force[1])];
             cable.arm = three(|k| going.select(arm[k], cable.arm[k]));
         }
-        let (_, center) = turn(&self.center, rotation, a, b);
-        self.center = three(|k| going.select(center[k], self.center[k]));
+        for vector in self.frame.iter_mut().chain([&mut self.center]) {
+            let (_, turned) = turn(vector, rotation, a, b);
+            *vector = three(|k| going.select(turned[k], vector[k]));
+        }
         self.position = three(|k| going.select(self.position[k] + translation[k], self.position[k]));
     }
 }
