@@ -26,7 +26,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::design::SampleDesign;
+use crate::design::IndependentSample;
 use crate::error::{SensitivityError, require};
 use crate::summary::{Sample, Summary, mean_and_squares};
 
@@ -90,7 +90,7 @@ pub struct EffectInterval {
 /// - [`SensitivityError::NotFinite`] for a value that is not finite;
 /// - [`SensitivityError::OutOfRange`] for fewer than two values;
 /// - [`SensitivityError::EmptyHalf`] if no value is left in one half of an input.
-pub fn student_effects<D: SampleDesign>(
+pub fn student_effects<D: IndependentSample>(
     design: &D,
     outputs: &[Option<f64>],
 ) -> Result<Effects, SensitivityError> {
@@ -130,7 +130,7 @@ pub fn student_effects<D: SampleDesign>(
 /// - [`SensitivityError::NotAReplicate`] for a design without a seed, with the seed of another one, or of other inputs
 ///   or size;
 /// - those of [`student_effects`].
-pub fn effect_intervals<D: SampleDesign>(
+pub fn effect_intervals<D: IndependentSample>(
     replicates: &[(D, Vec<Option<f64>>)],
     level: f64,
 ) -> Result<Vec<EffectInterval>, SensitivityError> {
@@ -165,7 +165,9 @@ pub fn effect_intervals<D: SampleDesign>(
     Ok(first.inputs().iter().zip(&effects).map(interval).collect())
 }
 
-fn check_replicates<D: SampleDesign>(replicates: &[(D, Vec<Option<f64>>)]) -> Result<(), SensitivityError> {
+fn check_replicates<D: IndependentSample>(
+    replicates: &[(D, Vec<Option<f64>>)],
+) -> Result<(), SensitivityError> {
     if replicates.len() < 2 {
         return Err(SensitivityError::OutOfRange {
             field: "replicates",
