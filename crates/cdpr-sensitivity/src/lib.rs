@@ -1,19 +1,22 @@
-//! Designs of experiments, laws, fits and effects, for any model: plain numbers in, plain numbers out.
+//! Designs of experiments, laws, fits, effects and global sensitivity indices, for any model: plain numbers in, plain
+//! numbers out.
 //!
 //! | step | module |
 //! |---|---|
 //! | which inputs, with which law and steps | [`law`], [`input`] |
-//! | at which points to run the model | [`design`], on [`sobol`] |
+//! | at which points to run the model | [`design`] on [`sobol`], [`latin_hypercube`], [`halton`], [`correlated`]; [`saltelli`], [`morris`] |
 //! | what the output looks like | [`summary`] |
 //! | which law it follows | [`mod@fit`] |
-//! | which input matters | [`effect`] |
+//! | which input matters | [`effect`], [`morris`], [`mod@dgsm`], [`mod@regression`] |
+//! | how much of the variance it causes, alone and with others | [`sobol_indices`](mod@sobol_indices), [`pce`] |
+//! | how sure that is, and how many runs would do | [`interval`], [`mod@convergence`] |
 //!
 //! What holds throughout:
 //!
 //! - a row of a design is had from its index alone: a parallel map gives the same numbers on any number of threads;
 //! - what is random has a seed, an argument without a default;
 //! - an observation that failed is `None`: counted beside the results, part of no mean;
-//! - an estimator takes the design that the outputs belong to.
+//! - an estimator takes the design that the outputs belong to, and no design that it would misread.
 //!
 //! ```
 //! use cdpr_sensitivity::{Input, Law, Sample, SampleDesign, SobolDesign, student_effects};

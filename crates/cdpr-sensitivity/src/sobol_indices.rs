@@ -17,7 +17,7 @@
 //! Each index is a quotient of means over blocks. The bootstrap draws units with replacement, and the interval is Student's
 //! ([`crate::interval`], Eq. (2)). On a scrambled design the units are its independent scramblings: blocks of one sequence
 //! depend on each other, and a bootstrap over them misses what that does. In 40 dimensions such intervals of 95 % held
-//! some indices of Morris's function in 53 of 100 cases, those over scramblings hold them in 95 (`tests/indices.rs`); in few
+//! some indices of Morris's function in 53 of 100 cases, those over scramblings hold them in 95 (`tests/global/indices.rs`); in few
 //! dimensions they are too wide instead. On the plain sequence, of which there is only one, the units are the blocks all
 //! the same, as in SALib: such intervals are an indication.
 //!

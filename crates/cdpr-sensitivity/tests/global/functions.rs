@@ -5,11 +5,13 @@ use std::f64::consts::PI;
 
 use cdpr_sensitivity::{Input, Law};
 
+type Model = Box<dyn Fn(&[f64]) -> f64 + Sync>;
+
 /// A function of inputs of one uniform law each, with its exact indices.
 pub(crate) struct Function {
     pub(crate) name: &'static str,
     pub(crate) inputs: Vec<Input>,
-    pub(crate) model: Box<dyn Fn(&[f64]) -> f64 + Sync>,
+    pub(crate) model: Model,
     pub(crate) first: Vec<f64>,
     pub(crate) total: Vec<f64>,
 }

@@ -1,5 +1,4 @@
 //! Doubling a design until its intervals are tight.
-#![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
