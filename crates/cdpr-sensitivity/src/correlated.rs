@@ -11,7 +11,14 @@
 //! R. B. Nelsen, *An introduction to copulas* (2006). The law of each input, its steps included, is kept. C is the
 //! correlation of the normal scores z; that of normal inputs is the same, that of uniform ones is (6/π) asin(C / 2).
 //!
-//! An estimator that assumes independent inputs does not take such a design:
+//! It is no [`IndependentSample`]: effects, chaos expansions and derivative-based measures do not take it.
+//!
+//! ```compile_fail,E0277
+//! use cdpr_sensitivity::{Correlated, SobolDesign, Truncation, expansion};
+//! fn model(design: &Correlated<SobolDesign>, outputs: &[Option<f64>], truncation: Truncation) {
+//!     let _ = expansion(design, outputs, truncation);
+//! }
+//! ```
 //!
 //! ```compile_fail,E0277
 //! use cdpr_sensitivity::{Correlated, SobolDesign, student_effects};
@@ -20,7 +27,7 @@
 //! }
 //! ```
 //!
-//! Regression does:
+//! Regression asks for a [`JointSample`] only:
 //!
 //! ```
 //! use cdpr_sensitivity::{Correlated, SobolDesign, regression};

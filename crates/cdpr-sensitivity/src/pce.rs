@@ -25,6 +25,8 @@ use crate::pursuit::pursue;
 
 /// Least number of outputs that an expansion is fitted to.
 pub const MIN_OUTPUTS: usize = 10;
+/// Largest degree of an expansion.
+pub const MAX_DEGREE: usize = 100;
 /// Most values of candidate terms, terms times outputs: 1 GiB.
 const MAX_VALUES: usize = 1 << 27;
 
@@ -69,8 +71,8 @@ pub struct Shares {
 ///
 /// # Errors
 /// - [`SensitivityError::InvalidParameter`] for a norm of the truncation outside of (0, 1];
-/// - [`SensitivityError::OutOfRange`] for a degree or a number of interactions of zero, for candidate terms of more than
-///   2^27 values, for fewer than [`MIN_OUTPUTS`] outputs;
+/// - [`SensitivityError::OutOfRange`] for a degree of zero or above [`MAX_DEGREE`], no interactions (1 is for none),
+///   candidate terms of more than 2^27 values, fewer than [`MIN_OUTPUTS`] outputs;
 /// - [`SensitivityError::LengthMismatch`] unless there is one output a row;
 /// - [`SensitivityError::NotFinite`] for a value that is not finite;
 /// - [`SensitivityError::ConstantSample`] if all outputs are equal.
@@ -81,7 +83,7 @@ pub fn expansion<D: IndependentSample>(
 ) -> Result<Expansion, SensitivityError> {
     let Truncation { max_degree, norm, interactions } = truncation;
     require(norm > 0.0 && norm <= 1.0, "norm", norm, "a number above 0, at most 1")?;
-    check_range("degree", max_degree as u64, 1, u64::MAX)?;
+    check_range("degree", max_degree as u64, 1, MAX_DEGREE as u64)?;
     check_range("interactions", interactions as u64, 1, u64::MAX)?;
     let observed = Observed::new(design, outputs, MIN_OUTPUTS)?;
     let inputs = design.inputs();
@@ -96,8 +98,7 @@ pub fn expansion<D: IndependentSample>(
         (0..n).map(value).collect()
     };
     let limit = MAX_VALUES / n;
-    let mut best: Option<Expansion> = None;
-    for degree in 1..=max_degree {
+    let fit = |degree| -> Result<Expansion, SensitivityError> {
         let products =
             truncation.products(inputs.len(), degree, limit).ok_or(SensitivityError::OutOfRange {
                 field: "candidate terms",
@@ -107,20 +108,25 @@ pub fn expansion<D: IndependentSample>(
             })?;
         let columns: Vec<Vec<f64>> = products.par_iter().map(column).collect();
         let found = pursue(&columns, &observed.outputs);
-        if best.as_ref().is_none_or(|best| found.error < best.leave_one_out) {
-            let term = |(j, coefficient): (usize, f64)| Term { powers: products[j].clone(), coefficient };
-            best = Some(Expansion {
-                inputs: inputs.to_vec(),
-                observed: n,
-                failed: observed.failed,
-                degree,
-                mean: found.constant,
-                terms: found.terms.into_iter().map(term).collect(),
-                leave_one_out: found.error,
-            });
+        let term = |(j, coefficient): (usize, f64)| Term { powers: products[j].clone(), coefficient };
+        Ok(Expansion {
+            inputs: inputs.to_vec(),
+            observed: n,
+            failed: observed.failed,
+            degree,
+            mean: found.constant,
+            terms: found.terms.into_iter().map(term).collect(),
+            leave_one_out: found.error,
+        })
+    };
+    let mut best = fit(1)?;
+    for degree in 2..=max_degree {
+        let other = fit(degree)?;
+        if other.leave_one_out < best.leave_one_out {
+            best = other;
         }
     }
-    best.ok_or(SensitivityError::OutOfRange { field: "degree", value: 0, minimum: 1, maximum: u64::MAX })
+    Ok(best)
 }
 
 impl Expansion {

@@ -34,7 +34,7 @@ pub enum Order {
 }
 
 /// Number of independent scramblings of a scrambled [`SaltelliDesign`].
-pub const REPLICATES: usize = 16;
+pub const REPLICATES: usize = 8;
 
 /// Blocks (1). N = 2^m blocks from index 0 keep the balance of the sequence.
 #[derive(Debug, Clone)]

@@ -157,6 +157,7 @@ fn what_cannot_be_expanded_is_an_error() {
         _ => "another error",
     };
     assert_eq!(range(error(&outputs, Truncation { max_degree: 0, ..FULL })), "degree");
+    assert_eq!(range(error(&outputs, Truncation { max_degree: 101, ..FULL })), "degree");
     assert_eq!(range(error(&outputs, Truncation { interactions: 0, ..FULL })), "interactions");
     assert_eq!(range(error(&[outputs[..9].to_vec(), vec![None; 31]].concat(), FULL)), "observed outputs");
     for norm in [0.0, 1.1, f64::NAN] {
