@@ -14,8 +14,11 @@
 //! A scrambled design takes its blocks by turns from [`REPLICATES`] independent scramblings of the sequence. What differs
 //! between them is the error of the indices, which no single sequence shows; and the first half of the blocks is the first
 //! half of each.
+//!
+//! The points (a, b) are stored, 16 bytes an input and block: each serves k + 2 rows or more.
 
 use rand::Rng;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::{SampleDesign, check_origin, check_points, check_row, stream};
@@ -43,7 +46,8 @@ pub struct SaltelliDesign {
     /// Sequences of (a, b), taken by turns: the plain one, or scrambled ones.
     sequences: Vec<Sobol>,
     first_index: u32,
-    blocks: usize,
+    /// (a, b) of all blocks.
+    points: Vec<f64>,
     order: Order,
     seed: Option<u64>,
 }
@@ -90,7 +94,8 @@ impl SaltelliDesign {
         check_points(first_index, blocks)?;
         let plain = radial_sequence(inputs.len())?;
         let sequences = seed.map_or_else(|| vec![plain.clone()], |seed| scramblings(&plain, seed));
-        Ok(Self { inputs, sequences, first_index, blocks, order, seed })
+        let points = extended(&[], &sequences, first_index, blocks);
+        Ok(Self { inputs, sequences, first_index, points, order, seed })
     }
 
     /// This design with another number of blocks: those that both have are the same.
@@ -99,7 +104,9 @@ impl SaltelliDesign {
     /// [`SensitivityError::OutOfRange`] for no block, or points of the sequence beyond 2^32.
     pub fn resized(&self, blocks: usize) -> Result<Self, SensitivityError> {
         check_points(self.first_index, blocks)?;
-        Ok(Self { blocks, ..self.clone() })
+        let known = &self.points[..self.points.len().min(2 * self.inputs.len() * blocks)];
+        let points = extended(known, &self.sequences, self.first_index, blocks);
+        Ok(Self { points, ..self.clone() })
     }
 
     /// Number of sequences that the blocks are taken from by turns.
@@ -111,7 +118,7 @@ impl SaltelliDesign {
     /// Number of blocks N.
     #[must_use]
     pub fn blocks(&self) -> usize {
-        self.blocks
+        self.points.len() / (2 * self.inputs.len())
     }
 
     /// Which indices the blocks are for.
@@ -144,18 +151,16 @@ impl SampleDesign for SaltelliDesign {
     }
 
     fn replicate(&self, seed: u64) -> Self {
-        Self { sequences: scramblings(&self.sequences[0], seed), seed: Some(seed), ..self.clone() }
+        let sequences = scramblings(&self.sequences[0], seed);
+        let points = extended(&[], &sequences, self.first_index, self.blocks());
+        Self { sequences, points, seed: Some(seed), ..self.clone() }
     }
 
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
         check_row(self, index, point)?;
         let k = self.inputs.len();
         let (block, place) = (index / self.block_points(), index % self.block_points());
-        let turns = self.sequences.len();
-        let mut both = vec![0.0; 2 * k];
-        // Below 2^32: `check_points` has seen to it.
-        self.sequences[block % turns].point(self.first_index + (block / turns) as u32, &mut both)?;
-        let (a, b) = both.split_at(k);
+        let (a, b) = self.points[2 * k * block..2 * k * (block + 1)].split_at(k);
         let (from, exchanged, other) = if place <= k {
             (a, place.checked_sub(1), b)
         } else if place + 1 < self.block_points() {
@@ -179,4 +184,19 @@ pub(crate) fn radial_sequence(inputs: usize) -> Result<Sobol, SensitivityError> 
 
 fn scramblings(sequence: &Sobol, seed: u64) -> Vec<Sobol> {
     (0..REPLICATES as u64).map(|turn| sequence.rescrambled(stream(seed, turn).next_u64())).collect()
+}
+
+/// The points (a, b) of all blocks, of which the first ones are known.
+fn extended(known: &[f64], sequences: &[Sobol], first_index: u32, blocks: usize) -> Vec<f64> {
+    let (size, turns) = (sequences[0].dimensions(), sequences.len());
+    let first = known.len() / size;
+    let mut points = known.to_vec();
+    points.resize(blocks * size, 0.0);
+    points[known.len()..].par_chunks_mut(size).enumerate().for_each(|(place, point)| {
+        let block = first + place;
+        // Below 2^32: `check_points` has seen to it.
+        let written = sequences[block % turns].point(first_index + (block / turns) as u32, point);
+        debug_assert!(written.is_ok(), "a point has the dimensions of its sequence");
+    });
+    points
 }
