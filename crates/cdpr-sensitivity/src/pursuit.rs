@@ -176,3 +176,35 @@ impl Path {
 fn add(sum: &mut [f64], factor: f64, vector: &[f64]) {
     sum.iter_mut().zip(vector).for_each(|(sum, entry)| *sum += factor * entry);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::least_squares::{LeastSquares, least_squares};
+
+    #[test]
+    fn the_error_is_that_of_fits_without_each_value_and_the_coefficients_are_those_of_householder() {
+        let x: Vec<f64> = (0..12).map(|i| (1.7 * f64::from(i)).sin()).collect();
+        let y: Vec<f64> = x.iter().enumerate().map(|(i, x)| x + x * x + 0.3 * (i as f64).cos()).collect();
+        let columns = [vec![1.0; 12], x.clone(), x.iter().map(|x| x.exp()).collect()];
+        let mut path = Path::new(&y);
+        assert!(path.push(&columns[1]) && path.push(&columns[2]) && !path.push(&columns[1]));
+
+        let without = |values: &[f64], i: usize| [&values[..i], &values[i + 1..]].concat();
+        let left_out = |i: usize| {
+            let rest: Vec<_> = columns.iter().map(|column| without(column, i)).collect();
+            let LeastSquares { coefficients, .. } =
+                least_squares(&rest, &without(&y, i)).unwrap_or_else(|j| panic!("{j}"));
+            y[i] - columns.iter().zip(&coefficients).map(|(column, c)| c * column[i]).sum::<f64>()
+        };
+        let sum: f64 = (0..12).map(|i| left_out(i).powi(2)).sum();
+        let whole = least_squares(&columns, &y).unwrap_or_else(|j| panic!("{j}"));
+        let (_, squares) = mean_and_squares(&y);
+        let corrected = sum / squares * 12.0 / 9.0 * (1.0 + whole.inverse_gram.iter().sum::<f64>());
+        assert!((path.corrected_error(squares) / corrected - 1.0).abs() < 1e-10);
+        for (one, other) in path.coefficients(3).iter().zip(&whole.coefficients) {
+            assert!((one - other).abs() < 1e-12);
+        }
+        assert!((path.noise().powi(2) * 9.0 / whole.residual_squares - 1.0).abs() < 1e-10);
+    }
+}

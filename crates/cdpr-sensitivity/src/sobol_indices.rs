@@ -17,7 +17,7 @@
 //! Each index is a quotient of sums over blocks. The bootstrap draws units with replacement, and the interval is Student's
 //! ([`crate::interval`], Eq. (2)). On a scrambled design the units are its independent scramblings: blocks of one sequence
 //! depend on each other, and a bootstrap over them misses what that does. With 1024 blocks of one sequence such intervals of
-//! 95 % held some indices of Morris's 20 inputs in 53 of 100 cases only, and were five times too wide for a linear model;
+//! 95 % held some indices of Morris's 20 inputs in 53 of 100 cases only, and were sixty times too wide for a linear model;
 //! those over scramblings hold all of them in 95 (`tests/global/indices.rs`). On the plain sequence, of which there is only
 //! one, the units are the blocks all the same, as in SALib: such intervals are an indication.
 //!
