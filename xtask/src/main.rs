@@ -17,6 +17,8 @@ tasks:
   robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
                  how often the direct model finds CoGiRo's true pose from a wrong start, by the protocol of Mahnke and Caverly
                  (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
+  throughput [--observations N] [--threads N]
+                 a sampling of the paper's size and more, without tables: time, memory and results in one line (N = 1000000)
   bench [ARGS]   all criterion benchmarks
   bench-peers    the direct model and an observation beside SciPy, Octave and Ceres, where installed: docs/PEERS.md
   fuzz [SECONDS] every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
     match task.as_deref() {
         Some("caroca-study") => caroca_study(rest),
         Some("robustness") => robustness(rest),
+        Some("throughput") => throughput(&rest),
         Some("bench") => cargo(&[&["bench", "--workspace"], strs(&rest).as_slice()].concat()),
         Some("bench-peers") => peers::bench(),
         Some("fuzz") => fuzz::run(&rest),
@@ -61,6 +64,11 @@ fn robustness(mut rest: Vec<String>) -> ExitCode {
     default(&mut rest, "--robot", "data/robots/cogiro.json");
     eprintln!("building the program (a few minutes the first time), then looking for poses");
     cdpr(&["robustness"], &rest)
+}
+
+fn throughput(rest: &[String]) -> ExitCode {
+    let study = root().join("data/studies/caroca.json").display().to_string();
+    cdpr(&["study", "throughput", &study, "--sampling", "mechanical"], rest)
 }
 
 /// Adds `option` with a path in the repository, unless the user gives one: that is relative to where the user is.

@@ -4,6 +4,7 @@
 
 mod robustness;
 mod study;
+mod throughput;
 
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -64,12 +65,32 @@ enum StudyCommand {
         #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
         threads: Option<u16>,
     },
+    /// Run one sampling of a study without writing anything; print how long it took, its memory and its results as JSON.
+    #[command(
+        after_help = "Example: cdpr study throughput data/studies/caroca.json --sampling mechanical --observations 1000000"
+    )]
+    Throughput {
+        /// Study file (JSON, `cdpr-study/1`).
+        study: PathBuf,
+        /// Name of the sampling.
+        #[arg(long)]
+        sampling: String,
+        /// Observations, in place of the file's.
+        #[arg(long, default_value_t = 1_000_000)]
+        observations: usize,
+        /// Threads; all cores if left out. The numbers do not depend on it.
+        #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+        threads: Option<u16>,
+    },
 }
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Study { command: StudyCommand::Run { study, out, observations, threads } } => {
             study::run(&study::Settings { study, out, observations, threads })
+        }
+        Command::Study { command: StudyCommand::Throughput { study, sampling, observations, threads } } => {
+            throughput::run(&study, &sampling, observations, threads)
         }
         Command::Robustness { robot, poses, modulus, seed, out } => {
             let settings = robustness::Settings { robot, poses, modulus, seed, out };

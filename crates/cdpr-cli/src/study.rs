@@ -3,8 +3,9 @@
 
 use cdpr_report::{Points, ReportError};
 use cdpr_study::{
-    IndexMap, Study, StudyError, StudySummary, Summary, SurfaceSummary, analyse, check_folder, compare,
-    compute_surface, observe, remove_summary, write_figure, write_observations, write_summary, write_surface,
+    IndexMap, ObservationTable, Study, StudyError, StudySummary, Summary, SurfaceSummary, analyse,
+    check_folder, compare, compute_surface, observe_into, remove_summary, write_figure, write_summary,
+    write_surface,
 };
 use comfy_table::{Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -29,10 +30,7 @@ pub(crate) enum RunError {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
-    if let Some(threads) = settings.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-        pool.map_err(|source| RunError::Threads { threads, source })?;
-    }
+    start_threads(settings.threads)?;
     let clock = Instant::now();
     let mut study = Study::open(&settings.study)?;
     if let Some(observations) = settings.observations {
@@ -70,6 +68,13 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
     Ok(())
 }
 
+/// Starts the threads that were asked for; all cores by default.
+pub(crate) fn start_threads(threads: Option<u16>) -> Result<(), RunError> {
+    let Some(threads) = threads else { return Ok(()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    pool.map_err(|source| RunError::Threads { threads, source })
+}
+
 /// A run under way.
 struct Run<'a> {
     settings: &'a Settings,
@@ -82,15 +87,13 @@ impl Run<'_> {
     fn sampling(&mut self, study: &Study, name: &str) -> Result<(), RunError> {
         let clock = Instant::now();
         self.progress.set_message(name.to_owned());
-        let tick = || self.progress.inc(1);
+        let tick = |done: usize| self.progress.inc(done as u64);
         let sampling = study.sampling(name)?;
-        let observations = observe(&sampling, &tick);
+        let mut table = ObservationTable::new(&self.settings.out, &sampling)?;
+        let tally = observe_into(&sampling, &tick, |block| table.write(block))?;
         // The table is written whether or not its statistics can be computed.
-        let (written, summary) = rayon::join(
-            || write_observations(&self.settings.out, &sampling, &observations),
-            || analyse(&sampling, &observations, &tick),
-        );
-        written?;
+        table.finish()?;
+        let summary = analyse(&sampling, &tally, &tick);
         self.figure(name, cdpr_report::histogram(&summary))?;
         if !summary.signed_effects_mm.is_empty() {
             self.figure(&format!("{name}_effects"), cdpr_report::signed_effects(&summary, 20))?;
@@ -104,7 +107,7 @@ impl Run<'_> {
         let clock = Instant::now();
         self.progress.set_message(name.to_owned());
         let surface = study.surface(name)?;
-        let result = compute_surface(&surface, &|| self.progress.inc(1));
+        let result = compute_surface(&surface, &|done| self.progress.inc(done as u64));
         write_surface(&self.settings.out, &surface, &result)?;
         let summary = SurfaceSummary::new(&surface, &result);
         self.figure(name, cdpr_report::surface(&summary, &result))?;

@@ -6,7 +6,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::error::{SensitivityError, check_length, check_range};
-use crate::input::Input;
+use crate::input::{Input, Prepared};
 use crate::sobol::Sobol;
 
 /// Points to run a model at, of any structure. Rows may be drawn from any thread.
@@ -45,6 +45,17 @@ pub trait SampleDesign: Sized + Sync {
         }
         Ok(())
     }
+
+    /// Writes consecutive rows from that of observation `first` on into `rows`, one after the other.
+    ///
+    /// # Errors
+    /// As [`SampleDesign::row`], and [`SensitivityError::LengthMismatch`] unless `rows` holds whole rows.
+    fn rows(&self, first: usize, rows: &mut [f64]) -> Result<(), SensitivityError> {
+        for (index, row) in (first..).zip(rows.chunks_mut(self.inputs().len())) {
+            self.row(index, row)?;
+        }
+        Ok(())
+    }
 }
 
 /// A design whose rows are a sample of the joint law of its inputs: regression asks for no more.
@@ -57,6 +68,7 @@ pub trait IndependentSample: JointSample {}
 #[derive(Debug, Clone)]
 pub struct SobolDesign {
     inputs: Vec<Input>,
+    prepared: Vec<Prepared>,
     sobol: Sobol,
     first_index: u32,
     points: usize,
@@ -107,7 +119,8 @@ impl SobolDesign {
     ) -> Result<Self, SensitivityError> {
         inputs.iter().try_for_each(Input::validate)?;
         check_points(first_index, points)?;
-        Ok(Self { inputs, sobol, first_index, points })
+        let prepared = inputs.iter().map(Input::prepare).collect();
+        Ok(Self { inputs, prepared, sobol, first_index, points })
     }
 }
 
@@ -132,6 +145,26 @@ impl SampleDesign for SobolDesign {
         check_row(self, index, point)?;
         // Below 2^32: `check_points` has seen to it.
         self.sobol.point(self.first_index + index as u32, point)
+    }
+
+    fn row(&self, index: usize, row: &mut [f64]) -> Result<(), SensitivityError> {
+        self.unit_point(index, row)?;
+        for (value, input) in row.iter_mut().zip(&self.prepared) {
+            *value = input.value(*value);
+        }
+        Ok(())
+    }
+
+    fn rows(&self, first: usize, rows: &mut [f64]) -> Result<(), SensitivityError> {
+        let last = (first + rows.len() / self.inputs.len()).saturating_sub(1);
+        check_range("index", first.max(last) as u64, 0, self.points as u64 - 1)?;
+        self.sobol.points(self.first_index + first as u32, rows)?;
+        for row in rows.chunks_exact_mut(self.inputs.len()) {
+            for (value, input) in row.iter_mut().zip(&self.prepared) {
+                *value = input.value(*value);
+            }
+        }
+        Ok(())
     }
 }
 

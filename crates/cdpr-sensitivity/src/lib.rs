@@ -80,7 +80,9 @@ pub use convergence::{Target, Tightened, convergence, first_tight, until_tight};
 pub use correlated::Correlated;
 pub use design::{IndependentSample, JointSample, RandomDesign, SampleDesign, SobolDesign};
 pub use dgsm::{DerivativeMeasure, DerivativeMeasures, Slopes, dgsm, poincare_constant};
-pub use effect::{Effect, EffectInterval, Effects, effect_intervals, student_effects};
+pub use effect::{
+    Effect, EffectInterval, EffectSums, Effects, effect_intervals, intervals_of_effects, student_effects,
+};
 pub use error::SensitivityError;
 pub use fit::{Bootstrap, Family, Fit, best, fit, fit_all, ks_distance};
 pub use halton::Halton;
@@ -96,4 +98,4 @@ pub use regression::{Coefficient, Regression, rank_regression, regression};
 pub use saltelli::{Order, SaltelliDesign};
 pub use sobol::Sobol;
 pub use sobol_indices::{PairIndex, SobolIndex, SobolIndices, sobol_indices};
-pub use summary::{Bins, Histogram, Sample, Summary};
+pub use summary::{Bins, Histogram, Moments, Sample, Summary};

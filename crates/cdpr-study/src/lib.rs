@@ -13,8 +13,8 @@
 //!
 //! let study = Study::open("data/studies/caroca.json".as_ref())?;
 //! let sampling = study.sampling("mechanical")?;
-//! let observations = observe(&sampling, &|| ());
-//! let summary = analyse(&sampling, &observations, &|| ());
+//! let tally = observe(&sampling, &|_| ());
+//! let summary = analyse(&sampling, &tally, &|_| ());
 //! if let Some(rms) = summary.rms_mm {
 //!     println!("{:.3} mm +- {:.3} mm", rms.mean, rms.std);
 //! }
@@ -32,6 +32,7 @@ mod study;
 mod surface;
 
 pub use cdpr_sensitivity::Family;
+pub use cdpr_statics::Observation;
 pub use comparison::{ComparisonRow, Value, Verdict, compare};
 pub use error::StudyError;
 pub use file::{
@@ -39,9 +40,9 @@ pub use file::{
     SurfaceSpec, json_schema,
 };
 pub use indexmap::IndexMap;
-pub use observation::{Observation, Observations, observe};
+pub use observation::{Block, FITTED, KEPT, Tally, observe, observe_into};
 pub use output::{
-    StudySummary, Summary, check_folder, remove_summary, write_figure, write_observations, write_refused,
+    ObservationTable, StudySummary, Summary, check_folder, remove_summary, write_figure, write_refused,
     write_robustness, write_solves, write_summary, write_surface,
 };
 pub use robustness::{

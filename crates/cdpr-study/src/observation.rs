@@ -3,45 +3,87 @@
 //! One observation perturbs all parameters of the robot; the inverse model runs on the *perturbed* robot at the wanted pose;
 //! its tensions are offset by dt_i and the unstrained lengths computed for the offset tensions; the direct model runs on the
 //! perturbed robot with those lengths, under its own weight and with the payload added; dp is the difference (Eq. (4)).
+//!
+//! Observations are made in blocks of consecutive indices. What is kept of a block are sums, which are merged in the order of the
+//! indices: memory does not grow with the observations, and the numbers do not depend on the threads.
 
 use crate::study::Sampling;
-use cdpr_robot::{Parameter, Pose, Robot, Vector3};
-use cdpr_sensitivity::{SampleDesign, SobolDesign};
-use cdpr_statics::{Load, StaticsError, deflection};
+use cdpr_robot::Parameter;
+use cdpr_sensitivity::{EffectSums, SampleDesign, SobolDesign};
+use cdpr_statics::{Observation, StaticsError};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
-/// Deflection of one perturbed robot.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Observation {
-    /// dp [m].
-    pub displacement: Vector3<f64>,
-}
+/// Observations of a block.
+const BLOCK: usize = 256;
 
-impl Observation {
-    /// What the paper calls the RMS of the static deflection: |dp|, in millimetres.
-    pub fn rms_mm(&self) -> f64 {
-        1e3 * self.displacement.norm()
-    }
-}
+/// Blocks under way at a time.
+const WAVE: usize = 64;
 
-/// All observations of a sampling, in the order of its design.
+/// Outputs that are kept for quantiles and histogram: the first ones.
+pub const KEPT: usize = 1 << 16;
+
+/// Outputs that laws are fitted to, the first ones: each of the bootstrap's resamples is as long.
+pub const FITTED: usize = 1 << 13;
+
+/// Consecutive observations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Observations {
-    /// One for each row of the design: what was observed, or why nothing was.
+pub struct Block {
+    /// Index of the first one.
+    pub first: usize,
+    /// Values of the inputs of each observation, one after the other.
+    pub rows: Vec<f64>,
+    /// For each observation what was observed, or why nothing was.
     pub outcomes: Vec<Result<Observation, StaticsError>>,
 }
 
-impl Observations {
-    /// RMS [mm] of each observation, `None` where it failed.
-    pub fn rms_mm(&self) -> Vec<Option<f64>> {
-        self.outcomes.iter().map(|outcome| outcome.as_ref().ok().map(Observation::rms_mm)).collect()
+/// What all observations of a sampling add up to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tally {
+    /// Sums behind moments and effects of the RMS [mm].
+    pub sums: EffectSums,
+    /// Number of failed observations by kind of failure; the usual kinds are always listed.
+    pub failed: BTreeMap<String, usize>,
+    /// RMS [mm] of the first [`KEPT`] observations, `None` where one failed.
+    pub first_rms_mm: Vec<Option<f64>>,
+}
+
+impl Tally {
+    fn new(sampling: &Sampling) -> Self {
+        Self {
+            sums: EffectSums::new(sampling.design.inputs(), rms_mm(sampling.nominal.rms())),
+            failed: count_failed(std::iter::empty()),
+            first_rms_mm: Vec::new(),
+        }
     }
 
-    /// Number of failed observations by kind of failure; the usual kinds are always listed.
-    pub fn failed(&self) -> BTreeMap<String, usize> {
-        count_failed(self.outcomes.iter().filter_map(|outcome| outcome.as_ref().err()))
+    fn of_block(sampling: &Sampling, block: &Block) -> Self {
+        let mut tally = Self::new(sampling);
+        let inputs = sampling.design.inputs().len();
+        for (outcome, row) in block.outcomes.iter().zip(block.rows.chunks_exact(inputs)) {
+            let rms = outcome.as_ref().ok().map(|observation| rms_mm(observation.rms()));
+            tally.sums.add(row, rms);
+            tally.first_rms_mm.push(rms);
+        }
+        tally.failed = count_failed(block.outcomes.iter().filter_map(|outcome| outcome.as_ref().err()));
+        tally
     }
+
+    /// Adds the observations that follow.
+    fn merge(&mut self, next: &Self) {
+        self.sums.merge(&next.sums);
+        for (kind, count) in &next.failed {
+            *self.failed.entry(kind.clone()).or_default() += count;
+        }
+        let room = KEPT.saturating_sub(self.first_rms_mm.len()).min(next.first_rms_mm.len());
+        self.first_rms_mm.extend_from_slice(&next.first_rms_mm[..room]);
+    }
+}
+
+/// RMS in the unit of tables and figures.
+pub(crate) fn rms_mm(rms: f64) -> f64 {
+    1e3 * rms
 }
 
 /// Failures by kind; the usual kinds are always listed.
@@ -54,49 +96,84 @@ pub(crate) fn count_failed<'a>(errors: impl Iterator<Item = &'a StaticsError>) -
     failed
 }
 
-/// Deflection of `robot` with `deviations` added to its parameters (in the order of [`Parameter::all`]).
-///
-/// # Errors
-/// [`StaticsError`]: the reason why this observation fails.
-pub(crate) fn observe_one(
-    robot: &Robot,
-    pose: &Pose,
-    load: &Load,
-    deviations: &[f64],
-) -> Result<Observation, StaticsError> {
-    let perturbed = robot.perturbed(deviations)?;
-    let deflection = deflection(&perturbed.robot, pose, &perturbed.tension_offsets, load)?;
-    Ok(Observation { displacement: deflection.displacement() })
-}
-
-/// Runs all observations of a sampling in parallel; `tick` is called after each.
-pub fn observe(sampling: &Sampling, tick: &(dyn Fn() + Sync)) -> Observations {
+/// Makes all observations of a sampling in parallel; `tick` is told how many more are done.
+pub fn observe(sampling: &Sampling, tick: &(dyn Fn(usize) + Sync)) -> Tally {
     observe_design(sampling, &sampling.design, tick)
 }
 
-/// The same for another design over the same inputs.
+/// The same, and hands every block to `sink` in the order of the indices. Ends where `sink` fails.
+///
+/// # Errors
+/// That of `sink`.
+pub fn observe_into<E>(
+    sampling: &Sampling,
+    tick: &(dyn Fn(usize) + Sync),
+    mut sink: impl FnMut(&Block) -> Result<(), E>,
+) -> Result<Tally, E> {
+    let mut whole = Tally::new(sampling);
+    for wave in waves(sampling.design.points()) {
+        let blocks: Vec<(Block, Tally)> = wave
+            .into_par_iter()
+            .map(|range| {
+                let block = observe_block(sampling, &sampling.design, range, tick);
+                let tally = Tally::of_block(sampling, &block);
+                (block, tally)
+            })
+            .collect();
+        for (block, tally) in &blocks {
+            sink(block)?;
+            whole.merge(tally);
+        }
+    }
+    Ok(whole)
+}
+
+/// [`observe`] for another design over the same inputs.
 pub(crate) fn observe_design(
     sampling: &Sampling,
     design: &SobolDesign,
-    tick: &(dyn Fn() + Sync),
-) -> Observations {
+    tick: &(dyn Fn(usize) + Sync),
+) -> Tally {
+    let mut whole = Tally::new(sampling);
+    for wave in waves(design.points()) {
+        let tallies: Vec<Tally> = wave
+            .into_par_iter()
+            .map(|range| Tally::of_block(sampling, &observe_block(sampling, design, range, tick)))
+            .collect();
+        tallies.iter().for_each(|tally| whole.merge(tally));
+    }
+    whole
+}
+
+/// The indices of all blocks, as many at a time as are under way together.
+fn waves(points: usize) -> impl Iterator<Item = Vec<Range<usize>>> {
+    let blocks = move |wave: usize| {
+        (wave..points.min(wave + WAVE * BLOCK))
+            .step_by(BLOCK)
+            .map(move |first| first..points.min(first + BLOCK))
+    };
+    (0..points).step_by(WAVE * BLOCK).map(move |wave| blocks(wave).collect())
+}
+
+fn observe_block(
+    sampling: &Sampling,
+    design: &SobolDesign,
+    range: Range<usize>,
+    tick: &(dyn Fn(usize) + Sync),
+) -> Block {
+    let inputs = sampling.places.len();
     let parameters = Parameter::all(sampling.robot.cables.len()).len();
-    let outcomes = (0..design.points())
-        .into_par_iter()
-        .map_init(
-            || (vec![0.0; sampling.places.len()], vec![0.0; parameters]),
-            |(row, deviations), index| {
-                // The index is below the number of points and the row as long as the inputs.
-                let drawn = design.row(index, row);
-                debug_assert_eq!(drawn, Ok(()));
-                for (place, value) in sampling.places.iter().zip(row.iter()) {
-                    deviations[*place] = *value;
-                }
-                let outcome = observe_one(sampling.robot, &sampling.pose, &sampling.load, deviations);
-                tick();
-                outcome
-            },
-        )
-        .collect();
-    Observations { outcomes }
+    let mut rows = vec![0.0; range.len() * inputs];
+    // The range is one of the design, and the rows are whole.
+    let drawn = design.rows(range.start, &mut rows);
+    debug_assert_eq!(drawn, Ok(()));
+    let mut deviations = vec![0.0; range.len() * parameters];
+    for (deviations, row) in deviations.chunks_exact_mut(parameters).zip(rows.chunks_exact(inputs)) {
+        for (place, value) in sampling.places.iter().zip(row) {
+            deviations[*place] = *value;
+        }
+    }
+    let outcomes = sampling.observer.observe_all(&deviations);
+    tick(range.len());
+    Block { first: range.start, rows, outcomes }
 }

@@ -2,7 +2,7 @@
 
 use crate::comparison::ComparisonRow;
 use crate::error::StudyError;
-use crate::observation::Observations;
+use crate::observation::{Block, rms_mm};
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::sampling::SamplingSummary;
 use crate::study::{Sampling, Surface};
@@ -68,41 +68,75 @@ pub fn remove_summary(folder: &Path) -> Result<(), StudyError> {
     }
 }
 
-/// Writes `NAME.csv`: one row an observation, with the deviation of each parameter from its nominal value (`d_mass`, ... in
-/// SI units), dp, RMS, status and reason.
-///
-/// # Errors
-/// [`StudyError::Write`].
-pub fn write_observations(
-    folder: &Path,
-    sampling: &Sampling,
-    observations: &Observations,
-) -> Result<PathBuf, StudyError> {
-    let inputs = sampling.design.inputs();
-    let header = ["index".to_owned()]
-        .into_iter()
-        .chain(inputs.iter().map(|input| format!("d_{}", input.name)))
-        .chain(["dx_mm", "dy_mm", "dz_mm", "rms_mm", "status", "reason"].map(str::to_owned));
-    let mut row = vec![0.0; inputs.len()];
-    let rows = observations.outcomes.iter().enumerate().map(|(index, outcome)| {
-        // The index is below the number of points and the row as long as the inputs.
-        let drawn = sampling.design.row(index, &mut row);
-        debug_assert_eq!(drawn, Ok(()));
-        let mut record = vec![index.to_string()];
-        record.extend(row.iter().map(ToString::to_string));
-        match outcome {
-            Ok(observation) => {
-                record.extend(observation.displacement.iter().map(|d| (1e3 * d).to_string()));
-                record.extend([observation.rms_mm().to_string(), "ok".to_owned(), String::new()]);
-            }
-            Err(error) => {
-                record.extend(std::iter::repeat_n(String::new(), 4));
-                record.extend([error.kind().to_owned(), error.to_string()]);
-            }
+/// Writes `NAME.csv` block by block: one row an observation, with the deviation of each parameter from its nominal value (`d_mass`, ...
+/// in SI units), dp, RMS, status and reason.
+pub struct ObservationTable {
+    path: PathBuf,
+    writer: csv::Writer<std::fs::File>,
+    inputs: usize,
+}
+
+impl ObservationTable {
+    /// Begins the table of a sampling.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub fn new(folder: &Path, sampling: &Sampling) -> Result<Self, StudyError> {
+        let path = folder.join(format!("{}.csv", sampling.name));
+        let inputs = sampling.design.inputs();
+        let header = ["index".to_owned()]
+            .into_iter()
+            .chain(inputs.iter().map(|input| format!("d_{}", input.name)))
+            .chain(["dx_mm", "dy_mm", "dz_mm", "rms_mm", "status", "reason"].map(str::to_owned));
+        let begin = || {
+            let mut writer = csv::Writer::from_path(&path)?;
+            writer.write_record(header)?;
+            Ok(writer)
+        };
+        match begin() {
+            Ok(writer) => Ok(Self { path, writer, inputs: inputs.len() }),
+            Err(error) => Err(unwritten(path, error)),
         }
-        record
-    });
-    write_csv(folder.join(format!("{}.csv", sampling.name)), header.collect(), rows)
+    }
+
+    /// Adds a block.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub fn write(&mut self, block: &Block) -> Result<(), StudyError> {
+        let rows = block.rows.chunks_exact(self.inputs);
+        for (index, (row, outcome)) in (block.first..).zip(rows.zip(&block.outcomes)) {
+            let mut record = vec![index.to_string()];
+            record.extend(row.iter().map(ToString::to_string));
+            match outcome {
+                Ok(observation) => {
+                    record.extend(observation.displacement.iter().map(|d| (1e3 * d).to_string()));
+                    record.extend([rms_mm(observation.rms()).to_string(), "ok".to_owned(), String::new()]);
+                }
+                Err(error) => {
+                    record.extend(std::iter::repeat_n(String::new(), 4));
+                    record.extend([error.kind().to_owned(), error.to_string()]);
+                }
+            }
+            self.writer.write_record(record).map_err(|error| unwritten(self.path.clone(), error))?;
+        }
+        Ok(())
+    }
+
+    /// Ends the table.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub fn finish(mut self) -> Result<PathBuf, StudyError> {
+        match self.writer.flush() {
+            Ok(()) => Ok(self.path),
+            Err(error) => Err(unwritten(self.path, error.into())),
+        }
+    }
+}
+
+fn unwritten(path: PathBuf, error: csv::Error) -> StudyError {
+    StudyError::Write { path, source: error.into() }
 }
 
 /// Writes `NAME.csv`: one row a grid point, with the values of both parameters (in SI units), RMS and status.
@@ -266,6 +300,6 @@ fn write_csv(
     };
     match write() {
         Ok(()) => Ok(path),
-        Err(error) => Err(StudyError::Write { path, source: error.into() }),
+        Err(error) => Err(unwritten(path, error)),
     }
 }

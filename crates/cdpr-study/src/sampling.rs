@@ -1,11 +1,11 @@
 //! What a sampling says: summary, fitted laws, effects.
 
-use crate::observation::{Observations, observe_design};
+use crate::observation::{FITTED, KEPT, Tally, observe_design};
 use crate::study::Sampling;
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{
-    Bootstrap, Family, Fit, Histogram, Law, Sample, SampleDesign, SensitivityError, SobolDesign, best,
-    effect_intervals, fit_all, student_effects,
+    Bootstrap, Effects, Family, Fit, Histogram, Law, Sample, SampleDesign, SensitivityError, SobolDesign,
+    Summary, best, fit_all, intervals_of_effects,
 };
 use cdpr_statics::Deflection;
 use indexmap::IndexMap;
@@ -135,20 +135,23 @@ impl From<Fit> for FitSummary {
 }
 
 /// Analyses the observations of a sampling. The replicates behind the intervals of signed effects are run here; `tick` is
-/// called after each of their observations. What cannot be computed from too few observations is left out and named in
-/// [`SamplingSummary::notes`].
-pub fn analyse(
-    sampling: &Sampling,
-    observations: &Observations,
-    tick: &(dyn Fn() + Sync),
-) -> SamplingSummary {
+/// told how many more of their observations are done. What cannot be computed from too few observations is left out and named in
+/// [`SamplingSummary::notes`]; so is how many observations quantiles, histogram and laws rest on, where these are not all.
+pub fn analyse(sampling: &Sampling, tally: &Tally, tick: &(dyn Fn(usize) + Sync)) -> SamplingSummary {
     let settings = &sampling.study.file;
-    let outputs = observations.rms_mm();
     let mut notes = Vec::new();
+    for (what, used) in [("quantiles, histogram", KEPT), ("fitted laws", FITTED)] {
+        if sampling.design.points() > used {
+            notes.push(format!("{what}: of the first {used} observations"));
+        }
+    }
     let mut note = |what: &str, error: SensitivityError| notes.push(format!("{what}: {error}"));
-    let sample = Sample::new(&outputs).map_err(|error| note("rms_mm", error)).ok();
+    let moments = tally.sums.outputs().summary().map_err(|error| note("rms_mm", error)).ok();
+    let sample = moments.and_then(|_| Sample::new(&tally.first_rms_mm).ok());
     let bootstrap = Bootstrap { resamples: settings.bootstrap_resamples, seed: settings.seed };
-    let fits = match sample.as_ref().map(|sample| fit_all(sample, bootstrap)) {
+    let fitted = &tally.first_rms_mm[..tally.first_rms_mm.len().min(FITTED)];
+    let fits = match moments.and_then(|_| Sample::new(fitted).ok()).map(|sample| fit_all(&sample, bootstrap))
+    {
         Some(Ok(fits)) => fits,
         Some(Err(error)) => {
             note("fits", error);
@@ -157,15 +160,19 @@ pub fn analyse(
         None => Vec::new(),
     };
     let best_fit = best(&fits).map(|fit| fit.family);
-    let t_student = student_effects(&sampling.design, &outputs)
+    let t_student = tally
+        .sums
+        .effects(sampling.design.inputs())
         .map(|effects| effects.effects.into_iter().map(|effect| (effect.input, effect.student)).collect());
     let signed = signed_effects(sampling, tick);
     SamplingSummary {
         title: sampling.title.to_owned(),
         pose: sampling.pose.position.into(),
         observations: sampling.design.points(),
-        failed: observations.failed(),
-        rms_mm: sample.as_ref().and_then(|sample| RmsSummary::new(sample, 1e3 * sampling.nominal.rms()).ok()),
+        failed: tally.failed.clone(),
+        rms_mm: moments
+            .zip(sample.as_ref())
+            .and_then(|(all, sample)| RmsSummary::new(&all, sample, 1e3 * sampling.nominal.rms()).ok()),
         nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
         fits: fits.into_iter().map(FitSummary::from).collect(),
         best_fit,
@@ -185,8 +192,7 @@ pub fn analyse(
 }
 
 impl RmsSummary {
-    fn new(sample: &Sample, nominal: f64) -> Result<Self, SensitivityError> {
-        let summary = sample.summary();
+    fn new(summary: &Summary, sample: &Sample, nominal: f64) -> Result<Self, SensitivityError> {
         Ok(Self {
             mean: summary.mean,
             std: summary.std,
@@ -204,20 +210,21 @@ impl RmsSummary {
 
 fn signed_effects(
     sampling: &Sampling,
-    tick: &(dyn Fn() + Sync),
+    tick: &(dyn Fn(usize) + Sync),
 ) -> Result<IndexMap<String, SignedEffect>, SensitivityError> {
     let settings = &sampling.study.file;
-    let replicates: Vec<(SobolDesign, Vec<Option<f64>>)> = (1..=settings.replicates as u64)
-        .map(|k| {
-            let design = sampling.design.replicate(settings.seed.wrapping_add(k));
-            let outputs = observe_design(sampling, &design, tick).rms_mm();
-            (design, outputs)
-        })
+    let designs: Vec<SobolDesign> = (1..=settings.replicates as u64)
+        .map(|k| sampling.design.replicate(settings.seed.wrapping_add(k)))
         .collect();
-    if replicates.is_empty() {
+    if designs.is_empty() {
         return Ok(IndexMap::new());
     }
-    let intervals = effect_intervals(&replicates, settings.confidence)?;
+    let effects: Vec<Effects> = designs
+        .iter()
+        .map(|design| observe_design(sampling, design, tick).sums.effects(design.inputs()))
+        .collect::<Result<_, _>>()?;
+    let designs: Vec<&SobolDesign> = designs.iter().collect();
+    let intervals = intervals_of_effects(&designs, &effects, settings.confidence)?;
     Ok(intervals
         .into_iter()
         .map(|e| (e.input, SignedEffect { effect: e.effect, low: e.low, high: e.high }))

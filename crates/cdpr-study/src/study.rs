@@ -5,7 +5,7 @@ use crate::error::StudyError;
 use crate::file::{AxisSpec, InputSpec, PoseSpec, STUDY_FORMAT, Statistic, StudyFile};
 use cdpr_robot::{Parameter, Pose, Robot, Vector3, from_json};
 use cdpr_sensitivity::{Input, SensitivityError, SobolDesign};
-use cdpr_statics::{Deflection, Load, deflection};
+use cdpr_statics::{Deflection, Load, Observer, deflection};
 use indexmap::IndexMap;
 use std::path::{Path, PathBuf};
 
@@ -39,6 +39,8 @@ pub struct Sampling<'a> {
     pub places: Vec<usize>,
     /// The nominal robot's deflection.
     pub nominal: Deflection,
+    /// Observes the robot with deviations of its parameters.
+    pub observer: Observer<'a>,
     /// The rest of the study's settings.
     pub study: &'a Study,
 }
@@ -62,6 +64,8 @@ pub struct Surface<'a> {
     pub y: (Parameter, usize, Vec<f64>),
     /// The nominal robot's deflection.
     pub nominal: Deflection,
+    /// Observes the robot with deviations of its parameters.
+    pub observer: Observer<'a>,
 }
 
 /// Points of one axis of a surface, which is held in memory as a whole.
@@ -195,7 +199,7 @@ impl Study {
             .map_err(|source| self.statistics(format!("{field}.first_index"), source))?;
         let pose = self.pose(&field, &spec.pose)?;
         let load = Load::payload(self.file.payload);
-        let nominal = self.nominal(&field, &pose, &load)?;
+        let (nominal, observer) = self.nominal(&field, &pose, &load)?;
         Ok(Sampling {
             name,
             title: &spec.title,
@@ -205,6 +209,7 @@ impl Study {
             design,
             places,
             nominal,
+            observer,
             study: self,
         })
     }
@@ -222,8 +227,8 @@ impl Study {
         let load = Load::payload(self.file.payload);
         let x = self.axis(&format!("{field}.x"), &spec.x)?;
         let y = self.axis(&format!("{field}.y"), &spec.y)?;
-        let nominal = self.nominal(&field, &pose, &load)?;
-        Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal })
+        let (nominal, observer) = self.nominal(&field, &pose, &load)?;
+        Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal, observer })
     }
 
     /// The inputs of an error model in the order of the parameter vector, with their places in it.
@@ -297,9 +302,18 @@ impl Study {
         })
     }
 
-    fn nominal(&self, field: &str, pose: &Pose, load: &Load) -> Result<Deflection, StudyError> {
+    fn nominal(
+        &self,
+        field: &str,
+        pose: &Pose,
+        load: &Load,
+    ) -> Result<(Deflection, Observer<'_>), StudyError> {
         let no_offsets = vec![0.0; self.robot.cables.len()];
-        deflection(&self.robot, pose, &no_offsets, load).map_err(|source| StudyError::Nominal {
+        let nominal = || {
+            let deflection = deflection(&self.robot, pose, &no_offsets, load)?;
+            Ok((deflection, Observer::new(&self.robot, pose, load)?))
+        };
+        nominal().map_err(|source| StudyError::Nominal {
             path: self.path.clone(),
             field: format!("{field}.pose.position"),
             value: format!("{:?}", pose.position.as_slice()),

@@ -1,6 +1,6 @@
 //! Surfaces: the deflection over a grid of two parameters.
 
-use crate::observation::{count_failed, observe_one};
+use crate::observation::{count_failed, rms_mm};
 use crate::study::Surface;
 use cdpr_robot::Parameter;
 use cdpr_statics::StaticsError;
@@ -47,21 +47,25 @@ pub struct SurfaceRms {
     pub nominal: f64,
 }
 
-/// Runs a surface in parallel; `tick` is called after each point.
-pub fn compute_surface(surface: &Surface, tick: &(dyn Fn() + Sync)) -> SurfaceResult {
+/// Runs a surface in parallel; `tick` is told how many more points are done.
+pub fn compute_surface(surface: &Surface, tick: &(dyn Fn(usize) + Sync)) -> SurfaceResult {
     let parameters = Parameter::all(surface.robot.cables.len()).len();
     let (x, x_place, x_deviations) = &surface.x;
     let (y, y_place, y_deviations) = &surface.y;
     let columns = y_deviations.len();
     let rms_mm = (0..x_deviations.len() * columns)
         .into_par_iter()
-        .map(|k| {
-            let mut deviations = vec![0.0; parameters];
-            deviations[*x_place] += x_deviations[k / columns];
-            deviations[*y_place] += y_deviations[k % columns];
-            let outcome = observe_one(surface.robot, &surface.pose, &surface.load, &deviations);
-            tick();
-            outcome.map(|observation| observation.rms_mm())
+        .fold_chunks(columns, Vec::new, |mut rows, k| {
+            let first = rows.len();
+            rows.resize(first + parameters, 0.0);
+            rows[first + *x_place] += x_deviations[k / columns];
+            rows[first + *y_place] += y_deviations[k % columns];
+            rows
+        })
+        .flat_map_iter(|rows| {
+            tick(columns);
+            let outcomes = surface.observer.observe_all(&rows).into_iter();
+            outcomes.map(|outcome| outcome.map(|observation| rms_mm(observation.rms())))
         })
         .collect();
     let values = |parameter: &Parameter, deviations: &[f64]| {
