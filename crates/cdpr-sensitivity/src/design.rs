@@ -96,15 +96,6 @@ impl SobolDesign {
         Self::over(sobol, inputs, 0, points)
     }
 
-    /// This design with another number of rows: the rows that both have are the same.
-    ///
-    /// # Errors
-    /// [`SensitivityError::OutOfRange`] for no point, or points beyond 2^32.
-    pub fn resized(&self, points: usize) -> Result<Self, SensitivityError> {
-        check_points(self.first_index, points)?;
-        Ok(Self { points, ..self.clone() })
-    }
-
     /// Index in the sequence of the first row.
     #[must_use]
     pub fn first_index(&self) -> u32 {
