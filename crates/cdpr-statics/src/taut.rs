@@ -133,6 +133,26 @@ impl<S: Simd> Tangent<S> {
     }
 }
 
+impl<S: Simd> Linear<S> {
+    /// Takes over another one in the lanes that are `going`.
+    #[inline(always)]
+    fn replace(&mut self, other: &Self, going: Mask<S>) {
+        let plane =
+            |new: &Plane<S>, old: &Plane<S>| [going.select(new[0], old[0]), going.select(new[1], old[1])];
+        self.azimuth = plane(&other.azimuth, &self.azimuth);
+        self.predicted = plane(&other.predicted, &self.predicted);
+        self.stiffness = three(|k| going.select(other.stiffness[k], self.stiffness[k]));
+    }
+
+    /// f + K c for a miss c.
+    #[inline(always)]
+    fn predict(&mut self, cable: &Cable<S>, miss: &Plane<S>) {
+        let [fx, fz] = cable.force;
+        let [xx, xz, zz] = self.stiffness;
+        self.predicted = [fx + xx * miss[0] + xz * miss[1], fz + xz * miss[0] + zz * miss[1]];
+    }
+}
+
 impl<S: Simd> Cable<S> {
     #[inline(always)]
     pub(crate) fn end(&self) -> TautEnd<Lanes<S>> {
@@ -157,14 +177,15 @@ impl<S: Simd> Robots<S> {
         hessian[4][5] = load.weight * cy;
         for (cable, linear) in self.cables.iter().zip(&mut tangent.cables) {
             let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
-            let [fx, fz] = cable.force;
             let response = taut_response(cable.weight, cable.stretch, cable.length, cable.force);
             let [xx, xz, zz] = response.flexibility;
             let inverse = response.determinant.recip();
             let k = [zz * inverse, -xz * inverse, xx * inverse];
             let miss = [h - response.end[0], z - response.end[1]];
             closure = closure.max(dot(&miss, &miss));
-            let predicted = [fx + k[0] * miss[0] + k[1] * miss[1], fz + k[1] * miss[0] + k[2] * miss[1]];
+            let mut new = Linear { azimuth: [c, s], predicted: cable.force, stiffness: k };
+            new.predict(cable, &miss);
+            let predicted = new.predicted;
             let force = [predicted[0] * c, predicted[0] * s, predicted[1]];
             add(&mut gradient, &cable.arm, &force);
             let lateral = response.lateral.recip();
@@ -172,11 +193,7 @@ impl<S: Simd> Robots<S> {
             let (xy, xz, yz) = (kc * s - swing * c, k[1] * c, k[1] * s);
             let space = [[kc * c + swing * s, xy, xz], [xy, ks * s + lateral * c * c, yz], [xz, yz, k[2]]];
             add_stiffness(&mut hessian, &cable.arm, &force, &space);
-            let old = *linear;
-            linear.azimuth = [going.select(c, old.azimuth[0]), going.select(s, old.azimuth[1])];
-            linear.predicted =
-                [going.select(predicted[0], old.predicted[0]), going.select(predicted[1], old.predicted[1])];
-            linear.stiffness = three(|j| going.select(k[j], old.stiffness[j]));
+            linear.replace(&new, going);
         }
         let (upper, lower) = hessian.split_at_mut(3);
         for (k, row) in lower.iter_mut().enumerate() {
@@ -185,6 +202,26 @@ impl<S: Simd> Robots<S> {
         tangent.gradient = six(|k| going.select(gradient[k], tangent.gradient[k]));
         tangent.factored.replace(&Factored::new(hessian), going);
         closure
+    }
+
+    /// What the linearisation becomes, to first order, when each cable is paid out by `longer` [m].
+    #[inline(always)]
+    pub(crate) fn pay_out(
+        &self,
+        load: &Load<S>,
+        tangent: &mut Tangent<S>,
+        longer: impl Fn(usize) -> Lanes<S>,
+    ) {
+        let wrench = load.wrench(&self.center);
+        tangent.gradient = six(|k| -wrench[k]);
+        for (i, (cable, linear)) in self.cables.iter().zip(&mut tangent.cables).enumerate() {
+            let [ex, ez] = cable.end().end_per_length;
+            let miss = [-ex * longer(i), -ez * longer(i)];
+            linear.predict(cable, &miss);
+            let [x, z] = linear.predicted;
+            let [c, s] = linear.azimuth;
+            add(&mut tangent.gradient, &cable.arm, &[x * c, x * s, z]);
+        }
     }
 
     /// What the platforms leave open, and the lanes where that is rounding and all cables are pulled, taut and not overstrained.
@@ -197,7 +234,7 @@ impl<S: Simd> Robots<S> {
         let mut sound = zero.less_or_equal(zero);
         for cable in &self.cables {
             let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
-            let TautEnd { end, tension, slackness } = cable.end();
+            let TautEnd { end, tension, slackness, .. } = cable.end();
             let miss = [h - end[0], z - end[1]];
             open.closure = open.closure.max(dot(&miss, &miss));
             let [fx, fz] = cable.force;

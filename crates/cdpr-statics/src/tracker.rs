@@ -32,6 +32,8 @@ pub struct Tracker<'a> {
     farthest: f64,
     platform: Robots<Scalar>,
     tangent: Tangent<Scalar>,
+    /// Whether it is that of the equilibrium at hand.
+    tangent_fits: bool,
 }
 
 impl<'a> Tracker<'a> {
@@ -73,6 +75,7 @@ impl<'a> Tracker<'a> {
                 weight: lane(robot.platform.mass * robot.gravity),
             },
             tangent: Tangent::new(zero, n),
+            tangent_fits: false,
         })
     }
 
@@ -94,8 +97,8 @@ impl<'a> Tracker<'a> {
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let model = Model::new(self.robot, lengths, load)?;
         // A moment has no potential: whether its equilibria are stable is not seen from pivots.
-        let taut = load.wrench.moment == Vector3::zeros() && self.settle(&model);
-        if !taut {
+        self.tangent_fits = load.wrench.moment == Vector3::zeros() && self.settle(&model);
+        if !self.tangent_fits {
             let solution = direct(self.robot, lengths, load, Start::Near(&self.equilibrium))?;
             self.residual = solution.report.residual;
             self.equilibrium = solution.equilibrium;
@@ -114,7 +117,6 @@ impl<'a> Tracker<'a> {
         }
         for (i, cable) in platform.cables.iter_mut().enumerate() {
             cable.arm = lanes(&robot.anchor_arm(pose, i));
-            cable.length = lane(model.lengths[i]);
             cable.force = [lane(equilibrium.cable_forces[i].x), lane(equilibrium.cable_forces[i].y)];
         }
         let force = &model.load.wrench.force;
@@ -125,7 +127,15 @@ impl<'a> Tracker<'a> {
         let scale = Scale { size, arm: model.arm(), rounding: rounding_of_closure(size, coordinates) };
         let zero = lane(0.0);
         let all = zero.less_or_equal(zero);
-        platform.linearise(&load, tangent, all);
+        if self.tangent_fits {
+            platform.pay_out(&load, tangent, |i| lane(model.lengths[i]) - platform.cables[i].length);
+        }
+        for (cable, length) in platform.cables.iter_mut().zip(model.lengths) {
+            cable.length = lane(*length);
+        }
+        if !self.tangent_fits {
+            platform.linearise(&load, tangent, all);
+        }
         let (found, open) = platform.settle(&load, tangent, &scale, all);
         if !found.any() {
             return false;
