@@ -53,6 +53,15 @@
 //! V = (L/s) [ fx² q² ψ + 2 m d - d²/2 - d² (2A + d² - 4m²)/(2 (T T0 + A)) ]
 //!   + (L/2EA) [ fx² + m² + 2 m d - d²/3 ]                                                      (7)
 //! ```
+//!
+//! At constant force and length the end moves with what the cable is made of. From `dT0/dw = -L V0/T0` follows
+//! `d atanh(q)/dw = L/2T0`, and with it, freed of `1/w`,
+//!
+//! ```text
+//! dx/dw = (fx L²/s²) [ (fz + V0)/T0 - 2 q ψ ]
+//! dz/dw = -(L²/s²) (fx² + T T0 - fz V0)/T0 - L²/2EA                                        (9)
+//! d(x, z)/dEA = -(L/EA²) (fx, fz - wL/2)                                                  (10)
+//! ```
 
 use crate::catenary::{Catenary, Compliance};
 use crate::real::Real;
@@ -130,6 +139,25 @@ impl Terms<f64> {
         let gravity = length * (fx * fx * q2 * psi + 2.0 * m * d - 0.5 * (d * d + rest)) / s;
         let elastic = 0.5 * length * (fx * fx + m * m + 2.0 * m * d - d * d / 3.0) / ea;
         gravity + elastic
+    }
+
+    /// d(x, z)/dw, equation (9).
+    pub(crate) fn end_per_weight(&self) -> Vector2<f64> {
+        let Self { fx, fz, v0, length, ea, weight, fx2, t, t0, s } = *self;
+        let (_, psi) = self.sag_terms();
+        let (tt0, p) = (t * t0, fz * v0);
+        let difference = if p <= 0.0 { tt0 - p } else { fx2 * (fx2 + fz * fz + v0 * v0) / (tt0 + p) };
+        let share = length * length / (s * s);
+        Vector2::new(
+            share * fx * ((fz + v0) / t0 - 2.0 * psi * weight / s),
+            -share * (fx2 + difference) / t0 - 0.5 * length * length / ea,
+        )
+    }
+
+    /// d(x, z)/dEA, equation (10).
+    pub(crate) fn end_per_stiffness(&self) -> Vector2<f64> {
+        let Self { fx, fz, length, ea, weight, .. } = *self;
+        Vector2::new(fx, fz - 0.5 * weight) * (-length / (ea * ea))
     }
 }
 

@@ -2,10 +2,13 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+mod arguments;
+mod derivatives;
 mod robustness;
 mod study;
 
 use clap::{Parser, Subcommand};
+use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -24,6 +27,11 @@ enum Command {
         #[command(subcommand)]
         command: StudyCommand,
     },
+    /// Derivatives of lengths and deflection with respect to every parameter of a robot, exact.
+    #[command(
+        after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
+    )]
+    Derivatives(derivatives::Settings),
     /// Measure how often the direct model finds the true pose from a wrong start.
     #[command(
         after_help = "Example: cdpr robustness --robot data/robots/cogiro.json --poses 1000 --out robustness"
@@ -67,13 +75,14 @@ enum StudyCommand {
 }
 
 fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    let result: Result<(), Box<dyn Error>> = match Arguments::parse().command {
         Command::Study { command: StudyCommand::Run { study, out, observations, threads } } => {
-            study::run(&study::Settings { study, out, observations, threads })
+            study::run(&study::Settings { study, out, observations, threads }).map_err(Into::into)
         }
+        Command::Derivatives(settings) => derivatives::run(&settings),
         Command::Robustness { robot, poses, modulus, seed, out } => {
             let settings = robustness::Settings { robot, poses, modulus, seed, out };
-            robustness::run(&settings).map_err(study::RunError::from)
+            robustness::run(&settings).map_err(Into::into)
         }
     };
     match result {
