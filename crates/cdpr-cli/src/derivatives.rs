@@ -59,7 +59,12 @@ impl Slopes {
         Ok(Self {
             parameters: parameters.iter().map(ToString::to_string).collect(),
             rms_mm: rms.iter().map(|slope| 1e3 * slope).collect(),
-            deflection_mm: found.displacement().column_iter().take(count).map(|dp| (1e3 * dp).into()).collect(),
+            deflection_mm: found
+                .displacement()
+                .column_iter()
+                .take(count)
+                .map(|dp| (1e3 * dp).into())
+                .collect(),
             unstrained_lengths: found
                 .lengths
                 .column_iter()
@@ -89,15 +94,23 @@ fn print(robot: &Robot, settings: &Settings, found: &Derivatives, slopes: &Slope
         1e3 * found.deflection.rms(),
         settings.payload
     );
-    let header =
-        ["parameter", "d|dp| [\u{b5}m]", "per", "d dx [\u{b5}m]", "d dy [\u{b5}m]", "d dz [\u{b5}m]", "largest dL [mm]"];
+    let header = [
+        "parameter",
+        "d|dp| [\u{b5}m]",
+        "per",
+        "d dx [\u{b5}m]",
+        "d dy [\u{b5}m]",
+        "d dz [\u{b5}m]",
+        "largest dL [mm]",
+    ];
     let mut rows: Vec<_> = found.inputs.parameters.iter().map(handy_unit).enumerate().collect();
     rows.sort_by(|(i, (_, one)), (j, (_, other))| {
         (slopes.rms_mm[*j] * other).abs().total_cmp(&(slopes.rms_mm[*i] * one).abs())
     });
     let mut lines = table(&header);
     for (place, (unit, step)) in rows {
-        let micrometres = |slope: f64| format!("{:.5}", 1e3 * slope * step);
+        // Without the sign of a zero.
+        let micrometres = |slope: f64| format!("{:.5}", (1e8 * slope * step).round() / 1e5 + 0.0);
         let [dx, dy, dz] = slopes.deflection_mm[place].map(micrometres);
         let lengths = slopes.unstrained_lengths[place].iter();
         let largest = lengths.fold(0.0, |size: f64, slope| size.max(slope.abs()));

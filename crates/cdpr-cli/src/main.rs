@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod arguments;
+mod calibration;
 mod derivatives;
 mod robustness;
 mod study;
@@ -27,6 +28,10 @@ enum Command {
         #[command(subcommand)]
         command: StudyCommand,
     },
+    /// Tell which combinations of a robot's parameters measurements identify, and which poses tell most.
+    #[command(after_help = "Example: cdpr calibration data/robots/caroca.json --grid=-2:2:5,-1:1:3,1:2.5:3 \
+                      --uncertainty a=0.002,b=0.002,youngs_modulus=5e9 --noise position=1e-4,rotation=1e-4")]
+    Calibration(calibration::Settings),
     /// Derivatives of lengths and deflection with respect to every parameter of a robot, exact.
     #[command(
         after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
@@ -79,6 +84,7 @@ fn main() -> ExitCode {
         Command::Study { command: StudyCommand::Run { study, out, observations, threads } } => {
             study::run(&study::Settings { study, out, observations, threads }).map_err(Into::into)
         }
+        Command::Calibration(settings) => calibration::run(&settings),
         Command::Derivatives(settings) => derivatives::run(&settings),
         Command::Robustness { robot, poses, modulus, seed, out } => {
             let settings = robustness::Settings { robot, poses, modulus, seed, out };

@@ -107,7 +107,12 @@ impl Calibration {
     ///
     /// # Errors
     /// Those of [`derivatives`]: the pose is not added; [`StaticsError::Invalid`] for noise that is not positive.
-    pub fn add(&mut self, pose: &Pose, load: &Load, measurements: &[Measurement]) -> Result<(), StaticsError> {
+    pub fn add(
+        &mut self,
+        pose: &Pose,
+        load: &Load,
+        measurements: &[Measurement],
+    ) -> Result<(), StaticsError> {
         let n = self.robot.cables.len();
         let nominal = derivatives(&self.robot, pose, &vec![0.0; n], load)?;
         let lengths = &nominal.deflection.lengths;
@@ -196,7 +201,8 @@ impl Calibration {
             let information = |pose: &usize| {
                 let block = &self.poses[*pose];
                 let cholesky = (block * &covariance * block.transpose() + identity(block.nrows())).cholesky();
-                cholesky.map_or(0.0, |factor| factor.l_dirty().diagonal().iter().map(|d| d.log2()).sum::<f64>())
+                cholesky
+                    .map_or(0.0, |factor| factor.l_dirty().diagonal().iter().map(|d| d.log2()).sum::<f64>())
             };
             let best = left.iter().map(information).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
             let Some((place, information)) = best else { break };

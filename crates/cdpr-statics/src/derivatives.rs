@@ -225,7 +225,8 @@ impl Stage<'_> {
             twist += unit * cable.tension;
         }
         solve(gram, &mut twist, DISTRIBUTION)?;
-        let [translation, rotation]: [Vector3<f64>; 2] = [0, 3].map(|row| twist.fixed_view::<3, 1>(row, 0).into());
+        let [translation, rotation]: [Vector3<f64>; 2] =
+            [0, 3].map(|row| twist.fixed_view::<3, 1>(row, 0).into());
         let motion = |cable: &LinearCable| translation + rotation.cross(&cable.arm);
 
         let Partials { mut balance, readings: mut rows } = self.partials(&cables, |cable| Reading {

@@ -112,7 +112,8 @@ impl Case {
 /// A column of all derivatives, in the order of [`Case::outputs`].
 fn column(exact: &Derivatives, column: usize) -> Vec<DVector<f64>> {
     let rms = exact.rms().unwrap();
-    let pose = |at: &EquilibriumDerivatives, first: usize| DVector::from_fn(3, |i, _| at.pose[(first + i, column)]);
+    let pose =
+        |at: &EquilibriumDerivatives, first: usize| DVector::from_fn(3, |i, _| at.pose[(first + i, column)]);
     vec![
         exact.set_points.column(column).into_owned(),
         exact.lengths.column(column).into_owned(),
@@ -133,7 +134,7 @@ struct Found {
     /// Largest error of each output relative to the largest derivative of its kind in the column.
     worst: BTreeMap<&'static str, (f64, String)>,
     columns: usize,
-    /// Outputs whose difference is exact to 1e-4 of itself or better.
+    /// Outputs whose difference is exact to 1e-6 of itself or better.
     compared: usize,
     /// Columns whose differences cross a bound.
     crossed: usize,
@@ -148,8 +149,9 @@ fn extrapolated(values: &[DVector<f64>; 6], h: f64, rounding: f64) -> (DVector<f
     let (wide, middle, narrow) = (slope(0, h), slope(1, 0.5 * h), slope(2, 0.25 * h));
     let (once, again) = ((&middle * 4.0 - &wide) / 3.0, (&narrow * 4.0 - &middle) / 3.0);
     let best = (&again * 16.0 - &once) / 15.0;
-    // The last correction bounds the error of the series; the narrowest difference amplifies rounding by 4/h times 1.4.
-    let open = (&best - &again).amax() + 6.0 * rounding / h;
+    // What the second extrapolation is to remove is fifteen times what it corrects; the narrowest difference amplifies
+    // rounding by 4/h times 1.4.
+    let open = (&again - &once).amax() + 6.0 * rounding / h;
     (best, open)
 }
 
@@ -157,7 +159,7 @@ fn extrapolated(values: &[DVector<f64>; 6], h: f64, rounding: f64) -> (DVector<f
 fn check(case: &Case) -> Result<Found, StaticsError> {
     let exact = derivatives(&case.robot, &case.pose, &case.offsets, &case.load)?;
     let about = &exact.deflection;
-    let (values, regime) = case.outputs(about)?;
+    let (values_of, regime) = case.outputs(about)?;
     let mut found = Found {
         active: regime.iter().filter(|r| r.0.is_some()).count(),
         clamped: regime.iter().filter(|r| r.1 && !r.2).count(),
@@ -168,46 +170,50 @@ fn check(case: &Case) -> Result<Found, StaticsError> {
     let size = about.lengths.iter().fold(0.0, |size: f64, length| size.max(*length));
     let stiffness = case.robot.cable(0).axial_stiffness / about.lengths.iter().fold(size, |a, b| a.min(*b));
     let tension: f64 = about.loaded.equilibrium.tensions().iter().sum();
+    // Poses to that of lengths, and to that of forces over the stiffness of the softest motion.
+    let least = [&about.unloaded, &about.loaded].map(|at| at.stability.least_stiffness());
+    let soft = 1e-14 * tension / least[0].min(least[1]);
+    let rounding = |name: &str| match name {
+        "set-points" => 1e-14 * tension,
+        "unloaded tensions" | "loaded tensions" => 1e-14 * tension + stiffness * (3e-15 * size + soft),
+        "lengths" => 3e-14 * size,
+        _ => 3e-14 * size + soft,
+    };
     for input in 0..exact.inputs.count() {
         found.columns += 1;
-        let differences = [1.0, 0.03, 1e-3].map(|scale| {
+        let expected = column(&exact, input);
+        let mut best: Vec<Option<(DVector<f64>, f64)>> = vec![None; expected.len()];
+        for scale in [10.0, 1.0, 0.1, 1e-3] {
             let h = scale * case.step(input);
             let at = |h: f64| match case.moved(input, h).outputs(about) {
                 Ok((outputs, same)) if same == regime => Some(outputs),
                 _ => None,
             };
-            let all: Option<Vec<_>> =
-                [h, -h, 0.5 * h, -0.5 * h, 0.25 * h, -0.25 * h].into_iter().map(at).collect();
-            all.map(|all| (all, h))
-        });
-        if differences.iter().all(Option::is_none) {
-            found.crossed += 1;
-            continue;
+            let steps = [h, -h, 0.5 * h, -0.5 * h, 0.25 * h, -0.25 * h];
+            let Some(all) = steps.into_iter().map(at).collect::<Option<Vec<_>>>() else { continue };
+            for (output, best) in best.iter_mut().enumerate() {
+                let values = std::array::from_fn(|step| DVector::from_column_slice(&all[step][output].1));
+                let (slope, open) = extrapolated(&values, h, rounding(values_of[output].0));
+                if best.as_ref().is_none_or(|(_, least)| open < *least) {
+                    *best = Some((slope, open));
+                }
+            }
+            let exact_enough = |(slope, open): &(DVector<f64>, f64)| *open < 1e-9 * slope.amax();
+            if best.iter().all(|best| best.as_ref().is_some_and(exact_enough)) {
+                break;
+            }
         }
-        for (output, exact) in column(&exact, input).into_iter().enumerate() {
-            let name = values[output].0;
-            let rounding = match name {
-                "set-points" => 1e-14 * tension,
-                "unloaded tensions" | "loaded tensions" => 1e-14 * tension + 1e-15 * size * stiffness,
-                _ => 4e-15 * size,
-            };
-            let (best, open) = differences
-                .iter()
-                .flatten()
-                .map(|(all, h)| {
-                    let values = std::array::from_fn(|step| DVector::from_column_slice(&all[step][output].1));
-                    extrapolated(&values, *h, rounding)
-                })
-                .min_by(|a, b| a.1.total_cmp(&b.1))
-                .unwrap();
+        found.crossed += usize::from(best[0].is_none());
+        for ((best, exact), (name, _)) in best.into_iter().zip(expected).zip(&values_of) {
+            let Some((best, open)) = best else { continue };
             let (error, scale) = ((&best - &exact).amax(), exact.amax());
             assert!(
-                error <= 3.0 * open + 1e-10 * scale,
+                error <= open + 1e-10 * scale,
                 "{}: {name}, input {input}: error {error:e} of {scale:e}, open {open:e}",
                 case.robot.name
             );
             // Where differences tell a derivative at all.
-            if open < 1e-4 * scale {
+            if open < 1e-6 * scale {
                 found.compared += 1;
                 let worst = found.worst.entry(name).or_default();
                 if error / scale >= worst.0 {
@@ -269,7 +275,11 @@ fn random_case(seed: u64) -> Case {
             let height = if i % 2 == 0 { 0.3 } else { -0.3 };
             RobotCable {
                 exit_point: Vector3::new((5.0 + a) * around.cos(), (5.0 + b) * around.sin(), 4.0 + c),
-                anchor_point: Vector3::new((0.5 + 0.1 * b) * anchor.cos(), 0.5 * anchor.sin(), height + 0.1 * a),
+                anchor_point: Vector3::new(
+                    (0.5 + 0.1 * b) * anchor.cos(),
+                    0.5 * anchor.sin(),
+                    height + 0.1 * a,
+                ),
                 properties,
             }
         })
@@ -296,7 +306,7 @@ fn random_case(seed: u64) -> Case {
 
 #[test]
 fn derivatives_of_random_robots_are_those_of_differences() {
-    let outcomes: Vec<_> = (0..300u64).into_par_iter().map(|seed| check(&random_case(seed))).collect();
+    let outcomes: Vec<_> = (0..200u64).into_par_iter().map(|seed| check(&random_case(seed))).collect();
     let (mut all, mut refused) = (Vec::new(), BTreeMap::<_, usize>::new());
     for outcome in outcomes {
         match outcome {
@@ -306,7 +316,7 @@ fn derivatives_of_random_robots_are_those_of_differences() {
     }
     report("random robots", &all);
     println!("no observation: {refused:?}");
-    assert!(all.len() > 150);
+    assert!(all.len() > 100);
     let sum = |count: fn(&Found) -> usize| all.iter().map(count).sum::<usize>();
     assert!(sum(|f| f.active) > 20 && sum(|f| f.clamped) > 20 && sum(|f| f.raised) > 20);
 }
@@ -324,7 +334,12 @@ fn some_derivatives() -> Derivatives {
 }
 
 /// The change of all inputs that `change` gives for each parameter, the payload and the wanted pose.
-fn direction(exact: &Derivatives, change: impl Fn(Parameter) -> f64, payload: f64, motion: Vector6<f64>) -> DVector<f64> {
+fn direction(
+    exact: &Derivatives,
+    change: impl Fn(Parameter) -> f64,
+    payload: f64,
+    motion: Vector6<f64>,
+) -> DVector<f64> {
     let parameters = exact.inputs.parameters.iter().map(|parameter| change(*parameter));
     let all: Vec<f64> = parameters.chain([payload]).chain(motion.iter().copied()).collect();
     DVector::from_vec(all)
@@ -349,7 +364,9 @@ fn moving_all_exit_points_and_the_pose_alike_moves_the_platform_and_changes_noth
     for at in [&exact.unloaded, &exact.loaded] {
         assert!((&at.tensions * &all).amax() < 1e-8);
         let motion = &at.pose * &all;
-        assert!((motion.fixed_rows::<3>(0) - shift).norm() < 1e-11 && motion.fixed_rows::<3>(3).norm() < 1e-11);
+        assert!(
+            (motion.fixed_rows::<3>(0) - shift).norm() < 1e-11 && motion.fixed_rows::<3>(3).norm() < 1e-11
+        );
     }
 }
 
@@ -426,7 +443,8 @@ fn the_chain_through_the_lengths_is_that_of_the_assembled_equations() {
         let parameters = 0..exact.inputs.payload();
         for column in parameters.chain(pose) {
             let error = (expected.column(column) - exact.loaded.pose.column(column)).amax();
-            assert!(error < 1e-8 * held.pose.column(column).amax().max(expected.column(column).amax()), "{column}: {error:e}");
+            let scale = held.pose.column(column).amax().max(expected.column(column).amax());
+            assert!(error <= 1e-8 * scale, "{column}: {error:e} of {scale:e}");
         }
     }
 }
@@ -478,7 +496,9 @@ fn the_modulus_makes_the_variance_of_the_mechanical_study() {
             1e3 * exact.deflection.rms(),
             1e3 * budget.std
         );
-        assert!(groups["youngs_modulus"] > 95.0);
+        if position == STUDY_POSES[0] {
+            assert!((groups["youngs_modulus"] - 99.45).abs() < 0.01);
+        }
         assert_eq!(
             exact.variance_budget(&variances[1..]).unwrap_err().to_string(),
             "variances is a list of 61: expected a finite number, zero or more, for each of the 62 parameters"
