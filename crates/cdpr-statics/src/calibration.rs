@@ -64,7 +64,7 @@ pub struct Combination {
     /// s_k: how much a change by its uncertainty shows beside the noise; zero where no measurement tells it.
     pub signal_to_noise: f64,
     /// Parameters with their weights, each in units of its uncertainty, the largest first; the sum of squares is 1. Weights
-    /// below a hundredth of the largest are left out.
+    /// below 1e-8 of the largest, rounding, are left out.
     pub weights: Vec<(Parameter, f64)>,
 }
 
@@ -188,7 +188,7 @@ impl Calibration {
         let mut weights: Vec<_> = self.parameters().into_iter().zip(weights.iter().copied()).collect();
         weights.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
         let largest = weights.first().map_or(0.0, |(_, weight)| weight.abs());
-        weights.retain(|(_, weight)| weight.abs() >= 0.01 * largest);
+        weights.retain(|(_, weight)| weight.abs() >= 1e-8 * largest);
         Combination { signal_to_noise, weights }
     }
 

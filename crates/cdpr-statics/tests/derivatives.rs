@@ -33,8 +33,18 @@ struct Case {
 /// The outputs, in groups of one unit each: name, values, and the size by which errors are judged.
 type Outputs = Vec<(&'static str, Vec<f64>)>;
 
-/// What decides which formula holds: bounds, clamped and raised set-points. Differences must not cross it.
-type Regime = Vec<(Option<cdpr_tension::Bound>, bool, bool)>;
+/// What decides which formula holds for a cable. Differences must not cross it.
+#[derive(PartialEq)]
+struct Regime {
+    /// The bound that the inverse model's tension rests on.
+    active: Option<cdpr_tension::Bound>,
+    /// Whether that bound is what the cable's weight demands.
+    demanded: bool,
+    /// Whether the set-point is kept at the robot's least tension.
+    clamped: bool,
+    /// Whether the cable's weight demands more than the set-point.
+    raised: bool,
+}
 
 impl Case {
     /// The case with one input moved.
@@ -74,7 +84,7 @@ impl Case {
     }
 
     /// As the library computes it, from an equilibrium nearby.
-    fn outputs(&self, about: &Deflection) -> Result<(Outputs, Regime), StaticsError> {
+    fn outputs(&self, about: &Deflection) -> Result<(Outputs, Vec<Regime>), StaticsError> {
         let wanted = inverse(&self.robot, &self.pose, &Load::none(), None)?;
         let limits = self.robot.tension_limits;
         let set_points = cdpr_tension::offset(&wanted.tensions, &self.offsets, limits);
@@ -82,8 +92,13 @@ impl Case {
         let found = deflection_from(&self.robot, lengths, &self.load, &held)?;
         let regime = (0..set_points.len())
             .map(|i| {
-                let clamped = wanted.tensions[i] + self.offsets[i] <= limits.min;
-                (wanted.active[i], clamped, held.tensions()[i] > 1.0005 * set_points[i])
+                let (active, raised) = (wanted.active[i], held.tensions()[i] > 1.0005 * set_points[i]);
+                Regime {
+                    active,
+                    demanded: active == Some(cdpr_tension::Bound::Min) && wanted.tensions[i] > limits.min,
+                    clamped: !raised && wanted.tensions[i] + self.offsets[i] <= limits.min,
+                    raised,
+                }
             })
             .collect();
         let turned = |found: &Deflection, loaded: bool| {
@@ -139,6 +154,7 @@ struct Found {
     /// Columns whose differences cross a bound.
     crossed: usize,
     active: usize,
+    demanded: usize,
     clamped: usize,
     raised: usize,
 }
@@ -161,9 +177,10 @@ fn check(case: &Case) -> Result<Found, StaticsError> {
     let about = &exact.deflection;
     let (values_of, regime) = case.outputs(about)?;
     let mut found = Found {
-        active: regime.iter().filter(|r| r.0.is_some()).count(),
-        clamped: regime.iter().filter(|r| r.1 && !r.2).count(),
-        raised: regime.iter().filter(|r| r.2).count(),
+        active: regime.iter().filter(|cable| cable.active.is_some()).count(),
+        demanded: regime.iter().filter(|cable| cable.demanded).count(),
+        clamped: regime.iter().filter(|cable| cable.clamped).count(),
+        raised: regime.iter().filter(|cable| cable.raised).count(),
         ..Found::default()
     };
     // Tensions are known to the rounding of lengths times the stiffness of a cable.
@@ -228,12 +245,13 @@ fn check(case: &Case) -> Result<Found, StaticsError> {
 fn report(title: &str, all: &[Found]) {
     let sum = |count: fn(&Found) -> usize| all.iter().map(count).sum::<usize>();
     println!(
-        "{title}: {} cases, {} columns ({} cross a bound), {} derivatives compared; {} active bounds, {} clamped and {} raised set-points",
+        "{title}: {} cases, {} columns ({} cross a bound), {} derivatives compared; {} active bounds ({} of the cable's weight), {} clamped and {} raised set-points",
         all.len(),
         sum(|f| f.columns),
         sum(|f| f.crossed),
         sum(|f| f.compared),
         sum(|f| f.active),
+        sum(|f| f.demanded),
         sum(|f| f.clamped),
         sum(|f| f.raised)
     );
@@ -306,7 +324,7 @@ fn random_case(seed: u64) -> Case {
 
 #[test]
 fn derivatives_of_random_robots_are_those_of_differences() {
-    let outcomes: Vec<_> = (0..200u64).into_par_iter().map(|seed| check(&random_case(seed))).collect();
+    let outcomes: Vec<_> = (0..100u64).into_par_iter().map(|seed| check(&random_case(seed))).collect();
     let (mut all, mut refused) = (Vec::new(), BTreeMap::<_, usize>::new());
     for outcome in outcomes {
         match outcome {
@@ -316,9 +334,10 @@ fn derivatives_of_random_robots_are_those_of_differences() {
     }
     report("random robots", &all);
     println!("no observation: {refused:?}");
-    assert!(all.len() > 100);
+    assert!(all.len() > 80);
     let sum = |count: fn(&Found) -> usize| all.iter().map(count).sum::<usize>();
-    assert!(sum(|f| f.active) > 20 && sum(|f| f.clamped) > 20 && sum(|f| f.raised) > 20);
+    assert!(sum(|f| f.active) > sum(|f| f.demanded) + 5 && sum(|f| f.demanded) > 5);
+    assert!(sum(|f| f.clamped) > 5 && sum(|f| f.raised) > 5);
 }
 
 /// A CAROCA that is turned and off centre, with offsets.
