@@ -42,7 +42,7 @@ use crate::deflection::{Deflection, Wound, deflection_from, wind};
 use crate::error::StaticsError;
 use crate::inverse::{ABOVE_LEAST, InverseSolution};
 use crate::model::{Equilibrium, Load, Model, Span};
-use crate::partials::{Inputs, LinearCable, Partials, Reading, solve, wrench};
+use crate::partials::{Inputs, LinearCable, Partials, Reading, solve, tensions, wrench};
 use cdpr_cable::least_tension;
 use cdpr_robot::{Matrix6xX, Pose, Robot, Vector3};
 use cdpr_tension::Bound;
@@ -86,6 +86,18 @@ pub struct VarianceBudget {
 
 /// The deflection under `load` at the wanted pose `pose` with `tension_offsets` [N], as [`crate::deflection`] gives it, and its
 /// derivatives. At the edge of a bound they are those of the side on which the bound is active.
+///
+/// ```
+/// use cdpr_robot::{Parameter, Pose, Robot};
+/// use cdpr_statics::{Load, derivatives};
+///
+/// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+/// let found = derivatives(&robot, &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0))?;
+/// let modulus = found.inputs.parameters.iter().position(|p| *p == Parameter::YoungsModulus);
+/// let rms = found.rms()?; // [m per SI unit]
+/// assert!(modulus.is_some_and(|column| (1e12 * rms[column] + 0.01289).abs() < 1e-5)); // [mm/GPa]
+/// # Ok::<(), cdpr_statics::StaticsError>(())
+/// ```
 ///
 /// # Errors
 /// Those of [`crate::deflection`]; [`StaticsError::NoDerivative`] where an equilibrium or the tension distribution is at the border of
@@ -176,7 +188,8 @@ impl EquilibriumDerivatives {
         let (hessian, tensions_per_motion) = partials.take_pose(inputs);
         let Partials { mut balance, readings: mut tensions } = partials;
         if let Some(winding) = winding {
-            balance += Matrix6xX::from_fn(cables.len(), |row, i| cables[i].winch_wrench()[row]) * winding;
+            let winches: Vec<_> = cables.iter().map(LinearCable::winch_wrench).collect();
+            balance.gemm(1.0, &Matrix6xX::from_columns(&winches), winding, 1.0);
             for (i, cable) in cables.iter().enumerate() {
                 let mut row = tensions.row_mut(i);
                 row += winding.row(i) * cable.direction.dot(&cable.winch);
@@ -184,7 +197,7 @@ impl EquilibriumDerivatives {
         }
         balance.neg_mut();
         solve(hessian, &mut balance, "the equilibrium")?;
-        tensions += tensions_per_motion * &balance;
+        tensions.gemm(1.0, &tensions_per_motion, &balance, 1.0);
         Ok(Self { pose: balance, tensions })
     }
 }
@@ -206,10 +219,6 @@ impl Stage<'_> {
         Ok(LinearCable::all(&model, self.pose, &equilibrium.cable_forces))
     }
 
-    fn partials(&self, cables: &[LinearCable], reading: impl Fn(&LinearCable) -> Reading) -> Partials {
-        Partials::new(self.robot, &self.inputs, self.pose, &Load::none(), cables, reading)
-    }
-
     /// Of the tensions of the inverse model, equation (6); `bounds` has a row for each active bound.
     fn tensions(&self, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
         let InverseSolution { lengths, active, equilibrium, .. } = &self.wound.wanted;
@@ -229,14 +238,16 @@ impl Stage<'_> {
             [0, 3].map(|row| twist.fixed_view::<3, 1>(row, 0).into());
         let motion = |cable: &LinearCable| translation + rotation.cross(&cable.arm);
 
-        let Partials { mut balance, readings: mut rows } = self.partials(&cables, |cable| Reading {
+        let reading = |cable: &LinearCable| Reading {
             per_force: motion(cable) / cable.tension,
             per_arm: cable.direction.cross(&rotation),
-        });
+        };
+        let Partials { mut balance, readings: mut rows } =
+            Partials::new(self.robot, &self.inputs, self.pose, &Load::none(), &cables, reading);
         balance.column_mut(self.inputs.payload()).fill(0.0);
         let mut winches = Matrix6xX::zeros(cables.len());
         // [u; s x u]/D_i, zero for a cable on a bound.
-        let mut answers = Matrix6xX::zeros(cables.len());
+        let mut answers = DMatrix::zeros(cables.len(), 6);
         for (i, cable) in cables.iter().enumerate() {
             winches.set_column(i, &cable.winch_wrench());
             if active[i].is_some() {
@@ -245,13 +256,13 @@ impl Stage<'_> {
             }
             let d = 1.0 - motion(cable).dot(&(cable.winch - cable.direction)) / cable.tension;
             rows.row_mut(i).unscale_mut(d);
-            answers.set_column(i, &(units[i] / d));
+            answers.set_row(i, &(units[i] / d).transpose());
         }
-        let matrix: Matrix6<f64> = &winches * answers.transpose();
-        balance += winches * &rows;
+        let matrix: Matrix6<f64> = (&winches * &answers).fixed_columns::<6>(0).into();
+        balance.gemm(1.0, &winches, &rows, 1.0);
         balance.neg_mut();
         solve(matrix, &mut balance, DISTRIBUTION)?;
-        rows += answers.transpose() * balance;
+        rows.gemm(1.0, &answers, &balance, 1.0);
         Ok(rows)
     }
 
@@ -263,7 +274,8 @@ impl Stage<'_> {
         let demanded = |i: &usize| wanted.active[*i] == Some(Bound::Min) && wanted.tensions[*i] > least;
         let raised = |i: &usize| held.cable_forces[*i].norm() > 0.5 * (1.0 + ABOVE_LEAST) * set_points[*i];
         let n = set_points.len();
-        let bounds = self.least_tensions((0..n).filter(|i| demanded(i) || raised(i)))?;
+        let which: Vec<usize> = (0..n).filter(|i| demanded(i) || raised(i)).collect();
+        let bounds = self.least_tensions(&which)?;
         let mut rows = self.tensions(&bounds)?;
         let first_offset = self.inputs.payload() - n;
         for i in 0..n {
@@ -278,31 +290,32 @@ impl Stage<'_> {
         Ok(rows)
     }
 
-    /// Of the tensions that the weights of these cables demand; zero rows for all others.
-    fn least_tensions(&self, which: impl Iterator<Item = usize>) -> Result<DMatrix<f64>, StaticsError> {
-        let mut rows = DMatrix::zeros(self.wound.set_points.len(), self.inputs.count());
-        let mut which = which.peekable();
-        if which.peek().is_none() {
+    /// Of the tensions that the weights of the cables in `which` demand; zero rows for all others.
+    fn least_tensions(&self, which: &[usize]) -> Result<DMatrix<f64>, StaticsError> {
+        let mut rows = self.inputs.zeros(self.wound.set_points.len());
+        if which.is_empty() {
             return Ok(rows);
         }
         let mut cables = self.cables(&self.wound.lengths, &self.wound.held)?;
-        let which: Vec<usize> = which.collect();
-        for i in &which {
-            let end = Span::new(self.robot.span(self.pose, *i)).end;
-            let catenary = least_tension(&self.robot.cable(*i), end).map_err(StaticsError::cable(*i))?;
-            cables[*i] = LinearCable::new(self.robot, self.pose, *i, &catenary);
+        for &i in which {
+            let end = Span::new(self.robot.span(self.pose, i)).end;
+            let catenary = least_tension(&self.robot.cable(i), end).map_err(StaticsError::cable(i))?;
+            cables[i] = LinearCable::new(self.robot, self.pose, i, &catenary);
         }
-        let readings = self.partials(&cables, Reading::tension).readings;
-        which.iter().for_each(|i| rows.set_row(*i, &(ABOVE_LEAST * readings.row(*i))));
+        let least = tensions(&self.inputs, self.pose, &cables);
+        which.iter().for_each(|i| rows.set_row(*i, &(ABOVE_LEAST * least.row(*i))));
         Ok(rows)
     }
 
     /// Of the lengths, equation (7).
     fn lengths(&self, set_points: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
         let cables = self.cables(&self.wound.lengths, &self.wound.held)?;
-        let mut rows = set_points - self.partials(&cables, Reading::tension).readings;
+        let mut rows = tensions(&self.inputs, self.pose, &cables);
         for (i, cable) in cables.iter().enumerate() {
-            rows.row_mut(i).unscale_mut(cable.direction.dot(&cable.winch));
+            let per_length = cable.direction.dot(&cable.winch);
+            for (slope, set_point) in rows.row_mut(i).iter_mut().zip(set_points.row(i).iter()) {
+                *slope = (set_point - *slope) / per_length;
+            }
         }
         Ok(rows)
     }

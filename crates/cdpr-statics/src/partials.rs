@@ -25,7 +25,7 @@
 use crate::error::StaticsError;
 use crate::model::{Load, Model, Span};
 use cdpr_cable::Catenary;
-use cdpr_robot::{Axis, Matrix3, Matrix6xX, Parameter, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, Vector3, Vector6};
 use nalgebra::{DMatrix, Matrix6};
 use std::ops::Range;
 
@@ -54,6 +54,11 @@ impl Inputs {
     /// Number of columns, `13 + 7n`.
     pub fn count(&self) -> usize {
         self.payload() + 7
+    }
+
+    /// A matrix of zeros with a column for every input: nalgebra's own writes them one by one.
+    pub(crate) fn zeros(&self, rows: usize) -> DMatrix<f64> {
+        DMatrix::from_vec(rows, self.count(), vec![0.0; rows * self.count()])
     }
 
     /// Checks that there is one finite value, not negative, for each parameter.
@@ -187,54 +192,16 @@ impl Partials {
         reading: impl Fn(&LinearCable) -> Reading,
     ) -> Self {
         let mut partials = Self {
-            balance: Matrix6xX::zeros(inputs.count()),
-            readings: DMatrix::zeros(cables.len(), inputs.count()),
+            balance: Matrix6xX::from_vec(vec![0.0; 6 * inputs.count()]),
+            readings: inputs.zeros(cables.len()),
         };
         let readings: Vec<_> = cables.iter().map(reading).collect();
-        // Cable i's part of (4) in a column: dF_i and ds_i.
-        let mut add = |column: usize, i: usize, force: Vector3<f64>, turn: Vector3<f64>| {
-            let cable = &cables[i];
+        each_effect(inputs, pose, cables, |column, i, force, turn| {
+            let (cable, reading) = (&cables[i], &readings[i]);
             let mut balance = partials.balance.column_mut(column);
             balance += wrench(&cable.arm, &force) + moment(&turn, &cable.force);
-            partials.readings[(i, column)] +=
-                readings[i].per_force.dot(&force) + readings[i].per_arm.dot(&turn);
-        };
-        let r = pose.rotation.matrix();
-        let o = Vector3::zeros();
-        for (column, parameter) in inputs.parameters.iter().enumerate() {
-            match *parameter {
-                // dF_i = k_ρ dρ
-                Parameter::LinearDensity => {
-                    cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.density, o));
-                }
-                // dF_i = k_E dE
-                Parameter::YoungsModulus => {
-                    cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.modulus, o));
-                }
-                // dr_i = ds_i = R da_i
-                Parameter::AnchorPoint(i, axis) => {
-                    let moved: Vector3<f64> = r.column(axis as usize).into();
-                    add(column, i, cables[i].stiffness * moved, moved);
-                }
-                // dr_i = -db_i
-                Parameter::ExitPoint(i, axis) => {
-                    add(column, i, -cables[i].stiffness.column(axis as usize), o);
-                }
-                // In the weight, or in the set-points.
-                Parameter::Mass | Parameter::CenterOfMass(_) | Parameter::TensionOffset(_) => {}
-            }
-        }
-        let pose_column = inputs.pose().start;
-        for axis in [Axis::X, Axis::Y, Axis::Z] {
-            let unit: Vector3<f64> = Matrix3::identity().column(axis as usize).into();
-            for (i, cable) in cables.iter().enumerate() {
-                // dr_i = dp
-                add(pose_column + axis as usize, i, cable.stiffness.column(axis as usize).into(), o);
-                // dr_i = ds_i = dφ x s_i
-                let turn = unit.cross(&cable.arm);
-                add(pose_column + 3 + axis as usize, i, cable.stiffness * turn, turn);
-            }
-        }
+            partials.readings[(i, column)] += reading.per_force.dot(&force) + reading.per_arm.dot(&turn);
+        });
         partials.add_weight(robot, inputs, pose, load);
         partials
     }
@@ -257,9 +224,8 @@ impl Partials {
             }
         }
         self.balance.set_column(inputs.payload(), &per_mass);
-        for axis in 0..3 {
+        for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
             // (dφ x R c) x F_w
-            let unit: Vector3<f64> = Matrix3::identity().column(axis).into();
             let mut column = self.balance.column_mut(inputs.pose().start + 3 + axis);
             column -= moment(&unit.cross(&center), &weight);
         }
@@ -276,14 +242,71 @@ impl Partials {
     }
 }
 
-/// Solves `matrix x = right` in place.
+/// Of the tensions of `cables` at `pose` with the winches held, n x count: `u_i·dF_i`.
+pub(crate) fn tensions(inputs: &Inputs, pose: &Pose, cables: &[LinearCable]) -> DMatrix<f64> {
+    let mut tensions = inputs.zeros(cables.len());
+    each_effect(inputs, pose, cables, |column, i, force, _| {
+        tensions[(i, column)] += cables[i].direction.dot(&force);
+    });
+    tensions
+}
+
+/// Gives `add(column, i, dF_i, ds_i)` for every input that cable i answers to, equations (1)-(3).
+fn each_effect(
+    inputs: &Inputs,
+    pose: &Pose,
+    cables: &[LinearCable],
+    mut add: impl FnMut(usize, usize, Vector3<f64>, Vector3<f64>),
+) {
+    let o = Vector3::zeros();
+    for (column, parameter) in inputs.parameters.iter().enumerate() {
+        match *parameter {
+            // dF_i = k_ρ dρ
+            Parameter::LinearDensity => {
+                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.density, o));
+            }
+            // dF_i = k_E dE
+            Parameter::YoungsModulus => {
+                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.modulus, o));
+            }
+            // dr_i = ds_i = R da_i
+            Parameter::AnchorPoint(i, axis) => {
+                let moved: Vector3<f64> = pose.rotation.matrix().column(axis as usize).into();
+                add(column, i, cables[i].stiffness * moved, moved);
+            }
+            // dr_i = -db_i
+            Parameter::ExitPoint(i, axis) => {
+                add(column, i, -cables[i].stiffness.column(axis as usize), o);
+            }
+            // In the weight, or in the set-points.
+            Parameter::Mass | Parameter::CenterOfMass(_) | Parameter::TensionOffset(_) => {}
+        }
+    }
+    let start = inputs.pose().start;
+    for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
+        for (i, cable) in cables.iter().enumerate() {
+            // dr_i = dp
+            add(start + axis, i, cable.stiffness.column(axis).into(), o);
+            // dr_i = ds_i = dφ x s_i
+            let turn = unit.cross(&cable.arm);
+            add(start + 3 + axis, i, cable.stiffness * turn, turn);
+        }
+    }
+}
+
+/// `matrix⁻¹ right`, in place. At 6 x 6 the inverse, applied column by column, is the fastest and as exact as the factors.
 pub(crate) fn solve(
     matrix: Matrix6<f64>,
     right: &mut Matrix6xX<f64>,
     quantity: &'static str,
 ) -> Result<(), StaticsError> {
-    if matrix.lu().solve_mut(right) && right.iter().all(|value| value.is_finite()) {
-        return Ok(());
+    let inverse = matrix.try_inverse().filter(|inverse| inverse.iter().all(|value| value.is_finite()));
+    let Some(inverse) = inverse else {
+        return Err(StaticsError::NoDerivative { quantity, reason: "its equations are singular there" });
+    };
+    for mut column in right.column_iter_mut() {
+        let solution = inverse * &column;
+        column.copy_from(&solution);
     }
-    Err(StaticsError::NoDerivative { quantity, reason: "its equations are singular there" })
+    Ok(())
 }

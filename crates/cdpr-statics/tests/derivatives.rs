@@ -315,7 +315,7 @@ fn random_case(seed: u64) -> Case {
     let pose = Pose::at(0.0, 0.0, 1.5).moved(within(1.5), within(0.1));
     let force = mass * within(1.0);
     let moment = 0.1 * mass * within(1.0);
-    let wrench = if seed % 2 == 0 { Wrench::zero() } else { Wrench { force, moment } };
+    let wrench = if seed.is_multiple_of(2) { Wrench::zero() } else { Wrench { force, moment } };
     let payload = mass * rng.random_range(0.05..0.5);
     let offset = [0.0, 0.1, 1.0][seed as usize % 3] * mass;
     let offsets = (0..n).map(|_| offset * rng.random_range(-1.0..1.0)).collect();
