@@ -127,17 +127,16 @@ proptest! {
             let expected = dual(&c, which);
             let error = (derivative - expected).norm() / expected.norm();
             // Dual numbers differentiate T0 and s where they are differences; the formulas are freed of those.
-            prop_assert!(error < 1e-9, "{name}: {error:e}");
+            prop_assert!(error < 1e-10, "{name}: {error:e}");
         }
     }
 
     #[test]
     fn no_length_has_less_than_the_least_tension(
-        w in 0.01..100.0f64, ea in 4.0..8.0f64, x in 0.01..10.0f64, z in -10.0..10.0f64, share in 0.01..0.99f64,
+        w in 0.01..100.0f64, stiffness in 2.0..6.0f64, x in 0.01..10.0f64, z in -10.0..10.0f64, share in 0.01..0.99f64,
     ) {
-        let cable = Cable { weight_per_length: w, axial_stiffness: 10f64.powf(ea) };
         let end = Vector2::new(x, z);
-        prop_assume!(w * end.norm() < 0.01 * cable.axial_stiffness);
+        let cable = Cable { weight_per_length: w, axial_stiffness: w * end.norm() * 10f64.powf(stiffness) };
         let least = least_tension(&cable, end).unwrap();
         prop_assert!((least.end_position() - end).norm() < 1e-12 * end.norm());
         let slope = least.force.dot(&least.compliance().force_per_length());
