@@ -1,9 +1,10 @@
-//! What the equations of the catenary ask of a number, so that they stand once for floating point, intervals or dual numbers.
+//! What the equations of the catenary ask of a number, so that they stand once for floating point, intervals, dual numbers or
+//! the lanes of a vector unit.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A kind of real number: a double, an interval of them, a number with its derivative.
-pub trait Real:
+/// Numbers for formulas without a choice: sums, products, quotients and roots.
+pub trait Field:
     Copy
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -13,6 +14,15 @@ pub trait Real:
     + Add<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
+    /// 1/x.
+    fn recip(self) -> Self;
+
+    /// Square root of a number that is not negative.
+    fn sqrt(self) -> Self;
+}
+
+/// A kind of real number: a double, an interval of them, a number with its derivative.
+pub trait Real: Field {
     /// The exact number `value`.
     fn of(value: f64) -> Self;
 
@@ -22,14 +32,21 @@ pub trait Real:
     /// A double that it does not exceed.
     fn upper(self) -> f64;
 
-    /// Square root of a number that is not negative.
-    fn sqrt(self) -> Self;
-
     /// Natural logarithm of a positive number.
     fn ln(self) -> Self;
 
     /// This number, known to within `error` only: the rest of a series. Kinds that do not bound errors ignore it.
     fn within(self, error: f64) -> Self;
+}
+
+impl Field for f64 {
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+
+    fn sqrt(self) -> Self {
+        Self::sqrt(self)
+    }
 }
 
 impl Real for f64 {
@@ -43,10 +60,6 @@ impl Real for f64 {
 
     fn upper(self) -> f64 {
         self
-    }
-
-    fn sqrt(self) -> Self {
-        Self::sqrt(self)
     }
 
     fn ln(self) -> Self {

@@ -38,8 +38,15 @@
 //! with `xx` and `zz` the other terms of the brackets of (5) and (3) (the determinant of the inextensible cable is
 //! `4 sinh²h (h/tanh h - 1)/(w² cosh u cosh u0)` with `tanh h = q`).
 //!
+//! Cable paid out at B enters along the tangent there, stretched:
+//!
+//! ```text
+//! d(x, z)/dL = (fx, V0) (1/T0 + 1/EA)                                                      (9)
+//! ```
+//!
 //! For `fz V0 < 0` (the cable dips below both ends) `T T0 + fz V0` is formed as
-//! `fx² (fx² + fz² + V0²)/(T T0 - fz V0)`, so that nothing cancels for a cable that hangs folded (`fx -> 0`).
+//! `fx² (fx² + fz² + V0²)/(T T0 - fz V0)`, so that nothing cancels for a cable that hangs folded (`fx -> 0`). A
+//! taut cable, `q² <= 0.02`, need not choose: there `-fz V0 <= (w L/2)² = q² s²/4`, a fiftieth of `T T0`.
 //!
 //! The complementary energy, whose gradient is (1)-(2), is the integral of `T + T²/2EA` over the unstrained length:
 //!
@@ -64,10 +71,10 @@
 //! ```
 
 use crate::catenary::{Catenary, Compliance};
-use crate::real::Real;
+use crate::real::{Field, Real};
 use nalgebra::{Matrix2, Vector2};
 
-/// End position, flexibility and lateral flexibility of a catenary, over any kind of number.
+/// How a catenary answers to a force at its end, over any kind of number.
 #[derive(Clone, Copy, Debug)]
 pub struct Response<T> {
     /// End position (x, z) [m], equations (1)-(2).
@@ -78,66 +85,94 @@ pub struct Response<T> {
     pub determinant: T,
     /// x/fx [m/N]: lateral flexibility.
     pub lateral: T,
+    /// Derivative of the end position with respect to the length at constant force [m/m], equation (9).
+    pub end_per_length: [T; 2],
+    /// T [N].
+    pub tension: T,
+    /// q²: how slack the cable is, from 0 for a straight one to 1 for one that hangs folded.
+    pub slackness: T,
 }
 
-/// The response of a cable with weight per length `w` [N/m], axial stiffness `ea` [N] and unstrained length `length` [m] to
-/// the force `[fx, fz]` [N] at A. Where `fx` is below 1e-25 of the other forces, `fx²` is raised by 1e-60 of their squares, which keeps
-/// a vertical folded cable regular.
-pub fn response<T: Real>(w: T, ea: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
-    Terms::new(w, ea, length, fx, fz).response()
+/// The response of a cable with weight per length `w` [N/m], axial flexibility `stretch` = 1/EA [1/N] and unstrained length
+/// `length` [m] to the force `[fx, fz]` [N] at A. Where `fx` is below 1e-25 of the other forces, `fx²` is raised by 1e-60 of their
+/// squares, which keeps a vertical folded cable regular.
+pub fn response<T: Real>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
+    Terms::new(w, stretch, length, fx, fz).response()
 }
 
-/// The quantities that equations (1)-(7) share.
+/// A cable with q² up to this is taut: the formulas of [`taut_response`] hold to rounding.
+pub const TAUT: f64 = 0.02;
+
+/// [`response`] of a taut cable ([`Response::slackness`] up to [`TAUT`]): one formula without a choice, a root or a quotient to
+/// spare, for numbers that cannot choose because several cables share them.
+#[inline(always)]
+pub fn taut_response<T: Field>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
+    let terms = Terms::with_square(w, stretch, length, fx, fz, fx * fx);
+    let q2 = terms.slackness();
+    terms.assemble(q2, taut_series(q2), terms.shape_of_the_taut())
+}
+
+/// End position and slackness of a taut cable alone, see [`taut_response`].
+#[inline(always)]
+pub fn taut_end<T: Field>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> ([T; 2], T) {
+    let terms = Terms::with_square(w, stretch, length, fx, fz, fx * fx);
+    let q2 = terms.slackness();
+    ([fx * terms.lateral(q2 * taut_series(q2) + 1.0), terms.height()], q2)
+}
+
+/// The quantities that equations (1)-(9) share.
 pub(crate) struct Terms<T> {
     fx: T,
     fz: T,
     v0: T,
     length: T,
-    ea: T,
+    /// 1/EA.
+    stretch: T,
     weight: T,
     fx2: T,
     /// T, tension at A.
     t: T,
     /// T0, tension at B.
     t0: T,
-    /// s = T + T0.
-    s: T,
+    /// 1/s = 1/(T + T0).
+    s_inv: T,
 }
 
 impl Terms<f64> {
     pub(crate) fn of(catenary: &Catenary) -> Self {
         let Catenary { cable, unstrained_length, force } = *catenary;
-        Self::new(cable.weight_per_length, cable.axial_stiffness, unstrained_length, force.x, force.y)
+        Self::new(cable.weight_per_length, 1.0 / cable.axial_stiffness, unstrained_length, force.x, force.y)
     }
 
     pub(crate) fn compliance(&self) -> Compliance {
-        let Response { end: [x, z], flexibility: [xx, xz, zz], determinant, lateral } = self.response();
+        let Response { end: [x, z], flexibility: [xx, xz, zz], determinant, lateral, end_per_length, .. } =
+            self.response();
         Compliance {
             end: Vector2::new(x, z),
             flexibility: Matrix2::new(xx, xz, xz, zz),
             determinant,
             lateral_stiffness: 1.0 / lateral,
-            end_per_length: Vector2::new(self.fx, self.v0) * (1.0 / self.t0 + 1.0 / self.ea),
+            end_per_length: end_per_length.into(),
         }
     }
 
     pub(crate) fn complementary_energy(&self) -> f64 {
-        let Self { fx, fz, v0, length, ea, s, .. } = *self;
+        let Self { fx, fz, v0, length, stretch, t, t0, .. } = *self;
         let (q2, psi) = self.sag_terms();
-        let phi = 1.0 + q2 * psi;
+        let (s, phi) = (t + t0, 1.0 + q2 * psi);
         let inextensible = (fz + v0) * (fz + v0) / (2.0 * s) + 0.5 * s + 2.0 * fx * fx * phi / s;
-        let elastic = (fx * fx + (fz * fz + fz * v0 + v0 * v0) / 3.0) / ea;
+        let elastic = (fx * fx + (fz * fz + fz * v0 + v0 * v0) / 3.0) * stretch;
         0.5 * length * (inextensible + elastic)
     }
 
     pub(crate) fn potential_energy(&self) -> f64 {
-        let Self { fx, fz, v0, length, weight, ea, fx2, t, t0, s } = *self;
+        let Self { fx, fz, v0, length, weight, stretch, fx2, t, t0, s_inv } = *self;
         let (q2, psi) = self.sag_terms();
         let (d, m) = (0.5 * weight, 0.5 * (fz + v0));
         let a = fx2 + m * m;
         let rest = d * d * (2.0 * a + d * d - 4.0 * m * m) / (t * t0 + a);
-        let gravity = length * (fx * fx * q2 * psi + 2.0 * m * d - 0.5 * (d * d + rest)) / s;
-        let elastic = 0.5 * length * (fx * fx + m * m + 2.0 * m * d - d * d / 3.0) / ea;
+        let gravity = length * (fx * fx * q2 * psi + 2.0 * m * d - 0.5 * (d * d + rest)) * s_inv;
+        let elastic = 0.5 * length * stretch * (fx * fx + m * m + 2.0 * m * d - d * d / 3.0);
         gravity + elastic
     }
 
@@ -161,23 +196,91 @@ impl Terms<f64> {
     }
 }
 
-impl<T: Real> Terms<T> {
-    fn new(w: T, ea: T, length: T, fx: T, fz: T) -> Self {
+impl<T: Field> Terms<T> {
+    #[inline(always)]
+    fn with_square(w: T, stretch: T, length: T, fx: T, fz: T, fx2: T) -> Self {
         let weight = w * length;
-        let others = fz.value().abs() + weight.value();
+        let v0 = fz - weight;
+        let t = (fx2 + fz * fz).sqrt();
+        let t0 = (fx2 + v0 * v0).sqrt();
+        Self { fx, fz, v0, length, stretch, weight, fx2, t, t0, s_inv: (t + t0).recip() }
+    }
+
+    /// q².
+    #[inline(always)]
+    fn slackness(&self) -> T {
+        let q = self.weight * self.s_inv;
+        q * q
+    }
+
+    /// x/fx = L [1/EA + 2φ/s], equation (1).
+    #[inline(always)]
+    fn lateral(&self, phi: T) -> T {
+        self.length * (self.stretch + phi * 2.0 * self.s_inv)
+    }
+
+    /// z, equation (2).
+    #[inline(always)]
+    fn height(&self) -> T {
+        let Self { fz, v0, length, weight, stretch, s_inv, .. } = *self;
+        length * ((fz + weight * -0.5) * stretch + (fz + v0) * s_inv)
+    }
+
+    /// g = fx²/D and N/D where nothing cancels in D.
+    #[inline(always)]
+    fn shape_of_the_taut(&self) -> (T, T) {
+        let p = self.fz * self.v0;
+        let tt0 = self.t * self.t0;
+        let d_inv = (self.fx2 + tt0 + p).recip();
+        (self.fx2 * d_inv, (self.fx2 * self.squares() + p * 2.0 * (p + tt0)) * d_inv)
+    }
+
+    /// fz² + V0².
+    #[inline(always)]
+    fn squares(&self) -> T {
+        self.fz * self.fz + self.v0 * self.v0
+    }
+
+    /// Equations (1)-(5), (8), (9) from q², ψ, g and N/D.
+    #[inline(always)]
+    fn assemble(&self, q2: T, psi: T, (g, n_over_d): (T, T)) -> Response<T> {
+        let Self { fx, fz, v0, length, stretch, t, t0, s_inv, .. } = *self;
+        let tt0_inv = (t * t0).recip();
+        let sag = q2 * psi * 2.0;
+        let sag_zz = (t + t0) * g * tt0_inv;
+        let sag_xx = (sag + n_over_d * tt0_inv) * s_inv;
+        let lateral = self.lateral(q2 * psi + 1.0);
+        let determinant = (stretch + sag_xx + sag_zz) * stretch + sag * g * tt0_inv;
+        let entering = t * tt0_inv + stretch;
+        Response {
+            end: [fx * lateral, self.height()],
+            flexibility: [
+                length * (stretch + sag_xx),
+                -fx * length * (fz + v0) * (tt0_inv * s_inv),
+                length * (stretch + sag_zz),
+            ],
+            determinant: length * determinant * length,
+            lateral,
+            end_per_length: [fx * entering, v0 * entering],
+            tension: t,
+            slackness: q2,
+        }
+    }
+}
+
+impl<T: Real> Terms<T> {
+    fn new(w: T, stretch: T, length: T, fx: T, fz: T) -> Self {
+        let others = fz.value().abs() + (w * length).value();
         let mut fx2 = fx * fx;
         if fx.value() <= (1e-25 * others).max(1e-150) {
             fx2 = fx2 + (1e-60 * others * others + f64::MIN_POSITIVE);
         }
-        let v0 = fz - weight;
-        let t = (fx2 + fz * fz).sqrt();
-        let t0 = (fx2 + v0 * v0).sqrt();
-        Self { fx, fz, v0, length, ea, weight, fx2, t, t0, s: t + t0 }
+        Self::with_square(w, stretch, length, fx, fz, fx2)
     }
 
     /// m = (fx² + fz² + V0²)/(T T0 - fz V0), with which D = fx² (1 + m) without cancellation where fz V0 < 0.
     fn fold(&self) -> T {
-        (self.fx2 + self.fz * self.fz + self.v0 * self.v0) / (self.t * self.t0 - self.fz * self.v0)
+        (self.fx2 + self.squares()) / (self.t * self.t0 - self.fz * self.v0)
     }
 
     /// D = fx² + T T0 + fz V0.
@@ -188,13 +291,16 @@ impl<T: Real> Terms<T> {
 
     /// (q², ψ(q²)).
     fn sag_terms(&self) -> (T, T) {
-        let q = self.weight / self.s;
-        let q2 = q * q;
-        let psi = if q2.upper() < SERIES_LIMIT {
-            sag_series(q2)
+        let q2 = self.slackness();
+        // The rest of a series and the rounding of its coefficients are at most 6e-17 in all.
+        let psi = if q2.upper() <= TAUT {
+            taut_series(q2).within(1e-16)
+        } else if q2.upper() < SERIES_LIMIT {
+            horner(&SERIES, q2).within(1e-16)
         } else {
             // atanh q = ln((1 + q)/sqrt(1 - q²)), with 1 - q² = 2D/s²
-            let atanh = ((q + 1.0) * self.s / (self.d() * 2.0).sqrt()).ln();
+            let q = self.weight * self.s_inv;
+            let atanh = ((q + 1.0) * (self.t + self.t0) / (self.d() * 2.0).sqrt()).ln();
             (atanh / q + -1.0) / q2
         };
         (q2, psi)
@@ -205,43 +311,17 @@ impl<T: Real> Terms<T> {
         [self.fx * self.lateral(q2 * psi + 1.0), self.height()]
     }
 
-    /// x/fx = L [1/EA + 2φ/s], equation (1).
-    fn lateral(&self, phi: T) -> T {
-        self.length * (T::of(1.0) / self.ea + phi * 2.0 / self.s)
-    }
-
-    /// z, equation (2).
-    fn height(&self) -> T {
-        let Self { fz, v0, length, ea, weight, s, .. } = *self;
-        length * ((fz + weight * -0.5) / ea + (fz + v0) / s)
-    }
-
     fn response(&self) -> Response<T> {
-        let Self { fx, fz, v0, length, ea, fx2, t, t0, s, .. } = *self;
         let (q2, psi) = self.sag_terms();
-        let lateral = self.lateral(q2 * psi + 1.0);
-        let tt0 = t * t0;
-        let p = fz * v0;
-        let squares = fz * fz + v0 * v0;
-        let (g, n_over_d) = if p.value() >= 0.0 {
-            let d = fx2 + tt0 + p;
-            (fx2 / d, (fx2 * squares + p * 2.0 * (p + tt0)) / d)
+        let p = self.fz * self.v0;
+        let shape = if q2.upper() <= TAUT || p.value() >= 0.0 {
+            self.shape_of_the_taut()
         } else {
             let m = self.fold();
-            let g = T::of(1.0) / (m + 1.0);
-            (g, g * (squares + p * 2.0 * m))
+            let g = (m + 1.0).recip();
+            (g, g * (self.squares() + p * 2.0 * m))
         };
-        let stretch = T::of(1.0) / ea;
-        let sag_zz = s * g / tt0;
-        let sag_xx = q2 * psi * 2.0 / s + n_over_d / (s * tt0);
-        let xz = -fx * length * (fz + v0) / (tt0 * s);
-        let determinant = (stretch + sag_xx + sag_zz) * stretch + q2 * psi * 2.0 * g / tt0;
-        Response {
-            end: [fx * lateral, self.height()],
-            flexibility: [length * (stretch + sag_xx), xz, length * (stretch + sag_zz)],
-            determinant: length * determinant * length,
-            lateral,
-        }
+        self.assemble(q2, psi, shape)
     }
 }
 
@@ -259,13 +339,20 @@ const SERIES: [f64; 17] = {
     series
 };
 
-/// ψ(q²) = (atanh(q)/q - 1)/q² = 1/3 + q²/5 + q⁴/7 + ... for q² < 0.1, to rounding.
-fn sag_series<T: Real>(q2: T) -> T {
-    // A taut cable has q² below 1e-3: six terms leave 1e-18.
-    let terms = if q2.upper() < 1e-3 { &SERIES[..6] } else { &SERIES[..] };
-    let sum = terms.iter().rev().fold(T::of(0.0), |sum, term| sum * q2 + *term);
-    // The rest, below q²ⁿ/((2n + 3)(1 - q²)) = 3e-19, and the rounding of the coefficients, at most 6e-17 in all.
-    sum.within(1e-16)
+/// ψ(q²) = (atanh(q)/q - 1)/q² = 1/3 + q²/5 + q⁴/7 + ...: the first terms.
+fn horner<T: Field>(coefficients: &[f64; 17], q2: T) -> T {
+    let [first @ .., before, last] = coefficients;
+    first.iter().rev().fold(q2 * *last + *before, |sum, term| sum * q2 + *term)
+}
+
+/// ψ(q²) for q² up to [`TAUT`]: ten terms leave 5e-19. Even and odd ones apart, so that one need not wait for the other.
+#[inline(always)]
+fn taut_series<T: Field>(q2: T) -> T {
+    let c = &SERIES;
+    let q4 = q2 * q2;
+    let even = (((q4 * c[8] + c[6]) * q4 + c[4]) * q4 + c[2]) * q4 + c[0];
+    let odd = (((q4 * c[9] + c[7]) * q4 + c[5]) * q4 + c[3]) * q4 + c[1];
+    odd * q2 + even
 }
 
 #[cfg(test)]
@@ -277,8 +364,8 @@ mod tests {
     fn series_and_logarithm_meet_without_a_jump() {
         for q2 in [SERIES_LIMIT * (1.0 - 1e-12), SERIES_LIMIT] {
             let q = f64::sqrt(q2);
-            assert_relative_eq!(sag_series(q2), (q.atanh() / q - 1.0) / q2, max_relative = 1e-14);
+            assert_relative_eq!(horner(&SERIES, q2), (q.atanh() / q - 1.0) / q2, max_relative = 1e-14);
         }
-        assert_relative_eq!(sag_series(1e-3 - 1e-18), sag_series(1e-3), max_relative = 1e-15);
+        assert_relative_eq!(taut_series(TAUT), horner(&SERIES, TAUT), max_relative = 1e-15);
     }
 }

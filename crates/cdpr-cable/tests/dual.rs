@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use cdpr_cable::{Cable, Catenary, Real, Vector2, least_tension, length_for_tension, response};
+use cdpr_cable::{Cable, Catenary, Field, Real, Vector2, least_tension, length_for_tension, response};
 use proptest::prelude::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -60,6 +60,17 @@ impl Mul<f64> for Dual {
     }
 }
 
+impl Field for Dual {
+    fn recip(self) -> Self {
+        Self(1.0, 0.0) / self
+    }
+
+    fn sqrt(self) -> Self {
+        let root = self.0.sqrt();
+        Self(root, 0.5 * self.1 / root)
+    }
+}
+
 impl Real for Dual {
     fn of(value: f64) -> Self {
         Self(value, 0.0)
@@ -71,11 +82,6 @@ impl Real for Dual {
 
     fn upper(self) -> f64 {
         self.0
-    }
-
-    fn sqrt(self) -> Self {
-        let root = self.0.sqrt();
-        Self(root, 0.5 * self.1 / root)
     }
 
     fn ln(self) -> Self {

@@ -6,7 +6,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::error::SensitivityError;
-use crate::input::Input;
+use crate::input::{Input, Prepared};
 use crate::sobol::Sobol;
 
 /// A design whose rows are a sample of the joint law of independent inputs: that is what the estimators of
@@ -32,12 +32,24 @@ pub trait SampleDesign: Sized + Sync {
     /// [`SensitivityError::OutOfRange`] for an index beyond the last row, [`SensitivityError::LengthMismatch`] for a
     /// row that has not one element an input.
     fn row(&self, index: usize, row: &mut [f64]) -> Result<(), SensitivityError>;
+
+    /// Writes consecutive rows from that of observation `first` on into `rows`, one after the other.
+    ///
+    /// # Errors
+    /// As [`SampleDesign::row`], and [`SensitivityError::LengthMismatch`] unless `rows` holds whole rows.
+    fn rows(&self, first: usize, rows: &mut [f64]) -> Result<(), SensitivityError> {
+        for (index, row) in (first..).zip(rows.chunks_mut(self.inputs().len())) {
+            self.row(index, row)?;
+        }
+        Ok(())
+    }
 }
 
 /// Consecutive points of Sobol's sequence, plain or scrambled. Sizes of 2^k, from index 0, keep its balance.
 #[derive(Debug, Clone)]
 pub struct SobolDesign {
     inputs: Vec<Input>,
+    prepared: Vec<Prepared>,
     sobol: Sobol,
     first_index: u32,
     points: usize,
@@ -83,7 +95,8 @@ impl SobolDesign {
         inputs.iter().try_for_each(Input::validate)?;
         let maximum = (1_u64 << 32) - u64::from(first_index);
         check_range("points", points as u64, 1, maximum)?;
-        Ok(Self { inputs, sobol, first_index, points })
+        let prepared = inputs.iter().map(Input::prepare).collect();
+        Ok(Self { inputs, prepared, sobol, first_index, points })
     }
 }
 
@@ -108,8 +121,20 @@ impl SampleDesign for SobolDesign {
         check_row(self, index, row)?;
         // Below 2^32: `over` has checked it.
         self.sobol.point(self.first_index + index as u32, row)?;
-        for (value, input) in row.iter_mut().zip(&self.inputs) {
+        for (value, input) in row.iter_mut().zip(&self.prepared) {
             *value = input.value(*value);
+        }
+        Ok(())
+    }
+
+    fn rows(&self, first: usize, rows: &mut [f64]) -> Result<(), SensitivityError> {
+        let last = (first + rows.len() / self.inputs.len()).saturating_sub(1);
+        check_range("index", first.max(last) as u64, 0, self.points as u64 - 1)?;
+        self.sobol.points(self.first_index + first as u32, rows)?;
+        for row in rows.chunks_exact_mut(self.inputs.len()) {
+            for (value, input) in row.iter_mut().zip(&self.prepared) {
+                *value = input.value(*value);
+            }
         }
         Ok(())
     }

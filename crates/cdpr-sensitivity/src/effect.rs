@@ -28,7 +28,8 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::design::SampleDesign;
 use crate::error::{SensitivityError, require};
-use crate::summary::{Sample, Summary, mean_and_squares};
+use crate::input::Input;
+use crate::summary::{Moments, Summary, mean_and_squares};
 
 /// Effect of one input, and the observations it rests on. An observation whose input lies exactly on the middle of
 /// its domain belongs to neither half.
@@ -98,52 +99,59 @@ pub fn student_effects<D: SampleDesign>(
         let (value, expected) = (outputs.len(), design.points());
         return Err(SensitivityError::LengthMismatch { field: "outputs", value, expected });
     }
-    let summary = Sample::new(outputs)?.summary();
-    let middles: Vec<f64> = design.inputs().iter().map(|input| input.law.middle()).collect();
-    let mut halves = vec![Halves::default(); middles.len()];
-    let mut row = vec![0.0; middles.len()];
+    let mut sums = EffectSums::new(design.inputs(), outputs.iter().find_map(|output| *output).unwrap_or(0.0));
+    let mut row = vec![0.0; design.inputs().len()];
     for (index, &output) in outputs.iter().enumerate() {
-        design.row(index, &mut row)?;
-        // Deviations from the mean: no digits are lost in the sums.
-        let deviation = output.map(|output| output - summary.mean);
-        for ((halves, value), middle) in halves.iter_mut().zip(&row).zip(&middles) {
-            if value > middle {
-                halves.above.add(deviation);
-            } else if value < middle {
-                halves.below.add(deviation);
-            } else {
-                halves.on_middle.add(deviation);
-            }
+        if let Some(value) = output.filter(|value| !value.is_finite()) {
+            return Err(SensitivityError::NotFinite { field: "outputs", index, value });
         }
+        design.row(index, &mut row)?;
+        sums.add(&row, output);
     }
-    let effects =
-        design.inputs().iter().zip(&halves).map(|(input, halves)| halves.effect(&input.name, &summary));
-    Ok(Effects { outputs: summary, effects: effects.collect::<Result<_, _>>()? })
+    sums.effects(design.inputs())
 }
 
 /// Interval (3) of the effect of each input at a confidence `level` in (0, 1), from at least two replicates of one
 /// design, each with its outputs.
 ///
 /// # Errors
-/// - [`SensitivityError::InvalidParameter`] for the level;
-/// - [`SensitivityError::OutOfRange`] for fewer than two replicates;
-/// - [`SensitivityError::NotAReplicate`] for a design without a seed, with the seed of another one, or of other inputs
-///   or size;
-/// - those of [`student_effects`].
+/// Those of [`intervals_of_effects`] and [`student_effects`].
 pub fn effect_intervals<D: SampleDesign>(
     replicates: &[(D, Vec<Option<f64>>)],
     level: f64,
 ) -> Result<Vec<EffectInterval>, SensitivityError> {
-    require(level > 0.0 && level < 1.0, "level", level, "a number between 0 and 1")?;
-    check_replicates(replicates)?;
-    let (first, _) = &replicates[0];
-    let mut effects = vec![Vec::with_capacity(replicates.len()); first.inputs().len()];
-    let of_replicates: Vec<Effects> = replicates
+    let designs: Vec<&D> = replicates.iter().map(|(design, _)| design).collect();
+    check_replicates(&designs)?;
+    let effects: Vec<Effects> = replicates
         .par_iter()
         .map(|(design, outputs)| student_effects(design, outputs))
         .collect::<Result<_, _>>()?;
-    for replicate in of_replicates {
-        for (effects, effect) in effects.iter_mut().zip(replicate.effects) {
+    intervals_of_effects(&designs, &effects, level)
+}
+
+/// The same from the effects of each replicate.
+///
+/// # Errors
+/// - [`SensitivityError::InvalidParameter`] for the level;
+/// - [`SensitivityError::OutOfRange`] for fewer than two replicates;
+/// - [`SensitivityError::NotAReplicate`] for a design without a seed, with the seed of another one, or of other inputs
+///   or size;
+/// - [`SensitivityError::LengthMismatch`] unless there are effects for each replicate.
+pub fn intervals_of_effects<D: SampleDesign>(
+    designs: &[&D],
+    replicates: &[Effects],
+    level: f64,
+) -> Result<Vec<EffectInterval>, SensitivityError> {
+    require(level > 0.0 && level < 1.0, "level", level, "a number between 0 and 1")?;
+    check_replicates(designs)?;
+    if replicates.len() != designs.len() {
+        let (value, expected) = (replicates.len(), designs.len());
+        return Err(SensitivityError::LengthMismatch { field: "replicates", value, expected });
+    }
+    let first = designs[0];
+    let mut effects = vec![Vec::with_capacity(replicates.len()); first.inputs().len()];
+    for replicate in replicates {
+        for (effects, effect) in effects.iter_mut().zip(&replicate.effects) {
             effects.push(effect.effect);
         }
     }
@@ -155,7 +163,7 @@ pub fn effect_intervals<D: SampleDesign>(
             expected: "two at least",
         })?
         .inverse_cdf(0.5 * (1.0 + level));
-    let interval = |(input, effects): (&crate::Input, &Vec<f64>)| {
+    let interval = |(input, effects): (&Input, &Vec<f64>)| {
         let (effect, squares) = mean_and_squares(effects);
         let standard_error = (squares / freedom / (freedom + 1.0)).sqrt();
         let half_width = factor * standard_error;
@@ -165,18 +173,18 @@ pub fn effect_intervals<D: SampleDesign>(
     Ok(first.inputs().iter().zip(&effects).map(interval).collect())
 }
 
-fn check_replicates<D: SampleDesign>(replicates: &[(D, Vec<Option<f64>>)]) -> Result<(), SensitivityError> {
-    if replicates.len() < 2 {
+fn check_replicates<D: SampleDesign>(designs: &[&D]) -> Result<(), SensitivityError> {
+    if designs.len() < 2 {
         return Err(SensitivityError::OutOfRange {
             field: "replicates",
-            value: replicates.len() as u64,
+            value: designs.len() as u64,
             minimum: 2,
             maximum: u64::MAX,
         });
     }
-    let (first, _) = &replicates[0];
+    let first = designs[0];
     let mut seeds = std::collections::BTreeSet::new();
-    for (index, (design, _)) in replicates.iter().enumerate() {
+    for (index, design) in designs.iter().enumerate() {
         let wrong = |expected| Err(SensitivityError::NotAReplicate { index, expected });
         let Some(seed) = design.seed() else {
             return wrong("a randomised design");
@@ -191,55 +199,121 @@ fn check_replicates<D: SampleDesign>(replicates: &[(D, Vec<Option<f64>>)]) -> Re
     Ok(())
 }
 
-/// Outputs in one part of the domain of an input.
-#[derive(Debug, Clone, Copy, Default)]
-struct Part {
-    count: usize,
-    failed: usize,
-    sum: f64,
+/// What the effects of all inputs need of the observations, which come one by one and need not be kept.
+///
+/// Sums of blocks of observations can be merged. The result depends on the order of observations and blocks by rounding only; where it
+/// matters, merge blocks of fixed size in the order of their indices.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectSums {
+    outputs: Moments,
+    shift: f64,
+    middles: Vec<f64>,
+    above: Parts,
+    below: Parts,
 }
 
-impl Part {
-    fn add(&mut self, deviation: Option<f64>) {
-        match deviation {
-            Some(deviation) => {
-                self.count += 1;
-                self.sum += deviation;
-            }
-            None => self.failed += 1,
-        }
+/// Outputs in one part of the domain of each input: how many, how many failed, and the sum of `output - shift`. Counts are whole
+/// numbers up to 2^53.
+#[derive(Debug, Clone, PartialEq)]
+struct Parts {
+    count: Vec<f64>,
+    failed: Vec<f64>,
+    sum: Vec<f64>,
+}
+
+impl Parts {
+    fn new(inputs: usize) -> Self {
+        let zeros = || vec![0.0; inputs];
+        Self { count: zeros(), failed: zeros(), sum: zeros() }
+    }
+
+    fn merge(&mut self, other: &Self) {
+        let add = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
+        add(&mut self.count, &other.count);
+        add(&mut self.failed, &other.failed);
+        add(&mut self.sum, &other.sum);
     }
 }
 
-#[derive(Debug, Clone, Copy, Default)]
-struct Halves {
-    above: Part,
-    below: Part,
-    on_middle: Part,
-}
+impl EffectSums {
+    /// No observation yet. `shift` is an output that is near the others, of the nominal model say: deviations from it keep their
+    /// digits in the sums.
+    #[must_use]
+    pub fn new(inputs: &[Input], shift: f64) -> Self {
+        let middles: Vec<f64> = inputs.iter().map(|input| input.law.middle()).collect();
+        let parts = Parts::new(middles.len());
+        Self { outputs: Moments::default(), shift, middles, above: parts.clone(), below: parts }
+    }
 
-impl Halves {
-    /// Eq. (1) and (2).
-    fn effect(&self, input: &str, outputs: &Summary) -> Result<Effect, SensitivityError> {
-        let Self { above, below, on_middle } = self;
-        if above.count == 0 || below.count == 0 {
-            let (above, below) = (above.count, below.count);
-            return Err(SensitivityError::EmptyHalf { input: input.to_owned(), above, below });
+    /// Adds an observation: the values of its inputs and its finite output, `None` if it failed.
+    pub fn add(&mut self, row: &[f64], output: Option<f64>) {
+        self.outputs.add(output);
+        // Sums of chosen numbers instead of branches, which on random inputs would be foreseen half of the time.
+        let chosen = |choice: bool, value: f64| if choice { value } else { 0.0 };
+        let (above, below) = (&mut self.above, &mut self.below);
+        match output {
+            Some(output) => {
+                let deviation = output - self.shift;
+                for (j, (value, middle)) in row.iter().zip(&self.middles).enumerate() {
+                    above.count[j] += chosen(value > middle, 1.0);
+                    above.sum[j] += chosen(value > middle, deviation);
+                    below.count[j] += chosen(value < middle, 1.0);
+                    below.sum[j] += chosen(value < middle, deviation);
+                }
+            }
+            None => {
+                for (j, (value, middle)) in row.iter().zip(&self.middles).enumerate() {
+                    above.failed[j] += chosen(value > middle, 1.0);
+                    below.failed[j] += chosen(value < middle, 1.0);
+                }
+            }
         }
-        let (n_above, n_below) = (above.count as f64, below.count as f64);
-        let effect = above.sum / n_above - below.sum / n_below;
-        let standard_error = outputs.std * (1.0 / n_below + 1.0 / n_above).sqrt();
-        Ok(Effect {
-            input: input.to_owned(),
-            above: above.count,
-            below: below.count,
-            on_middle: on_middle.count,
-            failed_above: above.failed,
-            failed_below: below.failed,
-            mean_above: outputs.mean + above.sum / n_above,
-            mean_below: outputs.mean + below.sum / n_below,
-            effect,
-            student: if standard_error > 0.0 { effect.abs() / standard_error } else { 0.0 },
-        })
+    }
+
+    /// Adds the observations of other sums with the same inputs and shift.
+    pub fn merge(&mut self, other: &Self) {
+        self.outputs.merge(&other.outputs);
+        self.above.merge(&other.above);
+        self.below.merge(&other.below);
+    }
+
+    /// Moments and extremes of the outputs.
+    #[must_use]
+    pub fn outputs(&self) -> &Moments {
+        &self.outputs
+    }
+
+    /// Effects, Eq. (1) and (2), of the inputs these sums were made for.
+    ///
+    /// # Errors
+    /// [`SensitivityError::OutOfRange`] for fewer than two values, [`SensitivityError::EmptyHalf`] if no value is left in one half of
+    /// an input.
+    pub fn effects(&self, inputs: &[Input]) -> Result<Effects, SensitivityError> {
+        let outputs = self.outputs.summary()?;
+        let effect = |(j, input): (usize, &Input)| {
+            let input = input.name.clone();
+            let (n_above, n_below) = (self.above.count[j], self.below.count[j]);
+            let (above, below) = (n_above as usize, n_below as usize);
+            if above == 0 || below == 0 {
+                return Err(SensitivityError::EmptyHalf { input, above, below });
+            }
+            let (mean_above, mean_below) = (self.above.sum[j] / n_above, self.below.sum[j] / n_below);
+            let effect = mean_above - mean_below;
+            let standard_error = outputs.std * (1.0 / n_below + 1.0 / n_above).sqrt();
+            Ok(Effect {
+                input,
+                above,
+                below,
+                on_middle: outputs.count - above - below,
+                failed_above: self.above.failed[j] as usize,
+                failed_below: self.below.failed[j] as usize,
+                mean_above: self.shift + mean_above,
+                mean_below: self.shift + mean_below,
+                effect,
+                student: if standard_error > 0.0 { effect.abs() / standard_error } else { 0.0 },
+            })
+        };
+        let effects = inputs.iter().enumerate().map(effect).collect::<Result<_, _>>()?;
+        Ok(Effects { outputs, effects })
     }
 }

@@ -88,21 +88,16 @@ impl Input {
     /// The value at the probability `u` in [0, 1]: the law's quantile, rounded as the steps say.
     #[must_use]
     pub fn value(&self, u: f64) -> f64 {
-        let (min, max) = self.law.support();
-        let middle = self.law.middle();
-        match self.steps {
-            None => self.law.quantile(u),
-            Some(Steps::Nearest { step }) => {
-                let (lowest, highest) = self.grid(step);
-                let level = ((self.law.quantile(u) - middle) / step).round().max(lowest).min(highest);
-                (middle + level * step).max(min).min(max)
-            }
-            Some(Steps::EqualMass { step }) => {
-                let (lowest, highest) = self.grid(step);
-                let level = (lowest + (u * (highest - lowest + 1.0)).floor()).min(highest);
-                (middle + level * step).max(min).min(max)
-            }
-        }
+        self.prepare().value(u)
+    }
+
+    /// The same for many values: what does not depend on `u` is computed once.
+    pub(crate) fn prepare(&self) -> Prepared {
+        let Some(steps) = self.steps else { return Prepared { law: self.law, levels: None } };
+        let (Steps::Nearest { step } | Steps::EqualMass { step }) = steps;
+        let ((min, max), (lowest, highest)) = (self.law.support(), self.grid(step));
+        let levels = Levels { steps, middle: self.law.middle(), min, max, lowest, highest };
+        Prepared { law: self.law, levels: Some(levels) }
     }
 
     /// Number of levels of a stepped input, infinite for an unbounded law; `None` for a continuous one.
@@ -119,5 +114,57 @@ impl Input {
         let (min, max) = self.law.support();
         let middle = self.law.middle();
         (((min - middle) / step - ROUNDING).ceil(), ((max - middle) / step + ROUNDING).floor())
+    }
+}
+
+/// An input ready for many values.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Prepared {
+    law: Law,
+    levels: Option<Levels>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Levels {
+    steps: Steps,
+    middle: f64,
+    min: f64,
+    max: f64,
+    lowest: f64,
+    highest: f64,
+}
+
+impl Prepared {
+    /// Eq. (1) or (2).
+    pub(crate) fn value(&self, u: f64) -> f64 {
+        let Some(Levels { steps, middle, min, max, lowest, highest }) = self.levels else {
+            return self.law.quantile(u);
+        };
+        let (level, step) = match steps {
+            Steps::Nearest { step } => (round((self.law.quantile(u) - middle) / step).max(lowest), step),
+            Steps::EqualMass { step } => (lowest + (u * (highest - lowest + 1.0)).floor(), step),
+        };
+        (middle + level.min(highest) * step).max(min).min(max)
+    }
+}
+
+/// `f64::round` without the call into a library that processors of the common denominator need for it.
+fn round(x: f64) -> f64 {
+    const WHOLE: f64 = (1_u64 << 52) as f64;
+    if x.abs() < WHOLE { (x + 0.5_f64.next_down().copysign(x)) as i64 as f64 } else { x }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn halves_are_rounded_away_from_zero_and_nothing_else_is() {
+        let half = 0.5_f64;
+        for x in [0.0, -0.0, half.next_down(), half, -half, 1.5, 2.5, -2.5, 1e15 + 0.5, 1e300, f64::INFINITY]
+        {
+            for x in [x, -x, x.next_up(), x.next_down()] {
+                assert_eq!(super::round(x), x.round(), "{x:e}");
+            }
+        }
+        assert!(super::round(f64::NAN).is_nan());
     }
 }

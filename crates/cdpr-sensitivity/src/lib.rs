@@ -59,10 +59,12 @@ pub mod sobol;
 pub mod summary;
 
 pub use design::{RandomDesign, SampleDesign, SobolDesign};
-pub use effect::{Effect, EffectInterval, Effects, effect_intervals, student_effects};
+pub use effect::{
+    Effect, EffectInterval, EffectSums, Effects, effect_intervals, intervals_of_effects, student_effects,
+};
 pub use error::SensitivityError;
 pub use fit::{Bootstrap, Family, Fit, best, fit, fit_all, ks_distance};
 pub use input::{Input, Steps};
 pub use law::Law;
 pub use sobol::Sobol;
-pub use summary::{Bins, Histogram, Sample, Summary};
+pub use summary::{Bins, Histogram, Moments, Sample, Summary};

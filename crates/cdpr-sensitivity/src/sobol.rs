@@ -100,18 +100,65 @@ impl Sobol {
                 expected: self.dimensions(),
             });
         }
-        const CELL: f64 = 1.0 / (1_u64 << BITS) as f64;
-        let gray = index ^ (index >> 1);
         for (j, (x, directions)) in point.iter_mut().zip(&self.directions).enumerate() {
-            let digits = digits(gray, directions);
-            *x = match self.seed {
-                None => f64::from(digits) * CELL,
-                // The middle of the cell of 2^-32.
-                Some(seed) => (f64::from(scramble(digits, key(seed, j as u64))) + 0.5) * CELL,
-            };
+            *x = self.coordinate(j, digits(gray(index), directions));
         }
         Ok(())
     }
+
+    /// Writes consecutive points into `points`, one after the other, from that of index `first` on: the same as
+    /// [`Sobol::point`], but the digits of a point differ from those of the one before by a single direction number.
+    ///
+    /// # Errors
+    /// [`SensitivityError::LengthMismatch`] unless `points` holds whole points, [`SensitivityError::OutOfRange`] for
+    /// points beyond 2^32.
+    pub fn points(&self, first: u32, points: &mut [f64]) -> Result<(), SensitivityError> {
+        let dimensions = self.dimensions();
+        let (count, rest) = (points.len() / dimensions, points.len() % dimensions);
+        if rest != 0 {
+            let (value, expected) = (points.len(), (count + 1) * dimensions);
+            return Err(SensitivityError::LengthMismatch { field: "points", value, expected });
+        }
+        let maximum = (1_u64 << BITS) - u64::from(first);
+        if count as u64 > maximum {
+            return Err(SensitivityError::OutOfRange {
+                field: "points",
+                value: count as u64,
+                minimum: 0,
+                maximum,
+            });
+        }
+        let mut state: Vec<u32> =
+            self.directions.iter().map(|directions| digits(gray(first), directions)).collect();
+        for (index, point) in (u64::from(first)..).zip(points.chunks_exact_mut(dimensions)) {
+            for (j, (x, digits)) in point.iter_mut().zip(&state).enumerate() {
+                *x = self.coordinate(j, *digits);
+            }
+            // The digit of the Gray code that changes next; none after the last point.
+            let changed = (index + 1).trailing_zeros() as usize;
+            if changed < BITS {
+                for (digits, directions) in state.iter_mut().zip(&self.directions) {
+                    *digits ^= directions[changed];
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Coordinate of dimension `j`, scrambled if the sequence is.
+    fn coordinate(&self, j: usize, digits: u32) -> f64 {
+        const CELL: f64 = 1.0 / (1_u64 << BITS) as f64;
+        match self.seed {
+            None => f64::from(digits) * CELL,
+            // The middle of the cell of 2^-32.
+            Some(seed) => (f64::from(scramble(digits, key(seed, j as u64))) + 0.5) * CELL,
+        }
+    }
+}
+
+/// Eq. (1).
+fn gray(index: u32) -> u32 {
+    index ^ (index >> 1)
 }
 
 /// Eq. (3) from a line `a m_1 .. m_s` of the table.

@@ -39,6 +39,81 @@ pub struct Summary {
     pub max: f64,
 }
 
+/// Moments and extremes of outputs that come one by one and need not be kept.
+///
+/// ```text
+/// mean' = mean + (x - mean)/n,   M2' = M2 + (x - mean)(x - mean'),   std² = M2/(n - 1)      (4)
+/// mean = mean_a + δ n_b/n,   M2 = M2_a + M2_b + δ² n_a n_b/n,   δ = mean_b - mean_a           (5)
+/// ```
+///
+/// (4): B. P. Welford, *Note on a method for calculating corrected sums of squares and products* (1962); (5): Chan et al. (1983).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moments {
+    count: usize,
+    failed: usize,
+    mean: f64,
+    squares: f64,
+    min: f64,
+    max: f64,
+}
+
+impl Default for Moments {
+    fn default() -> Self {
+        let (min, max) = (f64::INFINITY, f64::NEG_INFINITY);
+        Self { count: 0, failed: 0, mean: 0.0, squares: 0.0, min, max }
+    }
+}
+
+impl Moments {
+    /// Adds an output, `None` if the observation failed.
+    pub fn add(&mut self, output: Option<f64>) {
+        let Some(x) = output else {
+            self.failed += 1;
+            return;
+        };
+        self.count += 1;
+        let deviation = x - self.mean;
+        self.mean += deviation / self.count as f64;
+        self.squares += deviation * (x - self.mean);
+        self.min = self.min.min(x);
+        self.max = self.max.max(x);
+    }
+
+    /// Adds the outputs of others.
+    pub fn merge(&mut self, other: &Self) {
+        self.failed += other.failed;
+        if other.count == 0 {
+            return;
+        }
+        let count = self.count + other.count;
+        let (share, delta) = (other.count as f64 / count as f64, other.mean - self.mean);
+        self.mean += delta * share;
+        self.squares += other.squares + delta * delta * self.count as f64 * share;
+        self.min = self.min.min(other.min);
+        self.max = self.max.max(other.max);
+        self.count = count;
+    }
+
+    /// What is known of the outputs so far.
+    ///
+    /// # Errors
+    /// [`SensitivityError::OutOfRange`] for fewer than two values.
+    pub fn summary(&self) -> Result<Summary, SensitivityError> {
+        let Self { count, failed, mean, squares, min, max } = *self;
+        check_count(count)?;
+        Ok(Summary { count, failed, mean, std: (squares / (count as f64 - 1.0)).sqrt(), min, max })
+    }
+}
+
+/// A sample needs two values.
+fn check_count(count: usize) -> Result<(), SensitivityError> {
+    if count >= 2 {
+        return Ok(());
+    }
+    let value = count as u64;
+    Err(SensitivityError::OutOfRange { field: "observed outputs", value, minimum: 2, maximum: u64::MAX })
+}
+
 /// Number of bins of a histogram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bins {
@@ -73,14 +148,7 @@ impl Sample {
                 sorted.push(value);
             }
         }
-        if sorted.len() < 2 {
-            return Err(SensitivityError::OutOfRange {
-                field: "observed outputs",
-                value: sorted.len() as u64,
-                minimum: 2,
-                maximum: u64::MAX,
-            });
-        }
+        check_count(sorted.len())?;
         sorted.sort_unstable_by(f64::total_cmp);
         let failed = outputs.len() - sorted.len();
         Ok(Self { sorted, failed })

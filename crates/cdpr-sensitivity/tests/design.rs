@@ -108,3 +108,18 @@ fn an_invalid_input_is_named() {
     assert!(error.to_string().starts_with("input `b_3_z`: max = 0"), "{error}");
     assert_eq!(RandomDesign::new(vec![input], 8, 0).unwrap_err(), error);
 }
+
+#[test]
+fn rows_one_after_the_other_are_those_had_one_by_one() {
+    let plain = SobolDesign::new(uniform(7), 5, 500).unwrap();
+    let last = SobolDesign::new(uniform(3), u32::MAX - 9, 10).unwrap();
+    let scrambled = SobolDesign::scrambled(uniform(7), 500, 3).unwrap();
+    for (design, first) in [(&plain, 0), (&plain, 123), (&last, 2), (&scrambled, 77)] {
+        let width = design.inputs().len();
+        let mut together = vec![f64::NAN; (design.points() - first) * width];
+        design.rows(first, &mut together).unwrap();
+        assert_eq!(rows(design, 1)[first..].concat(), together);
+        assert!(design.rows(first + 1, &mut together).is_err());
+        assert!(design.rows(first, &mut together[1..]).is_err());
+    }
+}

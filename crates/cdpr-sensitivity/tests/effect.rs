@@ -3,8 +3,8 @@
 
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{
-    Input, Law, RandomDesign, SampleDesign, SensitivityError, SobolDesign, Steps, effect_intervals,
-    student_effects,
+    EffectSums, Input, Law, RandomDesign, SampleDesign, SensitivityError, SobolDesign, Steps,
+    effect_intervals, student_effects,
 };
 
 const SLOPES: [f64; 6] = [3.0, -1.0, 0.5, 0.0, 2.0, -0.25];
@@ -223,4 +223,32 @@ fn outputs_of_another_design_and_replicates_that_are_none_are_errors() {
     assert_eq!(index(&[first.clone(), of(design.replicate(2)), of(other)]), 2);
     assert!(effect_intervals(std::slice::from_ref(&first), 0.95).is_err());
     assert!(effect_intervals(&[first, of(design.replicate(2))], 1.0).is_err());
+}
+
+#[test]
+fn sums_of_blocks_merge_into_the_effects_of_all() {
+    let design = SobolDesign::new(inputs(6), 1, 1000).unwrap();
+    let mut row = [0.0; 6];
+    let partial = outputs(&design, |row| linear(row).filter(|y| (y * 7.0).fract().abs() > 0.1));
+    let mut whole = EffectSums::new(design.inputs(), 5.0);
+    for block in partial.chunks(96).enumerate() {
+        let mut sums = EffectSums::new(design.inputs(), 5.0);
+        for (index, output) in (block.0 * 96..).zip(block.1) {
+            design.row(index, &mut row).unwrap();
+            sums.add(&row, *output);
+        }
+        whole.merge(&sums);
+    }
+    let (merged, expected) =
+        (whole.effects(design.inputs()).unwrap(), student_effects(&design, &partial).unwrap());
+    assert_eq!(
+        (merged.outputs.count, merged.outputs.failed),
+        (expected.outputs.count, expected.outputs.failed)
+    );
+    assert!(merged.outputs.failed > 0);
+    for (merged, expected) in merged.effects.iter().zip(&expected.effects) {
+        assert_eq!((merged.above, merged.failed_below), (expected.above, expected.failed_below));
+        assert_relative_eq!(merged.effect, expected.effect, max_relative = 1e-11, epsilon = 1e-12);
+        assert_relative_eq!(merged.student, expected.student, max_relative = 1e-11, epsilon = 1e-12);
+    }
 }

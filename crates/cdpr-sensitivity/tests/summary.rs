@@ -1,7 +1,7 @@
 //! Moments, quantiles and histograms against values by hand and against `numpy`.
 
 use approx::assert_relative_eq;
-use cdpr_sensitivity::{Bins, Sample, SensitivityError};
+use cdpr_sensitivity::{Bins, Moments, Sample, SensitivityError};
 
 #[test]
 fn failed_observations_are_counted_and_take_part_in_nothing_else() {
@@ -76,4 +76,26 @@ fn a_value_that_is_not_finite_or_too_few_values_are_errors() {
     assert_eq!(error, SensitivityError::NotFinite { field: "outputs", index: 2, value: f64::INFINITY });
     let error = Sample::new(&[Some(1.0), None]).unwrap_err();
     assert!(matches!(error, SensitivityError::OutOfRange { value: 1, minimum: 2, .. }), "{error}");
+}
+
+#[test]
+fn moments_of_a_stream_are_those_of_the_sample() {
+    let outputs: Vec<Option<f64>> =
+        (0..1000).map(|i| (i % 7 != 3).then(|| 1e6 + (f64::from(i) * 0.7).sin())).collect();
+    let expected = Sample::new(&outputs).unwrap().summary();
+    let mut merged = Moments::default();
+    for block in outputs.chunks(64) {
+        let mut moments = Moments::default();
+        block.iter().for_each(|output| moments.add(*output));
+        merged.merge(&moments);
+    }
+    merged.merge(&Moments::default());
+    let summary = merged.summary().unwrap();
+    assert_eq!((summary.count, summary.failed), (expected.count, expected.failed));
+    assert_eq!((summary.min, summary.max), (expected.min, expected.max));
+    assert_relative_eq!(summary.mean, expected.mean, max_relative = 1e-15);
+    assert_relative_eq!(summary.std, expected.std, max_relative = 1e-10);
+    let mut one = Moments::default();
+    one.add(Some(1.0));
+    assert!(matches!(one.summary(), Err(SensitivityError::OutOfRange { value: 1, .. })));
 }

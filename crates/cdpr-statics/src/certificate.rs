@@ -29,7 +29,7 @@ use crate::equations::{Factored, NEAR_VERTICAL, State, Strung, cross, jacobian, 
 use crate::error::StaticsError;
 use crate::interval::Interval;
 use crate::model::{Load, Model};
-use cdpr_cable::Real;
+use cdpr_cable::{Field, Real};
 use cdpr_robot::{Matrix3, Robot, Vector3};
 use nalgebra::{DMatrix, DVector, Matrix6, UnitQuaternion, Vector2};
 

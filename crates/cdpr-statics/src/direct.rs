@@ -65,7 +65,7 @@ pub struct DirectSolution {
 }
 
 /// A strain beyond which a linear, small-strain cable describes nothing: steel and fibre ropes break at less.
-const MAX_STRAIN: f64 = 0.1;
+pub(crate) const MAX_STRAIN: f64 = 0.1;
 
 /// A stable equilibrium for the unstrained lengths `lengths` [m] and a load, near the start where Newton's method converges to
 /// one, else downhill of the start. Without a moment the potential always has a minimum: the cables' elasticity bounds it from below.
@@ -230,7 +230,12 @@ impl Residual {
         let forces = tensions + load.force.norm() + load.moment.norm() / model.arm();
         let far = |i: usize| equilibrium.pose.position.norm() + model.robot.cables[i].exit_point.norm();
         let coordinates = (0..model.cables()).map(far).fold(0.0, f64::max);
-        self.closure <= 1e-13 * model.size() + 4.0 * f64::EPSILON * coordinates
+        self.closure <= rounding_of_closure(model.size(), coordinates)
             && self.force + self.moment / model.arm() <= 1e-12 * forces
     }
+}
+
+/// What the closure of a cable is off by rounding [m]: that of lengths up to `size` and coordinates up to `coordinates` [m].
+pub(crate) fn rounding_of_closure(size: f64, coordinates: f64) -> f64 {
+    1e-13 * size + 4.0 * f64::EPSILON * coordinates
 }

@@ -89,7 +89,7 @@ impl<T: Number> Strung<T> {
             azimuth,
             end: Vector2::new(h, r.z),
             force: Vector3::new(f.x * azimuth.x, f.x * azimuth.y, f.y),
-            response: (!limp).then(|| response(w, ea, T::of(model.lengths[i]), [f.x, f.y])),
+            response: (!limp).then(|| response(w, ea.recip(), T::of(model.lengths[i]), [f.x, f.y])),
         }
     }
 

@@ -4,7 +4,7 @@
 //! An operation without an answer (a division by an interval around zero, the root of a negative number) gives the whole line,
 //! with which no proof succeeds. Moore, Kearfott, Cloud, *Introduction to Interval Analysis* (2009), chapter 2.
 
-use cdpr_cable::Real;
+use cdpr_cable::{Field, Real};
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -86,10 +86,9 @@ impl Div for Interval {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {
-        if other.low <= 0.0 && other.high >= 0.0 {
-            return Self::LINE;
-        }
-        self * Self::outward(1.0 / other.high, 1.0 / other.low)
+        // Not even zero divided by zero is zero.
+        let inverse = other.recip();
+        if inverse == Self::LINE { inverse } else { self * inverse }
     }
 }
 
@@ -143,6 +142,19 @@ impl One for Interval {
     }
 }
 
+impl Field for Interval {
+    fn recip(self) -> Self {
+        if self.low <= 0.0 && self.high >= 0.0 {
+            return Self::LINE;
+        }
+        Self::outward(1.0 / self.high, 1.0 / self.low)
+    }
+
+    fn sqrt(self) -> Self {
+        if self.low < 0.0 { Self::LINE } else { Self::outward(self.low.sqrt(), self.high.sqrt()) }
+    }
+}
+
 impl Real for Interval {
     fn of(value: f64) -> Self {
         if value.is_nan() { Self::LINE } else { Self { low: value, high: value } }
@@ -154,10 +166,6 @@ impl Real for Interval {
 
     fn upper(self) -> f64 {
         self.high
-    }
-
-    fn sqrt(self) -> Self {
-        if self.low < 0.0 { Self::LINE } else { Self::outward(self.low.sqrt(), self.high.sqrt()) }
     }
 
     fn ln(self) -> Self {

@@ -1,7 +1,7 @@
-//! Tension distribution: the closed form, and a problem with an active bound.
+//! Tension distribution: the closed form, active bounds, and what Clarabel is asked.
 
 use cdpr_robot::{Pose, Robot, TensionLimits};
-use cdpr_tension::{Method, Problem, distribute};
+use cdpr_tension::{Method, Problem, TensionError, distribute};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -14,7 +14,7 @@ fn tension(criterion: &mut Criterion) {
     let wrench = robot.weight(&pose, 0.0).to_vector();
     let mut group = criterion.benchmark_group("tension");
     for (name, min, method) in
-        [("closed form", 1.0, Method::ClosedForm), ("clarabel", 450.0, Method::ActiveSet)]
+        [("closed form", 1.0, Method::ClosedForm), ("active bounds", 450.0, Method::ActiveSet)]
     {
         let limits = &[TensionLimits { min, max: 10290.0 }; 8];
         let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &[0.0; 8], limits };
@@ -23,6 +23,11 @@ fn tension(criterion: &mut Criterion) {
         assert!(solution.residual.norm() < 1e-9);
         group.bench_function(name, |b| b.iter(|| distribute(black_box(&problem))));
     }
+    // Nobody pushes: Clarabel proves it and finds the best attempt.
+    let limits = &[TensionLimits { min: 1.0, max: 10.0 }; 8];
+    let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &[0.0; 8], limits };
+    assert!(matches!(distribute(&problem), Err(TensionError::Infeasible { .. })));
+    group.bench_function("infeasible, by Clarabel", |b| b.iter(|| distribute(black_box(&problem))));
     group.finish();
 }
 

@@ -31,9 +31,9 @@ pub enum Bound {
 pub enum Method {
     /// Equation (2): no bound is active.
     ClosedForm,
-    /// Clarabel's active bounds, digits from the optimality conditions.
+    /// The optimality conditions with the right bounds active.
     ActiveSet,
-    /// Clarabel's own solution, to its tolerances: the optimality conditions with its active bounds are singular.
+    /// Clarabel's solution, to its tolerances: the optimality conditions with its active bounds are singular.
     InteriorPoint,
 }
 
@@ -103,9 +103,12 @@ pub fn distribute(problem: &Problem) -> Result<Distribution, TensionError> {
     {
         return Ok(problem.distribution(tensions.as_slice().to_vec(), vec![None; n], Method::ClosedForm));
     }
+    if let Some((tensions, active)) = active_set(problem, vec![None; n]) {
+        return Ok(problem.distribution(tensions, active, Method::ActiveSet));
+    }
     match solve(problem)? {
         Outcome::Infeasible => Err(problem.infeasible()?),
-        Outcome::Solved { tensions, active } => Ok(match polish(problem, active.clone()) {
+        Outcome::Solved { tensions, active } => Ok(match active_set(problem, active.clone()) {
             Some((tensions, active)) => problem.distribution(tensions, active, Method::ActiveSet),
             None => problem.distribution(tensions, active, Method::InteriorPoint),
         }),
@@ -136,12 +139,12 @@ pub fn offset(tensions: &[f64], offsets: &[f64], limits: TensionLimits) -> Vec<f
 }
 
 /// Tensions, and the bound each rests on.
-type Polished = (Vec<f64>, Vec<Option<Bound>>);
+type Bounded = (Vec<f64>, Vec<Option<Bound>>);
 
 /// The optimum to rounding from a guess of the active bounds: solve with those bounds, take in the bound that is crossed
-/// most or let go the one whose multiplier has the wrong sign most, until neither is left. `None` where that does not end or
-/// leaves fewer than six cables free.
-fn polish(problem: &Problem, mut active: Vec<Option<Bound>>) -> Option<Polished> {
+/// most or let go the one whose multiplier has the wrong sign most, until neither is left: then it is the optimum, for the problem is
+/// convex. `None` where that does not end or leaves fewer than six cables free.
+fn active_set(problem: &Problem, mut active: Vec<Option<Bound>>) -> Option<Bounded> {
     for _ in 0..4 * active.len() {
         let (tensions, slopes) = with_active(problem, &active)?;
         let size = tensions.iter().fold(1.0, |size: f64, t| size.max(t.abs()));

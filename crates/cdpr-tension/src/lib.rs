@@ -13,9 +13,9 @@
 //! t = t_ref - Wᵀ (W Wᵀ)⁻¹ (w + W t_ref)                                                          (2)
 //! ```
 //!
-//! Otherwise Clarabel (Goulart and Chen, arXiv:2405.12762) finds which bounds are active, and the linear system of the optimality
-//! conditions with those bounds gives the digits. A problem without solution is answered by the least residual wrench that
-//! tensions within the bounds leave.
+//! Otherwise bounds are taken in and let go one by one, each time with the linear system of the optimality conditions; where that does
+//! not end at the optimum, Clarabel (Goulart and Chen, arXiv:2405.12762) says which bounds are active, or that the problem has no
+//! solution, which is answered by the least residual wrench that tensions within the bounds leave.
 //!
 //! ```
 //! use cdpr_robot::{Pose, Robot};

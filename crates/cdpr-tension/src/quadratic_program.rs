@@ -127,12 +127,37 @@ fn refused(error: impl std::fmt::Display) -> TensionError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::closed_form;
-    use cdpr_robot::{Pose, Robot};
+    use crate::{closed_form, distribute};
+    use cdpr_robot::{Pose, Robot, TensionLimits};
     use proptest::prelude::*;
 
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Clarabel as the oracle of the active set.
+        #[test]
+        fn the_qp_finds_the_distribution_with_active_bounds(
+            x in -3.2..3.2f64, y in -1.7..1.7f64, z in 0.2..3.2f64, min in 100.0..500.0f64, reference in 0.0..1000.0f64,
+        ) {
+            let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
+            let pose = Pose::at(x, y, z);
+            let pulls: Vec<_> = (0..8).map(|i| -robot.span(&pose, i).normalize()).collect();
+            let problem = Problem {
+                wrench_matrix: &robot.wrench_matrix(&pose, &pulls),
+                wrench: robot.weight(&pose, 0.0).to_vector(),
+                reference: &[reference; 8],
+                limits: &[TensionLimits { min, max: 1500.0 }; 8],
+            };
+            match (distribute(&problem), solve(&problem).unwrap()) {
+                (Ok(found), Outcome::Solved { tensions, .. }) => {
+                    for (qp, found) in tensions.iter().zip(&found.tensions) {
+                        prop_assert!((qp - found).abs() < 1e-4 * problem.scale(), "{qp} {found}");
+                    }
+                }
+                (Err(TensionError::Infeasible { .. }), Outcome::Infeasible) => {}
+                (found, _) => prop_assert!(false, "{found:?}"),
+            }
+        }
 
         #[test]
         fn where_no_bound_is_active_the_qp_finds_the_closed_form(

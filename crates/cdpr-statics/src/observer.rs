@@ -1,0 +1,243 @@
+//! Deflections of a robot with deviations of its parameters, many at a time.
+//!
+//! Robots with taut cables, stable and within their limits, are observed in the lanes of the vector unit (module `taut`), each from
+//! the nominal robot's tensions. Whatever else a robot is, it is observed by [`deflection`], which has the last word on every failure.
+
+use crate::deflection::deflection;
+use crate::direct::{Residual, rounding_of_closure};
+use crate::error::StaticsError;
+use crate::inverse::inverse;
+use crate::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
+use crate::model::{Equilibrium, Load, Model, Span};
+use crate::taut::{Cable, Open, Robots, Settings, observe, six, three};
+use cdpr_cable::Field;
+use cdpr_robot::{Parameter, Pose, Robot, RobotError, Vector3, Vector6};
+use nalgebra::DVector;
+use std::array::from_fn;
+
+/// The deflection of one perturbed robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observation {
+    /// dp = p_loaded - p_unloaded [m], Eq. (4).
+    pub displacement: Vector3<f64>,
+    /// Residuals of the equilibrium under the platform's own weight.
+    pub unloaded: Residual,
+    /// Residuals of the equilibrium with the load added.
+    pub loaded: Residual,
+}
+
+/// A robot whose parameters deviate, observed at a wanted pose under a load.
+pub struct Observer<'a> {
+    robot: &'a Robot,
+    pose: Pose,
+    load: Load,
+    parameters: usize,
+    /// What the lanes begin with; `None` where they would find nothing.
+    nominal: Option<Nominal>,
+}
+
+/// The nominal robot at the wanted pose.
+struct Nominal {
+    equilibrium: Equilibrium,
+    lengths: Vec<f64>,
+    multipliers: Vector6<f64>,
+    settings: Settings,
+}
+
+impl<'a> Observer<'a> {
+    /// The robot `robot`, wanted at `pose` under its own weight, then loaded with `load`.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] for a load that is none, [`StaticsError::Robot`] for a robot that is none.
+    pub fn new(robot: &'a Robot, pose: &Pose, load: &Load) -> Result<Self, StaticsError> {
+        robot.validate()?;
+        load.validate()?;
+        let parameters = Parameter::all(robot.cables.len()).len();
+        Ok(Self { robot, pose: *pose, load: *load, parameters, nominal: Nominal::new(robot, pose, load) })
+    }
+
+    /// Deflection of the robot with `deviations` added to its parameters, in the order of [`Parameter::all`].
+    ///
+    /// # Errors
+    /// [`StaticsError`]: the reason why this robot fails.
+    pub fn observe(&self, deviations: &[f64]) -> Result<Observation, StaticsError> {
+        let perturbed = self.robot.perturbed(deviations)?;
+        let deflection = deflection(&perturbed.robot, &self.pose, &perturbed.tension_offsets, &self.load)?;
+        Ok(Observation {
+            displacement: deflection.displacement(),
+            unloaded: deflection.unloaded.report.residual,
+            loaded: deflection.loaded.report.residual,
+        })
+    }
+
+    /// The same for any number of robots: `deviations` has a row of all parameters for each, one after the other. An answer depends on
+    /// its own row alone, to the last digit, and agrees with [`Observer::observe`] to rounding.
+    ///
+    /// # Errors
+    /// [`StaticsError::Robot`] unless the rows are complete. A robot that fails is an answer.
+    pub fn observe_all(
+        &self,
+        deviations: &[f64],
+    ) -> Result<Vec<Result<Observation, StaticsError>>, StaticsError> {
+        let incomplete = deviations.len() % self.parameters;
+        if incomplete != 0 {
+            return Err(RobotError::DeviationCount { given: incomplete, parameters: self.parameters }.into());
+        }
+        let taut = dispatch(Batch { observer: self, deviations });
+        let rows = deviations.chunks_exact(self.parameters);
+        Ok(taut.into_iter().zip(rows).map(|(taut, row)| taut.map_or_else(|| self.observe(row), Ok)).collect())
+    }
+}
+
+impl Nominal {
+    fn new(robot: &Robot, pose: &Pose, load: &Load) -> Option<Self> {
+        // A moment has no potential: whether its equilibria are stable is not seen from pivots.
+        if load.wrench.moment != Vector3::zeros() {
+            return None;
+        }
+        let solution = inverse(robot, pose, &Load::none(), None).ok()?;
+        let pulls: Vec<Vector3<f64>> = (0..robot.cables.len())
+            .map(|i| {
+                let span = Span::new(robot.span(pose, i));
+                -span.lift(solution.equilibrium.cable_forces[i]) / solution.tensions[i]
+            })
+            .collect();
+        let w = robot.wrench_matrix(pose, &pulls);
+        let tensions = DVector::from_column_slice(&solution.tensions);
+        // t = -Wᵀ λ
+        let multipliers = -(&w * w.transpose()).lu().solve(&(&w * &tensions))?;
+        let model = Model { robot, lengths: &solution.lengths, load };
+        let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
+        let settings = Settings {
+            least: robot.tension_limits.min,
+            greatest: robot.tension_limits.max,
+            payload: load.payload * robot.gravity,
+            force: load.wrench.force.into(),
+            size: model.size(),
+            arm: model.arm(),
+            tension: tensions.sum(),
+            rounding: rounding_of_closure(model.size(), pose.position.norm() + exits),
+        };
+        Some(Self { equilibrium: solution.equilibrium, lengths: solution.lengths, multipliers, settings })
+    }
+}
+
+/// Rows of deviations for the lanes.
+struct Batch<'a> {
+    observer: &'a Observer<'a>,
+    deviations: &'a [f64],
+}
+
+impl WithSimd for Batch<'_> {
+    type Output = Vec<Option<Observation>>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Observer { robot, pose, parameters, nominal, .. } = self.observer;
+        let rows = self.deviations.len() / parameters;
+        let Some(nominal) = nominal else { return vec![None; rows] };
+        let mut found = Vec::with_capacity(rows);
+        for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
+            let count = rows.len() / parameters;
+            // Lanes without a row of their own repeat the last one.
+            let deviation =
+                |place: usize| Lanes::from_fn(simd, |lane| rows[lane.min(count - 1) * parameters + place]);
+            let (mut robots, sound) = perturb(simd, robot, pose, nominal, deviation);
+            let outcome = observe(simd, &mut robots, &nominal.settings);
+            let valid = (outcome.valid & sound).to_array();
+            let displacement = outcome.displacement.map(Lanes::to_array);
+            let (unloaded, loaded) = (residuals(&outcome.unloaded), residuals(&outcome.loaded));
+            found.extend((0..count).map(|lane| {
+                valid[lane].then(|| Observation {
+                    displacement: Vector3::from_fn(|k, _| displacement[k][lane]),
+                    unloaded: unloaded[lane],
+                    loaded: loaded[lane],
+                })
+            }));
+        }
+        found
+    }
+}
+
+/// The robots with the deviations of their parameters, in the order of [`Parameter::all`], and the lanes whose robot is one.
+#[inline(always)]
+fn perturb<S: Simd>(
+    simd: S,
+    robot: &Robot,
+    pose: &Pose,
+    nominal: &Nominal,
+    deviation: impl Fn(usize) -> Lanes<S>,
+) -> (Robots<S>, Mask<S>) {
+    let n = robot.cables.len();
+    let [anchors, exits, center, offsets] = [3, 3 + 3 * n, 3 + 6 * n, 6 + 6 * n];
+    let all = |value: f64| Lanes::splat(simd, value);
+    let point = |nominal: &Vector3<f64>, place: usize| three(|k| deviation(place + k) + nominal[k]);
+    let rotation = pose.rotation.matrix();
+    let rotate = |v: [Lanes<S>; 3]| {
+        three(|k| v[0] * rotation[(k, 0)] + v[1] * rotation[(k, 1)] + v[2] * rotation[(k, 2)])
+    };
+    let positive = |value: Lanes<S>| all(f64::MIN_POSITIVE).less_or_equal(value);
+    let [mass, density, modulus] = three(&deviation);
+    let mass = mass + robot.platform.mass;
+    let mut sound = positive(mass);
+    let cables = robot.cables.iter().enumerate().map(|(i, cable)| {
+        let (density, modulus) =
+            (density + cable.properties.linear_density, modulus + cable.properties.youngs_modulus);
+        let offset = deviation(offsets + i);
+        sound = sound & positive(modulus) & all(0.0).less_or_equal(density) & offset.less_or_equal(offset);
+        let force = nominal.equilibrium.cable_forces[i];
+        Cable {
+            weight: density * robot.gravity,
+            stretch: (modulus * cable.properties.section).recip(),
+            exit: point(&cable.exit_point, exits + 3 * i),
+            arm: rotate(point(&cable.anchor_point, anchors + 3 * i)),
+            offset,
+            length: all(nominal.lengths[i]),
+            force: [all(force.x), all(force.y)],
+        }
+    });
+    let robots = Robots {
+        cables: cables.collect(),
+        position: three(|k| all(pose.position[k])),
+        center: rotate(point(&robot.platform.center_of_mass, center)),
+        weight: mass * robot.gravity,
+        multipliers: six(|k| all(nominal.multipliers[k])),
+    };
+    (robots, sound)
+}
+
+fn residuals<S: Simd>(open: &Open<S>) -> [Residual; MAX_LANES] {
+    let closure = open.closure.to_array();
+    let wrench = open.wrench.map(Lanes::to_array);
+    let norm = |first: usize, lane: usize| Vector3::from_fn(|k, _| wrench[first + k][lane]).norm();
+    from_fn(|lane| Residual { closure: closure[lane].sqrt(), force: norm(0, lane), moment: norm(3, lane) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::Scalar;
+
+    #[test]
+    fn the_vector_unit_changes_no_bit() {
+        let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
+        for pose in [Pose::at(0.0, 0.0, 1.75), Pose::at(3.2, 1.7, 3.0)] {
+            let observer = &Observer::new(&robot, &pose, &Load::payload(50.0)).unwrap();
+            // A sawtooth through the ranges of the paper's Table 3.
+            let half = |place: usize| match place {
+                0 => 18.0,
+                1 => 0.01,
+                2 => 1.8e10,
+                3..27 | 51..54 => 0.015,
+                27..51 => 0.03,
+                _ => 15.0,
+            };
+            let deviations: Vec<f64> =
+                (0..62 * 100).map(|i| half(i % 62) * ((i * 37 % 101) as f64 / 50.0 - 1.0)).collect();
+            let scalar = Batch { observer, deviations: &deviations }.with_simd(Scalar);
+            let widest = dispatch(Batch { observer, deviations: &deviations });
+            assert_eq!(scalar, widest);
+            assert!(scalar.iter().filter(|found| found.is_some()).count() > 90);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Observer robots in lanes: the answers of the scalar models, whoever else is in the batch.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{Pose, Robot, RobotError, Vector3};
+use cdpr_statics::{Load, Observer, StaticsError};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::collections::BTreeMap;
+
+fn robot(text: &str) -> Robot {
+    Robot::from_json(text).unwrap()
+}
+
+fn caroca() -> Robot {
+    robot(include_str!("../../../data/robots/caroca.json"))
+}
+
+/// Rows of the ranges of Table 3 of the paper, `times` as wide.
+fn rows(robot: &Robot, count: usize, times: f64, seed: u64) -> Vec<f64> {
+    let n = robot.cables.len();
+    let modulus = 0.2 * robot.cables[0].properties.youngs_modulus;
+    let density = 0.1 * robot.cables[0].properties.linear_density;
+    let half: Vec<f64> = [0.05 * robot.platform.mass, density, modulus]
+        .into_iter()
+        .chain([0.015].repeat(3 * n))
+        .chain([0.03].repeat(3 * n))
+        .chain([0.015].repeat(3))
+        .chain([15.0].repeat(n))
+        .collect();
+    let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+    let mut row = || half.iter().map(|half| times * half * rng.random_range(-1.0..1.0)).collect::<Vec<_>>();
+    (0..count).flat_map(|_| row()).collect()
+}
+
+/// How many rows the lanes left to the scalar models, and how many failed.
+fn compare(robot: &Robot, pose: &Pose, load: &Load, rows: &[f64]) -> (usize, usize) {
+    let observer = Observer::new(robot, pose, load).unwrap();
+    let together = observer.observe_all(rows).unwrap();
+    let (mut left, mut failed) = (0, 0);
+    for (row, found) in rows.chunks(6 + 7 * robot.cables.len()).zip(&together) {
+        match (found, observer.observe(row)) {
+            (Ok(found), Ok(alone)) => {
+                let error = (found.displacement - alone.displacement).norm();
+                assert!(error < 1e-12, "{error:e} m of {:e} m", alone.displacement.norm());
+                for residual in [found.unloaded, found.loaded] {
+                    assert!(residual.closure < 3e-12 && residual.force < 1e-8 && residual.moment < 1e-8);
+                }
+                left += usize::from(*found == alone);
+            }
+            (Err(found), Err(alone)) => {
+                assert_eq!(found.kind(), alone.kind());
+                failed += 1;
+            }
+            outcomes => panic!("{outcomes:?}"),
+        }
+    }
+    (left, failed)
+}
+
+#[test]
+fn the_papers_observations_are_those_of_the_scalar_models() {
+    let robot = caroca();
+    let rows = rows(&robot, 2000, 1.0, 1);
+    let load = Load::payload(50.0);
+    assert_eq!(compare(&robot, &Pose::at(0.0, 0.0, 1.75), &load, &rows), (0, 0));
+    let (left, failed) = compare(&robot, &Pose::at(3.2, 1.7, 3.0), &load, &rows);
+    println!("non-symmetric pose: {left} of 2000 left to the scalar models, {failed} failed there");
+    assert!(left < 60 && failed < 5);
+}
+
+#[test]
+fn other_robots_poses_loads_and_ranges_agree_too() {
+    let rng = &mut ChaCha8Rng::seed_from_u64(2);
+    let mut outcomes: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+    for (name, robot, height) in
+        [("CAROCA", caroca(), 1.75), ("CoGiRo", robot(include_str!("../../../data/robots/cogiro.json")), 2.5)]
+    {
+        for case in 0..30 {
+            let at = Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0));
+            let pose = Pose::at(2.5 * at.x, 1.2 * at.y, height + at.z)
+                .moved(Vector3::zeros(), Vector3::from_fn(|_, _| rng.random_range(-0.2..0.2)));
+            let mut load = Load::payload(rng.random_range(0.0..50.0));
+            load.wrench.force = Vector3::from_fn(|_, _| rng.random_range(-50.0..50.0));
+            if case % 5 == 0 {
+                load.wrench.moment = Vector3::from_fn(|_, _| rng.random_range(-5.0..5.0));
+            }
+            let times = if case % 3 == 0 { 5.0 } else { 1.0 };
+            let (left, failed) = compare(&robot, &pose, &load, &rows(&robot, 40, times, case));
+            let sum = outcomes.entry(name).or_default();
+            *sum = (sum.0 + left, sum.1 + failed);
+        }
+    }
+    println!("of 1200 each, (left to the scalar models, failed): {outcomes:?}");
+}
+
+#[test]
+fn an_answer_depends_on_its_own_row_alone() {
+    let robot = caroca();
+    let rows = rows(&robot, 50, 2.0, 3);
+    let pose = Pose::at(3.2, 1.7, 3.0);
+    let observer = Observer::new(&robot, &pose, &Load::payload(50.0)).unwrap();
+    let together = observer.observe_all(&rows).unwrap();
+    for size in [1, 3, 8, 11] {
+        let apart = rows.chunks(62 * size).flat_map(|rows| observer.observe_all(rows).unwrap());
+        assert!(apart.eq(together.iter().cloned()), "{size} at a time");
+    }
+}
+
+#[test]
+fn a_row_that_is_no_robot_fails_alone_and_says_why() {
+    let robot = caroca();
+    let mut rows = rows(&robot, 9, 1.0, 4);
+    rows[0] = -1e4;
+    rows[62 + 2] = -1e12;
+    rows[2 * 62 + 5] = f64::NAN;
+    rows[3 * 62 + 60] = f64::INFINITY;
+    rows[4 * 62 + 1] = -1.0;
+    let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
+    let found = observer.observe_all(&rows).unwrap();
+    let field = |i: usize| match &found[i] {
+        Err(StaticsError::Robot(RobotError::Invalid { field, .. })) => field.as_str(),
+        outcome => panic!("{outcome:?}"),
+    };
+    assert_eq!(
+        [field(0), field(1), field(2), field(3), field(4)],
+        ["platform.mass", "cable.youngs_modulus", "a1.z", "dt7", "cable.linear_density"]
+    );
+    assert!(found[5..].iter().all(Result::is_ok));
+    assert!(observer.observe_all(&rows[1..]).is_err());
+}
