@@ -76,13 +76,13 @@ impl Catenary {
     }
 
     /// Derivative of the end position with respect to the weight per length at constant force at A and constant unstrained
-    /// length [m²/N], equation (9).
+    /// length [m²/N], equation (10).
     pub fn end_per_weight(&self) -> Vector2<f64> {
         self.terms().end_per_weight()
     }
 
     /// Derivative of the end position with respect to the axial stiffness EA at constant force at A and constant unstrained
-    /// length [m/N], equation (10).
+    /// length [m/N], equation (11).
     pub fn end_per_stiffness(&self) -> Vector2<f64> {
         self.terms().end_per_stiffness()
     }

@@ -66,8 +66,8 @@
 //!
 //! ```text
 //! dx/dw = (fx L²/s²) [ (fz + V0)/T0 - 2 q ψ ]
-//! dz/dw = -(L²/s²) (fx² + T T0 - fz V0)/T0 - L²/2EA                                        (9)
-//! d(x, z)/dEA = -(L/EA²) (fx, fz - wL/2)                                                  (10)
+//! dz/dw = -(L²/s²) (fx² + T T0 - fz V0)/T0 - L²/2EA                                        (10)
+//! d(x, z)/dEA = -(L/EA²) (fx, fz - wL/2)                                                  (11)
 //! ```
 
 use crate::catenary::{Catenary, Compliance};
@@ -120,7 +120,7 @@ pub fn taut_end<T: Field>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> ([T;
     ([fx * terms.lateral(q2 * taut_series(q2) + 1.0), terms.height()], q2)
 }
 
-/// The quantities that equations (1)-(9) share.
+/// The quantities that equations (1)-(11) share.
 pub(crate) struct Terms<T> {
     fx: T,
     fz: T,
@@ -176,23 +176,23 @@ impl Terms<f64> {
         gravity + elastic
     }
 
-    /// d(x, z)/dw, equation (9).
+    /// d(x, z)/dw, equation (10).
     pub(crate) fn end_per_weight(&self) -> Vector2<f64> {
-        let Self { fx, fz, v0, length, ea, weight, fx2, t, t0, s } = *self;
+        let Self { fx, fz, v0, length, weight, stretch, fx2, t, t0, s_inv } = *self;
         let (_, psi) = self.sag_terms();
         let (tt0, p) = (t * t0, fz * v0);
         let difference = if p <= 0.0 { tt0 - p } else { fx2 * (fx2 + fz * fz + v0 * v0) / (tt0 + p) };
-        let share = length * length / (s * s);
+        let share = (length * s_inv) * (length * s_inv);
         Vector2::new(
-            share * fx * ((fz + v0) / t0 - 2.0 * psi * weight / s),
-            -share * (fx2 + difference) / t0 - 0.5 * length * length / ea,
+            share * fx * ((fz + v0) / t0 - 2.0 * psi * weight * s_inv),
+            -share * (fx2 + difference) / t0 - 0.5 * length * length * stretch,
         )
     }
 
-    /// d(x, z)/dEA, equation (10).
+    /// d(x, z)/dEA, equation (11).
     pub(crate) fn end_per_stiffness(&self) -> Vector2<f64> {
-        let Self { fx, fz, length, ea, weight, .. } = *self;
-        Vector2::new(fx, fz - 0.5 * weight) * (-length / (ea * ea))
+        let Self { fx, fz, length, weight, stretch, .. } = *self;
+        Vector2::new(fx, fz - 0.5 * weight) * (-length * stretch * stretch)
     }
 }
 

@@ -100,7 +100,7 @@ fn dual(catenary: &Catenary, which: usize) -> Vector2<f64> {
         .map(|value| Dual(value, 0.0));
     inputs[which].1 = 1.0;
     let [w, ea, length, fx, fz] = inputs;
-    let [x, z] = response(w, ea, length, [fx, fz]).end;
+    let [x, z] = response(w, ea.recip(), length, [fx, fz]).end;
     Vector2::new(x.1, z.1)
 }
 
