@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used)]
 
 use cdpr_robot::{Pose, Robot, RobotCable, Vector3};
-use cdpr_statics::{Load, Setting, Start, Tangent, Tracker, certify, deflection, direct, follow, inverse};
+use cdpr_statics::{
+    Load, Setting, Start, Tangent, Tracker, certify, deflection, derivatives, direct, follow, inverse,
+};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -135,5 +137,33 @@ fn whole_deflection(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, inverse_model, direct_model, tracking, proofs_and_searches, whole_deflection);
+fn exact_derivatives(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("derivatives");
+    let (robot, load) = (caroca(), Load::payload(50.0));
+    // d|dp|/dE [mm/GPa].
+    for (name, pose, expected) in [
+        ("symmetric", Pose::at(0.0, 0.0, 1.75), -0.012889),
+        ("near a corner", Pose::at(3.2, 1.7, 3.0), -0.007163),
+    ] {
+        let found = derivatives(&robot, &pose, &[0.0; 8], &load).unwrap();
+        assert!((1e12 * found.rms().unwrap()[2] - expected).abs() < 1e-6);
+        group.bench_function(name, |b| {
+            b.iter(|| derivatives(black_box(&robot), black_box(&pose), &[0.0; 8], &load));
+        });
+        group.bench_function(format!("{name}, the observation alone"), |b| {
+            b.iter(|| deflection(black_box(&robot), black_box(&pose), &[0.0; 8], &load));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(
+    benches,
+    inverse_model,
+    direct_model,
+    tracking,
+    proofs_and_searches,
+    whole_deflection,
+    exact_derivatives
+);
 criterion_main!(benches);

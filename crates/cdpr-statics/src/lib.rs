@@ -11,6 +11,7 @@
 //! | where does it go while cables are wound or loads change, and where does it jump? | [`follow`] |
 //! | how far does it give under a load (Eq. (4))? | [`deflection`], [`deflections`] |
 //! | and with other parameters, a million times? | [`Observer`] |
+//! | which parameter changes lengths, tensions, poses and deflection, and by how much? | [`derivatives`] |
 //! | how stiff is it, how do lengths and loads move it? | [`Tangent`] |
 //!
 //! The equations are (1)-(4) of Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
@@ -36,10 +37,12 @@
 //! # Ok::<(), cdpr_statics::StaticsError>(())
 //! ```
 
+mod calibration;
 mod certificate;
 mod chain;
 mod continuation;
 mod deflection;
+mod derivatives;
 mod direct;
 mod equations;
 mod error;
@@ -51,21 +54,25 @@ mod many;
 mod model;
 mod newton;
 mod observer;
+mod partials;
 mod stability;
 mod tangent;
 mod taut;
 mod tracker;
 mod trust_region;
 
+pub use calibration::{Calibration, ChosenPose, Combination, Identifiability, Measurement};
 pub use certificate::{Certificate, certify};
 pub use continuation::{Loss, LossKind, Path, PathStep, Setting, follow};
 pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections};
+pub use derivatives::{Derivatives, EquilibriumDerivatives, VarianceBudget, derivatives};
 pub use direct::{DirectSolution, Method, Report, Residual, Start, direct, direct_any};
 pub use error::StaticsError;
 pub use inverse::{InverseSolution, inverse, lengths_for_tensions};
 pub use many::{Equilibria, Found, Starts, direct_all};
 pub use model::{Equilibrium, Load};
 pub use observer::{Observation, Observer};
+pub use partials::Inputs;
 pub use stability::Stability;
 pub use tangent::Tangent;
 pub use tracker::Tracker;
