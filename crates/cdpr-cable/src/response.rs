@@ -121,8 +121,6 @@ pub struct TautEnd<T> {
     pub tension: T,
     /// q².
     pub slackness: T,
-    /// Derivative of the end position with respect to the length at constant force [m/m], equation (9).
-    pub end_per_length: [T; 2],
 }
 
 /// What [`taut_response`] says of the end alone.
@@ -131,13 +129,7 @@ pub fn taut_end<T: Field>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> Taut
     let terms = Terms::with_square(w, stretch, length, fx, fz, fx * fx);
     let slackness = terms.slackness();
     let x = fx * terms.lateral(slackness * taut_series(slackness) + 1.0);
-    let entering = terms.t0.recip() + stretch;
-    TautEnd {
-        end: [x, terms.height()],
-        tension: terms.t,
-        slackness,
-        end_per_length: [fx * entering, terms.v0 * entering],
-    }
+    TautEnd { end: [x, terms.height()], tension: terms.t, slackness }
 }
 
 /// The quantities that equations (1)-(11) share.

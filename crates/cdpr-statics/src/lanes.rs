@@ -6,7 +6,9 @@
 
 use cdpr_cable::Field;
 use pulp::Arch;
-pub(crate) use pulp::{Scalar, Simd, WithSimd};
+#[cfg(test)]
+pub(crate) use pulp::Scalar;
+pub(crate) use pulp::{Simd, WithSimd};
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 /// As many lanes as any vector unit has.
@@ -63,6 +65,12 @@ impl<S: Simd> Lanes<S> {
         let mut values = [0.0; MAX_LANES];
         self.simd.partial_store_f64s(&mut values[..Self::COUNT], self.values);
         values
+    }
+
+    /// The value of the first lane.
+    #[inline(always)]
+    pub(crate) fn first(self) -> f64 {
+        self.to_array()[0]
     }
 
     #[inline(always)]

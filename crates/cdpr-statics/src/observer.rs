@@ -11,10 +11,11 @@ use crate::inverse::inverse;
 use crate::lane_algebra::{six, three};
 use crate::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::model::{Equilibrium, Load, Model, Span};
-use crate::taut::{Cable, Open, Robots, Scale};
+use crate::taut::{Cable, Layout, Open, Robots, Scale};
 use cdpr_cable::Field;
 use cdpr_robot::{Parameter, Pose, Robot, Vector3, Vector6};
 use nalgebra::DVector;
+use smallvec::SmallVec;
 use std::array::from_fn;
 
 /// The deflection of one perturbed robot.
@@ -210,7 +211,8 @@ fn perturb<S: Simd>(
         cables,
         position: three(|k| all(pose.position[k])),
         center: rotate(point(&robot.platform.center_of_mass, center)),
-        frame: Vec::new(),
+        frame: SmallVec::new(),
+        layout: Layout::Robots,
         weight: mass * robot.gravity,
     };
     let multipliers = six(|k| all(nominal.multipliers[k]));

@@ -1,4 +1,5 @@
-//! The direct model of robots with taut cables, one robot a lane: Newton's method of [`crate::newton`] with its cables eliminated.
+//! The direct model of robots with taut cables: Newton's method of [`crate::newton`] with its cables eliminated. Lanes hold a robot each, or
+//! a cable each of one robot.
 //!
 //! A lane stops by its own steps alone: the others of a batch change none of its digits.
 
@@ -6,11 +7,12 @@ use crate::direct::MAX_STRAIN;
 use crate::lane_algebra::{Factored, Space, Wrench, add, cross, dot, halves, six, three};
 use crate::lanes::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_cable::{Field, TAUT, TautEnd, taut_end, taut_response};
+use smallvec::{SmallVec, smallvec};
 
 /// A vector in a cable's vertical plane: along the azimuth, upwards.
 pub(crate) type Plane<S> = [Lanes<S>; 2];
 
-/// A cable of every robot.
+/// A cable of every robot, or several cables of one.
 pub(crate) struct Cable<S: Simd> {
     /// Weight per length [N/m].
     pub(crate) weight: Lanes<S>,
@@ -26,15 +28,27 @@ pub(crate) struct Cable<S: Simd> {
     pub(crate) force: Plane<S>,
 }
 
-/// Robots, each in a lane, in an equilibrium or near one.
+/// What the lanes hold.
+pub(crate) enum Layout<S: Simd> {
+    /// A robot each.
+    Robots,
+    /// A cable each of one robot; the mask says which lanes of the last [`Cable`] are cables.
+    Cables(Mask<S>),
+}
+
+/// As many [`Cable`]s are stored without allocation.
+const INLINE: usize = 8;
+
+/// Robots, in an equilibrium or near one.
 pub(crate) struct Robots<S: Simd> {
-    pub(crate) cables: Vec<Cable<S>>,
+    pub(crate) layout: Layout<S>,
+    pub(crate) cables: SmallVec<[Cable<S>; INLINE]>,
     /// Position of the platform [m].
     pub(crate) position: Space<S>,
     /// R c, the arm of the centre of mass [m].
     pub(crate) center: Space<S>,
     /// Other vectors that turn with the platform.
-    pub(crate) frame: Vec<Space<S>>,
+    pub(crate) frame: SmallVec<[Space<S>; 3]>,
     /// Weight of the platform [N].
     pub(crate) weight: Lanes<S>,
 }
@@ -118,7 +132,7 @@ pub(crate) struct Linear<S: Simd> {
 
 /// The platform between linearised cables.
 pub(crate) struct Tangent<S: Simd> {
-    cables: Vec<Linear<S>>,
+    cables: SmallVec<[Linear<S>; INLINE]>,
     /// Gradient of the potential with the predicted forces.
     pub(crate) gradient: Wrench<S>,
     /// Its derivative, factored.
@@ -129,7 +143,11 @@ impl<S: Simd> Tangent<S> {
     #[inline(always)]
     pub(crate) fn new(zero: Lanes<S>, cables: usize) -> Self {
         let cable = Linear { azimuth: [zero; 2], predicted: [zero; 2], stiffness: [zero; 3] };
-        Self { cables: vec![cable; cables], gradient: [zero; 6], factored: Factored::new([[zero; 6]; 6]) }
+        Self {
+            cables: smallvec![cable; cables],
+            gradient: [zero; 6],
+            factored: Factored::new([[zero; 6]; 6]),
+        }
     }
 }
 
@@ -142,14 +160,6 @@ impl<S: Simd> Linear<S> {
         self.azimuth = plane(&other.azimuth, &self.azimuth);
         self.predicted = plane(&other.predicted, &self.predicted);
         self.stiffness = three(|k| going.select(other.stiffness[k], self.stiffness[k]));
-    }
-
-    /// f + K c for a miss c.
-    #[inline(always)]
-    fn predict(&mut self, cable: &Cable<S>, miss: &Plane<S>) {
-        let [fx, fz] = cable.force;
-        let [xx, xz, zz] = self.stiffness;
-        self.predicted = [fx + xx * miss[0] + xz * miss[1], fz + xz * miss[0] + zz * miss[1]];
     }
 }
 
@@ -166,61 +176,86 @@ impl<S: Simd> Robots<S> {
     pub(crate) fn linearise(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) -> Lanes<S> {
         let zero = self.weight.all(0.0);
         let wrench = load.wrench(&self.center);
-        let mut gradient = six(|k| -wrench[k]);
-        let mut closure = zero;
-        let [cx, cy, cz] = self.center;
-        // -[F_w][R c]: weight is vertical.
-        let mut hessian = [[zero; 6]; 6];
-        hessian[3][3] = -load.weight * cz;
-        hessian[4][4] = hessian[3][3];
-        hessian[3][5] = load.weight * cx;
-        hessian[4][5] = load.weight * cy;
-        for (cable, linear) in self.cables.iter().zip(&mut tangent.cables) {
+        let (mut gradient, mut hessian, mut closure) = ([zero; 6], [[zero; 6]; 6], zero);
+        for (i, (cable, linear)) in self.cables.iter().zip(&mut tangent.cables).enumerate() {
             let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
             let response = taut_response(cable.weight, cable.stretch, cable.length, cable.force);
             let [xx, xz, zz] = response.flexibility;
             let inverse = response.determinant.recip();
-            let k = [zz * inverse, -xz * inverse, xx * inverse];
+            let k = three(|j| self.counted(i, [zz, -xz, xx][j] * inverse));
             let miss = [h - response.end[0], z - response.end[1]];
             closure = closure.max(dot(&miss, &miss));
-            let mut new = Linear { azimuth: [c, s], predicted: cable.force, stiffness: k };
-            new.predict(cable, &miss);
-            let predicted = new.predicted;
+            let [fx, fz] = [self.counted(i, cable.force[0]), self.counted(i, cable.force[1])];
+            let predicted = [fx + k[0] * miss[0] + k[1] * miss[1], fz + k[1] * miss[0] + k[2] * miss[1]];
             let force = [predicted[0] * c, predicted[0] * s, predicted[1]];
             add(&mut gradient, &cable.arm, &force);
-            let lateral = response.lateral.recip();
+            let lateral = self.counted(i, response.lateral.recip());
             let (kc, ks, swing) = (k[0] * c, k[0] * s, lateral * s);
             let (xy, xz, yz) = (kc * s - swing * c, k[1] * c, k[1] * s);
             let space = [[kc * c + swing * s, xy, xz], [xy, ks * s + lateral * c * c, yz], [xz, yz, k[2]]];
             add_stiffness(&mut hessian, &cable.arm, &force, &space);
-            linear.replace(&new, going);
+            linear.replace(&Linear { azimuth: [c, s], predicted, stiffness: k }, going);
         }
+        if let Layout::Cables(_) = self.layout {
+            for k in 0..6 {
+                gradient[k] = self.total(gradient[k]);
+                // Of the lower rows only the right half is there.
+                for l in if k < 3 { 0..6 } else { 3..6 } {
+                    hessian[k][l] = self.total(hessian[k][l]);
+                }
+            }
+        }
+        // -[F_w][R c]: weight is vertical.
+        let [cx, cy, cz] = self.center;
+        hessian[3][3] -= load.weight * cz;
+        hessian[4][4] -= load.weight * cz;
+        hessian[3][5] += load.weight * cx;
+        hessian[4][5] += load.weight * cy;
         let (upper, lower) = hessian.split_at_mut(3);
         for (k, row) in lower.iter_mut().enumerate() {
             row[..3].copy_from_slice(&[upper[0][3 + k], upper[1][3 + k], upper[2][3 + k]]);
         }
-        tangent.gradient = six(|k| going.select(gradient[k], tangent.gradient[k]));
+        tangent.gradient = six(|k| going.select(gradient[k] - wrench[k], tangent.gradient[k]));
         tangent.factored.replace(&Factored::new(hessian), going);
-        closure
+        self.largest(closure)
     }
 
-    /// What the linearisation becomes, to first order, when each cable is paid out by `longer` [m].
+    /// The value where lanes of cable `i` are cables, else zero.
     #[inline(always)]
-    pub(crate) fn pay_out(
-        &self,
-        load: &Load<S>,
-        tangent: &mut Tangent<S>,
-        longer: impl Fn(usize) -> Lanes<S>,
-    ) {
-        let wrench = load.wrench(&self.center);
-        tangent.gradient = six(|k| -wrench[k]);
-        for (i, (cable, linear)) in self.cables.iter().zip(&mut tangent.cables).enumerate() {
-            let [ex, ez] = cable.end().end_per_length;
-            let miss = [-ex * longer(i), -ez * longer(i)];
-            linear.predict(cable, &miss);
-            let [x, z] = linear.predicted;
-            let [c, s] = linear.azimuth;
-            add(&mut tangent.gradient, &cable.arm, &[x * c, x * s, z]);
+    fn counted(&self, i: usize, value: Lanes<S>) -> Lanes<S> {
+        match self.layout {
+            Layout::Cables(last) if i + 1 == self.cables.len() => last.select(value, value.all(0.0)),
+            _ => value,
+        }
+    }
+
+    /// The sum over all cables of a robot of what its lanes have added up.
+    #[inline(always)]
+    fn total(&self, sum: Lanes<S>) -> Lanes<S> {
+        match self.layout {
+            Layout::Robots => sum,
+            Layout::Cables(_) => {
+                let mut total = 0.0;
+                for lane in sum.to_array() {
+                    total += lane;
+                }
+                sum.all(total)
+            }
+        }
+    }
+
+    /// The largest value of all cables of a robot.
+    #[inline(always)]
+    fn largest(&self, value: Lanes<S>) -> Lanes<S> {
+        match self.layout {
+            Layout::Robots => value,
+            Layout::Cables(_) => {
+                let mut largest = 0.0;
+                for lane in value.to_array() {
+                    largest = f64::max(largest, lane);
+                }
+                value.all(largest)
+            }
         }
     }
 
@@ -229,22 +264,29 @@ impl<S: Simd> Robots<S> {
     fn residual(&self, load: &Load<S>, scale: &Scale) -> (Open<S>, Mask<S>) {
         let zero = self.weight.all(0.0);
         let wrench = load.wrench(&self.center);
-        let mut open = Open { closure: zero, wrench: six(|k| -wrench[k]) };
-        let mut tensions = load.weight;
-        let mut sound = zero.less_or_equal(zero);
-        for cable in &self.cables {
+        let mut open = Open { closure: zero, wrench: [zero; 6] };
+        let (mut tensions, mut sound) = (zero, zero.less_or_equal(zero));
+        for (i, cable) in self.cables.iter().enumerate() {
             let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
             let TautEnd { end, tension, slackness, .. } = cable.end();
             let miss = [h - end[0], z - end[1]];
             open.closure = open.closure.max(dot(&miss, &miss));
-            let [fx, fz] = cable.force;
+            let [fx, fz] = [self.counted(i, cable.force[0]), self.counted(i, cable.force[1])];
             add(&mut open.wrench, &cable.arm, &[fx * c, fx * s, fz]);
-            tensions += tension;
+            tensions += self.counted(i, tension);
             let strain = (tension + cable.weight * cable.length) * cable.stretch;
             sound = sound
                 & zero.less_or_equal(fx)
                 & slackness.less_or_equal(zero.all(TAUT))
                 & strain.less_or_equal(zero.all(MAX_STRAIN));
+        }
+        open.closure = self.largest(open.closure);
+        open.wrench = six(|k| self.total(open.wrench[k]) - wrench[k]);
+        tensions = self.total(tensions) + load.weight;
+        if let Layout::Cables(_) = self.layout {
+            // Where one cable is not sound, the robot is not.
+            let failed = (!sound).select(zero.all(1.0), zero);
+            sound = self.largest(failed).less_or_equal(zero);
         }
         let (force, moment) = halves(&open.wrench);
         let unbalanced = dot(&force, &force).sqrt() + dot(&moment, &moment).sqrt() * (1.0 / scale.arm);

@@ -3,9 +3,9 @@
 use crate::direct::{Residual, Start, direct, rounding_of_closure};
 use crate::error::StaticsError;
 use crate::lane_algebra::three;
-use crate::lanes::{Lanes, Scalar};
+use crate::lanes::{Lanes, Simd, WithSimd, dispatch};
 use crate::model::{Equilibrium, Load, Model};
-use crate::taut::{self, Cable, Robots, Scale, Tangent};
+use crate::taut::{self, Cable, Layout, Robots, Scale, Tangent};
 use cdpr_robot::{Matrix3, Robot, Rotation3, Vector3};
 
 /// Follows the stable equilibrium of a robot while its cables are wound and its load changes.
@@ -30,10 +30,6 @@ pub struct Tracker<'a> {
     residual: Residual,
     /// Largest distance of an exit point from the origin [m].
     farthest: f64,
-    platform: Robots<Scalar>,
-    tangent: Tangent<Scalar>,
-    /// Whether it is that of the equilibrium at hand.
-    tangent_fits: bool,
 }
 
 impl<'a> Tracker<'a> {
@@ -49,34 +45,8 @@ impl<'a> Tracker<'a> {
     ) -> Result<Self, StaticsError> {
         robot.validate()?;
         let solution = direct(robot, lengths, load, Start::Near(start))?;
-        let zero = lane(0.0);
-        let cable = |i: usize| {
-            let cable = robot.cable(i);
-            Cable {
-                weight: lane(cable.weight_per_length),
-                stretch: lane(1.0 / cable.axial_stiffness),
-                exit: lanes(&robot.cables[i].exit_point),
-                arm: [zero; 3],
-                length: zero,
-                force: [zero; 2],
-            }
-        };
-        let n = robot.cables.len();
-        Ok(Self {
-            robot,
-            residual: solution.report.residual,
-            equilibrium: solution.equilibrium,
-            farthest: robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max),
-            platform: Robots {
-                cables: (0..n).map(cable).collect(),
-                position: [zero; 3],
-                center: [zero; 3],
-                frame: vec![[zero; 3]; 3],
-                weight: lane(robot.platform.mass * robot.gravity),
-            },
-            tangent: Tangent::new(zero, n),
-            tangent_fits: false,
-        })
+        let farthest = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
+        Ok(Self { robot, residual: solution.report.residual, equilibrium: solution.equilibrium, farthest })
     }
 
     /// The equilibrium at hand.
@@ -89,65 +59,92 @@ impl<'a> Tracker<'a> {
         self.residual
     }
 
-    /// Goes to the equilibrium for other lengths [m] and another load, near the one at hand. Nothing is allocated where all cables are
-    /// taut and Newton's method finds a stable equilibrium; whatever else there is, [`direct`] is asked.
+    /// Goes to the equilibrium for other lengths [m] and another load, near the one at hand. Nothing is allocated where Newton's method finds
+    /// a stable equilibrium with taut cables (up to 64 of them with AVX-512, 32 with AVX2, 8 without either); else [`direct`] is asked.
     ///
     /// # Errors
     /// Those of [`direct`]; the equilibrium at hand is then the one before.
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let model = Model::new(self.robot, lengths, load)?;
         // A moment has no potential: whether its equilibria are stable is not seen from pivots.
-        self.tangent_fits = load.wrench.moment == Vector3::zeros() && self.settle(&model);
-        if !self.tangent_fits {
+        let taut =
+            load.wrench.moment == Vector3::zeros() && dispatch(Update { tracker: self, model: &model });
+        if !taut {
             let solution = direct(self.robot, lengths, load, Start::Near(&self.equilibrium))?;
             self.residual = solution.report.residual;
             self.equilibrium = solution.equilibrium;
         }
         Ok(&self.equilibrium)
     }
+}
 
-    /// Newton's method for taut cables. Whether it found an equilibrium.
-    fn settle(&mut self, model: &Model) -> bool {
-        let Self { robot, equilibrium, platform, tangent, .. } = self;
+/// Newton's method for taut cables, which fill the lanes. Whether it found an equilibrium.
+struct Update<'a, 'b> {
+    tracker: &'a mut Tracker<'b>,
+    model: &'a Model<'a>,
+}
+
+impl WithSimd for Update<'_, '_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> bool {
+        let Self { tracker: Tracker { robot, equilibrium, residual, farthest }, model } = self;
         let pose = &mut equilibrium.pose;
-        platform.position = lanes(&pose.position);
-        platform.center = lanes(&(pose.rotation * robot.platform.center_of_mass));
-        for (k, column) in platform.frame.iter_mut().enumerate() {
-            *column = lanes(&pose.rotation.matrix().column(k).into());
-        }
-        for (i, cable) in platform.cables.iter_mut().enumerate() {
-            cable.arm = lanes(&robot.anchor_arm(pose, i));
-            cable.force = [lane(equilibrium.cable_forces[i].x), lane(equilibrium.cable_forces[i].y)];
-        }
-        let force = &model.load.wrench.force;
-        let load =
-            taut::Load { weight: platform.weight + model.load.payload * robot.gravity, force: lanes(force) };
+        let n = model.cables();
+        let all = |value: f64| Lanes::splat(simd, value);
+        let vector = |v: &Vector3<f64>| three(|k| all(v[k]));
+        let cable = |first: usize| {
+            // Lanes beyond the last cable repeat it, uncounted.
+            let of =
+                |value: &dyn Fn(usize) -> f64| Lanes::from_fn(simd, |lane| value((first + lane).min(n - 1)));
+            let arm = |i: usize| robot.anchor_arm(pose, i);
+            Cable {
+                weight: of(&|i| model.cable(i).weight_per_length),
+                stretch: of(&|i| 1.0 / model.cable(i).axial_stiffness),
+                exit: three(|k| of(&|i| robot.cables[i].exit_point[k])),
+                arm: three(|k| of(&|i| arm(i)[k])),
+                length: of(&|i| model.lengths[i]),
+                force: [of(&|i| equilibrium.cable_forces[i].x), of(&|i| equilibrium.cable_forces[i].y)],
+            }
+        };
+        let count = Lanes::<S>::COUNT;
+        let in_last = n - (n - 1) / count * count;
+        let last = Lanes::from_fn(simd, |lane| lane as f64).less_or_equal(all(in_last as f64 - 0.5));
+        let mut platform = Robots {
+            layout: Layout::Cables(last),
+            cables: (0..n).step_by(count).map(cable).collect(),
+            position: vector(&pose.position),
+            center: vector(&(pose.rotation * robot.platform.center_of_mass)),
+            frame: (0..3).map(|k| vector(&pose.rotation.matrix().column(k).into())).collect(),
+            weight: all(robot.platform.mass * robot.gravity),
+        };
+        let load = taut::Load {
+            weight: platform.weight + model.load.payload * robot.gravity,
+            force: vector(&model.load.wrench.force),
+        };
         let size = model.size();
-        let coordinates = pose.position.norm() + self.farthest;
-        let scale = Scale { size, arm: model.arm(), rounding: rounding_of_closure(size, coordinates) };
-        let zero = lane(0.0);
-        let all = zero.less_or_equal(zero);
-        if self.tangent_fits {
-            platform.pay_out(&load, tangent, |i| lane(model.lengths[i]) - platform.cables[i].length);
-        }
-        for (cable, length) in platform.cables.iter_mut().zip(model.lengths) {
-            cable.length = lane(*length);
-        }
-        if !self.tangent_fits {
-            platform.linearise(&load, tangent, all);
-        }
-        let (found, open) = platform.settle(&load, tangent, &scale, all);
+        let rounding = rounding_of_closure(size, pose.position.norm() + *farthest);
+        let scale = Scale { size, arm: model.arm(), rounding };
+        let everywhere = all(0.0).less_or_equal(all(0.0));
+        let mut tangent = Tangent::new(all(0.0), platform.cables.len());
+        platform.linearise(&load, &mut tangent, everywhere);
+        let (found, open) = platform.settle(&load, &mut tangent, &scale, everywhere);
         if !found.any() {
             return false;
         }
-        pose.position = vector(&platform.position);
-        let columns: [Vector3<f64>; 3] = [0, 1, 2].map(|k| vector(&platform.frame[k]));
+        let back = |v: &[Lanes<S>; 3]| Vector3::new(v[0].first(), v[1].first(), v[2].first());
+        pose.position = back(&platform.position);
+        let columns = [back(&platform.frame[0]), back(&platform.frame[1]), back(&platform.frame[2])];
         pose.rotation = nearest_rotation(&Matrix3::from_columns(&columns));
-        for (force, cable) in equilibrium.cable_forces.iter_mut().zip(&platform.cables) {
-            (force.x, force.y) = (value(cable.force[0]), value(cable.force[1]));
+        for (forces, cable) in equilibrium.cable_forces.chunks_mut(count).zip(&platform.cables) {
+            let [x, z] = [cable.force[0].to_array(), cable.force[1].to_array()];
+            for (lane, force) in forces.iter_mut().enumerate() {
+                (force.x, force.y) = (x[lane], z[lane]);
+            }
         }
         let [force, moment] = open.norms();
-        self.residual = Residual { closure: value(open.closure).sqrt(), force: force[0], moment: moment[0] };
+        *residual = Residual { closure: open.closure.first().sqrt(), force: force[0], moment: moment[0] };
         true
     }
 }
@@ -156,20 +153,4 @@ impl<'a> Tracker<'a> {
 fn nearest_rotation(matrix: &Matrix3<f64>) -> Rotation3<f64> {
     let excess = matrix.transpose() * matrix;
     Rotation3::from_matrix_unchecked(matrix * (Matrix3::from_diagonal_element(1.5) - excess * 0.5))
-}
-
-fn lane(value: f64) -> Lanes<Scalar> {
-    Lanes::splat(Scalar, value)
-}
-
-fn lanes(vector: &Vector3<f64>) -> [Lanes<Scalar>; 3] {
-    three(|k| lane(vector[k]))
-}
-
-fn value(lane: Lanes<Scalar>) -> f64 {
-    lane.to_array()[0]
-}
-
-fn vector(lanes: &[Lanes<Scalar>; 3]) -> Vector3<f64> {
-    Vector3::new(value(lanes[0]), value(lanes[1]), value(lanes[2]))
 }
