@@ -50,6 +50,12 @@ impl<S: Simd> Lanes<S> {
         for (lane, place) in values[..Self::COUNT].iter_mut().enumerate() {
             *place = value(lane);
         }
+        Self::from_array(simd, &values)
+    }
+
+    /// The first values of an array, one a lane.
+    #[inline(always)]
+    pub(crate) fn from_array(simd: S, values: &[f64; MAX_LANES]) -> Self {
         Self { simd, values: simd.partial_load_f64s(&values[..Self::COUNT]) }
     }
 

@@ -37,7 +37,7 @@ pub(crate) enum Layout<S: Simd> {
 }
 
 /// As many [`Cable`]s are stored without allocation.
-const INLINE: usize = 8;
+const INLINE: usize = 4;
 
 /// Robots, in an equilibrium or near one.
 pub(crate) struct Robots<S: Simd> {
@@ -182,7 +182,8 @@ impl<S: Simd> Robots<S> {
             let response = taut_response(cable.weight, cable.stretch, cable.length, cable.force);
             let [xx, xz, zz] = response.flexibility;
             let inverse = response.determinant.recip();
-            let k = three(|j| self.counted(i, [zz, -xz, xx][j] * inverse));
+            let counted = self.counted(i, inverse);
+            let k = [zz * counted, -xz * counted, xx * counted];
             let miss = [h - response.end[0], z - response.end[1]];
             closure = closure.max(dot(&miss, &miss));
             let [fx, fz] = [self.counted(i, cable.force[0]), self.counted(i, cable.force[1])];

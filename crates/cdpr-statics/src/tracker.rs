@@ -2,11 +2,12 @@
 
 use crate::direct::{Residual, Start, direct, rounding_of_closure};
 use crate::error::StaticsError;
-use crate::lane_algebra::three;
-use crate::lanes::{Lanes, Simd, WithSimd, dispatch};
+use crate::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use crate::model::{Equilibrium, Load, Model};
 use crate::taut::{self, Cable, Layout, Robots, Scale, Tangent};
 use cdpr_robot::{Matrix3, Robot, Rotation3, Vector3};
+
+use smallvec::SmallVec;
 
 /// Follows the stable equilibrium of a robot while its cables are wound and its load changes.
 ///
@@ -60,7 +61,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// Goes to the equilibrium for other lengths [m] and another load, near the one at hand. Nothing is allocated where Newton's method finds
-    /// a stable equilibrium with taut cables (up to 64 of them with AVX-512, 32 with AVX2, 8 without either); else [`direct`] is asked.
+    /// a stable equilibrium with taut cables (up to 32 of them with AVX-512, 16 with AVX2); else [`direct`] is asked.
     ///
     /// # Errors
     /// Those of [`direct`]; the equilibrium at hand is then the one before.
@@ -92,48 +93,69 @@ impl WithSimd for Update<'_, '_> {
         let Self { tracker: Tracker { robot, equilibrium, residual, farthest }, model } = self;
         let pose = &mut equilibrium.pose;
         let n = model.cables();
-        let all = |value: f64| Lanes::splat(simd, value);
-        let vector = |v: &Vector3<f64>| three(|k| all(v[k]));
-        let cable = |first: usize| {
-            // Lanes beyond the last cable repeat it, uncounted.
-            let of =
-                |value: &dyn Fn(usize) -> f64| Lanes::from_fn(simd, |lane| value((first + lane).min(n - 1)));
-            let arm = |i: usize| robot.anchor_arm(pose, i);
-            Cable {
-                weight: of(&|i| model.cable(i).weight_per_length),
-                stretch: of(&|i| 1.0 / model.cable(i).axial_stiffness),
-                exit: three(|k| of(&|i| robot.cables[i].exit_point[k])),
-                arm: three(|k| of(&|i| arm(i)[k])),
-                length: of(&|i| model.lengths[i]),
-                force: [of(&|i| equilibrium.cable_forces[i].x), of(&|i| equilibrium.cable_forces[i].y)],
-            }
-        };
-        let count = Lanes::<S>::COUNT;
+        let (count, zero) = (Lanes::<S>::COUNT, Lanes::splat(simd, 0.0));
         let in_last = n - (n - 1) / count * count;
-        let last = Lanes::from_fn(simd, |lane| lane as f64).less_or_equal(all(in_last as f64 - 0.5));
+        let last = Lanes::from_fn(simd, |lane| lane as f64).less_or_equal(zero.all(in_last as f64 - 0.5));
         let mut platform = Robots {
             layout: Layout::Cables(last),
-            cables: (0..n).step_by(count).map(cable).collect(),
-            position: vector(&pose.position),
-            center: vector(&(pose.rotation * robot.platform.center_of_mass)),
-            frame: (0..3).map(|k| vector(&pose.rotation.matrix().column(k).into())).collect(),
-            weight: all(robot.platform.mass * robot.gravity),
+            cables: SmallVec::new(),
+            position: vector(simd, &pose.position),
+            center: vector(simd, &(pose.rotation * robot.platform.center_of_mass)),
+            frame: SmallVec::new(),
+            weight: zero.all(robot.platform.mass * robot.gravity),
         };
+        for k in 0..3 {
+            platform.frame.push(vector(simd, &pose.rotation.matrix().column(k).into()));
+        }
+        for first in (0..n).step_by(count) {
+            let mut values = [[0.0; MAX_LANES]; 11];
+            for lane in 0..count {
+                // Lanes beyond the last cable repeat it, uncounted.
+                let i = (first + lane).min(n - 1);
+                let (cable, force) = (model.cable(i), equilibrium.cable_forces[i]);
+                let (exit, arm) = (robot.cables[i].exit_point, robot.anchor_arm(pose, i));
+                let (weight, stretch) = (cable.weight_per_length, 1.0 / cable.axial_stiffness);
+                let cable = [
+                    weight,
+                    stretch,
+                    exit.x,
+                    exit.y,
+                    exit.z,
+                    arm.x,
+                    arm.y,
+                    arm.z,
+                    model.lengths[i],
+                    force.x,
+                    force.y,
+                ];
+                for (values, value) in values.iter_mut().zip(cable) {
+                    values[lane] = value;
+                }
+            }
+            let column = |k: usize| Lanes::from_array(simd, &values[k]);
+            platform.cables.push(Cable {
+                weight: column(0),
+                stretch: column(1),
+                exit: [column(2), column(3), column(4)],
+                arm: [column(5), column(6), column(7)],
+                length: column(8),
+                force: [column(9), column(10)],
+            });
+        }
         let load = taut::Load {
             weight: platform.weight + model.load.payload * robot.gravity,
-            force: vector(&model.load.wrench.force),
+            force: vector(simd, &model.load.wrench.force),
         };
         let size = model.size();
         let rounding = rounding_of_closure(size, pose.position.norm() + *farthest);
         let scale = Scale { size, arm: model.arm(), rounding };
-        let everywhere = all(0.0).less_or_equal(all(0.0));
-        let mut tangent = Tangent::new(all(0.0), platform.cables.len());
+        let everywhere = zero.less_or_equal(zero);
+        let mut tangent = Tangent::new(zero, platform.cables.len());
         platform.linearise(&load, &mut tangent, everywhere);
         let (found, open) = platform.settle(&load, &mut tangent, &scale, everywhere);
         if !found.any() {
             return false;
         }
-        let back = |v: &[Lanes<S>; 3]| Vector3::new(v[0].first(), v[1].first(), v[2].first());
         pose.position = back(&platform.position);
         let columns = [back(&platform.frame[0]), back(&platform.frame[1]), back(&platform.frame[2])];
         pose.rotation = nearest_rotation(&Matrix3::from_columns(&columns));
@@ -147,6 +169,18 @@ impl WithSimd for Update<'_, '_> {
         *residual = Residual { closure: open.closure.first().sqrt(), force: force[0], moment: moment[0] };
         true
     }
+}
+
+/// A vector in all lanes.
+#[inline(always)]
+fn vector<S: Simd>(simd: S, v: &Vector3<f64>) -> [Lanes<S>; 3] {
+    [Lanes::splat(simd, v.x), Lanes::splat(simd, v.y), Lanes::splat(simd, v.z)]
+}
+
+/// The vector that is in all lanes.
+#[inline(always)]
+fn back<S: Simd>(v: &[Lanes<S>; 3]) -> Vector3<f64> {
+    Vector3::new(v[0].first(), v[1].first(), v[2].first())
 }
 
 /// A rotation from a matrix that is one but for rounding: Newton's step `R (3 - Rᵀ R)/2` to the nearest one.
