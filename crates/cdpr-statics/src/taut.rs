@@ -32,7 +32,7 @@ pub(crate) struct Cable<S: Simd> {
 pub(crate) enum Layout<S: Simd> {
     /// A robot each.
     Robots,
-    /// A cable each of one robot; the mask says which lanes of the last [`Cable`] are cables.
+    /// A cable each of one robot. The mask says which lanes of the last [`Cable`] are counted; the others repeat a cable.
     Cables(Mask<S>),
 }
 
@@ -182,20 +182,21 @@ impl<S: Simd> Robots<S> {
             let response = taut_response(cable.weight, cable.stretch, cable.length, cable.force);
             let [xx, xz, zz] = response.flexibility;
             let inverse = response.determinant.recip();
-            let counted = self.counted(i, inverse);
-            let k = [zz * counted, -xz * counted, xx * counted];
+            let k = [zz * inverse, -xz * inverse, xx * inverse];
             let miss = [h - response.end[0], z - response.end[1]];
             closure = closure.max(dot(&miss, &miss));
-            let [fx, fz] = [self.counted(i, cable.force[0]), self.counted(i, cable.force[1])];
+            let [fx, fz] = cable.force;
             let predicted = [fx + k[0] * miss[0] + k[1] * miss[1], fz + k[1] * miss[0] + k[2] * miss[1]];
-            let force = [predicted[0] * c, predicted[0] * s, predicted[1]];
+            linear.replace(&Linear { azimuth: [c, s], predicted, stiffness: k }, going);
+            let [x, z] = [self.counted(i, predicted[0]), self.counted(i, predicted[1])];
+            let force = [x * c, x * s, z];
             add(&mut gradient, &cable.arm, &force);
+            let k = three(|j| self.counted(i, k[j]));
             let lateral = self.counted(i, response.lateral.recip());
             let (kc, ks, swing) = (k[0] * c, k[0] * s, lateral * s);
             let (xy, xz, yz) = (kc * s - swing * c, k[1] * c, k[1] * s);
             let space = [[kc * c + swing * s, xy, xz], [xy, ks * s + lateral * c * c, yz], [xz, yz, k[2]]];
             add_stiffness(&mut hessian, &cable.arm, &force, &space);
-            linear.replace(&Linear { azimuth: [c, s], predicted, stiffness: k }, going);
         }
         if let Layout::Cables(_) = self.layout {
             for k in 0..6 {
@@ -266,7 +267,7 @@ impl<S: Simd> Robots<S> {
         let zero = self.weight.all(0.0);
         let wrench = load.wrench(&self.center);
         let mut open = Open { closure: zero, wrench: [zero; 6] };
-        let (mut tensions, mut sound) = (zero, zero.less_or_equal(zero));
+        let (mut tensions, mut failed) = (zero, zero);
         for (i, cable) in self.cables.iter().enumerate() {
             let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
             let TautEnd { end, tension, slackness, .. } = cable.end();
@@ -276,22 +277,17 @@ impl<S: Simd> Robots<S> {
             add(&mut open.wrench, &cable.arm, &[fx * c, fx * s, fz]);
             tensions += self.counted(i, tension);
             let strain = (tension + cable.weight * cable.length) * cable.stretch;
-            sound = sound
-                & zero.less_or_equal(fx)
+            let sound = zero.less_or_equal(fx)
                 & slackness.less_or_equal(zero.all(TAUT))
                 & strain.less_or_equal(zero.all(MAX_STRAIN));
+            failed = failed.max((!sound).select(zero.all(1.0), zero));
         }
         open.closure = self.largest(open.closure);
         open.wrench = six(|k| self.total(open.wrench[k]) - wrench[k]);
         tensions = self.total(tensions) + load.weight;
-        if let Layout::Cables(_) = self.layout {
-            // Where one cable is not sound, the robot is not.
-            let failed = (!sound).select(zero.all(1.0), zero);
-            sound = self.largest(failed).less_or_equal(zero);
-        }
         let (force, moment) = halves(&open.wrench);
         let unbalanced = dot(&force, &force).sqrt() + dot(&moment, &moment).sqrt() * (1.0 / scale.arm);
-        let holds = sound
+        let holds = self.largest(failed).less_or_equal(zero)
             & open.closure.less_or_equal(zero.all(scale.rounding * scale.rounding))
             & unbalanced.less_or_equal(tensions * FORCE_ROUNDING);
         (open, holds)

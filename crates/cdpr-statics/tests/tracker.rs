@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
-use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_robot::{Pose, Robot, RobotCable, Vector3};
 use cdpr_statics::{Load, Start, StaticsError, Tracker, direct, inverse};
 
 fn caroca() -> Robot {
@@ -59,6 +59,45 @@ fn nothing_is_allocated_on_the_way() {
     });
     assert_eq!(allocated.count_total, 0);
     assert!(allocation_counter::measure(|| drop(tracker.equilibrium().clone())).count_total > 0);
+}
+
+/// A suspended robot with `n` cables between a ring of exit points and a drum.
+fn ring(n: usize) -> Robot {
+    let mut robot = caroca();
+    let properties = robot.cables[0].properties;
+    let cable = |i: usize| {
+        let around = std::f64::consts::TAU * i as f64 / n as f64;
+        let (anchor, height) = if i.is_multiple_of(2) { (around + 0.5, 0.3) } else { (around - 0.5, -0.3) };
+        RobotCable {
+            exit_point: Vector3::new(5.0 * around.cos(), 5.0 * around.sin(), 4.0),
+            anchor_point: Vector3::new(0.5 * anchor.cos(), 0.5 * anchor.sin(), height),
+            properties,
+        }
+    };
+    robot.cables = (0..n).map(cable).collect();
+    robot
+}
+
+#[test]
+fn any_number_of_cables_fills_the_lanes() {
+    for n in 6..=16 {
+        let robot = ring(n);
+        let pose = Pose::at(0.1, 0.2, 1.5);
+        let lengths: Vec<f64> = (0..n).map(|i| 0.9999 * robot.span(&pose, i).norm()).collect();
+        let wound: Vec<f64> = lengths.iter().enumerate().map(|(i, l)| l + 2e-4 * (i as f64).sin()).collect();
+        let start = direct(&robot, &lengths, &Load::none(), Start::Pose(&pose)).unwrap().equilibrium;
+        let expected = direct(&robot, &wound, &Load::none(), Start::Near(&start)).unwrap().equilibrium;
+        let mut tracker = Tracker::new(&robot, &lengths, &Load::none(), &start).unwrap();
+        let allocated = allocation_counter::measure(|| {
+            assert!(tracker.update(&wound, &Load::none()).is_ok());
+        });
+        let found = tracker.equilibrium();
+        assert!(found.pose.motion_to(&expected.pose).norm() < 1e-12, "{n} cables");
+        for (found, expected) in found.cable_forces.iter().zip(&expected.cable_forces) {
+            assert!((found - expected).norm() < 1e-6, "{n} cables");
+        }
+        assert_eq!(allocated.count_total, 0, "{n} cables");
+    }
 }
 
 #[test]
