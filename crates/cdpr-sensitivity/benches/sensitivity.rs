@@ -1,6 +1,7 @@
 //! Designs, effects and fits over the number of observations N, for 62 uniform inputs as in the source paper.
 
 use std::hint::black_box;
+use std::time::Duration;
 
 use cdpr_sensitivity::{
     Bootstrap, Family, Input, Law, Sample, SampleDesign, SensitivityError, SobolDesign, Steps, fit_all,
@@ -27,7 +28,11 @@ fn sums(design: &SobolDesign) -> Result<Vec<Option<f64>>, SensitivityError> {
 }
 
 fn main() -> Result<(), SensitivityError> {
-    let mut criterion = Criterion::default().configure_from_args().sample_size(10);
+    let settings = Criterion::default()
+        .warm_up_time(Duration::from_secs(1))
+        .measurement_time(Duration::from_secs(2))
+        .sample_size(10);
+    let mut criterion = settings.configure_from_args();
     let mut group = criterion.benchmark_group("sensitivity");
     for points in [512, 2048, 8192] {
         let plain = SobolDesign::new(inputs(), 0, points)?;
