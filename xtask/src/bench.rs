@@ -160,12 +160,13 @@ fn write_baseline(run: &Run) -> Result<(), BenchError> {
     Ok(())
 }
 
-/// With three digits and a unit.
+/// With a unit, three digits from 1 ns on.
 fn duration(ns: f64) -> String {
     let units = [(1e9, "s"), (1e6, "ms"), (1e3, "µs"), (1.0, "ns")];
     let (size, unit) = units.into_iter().find(|(size, _)| ns >= *size).unwrap_or((1.0, "ns"));
     let value = ns / size;
-    let digits = if value < 10.0 { 2 } else { usize::from(value < 100.0) };
+    // 9.996 is 10.0.
+    let digits = if value < 9.995 { 2 } else { usize::from(value < 99.95) };
     format!("{value:.digits$} {unit}")
 }
 
@@ -219,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn durations_have_three_digits_and_a_unit() {
-        assert_eq!([0.5, 12.34, 1_234.0, 2.5e8].map(duration), ["0.50 ns", "12.3 ns", "1.23 µs", "250 ms"]);
+    fn durations_have_a_unit_and_three_digits() {
+        assert_eq!([0.5, 9.996, 1_234.0, 2.5e8].map(duration), ["0.50 ns", "10.0 ns", "1.23 µs", "250 ms"]);
     }
 }

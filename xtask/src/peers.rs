@@ -146,14 +146,16 @@ fn compare() -> Result<f64, String> {
     if cargo(&[&example[..], &["--", &path]].concat()) != ExitCode::SUCCESS {
         return Err("the example peer_problem of cdpr-statics has failed".to_owned());
     }
-    let ours = read(&problem)?["cdpr"].take();
+    let mut problem = read(&problem)?;
+    let (ours, alone) = (problem["cdpr"].take(), problem["cdpr_alone"].take());
 
     let mut direct =
         json!({"cdpr": rounded(number(&ours, "direct_us")?), "ceres": null, "scipy": null, "octave": null});
     let mut observation = direct.clone();
     observation["cdpr"] = rounded(number(&ours, "observation_us")?);
-    let mut rows = vec![row("cdpr", &ours, &ours, None)?];
-    let mut agreement = None;
+    let apart = difference_mm(&alone, &ours)?;
+    let mut rows = vec![row("cdpr", &ours, &ours, None)?, row("cdpr", &alone, &ours, Some(apart))?];
+    let mut agreement = apart;
     let mut failure = None;
     for peer in &PEERS {
         let Peer { name, packages, probe, build, run } = peer;
@@ -176,7 +178,7 @@ fn compare() -> Result<f64, String> {
                 continue;
             }
         };
-        agreement = Some(answer.difference_mm.max(agreement.unwrap_or(0.0)));
+        agreement = agreement.max(answer.difference_mm);
         rows.push(answer.row);
         if direct[*name].is_null() {
             direct[*name] = rounded(answer.direct_us);
@@ -192,7 +194,7 @@ fn compare() -> Result<f64, String> {
     let file = root().join(RESULT);
     std::fs::write(&file, format!("{result:#}\n")).map_err(|error| format!("{}: {error}", file.display()))?;
     println!("\nwritten: {RESULT}");
-    failure.map_or(Ok(agreement.unwrap_or(0.0)), Err)
+    failure.map_or(Ok(agreement), Err)
 }
 
 /// A line of the table: `answer` and how many times `ours` its times are.

@@ -75,6 +75,18 @@ impl Catenary {
         self.terms().compliance()
     }
 
+    /// Derivative of the end position with respect to the weight per length at constant force at A and constant unstrained
+    /// length [m²/N], equation (10).
+    pub fn end_per_weight(&self) -> Vector2<f64> {
+        self.terms().end_per_weight()
+    }
+
+    /// Derivative of the end position with respect to the axial stiffness EA at constant force at A and constant unstrained
+    /// length [m/N], equation (11).
+    pub fn end_per_stiffness(&self) -> Vector2<f64> {
+        self.terms().end_per_stiffness()
+    }
+
     /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], the inverse of the flexibility. Zero for a slack cable without weight.
     pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
         if self.is_limp() { Matrix2::zeros() } else { self.compliance().in_plane_stiffness() }

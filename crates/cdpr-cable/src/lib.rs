@@ -8,6 +8,7 @@
 //! | where is A for a force at A? | [`Catenary::end_position`] |
 //! | what is the force for an end position and an unstrained length? | [`end_force`] |
 //! | what unstrained length gives a wanted tension at A? | [`length_for_tension`] |
+//! | what is the least tension at A over a span? | [`least_tension`] |
 //! | how stiff, how much energy, what shape? | the other methods of [`Catenary`] |
 //!
 //! ```
@@ -37,4 +38,4 @@ pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use real::{Field, Real};
 pub use response::{Response, TAUT, TautEnd, response, taut_end, taut_response};
 pub use solve::{Solution, end_force, end_force_near};
-pub use tensioned::{length_for_tension, length_for_tension_near};
+pub use tensioned::{least_tension, length_for_tension, length_for_tension_near};

@@ -60,6 +60,15 @@
 //! V = (L/s) [ fx² q² ψ + 2 m d - d²/2 - d² (2A + d² - 4m²)/(2 (T T0 + A)) ]
 //!   + (L/2EA) [ fx² + m² + 2 m d - d²/3 ]                                                      (7)
 //! ```
+//!
+//! At constant force and length the end moves with what the cable is made of. From `dT0/dw = -L V0/T0` follows
+//! `d atanh(q)/dw = L/2T0`, and with it, freed of `1/w`,
+//!
+//! ```text
+//! dx/dw = (fx L²/s²) [ (fz + V0)/T0 - 2 q ψ ]
+//! dz/dw = -(L²/s²) (fx² + T T0 - fz V0)/T0 - L²/2EA                                        (10)
+//! d(x, z)/dEA = -(L/EA²) (fx, fz - wL/2)                                                  (11)
+//! ```
 
 use crate::catenary::{Catenary, Compliance};
 use crate::real::{Field, Real};
@@ -112,6 +121,8 @@ pub struct TautEnd<T> {
     pub tension: T,
     /// q².
     pub slackness: T,
+    /// Derivative of the end position with respect to the length at constant force [m/m], equation (9).
+    pub end_per_length: [T; 2],
 }
 
 /// What [`taut_response`] says of the end alone.
@@ -120,10 +131,16 @@ pub fn taut_end<T: Field>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> Taut
     let terms = Terms::with_square(w, stretch, length, fx, fz, fx * fx);
     let slackness = terms.slackness();
     let x = fx * terms.lateral(slackness * taut_series(slackness) + 1.0);
-    TautEnd { end: [x, terms.height()], tension: terms.t, slackness }
+    let entering = terms.t0.recip() + stretch;
+    TautEnd {
+        end: [x, terms.height()],
+        tension: terms.t,
+        slackness,
+        end_per_length: [fx * entering, terms.v0 * entering],
+    }
 }
 
-/// The quantities that equations (1)-(9) share.
+/// The quantities that equations (1)-(11) share.
 pub(crate) struct Terms<T> {
     fx: T,
     fz: T,
@@ -177,6 +194,25 @@ impl Terms<f64> {
         let gravity = length * (fx * fx * q2 * psi + 2.0 * m * d - 0.5 * (d * d + rest)) * s_inv;
         let elastic = 0.5 * length * stretch * (fx * fx + m * m + 2.0 * m * d - d * d / 3.0);
         gravity + elastic
+    }
+
+    /// d(x, z)/dw, equation (10).
+    pub(crate) fn end_per_weight(&self) -> Vector2<f64> {
+        let Self { fx, fz, v0, length, weight, stretch, fx2, t, t0, s_inv } = *self;
+        let (_, psi) = self.sag_terms();
+        let (tt0, p) = (t * t0, fz * v0);
+        let difference = if p <= 0.0 { tt0 - p } else { fx2 * (fx2 + fz * fz + v0 * v0) / (tt0 + p) };
+        let share = (length * s_inv) * (length * s_inv);
+        Vector2::new(
+            share * fx * ((fz + v0) / t0 - 2.0 * psi * weight * s_inv),
+            -share * (fx2 + difference) / t0 - 0.5 * length * length * stretch,
+        )
+    }
+
+    /// d(x, z)/dEA, equation (11).
+    pub(crate) fn end_per_stiffness(&self) -> Vector2<f64> {
+        let Self { fx, fz, length, weight, stretch, .. } = *self;
+        Vector2::new(fx, fz - 0.5 * weight) * (-length * stretch * stretch)
     }
 }
 

@@ -53,6 +53,19 @@ pub fn length_for_tension_near(
     }
 }
 
+/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, whose tension at its end A is the least that any unstrained length
+/// gives.
+///
+/// # Errors
+/// [`CableError::InvalidInput`] for values no cable can have, and for a cable without weight, which may be slack.
+pub fn least_tension(cable: &Cable, end: Vector2<f64>) -> Result<Catenary, CableError> {
+    let w = cable.weight_per_length;
+    check("weight_per_length", w, w >= SMALLEST, "a weight per length from 1e-30 to 1e30 [N/m]")?;
+    // Any tension that a cable can have passes.
+    check_inputs(cable, end, 1.0)?;
+    lowest(cable, end, 0.0)
+}
+
 fn check_inputs(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<(), CableError> {
     cable.validate()?;
     check_end(end)?;
@@ -112,42 +125,12 @@ fn tension_slope(catenary: &Catenary) -> f64 {
 }
 
 fn bisect(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<Solution, CableError> {
-    let chord = end.norm();
-    let weight = cable.weight_per_length * chord;
-    let solve = |length: f64| end_force(cable, length, end).map(|solution| solution.catenary);
-    // A cable short enough to carry the wanted tension and its own weight on top.
-    let mut short = chord / (1.0 + (tension + weight) / cable.axial_stiffness);
-    while solve(short)?.anchor_tension() < tension {
-        short *= 0.5;
+    let lowest = lowest(cable, end, tension)?;
+    if lowest.anchor_tension() > tension {
+        return Err(CableError::TensionTooSmall { tension, least: lowest.anchor_tension() });
     }
-    // A cable long enough to have passed the least tension; a weightless one ends with no tension at all.
-    let mut long = 2.0 * chord;
-    while cable.weight_per_length > 0.0 && tension_slope(&solve(long)?) < 0.0 {
-        long *= 2.0;
-    }
-    let (mut falling, mut rising) = (short, long);
-    let mut hit = None;
-    for _ in 0..200 {
-        let middle = 0.5 * (falling + rising);
-        if middle <= falling || middle >= rising {
-            break;
-        }
-        let catenary = solve(middle)?;
-        if catenary.anchor_tension() <= tension {
-            hit = Some(middle);
-            break;
-        }
-        if tension_slope(&catenary) < 0.0 {
-            falling = middle;
-        } else {
-            rising = middle;
-        }
-    }
-    let Some(mut low) = hit else {
-        let least = solve(falling)?.anchor_tension().min(solve(rising)?.anchor_tension());
-        return Err(CableError::TensionTooSmall { tension, least });
-    };
-    let mut high = short;
+    let mut low = lowest.unstrained_length;
+    let mut high = short_enough(cable, end, tension)?;
     let mut iterations = 0;
     while iterations < 200 {
         let middle = 0.5 * (low + high);
@@ -155,7 +138,7 @@ fn bisect(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<Solution, Ca
             break;
         }
         iterations += 1;
-        if solve(middle)?.anchor_tension() > tension {
+        if end_force(cable, middle, end)?.catenary.anchor_tension() > tension {
             high = middle;
         } else {
             low = middle;
@@ -163,4 +146,42 @@ fn bisect(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<Solution, Ca
     }
     let solution = end_force(cable, low, end)?;
     Ok(Solution { iterations, ..solution })
+}
+
+/// A cable short enough to carry a tension and its own weight on top [m].
+fn short_enough(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, CableError> {
+    let chord = end.norm();
+    let mut short = chord / (1.0 + (tension + cable.weight_per_length * chord) / cable.axial_stiffness);
+    while end_force(cable, short, end)?.catenary.anchor_tension() < tension {
+        short *= 0.5;
+    }
+    Ok(short)
+}
+
+/// The catenary of least tension, or the first one met on the way there with no more than `enough` [N].
+fn lowest(cable: &Cable, end: Vector2<f64>, enough: f64) -> Result<Catenary, CableError> {
+    let solve = |length: f64| end_force(cable, length, end).map(|solution| solution.catenary);
+    // A cable long enough to have passed the least tension; a weightless one ends with no tension at all.
+    let mut long = 2.0 * end.norm();
+    while cable.weight_per_length > 0.0 && tension_slope(&solve(long)?) < 0.0 {
+        long *= 2.0;
+    }
+    let (mut falling, mut rising) = (short_enough(cable, end, enough)?, long);
+    for _ in 0..200 {
+        let middle = 0.5 * (falling + rising);
+        if middle <= falling || middle >= rising {
+            break;
+        }
+        let catenary = solve(middle)?;
+        if catenary.anchor_tension() <= enough {
+            return Ok(catenary);
+        }
+        if tension_slope(&catenary) < 0.0 {
+            falling = middle;
+        } else {
+            rising = middle;
+        }
+    }
+    let (before, after) = (solve(falling)?, solve(rising)?);
+    Ok(if before.anchor_tension() < after.anchor_tension() { before } else { after })
 }

@@ -2,11 +2,15 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+mod arguments;
+mod calibration;
+mod derivatives;
 mod robustness;
 mod study;
 mod throughput;
 
 use clap::{Parser, Subcommand};
+use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -25,6 +29,15 @@ enum Command {
         #[command(subcommand)]
         command: StudyCommand,
     },
+    /// Tell which combinations of a robot's parameters measurements identify, and which poses tell most.
+    #[command(after_help = "Example: cdpr calibration data/robots/caroca.json --grid=-2:2:5,-1:1:3,1:2.5:3 \
+                      --uncertainty a=0.002,b=0.002,youngs_modulus=5e9 --noise position=1e-4,rotation=1e-4")]
+    Calibration(calibration::Settings),
+    /// Derivatives of lengths and deflection with respect to every parameter of a robot, exact.
+    #[command(
+        after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
+    )]
+    Derivatives(derivatives::Settings),
     /// Measure how often the direct model finds the true pose from a wrong start.
     #[command(
         after_help = "Example: cdpr robustness --robot data/robots/cogiro.json --poses 1000 --out robustness"
@@ -85,16 +98,18 @@ enum StudyCommand {
 }
 
 fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    let result: Result<(), Box<dyn Error>> = match Arguments::parse().command {
         Command::Study { command: StudyCommand::Run { study, out, observations, threads } } => {
-            study::run(&study::Settings { study, out, observations, threads })
+            study::run(&study::Settings { study, out, observations, threads }).map_err(Into::into)
         }
         Command::Study { command: StudyCommand::Throughput { study, sampling, observations, threads } } => {
-            throughput::run(&study, &sampling, observations, threads)
+            throughput::run(&study, &sampling, observations, threads).map_err(Into::into)
         }
+        Command::Calibration(settings) => calibration::run(&settings),
+        Command::Derivatives(settings) => derivatives::run(&settings),
         Command::Robustness { robot, poses, modulus, seed, out } => {
             let settings = robustness::Settings { robot, poses, modulus, seed, out };
-            robustness::run(&settings).map_err(study::RunError::from)
+            robustness::run(&settings).map_err(Into::into)
         }
     };
     match result {

@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut summaries = Vec::new();
     for name in study.file.samplings.keys() {
         let sampling = study.sampling(name)?;
-        let summary = analyse(&sampling, &observe(&sampling, &|| ()), &|| ());
+        let summary = analyse(&sampling, &observe(&sampling, &|_| ()), &|_| ());
         write(name, &histogram(&summary)?)?;
         write(&format!("{name}_effects"), &signed_effects(&summary, 20)?)?;
         summaries.push((name.as_str(), summary));
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     for name in study.file.surfaces.keys() {
         let prepared = study.surface(name)?;
-        let result = compute_surface(&prepared, &|| ());
+        let result = compute_surface(&prepared, &|_| ());
         write(name, &surface(&SurfaceSummary::new(&prepared, &result), &result)?)?;
     }
     Ok(())

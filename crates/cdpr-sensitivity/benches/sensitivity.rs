@@ -1,13 +1,14 @@
-//! Designs, effects and fits over the number of observations N, for 62 uniform inputs as in the source paper.
+//! Designs, effects, fits, indices and expansions over the number of observations N, for 62 uniform inputs as in the source paper.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use cdpr_sensitivity::{
-    Bootstrap, Family, Input, Law, Sample, SampleDesign, SensitivityError, SobolDesign, Steps, fit_all,
-    student_effects,
+    Bootstrap, Family, Input, Law, Order, SaltelliDesign, Sample, SampleDesign, SensitivityError,
+    SobolDesign, SobolIndex, Steps, Truncation, expansion, fit_all, observe, sobol_indices, student_effects,
 };
-use criterion::{BenchmarkId, Criterion, Throughput};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};
 
 const INPUTS: usize = 62;
 
@@ -27,6 +28,48 @@ fn rows(design: &SobolDesign) -> Result<Vec<f64>, SensitivityError> {
 /// The sum of the inputs, for each row.
 fn sums(design: &SobolDesign) -> Result<Vec<Option<f64>>, SensitivityError> {
     Ok(rows(design)?.chunks_exact(INPUTS).map(|row| Some(row.iter().sum())).collect())
+}
+
+/// Sobol' indices of the sum of the inputs: 1/62 each.
+fn indices(group: &mut BenchmarkGroup<'_, WallTime>, blocks: usize) -> Result<(), SensitivityError> {
+    group.throughput(Throughput::Elements(blocks as u64));
+    let design = SaltelliDesign::scrambled(inputs(), blocks, Order::First, 1)?;
+    let bootstrap = Bootstrap { resamples: 1000, seed: 1 };
+    let sum = |x: &[f64]| Some(x.iter().sum());
+    let outputs = observe(&design, sum)?;
+    let found = sobol_indices(&design, &outputs, bootstrap, 0.95)?;
+    // An additive model: the indices add up to 1. With 128 points a scrambling the variance is known to some percent.
+    let sum_of_totals = found.inputs.iter().map(|index| index.total.value).sum::<f64>();
+    assert!((sum_of_totals - 1.0).abs() < 0.05, "{sum_of_totals}");
+    let holding = |index: &&SobolIndex| (index.total.low..=index.total.high).contains(&(1.0 / INPUTS as f64));
+    assert!(found.inputs.iter().filter(holding).count() >= 54);
+    group.bench_function(BenchmarkId::new("rows_saltelli", blocks), |b| {
+        b.iter(|| observe(black_box(&design), sum));
+    });
+    group.bench_function(BenchmarkId::new("sobol_indices", blocks), |b| {
+        b.iter(|| sobol_indices(black_box(&design), &outputs, bootstrap, 0.95));
+    });
+    Ok(())
+}
+
+/// Chaos expansion of a model of 62 linear terms, 61 products and, as 1 % of its variance, what no candidate explains.
+fn chaos(group: &mut BenchmarkGroup<'_, WallTime>, points: usize) -> Result<(), SensitivityError> {
+    group.throughput(Throughput::Elements(points as u64));
+    let design = SobolDesign::scrambled(inputs(), points, 1)?;
+    let model = |x: &[f64]| {
+        let unit: Vec<f64> = x.iter().map(|x| x / 0.03).collect();
+        let linear: f64 = unit.iter().enumerate().map(|(i, x)| x / (1.0 + i as f64 / 4.0)).sum();
+        let products: f64 = unit.windows(2).map(|pair| 0.1 * pair[0] * pair[1]).sum();
+        Some(linear + products + 0.15 * (1e4 * linear).sin())
+    };
+    let outputs = observe(&design, model)?;
+    let truncation = Truncation { max_degree: 3, norm: 0.75, interactions: 2 };
+    let found = expansion(&design, &outputs, truncation)?;
+    assert!(found.terms.len() >= 25 && found.leave_one_out < 0.08, "{}", found.leave_one_out);
+    group.bench_function(BenchmarkId::new("expansion", points), |b| {
+        b.iter(|| expansion(black_box(&design), &outputs, truncation));
+    });
+    Ok(())
 }
 
 fn main() -> Result<(), SensitivityError> {
@@ -69,6 +112,12 @@ fn main() -> Result<(), SensitivityError> {
         group.bench_function(BenchmarkId::new("fit_all", points), |b| {
             b.iter(|| fit_all(black_box(&sample), bootstrap));
         });
+    }
+    for points in [1024, 4096] {
+        indices(&mut group, points)?;
+    }
+    for points in [500, 2000] {
+        chaos(&mut group, points)?;
     }
     group.finish();
     criterion.final_summary();

@@ -5,13 +5,14 @@
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::error::SensitivityError;
+use crate::error::{SensitivityError, check_length, check_range};
 use crate::input::{Input, Prepared};
 use crate::sobol::Sobol;
 
-/// A design whose rows are a sample of the joint law of independent inputs: that is what the estimators of
-/// [`crate::effect`] rely on. A design of another structure is another type, with estimators of its own. Rows may be
-/// drawn from any thread.
+/// Points to run a model at, of any structure. Rows may be drawn from any thread.
+///
+/// What an estimator may conclude from them it asks for by type: [`IndependentSample`], [`JointSample`], or a design of
+/// its own such as [`crate::SaltelliDesign`].
 pub trait SampleDesign: Sized + Sync {
     /// Inputs, one a column.
     fn inputs(&self) -> &[Input];
@@ -26,12 +27,24 @@ pub trait SampleDesign: Sized + Sync {
     #[must_use]
     fn replicate(&self, seed: u64) -> Self;
 
-    /// Writes the values of the inputs of observation `index` into `row`.
+    /// Writes observation `index` as a point of the unit cube: for each input, the probability of its value.
     ///
     /// # Errors
     /// [`SensitivityError::OutOfRange`] for an index beyond the last row, [`SensitivityError::LengthMismatch`] for a
-    /// row that has not one element an input.
-    fn row(&self, index: usize, row: &mut [f64]) -> Result<(), SensitivityError>;
+    /// point that has not one element an input.
+    fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError>;
+
+    /// Writes the values of the inputs of observation `index` into `row`.
+    ///
+    /// # Errors
+    /// As [`SampleDesign::unit_point`].
+    fn row(&self, index: usize, row: &mut [f64]) -> Result<(), SensitivityError> {
+        self.unit_point(index, row)?;
+        for (value, input) in row.iter_mut().zip(self.inputs()) {
+            *value = input.value(*value);
+        }
+        Ok(())
+    }
 
     /// Writes consecutive rows from that of observation `first` on into `rows`, one after the other.
     ///
@@ -44,6 +57,12 @@ pub trait SampleDesign: Sized + Sync {
         Ok(())
     }
 }
+
+/// A design whose rows are a sample of the joint law of its inputs: regression asks for no more.
+pub trait JointSample: SampleDesign {}
+
+/// A [`JointSample`] of independent inputs: what effects, chaos expansions and derivative-based measures rely on.
+pub trait IndependentSample: JointSample {}
 
 /// Consecutive points of Sobol's sequence, plain or scrambled. Sizes of 2^k, from index 0, keep its balance.
 #[derive(Debug, Clone)]
@@ -63,10 +82,7 @@ impl SobolDesign {
     /// - [`SensitivityError::OutOfRange`] for no input or too many, no point, or points beyond 2^32;
     /// - [`SensitivityError::UnboundedAtZero`] if point 0 is among them and the law of an input has no lower end.
     pub fn new(inputs: Vec<Input>, first_index: u32, points: usize) -> Result<Self, SensitivityError> {
-        let unbounded = inputs.iter().find(|input| input.law.support().0 == f64::NEG_INFINITY);
-        if let (0, Some(input)) = (first_index, unbounded) {
-            return Err(SensitivityError::UnboundedAtZero { name: input.name.clone() });
-        }
+        check_origin(&inputs, first_index)?;
         let sobol = Sobol::new(inputs.len())?;
         Self::over(sobol, inputs, first_index, points)
     }
@@ -93,8 +109,7 @@ impl SobolDesign {
         points: usize,
     ) -> Result<Self, SensitivityError> {
         inputs.iter().try_for_each(Input::validate)?;
-        let maximum = (1_u64 << 32) - u64::from(first_index);
-        check_range("points", points as u64, 1, maximum)?;
+        check_points(first_index, points)?;
         let prepared = inputs.iter().map(Input::prepare).collect();
         Ok(Self { inputs, prepared, sobol, first_index, points })
     }
@@ -117,10 +132,14 @@ impl SampleDesign for SobolDesign {
         Self { sobol: self.sobol.rescrambled(seed), ..self.clone() }
     }
 
+    fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
+        check_row(self, index, point)?;
+        // Below 2^32: `check_points` has seen to it.
+        self.sobol.point(self.first_index + index as u32, point)
+    }
+
     fn row(&self, index: usize, row: &mut [f64]) -> Result<(), SensitivityError> {
-        check_row(self, index, row)?;
-        // Below 2^32: `over` has checked it.
-        self.sobol.point(self.first_index + index as u32, row)?;
+        self.unit_point(index, row)?;
         for (value, input) in row.iter_mut().zip(&self.prepared) {
             *value = input.value(*value);
         }
@@ -139,6 +158,9 @@ impl SampleDesign for SobolDesign {
         Ok(())
     }
 }
+
+impl JointSample for SobolDesign {}
+impl IndependentSample for SobolDesign {}
 
 /// Independent random points. Row i is stream i of the generator `ChaCha8` (D. J. Bernstein, 2008): an input added
 /// at the end leaves the other columns as they were.
@@ -180,32 +202,49 @@ impl SampleDesign for RandomDesign {
         Self { seed, ..self.clone() }
     }
 
-    fn row(&self, index: usize, row: &mut [f64]) -> Result<(), SensitivityError> {
-        check_row(self, index, row)?;
-        let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
-        generator.set_stream(index as u64);
-        for (value, input) in row.iter_mut().zip(&self.inputs) {
-            // The middle of a cell of 2^-52: neither 0 nor 1.
-            let u = ((generator.next_u64() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64;
-            *value = input.value(u);
-        }
+    fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
+        check_row(self, index, point)?;
+        let mut generator = stream(self.seed, index as u64);
+        point.fill_with(|| uniform(&mut generator));
         Ok(())
     }
 }
 
-fn check_row(design: &impl SampleDesign, index: usize, row: &[f64]) -> Result<(), SensitivityError> {
+impl JointSample for RandomDesign {}
+impl IndependentSample for RandomDesign {}
+
+/// Stream `number` of the generator of a seed.
+pub(crate) fn stream(seed: u64, number: u64) -> ChaCha8Rng {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    generator.set_stream(number);
+    generator
+}
+
+/// The middle of a cell of 2^-52: neither 0 nor 1.
+pub(crate) fn uniform(generator: &mut ChaCha8Rng) -> f64 {
+    ((generator.next_u64() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
+}
+
+pub(crate) fn check_row(
+    design: &impl SampleDesign,
+    index: usize,
+    row: &[f64],
+) -> Result<(), SensitivityError> {
     check_range("index", index as u64, 0, design.points() as u64 - 1)?;
-    let expected = design.inputs().len();
-    if row.len() != expected {
-        return Err(SensitivityError::LengthMismatch { field: "row", value: row.len(), expected });
-    }
-    Ok(())
+    check_length("row", row.len(), design.inputs().len())
 }
 
-fn check_range(field: &'static str, value: u64, minimum: u64, maximum: u64) -> Result<(), SensitivityError> {
-    if (minimum..=maximum).contains(&value) {
-        Ok(())
-    } else {
-        Err(SensitivityError::OutOfRange { field, value, minimum, maximum })
+/// Consecutive indices of a sequence of 2^32 points.
+pub(crate) fn check_points(first_index: u32, points: usize) -> Result<(), SensitivityError> {
+    check_range("points", points as u64, 1, (1_u64 << 32) - u64::from(first_index))
+}
+
+/// Point 0 of an unscrambled sequence is all zeros.
+pub(crate) fn check_origin(inputs: &[Input], first_index: u32) -> Result<(), SensitivityError> {
+    match inputs.iter().find(|input| input.law.support().0 == f64::NEG_INFINITY) {
+        Some(input) if first_index == 0 => {
+            Err(SensitivityError::UnboundedAtZero { name: input.name.clone() })
+        }
+        _ => Ok(()),
     }
 }

@@ -26,7 +26,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::design::SampleDesign;
+use crate::design::IndependentSample;
 use crate::error::{SensitivityError, require};
 use crate::input::Input;
 use crate::summary::{Moments, Summary, mean_and_squares};
@@ -91,7 +91,7 @@ pub struct EffectInterval {
 /// - [`SensitivityError::NotFinite`] for a value that is not finite;
 /// - [`SensitivityError::OutOfRange`] for fewer than two values;
 /// - [`SensitivityError::EmptyHalf`] if no value is left in one half of an input.
-pub fn student_effects<D: SampleDesign>(
+pub fn student_effects<D: IndependentSample>(
     design: &D,
     outputs: &[Option<f64>],
 ) -> Result<Effects, SensitivityError> {
@@ -116,7 +116,7 @@ pub fn student_effects<D: SampleDesign>(
 ///
 /// # Errors
 /// Those of [`intervals_of_effects`] and [`student_effects`].
-pub fn effect_intervals<D: SampleDesign>(
+pub fn effect_intervals<D: IndependentSample>(
     replicates: &[(D, Vec<Option<f64>>)],
     level: f64,
 ) -> Result<Vec<EffectInterval>, SensitivityError> {
@@ -137,7 +137,7 @@ pub fn effect_intervals<D: SampleDesign>(
 /// - [`SensitivityError::NotAReplicate`] for a design without a seed, with the seed of another one, or of other inputs
 ///   or size;
 /// - [`SensitivityError::LengthMismatch`] unless there are effects for each replicate.
-pub fn intervals_of_effects<D: SampleDesign>(
+pub fn intervals_of_effects<D: IndependentSample>(
     designs: &[&D],
     replicates: &[Effects],
     level: f64,
@@ -173,7 +173,7 @@ pub fn intervals_of_effects<D: SampleDesign>(
     Ok(first.inputs().iter().zip(&effects).map(interval).collect())
 }
 
-fn check_replicates<D: SampleDesign>(designs: &[&D]) -> Result<(), SensitivityError> {
+fn check_replicates<D: IndependentSample>(designs: &[&D]) -> Result<(), SensitivityError> {
     if designs.len() < 2 {
         return Err(SensitivityError::OutOfRange {
             field: "replicates",

@@ -66,7 +66,7 @@ pub enum SensitivityError {
         /// Name of the input.
         name: String,
     },
-    /// All values of a sample are equal: no law of two parameters fits it.
+    /// All values of a sample are equal: no law of two parameters fits it, and no input has a share of its variance.
     #[error("all {count} values of the sample are {value}: expected at least two different ones")]
     ConstantSample {
         /// The only value.
@@ -102,6 +102,36 @@ pub enum SensitivityError {
         /// Observations below the middle.
         below: usize,
     },
+    /// Levels 0 and 1 are asked of an input whose law is infinite there.
+    #[error("input `{name}` is unbounded: its levels 0 and 1 are infinite, use radial points")]
+    UnboundedLevels {
+        /// Name of the input.
+        name: String,
+    },
+    /// A matrix is not one of correlations.
+    #[error("correlation[{row}][{column}] = {value}: expected {expected}")]
+    NotACorrelation {
+        /// Row, from 0.
+        row: usize,
+        /// Column, from 0.
+        column: usize,
+        /// Value found; on the diagonal of a matrix that is not positive definite, the square of the pivot.
+        value: f64,
+        /// What was expected, in words.
+        expected: &'static str,
+    },
+    /// The values of an input follow from those before it, so that they have no coefficients of their own.
+    #[error("input `{input}`: its values are constant or a linear function of those of the inputs before it")]
+    Collinear {
+        /// Name of the input.
+        input: String,
+    },
+    /// No input has this name.
+    #[error("input `{name}`: no input of this name")]
+    UnknownInput {
+        /// Name asked for.
+        name: String,
+    },
     /// The designs of an interval are not independent replicates of one another.
     #[error("replicate {index}: {expected}")]
     NotAReplicate {
@@ -120,4 +150,32 @@ pub(crate) fn require(
     expected: &'static str,
 ) -> Result<(), SensitivityError> {
     if valid { Ok(()) } else { Err(SensitivityError::InvalidParameter { field, value, expected }) }
+}
+
+/// `Ok` for a count within its bounds, else [`SensitivityError::OutOfRange`].
+pub(crate) fn check_range(
+    field: &'static str,
+    value: u64,
+    minimum: u64,
+    maximum: u64,
+) -> Result<(), SensitivityError> {
+    if (minimum..=maximum).contains(&value) {
+        Ok(())
+    } else {
+        Err(SensitivityError::OutOfRange { field, value, minimum, maximum })
+    }
+}
+
+/// `Ok` for the length expected, else [`SensitivityError::LengthMismatch`].
+pub(crate) fn check_length(
+    field: &'static str,
+    value: usize,
+    expected: usize,
+) -> Result<(), SensitivityError> {
+    if value == expected { Ok(()) } else { Err(SensitivityError::LengthMismatch { field, value, expected }) }
+}
+
+/// `Ok` for a confidence level, else [`SensitivityError::InvalidParameter`].
+pub(crate) fn check_level(level: f64) -> Result<(), SensitivityError> {
+    require(level > 0.0 && level < 1.0, "level", level, "a number between 0 and 1")
 }

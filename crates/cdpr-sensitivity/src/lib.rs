@@ -1,19 +1,22 @@
-//! Designs of experiments, laws, fits and effects, for any model: plain numbers in, plain numbers out.
+//! Designs of experiments, laws, fits, effects and global sensitivity indices, for any model: plain numbers in, plain
+//! numbers out.
 //!
 //! | step | module |
 //! |---|---|
 //! | which inputs, with which law and steps | [`law`], [`input`] |
-//! | at which points to run the model | [`design`], on [`sobol`] |
+//! | at which points to run the model | [`design`] on [`sobol`], [`latin_hypercube`], [`halton`], [`correlated`]; [`saltelli`], [`morris`] |
 //! | what the output looks like | [`summary`] |
 //! | which law it follows | [`mod@fit`] |
-//! | which input matters | [`effect`] |
+//! | which input matters | [`effect`], [`morris`], [`mod@dgsm`], [`mod@regression`] |
+//! | how much of the variance it causes, alone and with others | [`sobol_indices`](mod@sobol_indices), [`pce`] |
+//! | how sure that is, and how many runs would do | [`interval`], [`mod@convergence`] |
 //!
 //! What holds throughout:
 //!
 //! - a row of a design is had from its index alone: a parallel map gives the same numbers on any number of threads;
 //! - what is random has a seed, an argument without a default;
 //! - an observation that failed is `None`: counted beside the results, part of no mean;
-//! - an estimator takes the design that the outputs belong to.
+//! - an estimator takes the design that the outputs belong to, and no design that it would misread.
 //!
 //! ```
 //! use cdpr_sensitivity::{Input, Law, Sample, SampleDesign, SobolDesign, student_effects};
@@ -47,24 +50,52 @@
 #[cfg(doctest)]
 struct Readme;
 
+pub mod convergence;
+pub mod correlated;
 pub mod design;
+pub mod dgsm;
 pub mod effect;
 pub mod error;
 mod estimate;
 pub mod fit;
+pub mod halton;
 pub mod input;
+pub mod interval;
+pub mod latin_hypercube;
 pub mod law;
+mod least_squares;
+pub mod morris;
 mod normal;
+pub mod observation;
+pub mod pce;
+pub mod polynomial;
+mod pursuit;
+pub mod regression;
+pub mod saltelli;
 pub mod sobol;
+pub mod sobol_indices;
 pub mod summary;
 
-pub use design::{RandomDesign, SampleDesign, SobolDesign};
+pub use convergence::{Target, Tightened, convergence, first_tight, until_tight};
+pub use correlated::Correlated;
+pub use design::{IndependentSample, JointSample, RandomDesign, SampleDesign, SobolDesign};
+pub use dgsm::{DerivativeMeasure, DerivativeMeasures, Slopes, dgsm, poincare_constant};
 pub use effect::{
     Effect, EffectInterval, EffectSums, Effects, effect_intervals, intervals_of_effects, student_effects,
 };
 pub use error::SensitivityError;
 pub use fit::{Bootstrap, Family, Fit, best, fit, fit_all, ks_distance};
+pub use halton::Halton;
 pub use input::{Input, Steps};
+pub use interval::Estimate;
+pub use latin_hypercube::LatinHypercube;
 pub use law::Law;
+pub use morris::{MorrisDesign, MorrisEffect, morris_effects};
+pub use observation::observe;
+pub use pce::{Expansion, Shares, Term, expansion};
+pub use polynomial::{Power, Truncation};
+pub use regression::{Coefficient, Regression, rank_regression, regression};
+pub use saltelli::{Order, SaltelliDesign};
 pub use sobol::Sobol;
+pub use sobol_indices::{PairIndex, SobolIndex, SobolIndices, sobol_indices};
 pub use summary::{Bins, Histogram, Moments, Sample, Summary};

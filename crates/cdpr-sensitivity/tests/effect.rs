@@ -3,8 +3,8 @@
 
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{
-    EffectSums, Input, Law, RandomDesign, SampleDesign, SensitivityError, SobolDesign, Steps,
-    effect_intervals, student_effects,
+    EffectSums, IndependentSample, Input, Law, RandomDesign, SampleDesign, SensitivityError, SobolDesign,
+    Steps, effect_intervals, student_effects,
 };
 
 const SLOPES: [f64; 6] = [3.0, -1.0, 0.5, 0.0, 2.0, -0.25];
@@ -89,7 +89,7 @@ fn inert_inputs_look_less_than_random_on_sobol_points_so_that_students_significa
         |row: &[f64]| Some(row[..16].iter().enumerate().map(|(i, x)| x * (1.0 + i as f64 / 16.0)).sum());
     let unit = Law::Uniform { min: -1.0, max: 1.0 };
     let inputs: Vec<Input> = (0..62).map(|i| Input::continuous(format!("x{i}"), unit)).collect();
-    fn inert(design: &impl SampleDesign, outputs: &[Option<f64>]) -> f64 {
+    fn inert(design: &impl IndependentSample, outputs: &[Option<f64>]) -> f64 {
         let effects = student_effects(design, outputs).unwrap().effects;
         effects[16..].iter().map(|effect| effect.student).sum::<f64>() / 46.0
     }
@@ -147,7 +147,11 @@ fn intervals_cover_the_exact_effects_as_often_as_they_say() {
     let unit = Law::Uniform { min: -1.0, max: 1.0 };
     let inputs: Vec<Input> = (0..3).map(|i| Input::continuous(format!("x{i}"), unit)).collect();
     let model = |row: &[f64]| Some(row[0] + row[1] * row[1] + 0.5 * row[0] * row[1] * row[2]);
-    fn covered<D: SampleDesign>(design: &D, study: u64, model: impl Fn(&[f64]) -> Option<f64>) -> [bool; 3] {
+    fn covered<D: IndependentSample>(
+        design: &D,
+        study: u64,
+        model: impl Fn(&[f64]) -> Option<f64>,
+    ) -> [bool; 3] {
         let replicate = |r| {
             let replicate = design.replicate(1000 * study + r);
             let outputs = outputs(&replicate, &model);

@@ -5,7 +5,9 @@
 mod problems;
 
 use cdpr_robot::{Pose, Vector3};
-use cdpr_statics::{Load, Setting, Start, Tangent, certify, deflection, direct, follow, inverse};
+use cdpr_statics::{
+    Load, Setting, Start, Tangent, Tracker, certify, deflection, derivatives, direct, follow, inverse,
+};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use problems::{caroca, counted, ring, settings};
 use std::hint::black_box;
@@ -59,6 +61,29 @@ fn direct_model(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// A control loop: every cable wound by up to a millimetre between two solves.
+fn tracking(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("direct");
+    let robot = caroca();
+    let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none(), None).unwrap();
+    let load = Load::payload(50.0);
+    let wound: Vec<f64> =
+        wanted.lengths.iter().enumerate().map(|(i, l)| l + 1e-3 * (i as f64).sin()).collect();
+    let mut tracker = Tracker::new(&robot, &wanted.lengths, &load, &wanted.equilibrium).unwrap();
+    let expected = direct(&robot, &wound, &load, Start::Near(&wanted.equilibrium)).unwrap().equilibrium.pose;
+    let found = tracker.update(&wound, &load).unwrap().pose;
+    assert!((found.position - expected.position).norm() < 1e-12);
+    let mut there = false;
+    group.bench_function("tracked", |b| {
+        b.iter(|| {
+            there = !there;
+            let lengths = black_box(if there { &wanted.lengths } else { &wound });
+            counted(|| tracker.update(lengths, &load).is_ok())
+        });
+    });
+    group.finish();
+}
+
 fn proofs_and_searches(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("direct");
     let robot = caroca();
@@ -86,21 +111,42 @@ fn proofs_and_searches(criterion: &mut Criterion) {
 
 fn whole_deflection(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("deflection");
-    let (robot, pose, load) = (caroca(), Pose::at(0.0, 0.0, 1.75), Load::payload(50.0));
-    let found = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
-    assert!((1e3 * found.rms() - 1.33125).abs() < 1e-4);
-    group.bench_function("whole", |b| {
-        b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
-    });
-    group.bench_function("tangent", |b| {
-        b.iter(|| counted(|| Tangent::at(black_box(&robot), &found.lengths, &Load::none(), &found.unloaded)));
-    });
+    let (robot, load) = (caroca(), Load::payload(50.0));
+    for (name, pose, expected_mm) in
+        [("symmetric", Pose::at(0.0, 0.0, 1.75), 1.33125), ("corner", Pose::at(3.2, 1.7, 3.0), 0.82217)]
+    {
+        let found = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
+        assert!((1e3 * found.rms() - expected_mm).abs() < 1e-4);
+        group.bench_function(name, |b| {
+            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
+        });
+        group.bench_function(BenchmarkId::new("tangent", name), |b| {
+            let (lengths, unloaded) = (&found.lengths, &found.unloaded);
+            b.iter(|| counted(|| Tangent::at(black_box(&robot), lengths, &Load::none(), unloaded)));
+        });
+    }
+    group.finish();
+}
+
+fn exact_derivatives(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("derivatives");
+    let (robot, load) = (caroca(), Load::payload(50.0));
+    // d|dp|/dE [mm/GPa].
+    for (name, pose, expected) in
+        [("symmetric", Pose::at(0.0, 0.0, 1.75), -0.012889), ("corner", Pose::at(3.2, 1.7, 3.0), -0.007163)]
+    {
+        let found = derivatives(&robot, &pose, &[0.0; 8], &load).unwrap();
+        assert!((1e12 * found.rms().unwrap()[2] - expected).abs() < 1e-6);
+        group.bench_function(name, |b| {
+            b.iter(|| counted(|| derivatives(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
+        });
+    }
     group.finish();
 }
 
 criterion_group! {
     name = benches;
     config = settings();
-    targets = inverse_model, direct_model, proofs_and_searches, whole_deflection
+    targets = inverse_model, direct_model, tracking, proofs_and_searches, whole_deflection, exact_derivatives
 }
 criterion_main!(benches);

@@ -11,12 +11,14 @@
 //!                      rests at `position` without the payload
 //! deviations           observations: what is added to `parameters`, one row each
 //! repeats              how often to solve, for a median time
-//! cdpr                 direct_us, direct_position [m], observation_us, displacements [m]
+//! cdpr                 direct_us, direct_position [m], observation_us, displacements [m]: solves one after the other by `Tracker`,
+//!                      observations in batches by `Observer`
+//! cdpr_alone           the same, each solve and observation alone
 //! ```
 
 use cdpr_robot::{Parameter, Pose, Robot};
-use cdpr_statics::{Load, Start, deflection, direct, inverse};
-use serde_json::{Value, json};
+use cdpr_statics::{Load, Observer, Start, Tracker, deflection, direct, inverse};
+use serde_json::json;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -24,6 +26,8 @@ type Error = Box<dyn std::error::Error>;
 
 const PAYLOAD: f64 = 50.0;
 const OBSERVATIONS: usize = 5;
+/// How often the observations are repeated in a batch.
+const BATCH: usize = 50;
 const SEED: u64 = 2017;
 /// Solves of this crate for a median, and of a peer: one of its solves takes up to a second.
 const REPEATS: usize = 3000;
@@ -41,6 +45,14 @@ fn main() -> Result<(), Error> {
     let solve = || direct(black_box(&robot), black_box(&wanted.lengths), &load, Start::Near(start));
     let loaded = solve()?;
     let direct_us = median((0..REPEATS).map(|_| microseconds(solve)).collect());
+    // The tracker begins where the platform rests without the payload; every second solve takes it back there.
+    let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), start)?;
+    let mut tracked = Vec::new();
+    for _ in 0..REPEATS {
+        tracked.push(microseconds(|| tracker.update(black_box(&wanted.lengths), &load).is_ok()));
+        tracker.update(&wanted.lengths, &Load::none())?;
+    }
+    let tracked_position = tracker.update(&wanted.lengths, &load)?.pose.position;
 
     let mut random = SplitMix(SEED);
     let deviations: Vec<Vec<f64>> = (0..OBSERVATIONS)
@@ -62,6 +74,24 @@ fn main() -> Result<(), Error> {
         times.extend((0..REPEATS).map(|_| microseconds(observe)));
     }
 
+    let observer = Observer::new(&robot, &pose, &load)?;
+    let batch = deviations.concat().repeat(BATCH);
+    let together = || observer.observe_all(black_box(&batch));
+    let batch_us: Vec<f64> = (0..REPEATS).map(|_| microseconds(together)).collect();
+    let observed = together().into_iter().take(OBSERVATIONS);
+    let observed: Vec<[f64; 3]> =
+        observed.map(|found| Ok(found?.displacement.into())).collect::<Result<_, Error>>()?;
+
+    let answer = |solver: &str, direct: (f64, &[f64]), observation: (f64, &Vec<[f64; 3]>)| {
+        json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "solver": solver,
+            "direct_us": direct.0,
+            "direct_position": direct.1,
+            "observation_us": observation.0,
+            "displacements": observation.1,
+        })
+    };
     let problem = json!({
         "gravity": robot.gravity,
         "section": robot.cables[0].properties.section,
@@ -72,14 +102,16 @@ fn main() -> Result<(), Error> {
         "forces": start.cable_forces.iter().map(|f| [f.x, f.y]).collect::<Vec<_>>(),
         "deviations": deviations,
         "repeats": PEER_REPEATS,
-        "cdpr": Value::from_iter([
-            ("version", json!(env!("CARGO_PKG_VERSION"))),
-            ("solver", json!("direct, deflection")),
-            ("direct_us", json!(direct_us)),
-            ("direct_position", json!(loaded.equilibrium.pose.position.as_slice())),
-            ("observation_us", json!(median(times))),
-            ("displacements", json!(displacements)),
-        ]),
+        "cdpr": answer(
+            "Tracker, Observer",
+            (median(tracked), tracked_position.as_slice()),
+            (median(batch_us) / (BATCH * OBSERVATIONS) as f64, &observed),
+        ),
+        "cdpr_alone": answer(
+            "direct, deflection",
+            (direct_us, loaded.equilibrium.pose.position.as_slice()),
+            (median(times), &displacements),
+        ),
     });
     std::fs::write(path, format!("{problem:#}\n"))?;
     Ok(())
@@ -97,7 +129,7 @@ fn half_range(parameter: &Parameter) -> f64 {
     }
 }
 
-fn microseconds<T>(solve: impl Fn() -> T) -> f64 {
+fn microseconds<T>(solve: impl FnOnce() -> T) -> f64 {
     let begin = Instant::now();
     black_box(solve());
     1e6 * begin.elapsed().as_secs_f64()

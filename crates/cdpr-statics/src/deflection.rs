@@ -6,7 +6,7 @@
 
 use crate::direct::{DirectSolution, Start, direct};
 use crate::error::StaticsError;
-use crate::inverse::{inverse, lengths_for_tensions};
+use crate::inverse::{InverseSolution, inverse, lengths_for_tensions};
 use crate::model::{Equilibrium, Load};
 use crate::tangent::Tangent;
 use cdpr_robot::{Pose, Robot, Vector3};
@@ -46,6 +46,18 @@ impl Deflection {
     }
 }
 
+/// Cables wound for a pose with offset tension set-points.
+pub(crate) struct Wound {
+    /// The inverse model under the platform's own weight.
+    pub(crate) wanted: InverseSolution,
+    /// Its tensions after the offsets [N].
+    pub(crate) set_points: Vec<f64>,
+    /// The lengths that give these tensions at the pose [m].
+    pub(crate) lengths: Vec<f64>,
+    /// The pose with the cables' forces; not in balance unless all offsets are zero.
+    pub(crate) held: Equilibrium,
+}
+
 /// Deflection under `load` at the wanted pose `pose`, with `tension_offsets` [N] added to the least-norm tension set-points.
 ///
 /// # Errors
@@ -56,6 +68,12 @@ pub fn deflection(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Deflection, StaticsError> {
+    let Wound { lengths, held, .. } = wind(robot, pose, tension_offsets)?;
+    deflection_from(robot, lengths, load, &held)
+}
+
+/// Winds the cables for `pose`.
+pub(crate) fn wind(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Result<Wound, StaticsError> {
     StaticsError::one_per_cable("tension_offsets", tension_offsets, robot.cables.len())?;
     if let Some((i, offset)) = tension_offsets.iter().enumerate().find(|(_, offset)| !offset.is_finite()) {
         return Err(StaticsError::Invalid {
@@ -66,8 +84,8 @@ pub fn deflection(
     }
     let wanted = inverse(robot, pose, &Load::none(), None)?;
     let set_points = offset(&wanted.tensions, tension_offsets, robot.tension_limits);
-    let (lengths, start) = lengths_for_tensions(robot, pose, &set_points)?;
-    deflection_from(robot, lengths, load, &start)
+    let (lengths, held) = lengths_for_tensions(robot, pose, &set_points)?;
+    Ok(Wound { wanted, set_points, lengths, held })
 }
 
 /// Deflection under `load` for given unstrained lengths [m], searched from `start`.

@@ -88,6 +88,14 @@ pub enum StaticsError {
         /// Size of the image of the last box, relative to the box.
         growth: f64,
     },
+    /// A derivative that does not exist.
+    #[error("{quantity} has no derivative: {reason}")]
+    NoDerivative {
+        /// What was to be differentiated.
+        quantity: &'static str,
+        /// Why it cannot be.
+        reason: &'static str,
+    },
     /// Nothing determines the pose: every pose near this one is an equilibrium, as without weight on slack cables without weight.
     #[error(
         "direct model: nothing determines the pose; every one near ({:.4}, {:.4}, {:.4}) m is an equilibrium",
@@ -126,6 +134,7 @@ impl StaticsError {
             Self::Overstrained { .. } => "cable_overstrained",
             Self::Indifferent { .. } => "indifferent",
             Self::EquilibriumLost { .. } => "equilibrium_lost",
+            Self::NoDerivative { .. } => "no_derivative",
             Self::NotCertified { .. } => "not_certified",
             Self::DirectNotConverged { .. } => "direct_not_converged",
         }

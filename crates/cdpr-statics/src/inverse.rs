@@ -49,7 +49,7 @@ const MAX_TURNS: usize = 100;
 const MAX_NEWTON: usize = 12;
 
 /// A tension this much above the least that a span demands: at the least itself, the length is not determined.
-const ABOVE_LEAST: f64 = 1.001;
+pub(crate) const ABOVE_LEAST: f64 = 1.001;
 
 /// The unstrained lengths with which the platform rests at `pose` under its weight and `load`, with tensions as near as
 /// possible to `reference` [N] (one for each cable) within the robot's limits; `None` for the least-norm tensions.

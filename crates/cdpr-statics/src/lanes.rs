@@ -6,9 +6,7 @@
 
 use cdpr_cable::Field;
 use pulp::Arch;
-#[cfg(test)]
-pub(crate) use pulp::Scalar;
-pub(crate) use pulp::{Simd, WithSimd};
+pub(crate) use pulp::{Scalar, Simd, WithSimd};
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 /// As many lanes as any vector unit has.

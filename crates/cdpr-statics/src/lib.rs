@@ -4,11 +4,14 @@
 //! |---|---|
 //! | which unstrained lengths hold a pose (IEGM)? | [`inverse`] |
 //! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
+//! | and for the next lengths and load, in a microsecond or two? | [`Tracker`] |
 //! | does it stay there, how far is it from not staying? | [`DirectSolution::stability`] |
 //! | how exact is that, proved? | [`certify`] |
 //! | where else could it stand? | [`direct_all`], [`direct_any`] |
 //! | where does it go while cables are wound or loads change, and where does it jump? | [`follow`] |
 //! | how far does it give under a load (Eq. (4))? | [`deflection`], [`deflections`] |
+//! | and with other parameters, a million times? | [`Observer`] |
+//! | which parameter changes lengths, tensions, poses and deflection, and by how much? | [`derivatives`] |
 //! | how stiff is it, how do lengths and loads move it? | [`Tangent`] |
 //!
 //! The equations are (1)-(4) of Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
@@ -34,32 +37,42 @@
 //! # Ok::<(), cdpr_statics::StaticsError>(())
 //! ```
 
+mod calibration;
 mod certificate;
+mod chain;
 mod continuation;
 mod deflection;
+mod derivatives;
 mod direct;
 mod equations;
 mod error;
 mod interval;
 mod inverse;
+mod lane_algebra;
 mod lanes;
 mod many;
 mod model;
 mod newton;
 mod observer;
+mod partials;
 mod stability;
 mod tangent;
 mod taut;
+mod tracker;
 mod trust_region;
 
+pub use calibration::{Calibration, ChosenPose, Combination, Identifiability, Measurement};
 pub use certificate::{Certificate, certify};
 pub use continuation::{Loss, LossKind, Path, PathStep, Setting, follow};
 pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections};
+pub use derivatives::{Derivatives, EquilibriumDerivatives, VarianceBudget, derivatives};
 pub use direct::{DirectSolution, Method, Report, Residual, Start, direct, direct_any};
 pub use error::StaticsError;
 pub use inverse::{InverseSolution, inverse, lengths_for_tensions};
 pub use many::{Equilibria, Found, Starts, direct_all};
 pub use model::{Equilibrium, Load};
 pub use observer::{Observation, Observer};
+pub use partials::Inputs;
 pub use stability::Stability;
 pub use tangent::Tangent;
+pub use tracker::Tracker;

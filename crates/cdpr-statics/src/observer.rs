@@ -3,13 +3,15 @@
 //! Robots with taut cables, stable and within their limits, are observed in the lanes of the vector unit (module `taut`), each from
 //! the nominal robot's tensions. Whatever else a robot is, it is observed by [`deflection`], which has the last word on every failure.
 
+use crate::chain::{Beginning, Settings, observe};
 use crate::deflection::deflection;
 use crate::direct::{Residual, rounding_of_closure};
 use crate::error::StaticsError;
 use crate::inverse::inverse;
+use crate::lane_algebra::{six, three};
 use crate::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::model::{Equilibrium, Load, Model, Span};
-use crate::taut::{Cable, Open, Robots, Settings, observe, six, three};
+use crate::taut::{Cable, Open, Robots, Scale};
 use cdpr_cable::Field;
 use cdpr_robot::{Parameter, Pose, Robot, Vector3, Vector6};
 use nalgebra::DVector;
@@ -117,10 +119,12 @@ impl Nominal {
             greatest: robot.tension_limits.max,
             payload: load.payload * robot.gravity,
             force: load.wrench.force.into(),
-            size: model.size(),
-            arm: model.arm(),
             tension: tensions.sum(),
-            rounding: rounding_of_closure(model.size(), pose.position.norm() + exits),
+            scale: Scale {
+                size: model.size(),
+                arm: model.arm(),
+                rounding: rounding_of_closure(model.size(), pose.position.norm() + exits),
+            },
         };
         Some(Self { equilibrium: solution.equilibrium, lengths: solution.lengths, multipliers, settings })
     }
@@ -146,8 +150,8 @@ impl WithSimd for Batch<'_> {
             // Lanes without a row of their own repeat the last one.
             let deviation =
                 |place: usize| Lanes::from_fn(simd, |lane| rows[lane.min(count - 1) * parameters + place]);
-            let (mut robots, sound) = perturb(simd, robot, pose, nominal, deviation);
-            let outcome = observe(simd, &mut robots, &nominal.settings);
+            let (beginning, sound) = perturb(simd, robot, pose, nominal, deviation);
+            let outcome = observe(beginning, &nominal.settings);
             let valid = (outcome.valid & sound).to_array();
             let displacement = outcome.displacement.map(Lanes::to_array);
             let (unloaded, loaded) = (residuals(&outcome.unloaded), residuals(&outcome.loaded));
@@ -171,7 +175,7 @@ fn perturb<S: Simd>(
     pose: &Pose,
     nominal: &Nominal,
     deviation: impl Fn(usize) -> Lanes<S>,
-) -> (Robots<S>, Mask<S>) {
+) -> (Beginning<S>, Mask<S>) {
     let n = robot.cables.len();
     let [anchors, exits, center, offsets] = [3, 3 + 3 * n, 3 + 6 * n, 6 + 6 * n];
     let all = |value: f64| Lanes::splat(simd, value);
@@ -187,34 +191,36 @@ fn perturb<S: Simd>(
     let cables = robot.cables.iter().enumerate().map(|(i, cable)| {
         let (density, modulus) =
             (density + cable.properties.linear_density, modulus + cable.properties.youngs_modulus);
-        let offset = deviation(offsets + i);
-        sound = sound & positive(modulus) & all(0.0).less_or_equal(density) & offset.less_or_equal(offset);
+        sound = sound & positive(modulus) & all(0.0).less_or_equal(density);
         let force = nominal.equilibrium.cable_forces[i];
         Cable {
             weight: density * robot.gravity,
             stretch: (modulus * cable.properties.section).recip(),
             exit: point(&cable.exit_point, exits + 3 * i),
             arm: rotate(point(&cable.anchor_point, anchors + 3 * i)),
-            offset,
             length: all(nominal.lengths[i]),
             force: [all(force.x), all(force.y)],
         }
     });
+    let cables = cables.collect();
+    let offsets: Vec<Lanes<S>> = (0..n).map(|i| deviation(offsets + i)).collect();
+    // No number is not even itself.
+    sound = offsets.iter().fold(sound, |sound, offset| sound & offset.less_or_equal(*offset));
     let robots = Robots {
-        cables: cables.collect(),
+        cables,
         position: three(|k| all(pose.position[k])),
         center: rotate(point(&robot.platform.center_of_mass, center)),
+        frame: Vec::new(),
         weight: mass * robot.gravity,
-        multipliers: six(|k| all(nominal.multipliers[k])),
     };
-    (robots, sound)
+    let multipliers = six(|k| all(nominal.multipliers[k]));
+    (Beginning { robots, offsets, multipliers }, sound)
 }
 
 fn residuals<S: Simd>(open: &Open<S>) -> [Residual; MAX_LANES] {
     let closure = open.closure.to_array();
-    let wrench = open.wrench.map(Lanes::to_array);
-    let norm = |first: usize, lane: usize| Vector3::from_fn(|k, _| wrench[first + k][lane]).norm();
-    from_fn(|lane| Residual { closure: closure[lane].sqrt(), force: norm(0, lane), moment: norm(3, lane) })
+    let [force, moment] = open.norms();
+    from_fn(|lane| Residual { closure: closure[lane].sqrt(), force: force[lane], moment: moment[lane] })
 }
 
 #[cfg(test)]

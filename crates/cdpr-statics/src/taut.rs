@@ -1,37 +1,14 @@
-//! The chain of an observation for robots with taut cables, one robot a lane: inverse model, offset set-points, direct model without
-//! and with the load.
-//!
-//! The equations are those of [`crate::inverse`] and [`crate::newton`], with one difference: the shape of a cable is not solved for but
-//! takes part in the iteration. With û the direction of its end force, n̂ the normal to it, C the flexibility, `e = d(x, z)/dL` and c its
-//! miss at force and length,
-//!
-//! ```text
-//! C (û dt + n̂ t dθ) + e dL = c      gives      dθ = α + β dt,    dL = γ + δ dt                         (a)
-//! ```
-//!
-//! for a change dt of its tension. With w the wrench of a unit tension, n its derivative with respect to θ, and λ the multipliers of the
-//! least-norm distribution,
-//!
-//! ```text
-//! t + w·λ = 0,      sum t w + w_ex = 0                                                                 (b)
-//! [ sum c wᵀ/D ] dλ = F2 - sum c F1/D,      dt = -(F1 + w·dλ)/D,                                       (c)
-//!      D = 1 + β n·λ,   c = w + t β n,   F1 = t + (w + α n)·λ,   F2 = sum t (w + α n) + w_ex
-//! ```
+//! The direct model of robots with taut cables, one robot a lane: Newton's method of [`crate::newton`] with its cables eliminated.
 //!
 //! A lane stops by its own steps alone: the others of a batch change none of its digits.
 
 use crate::direct::MAX_STRAIN;
-use crate::lanes::{Lanes, Mask, Simd};
+use crate::lane_algebra::{Factored, Space, Wrench, add, cross, dot, halves, six, three};
+use crate::lanes::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_cable::{Field, TAUT, TautEnd, taut_end, taut_response};
 
-/// A point or a vector in the base frame.
-type Space<S> = [Lanes<S>; 3];
-
 /// A vector in a cable's vertical plane: along the azimuth, upwards.
-type Plane<S> = [Lanes<S>; 2];
-
-/// Force and moment about P, or translation and rotation.
-type Wrench<S> = [Lanes<S>; 6];
+pub(crate) type Plane<S> = [Lanes<S>; 2];
 
 /// A cable of every robot.
 pub(crate) struct Cable<S: Simd> {
@@ -43,44 +20,41 @@ pub(crate) struct Cable<S: Simd> {
     pub(crate) exit: Space<S>,
     /// s = R a [m].
     pub(crate) arm: Space<S>,
-    /// Offset of the tension set-point [N].
-    pub(crate) offset: Lanes<S>,
     /// Unstrained length [m].
     pub(crate) length: Lanes<S>,
     /// Force at A [N].
     pub(crate) force: Plane<S>,
 }
 
-/// Robots at their wanted pose, each in a lane. Lengths, forces and multipliers are starts.
+/// Robots, each in a lane, in an equilibrium or near one.
 pub(crate) struct Robots<S: Simd> {
     pub(crate) cables: Vec<Cable<S>>,
     /// Position of the platform [m].
     pub(crate) position: Space<S>,
     /// R c, the arm of the centre of mass [m].
     pub(crate) center: Space<S>,
+    /// Other vectors that turn with the platform.
+    pub(crate) frame: Vec<Space<S>>,
     /// Weight of the platform [N].
     pub(crate) weight: Lanes<S>,
-    /// λ.
-    pub(crate) multipliers: Wrench<S>,
 }
 
-/// What all robots have in common.
+impl<S: Simd> Open<S> {
+    /// Norms of force [N] and moment [N m], one a lane.
+    pub(crate) fn norms(&self) -> [[f64; MAX_LANES]; 2] {
+        let (force, moment) = halves(&self.wrench);
+        [dot(&force, &force).sqrt().to_array(), dot(&moment, &moment).sqrt().to_array()]
+    }
+}
+
+/// Lengths that positions are compared with [m].
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Settings {
-    /// Limits of the tensions [N].
-    pub(crate) least: f64,
-    pub(crate) greatest: f64,
-    /// Weight of the payload [N].
-    pub(crate) payload: f64,
-    /// Force of the load at P [N].
-    pub(crate) force: [f64; 3],
-    /// Length that steps are compared with [m].
+pub(crate) struct Scale {
+    /// The longest cable.
     pub(crate) size: f64,
-    /// Length that makes rotations comparable with translations [m].
+    /// What makes rotations comparable with translations.
     pub(crate) arm: f64,
-    /// Sum of the tensions that changes are compared with [N].
-    pub(crate) tension: f64,
-    /// Rounding of a closure [m].
+    /// Rounding of a closure.
     pub(crate) rounding: f64,
 }
 
@@ -93,216 +67,40 @@ pub(crate) struct Open<S: Simd> {
     pub(crate) wrench: Wrench<S>,
 }
 
-/// What became of every robot.
-pub(crate) struct Outcome<S: Simd> {
-    /// Lanes with an answer: converged to rounding, stable, all cables taut, all tensions within their limits.
-    pub(crate) valid: Mask<S>,
-    /// dp [m].
-    pub(crate) displacement: Space<S>,
-    pub(crate) unloaded: Open<S>,
-    pub(crate) loaded: Open<S>,
-}
-
-const MAX_ITERATIONS: usize = 8;
+pub(crate) const MAX_ITERATIONS: usize = 8;
 
 /// A step below this, relative to what it changes, is followed by one below rounding: Newton's method squares it.
 const LAST_STEP: f64 = 1e-8;
 
-/// The same for lengths and forces at the wanted pose, relative to the longest cable and the sum of tensions.
-const LAST_CHANGE: f64 = 1e-7;
-
-/// The same for tensions that are still to be offset: what is left of them then changes no position by more than 1e-12 m.
-const LAST_DISTRIBUTION: f64 = 3e-6;
-
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
 
-/// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at the wanted pose.
-#[inline(always)]
-pub(crate) fn observe<S: Simd>(simd: S, robots: &mut Robots<S>, settings: &Settings) -> Outcome<S> {
-    let zero = Lanes::splat(simd, 0.0);
-    let spans: Vec<Span<S>> = robots.cables.iter().map(|cable| Span::new(&robots.position, cable)).collect();
-    let within = distribute(robots, &spans, settings);
-    let held = hold(robots, &spans, settings);
-
-    let own = Load { weight: robots.weight, force: [zero; 3] };
-    let mut tangent = Tangent::new(zero, spans.len());
-    let all = zero.less_or_equal(zero);
-    let closure = robots.linearise(&own, &mut tangent, all);
-    // The lengths close at the wanted pose.
-    let closed = closure.less_or_equal(zero.all(settings.rounding * settings.rounding));
-    let (standing, unloaded) = robots.settle(&own, &mut tangent, settings, within & held & closed);
-    let stood = robots.position;
-
-    let payload = Load { weight: zero.all(settings.payload), force: three(|k| zero.all(settings.force[k])) };
-    let load = Load { weight: own.weight + payload.weight, force: payload.force };
-    // The first step follows the linearisation at hand.
-    let added = payload.wrench(&robots.center);
-    tangent.gradient = six(|k| tangent.gradient[k] - added[k]);
-    let (valid, loaded) = robots.settle(&load, &mut tangent, settings, standing);
-    Outcome { valid, displacement: three(|k| robots.position[k] - stood[k]), unloaded, loaded }
-}
-
-/// From exit to anchor point: azimuth and (h, z).
-struct Span<S: Simd> {
-    azimuth: Plane<S>,
-    end: Plane<S>,
-}
-
-/// A cable at its held ends, equation (a).
-#[derive(Clone, Copy)]
-struct Held<S: Simd> {
-    tension: Lanes<S>,
-    /// û.
-    along: Plane<S>,
-    alpha: Lanes<S>,
-    beta: Lanes<S>,
-    gamma: Lanes<S>,
-    delta: Lanes<S>,
+/// From exit to anchor point.
+pub(crate) struct Span<S: Simd> {
+    pub(crate) azimuth: Plane<S>,
+    /// (h, z) [m].
+    pub(crate) end: Plane<S>,
 }
 
 impl<S: Simd> Span<S> {
     #[inline(always)]
-    fn new(position: &Space<S>, cable: &Cable<S>) -> Self {
+    pub(crate) fn new(position: &Space<S>, cable: &Cable<S>) -> Self {
         let r = three(|k| position[k] + cable.arm[k] - cable.exit[k]);
         let h = (r[0] * r[0] + r[1] * r[1]).sqrt();
         let inverse = h.recip();
         Self { azimuth: [r[0] * inverse, r[1] * inverse], end: [h, r[2]] }
     }
-
-    /// Wrench on the platform of a force on the cable's end.
-    #[inline(always)]
-    fn wrench(&self, arm: &Space<S>, [x, z]: Plane<S>) -> Wrench<S> {
-        let force = [-x * self.azimuth[0], -x * self.azimuth[1], -z];
-        let moment = cross(arm, &force);
-        [force[0], force[1], force[2], moment[0], moment[1], moment[2]]
-    }
-}
-
-impl<S: Simd> Held<S> {
-    #[inline(always)]
-    fn new(cable: &Cable<S>, end: &Plane<S>) -> Self {
-        let [fx, fz] = cable.force;
-        let response = taut_response(cable.weight, cable.stretch, cable.length, cable.force);
-        let [xx, xz, zz] = response.flexibility;
-        let tension_inv = response.tension.recip();
-        let along = [fx * tension_inv, fz * tension_inv];
-        let miss = [end[0] - response.end[0], end[1] - response.end[1]];
-        let turn = [xz * fx - xx * fz, zz * fx - xz * fz];
-        let give = [xx * along[0] + xz * along[1], xz * along[0] + zz * along[1]];
-        let longer = response.end_per_length;
-        let area = |a: &Plane<S>, b: &Plane<S>| a[0] * b[1] - a[1] * b[0];
-        let inverse = area(&turn, &longer).recip();
-        Self {
-            tension: response.tension,
-            along,
-            alpha: area(&miss, &longer) * inverse,
-            beta: -area(&give, &longer) * inverse,
-            gamma: area(&turn, &miss) * inverse,
-            delta: -area(&turn, &give) * inverse,
-        }
-    }
-
-    /// Changes the tension by `dt` where `going`. Returns the largest relative change made.
-    #[inline(always)]
-    fn change(&self, cable: &mut Cable<S>, dt: Lanes<S>, going: Mask<S>, settings: &Settings) -> Lanes<S> {
-        let across = (self.alpha + self.beta * dt) * self.tension;
-        let longer = self.gamma + self.delta * dt;
-        let [ux, uz] = self.along;
-        let [fx, fz] = cable.force;
-        cable.force =
-            [going.select(fx + ux * dt - uz * across, fx), going.select(fz + uz * dt + ux * across, fz)];
-        cable.length = going.select(cable.length + longer, cable.length);
-        let force = (dt.abs() + across.abs()) * (1.0 / settings.tension);
-        force.max(longer.abs() * (1.0 / settings.size))
-    }
-}
-
-/// Least-norm tensions at the wanted pose, equations (b) and (c). Returns the lanes with taut cables and all tensions within the limits.
-#[inline(always)]
-fn distribute<S: Simd>(robots: &mut Robots<S>, spans: &[Span<S>], settings: &Settings) -> Mask<S> {
-    let zero = robots.weight.all(0.0);
-    let last_change = zero.all(LAST_DISTRIBUTION);
-    let weight = Load { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
-    let mut going = zero.less_or_equal(zero);
-    let mut linear = Vec::with_capacity(spans.len());
-    for _ in 0..MAX_ITERATIONS {
-        linear.clear();
-        let mut matrix = [[zero; 6]; 6];
-        let mut right = weight;
-        for (span, cable) in spans.iter().zip(&robots.cables) {
-            let held = Held::new(cable, &span.end);
-            let [ux, uz] = held.along;
-            let pull = span.wrench(&cable.arm, held.along);
-            let turn = span.wrench(&cable.arm, [-uz, ux]);
-            let turned = dot(&turn, &robots.multipliers);
-            let d_inv = (held.beta * turned + 1.0).recip();
-            let left = held.tension + dot(&pull, &robots.multipliers) + held.alpha * turned;
-            for k in 0..6 {
-                let c = (pull[k] + turn[k] * (held.tension * held.beta)) * d_inv;
-                right[k] += (pull[k] + turn[k] * held.alpha) * held.tension - c * left;
-                for l in 0..6 {
-                    matrix[k][l] += c * pull[l];
-                }
-            }
-            linear.push((held, pull, left, d_inv));
-        }
-        let step = Factored::new(matrix).solve(&right);
-        let mut moved = zero;
-        for ((held, pull, left, d_inv), cable) in linear.iter().zip(&mut robots.cables) {
-            let dt = -(*left + dot(pull, &step)) * *d_inv;
-            moved = moved.max(held.change(cable, dt, going, settings));
-        }
-        robots.multipliers = six(|k| going.select(robots.multipliers[k] + step[k], robots.multipliers[k]));
-        going = going & !moved.less_or_equal(last_change);
-        if !going.any() {
-            break;
-        }
-    }
-    let mut within = !going;
-    for cable in &robots.cables {
-        let TautEnd { tension, slackness, .. } = cable.end();
-        within = within
-            & zero.less_or_equal(cable.force[0])
-            & slackness.less_or_equal(zero.all(TAUT))
-            & zero.all(settings.least).less_or_equal(tension)
-            & tension.less_or_equal(zero.all(settings.greatest));
-    }
-    within
-}
-
-/// Lengths that give the offset tensions at the wanted pose. Returns the lanes where all were found.
-#[inline(always)]
-fn hold<S: Simd>(robots: &mut Robots<S>, spans: &[Span<S>], settings: &Settings) -> Mask<S> {
-    let zero = robots.weight.all(0.0);
-    let mut all = zero.less_or_equal(zero);
-    for (span, cable) in spans.iter().zip(&mut robots.cables) {
-        let tension = dot(&cable.force, &cable.force).sqrt();
-        let set_point = (tension + cable.offset).max(zero.all(settings.least));
-        let mut going = all;
-        for _ in 0..MAX_ITERATIONS {
-            let held = Held::new(cable, &span.end);
-            let moved = held.change(cable, set_point - held.tension, going, settings);
-            going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
-            if !going.any() {
-                break;
-            }
-        }
-        // A root with a cable of negative length is none.
-        all = all & !going & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
-    }
-    all
 }
 
 /// What acts on a platform: a weight at its centre of mass and a force at P.
-struct Load<S: Simd> {
-    weight: Lanes<S>,
-    force: Space<S>,
+pub(crate) struct Load<S: Simd> {
+    pub(crate) weight: Lanes<S>,
+    pub(crate) force: Space<S>,
 }
 
 impl<S: Simd> Load<S> {
     #[inline(always)]
-    fn wrench(&self, center: &Space<S>) -> Wrench<S> {
+    pub(crate) fn wrench(&self, center: &Space<S>) -> Wrench<S> {
         let [x, y, z] = self.force;
         [x, y, z - self.weight, -center[1] * self.weight, center[0] * self.weight, self.weight.all(0.0)]
     }
@@ -310,7 +108,7 @@ impl<S: Simd> Load<S> {
 
 /// A cable linearised about a force that need not fit its ends: `df = K (c + d(h, z))`, as in [`crate::newton`].
 #[derive(Clone, Copy)]
-struct Linear<S: Simd> {
+pub(crate) struct Linear<S: Simd> {
     azimuth: Plane<S>,
     /// f + K c.
     predicted: Plane<S>,
@@ -319,25 +117,45 @@ struct Linear<S: Simd> {
 }
 
 /// The platform between linearised cables.
-struct Tangent<S: Simd> {
+pub(crate) struct Tangent<S: Simd> {
     cables: Vec<Linear<S>>,
     /// Gradient of the potential with the predicted forces.
-    gradient: Wrench<S>,
+    pub(crate) gradient: Wrench<S>,
     /// Its derivative, factored.
     factored: Factored<S>,
 }
 
 impl<S: Simd> Tangent<S> {
     #[inline(always)]
-    fn new(zero: Lanes<S>, cables: usize) -> Self {
+    pub(crate) fn new(zero: Lanes<S>, cables: usize) -> Self {
         let cable = Linear { azimuth: [zero; 2], predicted: [zero; 2], stiffness: [zero; 3] };
         Self { cables: vec![cable; cables], gradient: [zero; 6], factored: Factored::new([[zero; 6]; 6]) }
     }
 }
 
+impl<S: Simd> Linear<S> {
+    /// Takes over another one in the lanes that are `going`.
+    #[inline(always)]
+    fn replace(&mut self, other: &Self, going: Mask<S>) {
+        let plane =
+            |new: &Plane<S>, old: &Plane<S>| [going.select(new[0], old[0]), going.select(new[1], old[1])];
+        self.azimuth = plane(&other.azimuth, &self.azimuth);
+        self.predicted = plane(&other.predicted, &self.predicted);
+        self.stiffness = three(|k| going.select(other.stiffness[k], self.stiffness[k]));
+    }
+
+    /// f + K c for a miss c.
+    #[inline(always)]
+    fn predict(&mut self, cable: &Cable<S>, miss: &Plane<S>) {
+        let [fx, fz] = cable.force;
+        let [xx, xz, zz] = self.stiffness;
+        self.predicted = [fx + xx * miss[0] + xz * miss[1], fz + xz * miss[0] + zz * miss[1]];
+    }
+}
+
 impl<S: Simd> Cable<S> {
     #[inline(always)]
-    fn end(&self) -> TautEnd<Lanes<S>> {
+    pub(crate) fn end(&self) -> TautEnd<Lanes<S>> {
         taut_end(self.weight, self.stretch, self.length, self.force)
     }
 }
@@ -345,7 +163,7 @@ impl<S: Simd> Cable<S> {
 impl<S: Simd> Robots<S> {
     /// Linearises the lanes that are `going`. Returns the largest squared miss of a cable.
     #[inline(always)]
-    fn linearise(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) -> Lanes<S> {
+    pub(crate) fn linearise(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) -> Lanes<S> {
         let zero = self.weight.all(0.0);
         let wrench = load.wrench(&self.center);
         let mut gradient = six(|k| -wrench[k]);
@@ -359,14 +177,15 @@ impl<S: Simd> Robots<S> {
         hessian[4][5] = load.weight * cy;
         for (cable, linear) in self.cables.iter().zip(&mut tangent.cables) {
             let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
-            let [fx, fz] = cable.force;
             let response = taut_response(cable.weight, cable.stretch, cable.length, cable.force);
             let [xx, xz, zz] = response.flexibility;
             let inverse = response.determinant.recip();
             let k = [zz * inverse, -xz * inverse, xx * inverse];
             let miss = [h - response.end[0], z - response.end[1]];
             closure = closure.max(dot(&miss, &miss));
-            let predicted = [fx + k[0] * miss[0] + k[1] * miss[1], fz + k[1] * miss[0] + k[2] * miss[1]];
+            let mut new = Linear { azimuth: [c, s], predicted: cable.force, stiffness: k };
+            new.predict(cable, &miss);
+            let predicted = new.predicted;
             let force = [predicted[0] * c, predicted[0] * s, predicted[1]];
             add(&mut gradient, &cable.arm, &force);
             let lateral = response.lateral.recip();
@@ -374,25 +193,40 @@ impl<S: Simd> Robots<S> {
             let (xy, xz, yz) = (kc * s - swing * c, k[1] * c, k[1] * s);
             let space = [[kc * c + swing * s, xy, xz], [xy, ks * s + lateral * c * c, yz], [xz, yz, k[2]]];
             add_stiffness(&mut hessian, &cable.arm, &force, &space);
-            let old = *linear;
-            linear.azimuth = [going.select(c, old.azimuth[0]), going.select(s, old.azimuth[1])];
-            linear.predicted =
-                [going.select(predicted[0], old.predicted[0]), going.select(predicted[1], old.predicted[1])];
-            linear.stiffness = three(|j| going.select(k[j], old.stiffness[j]));
+            linear.replace(&new, going);
         }
-        for row in 3..6 {
-            for column in 0..3 {
-                hessian[row][column] = hessian[column][row];
-            }
+        let (upper, lower) = hessian.split_at_mut(3);
+        for (k, row) in lower.iter_mut().enumerate() {
+            row[..3].copy_from_slice(&[upper[0][3 + k], upper[1][3 + k], upper[2][3 + k]]);
         }
         tangent.gradient = six(|k| going.select(gradient[k], tangent.gradient[k]));
         tangent.factored.replace(&Factored::new(hessian), going);
         closure
     }
 
+    /// What the linearisation becomes, to first order, when each cable is paid out by `longer` [m].
+    #[inline(always)]
+    pub(crate) fn pay_out(
+        &self,
+        load: &Load<S>,
+        tangent: &mut Tangent<S>,
+        longer: impl Fn(usize) -> Lanes<S>,
+    ) {
+        let wrench = load.wrench(&self.center);
+        tangent.gradient = six(|k| -wrench[k]);
+        for (i, (cable, linear)) in self.cables.iter().zip(&mut tangent.cables).enumerate() {
+            let [ex, ez] = cable.end().end_per_length;
+            let miss = [-ex * longer(i), -ez * longer(i)];
+            linear.predict(cable, &miss);
+            let [x, z] = linear.predicted;
+            let [c, s] = linear.azimuth;
+            add(&mut tangent.gradient, &cable.arm, &[x * c, x * s, z]);
+        }
+    }
+
     /// What the platforms leave open, and the lanes where that is rounding and all cables are pulled, taut and not overstrained.
     #[inline(always)]
-    fn residual(&self, load: &Load<S>, settings: &Settings) -> (Open<S>, Mask<S>) {
+    fn residual(&self, load: &Load<S>, scale: &Scale) -> (Open<S>, Mask<S>) {
         let zero = self.weight.all(0.0);
         let wrench = load.wrench(&self.center);
         let mut open = Open { closure: zero, wrench: six(|k| -wrench[k]) };
@@ -400,7 +234,7 @@ impl<S: Simd> Robots<S> {
         let mut sound = zero.less_or_equal(zero);
         for cable in &self.cables {
             let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
-            let TautEnd { end, tension, slackness } = cable.end();
+            let TautEnd { end, tension, slackness, .. } = cable.end();
             let miss = [h - end[0], z - end[1]];
             open.closure = open.closure.max(dot(&miss, &miss));
             let [fx, fz] = cable.force;
@@ -413,9 +247,9 @@ impl<S: Simd> Robots<S> {
                 & strain.less_or_equal(zero.all(MAX_STRAIN));
         }
         let (force, moment) = halves(&open.wrench);
-        let unbalanced = dot(&force, &force).sqrt() + dot(&moment, &moment).sqrt() * (1.0 / settings.arm);
+        let unbalanced = dot(&force, &force).sqrt() + dot(&moment, &moment).sqrt() * (1.0 / scale.arm);
         let holds = sound
-            & open.closure.less_or_equal(zero.all(settings.rounding * settings.rounding))
+            & open.closure.less_or_equal(zero.all(scale.rounding * scale.rounding))
             & unbalanced.less_or_equal(tensions * FORCE_ROUNDING);
         (open, holds)
     }
@@ -423,16 +257,16 @@ impl<S: Simd> Robots<S> {
     /// Newton's method on the direct model from a linearisation, in the lanes `alive`. Returns the lanes that found a stable equilibrium,
     /// and what it leaves open; the linearisation is then one nearby.
     #[inline(always)]
-    fn settle(
+    pub(crate) fn settle(
         &mut self,
         load: &Load<S>,
         tangent: &mut Tangent<S>,
-        settings: &Settings,
+        scale: &Scale,
         alive: Mask<S>,
     ) -> (Mask<S>, Open<S>) {
         let square = |length: f64| self.weight.all(length * length);
-        let (farthest, turned_most) = (square(0.3 * settings.size), square(0.1));
-        let last_step = square(LAST_STEP * settings.size);
+        let (farthest, turned_most) = (square(0.3 * scale.size), square(0.1));
+        let last_step = square(LAST_STEP * scale.size);
         let (mut going, mut found) = (alive, alive & !alive);
         let mut open = Open { closure: last_step, wrench: tangent.gradient };
         for _ in 0..MAX_ITERATIONS {
@@ -440,13 +274,13 @@ impl<S: Simd> Robots<S> {
             let step = tangent.factored.solve(&gradient);
             let (translation, rotation) = halves(&step);
             let turned = dot(&rotation, &rotation);
-            let moved = dot(&translation, &translation) + turned * (settings.arm * settings.arm);
+            let moved = dot(&translation, &translation) + turned * (scale.arm * scale.arm);
             // Farther than this the linearisation means nothing, and no number is farther.
             going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
             self.apply(&translation, &rotation, turned, &tangent.cables, going);
             let last = going & moved.less_or_equal(last_step);
             if last.any() {
-                let (left, holds) = self.residual(load, settings);
+                let (left, holds) = self.residual(load, scale);
                 let done = last & holds & tangent.factored.positive;
                 open = left;
                 (found, going) = (found | done, going & !done);
@@ -487,8 +321,10 @@ impl<S: Simd> Robots<S> {
             cable.force = [going.select(force[0], cable.force[0]), going.select(force[1], cable.force[1])];
             cable.arm = three(|k| going.select(arm[k], cable.arm[k]));
         }
-        let (_, center) = turn(&self.center, rotation, a, b);
-        self.center = three(|k| going.select(center[k], self.center[k]));
+        for vector in self.frame.iter_mut().chain([&mut self.center]) {
+            let (_, turned) = turn(vector, rotation, a, b);
+            *vector = three(|k| going.select(turned[k], vector[k]));
+        }
         self.position = three(|k| going.select(self.position[k] + translation[k], self.position[k]));
     }
 }
@@ -499,16 +335,6 @@ fn turn<S: Simd>(v: &Space<S>, rotation: &Space<S>, a: Lanes<S>, b: Lanes<S>) ->
     let once = cross(rotation, v);
     let twice = cross(rotation, &once);
     (once, three(|k| v[k] + a * once[k] + b * twice[k]))
-}
-
-/// Adds (F, s x F).
-#[inline(always)]
-fn add<S: Simd>(wrench: &mut Wrench<S>, arm: &Space<S>, force: &Space<S>) {
-    let moment = cross(arm, force);
-    for k in 0..3 {
-        wrench[k] += force[k];
-        wrench[3 + k] += moment[k];
-    }
 }
 
 /// Adds a cable of stiffness K with force F at the arm s; the lower left block is left for the end.
@@ -532,91 +358,4 @@ fn add_stiffness<S: Simd>(hessian: &mut [[Lanes<S>; 6]; 6], s: &Space<S>, f: &Sp
         hessian[4][3 + column] -= sz * ks[0][column] - sx * ks[2][column];
         hessian[5][3 + column] -= sx * ks[1][column] - sy * ks[0][column];
     }
-}
-
-/// L U of a matrix that needs no pivoting: that of a stable platform, or of tensions that are distributed.
-#[derive(Clone, Copy)]
-struct Factored<S: Simd> {
-    lu: [[Lanes<S>; 6]; 6],
-    pivots_inv: [Lanes<S>; 6],
-    /// Whether all pivots are positive: of a symmetric matrix, whether it is positive definite.
-    positive: Mask<S>,
-}
-
-impl<S: Simd> Factored<S> {
-    #[inline(always)]
-    fn new(matrix: [[Lanes<S>; 6]; 6]) -> Self {
-        let mut lu = matrix;
-        let mut pivots_inv = [lu[0][0]; 6];
-        let tiny = lu[0][0].all(f64::MIN_POSITIVE);
-        let mut positive = tiny.less_or_equal(lu[0][0]);
-        for k in 0..6 {
-            positive = positive & tiny.less_or_equal(lu[k][k]);
-            pivots_inv[k] = lu[k][k].recip();
-            for row in k + 1..6 {
-                lu[row][k] = lu[row][k] * pivots_inv[k];
-                for column in k + 1..6 {
-                    lu[row][column] = lu[row][column] - lu[row][k] * lu[k][column];
-                }
-            }
-        }
-        Self { lu, pivots_inv, positive }
-    }
-
-    /// Takes over another one in the lanes that are `going`.
-    #[inline(always)]
-    fn replace(&mut self, other: &Self, going: Mask<S>) {
-        for row in 0..6 {
-            self.lu[row] = six(|column| going.select(other.lu[row][column], self.lu[row][column]));
-        }
-        self.pivots_inv = six(|k| going.select(other.pivots_inv[k], self.pivots_inv[k]));
-        self.positive = (going & other.positive) | (!going & self.positive);
-    }
-
-    #[inline(always)]
-    fn solve(&self, right: &Wrench<S>) -> Wrench<S> {
-        let mut x = *right;
-        for row in 1..6 {
-            for column in 0..row {
-                x[row] = x[row] - self.lu[row][column] * x[column];
-            }
-        }
-        for row in (0..6).rev() {
-            for column in row + 1..6 {
-                x[row] = x[row] - self.lu[row][column] * x[column];
-            }
-            x[row] = x[row] * self.pivots_inv[row];
-        }
-        x
-    }
-}
-
-// `std::array::from_fn` is no part of what is compiled for the vector unit.
-#[inline(always)]
-pub(crate) fn three<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Space<S> {
-    [component(0), component(1), component(2)]
-}
-
-#[inline(always)]
-pub(crate) fn six<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Wrench<S> {
-    [component(0), component(1), component(2), component(3), component(4), component(5)]
-}
-
-#[inline(always)]
-fn halves<S: Simd>(wrench: &Wrench<S>) -> (Space<S>, Space<S>) {
-    (three(|k| wrench[k]), three(|k| wrench[3 + k]))
-}
-
-#[inline(always)]
-fn cross<S: Simd>(a: &Space<S>, b: &Space<S>) -> Space<S> {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-fn dot<S: Simd, const N: usize>(a: &[Lanes<S>; N], b: &[Lanes<S>; N]) -> Lanes<S> {
-    let mut sum = a[0] * b[0];
-    for k in 1..N {
-        sum += a[k] * b[k];
-    }
-    sum
 }

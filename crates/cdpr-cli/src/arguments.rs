@@ -1,0 +1,139 @@
+//! Arguments that are more than a number or a path, as functions for clap, which names the argument and its value in what it
+//! reports.
+
+use cdpr_robot::{Pose, UnitQuaternion, Vector3};
+use std::path::Path;
+
+/// How results are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Format {
+    /// Tables.
+    Text,
+    /// JSON, numbers to the last bit.
+    Json,
+}
+
+/// A finite number.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
+    number.ok_or_else(|| format!("`{}` is not a finite number", text.trim()))
+}
+
+/// Finite numbers separated by commas.
+pub(crate) fn numbers(text: &str) -> Result<Vec<f64>, String> {
+    text.split(',').map(number).collect()
+}
+
+/// `x,y,z` [m], followed by the quaternion `qw,qx,qy,qz` where the platform is rotated.
+pub(crate) fn pose(text: &str) -> Result<Pose, String> {
+    let expected = "expected x,y,z [m] or x,y,z,qw,qx,qy,qz";
+    let numbers = numbers(text).map_err(|error| format!("{error}: {expected}"))?;
+    match numbers[..] {
+        [x, y, z] => Ok(Pose::at(x, y, z)),
+        [x, y, z, qw, qx, qy, qz] => Pose::with_quaternion(Vector3::new(x, y, z), [qw, qx, qy, qz])
+            .ok_or_else(|| "the quaternion is zero: expected one that can be normalised".to_owned()),
+        _ => Err(format!("{} numbers: {expected}", numbers.len())),
+    }
+}
+
+/// Position and quaternion (w, x, y, z), as [`pose`] reads them.
+pub(crate) fn pose_numbers(pose: &Pose) -> [f64; 7] {
+    let [x, y, z] = pose.position.into();
+    let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
+    [x, y, z, q.w, q.i, q.j, q.k]
+}
+
+/// Poses from a file, one a line.
+pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, String> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| format!("--poses: cannot read {}: {error}", path.display()))?;
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    lines
+        .map(|(i, line)| {
+            pose(line).map_err(|error| format!("--poses {}, line {}: {error}", path.display(), i + 1))
+        })
+        .collect()
+}
+
+/// Poses of one argument.
+#[derive(Clone)]
+pub(crate) struct Poses(pub(crate) Vec<Pose>);
+
+/// Positions on a grid: `min:max:points` of each axis [m], separated by commas.
+pub(crate) fn grid(text: &str) -> Result<Poses, String> {
+    let expected = "expected min:max:points of x, y and z, such as -2:2:5,-1:1:3,0.5:2.5:3";
+    let axis = |text: &str| {
+        let [min, max, points] = text.split(':').collect::<Vec<_>>()[..] else { return None };
+        let (min, max) = (number(min).ok()?, number(max).ok()?);
+        let points = points.trim().parse().ok().filter(|points: &usize| (1..=1000).contains(points))?;
+        let step = (max - min) / (points.max(2) - 1) as f64;
+        Some((0..points).map(|k| min + step * k as f64).collect::<Vec<_>>())
+    };
+    let axes: Option<Vec<_>> = text.split(',').map(axis).collect();
+    let Some([x, y, z]) = axes.as_deref() else { return Err(expected.to_owned()) };
+    let mut poses = Vec::with_capacity(x.len() * y.len() * z.len());
+    for x in x {
+        for y in y {
+            poses.extend(z.iter().map(|z| Pose::at(*x, *y, *z)));
+        }
+    }
+    Ok(Poses(poses))
+}
+
+/// Numbers with names.
+#[derive(Clone)]
+pub(crate) struct Named(pub(crate) Vec<(String, f64)>);
+
+/// `name=number`, separated by commas.
+pub(crate) fn named(text: &str) -> Result<Named, String> {
+    let one = |text: &str| {
+        let (name, value) = text.split_once('=').ok_or_else(|| format!("`{text}`: expected name=number"))?;
+        Ok((name.trim().to_owned(), number(value)?))
+    };
+    text.split(',').map(one).collect::<Result<_, _>>().map(Named)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pose_is_three_numbers_or_seven() {
+        assert_eq!(pose("1,-2.5, 3e-1"), Ok(Pose::at(1.0, -2.5, 0.3)));
+        let turned = pose("0,0,1,0,0,0,2").unwrap();
+        assert!((turned.rotation * Vector3::x() + Vector3::x()).norm() < 1e-15);
+        for (text, words) in [
+            ("", "`` is not a finite number: expected x,y,z"),
+            ("1,2", "2 numbers: expected x,y,z"),
+            ("1,2,3,1", "4 numbers"),
+            ("1,2,nan", "`nan` is not a finite number"),
+            ("1,2,up", "`up` is not"),
+            ("1,2,3,0,0,0,0", "the quaternion is zero"),
+        ] {
+            let error = pose(text).unwrap_err();
+            assert!(error.starts_with(words), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_grid_has_its_ends_and_a_list_its_names() {
+        let Poses(poses) = grid("-1:1:3,0:0:1,2:3:2").unwrap();
+        assert_eq!(poses.len(), 6);
+        assert_eq!((poses[0], poses[5]), (Pose::at(-1.0, 0.0, 2.0), Pose::at(1.0, 0.0, 3.0)));
+        for text in ["", "0:1:2", "0:1:0,0:1:1,0:1:1", "0:1:2,0:1:2,0:x:2", "0:1:2,0:1:2,0:1:2,0:1:2"] {
+            assert!(grid(text).is_err_and(|error| error.starts_with("expected min:max:points")), "{text}");
+        }
+        let Named(named) = named("a=0.1, mass=2").unwrap();
+        assert_eq!(named, [("a".to_owned(), 0.1), ("mass".to_owned(), 2.0)]);
+        assert!(super::named("a").is_err() && super::named("a=b").is_err());
+    }
+
+    #[test]
+    fn a_pose_is_read_as_it_is_written() {
+        let turned = pose("1,2,3,0.5,0.5,-0.5,0.5").unwrap();
+        assert!(
+            (0..7)
+                .all(|i| (pose_numbers(&turned)[i] - [1.0, 2.0, 3.0, 0.5, 0.5, -0.5, 0.5][i]).abs() < 1e-15)
+        );
+    }
+}

@@ -1,0 +1,128 @@
+//! `cdpr derivatives`: what a small change of each parameter does to lengths and deflection.
+
+use crate::arguments::{self, Format};
+use crate::study::table;
+use cdpr_robot::{Parameter, Pose, Robot};
+use cdpr_statics::{Derivatives, Load, derivatives};
+use cdpr_study::open_robot;
+use serde::Serialize;
+use std::error::Error;
+use std::path::PathBuf;
+
+/// What was asked for.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// Wanted pose: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
+    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
+    pose: Pose,
+    /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
+    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
+    payload: f64,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+    let robot = open_robot(&settings.robot)?;
+    let offsets = vec![0.0; robot.cables.len()];
+    let found = derivatives(&robot, &settings.pose, &offsets, &Load::payload(settings.payload))?;
+    let slopes = Slopes::new(&found)?;
+    match settings.format {
+        Format::Json => println!("{}", serde_json::to_string(&slopes)?),
+        Format::Text => print(&robot, settings, &found, &slopes),
+    }
+    Ok(())
+}
+
+/// Derivatives with respect to each parameter; the outer lists are in the order of the parameters.
+#[derive(Serialize)]
+struct Slopes {
+    parameters: Vec<String>,
+    /// Of |dp| [mm].
+    rms_mm: Vec<f64>,
+    /// Of dp [mm].
+    deflection_mm: Vec<[f64; 3]>,
+    /// Of the unstrained length of each cable [m].
+    unstrained_lengths: Vec<Vec<f64>>,
+    unit: &'static str,
+}
+
+impl Slopes {
+    fn new(found: &Derivatives) -> Result<Self, Box<dyn Error>> {
+        let parameters = &found.inputs.parameters;
+        let count = parameters.len();
+        let mut rms = found.rms()?;
+        rms.truncate(count);
+        Ok(Self {
+            parameters: parameters.iter().map(ToString::to_string).collect(),
+            rms_mm: rms.iter().map(|slope| 1e3 * slope).collect(),
+            deflection_mm: found
+                .displacement()
+                .column_iter()
+                .take(count)
+                .map(|dp| (1e3 * dp).into())
+                .collect(),
+            unstrained_lengths: found
+                .lengths
+                .column_iter()
+                .take(count)
+                .map(|lengths| lengths.iter().copied().collect())
+                .collect(),
+            unit: "per SI unit of the parameter",
+        })
+    }
+}
+
+/// The unit of a table: of the size by which such a parameter is uncertain, in SI units.
+fn handy_unit(parameter: &Parameter) -> (&'static str, f64) {
+    match parameter.unit() {
+        "kg/m" => ("g/m", 1e-3),
+        "Pa" => ("GPa", 1e9),
+        "m" => ("mm", 1e-3),
+        unit => (unit, 1.0),
+    }
+}
+
+fn print(robot: &Robot, settings: &Settings, found: &Derivatives, slopes: &Slopes) {
+    let [x, y, z] = settings.pose.position.into();
+    println!(
+        "{}: |dp| = {:.5} mm under {} kg at ({x}, {y}, {z}) m",
+        robot.name,
+        1e3 * found.deflection.rms(),
+        settings.payload
+    );
+    let header = [
+        "parameter",
+        "d|dp| [\u{b5}m]",
+        "per",
+        "d dx [\u{b5}m]",
+        "d dy [\u{b5}m]",
+        "d dz [\u{b5}m]",
+        "largest dL [mm]",
+    ];
+    let mut rows: Vec<_> = found.inputs.parameters.iter().map(handy_unit).enumerate().collect();
+    rows.sort_by(|(i, (_, one)), (j, (_, other))| {
+        (slopes.rms_mm[*j] * other).abs().total_cmp(&(slopes.rms_mm[*i] * one).abs())
+    });
+    let mut lines = table(&header);
+    for (place, (unit, step)) in rows {
+        // Without the sign of a zero.
+        let micrometres = |slope: f64| format!("{:.5}", (1e8 * slope * step).round() / 1e5 + 0.0);
+        let [dx, dy, dz] = slopes.deflection_mm[place].map(micrometres);
+        let lengths = slopes.unstrained_lengths[place].iter();
+        let largest = lengths.fold(0.0, |size: f64, slope| size.max(slope.abs()));
+        lines.add_row([
+            slopes.parameters[place].clone(),
+            micrometres(slopes.rms_mm[place]),
+            unit.to_owned(),
+            dx,
+            dy,
+            dz,
+            format!("{:.5}", 1e3 * largest * step),
+        ]);
+    }
+    println!("{lines}");
+}

@@ -1,0 +1,104 @@
+//! `cdpr calibration` as a user meets it.
+
+#![allow(clippy::unwrap_used)]
+
+use serde_json::Value;
+use std::path::Path;
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+const UNCERTAINTY: [&str; 2] = ["--uncertainty", "a=0.002,b=0.002,youngs_modulus=5e9,mass=1,dt=5,b1.x=0.01"];
+const NOISE: [&str; 2] = ["--noise", "position=1e-4,rotation=1e-4"];
+
+fn run(arguments: &[&str]) -> Output {
+    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/caroca.json");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
+    command.arg("calibration").arg(robot).args(arguments).output().unwrap()
+}
+
+#[test]
+fn a_grid_of_poses_tells_geometry_but_no_offset_of_a_tension() {
+    let arguments = [&["--grid=-2:2:3,-1:1:3,1:9:2"][..], &UNCERTAINTY, &NOISE].concat();
+    let output = run(&[&arguments[..], &["--choose", "4", "--format", "json"]].concat());
+    assert!(
+        output.status.success() && output.stderr.is_empty(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((json["poses"].as_u64(), json["refused"]["infeasible_tension"].as_u64()), (Some(9), Some(9)));
+    let untold: Vec<_> =
+        json["untold"].as_array().unwrap().iter().map(|part| &part["weights"][0][0]).collect();
+    assert!((1..=8).all(|i| untold.contains(&&Value::from(format!("dt{i}")))), "{untold:?}");
+    assert_eq!(json["told"].as_array().unwrap().len() + untold.len(), 58);
+    let left = |name: &str| json["remaining"][name].as_f64().unwrap();
+    assert!((left("dt1") - 1.0).abs() < 1e-9 && left("b1.x") < 0.5);
+    assert_eq!(json["best_poses"].as_array().unwrap().len(), 4);
+    assert_eq!(json["best_poses"][0]["pose"].as_array().unwrap().len(), 7);
+
+    let text = String::from_utf8(run(&arguments).stdout).unwrap();
+    for words in
+        ["CAROCA: measured at 9 poses", "9 poses left out: infeasible_tension", "+1.00 dt8", "adds [bit]"]
+    {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+}
+
+#[test]
+fn a_file_of_poses_is_read_line_by_line() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("poses.csv");
+    let arguments = ["--poses", path.to_str().unwrap(), "--format", "json"];
+    let arguments = [&arguments[..], &UNCERTAINTY, &["--noise", "lengths=1e-3,tensions=5"]].concat();
+    std::fs::write(&path, "0,0,1.75\n\n1,0.5,2,0.99,0,0,0.1\n").unwrap();
+    let json: Value = serde_json::from_slice(&run(&arguments).stdout).unwrap();
+    assert_eq!(json["poses"], 2);
+    std::fs::write(&path, "0,0,1.75\n1,0.5\n").unwrap();
+    let error = String::from_utf8(run(&arguments).stderr).unwrap();
+    assert!(
+        error.starts_with("error: --poses ") && error.contains("line 2: 2 numbers: expected x,y,z"),
+        "{error}"
+    );
+}
+
+#[test]
+fn bad_input_is_named_with_what_would_be_right() {
+    let grid = "--grid=0:1:2,0:1:2,1:2:2";
+    for (arguments, words) in [
+        (vec![NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]], "required"),
+        (
+            vec!["--grid=0:1", NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]],
+            "expected min:max:points of x, y and z",
+        ),
+        (
+            vec![grid, NOISE[0], NOISE[1], "--uncertainty", "c=1"],
+            "--uncertainty c=1: expected a positive standard deviation of mass",
+        ),
+        (vec![grid, NOISE[0], NOISE[1], "--uncertainty", "a"], "`a`: expected name=number"),
+        (
+            vec![grid, NOISE[0], "position=1e-4", UNCERTAINTY[0], UNCERTAINTY[1]],
+            "--noise: expected position and rotation together",
+        ),
+        (
+            vec![grid, NOISE[0], "force=1", UNCERTAINTY[0], UNCERTAINTY[1]],
+            "--noise force=1: expected one of position",
+        ),
+        (
+            vec![grid, NOISE[0], "lengths=0", UNCERTAINTY[0], UNCERTAINTY[1]],
+            "error: noise is 0: expected a finite, positive",
+        ),
+        (
+            vec![grid, "--poses", "x", NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]],
+            "cannot be used with",
+        ),
+        (
+            vec!["--poses", "nowhere", NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]],
+            "error: --poses: cannot read nowhere",
+        ),
+    ] {
+        let output = run(&arguments);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_ne!(output.status.code(), Some(0), "{text}");
+        assert!(text.contains(words) && !text.contains("panicked"), "`{words}` is not in: {text}");
+    }
+}

@@ -1,0 +1,106 @@
+//! `cdpr derivatives` as a user meets it: the numbers of the library, and every kind of bad input.
+
+#![allow(clippy::unwrap_used)]
+
+use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_statics::{Load, derivatives};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn caroca() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/caroca.json")
+}
+
+fn run(robot: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
+    command.arg("derivatives").arg(robot).args(arguments).output().unwrap()
+}
+
+fn text(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes).unwrap()
+}
+
+#[test]
+fn json_holds_the_numbers_of_the_library() {
+    let robot = Robot::from_json(&std::fs::read_to_string(caroca()).unwrap()).unwrap();
+    let turned = Pose::with_quaternion(Vector3::new(-0.4, 0.3, 1.5), [0.99, 0.05, 0.0, -0.1]).unwrap();
+    for (argument, pose) in
+        [("0,0,1.75", Pose::at(0.0, 0.0, 1.75)), ("-0.4,0.3,1.5,0.99,0.05,0,-0.1", turned)]
+    {
+        let output = run(&caroca(), &["--pose", argument, "--payload", "50", "--format", "json"]);
+        assert!(output.status.success() && output.stderr.is_empty(), "{}", text(output.stderr));
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let keys: Vec<_> = json.as_object().unwrap().keys().map(String::as_str).collect();
+        assert_eq!(keys, ["parameters", "rms_mm", "deflection_mm", "unstrained_lengths", "unit"]);
+        assert_eq!(json["unit"], "per SI unit of the parameter");
+        let exact = derivatives(&robot, &pose, &[0.0; 8], &Load::payload(50.0)).unwrap();
+        let (rms, displacement) = (exact.rms().unwrap(), exact.displacement());
+        let lists: Vec<_> = keys[..4].iter().map(|key| json[key].as_array().unwrap()).collect();
+        assert!(lists.iter().all(|list| list.len() == 62));
+        for (j, parameter) in exact.inputs.parameters.iter().enumerate() {
+            assert_eq!(lists[0][j], parameter.to_string());
+            assert_eq!(lists[1][j].as_f64(), Some(1e3 * rms[j]));
+            for axis in 0..3 {
+                assert_eq!(lists[2][j][axis].as_f64(), Some(1e3 * displacement[(axis, j)]));
+            }
+            let lengths: Vec<_> = lists[3][j].as_array().unwrap().iter().map(Value::as_f64).collect();
+            let expected: Vec<_> = exact.lengths.column(j).iter().copied().map(Some).collect();
+            assert_eq!(lengths, expected);
+        }
+    }
+}
+
+#[test]
+fn the_table_begins_with_what_matters_most() {
+    let output = run(&caroca(), &["--pose", "0,0,1.75", "--payload", "50"]);
+    let table = text(output.stdout);
+    let lines: Vec<_> = table.lines().collect();
+    assert_eq!(lines[0], "CAROCA: |dp| = 1.33125 mm under 50 kg at (0, 0, 1.75) m");
+    assert!(
+        lines[4].contains("youngs_modulus") && lines[4].contains("-12.88879") && lines[4].contains("GPa")
+    );
+    assert!(!table.contains("-0.00000 "));
+    assert_eq!(lines.len(), 4 + 62 + 1);
+}
+
+#[test]
+fn bad_input_is_named_with_what_would_be_right() {
+    let pose = ["--pose", "0,0,1.75"];
+    let with = |arguments: [&'static str; 2]| [pose.as_slice(), &arguments].concat();
+    for (robot, arguments, words) in [
+        (
+            caroca(),
+            with(["--payload", "heavy"]),
+            "invalid value 'heavy' for '--payload <PAYLOAD>': `heavy` is not a finite number",
+        ),
+        (caroca(), with(["--payload", "inf"]), "`inf` is not a finite number"),
+        (
+            caroca(),
+            with(["--payload", "0"]),
+            "error: the norm of the deflection has no derivative: the load does not displace",
+        ),
+        (caroca(), pose.to_vec(), "--payload <PAYLOAD>"),
+        (
+            caroca(),
+            vec!["--pose", "0,0", "--payload", "50"],
+            "'--pose <POSE>': 2 numbers: expected x,y,z [m] or x,y,z,qw,qx,qy,qz",
+        ),
+        (
+            caroca(),
+            vec!["--pose", "0,0,9", "--payload", "50"],
+            "error: at position (0, 0, 9) m: no tensions between 1 N and 10290 N",
+        ),
+        (
+            caroca(),
+            [&with(["--payload", "50"])[..], &["--format", "xml"]].concat(),
+            "invalid value 'xml' for '--format",
+        ),
+        ("nowhere.json".into(), with(["--payload", "50"]), "error: cannot read nowhere.json: No such file"),
+    ] {
+        let output = run(&robot, &arguments);
+        let text = text(output.stderr);
+        assert_ne!(output.status.code(), Some(0), "{text}");
+        assert!(text.contains(words) && !text.contains("panicked"), "`{words}` is not in: {text}");
+    }
+}

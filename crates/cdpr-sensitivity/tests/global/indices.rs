@@ -1,0 +1,239 @@
+//! Sobol' indices: exact values, SALib's, and what failures, steps and too few blocks do to them.
+
+use crate::functions::{self, Function, ishigami, uniform};
+use approx::assert_abs_diff_eq;
+use cdpr_sensitivity::sobol_indices::MIN_BLOCKS;
+use cdpr_sensitivity::{
+    Bootstrap, Input, Law, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolIndices, Steps,
+    convergence, first_tight, observe, sobol_indices,
+};
+
+const BOOTSTRAP: Bootstrap = Bootstrap { resamples: 400, seed: 7 };
+
+#[derive(serde::Deserialize)]
+struct Reference {
+    saltelli: Vec<ReferenceIndices>,
+}
+
+#[derive(serde::Deserialize)]
+struct ReferenceIndices {
+    blocks: usize,
+    second_order: bool,
+    rows: Vec<Vec<f64>>,
+    first: Vec<f64>,
+    total: Vec<f64>,
+    second: Vec<f64>,
+}
+
+fn outputs<D: SampleDesign>(design: &D, function: &Function) -> Vec<Option<f64>> {
+    observe(design, |x| Some((function.model)(x))).unwrap()
+}
+
+fn estimate(design: &SaltelliDesign, outputs: &[Option<f64>]) -> SobolIndices {
+    sobol_indices(design, outputs, BOOTSTRAP, 0.95).unwrap()
+}
+
+#[test]
+fn design_and_indices_are_those_of_salib() {
+    let text = include_str!("../../../../data/reference/indices.json");
+    let reference: Reference = serde_json::from_str(text).unwrap();
+    let function = ishigami();
+    for case in reference.saltelli {
+        let order = if case.second_order { Order::Second } else { Order::First };
+        let design = SaltelliDesign::new(function.inputs.clone(), 0, case.blocks, order).unwrap();
+        let mut row = [0.0; 3];
+        for (index, expected) in case.rows.iter().enumerate() {
+            design.row(index, &mut row).unwrap();
+            // SALib maps the unit interval as u (max - min) + min: a rounding of π.
+            row.iter().zip(expected).for_each(|(x, y)| assert_abs_diff_eq!(x, y, epsilon = 1e-15 * 4.0));
+        }
+        let found = estimate(&design, &outputs(&design, &function));
+        let first: Vec<f64> = found.inputs.iter().map(|index| index.first.value).collect();
+        let total: Vec<f64> = found.inputs.iter().map(|index| index.total.value).collect();
+        let second: Vec<f64> = found.pairs.iter().map(|index| index.second.value).collect();
+        assert_eq!(second.len(), case.second.len());
+        for (found, expected) in [(first, case.first), (total, case.total), (second, case.second)] {
+            // Sums of up to 512 terms of order one.
+            found.iter().zip(&expected).for_each(|(x, y)| assert_abs_diff_eq!(x, y, epsilon = 1e-13));
+        }
+    }
+}
+
+#[test]
+fn intervals_of_95_percent_hold_the_exact_indices_in_95_of_100_studies() {
+    for function in functions::all() {
+        let inputs = function.inputs.len();
+        let blocks = if inputs > 10 { 512 } else { 1024 };
+        let mut held = vec![0; 2 * inputs];
+        for seed in 0..100 {
+            let design =
+                SaltelliDesign::scrambled(function.inputs.clone(), blocks, Order::First, seed).unwrap();
+            let found = estimate(&design, &outputs(&design, &function));
+            for (i, index) in found.inputs.iter().enumerate() {
+                for (place, estimate, exact) in
+                    [(i, index.first, function.first[i]), (inputs + i, index.total, function.total[i])]
+                {
+                    // 1e-12: the indices of an inert input and their intervals are 0 but for rounding.
+                    held[place] +=
+                        usize::from(estimate.low - 1e-12 <= exact && exact <= estimate.high + 1e-12);
+                }
+            }
+        }
+        // A count of 100 has a deviation of 2.2 about 95: three of them below, and the mean of all counts at 93.
+        let mean = held.iter().sum::<usize>() as f64 / held.len() as f64;
+        assert!(mean >= 93.0 && held.iter().all(|&held| held >= 88), "{}: {held:?}", function.name);
+    }
+}
+
+#[test]
+fn pairs_of_ishigamis_function_are_the_first_and_the_third_input_alone() {
+    let function = ishigami();
+    let exact = [0.0, function.total[2], 0.0];
+    let mut held = [0; 3];
+    for seed in 0..100 {
+        let design = SaltelliDesign::scrambled(function.inputs.clone(), 512, Order::Second, seed).unwrap();
+        let found = estimate(&design, &outputs(&design, &function));
+        assert_eq!(found.pairs[1].inputs, ["x1", "x3"]);
+        for (held, (pair, exact)) in held.iter_mut().zip(found.pairs.iter().zip(exact)) {
+            *held += usize::from((pair.second.low..=pair.second.high).contains(&exact));
+        }
+    }
+    assert!(held.iter().all(|&held| held >= 88), "{held:?}");
+}
+
+#[test]
+fn a_block_with_a_failed_observation_is_as_if_the_design_did_not_have_it() {
+    // The plain design of 96 blocks, less its first 32: on the sequence from index 32 on, nothing else changes.
+    let function = ishigami();
+    let whole = SaltelliDesign::new(function.inputs.clone(), 0, 96, Order::Second).unwrap();
+    let rest = SaltelliDesign::new(function.inputs.clone(), 32, 64, Order::Second).unwrap();
+    let mut holed = outputs(&whole, &function);
+    for block in 0..32 {
+        holed[block * whole.block_points() + block % whole.block_points()] = None;
+    }
+    holed[1] = None;
+    let (holed, rest) = (estimate(&whole, &holed), estimate(&rest, &outputs(&rest, &function)));
+    assert_eq!((holed.blocks, holed.failed_blocks, holed.failed), (64, 32, 33));
+    assert_eq!((holed.inputs, holed.pairs, holed.variance), (rest.inputs, rest.pairs, rest.variance));
+}
+
+#[test]
+fn failures_at_random_leave_the_intervals_true() {
+    let function = ishigami();
+    let mut held = [0; 3];
+    for seed in 0..100 {
+        let design = SaltelliDesign::scrambled(function.inputs.clone(), 1024, Order::First, seed).unwrap();
+        let mut outputs = outputs(&design, &function);
+        // One in 40: about one block in eight.
+        let size = outputs.len();
+        (seed as usize % 40..size).step_by(40).for_each(|index| outputs[index] = None);
+        let found = estimate(&design, &outputs);
+        assert!(found.failed_blocks > 100 && found.blocks + found.failed_blocks == 1024);
+        for (held, (index, exact)) in held.iter_mut().zip(found.inputs.iter().zip(&function.total)) {
+            *held += usize::from((index.total.low..=index.total.high).contains(exact));
+        }
+    }
+    assert!(held.iter().all(|&held| held >= 88), "{held:?}");
+}
+
+#[test]
+fn indices_are_the_same_on_one_thread_and_on_four() {
+    let function = ishigami();
+    let design = SaltelliDesign::scrambled(function.inputs.clone(), 128, Order::Second, 3).unwrap();
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| estimate(&design, &outputs(&design, &function)))
+    };
+    assert_eq!(run(1), run(4));
+    let other = Bootstrap { seed: 8, ..BOOTSTRAP };
+    let reseeded = sobol_indices(&design, &outputs(&design, &function), other, 0.95).unwrap();
+    assert_ne!(reseeded.inputs[0].first.low, run(1).inputs[0].first.low);
+}
+
+#[test]
+fn a_stepped_input_has_the_share_of_its_levels() {
+    // Levels -1, 0, 1 of weights 1/4, 1/2, 1/4: variance 1/2, beside 1/3 of the continuous input.
+    let law = Law::Uniform { min: -1.0, max: 1.0 };
+    let steps = Steps::Nearest { step: 1.0 };
+    let inputs = vec![Input::stepped("stepped", law, steps), Input::continuous("smooth", law)];
+    let design = SaltelliDesign::scrambled(inputs, 4096, Order::First, 2).unwrap();
+    let found = estimate(&design, &observe(&design, |x| Some(x[0] + x[1])).unwrap());
+    for (index, exact) in found.inputs.iter().zip([0.6, 0.4]) {
+        assert!(index.first.low <= exact && exact <= index.first.high, "{index:?}");
+        assert!(index.first.width() < 0.02, "{index:?}");
+    }
+}
+
+#[test]
+fn too_few_whole_blocks_a_constant_output_and_values_that_are_not_finite_are_errors() {
+    let function = ishigami();
+    let design = SaltelliDesign::new(function.inputs.clone(), 0, 32, Order::First).unwrap();
+    let good = outputs(&design, &function);
+    let error = |outputs: &[Option<f64>]| sobol_indices(&design, outputs, BOOTSTRAP, 0.95).unwrap_err();
+
+    let mut holed = good.clone();
+    (0..17).for_each(|block| holed[5 * block] = None);
+    let (value, minimum) = (15, MIN_BLOCKS as u64);
+    let few = SensitivityError::OutOfRange { field: "whole blocks", value, minimum, maximum: u64::MAX };
+    assert_eq!(error(&holed), few);
+
+    // Neither outputs that never change, nor any that change between a and ab_i alone, have a variance.
+    assert_eq!(error(&[Some(2.5); 160]), SensitivityError::ConstantSample { value: 2.5, count: 64 });
+
+    let mut infinite = good.clone();
+    infinite[3] = None;
+    infinite[4] = Some(f64::INFINITY);
+    let not_finite = SensitivityError::NotFinite { field: "outputs", index: 4, value: f64::INFINITY };
+    assert_eq!(error(&infinite), not_finite);
+    assert!(matches!(error(&good[1..]), SensitivityError::LengthMismatch { expected: 160, .. }));
+
+    let level = sobol_indices(&design, &good, BOOTSTRAP, 1.0).unwrap_err();
+    assert!(matches!(level, SensitivityError::InvalidParameter { field: "level", .. }));
+    let one = Bootstrap { resamples: 1, seed: 1 };
+    let resamples = sobol_indices(&design, &good, one, 0.9).unwrap_err();
+    assert!(matches!(resamples, SensitivityError::OutOfRange { field: "resamples", .. }));
+}
+
+#[test]
+fn blocks_differ_in_one_input_each() {
+    let design = SaltelliDesign::scrambled(uniform(3, 0.0, 1.0), 4, Order::Second, 1).unwrap();
+    assert_eq!((design.points(), design.block_points()), (32, 8));
+    let rows: Vec<Vec<f64>> = (0..8)
+        .map(|place| {
+            let mut row = vec![0.0; 3];
+            design.row(16 + place, &mut row).unwrap();
+            row
+        })
+        .collect();
+    let (a, b) = (&rows[0], &rows[7]);
+    for i in 0..3 {
+        for j in 0..3 {
+            assert_eq!(rows[1 + i][j], if i == j { b[j] } else { a[j] });
+            assert_eq!(rows[4 + i][j], if i == j { a[j] } else { b[j] });
+        }
+    }
+    let error = SaltelliDesign::new(uniform(1025, 0.0, 1.0), 0, 4, Order::First).unwrap_err();
+    assert!(matches!(error, SensitivityError::OutOfRange { field: "inputs", maximum: 1024, .. }));
+    let normal = vec![Input::continuous("x", Law::Normal { mean: 0.0, std: 1.0 })];
+    let error = SaltelliDesign::new(normal, 0, 4, Order::First).unwrap_err();
+    assert_eq!(error, SensitivityError::UnboundedAtZero { name: "x".into() });
+}
+
+#[test]
+fn halves_quarters_and_eighths_of_a_study_are_studies_of_their_own() {
+    let function = ishigami();
+    let design = SaltelliDesign::scrambled(function.inputs.clone(), 1024, Order::First, 5).unwrap();
+    let steps = convergence(&design, &outputs(&design, &function), BOOTSTRAP, 0.95).unwrap();
+    for (step, blocks) in steps.iter().zip([128, 256, 512, 1024]) {
+        let small = SaltelliDesign::scrambled(function.inputs.clone(), blocks, Order::First, 5).unwrap();
+        assert_eq!(*step, estimate(&small, &outputs(&small, &function)));
+    }
+    let width = steps[3].widest();
+    assert!(width < 0.5 * steps[0].widest());
+    assert_eq!(first_tight(&steps, width).unwrap().blocks, 1024);
+    assert!(first_tight(&steps, 0.5 * width).is_none());
+
+    let odd = SaltelliDesign::scrambled(function.inputs.clone(), 100, Order::First, 5).unwrap();
+    let error = convergence(&odd, &outputs(&odd, &function), BOOTSTRAP, 0.95).unwrap_err();
+    assert!(matches!(error, SensitivityError::InvalidParameter { field: "blocks", .. }));
+}

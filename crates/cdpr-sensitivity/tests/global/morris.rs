@@ -1,0 +1,209 @@
+//! Elementary effects: exact values, SALib's, failures, steps and unbounded inputs.
+
+use crate::functions::{self, uniform};
+use approx::{assert_abs_diff_eq, assert_relative_eq};
+use cdpr_sensitivity::{
+    Input, Law, MorrisDesign, MorrisEffect, SampleDesign, SensitivityError, Steps, morris_effects, observe,
+};
+
+#[derive(serde::Deserialize)]
+struct Reference {
+    morris: ReferenceEffects,
+}
+
+#[derive(serde::Deserialize)]
+struct ReferenceEffects {
+    levels: Vec<[u32; 3]>,
+    mean: Vec<f64>,
+    mean_absolute: Vec<f64>,
+    std: Vec<f64>,
+}
+
+fn effects(design: &MorrisDesign, model: impl Fn(&[f64]) -> f64 + Sync) -> Vec<MorrisEffect> {
+    morris_effects(design, &observe(design, |x| Some(model(x))).unwrap(), 0.95).unwrap()
+}
+
+fn rows(design: &MorrisDesign) -> Vec<Vec<f64>> {
+    let row = |index| {
+        let mut row = vec![0.0; design.inputs().len()];
+        design.row(index, &mut row).unwrap();
+        row
+    };
+    (0..design.points()).map(row).collect()
+}
+
+#[test]
+fn effects_of_trajectories_are_those_of_salib() {
+    let text = include_str!("../../../../data/reference/indices.json");
+    let reference = serde_json::from_str::<Reference>(text).unwrap().morris;
+    let units = rows(&MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 6, 4, 1).unwrap());
+    for (unit, levels) in units.iter().zip(&reference.levels) {
+        unit.iter().zip(levels).for_each(|(u, &level)| assert_eq!(*u, f64::from(level) / 3.0));
+    }
+    let function = functions::ishigami();
+    let design = MorrisDesign::trajectories(function.inputs, 6, 4, 1).unwrap();
+    for (i, effect) in effects(&design, function.model).iter().enumerate() {
+        // Differences of outputs of the order 10.
+        assert_abs_diff_eq!(effect.mean, reference.mean[i], epsilon = 1e-13);
+        assert_abs_diff_eq!(effect.mean_absolute.value, reference.mean_absolute[i], epsilon = 1e-13);
+        assert_abs_diff_eq!(effect.std, reference.std[i], epsilon = 1e-13);
+    }
+}
+
+#[test]
+fn each_row_of_a_trajectory_moves_one_input_by_half_the_levels() {
+    for (levels, jump) in [(2, 1.0), (4, 2.0 / 3.0), (6, 0.6)] {
+        let design = MorrisDesign::trajectories(uniform(5, 0.0, 1.0), 40, levels, 3).unwrap();
+        for block in rows(&design).chunks(6) {
+            let mut moved = [0; 5];
+            for pair in block.windows(2) {
+                for input in 0..5 {
+                    let change = pair[1][input] - pair[0][input];
+                    if change != 0.0 {
+                        assert_abs_diff_eq!(change.abs(), jump, epsilon = 1e-15);
+                        moved[input] += 1;
+                    }
+                }
+            }
+            assert_eq!(moved, [1; 5]);
+        }
+    }
+}
+
+#[test]
+fn a_linear_model_has_its_slopes_times_the_ranges_and_no_spread() {
+    let slopes = [5.0, -3.0, 0.0];
+    let model = |x: &[f64]| x.iter().zip(slopes).map(|(x, b)| b * x).sum();
+    let inputs = uniform(3, -1.0, 3.0);
+    for design in [
+        MorrisDesign::trajectories(inputs.clone(), 10, 4, 1).unwrap(),
+        MorrisDesign::radial(inputs, 10, 1).unwrap(),
+    ] {
+        for (effect, b) in effects(&design, model).iter().zip(slopes) {
+            // A radial step may be small: a thousandth loses three digits.
+            assert_abs_diff_eq!(effect.mean, 4.0 * b, epsilon = 1e-11);
+            assert_abs_diff_eq!(effect.mean_absolute.value, 4.0 * b.abs(), epsilon = 1e-11);
+            assert_abs_diff_eq!(effect.std, 0.0, epsilon = 1e-11);
+        }
+    }
+}
+
+#[test]
+fn intervals_of_95_percent_hold_the_exact_mean_in_95_of_100_studies() {
+    // On four levels |4 x - 2| is 2, 2/3, 2/3, 2, of mean 4/3, and each step changes it by 4/3 over 2/3.
+    let a = [0.0, 1.0, 4.5, 9.0, 99.0];
+    let factor = |a: f64| (4.0 / 3.0 + a) / (1.0 + a);
+    let all: f64 = a.iter().map(|&a| factor(a)).product();
+    let mut held = [0; 5];
+    for seed in 0..100 {
+        let function = functions::sobol_g();
+        let design = MorrisDesign::trajectories(function.inputs, 100, 4, seed).unwrap();
+        for ((held, effect), a) in held.iter_mut().zip(effects(&design, function.model)).zip(a) {
+            let exact = 2.0 / (1.0 + a) * all / factor(a);
+            let interval = effect.mean_absolute;
+            *held += usize::from(interval.low <= exact && exact <= interval.high);
+            assert!(effect.mean.abs() < interval.value);
+        }
+    }
+    // Three deviations of 2.2 below 95, and the mean of all at 93.
+    assert!(held.iter().sum::<usize>() >= 465 && held.iter().all(|&held| held >= 88), "{held:?}");
+}
+
+#[test]
+fn the_groups_of_morris_function_are_told_apart() {
+    let function = functions::morris();
+    for design in [
+        MorrisDesign::trajectories(function.inputs.clone(), 40, 4, 2).unwrap(),
+        MorrisDesign::radial(function.inputs.clone(), 40, 2).unwrap(),
+    ] {
+        let found = effects(&design, &function.model);
+        // Morris 1991, figure 1: inputs 8 to 10 act linearly, 1 to 7 with others or curved, 11 to 20 hardly.
+        for (i, effect) in found.iter().enumerate() {
+            let (strength, spread) = (effect.mean_absolute.value, effect.std);
+            match i + 1 {
+                1..=7 => assert!(strength > 15.0 && spread > 15.0, "{effect:?}"),
+                8..=10 => assert!(strength > 30.0 && spread < 10.0, "{effect:?}"),
+                _ => assert!(strength < 10.0 && spread < 10.0, "{effect:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_failed_observation_takes_its_effects_with_it() {
+    let radial = MorrisDesign::radial(uniform(3, 0.0, 1.0), 8, 1).unwrap();
+    let mut outputs = observe(&radial, |x| Some(x[0])).unwrap();
+    // The centre of block 0, and x2 of block 1.
+    (outputs[0], outputs[6]) = (None, None);
+    let found = morris_effects(&radial, &outputs, 0.9).unwrap();
+    let counts: Vec<_> = found.iter().map(|effect| (effect.effects, effect.failed)).collect();
+    assert_eq!(counts, [(7, 1), (6, 2), (7, 1)]);
+    assert_relative_eq!(found[0].mean, 1.0, epsilon = 1e-12);
+
+    // An inner point of a trajectory is the end of two effects.
+    let walk = MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 8, 4, 1).unwrap();
+    let mut outputs = observe(&walk, |x| Some(x[0])).unwrap();
+    outputs[1] = None;
+    let found = morris_effects(&walk, &outputs, 0.9).unwrap();
+    assert_eq!(found.iter().map(|effect| effect.failed).sum::<usize>(), 2);
+    assert_eq!(found.iter().map(|effect| effect.effects).sum::<usize>(), 22);
+
+    let few: Vec<_> = outputs.iter().enumerate().map(|(i, y)| if i < 4 { *y } else { None }).collect();
+    let error = morris_effects(&walk, &few, 0.9).unwrap_err();
+    assert!(error.to_string().contains("elementary effects = "), "{error}");
+}
+
+#[test]
+fn the_effect_of_a_stepped_input_is_over_what_its_value_has_moved() {
+    // Two of eight points in one level of three do not move it: they have no effect, and no infinite one.
+    let law = Law::Uniform { min: 0.0, max: 1.0 };
+    let input = Input::stepped("x", law, Steps::Nearest { step: 0.5 });
+    let design = MorrisDesign::radial(vec![input], 64, 1).unwrap();
+    let found = effects(&design, |x| 3.0 * x[0]);
+    assert!(found[0].effects < 64 && found[0].failed == 0, "{found:?}");
+    assert_relative_eq!(found[0].mean, 3.0, epsilon = 1e-12);
+    assert_abs_diff_eq!(found[0].std, 0.0, epsilon = 1e-12);
+}
+
+#[test]
+fn unbounded_inputs_have_radial_points_and_no_levels() {
+    let normal = vec![Input::continuous("x", Law::Normal { mean: 2.0, std: 0.1 })];
+    let error = MorrisDesign::trajectories(normal.clone(), 4, 4, 1).unwrap_err();
+    assert_eq!(error, SensitivityError::UnboundedLevels { name: "x".into() });
+    let found = effects(&MorrisDesign::radial(normal, 64, 1).unwrap(), |x| x[0]);
+    assert!(found[0].mean > 0.25 && found[0].mean.is_finite());
+}
+
+#[test]
+fn replicates_rows_and_refusals() {
+    let walk = MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 4, 4, 1).unwrap();
+    let radial = MorrisDesign::radial(uniform(3, 0.0, 1.0), 4, 1).unwrap();
+    for design in [walk, radial] {
+        assert_eq!((design.seed(), design.points(), design.blocks()), (Some(1), 16, 4));
+        assert_ne!(rows(&design), rows(&design.replicate(2)));
+        assert_eq!(rows(&design), rows(&design.replicate(2).replicate(1)));
+    }
+    let field = |error| match error {
+        SensitivityError::OutOfRange { field, .. } | SensitivityError::InvalidParameter { field, .. } => {
+            field
+        }
+        other => panic!("{other}"),
+    };
+    assert_eq!(field(MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 4, 3, 1).unwrap_err()), "levels");
+    assert_eq!(field(MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 4, 0, 1).unwrap_err()), "levels");
+    assert_eq!(field(MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 1, 4, 1).unwrap_err()), "trajectories");
+    assert_eq!(field(MorrisDesign::trajectories(vec![], 4, 4, 1).unwrap_err()), "inputs");
+    assert_eq!(field(MorrisDesign::radial(uniform(3, 0.0, 1.0), 1, 1).unwrap_err()), "blocks");
+}
+
+#[test]
+fn a_constant_output_has_no_effects_and_a_value_that_is_not_finite_is_an_error() {
+    let design = MorrisDesign::radial(uniform(2, 0.0, 1.0), 4, 1).unwrap();
+    for effect in effects(&design, |_| 1.5) {
+        assert_eq!((effect.mean, effect.mean_absolute.high, effect.std), (0.0, 0.0, 0.0));
+    }
+    let mut outputs = vec![Some(0.0); 12];
+    outputs[7] = Some(f64::NAN);
+    let error = morris_effects(&design, &outputs, 0.9).unwrap_err();
+    assert!(matches!(error, SensitivityError::NotFinite { field: "outputs", index: 7, .. }));
+}

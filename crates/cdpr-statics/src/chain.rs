@@ -1,0 +1,242 @@
+//! The chain of an observation for robots with taut cables, one robot a lane: inverse model, offset set-points, direct model without
+//! and with the load.
+//!
+//! The equations are those of [`crate::inverse`] and [`crate::newton`], with one difference: the shape of a cable is not solved for but
+//! takes part in the iteration. With û the direction of its end force, n̂ the normal to it, C the flexibility, `e = d(x, z)/dL` and c its
+//! miss at force and length,
+//!
+//! ```text
+//! C (û dt + n̂ t dθ) + e dL = c      gives      dθ = α + β dt,    dL = γ + δ dt                         (a)
+//! ```
+//!
+//! for a change dt of its tension. With w the wrench of a unit tension, n its derivative with respect to θ, and λ the multipliers of the
+//! least-norm distribution,
+//!
+//! ```text
+//! t + w·λ = 0,      sum t w + w_ex = 0                                                                 (b)
+//! [ sum c wᵀ/D ] dλ = F2 - sum c F1/D,      dt = -(F1 + w·dλ)/D,                                       (c)
+//!      D = 1 + β n·λ,   c = w + t β n,   F1 = t + (w + α n)·λ,   F2 = sum t (w + α n) + w_ex
+//! ```
+//!
+//! A lane stops by its own steps alone: the others of a batch change none of its digits.
+
+use crate::lane_algebra::{Factored, Space, Wrench, cross, dot, six, three};
+use crate::lanes::{Lanes, Mask, Simd};
+use crate::taut::{Cable, Load, MAX_ITERATIONS, Open, Plane, Robots, Scale, Span, Tangent};
+use cdpr_cable::{Field, TAUT, TautEnd, taut_response};
+
+/// Robots at their wanted pose, with starts of lengths and forces.
+pub(crate) struct Beginning<S: Simd> {
+    pub(crate) robots: Robots<S>,
+    /// Offset of the tension set-point of each cable [N].
+    pub(crate) offsets: Vec<Lanes<S>>,
+    /// λ, a start.
+    pub(crate) multipliers: Wrench<S>,
+}
+
+/// What all robots have in common.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Settings {
+    /// Limits of the tensions [N].
+    pub(crate) least: f64,
+    pub(crate) greatest: f64,
+    /// Weight of the payload [N].
+    pub(crate) payload: f64,
+    /// Force of the load at P [N].
+    pub(crate) force: [f64; 3],
+    /// Sum of the tensions that changes are compared with [N].
+    pub(crate) tension: f64,
+    /// Lengths that positions are compared with.
+    pub(crate) scale: Scale,
+}
+
+/// What became of every robot.
+pub(crate) struct Outcome<S: Simd> {
+    /// Lanes with an answer: converged to rounding, stable, all cables taut, all tensions within their limits.
+    pub(crate) valid: Mask<S>,
+    /// dp [m].
+    pub(crate) displacement: Space<S>,
+    pub(crate) unloaded: Open<S>,
+    pub(crate) loaded: Open<S>,
+}
+
+/// A change below this, relative to the longest cable or the sum of tensions, is the last one of lengths and forces at the wanted pose.
+const LAST_CHANGE: f64 = 1e-7;
+
+/// The same for tensions that are still to be offset: what is left of them then changes no position by more than 1e-12 m.
+const LAST_DISTRIBUTION: f64 = 3e-6;
+
+/// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at the wanted pose.
+#[inline(always)]
+pub(crate) fn observe<S: Simd>(begin: Beginning<S>, settings: &Settings) -> Outcome<S> {
+    let Beginning { mut robots, offsets, multipliers } = begin;
+    let robots = &mut robots;
+    let zero = robots.weight.all(0.0);
+    let spans: Vec<Span<S>> = robots.cables.iter().map(|cable| Span::new(&robots.position, cable)).collect();
+    let within = distribute(robots, multipliers, &spans, settings);
+    let held = hold(robots, &offsets, &spans, settings);
+
+    let own = Load { weight: robots.weight, force: [zero; 3] };
+    let mut tangent = Tangent::new(zero, spans.len());
+    let all = zero.less_or_equal(zero);
+    let closure = robots.linearise(&own, &mut tangent, all);
+    // The lengths close at the wanted pose.
+    let closed = closure.less_or_equal(zero.all(settings.scale.rounding * settings.scale.rounding));
+    let (standing, unloaded) = robots.settle(&own, &mut tangent, &settings.scale, within & held & closed);
+    let stood = robots.position;
+
+    let payload = Load { weight: zero.all(settings.payload), force: three(|k| zero.all(settings.force[k])) };
+    let load = Load { weight: own.weight + payload.weight, force: payload.force };
+    // The first step follows the linearisation at hand.
+    let added = payload.wrench(&robots.center);
+    tangent.gradient = six(|k| tangent.gradient[k] - added[k]);
+    let (valid, loaded) = robots.settle(&load, &mut tangent, &settings.scale, standing);
+    Outcome { valid, displacement: three(|k| robots.position[k] - stood[k]), unloaded, loaded }
+}
+
+/// A cable at its held ends, equation (a).
+#[derive(Clone, Copy)]
+struct Held<S: Simd> {
+    tension: Lanes<S>,
+    /// û.
+    along: Plane<S>,
+    alpha: Lanes<S>,
+    beta: Lanes<S>,
+    gamma: Lanes<S>,
+    delta: Lanes<S>,
+}
+
+impl<S: Simd> Span<S> {
+    /// Wrench on the platform of a force on the cable's end.
+    #[inline(always)]
+    fn wrench(&self, arm: &Space<S>, [x, z]: Plane<S>) -> Wrench<S> {
+        let force = [-x * self.azimuth[0], -x * self.azimuth[1], -z];
+        let moment = cross(arm, &force);
+        [force[0], force[1], force[2], moment[0], moment[1], moment[2]]
+    }
+}
+
+impl<S: Simd> Held<S> {
+    #[inline(always)]
+    fn new(cable: &Cable<S>, end: &Plane<S>) -> Self {
+        let [fx, fz] = cable.force;
+        let response = taut_response(cable.weight, cable.stretch, cable.length, cable.force);
+        let [xx, xz, zz] = response.flexibility;
+        let tension_inv = response.tension.recip();
+        let along = [fx * tension_inv, fz * tension_inv];
+        let miss = [end[0] - response.end[0], end[1] - response.end[1]];
+        let turn = [xz * fx - xx * fz, zz * fx - xz * fz];
+        let give = [xx * along[0] + xz * along[1], xz * along[0] + zz * along[1]];
+        let longer = response.end_per_length;
+        let area = |a: &Plane<S>, b: &Plane<S>| a[0] * b[1] - a[1] * b[0];
+        let inverse = area(&turn, &longer).recip();
+        Self {
+            tension: response.tension,
+            along,
+            alpha: area(&miss, &longer) * inverse,
+            beta: -area(&give, &longer) * inverse,
+            gamma: area(&turn, &miss) * inverse,
+            delta: -area(&turn, &give) * inverse,
+        }
+    }
+
+    /// Changes the tension by `dt` where `going`. Returns the largest relative change made.
+    #[inline(always)]
+    fn change(&self, cable: &mut Cable<S>, dt: Lanes<S>, going: Mask<S>, settings: &Settings) -> Lanes<S> {
+        let across = (self.alpha + self.beta * dt) * self.tension;
+        let longer = self.gamma + self.delta * dt;
+        let [ux, uz] = self.along;
+        let [fx, fz] = cable.force;
+        cable.force =
+            [going.select(fx + ux * dt - uz * across, fx), going.select(fz + uz * dt + ux * across, fz)];
+        cable.length = going.select(cable.length + longer, cable.length);
+        let force = (dt.abs() + across.abs()) * (1.0 / settings.tension);
+        force.max(longer.abs() * (1.0 / settings.scale.size))
+    }
+}
+
+/// Least-norm tensions at the wanted pose, equations (b) and (c). Returns the lanes with taut cables and all tensions within the limits.
+#[inline(always)]
+fn distribute<S: Simd>(
+    robots: &mut Robots<S>,
+    mut multipliers: Wrench<S>,
+    spans: &[Span<S>],
+    settings: &Settings,
+) -> Mask<S> {
+    let zero = robots.weight.all(0.0);
+    let last_change = zero.all(LAST_DISTRIBUTION);
+    let weight = Load { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
+    let mut going = zero.less_or_equal(zero);
+    let mut linear = Vec::with_capacity(spans.len());
+    for _ in 0..MAX_ITERATIONS {
+        linear.clear();
+        let mut matrix = [[zero; 6]; 6];
+        let mut right = weight;
+        for (span, cable) in spans.iter().zip(&robots.cables) {
+            let held = Held::new(cable, &span.end);
+            let [ux, uz] = held.along;
+            let pull = span.wrench(&cable.arm, held.along);
+            let turn = span.wrench(&cable.arm, [-uz, ux]);
+            let turned = dot(&turn, &multipliers);
+            let d_inv = (held.beta * turned + 1.0).recip();
+            let left = held.tension + dot(&pull, &multipliers) + held.alpha * turned;
+            for k in 0..6 {
+                let c = (pull[k] + turn[k] * (held.tension * held.beta)) * d_inv;
+                right[k] += (pull[k] + turn[k] * held.alpha) * held.tension - c * left;
+                for l in 0..6 {
+                    matrix[k][l] += c * pull[l];
+                }
+            }
+            linear.push((held, pull, left, d_inv));
+        }
+        let step = Factored::new(matrix).solve(&right);
+        let mut moved = zero;
+        for ((held, pull, left, d_inv), cable) in linear.iter().zip(&mut robots.cables) {
+            let dt = -(*left + dot(pull, &step)) * *d_inv;
+            moved = moved.max(held.change(cable, dt, going, settings));
+        }
+        multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
+        going = going & !moved.less_or_equal(last_change);
+        if !going.any() {
+            break;
+        }
+    }
+    let mut within = !going;
+    for cable in &robots.cables {
+        let TautEnd { tension, slackness, .. } = cable.end();
+        within = within
+            & zero.less_or_equal(cable.force[0])
+            & slackness.less_or_equal(zero.all(TAUT))
+            & zero.all(settings.least).less_or_equal(tension)
+            & tension.less_or_equal(zero.all(settings.greatest));
+    }
+    within
+}
+
+/// Lengths that give the offset tensions at the wanted pose. Returns the lanes where all were found.
+#[inline(always)]
+fn hold<S: Simd>(
+    robots: &mut Robots<S>,
+    offsets: &[Lanes<S>],
+    spans: &[Span<S>],
+    settings: &Settings,
+) -> Mask<S> {
+    let zero = robots.weight.all(0.0);
+    let mut all = zero.less_or_equal(zero);
+    for ((span, offset), cable) in spans.iter().zip(offsets).zip(&mut robots.cables) {
+        let tension = dot(&cable.force, &cable.force).sqrt();
+        let set_point = (tension + *offset).max(zero.all(settings.least));
+        let mut going = all;
+        for _ in 0..MAX_ITERATIONS {
+            let held = Held::new(cable, &span.end);
+            let moved = held.change(cable, set_point - held.tension, going, settings);
+            going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
+            if !going.any() {
+                break;
+            }
+        }
+        // A root with a cable of negative length is none.
+        all = all & !going & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
+    }
+    all
+}

@@ -1,0 +1,106 @@
+//! Vectors and systems of six equations in lanes.
+
+use crate::lanes::{Lanes, Mask, Simd};
+use cdpr_cable::Field;
+
+/// A point or a vector in the base frame.
+pub(crate) type Space<S> = [Lanes<S>; 3];
+
+/// Force and moment about P, or translation and rotation.
+pub(crate) type Wrench<S> = [Lanes<S>; 6];
+
+/// L U of a matrix that needs no pivoting: that of a stable platform, or of tensions that are distributed.
+#[derive(Clone, Copy)]
+pub(crate) struct Factored<S: Simd> {
+    lu: [[Lanes<S>; 6]; 6],
+    pivots_inv: [Lanes<S>; 6],
+    /// Whether all pivots are positive: of a symmetric matrix, whether it is positive definite.
+    pub(crate) positive: Mask<S>,
+}
+
+impl<S: Simd> Factored<S> {
+    #[inline(always)]
+    pub(crate) fn new(matrix: [[Lanes<S>; 6]; 6]) -> Self {
+        let mut lu = matrix;
+        let mut pivots_inv = [lu[0][0]; 6];
+        let tiny = lu[0][0].all(f64::MIN_POSITIVE);
+        let mut positive = tiny.less_or_equal(lu[0][0]);
+        for k in 0..6 {
+            positive = positive & tiny.less_or_equal(lu[k][k]);
+            pivots_inv[k] = lu[k][k].recip();
+            for row in k + 1..6 {
+                lu[row][k] = lu[row][k] * pivots_inv[k];
+                for column in k + 1..6 {
+                    lu[row][column] -= lu[row][k] * lu[k][column];
+                }
+            }
+        }
+        Self { lu, pivots_inv, positive }
+    }
+
+    /// Takes over another one in the lanes that are `going`.
+    #[inline(always)]
+    pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {
+        for row in 0..6 {
+            self.lu[row] = six(|column| going.select(other.lu[row][column], self.lu[row][column]));
+        }
+        self.pivots_inv = six(|k| going.select(other.pivots_inv[k], self.pivots_inv[k]));
+        self.positive = (going & other.positive) | (!going & self.positive);
+    }
+
+    #[inline(always)]
+    pub(crate) fn solve(&self, right: &Wrench<S>) -> Wrench<S> {
+        let mut x = *right;
+        for row in 1..6 {
+            for column in 0..row {
+                x[row] -= self.lu[row][column] * x[column];
+            }
+        }
+        for row in (0..6).rev() {
+            for column in row + 1..6 {
+                x[row] -= self.lu[row][column] * x[column];
+            }
+            x[row] = x[row] * self.pivots_inv[row];
+        }
+        x
+    }
+}
+
+// `std::array::from_fn` is no part of what is compiled for the vector unit.
+#[inline(always)]
+pub(crate) fn three<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Space<S> {
+    [component(0), component(1), component(2)]
+}
+
+#[inline(always)]
+pub(crate) fn six<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Wrench<S> {
+    [component(0), component(1), component(2), component(3), component(4), component(5)]
+}
+
+#[inline(always)]
+pub(crate) fn halves<S: Simd>(wrench: &Wrench<S>) -> (Space<S>, Space<S>) {
+    (three(|k| wrench[k]), three(|k| wrench[3 + k]))
+}
+
+#[inline(always)]
+pub(crate) fn cross<S: Simd>(a: &Space<S>, b: &Space<S>) -> Space<S> {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
+pub(crate) fn dot<S: Simd, const N: usize>(a: &[Lanes<S>; N], b: &[Lanes<S>; N]) -> Lanes<S> {
+    let mut sum = a[0] * b[0];
+    for k in 1..N {
+        sum += a[k] * b[k];
+    }
+    sum
+}
+/// Adds (F, s x F).
+#[inline(always)]
+pub(crate) fn add<S: Simd>(wrench: &mut Wrench<S>, arm: &Space<S>, force: &Space<S>) {
+    let moment = cross(arm, force);
+    for k in 0..3 {
+        wrench[k] += force[k];
+        wrench[3 + k] += moment[k];
+    }
+}

@@ -1,0 +1,312 @@
+//! Partial derivatives of the equations of equilibrium with respect to all that a robot, its load and its pose are made of.
+//!
+//! Between held ends the force of a cable follows from its span, its length and its material. The catenary
+//! `(h, z) = (x, z)(f, L, w, EA)` with stiffness K in space, `K̄ = C⁻¹` in its plane, `w = ρ g` and `EA = E S` gives
+//!
+//! ```text
+//! dF_i = K_i dr_i + k_L dL_i + k_ρ dρ + k_E dE                                                    (1)
+//!        k_L = -K̄ ∂(x, z)/∂L,   k_ρ = -g K̄ ∂(x, z)/∂w,   k_E = -S K̄ ∂(x, z)/∂EA   (lifted from its plane)
+//! ds_i = dφ x s_i + R da_i,   dr_i = dp + ds_i - db_i                                             (2)
+//! ```
+//!
+//! With `u_i = F_i/t_i` the tension changes by `dt_i = u_i·dF_i`. A cable that is given its tension instead of its length has
+//!
+//! ```text
+//! dF_i = Q_i (K_i dr_i + k_ρ dρ + k_E dE) + v_i dt_i,   v_i = k_L/(u_i·k_L),   Q_i = 1 - v_i u_iᵀ  (3)
+//! ```
+//!
+//! which is (1) with other coefficients. The balance of the platform, `G = sum [F_i; s_i x F_i] - w_ex = 0`, changes by
+//!
+//! ```text
+//! dG = sum [ dF_i; ds_i x F_i + s_i x dF_i ] - dw_ex                                              (4)
+//! w_ex = [ F_w; R c x F_w ] + load,   F_w = -(m + payload) g e_z
+//! ```
+
+use crate::error::StaticsError;
+use crate::model::{Load, Model, Span};
+use cdpr_cable::Catenary;
+use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, Vector3, Vector6};
+use nalgebra::{DMatrix, Matrix6};
+use std::ops::Range;
+
+/// What the columns of all derivatives stand for: the parameters, the payload, the wanted pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inputs {
+    /// The `6 + 7n` parameters of the robot, in the order of [`Parameter::all`]: the first columns, per SI unit of each.
+    pub parameters: Vec<Parameter>,
+}
+
+impl Inputs {
+    pub(crate) fn new(cables: usize) -> Self {
+        Self { parameters: Parameter::all(cables) }
+    }
+
+    /// Column of the payload, per [kg].
+    pub fn payload(&self) -> usize {
+        self.parameters.len()
+    }
+
+    /// Columns of the wanted pose: (dp, dφ) in the base frame, per [m] and [rad].
+    pub fn pose(&self) -> Range<usize> {
+        self.payload() + 1..self.payload() + 7
+    }
+
+    /// Number of columns, `13 + 7n`.
+    pub fn count(&self) -> usize {
+        self.payload() + 7
+    }
+
+    /// A matrix of zeros with a column for every input: nalgebra's own writes them one by one.
+    pub(crate) fn zeros(&self, rows: usize) -> DMatrix<f64> {
+        DMatrix::from_vec(rows, self.count(), vec![0.0; rows * self.count()])
+    }
+
+    /// Checks that there is one finite value, not negative, for each parameter.
+    pub(crate) fn check(&self, field: &str, values: &[f64]) -> Result<(), StaticsError> {
+        let count = self.parameters.len();
+        let (place, value) = match values.iter().position(|value| !(value.is_finite() && *value >= 0.0)) {
+            _ if values.len() != count => (String::new(), format!("a list of {}", values.len())),
+            Some(i) => (format!("[{i}]"), values[i].to_string()),
+            None => return Ok(()),
+        };
+        let expected = format!("a finite number, zero or more, for each of the {count} parameters");
+        Err(StaticsError::Invalid { field: format!("{field}{place}"), value, expected })
+    }
+}
+
+/// Force and moment about P of a force at an arm.
+pub(crate) fn wrench(arm: &Vector3<f64>, force: &Vector3<f64>) -> Vector6<f64> {
+    let moment = arm.cross(force);
+    Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+}
+
+/// The moment alone.
+fn moment(arm: &Vector3<f64>, force: &Vector3<f64>) -> Vector6<f64> {
+    let moment = arm.cross(force);
+    Vector6::new(0.0, 0.0, 0.0, moment.x, moment.y, moment.z)
+}
+
+/// A cable in space and how its force answers to its span, its material, and the one thing that its winch gives it.
+#[derive(Clone, Copy)]
+pub(crate) struct LinearCable {
+    /// s_i [m].
+    pub(crate) arm: Vector3<f64>,
+    /// F_i [N].
+    pub(crate) force: Vector3<f64>,
+    /// Tension t_i [N].
+    pub(crate) tension: f64,
+    /// u_i; zero for a slack cable without weight.
+    pub(crate) direction: Vector3<f64>,
+    /// K_i, or Q_i K_i where the tension is given [N/m].
+    stiffness: Matrix3<f64>,
+    /// Per density [N m/kg].
+    density: Vector3<f64>,
+    /// Per modulus [N/Pa].
+    modulus: Vector3<f64>,
+    /// k_L [N/m] per length, or v_i per tension.
+    pub(crate) winch: Vector3<f64>,
+}
+
+impl LinearCable {
+    /// Equation (1): cable i at a pose, with its length given.
+    pub(crate) fn new(robot: &Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Self {
+        let arm = robot.anchor_arm(pose, i);
+        let span = Span::new(pose.position + arm - robot.cables[i].exit_point);
+        let (force, tension) = (span.lift(catenary.force), catenary.anchor_tension());
+        let o = Vector3::zeros();
+        if catenary.is_limp() {
+            let stiffness = Matrix3::zeros();
+            return Self { arm, force, tension, direction: o, stiffness, density: o, modulus: o, winch: o };
+        }
+        let compliance = catenary.compliance();
+        let in_plane = compliance.in_plane_stiffness();
+        let held = |end| -span.lift(in_plane * end);
+        Self {
+            arm,
+            force,
+            tension,
+            direction: force / tension,
+            stiffness: compliance.stiffness(span.azimuth),
+            density: held(catenary.end_per_weight()) * robot.gravity,
+            modulus: held(catenary.end_per_stiffness()) * robot.cables[i].properties.section,
+            winch: held(compliance.end_per_length),
+        }
+    }
+
+    /// All cables of a model at a pose.
+    pub(crate) fn all(model: &Model, pose: &Pose, forces: &[cdpr_robot::Vector2<f64>]) -> Vec<Self> {
+        let catenary = |(i, force): (usize, &_)| Self::new(model.robot, pose, i, &model.catenary(i, *force));
+        forces.iter().enumerate().map(catenary).collect()
+    }
+
+    /// Equation (3): the same cable with its tension given.
+    pub(crate) fn at_tension(&self) -> Self {
+        let v = self.winch / self.direction.dot(&self.winch);
+        let keep = |force: Vector3<f64>| force - v * self.direction.dot(&force);
+        Self {
+            stiffness: self.stiffness - v * (self.direction.transpose() * self.stiffness),
+            density: keep(self.density),
+            modulus: keep(self.modulus),
+            winch: v,
+            ..*self
+        }
+    }
+
+    /// The wrench about P that its winch changes.
+    pub(crate) fn winch_wrench(&self) -> Vector6<f64> {
+        wrench(&self.arm, &self.winch)
+    }
+}
+
+/// A number read off a cable: `per_force·dF_i + per_arm·ds_i`.
+#[derive(Clone, Copy)]
+pub(crate) struct Reading {
+    pub(crate) per_force: Vector3<f64>,
+    pub(crate) per_arm: Vector3<f64>,
+}
+
+impl Reading {
+    /// dt_i.
+    pub(crate) fn tension(cable: &LinearCable) -> Self {
+        Self { per_force: cable.direction, per_arm: Vector3::zeros() }
+    }
+}
+
+/// Partial derivatives with respect to all [`Inputs`], with the winches held. The columns of the pose are those of the pose
+/// that the cables are at.
+pub(crate) struct Partials {
+    /// dG, equation (4), 6 x count.
+    pub(crate) balance: Matrix6xX<f64>,
+    /// One reading of each cable, n x count.
+    pub(crate) readings: DMatrix<f64>,
+}
+
+impl Partials {
+    /// Of `cables` at `pose` under weight and `load`.
+    pub(crate) fn new(
+        robot: &Robot,
+        inputs: &Inputs,
+        pose: &Pose,
+        load: &Load,
+        cables: &[LinearCable],
+        reading: impl Fn(&LinearCable) -> Reading,
+    ) -> Self {
+        let mut partials = Self {
+            balance: Matrix6xX::from_vec(vec![0.0; 6 * inputs.count()]),
+            readings: inputs.zeros(cables.len()),
+        };
+        let readings: Vec<_> = cables.iter().map(reading).collect();
+        each_effect(inputs, pose, cables, |column, i, force, turn| {
+            let (cable, reading) = (&cables[i], &readings[i]);
+            let mut balance = partials.balance.column_mut(column);
+            balance += wrench(&cable.arm, &force) + moment(&turn, &cable.force);
+            partials.readings[(i, column)] += reading.per_force.dot(&force) + reading.per_arm.dot(&turn);
+        });
+        partials.add_weight(robot, inputs, pose, load);
+        partials
+    }
+
+    /// -dw_ex.
+    fn add_weight(&mut self, robot: &Robot, inputs: &Inputs, pose: &Pose, load: &Load) {
+        let weight = robot.weight(pose, load.payload).force;
+        let center = pose.rotation * robot.platform.center_of_mass;
+        // dF_w = -g e_z dm
+        let per_mass = wrench(&center, &Vector3::new(0.0, 0.0, robot.gravity));
+        for (column, parameter) in inputs.parameters.iter().enumerate() {
+            match *parameter {
+                Parameter::Mass => self.balance.set_column(column, &per_mass),
+                // R dc x F_w
+                Parameter::CenterOfMass(axis) => {
+                    let arm = pose.rotation.matrix().column(axis as usize).into();
+                    self.balance.set_column(column, &-moment(&arm, &weight));
+                }
+                _ => {}
+            }
+        }
+        self.balance.set_column(inputs.payload(), &per_mass);
+        for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
+            // (dφ x R c) x F_w
+            let mut column = self.balance.column_mut(inputs.pose().start + 3 + axis);
+            column -= moment(&unit.cross(&center), &weight);
+        }
+    }
+
+    /// Takes the columns of the pose out of the partial derivatives: (dG, readings) per (dp, dφ).
+    pub(crate) fn take_pose(&mut self, inputs: &Inputs) -> (Matrix6<f64>, DMatrix<f64>) {
+        let start = inputs.pose().start;
+        let balance = self.balance.fixed_columns::<6>(start).into_owned();
+        let readings = self.readings.columns(start, 6).into_owned();
+        self.balance.fixed_columns_mut::<6>(start).fill(0.0);
+        self.readings.columns_mut(start, 6).fill(0.0);
+        (balance, readings)
+    }
+}
+
+/// Of the tensions of `cables` at `pose` with the winches held, n x count: `u_i·dF_i`.
+pub(crate) fn tensions(inputs: &Inputs, pose: &Pose, cables: &[LinearCable]) -> DMatrix<f64> {
+    let mut tensions = inputs.zeros(cables.len());
+    each_effect(inputs, pose, cables, |column, i, force, _| {
+        tensions[(i, column)] += cables[i].direction.dot(&force);
+    });
+    tensions
+}
+
+/// Gives `add(column, i, dF_i, ds_i)` for every input that cable i answers to, equations (1)-(3).
+fn each_effect(
+    inputs: &Inputs,
+    pose: &Pose,
+    cables: &[LinearCable],
+    mut add: impl FnMut(usize, usize, Vector3<f64>, Vector3<f64>),
+) {
+    let o = Vector3::zeros();
+    for (column, parameter) in inputs.parameters.iter().enumerate() {
+        match *parameter {
+            // dF_i = k_ρ dρ
+            Parameter::LinearDensity => {
+                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.density, o));
+            }
+            // dF_i = k_E dE
+            Parameter::YoungsModulus => {
+                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.modulus, o));
+            }
+            // dr_i = ds_i = R da_i
+            Parameter::AnchorPoint(i, axis) => {
+                let moved: Vector3<f64> = pose.rotation.matrix().column(axis as usize).into();
+                add(column, i, cables[i].stiffness * moved, moved);
+            }
+            // dr_i = -db_i
+            Parameter::ExitPoint(i, axis) => {
+                add(column, i, -cables[i].stiffness.column(axis as usize), o);
+            }
+            // In the weight, or in the set-points.
+            Parameter::Mass | Parameter::CenterOfMass(_) | Parameter::TensionOffset(_) => {}
+        }
+    }
+    let start = inputs.pose().start;
+    for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
+        for (i, cable) in cables.iter().enumerate() {
+            // dr_i = dp
+            add(start + axis, i, cable.stiffness.column(axis).into(), o);
+            // dr_i = ds_i = dφ x s_i
+            let turn = unit.cross(&cable.arm);
+            add(start + 3 + axis, i, cable.stiffness * turn, turn);
+        }
+    }
+}
+
+/// `matrix⁻¹ right`, in place. At 6 x 6 the inverse, applied column by column, is the fastest and as exact as the factors.
+pub(crate) fn solve(
+    matrix: Matrix6<f64>,
+    right: &mut Matrix6xX<f64>,
+    quantity: &'static str,
+) -> Result<(), StaticsError> {
+    let inverse = matrix.try_inverse().filter(|inverse| inverse.iter().all(|value| value.is_finite()));
+    let Some(inverse) = inverse else {
+        return Err(StaticsError::NoDerivative { quantity, reason: "its equations are singular there" });
+    };
+    for mut column in right.column_iter_mut() {
+        let solution = inverse * &column;
+        column.copy_from(&solution);
+    }
+    Ok(())
+}

@@ -1,0 +1,163 @@
+//! What a calibration can tell, against perturbed robots.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
+use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement, Start, direct, inverse};
+
+fn caroca() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+const NOISE: Measurement = Measurement::Pose { position: 1e-4, rotation: 1e-4 };
+
+/// One standard deviation of each kind of parameter.
+fn uncertainties() -> Vec<f64> {
+    let one = |parameter: &Parameter| match parameter.group() {
+        "mass" => 1.0,
+        "linear_density" => 1e-3,
+        "youngs_modulus" => 5e9,
+        "dt" => 5.0,
+        _ => 2e-3,
+    };
+    Parameter::all(8).iter().map(one).collect()
+}
+
+/// Turned platforms among them: unturned ones do not tell anchor points from exit points.
+fn poses() -> Vec<Pose> {
+    let grid = |i: usize| [-1.0, 0.0, 1.0][i % 3];
+    (0..27)
+        .map(|i| {
+            let position = Vector3::new(2.0 * grid(i), 1.1 * grid(i / 3), 1.6 + 0.7 * grid(i / 9));
+            let turn = 0.1 * Vector3::new(grid(i / 2), grid(i / 5), grid(i / 7));
+            Pose { position, rotation: Rotation3::new(turn) }
+        })
+        .collect()
+}
+
+fn calibration(payloads: &[f64], measurements: &[Measurement]) -> Calibration {
+    let mut calibration = Calibration::new(&caroca(), &uncertainties()).unwrap();
+    for payload in payloads {
+        for pose in poses() {
+            calibration.add(&pose, &Load::payload(*payload), measurements).unwrap();
+        }
+    }
+    calibration
+}
+
+fn print(title: &str, found: &Identifiability) {
+    println!("{title}: {} combinations told, {} not", found.told.len(), found.untold.len());
+    for combination in found.told.iter().take(2).chain(found.told.iter().rev().take(2)).chain(&found.untold) {
+        let parts =
+            combination.weights.iter().take(4).map(|(parameter, weight)| format!("{weight:+.2} {parameter}"));
+        println!("  {:9.2e}: {}", combination.signal_to_noise, parts.collect::<Vec<_>>().join(" "));
+    }
+}
+
+#[test]
+fn poses_tell_neither_offsets_of_tensions_nor_with_one_payload_the_scale_of_all_forces() {
+    let robot = caroca();
+    let uncertainties = uncertainties();
+    let all = Parameter::all(8);
+    for payloads in [&[0.0][..], &[50.0], &[0.0, 50.0]] {
+        let found = calibration(payloads, &[NOISE]).identify(0..54);
+        print(&format!("poses under {payloads:?} kg"), &found);
+        let weights = |combination: &Combination| -> Vec<(Parameter, f64)> {
+            combination.weights.iter().copied().filter(|(_, weight)| weight.abs() > 1e-4).collect()
+        };
+        let (offsets, scale): (Vec<_>, Vec<_>) =
+            found.untold.iter().map(weights).partition(|weights| weights[0].0.group() == "dt");
+        assert!(offsets.len() == 8 && offsets.iter().all(|weights| weights.len() == 1));
+        // One payload acts as a part of the platform's mass; two tell the scale of all weights and forces.
+        assert_eq!(scale.len(), 2 - payloads.len());
+        for weights in scale {
+            let relative = weights.iter().map(|(parameter, weight)| {
+                let place = all.iter().position(|other| other == parameter).unwrap();
+                let known = if *parameter == Parameter::Mass { payloads[0] } else { 0.0 };
+                weight * uncertainties[place] / (parameter.nominal(&robot) + known)
+            });
+            let relative: Vec<f64> = relative.collect();
+            assert_eq!(relative.len(), 3);
+            assert!(relative.iter().all(|r| (r / relative[0] - 1.0).abs() < 1e-5), "{relative:?}");
+        }
+    }
+}
+
+#[test]
+fn a_change_along_a_combination_shows_as_its_signal_says() {
+    let robot = caroca();
+    let load = Load::payload(50.0);
+    let calibration = calibration(&[50.0], &[NOISE]);
+    let found = calibration.identify(0..27);
+    let uncertainties = uncertainties();
+    let all = Parameter::all(8);
+    for combination in [&found.told[0], &found.told[30], &found.told[45]] {
+        let change = 1e-3;
+        let mut squares = 0.0;
+        for pose in poses() {
+            let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+            let nominal = direct(&robot, &lengths, &load, Start::Pose(&pose)).unwrap().equilibrium;
+            let stands = |sign: f64| {
+                let mut deviations = vec![0.0; all.len()];
+                for (parameter, weight) in &combination.weights {
+                    let place = all.iter().position(|other| other == parameter).unwrap();
+                    deviations[place] = sign * change * weight * uncertainties[place];
+                }
+                let moved = robot.perturbed(&deviations).unwrap().robot;
+                direct(&moved, &lengths, &load, Start::Near(&nominal)).unwrap().equilibrium.pose
+            };
+            squares += (stands(-1.0).motion_to(&stands(1.0)) / (2.0 * change * 1e-4)).norm_squared();
+        }
+        let signal = squares.sqrt();
+        println!("signal over noise {signal} by differences, {} exact", combination.signal_to_noise);
+        assert!((signal / combination.signal_to_noise - 1.0).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn measuring_more_leaves_less() {
+    let few = calibration(&[50.0], &[NOISE]).identify(0..5);
+    let many = calibration(&[50.0], &[NOISE]).identify(0..27);
+    let all = calibration(&[50.0], &[NOISE, Measurement::Tensions(5.0), Measurement::Lengths(1e-3)])
+        .identify(0..27);
+    print("poses, tensions and lengths", &all);
+    for ((few, many), all) in few.remaining.iter().zip(&many.remaining).zip(&all.remaining) {
+        assert!(many.1 <= few.1 + 1e-9 && all.1 <= many.1 + 1e-9 && few.1 <= 1.0 + 1e-9);
+    }
+    assert!(all.untold.is_empty() && many.untold.len() == 9);
+    assert!(calibration(&[50.0], &[NOISE]).identify([]).told.is_empty());
+}
+
+#[test]
+fn the_best_poses_tell_more_than_the_first_and_their_information_adds_up() {
+    let calibration = calibration(&[50.0], &[NOISE]);
+    let bits = |poses: &[usize]| {
+        let found = calibration.identify(poses.iter().copied());
+        found.told.iter().map(|c| 0.5 * (1.0 + c.signal_to_noise.powi(2)).log2()).sum::<f64>()
+    };
+    let best = calibration.best_poses(6);
+    let numbers: Vec<usize> = best.iter().map(|chosen| chosen.pose).collect();
+    let sum: f64 = best.iter().map(|chosen| chosen.information).sum();
+    assert!((sum / bits(&numbers) - 1.0).abs() < 1e-6);
+    assert!(best.windows(2).all(|pair| pair[1].information <= pair[0].information + 1e-9));
+    println!("six best of 27 {numbers:?}: {sum:.1} bit; the first six: {:.1} bit", bits(&[0, 1, 2, 3, 4, 5]));
+    assert!(sum > bits(&[0, 1, 2, 3, 4, 5]));
+    assert_eq!(calibration.best_poses(100).len(), 27);
+}
+
+#[test]
+fn inputs_that_are_none_are_named() {
+    let mut wrong = uncertainties();
+    wrong[3] = -1.0;
+    let text = Calibration::new(&caroca(), &wrong).unwrap_err().to_string();
+    assert_eq!(
+        text,
+        "uncertainties[3] is -1: expected a finite number, zero or more, for each of the 62 parameters"
+    );
+    let mut calibration = Calibration::new(&caroca(), &uncertainties()).unwrap();
+    let pose = Pose::at(0.0, 0.0, 1.75);
+    let error = calibration.add(&pose, &Load::none(), &[Measurement::Lengths(0.0)]).unwrap_err();
+    assert_eq!(error.to_string(), "noise is 0: expected a finite, positive standard deviation");
+    assert!(calibration.add(&Pose::at(0.0, 0.0, 9.0), &Load::none(), &[NOISE]).is_err());
+    assert!(calibration.best_poses(3).is_empty());
+}

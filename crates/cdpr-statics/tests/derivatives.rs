@@ -1,0 +1,526 @@
+//! Every derivative against central differences of the models themselves, and against what mechanics demands.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{
+    Parameter, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Vector6, Wrench,
+};
+use cdpr_statics::{
+    Deflection, Derivatives, EquilibriumDerivatives, Load, StaticsError, Tangent, deflection_from,
+    derivatives, inverse, lengths_for_tensions,
+};
+use nalgebra::DVector;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+fn caroca() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+const STUDY_POSES: [[f64; 3]; 2] = [[0.0, 0.0, 1.75], [3.2, 1.7, 3.0]];
+
+/// A robot at a pose with a load, and what is to be differentiated there.
+#[derive(Clone)]
+struct Case {
+    robot: Robot,
+    pose: Pose,
+    offsets: Vec<f64>,
+    load: Load,
+}
+
+/// The outputs, in groups of one unit each: name, values, and the size by which errors are judged.
+type Outputs = Vec<(&'static str, Vec<f64>)>;
+
+/// What decides which formula holds for a cable. Differences must not cross it.
+#[derive(PartialEq)]
+struct Regime {
+    /// The bound that the inverse model's tension rests on.
+    active: Option<cdpr_tension::Bound>,
+    /// Whether that bound is what the cable's weight demands.
+    demanded: bool,
+    /// Whether the set-point is kept at the robot's least tension.
+    clamped: bool,
+    /// Whether the cable's weight demands more than the set-point.
+    raised: bool,
+}
+
+impl Case {
+    /// The case with one input moved.
+    fn moved(&self, column: usize, step: f64) -> Self {
+        let mut case = self.clone();
+        let parameters = Parameter::all(self.robot.cables.len()).len();
+        if column < parameters {
+            let mut deviations = vec![0.0; parameters];
+            deviations[column] = step;
+            let perturbed = self.robot.perturbed(&deviations).unwrap();
+            case.robot = perturbed.robot;
+            case.offsets.iter_mut().zip(perturbed.tension_offsets).for_each(|(offset, more)| *offset += more);
+        } else if column == parameters {
+            case.load.payload += step;
+        } else {
+            let mut motion = Vector6::zeros();
+            motion[column - parameters - 1] = step;
+            case.pose = self.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
+        }
+        case
+    }
+
+    /// A step of an input that changes lengths and tensions little, but far above rounding.
+    fn step(&self, column: usize) -> f64 {
+        let parameters = Parameter::all(self.robot.cables.len());
+        let length = 1e-3 * self.robot.platform_size();
+        match parameters.get(column) {
+            Some(parameter @ (Parameter::Mass | Parameter::LinearDensity | Parameter::YoungsModulus)) => {
+                3e-3 * parameter.nominal(&self.robot)
+            }
+            Some(Parameter::TensionOffset(_)) => 1e-3 * self.robot.platform.mass,
+            Some(_) => length,
+            None if column == parameters.len() => 3e-3 * self.robot.platform.mass,
+            None if column <= parameters.len() + 3 => length,
+            None => 1e-4,
+        }
+    }
+
+    /// As the library computes it, from an equilibrium nearby.
+    fn outputs(&self, about: &Deflection) -> Result<(Outputs, Vec<Regime>), StaticsError> {
+        let wanted = inverse(&self.robot, &self.pose, &Load::none(), None)?;
+        let limits = self.robot.tension_limits;
+        let set_points = cdpr_tension::offset(&wanted.tensions, &self.offsets, limits);
+        let (lengths, held) = lengths_for_tensions(&self.robot, &self.pose, &set_points)?;
+        let found = deflection_from(&self.robot, lengths, &self.load, &held)?;
+        let regime = (0..set_points.len())
+            .map(|i| {
+                let (active, raised) = (wanted.active[i], held.tensions()[i] > 1.0005 * set_points[i]);
+                Regime {
+                    active,
+                    demanded: active == Some(cdpr_tension::Bound::Min) && wanted.tensions[i] > limits.min,
+                    clamped: !raised && wanted.tensions[i] + self.offsets[i] <= limits.min,
+                    raised,
+                }
+            })
+            .collect();
+        let turned = |found: &Deflection, loaded: bool| {
+            let [from, to] = [about, found]
+                .map(|d| if loaded { d.loaded.equilibrium.pose } else { d.unloaded.equilibrium.pose });
+            from.motion_to(&to)
+        };
+        let position = |motion: Vector6<f64>| motion.as_slice()[..3].to_vec();
+        let rotation = |motion: Vector6<f64>| motion.as_slice()[3..].to_vec();
+        let outputs = vec![
+            ("set-points", held.tensions()),
+            ("lengths", found.lengths.clone()),
+            ("unloaded position", position(turned(&found, false))),
+            ("unloaded rotation", rotation(turned(&found, false))),
+            ("unloaded tensions", found.unloaded.equilibrium.tensions()),
+            ("loaded position", position(turned(&found, true))),
+            ("loaded rotation", rotation(turned(&found, true))),
+            ("loaded tensions", found.loaded.equilibrium.tensions()),
+            ("deflection", found.displacement().as_slice().to_vec()),
+            ("norm of the deflection", vec![found.rms()]),
+        ];
+        Ok((outputs, regime))
+    }
+}
+
+/// A column of all derivatives, in the order of [`Case::outputs`].
+fn column(exact: &Derivatives, column: usize) -> Vec<DVector<f64>> {
+    let rms = exact.rms().unwrap();
+    let pose =
+        |at: &EquilibriumDerivatives, first: usize| DVector::from_fn(3, |i, _| at.pose[(first + i, column)]);
+    vec![
+        exact.set_points.column(column).into_owned(),
+        exact.lengths.column(column).into_owned(),
+        pose(&exact.unloaded, 0),
+        pose(&exact.unloaded, 3),
+        exact.unloaded.tensions.column(column).into_owned(),
+        pose(&exact.loaded, 0),
+        pose(&exact.loaded, 3),
+        exact.loaded.tensions.column(column).into_owned(),
+        DVector::from_column_slice(exact.displacement().column(column).as_slice()),
+        DVector::from_element(1, rms[column]),
+    ]
+}
+
+/// What the comparison of one case gives.
+#[derive(Default)]
+struct Found {
+    /// Largest error of each output relative to the largest derivative of its kind in the column.
+    worst: BTreeMap<&'static str, (f64, String)>,
+    columns: usize,
+    /// Outputs whose difference is exact to 1e-6 of itself or better.
+    compared: usize,
+    /// Columns whose differences cross a bound.
+    crossed: usize,
+    active: usize,
+    demanded: usize,
+    clamped: usize,
+    raised: usize,
+}
+
+/// A derivative by central differences with three steps, twice extrapolated, and what these leave open.
+fn extrapolated(values: &[DVector<f64>; 6], h: f64, rounding: f64) -> (DVector<f64>, f64) {
+    let slope = |pair: usize, h: f64| (&values[2 * pair] - &values[2 * pair + 1]) / (2.0 * h);
+    let (wide, middle, narrow) = (slope(0, h), slope(1, 0.5 * h), slope(2, 0.25 * h));
+    let (once, again) = ((&middle * 4.0 - &wide) / 3.0, (&narrow * 4.0 - &middle) / 3.0);
+    let best = (&again * 16.0 - &once) / 15.0;
+    // What the second extrapolation is to remove is fifteen times what it corrects; the narrowest difference amplifies
+    // rounding by 4/h times 1.4.
+    let open = (&again - &once).amax() + 6.0 * rounding / h;
+    (best, open)
+}
+
+/// Checks all columns of a case.
+fn check(case: &Case) -> Result<Found, StaticsError> {
+    let exact = derivatives(&case.robot, &case.pose, &case.offsets, &case.load)?;
+    let about = &exact.deflection;
+    let (values_of, regime) = case.outputs(about)?;
+    let mut found = Found {
+        active: regime.iter().filter(|cable| cable.active.is_some()).count(),
+        demanded: regime.iter().filter(|cable| cable.demanded).count(),
+        clamped: regime.iter().filter(|cable| cable.clamped).count(),
+        raised: regime.iter().filter(|cable| cable.raised).count(),
+        ..Found::default()
+    };
+    // Tensions are known to the rounding of lengths times the stiffness of a cable.
+    let size = about.lengths.iter().fold(0.0, |size: f64, length| size.max(*length));
+    let stiffness = case.robot.cable(0).axial_stiffness / about.lengths.iter().fold(size, |a, b| a.min(*b));
+    let tension: f64 = about.loaded.equilibrium.tensions().iter().sum();
+    // Poses to that of lengths, and to that of forces over the stiffness of the softest motion.
+    let least = [&about.unloaded, &about.loaded].map(|at| at.stability.least_stiffness());
+    let soft = 1e-14 * tension / least[0].min(least[1]);
+    let rounding = |name: &str| match name {
+        "set-points" => 1e-14 * tension,
+        "unloaded tensions" | "loaded tensions" => 1e-14 * tension + stiffness * (3e-15 * size + soft),
+        "lengths" => 3e-14 * size,
+        _ => 3e-14 * size + soft,
+    };
+    for input in 0..exact.inputs.count() {
+        found.columns += 1;
+        let expected = column(&exact, input);
+        let mut best: Vec<Option<(DVector<f64>, f64)>> = vec![None; expected.len()];
+        for scale in [10.0, 1.0, 0.1, 1e-3] {
+            let h = scale * case.step(input);
+            let at = |h: f64| match case.moved(input, h).outputs(about) {
+                Ok((outputs, same)) if same == regime => Some(outputs),
+                _ => None,
+            };
+            let steps = [h, -h, 0.5 * h, -0.5 * h, 0.25 * h, -0.25 * h];
+            let Some(all) = steps.into_iter().map(at).collect::<Option<Vec<_>>>() else { continue };
+            for (output, best) in best.iter_mut().enumerate() {
+                let values = std::array::from_fn(|step| DVector::from_column_slice(&all[step][output].1));
+                let (slope, open) = extrapolated(&values, h, rounding(values_of[output].0));
+                if best.as_ref().is_none_or(|(_, least)| open < *least) {
+                    *best = Some((slope, open));
+                }
+            }
+            let exact_enough = |(slope, open): &(DVector<f64>, f64)| *open < 1e-9 * slope.amax();
+            if best.iter().all(|best| best.as_ref().is_some_and(exact_enough)) {
+                break;
+            }
+        }
+        found.crossed += usize::from(best[0].is_none());
+        for ((best, exact), (name, _)) in best.into_iter().zip(expected).zip(&values_of) {
+            let Some((best, open)) = best else { continue };
+            let (error, scale) = ((&best - &exact).amax(), exact.amax());
+            assert!(
+                error <= open + 1e-10 * scale,
+                "{}: {name}, input {input}: error {error:e} of {scale:e}, open {open:e}",
+                case.robot.name
+            );
+            // Where differences tell a derivative at all.
+            if open < 1e-6 * scale {
+                found.compared += 1;
+                let worst = found.worst.entry(name).or_default();
+                if error / scale >= worst.0 {
+                    *worst = (error / scale, format!("{}, input {input}", case.robot.name));
+                }
+            }
+        }
+    }
+    Ok(found)
+}
+
+fn report(title: &str, all: &[Found]) {
+    let sum = |count: fn(&Found) -> usize| all.iter().map(count).sum::<usize>();
+    println!(
+        "{title}: {} cases, {} columns ({} cross a bound), {} derivatives compared; {} active bounds ({} of the cable's weight), {} clamped and {} raised set-points",
+        all.len(),
+        sum(|f| f.columns),
+        sum(|f| f.crossed),
+        sum(|f| f.compared),
+        sum(|f| f.active),
+        sum(|f| f.demanded),
+        sum(|f| f.clamped),
+        sum(|f| f.raised)
+    );
+    let names: BTreeSet<_> = all.iter().flat_map(|f| f.worst.keys()).collect();
+    for name in names {
+        let mut errors: Vec<_> = all.iter().filter_map(|f| f.worst.get(name)).collect();
+        errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (worst, median) = (errors[errors.len() - 1], errors[errors.len() / 2].0);
+        println!("  {name}: worst {:.1e} ({}), median over cases {median:.1e}", worst.0, worst.1);
+    }
+}
+
+#[test]
+fn derivatives_of_caroca_are_those_of_differences() {
+    for position in STUDY_POSES {
+        for offset in [0.0, 12.0, -8.0, 2000.0] {
+            let offsets = (0..8).map(|i| if i % 3 == 0 { -offset } else { offset }).collect();
+            let pose = Pose { position: position.into(), rotation: Rotation3::identity() };
+            let case = Case { robot: caroca(), pose, offsets, load: Load::payload(50.0) };
+            let found = check(&case).unwrap();
+            report(&format!("CAROCA at {position:?}, offsets of {offset} N"), &[found]);
+        }
+    }
+}
+
+/// Suspended robots with 6 to 12 cables, steel to rope, light to heavy; centred to near the border of the workspace.
+fn random_case(seed: u64) -> Case {
+    let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+    let n = rng.random_range(6..=12);
+    let mut properties = caroca().cables[0].properties;
+    properties.youngs_modulus *= 10f64.powf(rng.random_range(-1.5..0.5));
+    properties.linear_density *= 10f64.powf(rng.random_range(-1.0..0.7));
+    let cables = (0..n)
+        .map(|i| {
+            let mut jitter = || rng.random_range(-0.5..0.5);
+            let around = std::f64::consts::TAU * i as f64 / n as f64;
+            let (a, b, c) = (jitter(), jitter(), jitter());
+            let anchor = around + if i % 2 == 0 { 0.5 } else { -0.5 };
+            let height = if i % 2 == 0 { 0.3 } else { -0.3 };
+            RobotCable {
+                exit_point: Vector3::new((5.0 + a) * around.cos(), (5.0 + b) * around.sin(), 4.0 + c),
+                anchor_point: Vector3::new(
+                    (0.5 + 0.1 * b) * anchor.cos(),
+                    0.5 * anchor.sin(),
+                    height + 0.1 * a,
+                ),
+                properties,
+            }
+        })
+        .collect();
+    let mass = 10f64.powf(rng.random_range(1.0..2.7));
+    let robot = Robot {
+        name: format!("random robot {seed}"),
+        source: None,
+        gravity: 9.81,
+        platform: Platform { mass, center_of_mass: Vector3::new(0.02, -0.01, -0.05) },
+        tension_limits: TensionLimits { min: 10f64.powf(rng.random_range(-1.0..1.5)), max: 1e5 },
+        cables,
+    };
+    let mut within = |size: f64| Vector3::from_fn(|_, _| rng.random_range(-size..size));
+    let pose = Pose::at(0.0, 0.0, 1.5).moved(within(1.5), within(0.1));
+    let force = mass * within(1.0);
+    let moment = 0.1 * mass * within(1.0);
+    let wrench = if seed.is_multiple_of(2) { Wrench::zero() } else { Wrench { force, moment } };
+    let payload = mass * rng.random_range(0.05..0.5);
+    let offset = [0.0, 0.1, 1.0][seed as usize % 3] * mass;
+    let offsets = (0..n).map(|_| offset * rng.random_range(-1.0..1.0)).collect();
+    Case { robot, pose, offsets, load: Load { payload, wrench } }
+}
+
+#[test]
+fn derivatives_of_random_robots_are_those_of_differences() {
+    let outcomes: Vec<_> = (0..100u64).into_par_iter().map(|seed| check(&random_case(seed))).collect();
+    let (mut all, mut refused) = (Vec::new(), BTreeMap::<_, usize>::new());
+    for outcome in outcomes {
+        match outcome {
+            Ok(found) => all.push(found),
+            Err(error) => *refused.entry(error.kind()).or_default() += 1,
+        }
+    }
+    report("random robots", &all);
+    println!("no observation: {refused:?}");
+    assert!(all.len() > 80);
+    let sum = |count: fn(&Found) -> usize| all.iter().map(count).sum::<usize>();
+    assert!(sum(|f| f.active) > sum(|f| f.demanded) + 5 && sum(|f| f.demanded) > 5);
+    assert!(sum(|f| f.clamped) > 5 && sum(|f| f.raised) > 5);
+}
+
+/// A CAROCA that is turned and off centre, with offsets.
+fn some_case() -> Case {
+    let pose = Pose::at(0.6, -0.4, 1.4).moved(Vector3::zeros(), Vector3::new(0.05, -0.08, 0.1));
+    let offsets = vec![10.0, -20.0, 5.0, 0.0, -3.0, 8.0, 14.0, -9.0];
+    Case { robot: caroca(), pose, offsets, load: Load::payload(50.0) }
+}
+
+fn some_derivatives() -> Derivatives {
+    let Case { robot, pose, offsets, load } = some_case();
+    derivatives(&robot, &pose, &offsets, &load).unwrap()
+}
+
+/// The change of all inputs that `change` gives for each parameter, the payload and the wanted pose.
+fn direction(
+    exact: &Derivatives,
+    change: impl Fn(Parameter) -> f64,
+    payload: f64,
+    motion: Vector6<f64>,
+) -> DVector<f64> {
+    let parameters = exact.inputs.parameters.iter().map(|parameter| change(*parameter));
+    let all: Vec<f64> = parameters.chain([payload]).chain(motion.iter().copied()).collect();
+    DVector::from_vec(all)
+}
+
+fn component(vector: Vector3<f64>, axis: cdpr_robot::Axis) -> f64 {
+    vector[axis as usize]
+}
+
+#[test]
+fn moving_all_exit_points_and_the_pose_alike_moves_the_platform_and_changes_nothing_else() {
+    let exact = some_derivatives();
+    let shift = Vector3::new(0.3, -0.7, 0.4);
+    let exits = |parameter| match parameter {
+        Parameter::ExitPoint(_, axis) => component(shift, axis),
+        _ => 0.0,
+    };
+    let all = direction(&exact, exits, 0.0, Vector6::new(shift.x, shift.y, shift.z, 0.0, 0.0, 0.0));
+    assert!((&exact.lengths * &all).amax() < 1e-12);
+    assert!((&exact.set_points * &all).amax() < 1e-8);
+    assert!((exact.displacement() * &all).amax() < 1e-12);
+    for at in [&exact.unloaded, &exact.loaded] {
+        assert!((&at.tensions * &all).amax() < 1e-8);
+        let motion = &at.pose * &all;
+        assert!(
+            (motion.fixed_rows::<3>(0) - shift).norm() < 1e-11 && motion.fixed_rows::<3>(3).norm() < 1e-11
+        );
+    }
+}
+
+#[test]
+fn scaling_all_forces_scales_the_tensions_and_moves_nothing() {
+    let Case { robot, offsets, load, .. } = some_case();
+    let exact = some_derivatives();
+    let forces = |parameter: Parameter| match parameter {
+        Parameter::TensionOffset(i) => offsets[i],
+        Parameter::Mass | Parameter::LinearDensity | Parameter::YoungsModulus => parameter.nominal(&robot),
+        _ => 0.0,
+    };
+    let all = direction(&exact, forces, load.payload, Vector6::zeros());
+    assert!((&exact.lengths * &all).amax() < 1e-12);
+    assert!((exact.displacement() * &all).amax() < 1e-12);
+    for (at, found) in
+        [(&exact.unloaded, &exact.deflection.unloaded), (&exact.loaded, &exact.deflection.loaded)]
+    {
+        assert!((&at.pose * &all).amax() < 1e-11);
+        let tensions = DVector::from_vec(found.equilibrium.tensions());
+        assert!((&at.tensions * &all - &tensions).amax() < 1e-10 * tensions.amax());
+    }
+}
+
+#[test]
+fn turning_robot_and_pose_about_the_vertical_turns_the_answer() {
+    let case = some_case();
+    let exact = some_derivatives();
+    let up = Vector3::z();
+    let exits = |parameter| match parameter {
+        Parameter::ExitPoint(i, axis) => component(up.cross(&case.robot.cables[i].exit_point), axis),
+        _ => 0.0,
+    };
+    let swept = up.cross(&case.pose.position);
+    let all = direction(&exact, exits, 0.0, Vector6::new(swept.x, swept.y, swept.z, 0.0, 0.0, 1.0));
+    assert!((&exact.lengths * &all).amax() < 1e-11);
+    let turned = up.cross(&exact.deflection.displacement());
+    assert!((exact.displacement() * &all - turned).amax() < 1e-11);
+    for (at, found) in
+        [(&exact.unloaded, &exact.deflection.unloaded), (&exact.loaded, &exact.deflection.loaded)]
+    {
+        let swept = up.cross(&found.equilibrium.pose.position);
+        let expected = Vector6::new(swept.x, swept.y, swept.z, 0.0, 0.0, 1.0);
+        assert!((&at.pose * &all - expected).amax() < 1e-10);
+        assert!((&at.tensions * &all).amax() < 1e-7);
+    }
+}
+
+#[test]
+fn a_payload_moves_the_platform_as_the_tangent_says() {
+    let Case { robot, load, .. } = some_case();
+    let exact = some_derivatives();
+    let loaded = &exact.deflection.loaded;
+    let tangent = Tangent::at(&robot, &exact.deflection.lengths, &load, loaded).unwrap();
+    let arm = loaded.equilibrium.pose.rotation * robot.platform.center_of_mass;
+    let force = Vector3::new(0.0, 0.0, -robot.gravity);
+    let expected = tangent.displacement(&Wrench { force, moment: arm.cross(&force) });
+    let payload = exact.inputs.payload();
+    assert!((exact.loaded.pose.column(payload) - expected).norm() < 1e-9 * expected.norm());
+    assert_eq!(exact.unloaded.pose.column(payload).amax(), 0.0);
+    assert_eq!(exact.lengths.column(payload).amax(), 0.0);
+}
+
+#[test]
+fn the_chain_through_the_lengths_is_that_of_the_assembled_equations() {
+    for seed in 0..40 {
+        let Case { robot, pose, offsets, load } = random_case(seed);
+        let Ok(exact) = derivatives(&robot, &pose, &offsets, &load) else { continue };
+        let Deflection { lengths, loaded, .. } = &exact.deflection;
+        let held = EquilibriumDerivatives::at(&robot, lengths, &load, &loaded.equilibrium).unwrap();
+        let tangent = Tangent::at(&robot, lengths, &load, loaded).unwrap();
+        let expected = tangent.pose_per_length() * &exact.lengths + &held.pose;
+        let pose = exact.inputs.pose();
+        let parameters = 0..exact.inputs.payload();
+        for column in parameters.chain(pose) {
+            let error = (expected.column(column) - exact.loaded.pose.column(column)).amax();
+            let scale = held.pose.column(column).amax().max(expected.column(column).amax());
+            assert!(error <= 1e-8 * scale, "{column}: {error:e} of {scale:e}");
+        }
+    }
+}
+
+#[test]
+fn a_clamped_set_point_does_not_depend_on_its_offset() {
+    let Case { robot, pose, mut offsets, load } = some_case();
+    offsets[2] = -1e4;
+    let exact = derivatives(&robot, &pose, &offsets, &load).unwrap();
+    let dt3 = exact.inputs.parameters.iter().position(|p| *p == Parameter::TensionOffset(2)).unwrap();
+    assert_eq!(exact.lengths.column(dt3).amax(), 0.0);
+    assert_eq!(exact.loaded.pose.column(dt3).amax(), 0.0);
+    assert!((exact.set_points[(3, dt3 + 1)] - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn the_norm_of_no_deflection_has_no_derivative() {
+    let Case { robot, pose, offsets, .. } = some_case();
+    let exact = derivatives(&robot, &pose, &offsets, &Load::none()).unwrap();
+    assert_eq!(
+        exact.rms().unwrap_err().to_string(),
+        "the norm of the deflection has no derivative: the load does not displace the platform"
+    );
+    assert!(exact.displacement().amax() < 1e3);
+}
+
+#[test]
+fn the_modulus_makes_the_variance_of_the_mechanical_study() {
+    let study: serde_json::Value =
+        serde_json::from_str(include_str!("../../../data/studies/caroca.json")).unwrap();
+    let laws = &study["error_models"]["table_3"];
+    for position in STUDY_POSES {
+        let pose = Pose { position: position.into(), rotation: Rotation3::identity() };
+        let exact = derivatives(&caroca(), &pose, &[0.0; 8], &Load::payload(50.0)).unwrap();
+        let variance = |parameter: &Parameter| {
+            let law = &laws[parameter.group()]["law"]["uniform"];
+            let [min, max] = ["min", "max"].map(|end| law[end].as_f64().unwrap());
+            (max - min).powi(2) / 12.0
+        };
+        let variances: Vec<f64> = exact.inputs.parameters.iter().map(variance).collect();
+        let budget = exact.variance_budget(&variances).unwrap();
+        assert!((budget.shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        let mut groups = BTreeMap::<_, f64>::new();
+        for (parameter, share) in exact.inputs.parameters.iter().zip(&budget.shares) {
+            *groups.entry(parameter.group()).or_default() += 100.0 * share;
+        }
+        println!(
+            "{position:?}: |dp| = {:.5} mm, predicted standard deviation {:.5} mm, shares [%]: {groups:.4?}",
+            1e3 * exact.deflection.rms(),
+            1e3 * budget.std
+        );
+        if position == STUDY_POSES[0] {
+            assert!((groups["youngs_modulus"] - 99.45).abs() < 0.01);
+        }
+        assert_eq!(
+            exact.variance_budget(&variances[1..]).unwrap_err().to_string(),
+            "variances is a list of 61: expected a finite number, zero or more, for each of the 62 parameters"
+        );
+    }
+}

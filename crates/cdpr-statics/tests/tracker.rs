@@ -1,0 +1,100 @@
+//! One solve after the other: the answers of the direct model, without allocation.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_statics::{Load, Start, StaticsError, Tracker, direct, inverse};
+
+fn caroca() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+/// Lengths along a path through the workspace, with loads that come and go.
+fn path(robot: &Robot, steps: usize) -> Vec<(Vec<f64>, Load)> {
+    (0..steps)
+        .map(|k| {
+            let s = k as f64 / steps as f64;
+            let turn = 0.1 * (6.0 * s).sin() * Vector3::new(0.3, 0.5, 1.0);
+            let pose = Pose::at(2.0 * s - 1.0, 0.8 * (5.0 * s).sin(), 1.5 + s).moved(Vector3::zeros(), turn);
+            let lengths = inverse(robot, &pose, &Load::none(), None).unwrap().lengths;
+            let mut load = Load::payload(if k % 50 < 25 { 0.0 } else { 50.0 });
+            load.wrench.force = Vector3::new(20.0 * (40.0 * s).sin(), 0.0, 0.0);
+            (lengths, load)
+        })
+        .collect()
+}
+
+#[test]
+fn a_path_is_that_of_the_direct_model() {
+    let robot = caroca();
+    let path = path(&robot, 500);
+    let start = inverse(&robot, &Pose::at(-1.0, 0.0, 1.5), &Load::none(), None).unwrap().equilibrium;
+    let mut tracker = Tracker::new(&robot, &path[0].0, &path[0].1, &start).unwrap();
+    for (lengths, load) in &path {
+        let before = tracker.equilibrium().clone();
+        let expected = direct(&robot, lengths, load, Start::Near(&before)).unwrap().equilibrium;
+        let found = tracker.update(lengths, load).unwrap();
+        let motion = found.pose.motion_to(&expected.pose);
+        assert!(motion.norm() < 1e-12, "{motion}");
+        for (found, expected) in found.cable_forces.iter().zip(&expected.cable_forces) {
+            assert!((found - expected).norm() < 1e-6);
+        }
+        let rotation = found.pose.rotation.matrix();
+        assert!((rotation.transpose() * rotation).map_diagonal(|d| d - 1.0).norm() < 1e-15);
+        let residual = tracker.residual();
+        assert!(residual.closure < 3e-12 && residual.force < 1e-8 && residual.moment < 1e-8, "{residual:?}");
+    }
+}
+
+#[test]
+fn nothing_is_allocated_on_the_way() {
+    let robot = caroca();
+    let path = path(&robot, 200);
+    let start = inverse(&robot, &Pose::at(-1.0, 0.0, 1.5), &Load::none(), None).unwrap().equilibrium;
+    let mut tracker = Tracker::new(&robot, &path[0].0, &path[0].1, &start).unwrap();
+    let allocated = allocation_counter::measure(|| {
+        for (lengths, load) in &path {
+            assert!(tracker.update(lengths, load).is_ok());
+        }
+    });
+    assert_eq!(allocated.count_total, 0);
+    assert!(allocation_counter::measure(|| drop(tracker.equilibrium().clone())).count_total > 0);
+}
+
+#[test]
+fn slack_cables_and_moments_are_left_to_the_direct_model() {
+    let robot = caroca();
+    let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none(), None).unwrap();
+    let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
+    let mut slack = wanted.lengths.clone();
+    slack[1] += 0.3;
+    let mut moment = Load::payload(20.0);
+    moment.wrench.moment = Vector3::new(5.0, -3.0, 2.0);
+    for (lengths, load) in [(&slack, Load::none()), (&slack, moment), (&wanted.lengths, Load::none())] {
+        let before = tracker.equilibrium().clone();
+        let expected = direct(&robot, lengths, &load, Start::Near(&before)).unwrap().equilibrium.pose;
+        let found = tracker.update(lengths, &load).unwrap().pose;
+        assert!(found.motion_to(&expected).norm() < 1e-11);
+    }
+    assert!((tracker.equilibrium().pose.position - wanted.equilibrium.pose.position).norm() < 1e-11);
+}
+
+#[test]
+fn what_is_no_input_leaves_the_equilibrium_at_hand() {
+    let robot = caroca();
+    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
+    let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
+    let before = tracker.equilibrium().clone();
+    let mut lengths = wanted.lengths.clone();
+    lengths[3] = f64::NAN;
+    match tracker.update(&lengths, &Load::none()) {
+        Err(StaticsError::Invalid { field, .. }) => assert_eq!(field, "lengths[3]"),
+        outcome => panic!("{outcome:?}"),
+    }
+    assert!(tracker.update(&wanted.lengths[..7], &Load::none()).is_err());
+    // Too short by a metre all around: overstrained.
+    let short: Vec<f64> = wanted.lengths.iter().map(|length| length - 1.0).collect();
+    assert!(matches!(tracker.update(&short, &Load::none()), Err(StaticsError::Overstrained { .. })));
+    assert_eq!(tracker.equilibrium(), &before);
+    assert!(tracker.update(&wanted.lengths, &Load::none()).is_ok());
+}
