@@ -2,8 +2,10 @@
 
 #![allow(clippy::print_stderr)]
 
+mod bench;
 mod fuzz;
 mod peers;
+mod scaling;
 
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -19,7 +21,12 @@ tasks:
                  (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
   throughput [--observations N] [--threads N]
                  a sampling of the paper's size and more, without tables: time, memory and results in one line (N = 1000000)
-  bench [ARGS]   all criterion benchmarks
+  scaling [--observations N]
+                 the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads: docs/PERFORMANCE.md
+  bench [--strict] [--save-baseline] [ARGS]
+                 all criterion benchmarks, or those that ARGS choose (a part of a name and other options of criterion), and their
+                 instruction counts where valgrind is installed, beside data/benchmarks/baseline.json: fails where a count grew,
+                 with --strict also where a median did
   bench-peers    the direct model and an observation beside SciPy, Octave and Ceres, where installed: docs/PEERS.md
   fuzz [SECONDS] every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   schemas        write the JSON Schemas of the file formats to docs/schemas
@@ -33,7 +40,8 @@ fn main() -> ExitCode {
         Some("caroca-study") => caroca_study(rest),
         Some("robustness") => robustness(rest),
         Some("throughput") => throughput(&rest),
-        Some("bench") => cargo(&[&["bench", "--workspace"], strs(&rest).as_slice()].concat()),
+        Some("scaling") => scaling::run(&rest),
+        Some("bench") => bench::run(rest),
         Some("bench-peers") => peers::bench(),
         Some("fuzz") => fuzz::run(&rest),
         Some("schemas") => schemas(),
@@ -103,17 +111,22 @@ fn strs(arguments: &[String]) -> Vec<&str> {
     arguments.iter().map(String::as_str).collect()
 }
 
+/// Whether cargo succeeds with a subcommand and its arguments.
 fn cargo(arguments: &[&str]) -> ExitCode {
-    let manifest = root().join("Cargo.toml").display().to_string();
-    let (subcommand, rest) = arguments.split_at(1);
-    let mut command = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()));
-    command.args(subcommand).args(["--manifest-path", &manifest]).args(rest);
-    match command.status() {
+    match cargo_command(arguments).status() {
         Ok(status) if status.success() => ExitCode::SUCCESS,
         Ok(_) => ExitCode::FAILURE,
         Err(error) => {
-            eprintln!("error: cannot start {:?}: {error}", command.get_program());
+            eprintln!("error: cannot start cargo: {error}");
             ExitCode::FAILURE
         }
     }
+}
+
+/// Cargo with a subcommand and its arguments, in this workspace.
+fn cargo_command(arguments: &[&str]) -> Command {
+    let (subcommand, rest) = arguments.split_at(1);
+    let mut command = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()));
+    command.args(subcommand).arg("--manifest-path").arg(root().join("Cargo.toml")).args(rest);
+    command
 }

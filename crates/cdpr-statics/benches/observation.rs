@@ -1,0 +1,73 @@
+//! Observations of perturbed robots: one by the scalar chain, many in the lanes of the vector unit, over their number and over the
+//! number of cables.
+
+#![allow(clippy::unwrap_used)]
+
+mod problems;
+
+use cdpr_robot::{Parameter, Pose};
+use cdpr_statics::{Load, Observer};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use problems::{caroca, counted, ring, settings};
+use std::hint::black_box;
+
+/// Rows of deviations: sawtooths through the ranges of Table 3 of Baklouti, Caro, Courteille (CableCon 2017), one a parameter.
+fn deviations(cables: usize, robots: usize) -> Vec<f64> {
+    let parameters = Parameter::all(cables);
+    let half_range = |parameter: &Parameter| match parameter {
+        Parameter::Mass => 18.0,
+        Parameter::LinearDensity => 0.01015,
+        Parameter::YoungsModulus => 1.8e10,
+        Parameter::AnchorPoint(..) | Parameter::CenterOfMass(_) => 0.015,
+        Parameter::ExitPoint(..) => 0.03,
+        Parameter::TensionOffset(_) => 15.0,
+    };
+    let places = 0..parameters.len() * robots;
+    places
+        .map(|i| half_range(&parameters[i % parameters.len()]) * ((i * 37 % 101) as f64 / 50.0 - 1.0))
+        .collect()
+}
+
+fn observation(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("observation");
+    let (robot, load) = (caroca(), Load::payload(50.0));
+    let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, 1.75), &load).unwrap();
+    let nominal = observer.observe(&[0.0; 62]).unwrap();
+    assert!((1e3 * nominal.rms() - 1.33125).abs() < 1e-4);
+
+    let one = deviations(8, 1);
+    group.throughput(Throughput::Elements(1));
+    group.bench_function("scalar", |b| b.iter(|| counted(|| observer.observe(black_box(&one)))));
+    for batch in [1, 8, 64, 256, 4096] {
+        let rows = deviations(8, batch);
+        for (found, row) in observer.observe_all(&rows).iter().zip(rows.chunks(62)) {
+            let (found, scalar) = (found.as_ref().unwrap(), observer.observe(row).unwrap());
+            assert!((found.displacement - scalar.displacement).norm() < 1e-12);
+        }
+        group.throughput(Throughput::Elements(batch as u64));
+        group.bench_function(BenchmarkId::new("batch", batch), |b| {
+            b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
+        });
+    }
+
+    const BATCH: usize = 256;
+    group.throughput(Throughput::Elements(BATCH as u64));
+    for cables in [6, 8, 10, 12, 14, 16] {
+        let robot = ring(cables);
+        let observer = Observer::new(&robot, &Pose::at(0.1, 0.2, 1.5), &load).unwrap();
+        let rows = deviations(cables, BATCH);
+        let found = observer.observe_all(&rows);
+        assert!(found.iter().all(|found| found.as_ref().is_ok_and(|found| found.loaded.force < 1e-8)));
+        group.bench_function(BenchmarkId::new("cables", cables), |b| {
+            b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
+        });
+    }
+    group.finish();
+}
+
+criterion_group! {
+    name = benches;
+    config = settings();
+    targets = observation
+}
+criterion_main!(benches);
