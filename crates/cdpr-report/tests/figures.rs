@@ -68,6 +68,7 @@ fn sampling() -> SamplingSummary {
         .into(),
         replicates: 8,
         confidence: 0.95,
+        sensitivity: None,
     }
 }
 
