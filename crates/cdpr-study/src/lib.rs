@@ -34,7 +34,7 @@ mod sensitivity;
 mod study;
 mod surface;
 
-pub use cdpr_sensitivity::Family;
+pub use cdpr_sensitivity::{Family, Truncation};
 pub use cdpr_statics::Observation;
 pub use comparison::{ComparisonRow, Value, Verdict, compare};
 pub use error::StudyError;

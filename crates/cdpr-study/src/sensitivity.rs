@@ -19,8 +19,8 @@ use crate::observation::{observe_rms, rms_mm};
 use crate::study::Sampling;
 use cdpr_robot::Parameter;
 use cdpr_sensitivity::{
-    Bootstrap, Input, MorrisDesign, Order, Regression, SaltelliDesign, SampleDesign, SensitivityError, Slopes,
-    SobolDesign, dgsm, expansion, morris_effects, rank_correlation, rank_regression, regression,
+    Bootstrap, Input, MorrisDesign, Order, Regression, SaltelliDesign, SampleDesign, SensitivityError,
+    Slopes, SobolDesign, dgsm, expansion, morris_effects, rank_correlation, rank_regression, regression,
     sobol_indices, student_effects,
 };
 use cdpr_statics::{StaticsError, derivatives};
@@ -110,7 +110,7 @@ pub struct MethodSummary {
 pub struct Agreement {
     /// How many inputs count as leading: ten, or half of them if that is less.
     pub first: usize,
-    /// Inputs that every measure below puts above zero and among its `first` largest, the largest total index first.
+    /// Inputs that every measure below puts above zero and among its `first` largest.
     pub inputs: Vec<String>,
     /// The measures compared: one of each method that has not failed.
     pub measures: Vec<&'static str>,
@@ -194,6 +194,19 @@ pub fn measure(
     }
     let (sums, agreement) = (sums(sampling, &inputs), Agreement::of(&inputs));
     SensitivitySummary { inputs, methods, sums, agreement, notes }
+}
+
+impl SensitivitySummary {
+    /// The inputs, leading ones first: by the last measure of [`Agreement::measures`], which is the total index unless it has
+    /// failed.
+    pub fn leading(&self) -> Vec<&InputMeasures> {
+        let mut inputs: Vec<_> = self.inputs.iter().collect();
+        let last = self.agreement.measures.last();
+        if let Some((_, of)) = RANKED.iter().find(|(name, _)| Some(name) == last) {
+            inputs.sort_by(|one, other| of(other).unwrap_or(0.0).total_cmp(&of(one).unwrap_or(0.0)));
+        }
+        inputs
+    }
 }
 
 impl Sampling<'_> {
@@ -360,11 +373,12 @@ fn sums(
     inputs: &[InputMeasures],
 ) -> IndexMap<&'static str, IndexMap<&'static str, f64>> {
     let parameters = Parameter::all(sampling.robot.cables.len());
+    let groups = sampling.places.iter().map(|place| parameters[*place].group());
     let mut sums: IndexMap<&str, IndexMap<&str, f64>> = IndexMap::new();
-    for (input, place) in inputs.iter().zip(&sampling.places) {
-        for group in [parameters[*place].group(), "all"] {
-            let sums = sums.entry(group).or_default();
-            for (name, share) in SHARES.iter().filter_map(|(name, of)| Some((name, of(input)?))) {
+    for (group, input) in groups.zip(inputs).chain(inputs.iter().map(|input| ("all", input))) {
+        let sums = sums.entry(group).or_default();
+        for (name, of) in SHARES {
+            if let Some(share) = of(input) {
                 *sums.entry(name).or_default() += share;
             }
         }
@@ -380,19 +394,11 @@ impl Agreement {
         let leads = |values: &Vec<f64>, input: usize| {
             values[input] > 0.0 && values.iter().filter(|value| **value > values[input]).count() < first
         };
-        let mut agreed: Vec<usize> = (0..inputs.len())
-            .filter(|&input| !columns.is_empty() && columns.iter().all(|values| leads(values, input)))
-            .collect();
-        // By the last measure, which is the total index unless it has failed.
-        if let Some(values) = columns.last() {
-            agreed.sort_by(|&one, &other| values[other].total_cmp(&values[one]));
-        }
-        let correlations = |one: &Vec<f64>| columns.iter().map(|other| rank_correlation(one, other)).collect();
-        Self {
-            first,
-            inputs: agreed.into_iter().map(|input| inputs[input].input.clone()).collect(),
-            measures,
-            rank_correlation: columns.iter().map(correlations).collect(),
-        }
+        let leads_all = |input: &usize| columns.iter().all(|values| leads(values, *input));
+        let agreed = (0..inputs.len()).filter(leads_all).map(|input| inputs[input].input.clone());
+        let agreed = if columns.is_empty() { Vec::new() } else { agreed.collect() };
+        let correlations =
+            |one: &Vec<f64>| columns.iter().map(|other| rank_correlation(one, other)).collect();
+        Self { first, inputs: agreed, measures, rank_correlation: columns.iter().map(correlations).collect() }
     }
 }
