@@ -102,7 +102,7 @@ fn subtitle(summary: &SamplingSummary, sensitivity: &SensitivitySummary, shown: 
     vec![
         format!("{shown} of {all} parameters; what is below {least} % lies on the left edge"),
         format!(
-            "of the first order, and total Sobol' indices; lines: intervals of {confidence} % confidence"
+            "first-order shares by every measure, total Sobol' indices; lines: intervals of {confidence} % confidence"
         ),
     ]
 }

@@ -14,7 +14,7 @@
 //! Derivatives and polynomials take the continuous laws: steps of h in a uniform range R change a variance by a relative
 //! (h / R)². All observations are of the stepped inputs.
 
-use crate::file::SensitivitySpec;
+use crate::file::{SensitivitySpec, StudyFile};
 use crate::observation::{observe_rms, rms_mm};
 use crate::study::Sampling;
 use cdpr_robot::Parameter;
@@ -151,6 +151,7 @@ const LEADING: usize = 10;
 struct Run<'a> {
     sampling: &'a Sampling<'a>,
     spec: &'a SensitivitySpec,
+    settings: &'a StudyFile,
     tick: &'a (dyn Fn(usize) + Sync),
 }
 
@@ -179,7 +180,7 @@ pub fn measure(
     spec: &SensitivitySpec,
     tick: &(dyn Fn(usize) + Sync),
 ) -> SensitivitySummary {
-    let run = Run { sampling, spec, tick };
+    let run = Run { sampling, spec, settings: &sampling.study.file, tick };
     let named = |input: &Input| InputMeasures { input: input.name.clone(), ..InputMeasures::default() };
     let mut inputs: Vec<_> = sampling.design.inputs().iter().map(named).collect();
     let (mut methods, mut notes) = (IndexMap::new(), Vec::new());
@@ -226,14 +227,6 @@ impl Sampling<'_> {
 impl Run<'_> {
     fn inputs(&self) -> &[Input] {
         self.sampling.design.inputs()
-    }
-
-    fn seed(&self) -> u64 {
-        self.sampling.study.file.seed
-    }
-
-    fn confidence(&self) -> f64 {
-        self.sampling.study.file.confidence
     }
 
     fn observe(&self, design: &impl SampleDesign) -> Vec<Option<f64>> {
@@ -305,9 +298,10 @@ fn regress(
 }
 
 fn morris(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
-    let design = MorrisDesign::radial(run.inputs().to_vec(), run.spec.morris_blocks, run.seed())?;
+    let design = MorrisDesign::radial(run.inputs().to_vec(), run.spec.morris_blocks, run.settings.seed)?;
     let outputs = run.observe(&design);
-    for (input, effect) in inputs.iter_mut().zip(morris_effects(&design, &outputs, run.confidence())?) {
+    for (input, effect) in inputs.iter_mut().zip(morris_effects(&design, &outputs, run.settings.confidence)?)
+    {
         input.morris_mean_absolute_mm = Some(effect.mean_absolute.value);
         input.morris_std_mm = Some(effect.std);
     }
@@ -316,7 +310,7 @@ fn morris(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<
 
 fn derivative_bounds(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
     let points = run.spec.derivative_points;
-    let design = SobolDesign::scrambled(run.inputs().to_vec(), points, run.seed())?;
+    let design = SobolDesign::scrambled(run.inputs().to_vec(), points, run.settings.seed)?;
     let slopes_at = |row: &mut Vec<f64>, index| {
         design.row(index, row)?;
         (run.tick)(1);
@@ -324,7 +318,7 @@ fn derivative_bounds(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSu
     };
     let slopes: Result<Vec<Option<Slopes>>, SensitivityError> =
         (0..points).into_par_iter().map_init(|| vec![0.0; run.inputs().len()], slopes_at).collect();
-    let found = dgsm(&design, &slopes?, run.confidence())?;
+    let found = dgsm(&design, &slopes?, run.settings.confidence)?;
     for (input, measure) in inputs.iter_mut().zip(found.inputs) {
         input.dgsm_total_bound = measure.total_bound;
     }
@@ -347,10 +341,10 @@ fn chaos_expansion(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSumm
 fn sobol(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
     let SensitivitySpec { saltelli_blocks, bootstrap_resamples: resamples, .. } = *run.spec;
     let all = run.inputs().to_vec();
-    let design = SaltelliDesign::scrambled(all, saltelli_blocks, Order::First, run.seed())?;
+    let design = SaltelliDesign::scrambled(all, saltelli_blocks, Order::First, run.settings.seed)?;
     let outputs = run.observe(&design);
-    let bootstrap = Bootstrap { resamples, seed: run.seed() };
-    let found = sobol_indices(&design, &outputs, bootstrap, run.confidence())?;
+    let bootstrap = Bootstrap { resamples, seed: run.settings.seed };
+    let found = sobol_indices(&design, &outputs, bootstrap, run.settings.confidence)?;
     for (input, index) in inputs.iter_mut().zip(found.inputs) {
         [input.sobol_first, input.sobol_first_low, input.sobol_first_high] =
             [index.first.value, index.first.low, index.first.high].map(Some);
