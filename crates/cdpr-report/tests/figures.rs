@@ -377,7 +377,7 @@ fn shares_have_the_leading_input_on_top_and_a_dot_for_each_measure() {
     let svg = shares(&measured(), 12).unwrap();
     let texts = texts(&svg);
     assert_eq!(svg.matches("<circle ").count(), 6);
-    for text in ["derivatives", "Sobol' first", "Sobol' total", "0.01", "100", "b2.x", "mass"] {
+    for text in ["derivatives", "Sobol&apos; first", "Sobol&apos; total", "0.01", "100", "b2.x", "mass"] {
         assert!(texts.contains(&text), "{text} is not in {texts:?}");
     }
     assert!(!texts.contains(&"expansion"), "what is not measured is not in the key");
