@@ -15,7 +15,8 @@ usage: cargo xtask TASK
 
 tasks:
   caroca-study [--out DIR] [--observations N] [--threads N]
-                 the study of Baklouti, Caro, Courteille (CableCon 2017) beside its figures; DIR is target/caroca-study
+                 the study of Baklouti, Caro, Courteille (CableCon 2017) beside its figures, then all measures of its sensitivity
+                 in DIR/sensitivity; DIR is target/caroca-study
   robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
                  how often the direct model finds CoGiRo's true pose from a wrong start, by the protocol of Mahnke and Caverly
                  (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
@@ -62,9 +63,15 @@ fn main() -> ExitCode {
 
 fn caroca_study(mut rest: Vec<String>) -> ExitCode {
     default(&mut rest, "--out", "target/caroca-study");
-    let study = root().join("data/studies/caroca.json").display().to_string();
-    eprintln!("building the program (a few minutes the first time), then running {study}");
-    cdpr(&["study", "run", &study], &rest)
+    let study = |file: &str| root().join("data/studies").join(file).display().to_string();
+    let (paper, measures) = (study("caroca.json"), study("caroca-sensitivity.json"));
+    eprintln!("building the program (a few minutes the first time), then running {paper} and {measures}");
+    let code = cdpr(&["study", "run", &paper], &rest);
+    if code != ExitCode::SUCCESS {
+        return code;
+    }
+    within(&mut rest, "--out", "sensitivity");
+    cdpr(&["study", "run", &measures], &rest)
 }
 
 fn robustness(mut rest: Vec<String>) -> ExitCode {
@@ -84,6 +91,18 @@ fn default(arguments: &mut Vec<String>, option: &str, path: &str) {
     let given = format!("{option}=");
     if !arguments.iter().any(|argument| argument == option || argument.starts_with(&given)) {
         arguments.extend([option.to_owned(), root().join(path).display().to_string()]);
+    }
+}
+
+/// Turns the path of `option` into that of a folder within it.
+fn within(arguments: &mut [String], option: &str, folder: &str) {
+    let given = format!("{option}=");
+    let mut is_path = false;
+    for argument in arguments {
+        if is_path || argument.starts_with(&given) {
+            *argument = Path::new(argument).join(folder).display().to_string();
+        }
+        is_path = argument == option;
     }
 }
 

@@ -6,6 +6,7 @@ mod arguments;
 mod calibration;
 mod derivatives;
 mod robustness;
+mod sensitivity;
 mod study;
 mod throughput;
 

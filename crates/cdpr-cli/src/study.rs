@@ -1,11 +1,12 @@
 //! `cdpr study run`: each part of a study is written as soon as it is done, so that nothing computed is lost with what fails
 //! after it.
 
+use crate::sensitivity;
 use cdpr_report::{Points, ReportError};
 use cdpr_study::{
     IndexMap, ObservationTable, Study, StudyError, StudySummary, Summary, SurfaceSummary, analyse,
-    check_folder, compare, compute_surface, observe_into, remove_summary, write_figure, write_summary,
-    write_surface,
+    check_folder, compare, compute_surface, observe_into, remove_summary, write_figure, write_sensitivity,
+    write_summary, write_surface,
 };
 use comfy_table::{Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -38,7 +39,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
     }
     check_folder(&settings.out)?;
     remove_summary(&settings.out)?;
-    let mut run = Run { settings, progress: progress(&study), studies: IndexMap::new(), timings: Vec::new() };
+    let mut run =
+        Run { settings, progress: progress(&study)?, studies: IndexMap::new(), timings: Vec::new() };
     for name in study.file.samplings.keys() {
         run.sampling(&study, name)?;
     }
@@ -59,6 +61,13 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
     let path = write_summary(&settings.out, &summary)?;
     run.progress.finish_and_clear();
     print_results(&summary);
+    for (name, study) in &summary.studies {
+        if let StudySummary::Sampling(sampling) = study
+            && let Some(found) = &sampling.sensitivity
+        {
+            sensitivity::print(&format!("{name}: {}", sampling.title), found);
+        }
+    }
     print_comparison(&summary);
     for (name, seconds) in &run.timings {
         println!("{name:24} {seconds:6.2} s");
@@ -97,6 +106,10 @@ impl Run<'_> {
         self.figure(name, cdpr_report::histogram(&summary))?;
         if !summary.signed_effects_mm.is_empty() {
             self.figure(&format!("{name}_effects"), cdpr_report::signed_effects(&summary, 20))?;
+        }
+        if let Some(measures) = &summary.sensitivity {
+            write_sensitivity(&self.settings.out, name, measures)?;
+            self.figure(&format!("{name}_sensitivity"), cdpr_report::shares(&summary, 12))?;
         }
         self.studies.insert(name.to_owned(), StudySummary::Sampling(Box::new(summary)));
         self.timings.push((name.to_owned(), clock.elapsed().as_secs_f64()));
@@ -148,10 +161,11 @@ impl Run<'_> {
     }
 }
 
-/// A bar with rate and time left over all observations, replicates and grid points; silent when not on a terminal.
-fn progress(study: &Study) -> ProgressBar {
+/// A bar with rate and time left over all observations and grid points; silent when not on a terminal.
+fn progress(study: &Study) -> Result<ProgressBar, StudyError> {
     let file = &study.file;
-    let samplings = file.samplings.values().map(|s| s.observations * (1 + file.replicates)).sum::<usize>();
+    let observations = |name| study.sampling(name).map(|sampling| sampling.observations());
+    let samplings = file.samplings.keys().map(|name| observations(name)).sum::<Result<usize, _>>()?;
     let surfaces = file.surfaces.values().map(|s| s.x.points * s.y.points).sum::<usize>();
     let template = "{msg:24} {bar:30} {pos}/{len} observations, {rate}, {eta} left";
     let rate = |state: &ProgressState, out: &mut dyn Write| {
@@ -159,10 +173,10 @@ fn progress(study: &Study) -> ProgressBar {
         let _ = write!(out, "{:.0}/s", state.per_sec());
     };
     let bar = ProgressBar::new((samplings + surfaces) as u64);
-    match ProgressStyle::with_template(template) {
+    Ok(match ProgressStyle::with_template(template) {
         Ok(style) => bar.with_style(style.with_key("rate", rate)),
         Err(_) => bar,
-    }
+    })
 }
 
 pub(crate) fn table(header: &[&str]) -> Table {

@@ -15,8 +15,9 @@ pub(crate) fn run(
     start_threads(threads)?;
     let mut study = Study::open(path)?;
     study.set_observations(observations)?;
-    // The intervals of replicates are observations of their own.
+    // The intervals of replicates and the measures of sensitivity are observations of their own.
     study.file.replicates = 0;
+    study.file.sensitivity = None;
     let sampling = study.sampling(sampling)?;
     let clock = Instant::now();
     let tally = observe(&sampling, &|_| ());

@@ -36,6 +36,14 @@ impl Bench {
         Self { folder: TempDir::new().unwrap(), robot, study }
     }
 
+    /// Asks for the measures of sensitivity, from so few observations that those of regressions fail.
+    fn measure(&mut self) {
+        self.study["sensitivity"] = json!({
+            "observations": 20, "saltelli_blocks": 16, "morris_blocks": 4, "derivative_points": 4,
+            "expansion": {"max_degree": 1, "norm": 1.0, "interactions": 1}
+        });
+    }
+
     fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
@@ -102,7 +110,8 @@ fn a_study_writes_tables_figures_and_a_summary() {
 
 #[test]
 fn the_files_are_the_same_on_any_number_of_threads() {
-    let bench = Bench::new();
+    let mut bench = Bench::new();
+    bench.measure();
     let files = |threads: &str| -> Vec<Vec<u8>> {
         assert!(bench.run(&["--threads", threads]).status.success());
         ["summary.json", "geometrical_asymmetric.csv"]
@@ -110,6 +119,34 @@ fn the_files_are_the_same_on_any_number_of_threads() {
             .into()
     };
     assert_eq!(files("1"), files("4"));
+}
+
+#[test]
+fn measures_of_sensitivity_have_a_table_a_figure_a_part_of_the_summary_and_a_table_on_the_terminal() {
+    let mut bench = Bench::new();
+    bench.measure();
+    let output = bench.run(&[]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    for words in ["Sobol' T", "sum of all", "first 10 of every measure: ", "left out: regression: "] {
+        assert!(text.contains(words), "`{words}` is not in: {text}");
+    }
+    let summary: Value =
+        serde_json::from_str(&std::fs::read_to_string(bench.path("out/summary.json")).unwrap()).unwrap();
+    for name in ["mechanical", "geometrical", "geometrical_asymmetric"] {
+        let table = std::fs::read_to_string(bench.path(&format!("out/{name}_sensitivity.csv"))).unwrap();
+        let (header, rows) = table.split_once('\n').unwrap();
+        assert!(header.starts_with("input,t_student,signed_effect_mm,derivative_share,regression_share,"));
+        assert!(header.ends_with(",sobol_total,sobol_total_low,sobol_total_high"));
+        assert_eq!((rows.lines().count(), &rows[..5]), (62, "mass,"));
+        let figure = std::fs::read_to_string(bench.path(&format!("out/{name}_sensitivity.svg"))).unwrap();
+        assert!(figure.starts_with("<svg"));
+        let sensitivity = &summary["studies"][name]["sensitivity"];
+        assert_eq!(sensitivity["methods"]["sobol"]["observations"], 16 * 64);
+        assert_eq!(sensitivity["inputs"][2]["input"], "youngs_modulus");
+        assert_eq!(sensitivity["inputs"][2]["regression_share"], Value::Null);
+        assert!(sensitivity["sums"]["b"]["sobol_first"].is_number());
+    }
 }
 
 /// Spoils one value of the robot or the study and expects the message to hold all the given words.

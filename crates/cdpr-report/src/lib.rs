@@ -6,6 +6,7 @@
 //! | 4b, 4c: RMS over two parameters | [`surface`] |
 //! | 5b, 5c: t-Student of the points' coordinates | [`point_effects`] |
 //! | none: signed effects with their intervals | [`signed_effects`] |
+//! | none: shares of the variance by all measures | [`shares`] |
 //! | none: answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
 //! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of Cable-Driven Parallel
@@ -18,7 +19,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let study = Study::open("data/studies/caroca.json".as_ref())?;
 //! let sampling = study.sampling("mechanical")?;
-//! let summary = analyse(&sampling, &observe(&sampling, &|| ()), &|| ());
+//! let summary = analyse(&sampling, &observe(&sampling, &|_| ()), &|_| ());
 //! write_figure("results".as_ref(), "mechanical", &cdpr_report::histogram(&summary)?)?;
 //! # Ok(())
 //! # }
@@ -29,6 +30,7 @@ mod error;
 mod histogram;
 mod points;
 mod robustness;
+mod shares;
 mod style;
 mod surface;
 
@@ -37,4 +39,5 @@ pub use error::ReportError;
 pub use histogram::histogram;
 pub use points::{Points, point_effects};
 pub use robustness::{found_poses, success_share};
+pub use shares::shares;
 pub use surface::surface;

@@ -3,14 +3,16 @@
 #![allow(clippy::unwrap_used)]
 
 use cdpr_report::{
-    Points, ReportError, found_poses, histogram, point_effects, signed_effects, success_share, surface,
+    Points, ReportError, found_poses, histogram, point_effects, shares, signed_effects, success_share,
+    surface,
 };
 use cdpr_robot::Pose;
 use cdpr_sensitivity::{Family, Histogram, Law};
 use cdpr_statics::{Method, Residual, StaticsError};
 use cdpr_study::{
-    Answer, FitSummary, NominalSummary, Protocol, ProtocolSummary, RmsSummary, RobustnessResult,
-    SamplingSummary, SignedEffect, Solve, Study, SurfaceResult, SurfaceSummary,
+    Agreement, Answer, FitSummary, IndexMap, InputMeasures, NominalSummary, Protocol, ProtocolSummary,
+    RmsSummary, RobustnessResult, SamplingSummary, SensitivitySummary, SignedEffect, Solve, Study,
+    SurfaceResult, SurfaceSummary,
 };
 
 fn sampling() -> SamplingSummary {
@@ -68,7 +70,37 @@ fn sampling() -> SamplingSummary {
         .into(),
         replicates: 8,
         confidence: 0.95,
+        sensitivity: None,
     }
+}
+
+/// Two inputs and three measures; the second input has an interval from below zero on.
+fn measured() -> SamplingSummary {
+    let input = |name: &str, share: f64| InputMeasures {
+        input: name.to_owned(),
+        derivative_share: Some(share),
+        sobol_first: Some(share),
+        sobol_first_low: Some(share - 0.02),
+        sobol_first_high: Some(share + 0.02),
+        sobol_total: Some(share),
+        sobol_total_low: Some(share),
+        sobol_total_high: Some(share),
+        ..InputMeasures::default()
+    };
+    let agreement = Agreement {
+        first: 1,
+        inputs: vec!["b2.x".to_owned()],
+        measures: vec!["derivative_share", "sobol_total"],
+        rank_correlation: vec![vec![Some(1.0); 2]; 2],
+    };
+    let sensitivity = SensitivitySummary {
+        inputs: vec![input("mass", 0.01), input("b2.x", 0.99)],
+        methods: IndexMap::new(),
+        sums: IndexMap::new(),
+        agreement,
+        notes: Vec::new(),
+    };
+    SamplingSummary { sensitivity: Some(sensitivity), ..sampling() }
 }
 
 fn grid() -> (SurfaceSummary, SurfaceResult) {
@@ -115,7 +147,7 @@ fn robustness() -> RobustnessResult {
 }
 
 /// All figures that these results have.
-fn figures() -> [String; 6] {
+fn figures() -> [String; 7] {
     let robustness = robustness();
     let (summary, result) = grid();
     let sampling = sampling();
@@ -124,6 +156,7 @@ fn figures() -> [String; 6] {
         surface(&summary, &result).unwrap(),
         point_effects(&[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap(),
         signed_effects(&sampling, 20).unwrap(),
+        shares(&measured(), 12).unwrap(),
         found_poses(&robustness).unwrap(),
         success_share(&ProtocolSummary::new(&robustness)).unwrap(),
     ]
@@ -337,4 +370,26 @@ fn a_surface_on_which_nothing_varies_has_a_figure() {
         result.rms_mm[0] = Ok(1.5 + noise);
         assert_eq!(rectangles(&surface(&summary, &result).unwrap()), 6 + 128);
     }
+}
+
+#[test]
+fn shares_have_the_leading_input_on_top_and_a_dot_for_each_measure() {
+    let svg = shares(&measured(), 12).unwrap();
+    let texts = texts(&svg);
+    assert_eq!(svg.matches("<circle ").count(), 6);
+    for text in ["derivatives", "Sobol&apos; first", "Sobol&apos; total", "0.01", "100", "b2.x", "mass"] {
+        assert!(texts.contains(&text), "{text} is not in {texts:?}");
+    }
+    assert!(!texts.contains(&"expansion"), "what is not measured is not in the key");
+    let place = |name| texts.iter().position(|text| *text == name).unwrap();
+    assert!(place("mass") < place("b2.x"), "names are written from below");
+    let one = shares(&measured(), 1).unwrap();
+    assert_eq!(one.matches("<circle ").count(), 3);
+
+    assert_eq!(shares(&sampling(), 12), Err(ReportError::Empty { what: "sensitivity" }));
+    assert!(matches!(shares(&measured(), 0), Err(ReportError::Empty { .. })));
+    let mut spoiled = measured();
+    spoiled.sensitivity.as_mut().unwrap().inputs[0].sobol_first_low = Some(f64::NAN);
+    let error = shares(&spoiled, 12).unwrap_err().to_string();
+    assert!(error.contains("sensitivity.mass: Sobol' first is NaN"), "{error}");
 }

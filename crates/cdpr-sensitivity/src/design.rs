@@ -46,13 +46,29 @@ pub trait SampleDesign: Sized + Sync {
         Ok(())
     }
 
-    /// Writes consecutive rows from that of observation `first` on into `rows`, one after the other.
+    /// Writes consecutive points of the unit cube into `points`, one after the other, from that of observation `first` on.
     ///
     /// # Errors
-    /// As [`SampleDesign::row`], and [`SensitivityError::LengthMismatch`] unless `rows` holds whole rows.
+    /// As [`SampleDesign::unit_point`], and [`SensitivityError::LengthMismatch`] unless `points` holds whole points.
+    fn unit_points(&self, first: usize, points: &mut [f64]) -> Result<(), SensitivityError> {
+        for (index, point) in (first..).zip(points.chunks_mut(self.inputs().len())) {
+            self.unit_point(index, point)?;
+        }
+        Ok(())
+    }
+
+    /// Writes consecutive rows from that of observation `first` on into `rows`, one after the other: those of
+    /// [`SampleDesign::row`], but faster.
+    ///
+    /// # Errors
+    /// As [`SampleDesign::unit_points`].
     fn rows(&self, first: usize, rows: &mut [f64]) -> Result<(), SensitivityError> {
-        for (index, row) in (first..).zip(rows.chunks_mut(self.inputs().len())) {
-            self.row(index, row)?;
+        self.unit_points(first, rows)?;
+        let inputs: Vec<Prepared> = self.inputs().iter().map(Input::prepare).collect();
+        for row in rows.chunks_exact_mut(inputs.len()) {
+            for (value, input) in row.iter_mut().zip(&inputs) {
+                *value = input.value(*value);
+            }
         }
         Ok(())
     }
@@ -68,7 +84,6 @@ pub trait IndependentSample: JointSample {}
 #[derive(Debug, Clone)]
 pub struct SobolDesign {
     inputs: Vec<Input>,
-    prepared: Vec<Prepared>,
     sobol: Sobol,
     first_index: u32,
     points: usize,
@@ -110,8 +125,7 @@ impl SobolDesign {
     ) -> Result<Self, SensitivityError> {
         inputs.iter().try_for_each(Input::validate)?;
         check_points(first_index, points)?;
-        let prepared = inputs.iter().map(Input::prepare).collect();
-        Ok(Self { inputs, prepared, sobol, first_index, points })
+        Ok(Self { inputs, sobol, first_index, points })
     }
 }
 
@@ -138,24 +152,10 @@ impl SampleDesign for SobolDesign {
         self.sobol.point(self.first_index + index as u32, point)
     }
 
-    fn row(&self, index: usize, row: &mut [f64]) -> Result<(), SensitivityError> {
-        self.unit_point(index, row)?;
-        for (value, input) in row.iter_mut().zip(&self.prepared) {
-            *value = input.value(*value);
-        }
-        Ok(())
-    }
-
-    fn rows(&self, first: usize, rows: &mut [f64]) -> Result<(), SensitivityError> {
-        let last = (first + rows.len() / self.inputs.len()).saturating_sub(1);
+    fn unit_points(&self, first: usize, points: &mut [f64]) -> Result<(), SensitivityError> {
+        let last = (first + points.len() / self.inputs.len()).saturating_sub(1);
         check_range("index", first.max(last) as u64, 0, self.points as u64 - 1)?;
-        self.sobol.points(self.first_index + first as u32, rows)?;
-        for row in rows.chunks_exact_mut(self.inputs.len()) {
-            for (value, input) in row.iter_mut().zip(&self.prepared) {
-                *value = input.value(*value);
-            }
-        }
-        Ok(())
+        self.sobol.points(self.first_index + first as u32, points)
     }
 }
 

@@ -94,7 +94,7 @@ pub use morris::{MorrisDesign, MorrisEffect, morris_effects};
 pub use observation::observe;
 pub use pce::{Expansion, Shares, Term, expansion};
 pub use polynomial::{Power, Truncation};
-pub use regression::{Coefficient, Regression, rank_regression, regression};
+pub use regression::{Coefficient, Regression, rank_correlation, rank_regression, regression};
 pub use saltelli::{Order, SaltelliDesign};
 pub use sobol::Sobol;
 pub use sobol_indices::{PairIndex, SobolIndex, SobolIndices, sobol_indices};

@@ -53,6 +53,7 @@ pub(crate) fn polynomials(law: &Law, x: f64, degree: usize) -> Vec<f64> {
 
 /// Which products an expansion chooses from, Eq. (4).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Truncation {
     /// Largest degree p that is tried.
     pub max_degree: usize,

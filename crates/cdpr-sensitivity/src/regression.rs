@@ -78,6 +78,15 @@ pub fn rank_regression<D: JointSample>(
     of_observed(design, outputs, |values| ranks(&values))
 }
 
+/// Spearman's rank correlation of two lists of equal length: the correlation of their ranks. `None` if the values of one do
+/// not vary.
+#[must_use]
+pub fn rank_correlation(one: &[f64], other: &[f64]) -> Option<f64> {
+    let (one, other) = (standardised(ranks(one))?, standardised(ranks(other))?);
+    let products: f64 = one.iter().zip(&other).map(|(x, y)| x * y).sum();
+    Some(products / (one.len() as f64 - 1.0))
+}
+
 fn of_observed<D: JointSample>(
     design: &D,
     outputs: &[Option<f64>],

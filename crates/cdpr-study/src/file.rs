@@ -1,6 +1,8 @@
 //! The study file, `cdpr-study/1`: JSON, SI units unless a name says otherwise. Described by [`json_schema`].
 
-use cdpr_sensitivity::{Law, Steps};
+use cdpr_sensitivity::pce::MAX_DEGREE;
+use cdpr_sensitivity::sobol_indices::MIN_BLOCKS;
+use cdpr_sensitivity::{Law, Steps, Truncation};
 use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -38,6 +40,9 @@ pub struct StudyFile {
     /// Samplings by name: all uncertain parameters at once, at points of Sobol's sequence.
     #[serde(default)]
     pub samplings: IndexMap<String, SamplingSpec>,
+    /// Measures of sensitivity beside each other, of every sampling; none if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sensitivity: Option<SensitivitySpec>,
     /// Surfaces by name: two parameters over a grid, all others nominal.
     #[serde(default)]
     pub surfaces: IndexMap<String, SurfaceSpec>,
@@ -87,6 +92,61 @@ pub struct SamplingSpec {
     /// Index in Sobol's sequence of the first one.
     #[serde(default)]
     pub first_index: u32,
+}
+
+/// What the measures of sensitivity rest on, for k inputs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SensitivitySpec {
+    /// First observations of the sampling, behind t-Student, regressions and expansion: 3 to 65536, but no more than it has.
+    pub observations: usize,
+    /// Saltelli's blocks behind Sobol' indices, of k + 2 observations: 16 to 1048576.
+    pub saltelli_blocks: usize,
+    /// Bootstrap resamples behind the intervals of Sobol' indices: 2 to 1048576.
+    pub bootstrap_resamples: usize,
+    /// Blocks behind Morris's elementary effects, of k + 1 observations: 2 to 1048576.
+    pub morris_blocks: usize,
+    /// Points at which exact derivatives are taken: 2 to 1048576.
+    pub derivative_points: usize,
+    /// Products of polynomials that the chaos expansion chooses from.
+    pub expansion: Truncation,
+}
+
+impl Default for SensitivitySpec {
+    fn default() -> Self {
+        Self {
+            observations: 2000,
+            saltelli_blocks: 4096,
+            bootstrap_resamples: 1000,
+            morris_blocks: 128,
+            derivative_points: 256,
+            expansion: Truncation { max_degree: 3, norm: 0.75, interactions: 2 },
+        }
+    }
+}
+
+impl SensitivitySpec {
+    /// The first setting that is none: field, value, and what would be right.
+    pub(crate) fn invalid(&self) -> Option<(&'static str, String, String)> {
+        const MOST: usize = 1 << 20;
+        let Truncation { max_degree, norm, interactions } = self.expansion;
+        let counts = [
+            ("observations", self.observations, 3..=1 << 16),
+            ("saltelli_blocks", self.saltelli_blocks, MIN_BLOCKS..=MOST),
+            ("bootstrap_resamples", self.bootstrap_resamples, 2..=MOST),
+            ("morris_blocks", self.morris_blocks, 2..=MOST),
+            ("derivative_points", self.derivative_points, 2..=MOST),
+            ("expansion.max_degree", max_degree, 1..=MAX_DEGREE),
+            ("expansion.interactions", interactions, 1..=MOST),
+        ];
+        let count = counts.into_iter().find(|(_, value, range)| !range.contains(value));
+        let of_count = |(field, value, range): (_, usize, std::ops::RangeInclusive<usize>)| {
+            (field, value.to_string(), format!("{} to {}", range.start(), range.end()))
+        };
+        let sound_norm = norm > 0.0 && norm <= 1.0;
+        let of_norm = || ("expansion.norm", norm.to_string(), "a number above 0, at most 1".to_owned());
+        count.map(of_count).or_else(|| (!sound_norm).then(of_norm))
+    }
 }
 
 /// A surface of the deflection over two parameters.

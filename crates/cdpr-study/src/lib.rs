@@ -6,6 +6,8 @@
 //! runs in parallel with the same numbers on any number of threads. An observation that fails is data: counted by reason, named
 //! in the table, never an end.
 //!
+//! Where the study asks for them, [`measure`] puts all measures of sensitivity of a sampling beside each other.
+//!
 //! [`run_robustness`] asks another question: how often the direct model finds the true pose from a wrong start.
 //!
 //! ```no_run
@@ -28,22 +30,23 @@ mod observation;
 mod output;
 mod robustness;
 mod sampling;
+mod sensitivity;
 mod study;
 mod surface;
 
-pub use cdpr_sensitivity::Family;
+pub use cdpr_sensitivity::{Family, Truncation};
 pub use cdpr_statics::Observation;
 pub use comparison::{ComparisonRow, Value, Verdict, compare};
 pub use error::StudyError;
 pub use file::{
-    AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, Statistic, StudyFile,
-    SurfaceSpec, json_schema,
+    AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic,
+    StudyFile, SurfaceSpec, json_schema,
 };
 pub use indexmap::IndexMap;
 pub use observation::{Block, FITTED, KEPT, Tally, observe, observe_into};
 pub use output::{
     ObservationTable, StudySummary, Summary, check_folder, remove_summary, write_figure, write_refused,
-    write_robustness, write_solves, write_summary, write_surface,
+    write_robustness, write_sensitivity, write_solves, write_summary, write_surface,
 };
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
@@ -51,5 +54,8 @@ pub use robustness::{
     StartOffset, anchor_distance, run_robustness,
 };
 pub use sampling::{FitSummary, NominalSummary, RmsSummary, SamplingSummary, SignedEffect, analyse};
+pub use sensitivity::{
+    Agreement, InputMeasures, Measure, MethodSummary, RANKED, SHARES, SensitivitySummary, measure,
+};
 pub use study::{Sampling, Study, Surface, open_robot};
 pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};

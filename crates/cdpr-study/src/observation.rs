@@ -145,6 +145,21 @@ pub(crate) fn observe_design(
     whole
 }
 
+/// RMS [mm] of each observation of a design over the inputs of the sampling, `None` where it fails.
+pub(crate) fn observe_rms<D: SampleDesign>(
+    sampling: &Sampling,
+    design: &D,
+    tick: &(dyn Fn(usize) + Sync),
+) -> Vec<Option<f64>> {
+    let points = design.points();
+    let rms_of_block = |block: usize| {
+        let range = block * BLOCK..points.min((block + 1) * BLOCK);
+        let outcomes = observe_block(sampling, design, range, tick).outcomes;
+        outcomes.into_iter().map(|outcome| outcome.ok().map(|observation| rms_mm(observation.rms())))
+    };
+    (0..points.div_ceil(BLOCK)).into_par_iter().flat_map_iter(rms_of_block).collect()
+}
+
 /// The indices of all blocks, as many at a time as are under way together.
 fn waves(points: usize) -> impl Iterator<Item = Vec<Range<usize>>> {
     let blocks = move |wave: usize| {
@@ -155,9 +170,9 @@ fn waves(points: usize) -> impl Iterator<Item = Vec<Range<usize>>> {
     (0..points).step_by(WAVE * BLOCK).map(move |wave| blocks(wave).collect())
 }
 
-fn observe_block(
+fn observe_block<D: SampleDesign>(
     sampling: &Sampling,
-    design: &SobolDesign,
+    design: &D,
     range: Range<usize>,
     tick: &(dyn Fn(usize) + Sync),
 ) -> Block {

@@ -5,6 +5,7 @@ use crate::error::StudyError;
 use crate::observation::{Block, rms_mm};
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::sampling::SamplingSummary;
+use crate::sensitivity::SensitivitySummary;
 use crate::study::{Sampling, Surface};
 use crate::surface::{SurfaceResult, SurfaceSummary};
 use cdpr_robot::Pose;
@@ -159,6 +160,28 @@ pub fn write_surface(
         vec![result.x[k / columns].to_string(), result.y[k % columns].to_string(), value, status.to_owned()]
     });
     write_csv(folder.join(format!("{}.csv", surface.name)), header, rows)
+}
+
+/// Writes `NAME_sensitivity.csv`: one row an input, with what each measure says of it; shares and indices have no unit, a method
+/// that has failed leaves its cells empty.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_sensitivity(
+    folder: &Path,
+    name: &str,
+    sensitivity: &SensitivitySummary,
+) -> Result<PathBuf, StudyError> {
+    let path = folder.join(format!("{name}_sensitivity.csv"));
+    let write = || -> Result<(), csv::Error> {
+        let mut writer = csv::Writer::from_path(&path)?;
+        sensitivity.inputs.iter().try_for_each(|input| writer.serialize(input))?;
+        Ok(writer.flush()?)
+    };
+    match write() {
+        Ok(()) => Ok(path),
+        Err(error) => Err(unwritten(path, error)),
+    }
 }
 
 /// Writes `summary.json`.

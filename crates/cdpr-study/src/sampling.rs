@@ -1,6 +1,7 @@
 //! What a sampling says: summary, fitted laws, effects.
 
 use crate::observation::{FITTED, KEPT, Tally, observe_design};
+use crate::sensitivity::{SensitivitySummary, measure};
 use crate::study::Sampling;
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{
@@ -42,6 +43,9 @@ pub struct SamplingSummary {
     pub replicates: usize,
     /// Their confidence.
     pub confidence: f64,
+    /// Measures of sensitivity beside each other; absent unless the study asks for them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sensitivity: Option<SensitivitySummary>,
     /// What could not be computed, and why.
     pub notes: Vec<String>,
 }
@@ -134,8 +138,8 @@ impl From<Fit> for FitSummary {
     }
 }
 
-/// Analyses the observations of a sampling. The replicates behind the intervals of signed effects are run here; `tick` is
-/// told how many more of their observations are done. What cannot be computed from too few observations is left out and named in
+/// Analyses the observations of a sampling. The replicates behind the intervals of signed effects and the measures of
+/// sensitivity are run here; `tick` is told how many more of their observations are done. What cannot be computed from too few observations is left out and named in
 /// [`SamplingSummary::notes`]; so is how many observations quantiles, histogram and laws rest on, where these are not all.
 pub fn analyse(sampling: &Sampling, tally: &Tally, tick: &(dyn Fn(usize) + Sync)) -> SamplingSummary {
     let settings = &sampling.study.file;
@@ -187,6 +191,7 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, tick: &(dyn Fn(usize) + Sync)
         }),
         replicates: settings.replicates,
         confidence: settings.confidence,
+        sensitivity: settings.sensitivity.as_ref().map(|spec| measure(sampling, spec, tick)),
         notes,
     }
 }

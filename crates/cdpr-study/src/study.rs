@@ -2,7 +2,7 @@
 
 use crate::comparison::Value;
 use crate::error::StudyError;
-use crate::file::{AxisSpec, InputSpec, PoseSpec, STUDY_FORMAT, Statistic, StudyFile};
+use crate::file::{AxisSpec, InputSpec, PoseSpec, STUDY_FORMAT, SensitivitySpec, Statistic, StudyFile};
 use cdpr_robot::{Parameter, Pose, Robot, Vector3, from_json};
 use cdpr_sensitivity::{Input, SensitivityError, SobolDesign};
 use cdpr_statics::{Deflection, Load, Observer, deflection};
@@ -120,6 +120,9 @@ impl Study {
         }
         if file.bootstrap_resamples == 0 {
             return Err(self.invalid("bootstrap_resamples", 0, "at least 1"));
+        }
+        if let Some((field, value, expected)) = file.sensitivity.as_ref().and_then(SensitivitySpec::invalid) {
+            return Err(self.invalid(&format!("sensitivity.{field}"), value, &expected));
         }
         if file.samplings.is_empty() && file.surfaces.is_empty() {
             return Err(self.invalid("samplings", "empty", "at least one sampling or surface"));

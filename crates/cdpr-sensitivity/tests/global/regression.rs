@@ -4,7 +4,7 @@ use crate::functions::{self, uniform};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use cdpr_sensitivity::{
     Correlated, Input, JointSample, LatinHypercube, Law, Regression, SensitivityError, SobolDesign, Steps,
-    observe, rank_regression, regression,
+    observe, rank_correlation, rank_regression, regression,
 };
 
 #[derive(serde::Deserialize)]
@@ -101,6 +101,19 @@ fn equal_values_share_their_mean_rank() {
     // Both have ranks of 16, 32, 16 equal values: any other order among them would not be a straight line.
     let outputs = observe(&design, |x| Some(x[0].powi(5))).unwrap();
     assert_relative_eq!(rank_regression(&design, &outputs).unwrap().r_squared, 1.0, epsilon = 1e-12);
+}
+
+#[test]
+fn rank_correlation_is_that_of_spearman() {
+    let correlation = rank_correlation(&[1.0, 2.0, 3.0, 4.0, 5.0], &[5.0, 6.0, 7.0, 8.0, 7.0]).unwrap();
+    // SciPy's spearmanr.
+    assert_abs_diff_eq!(correlation, 0.820_782_681_668_123_3, epsilon = 1e-15);
+    assert_abs_diff_eq!(
+        rank_correlation(&[1.0, 2.0, 9.0], &[3.0, 0.0, -1e9]).unwrap(),
+        -1.0,
+        epsilon = 1e-15
+    );
+    assert_eq!(rank_correlation(&[1.0, 1.0, 1.0], &[1.0, 2.0, 3.0]), None);
 }
 
 #[test]

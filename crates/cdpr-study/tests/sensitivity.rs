@@ -1,0 +1,157 @@
+//! The measures of sensitivity beside each other: that they agree where they should, and what a failed one leaves.
+
+#![allow(clippy::unwrap_used)]
+
+use cdpr_study::{
+    InputMeasures, RANKED, SensitivitySpec, SensitivitySummary, Study, StudyError, Truncation, measure,
+};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+fn text() -> String {
+    std::fs::read_to_string(path()).unwrap()
+}
+
+fn path() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca-sensitivity.json"))
+}
+
+const SMALL: SensitivitySpec = SensitivitySpec {
+    observations: 500,
+    saltelli_blocks: 256,
+    bootstrap_resamples: 200,
+    morris_blocks: 16,
+    derivative_points: 32,
+    expansion: Truncation { max_degree: 2, norm: 0.75, interactions: 2 },
+};
+
+fn of_sampling(name: &str, spec: &SensitivitySpec) -> SensitivitySummary {
+    let study = Study::open(path()).unwrap();
+    measure(&study.sampling(name).unwrap(), spec, &|_| ())
+}
+
+fn input<'a>(found: &'a SensitivitySummary, name: &str) -> &'a InputMeasures {
+    found.inputs.iter().find(|input| input.input == name).unwrap()
+}
+
+/// Without the wall times, which differ from run to run.
+fn timeless(mut found: SensitivitySummary) -> SensitivitySummary {
+    found.methods.values_mut().for_each(|method| method.seconds = 0.0);
+    found
+}
+
+#[test]
+fn derivatives_and_sobol_indices_agree_on_the_share_of_the_modulus() {
+    let found = of_sampling("mechanical", &SMALL);
+    assert_eq!((found.methods.len(), &found.notes[..]), (8, &[][..]));
+    let modulus = input(&found, "youngs_modulus");
+    let share = modulus.derivative_share.unwrap();
+    assert!((share - 0.9945).abs() < 1e-4, "{share}");
+    let (low, high) = (modulus.sobol_first_low.unwrap(), modulus.sobol_first_high.unwrap());
+    assert!(low < share && share < high, "{share} is not in {low} .. {high}");
+    for other in [modulus.regression_share, modulus.rank_regression_share, modulus.expansion_total] {
+        assert!((other.unwrap() - share).abs() < 0.02, "{other:?}");
+    }
+    assert!(modulus.dgsm_total_bound >= modulus.sobol_total_low);
+
+    // A model that is almost the sum of its inputs.
+    for (name, sum) in &found.sums["all"] {
+        assert!((sum - 1.0).abs() < 0.02, "{name}: {sum}");
+    }
+    let without_all = found.sums.iter().filter(|(group, _)| **group != "all");
+    let of_groups: f64 = without_all.map(|(_, sums)| sums["sobol_first"]).sum();
+    assert!((of_groups - found.sums["all"]["sobol_first"]).abs() < 1e-12);
+    assert!(found.methods["regression"].r_squared.unwrap() > 0.98);
+    assert!(found.methods["expansion"].leave_one_out.unwrap() < 0.01);
+}
+
+#[test]
+fn all_measures_lead_with_the_modulus_and_their_ranks_are_correlated() {
+    let found = of_sampling("geometrical", &SMALL);
+    let agreement = &found.agreement;
+    assert_eq!(agreement.first, 10);
+    assert!(agreement.inputs.iter().any(|input| input == "youngs_modulus"), "{agreement:?}");
+    assert_eq!(found.leading()[0].input, "youngs_modulus");
+    assert_eq!(agreement.measures, RANKED.map(|(name, _)| name));
+    for (i, row) in agreement.rank_correlation.iter().enumerate() {
+        for (j, correlation) in row.iter().enumerate() {
+            let correlation = correlation.unwrap();
+            assert!((correlation - agreement.rank_correlation[j][i].unwrap()).abs() < 1e-12);
+            assert!((0.4..1.0 + 1e-12).contains(&correlation), "{i} {j}: {correlation}");
+        }
+        assert!((row[i].unwrap() - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn what_acts_only_together_with_others_has_a_total_index_and_no_share_of_its_own() {
+    // Near the corner the deflection is least, but for curvature, where the centre of mass is nominal.
+    let expansion = Truncation { norm: 1.0, ..SMALL.expansion };
+    let found =
+        of_sampling("geometrical_asymmetric", &SensitivitySpec { saltelli_blocks: 1024, expansion, ..SMALL });
+    let center = input(&found, "cog.x");
+    assert!(center.derivative_share.unwrap() < 0.001);
+    assert!(center.regression_share.unwrap() < 0.02);
+    assert!(center.sobol_total_low.unwrap() > 0.08, "{center:?}");
+    assert!(center.expansion_total.unwrap() > center.expansion_first.unwrap());
+    assert!(center.morris_std_mm > center.morris_mean_absolute_mm);
+}
+
+#[test]
+fn the_numbers_do_not_depend_on_the_number_of_threads_and_every_observation_is_told() {
+    let mut study = Study::open(path()).unwrap();
+    study.file.sensitivity = Some(SMALL);
+    let sampling = study.sampling("geometrical_asymmetric").unwrap();
+    let on = |threads| {
+        let told = AtomicUsize::new(0);
+        let tick = |done: usize| {
+            told.fetch_add(done, Ordering::Relaxed);
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let found = pool.install(|| measure(&sampling, &SMALL, &tick));
+        (timeless(found), told.into_inner())
+    };
+    let one = on(1);
+    assert_eq!(one, on(3));
+    assert_eq!(2000 + one.1, sampling.observations());
+}
+
+#[test]
+fn a_measure_that_fails_is_a_note() {
+    // 20 observations do not tell 62 coefficients.
+    let spec = SensitivitySpec { observations: 20, ..SMALL };
+    let found = of_sampling("mechanical", &spec);
+    let left_out: Vec<_> = found.notes.iter().map(|note| note.split(':').next().unwrap()).collect();
+    assert_eq!(left_out, ["regression", "rank_regression"]);
+    assert!(found.notes[0].contains("64"), "{:?}", found.notes);
+    assert!(found.inputs.iter().all(|input| input.regression_share.is_none() && input.sobol_first.is_some()));
+    assert!(!found.sums["all"].contains_key("regression_share"));
+    assert!(!found.agreement.measures.contains(&"regression_share"));
+    assert_eq!(found.leading()[0].input, "youngs_modulus");
+}
+
+#[test]
+fn settings_that_are_none_are_refused_with_field_value_and_remedy() {
+    let refusal = |from: &str, to: &str| {
+        let text = text();
+        assert!(text.contains(from));
+        let error = Study::from_json(&text.replacen(from, to, 1), path()).unwrap_err();
+        assert!(matches!(error, StudyError::Invalid { .. }), "{error}");
+        error.to_string()
+    };
+    let blocks = refusal("\"saltelli_blocks\": 4096", "\"saltelli_blocks\": 15");
+    assert!(blocks.ends_with("sensitivity.saltelli_blocks is 15: expected 16 to 1048576"), "{blocks}");
+    let norm = refusal("\"norm\": 0.75", "\"norm\": 0.0");
+    assert!(
+        norm.ends_with("sensitivity.expansion.norm is 0: expected a number above 0, at most 1"),
+        "{norm}"
+    );
+    let degree = refusal("\"max_degree\": 3", "\"max_degree\": 101");
+    assert!(degree.ends_with("sensitivity.expansion.max_degree is 101: expected 1 to 100"), "{degree}");
+}
+
+#[test]
+fn settings_left_out_are_those_of_the_data_file() {
+    let spec = Study::open(path()).unwrap().file.sensitivity.unwrap();
+    assert_eq!(spec, SensitivitySpec::default());
+}
