@@ -227,6 +227,25 @@ impl Parts {
         Self { count: zeros(), failed: zeros(), sum: zeros() }
     }
 
+    /// Adds an observation to the parts that it lies in. Sums of chosen numbers instead of branches, which on random inputs would be
+    /// foreseen half of the time, and no index to check: the loop fills a vector unit.
+    fn add(
+        &mut self,
+        row: &[f64],
+        middles: &[f64],
+        inside: impl Fn(f64, f64) -> bool,
+        [counted, failed, deviation]: [f64; 3],
+    ) {
+        let parts = self.count.iter_mut().zip(&mut self.failed).zip(&mut self.sum);
+        for (((count, failures), sum), (value, middle)) in parts.zip(row.iter().zip(middles)) {
+            let inside = inside(*value, *middle);
+            let chosen = |value: f64| if inside { value } else { 0.0 };
+            *count += chosen(counted);
+            *failures += chosen(failed);
+            *sum += chosen(deviation);
+        }
+    }
+
     fn merge(&mut self, other: &Self) {
         let add = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
         add(&mut self.count, &other.count);
@@ -248,26 +267,14 @@ impl EffectSums {
     /// Adds an observation: the values of its inputs and its finite output, `None` if it failed.
     pub fn add(&mut self, row: &[f64], output: Option<f64>) {
         self.outputs.add(output);
-        // Sums of chosen numbers instead of branches, which on random inputs would be foreseen half of the time.
-        let chosen = |choice: bool, value: f64| if choice { value } else { 0.0 };
-        let (above, below) = (&mut self.above, &mut self.below);
-        match output {
-            Some(output) => {
-                let deviation = output - self.shift;
-                for (j, (value, middle)) in row.iter().zip(&self.middles).enumerate() {
-                    above.count[j] += chosen(value > middle, 1.0);
-                    above.sum[j] += chosen(value > middle, deviation);
-                    below.count[j] += chosen(value < middle, 1.0);
-                    below.sum[j] += chosen(value < middle, deviation);
-                }
-            }
-            None => {
-                for (j, (value, middle)) in row.iter().zip(&self.middles).enumerate() {
-                    above.failed[j] += chosen(value > middle, 1.0);
-                    below.failed[j] += chosen(value < middle, 1.0);
-                }
-            }
-        }
+        // An observation that failed counts where it failed, with nothing to add.
+        let counted_failed_deviation = match output {
+            Some(output) => [1.0, 0.0, output - self.shift],
+            None => [0.0, 1.0, 0.0],
+        };
+        let middles = &self.middles;
+        self.above.add(row, middles, |value, middle| value > middle, counted_failed_deviation);
+        self.below.add(row, middles, |value, middle| value < middle, counted_failed_deviation);
     }
 
     /// Adds the observations of other sums with the same inputs and shift.

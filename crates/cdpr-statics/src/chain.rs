@@ -72,7 +72,10 @@ pub(crate) fn observe<S: Simd>(begin: Beginning<S>, settings: &Settings) -> Outc
     let Beginning { mut robots, offsets, multipliers } = begin;
     let robots = &mut robots;
     let zero = robots.weight.all(0.0);
-    let spans: Vec<Span<S>> = robots.cables.iter().map(|cable| Span::new(&robots.position, cable)).collect();
+    let mut spans = Vec::with_capacity(robots.cables.len());
+    for cable in &robots.cables {
+        spans.push(Span::new(&robots.position, cable));
+    }
     let within = distribute(robots, multipliers, &spans, settings);
     let held = hold(robots, &offsets, &spans, settings);
 

@@ -148,10 +148,8 @@ impl WithSimd for Batch<'_> {
         let mut found = Vec::with_capacity(rows);
         for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
-            // Lanes without a row of their own repeat the last one.
-            let deviation =
-                |place: usize| Lanes::from_fn(simd, |lane| rows[lane.min(count - 1) * parameters + place]);
-            let (beginning, sound) = perturb(simd, robot, pose, nominal, deviation);
+            let rows = Rows { simd, rows, parameters: *parameters };
+            let (beginning, sound) = rows.robots(robot, pose, nominal);
             let outcome = observe(beginning, &nominal.settings);
             let valid = (outcome.valid & sound).to_array();
             let displacement = outcome.displacement.map(Lanes::to_array);
@@ -168,55 +166,88 @@ impl WithSimd for Batch<'_> {
     }
 }
 
-/// The robots with the deviations of their parameters, in the order of [`Parameter::all`], and the lanes whose robot is one.
-#[inline(always)]
-fn perturb<S: Simd>(
+/// Rows of deviations, one a lane; lanes without a row of their own repeat the last one.
+struct Rows<'a, S> {
     simd: S,
-    robot: &Robot,
-    pose: &Pose,
-    nominal: &Nominal,
-    deviation: impl Fn(usize) -> Lanes<S>,
-) -> (Beginning<S>, Mask<S>) {
-    let n = robot.cables.len();
-    let [anchors, exits, center, offsets] = [3, 3 + 3 * n, 3 + 6 * n, 6 + 6 * n];
-    let all = |value: f64| Lanes::splat(simd, value);
-    let point = |nominal: &Vector3<f64>, place: usize| three(|k| deviation(place + k) + nominal[k]);
-    let rotation = pose.rotation.matrix();
-    let rotate = |v: [Lanes<S>; 3]| {
-        three(|k| v[0] * rotation[(k, 0)] + v[1] * rotation[(k, 1)] + v[2] * rotation[(k, 2)])
-    };
-    let positive = |value: Lanes<S>| all(f64::MIN_POSITIVE).less_or_equal(value);
-    let [mass, density, modulus] = three(&deviation);
-    let mass = mass + robot.platform.mass;
-    let mut sound = positive(mass);
-    let cables = robot.cables.iter().enumerate().map(|(i, cable)| {
-        let (density, modulus) =
-            (density + cable.properties.linear_density, modulus + cable.properties.youngs_modulus);
-        sound = sound & positive(modulus) & all(0.0).less_or_equal(density);
-        let force = nominal.equilibrium.cable_forces[i];
-        Cable {
-            weight: density * robot.gravity,
-            stretch: (modulus * cable.properties.section).recip(),
-            exit: point(&cable.exit_point, exits + 3 * i),
-            arm: rotate(point(&cable.anchor_point, anchors + 3 * i)),
-            length: all(nominal.lengths[i]),
-            force: [all(force.x), all(force.y)],
+    rows: &'a [f64],
+    parameters: usize,
+}
+
+impl<S: Simd> Rows<'_, S> {
+    #[inline(always)]
+    fn all(&self, value: f64) -> Lanes<S> {
+        Lanes::splat(self.simd, value)
+    }
+
+    /// One parameter, in the order of [`Parameter::all`]: its nominal value and deviations.
+    #[inline(always)]
+    fn parameter(&self, place: usize, nominal: f64) -> Lanes<S> {
+        let last = self.rows.len() - self.parameters;
+        let mut values = [0.0; MAX_LANES];
+        for (lane, value) in values.iter_mut().enumerate() {
+            *value = self.rows[last.min(lane * self.parameters) + place];
         }
-    });
-    let cables = cables.collect();
-    let offsets: Vec<Lanes<S>> = (0..n).map(|i| deviation(offsets + i)).collect();
-    // No number is not even itself.
-    sound = offsets.iter().fold(sound, |sound, offset| sound & offset.less_or_equal(*offset));
-    let robots = Robots {
-        cables,
-        position: three(|k| all(pose.position[k])),
-        center: rotate(point(&robot.platform.center_of_mass, center)),
-        frame: SmallVec::new(),
-        layout: Layout::Robots,
-        weight: mass * robot.gravity,
-    };
-    let multipliers = six(|k| all(nominal.multipliers[k]));
-    (Beginning { robots, offsets, multipliers }, sound)
+        Lanes::from_array(self.simd, &values) + nominal
+    }
+
+    #[inline(always)]
+    fn point(&self, place: usize, nominal: &Vector3<f64>) -> [Lanes<S>; 3] {
+        [
+            self.parameter(place, nominal.x),
+            self.parameter(place + 1, nominal.y),
+            self.parameter(place + 2, nominal.z),
+        ]
+    }
+
+    /// The perturbed robots, and the lanes whose robot is one.
+    #[inline(always)]
+    fn robots(&self, robot: &Robot, pose: &Pose, nominal: &Nominal) -> (Beginning<S>, Mask<S>) {
+        let n = robot.cables.len();
+        let [anchors, exits, center, offsets] = [3, 3 + 3 * n, 3 + 6 * n, 6 + 6 * n];
+        let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
+        let mass = self.parameter(0, robot.platform.mass);
+        let mut sound = tiny.less_or_equal(mass);
+        let mut beginning = Beginning {
+            robots: Robots {
+                layout: Layout::Robots,
+                cables: SmallVec::new(),
+                position: three(|k| self.all(pose.position[k])),
+                center: rotate(pose, &self.point(center, &robot.platform.center_of_mass)),
+                frame: SmallVec::new(),
+                weight: mass * robot.gravity,
+            },
+            offsets: Vec::with_capacity(n),
+            multipliers: six(|k| self.all(nominal.multipliers[k])),
+        };
+        for (i, cable) in robot.cables.iter().enumerate() {
+            let density = self.parameter(1, cable.properties.linear_density);
+            let modulus = self.parameter(2, cable.properties.youngs_modulus);
+            let offset = self.parameter(offsets + i, 0.0);
+            // No number is not even itself.
+            sound = sound
+                & zero.less_or_equal(density)
+                & tiny.less_or_equal(modulus)
+                & offset.less_or_equal(offset);
+            let force = nominal.equilibrium.cable_forces[i];
+            beginning.offsets.push(offset);
+            beginning.robots.cables.push(Cable {
+                weight: density * robot.gravity,
+                stretch: (modulus * cable.properties.section).recip(),
+                exit: self.point(exits + 3 * i, &cable.exit_point),
+                arm: rotate(pose, &self.point(anchors + 3 * i, &cable.anchor_point)),
+                length: self.all(nominal.lengths[i]),
+                force: [self.all(force.x), self.all(force.y)],
+            });
+        }
+        (beginning, sound)
+    }
+}
+
+/// R v.
+#[inline(always)]
+fn rotate<S: Simd>(pose: &Pose, v: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
+    let r = pose.rotation.matrix();
+    three(|k| v[0] * r[(k, 0)] + v[1] * r[(k, 1)] + v[2] * r[(k, 2)])
 }
 
 fn residuals<S: Simd>(open: &Open<S>) -> [Residual; MAX_LANES] {

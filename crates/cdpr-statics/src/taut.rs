@@ -155,10 +155,10 @@ impl<S: Simd> Linear<S> {
     /// Takes over another one in the lanes that are `going`.
     #[inline(always)]
     fn replace(&mut self, other: &Self, going: Mask<S>) {
-        let plane =
-            |new: &Plane<S>, old: &Plane<S>| [going.select(new[0], old[0]), going.select(new[1], old[1])];
-        self.azimuth = plane(&other.azimuth, &self.azimuth);
-        self.predicted = plane(&other.predicted, &self.predicted);
+        for k in 0..2 {
+            self.azimuth[k] = going.select(other.azimuth[k], self.azimuth[k]);
+            self.predicted[k] = going.select(other.predicted[k], self.predicted[k]);
+        }
         self.stiffness = three(|k| going.select(other.stiffness[k], self.stiffness[k]));
     }
 }
