@@ -91,6 +91,9 @@ pub enum TensionError {
 /// Relative size of rounding in the tensions that is not taken for a crossed bound.
 const ROUNDING: f64 = 1e-11;
 
+/// Open wrench, relative to tensions and wrench, that is taken for the rounding of a solved system.
+const BALANCE: f64 = 1e-9;
+
 /// Solves problem (1).
 ///
 /// # Errors
@@ -143,7 +146,8 @@ type Bounded = (Vec<f64>, Vec<Option<Bound>>);
 
 /// The optimum to rounding from a guess of the active bounds: solve with those bounds, take in the bound that is crossed
 /// most or let go the one whose multiplier has the wrong sign most, until neither is left: then it is the optimum, for the problem is
-/// convex. `None` where that does not end or leaves fewer than six cables free.
+/// convex. `None` where that does not end, leaves fewer than six cables free, or free cables that
+/// do not span all wrenches.
 fn active_set(problem: &Problem, mut active: Vec<Option<Bound>>) -> Option<Bounded> {
     for _ in 0..4 * active.len() {
         let (tensions, slopes) = with_active(problem, &active)?;
@@ -163,7 +167,10 @@ fn active_set(problem: &Problem, mut active: Vec<Option<Bound>>) -> Option<Bound
         if violation <= ROUNDING * size {
             let clamped =
                 tensions.iter().zip(problem.limits).map(|(t, limits)| t.clamp(limits.min, limits.max));
-            return Some((clamped.collect(), active));
+            let tensions: Vec<f64> = clamped.collect();
+            // Free cables that cannot balance every wrench: the solution of a singular system balances none.
+            let balanced = problem.open_wrench(&tensions).norm() <= BALANCE * (size + problem.wrench.norm());
+            return balanced.then_some((tensions, active));
         }
         active[i] = bound;
     }
