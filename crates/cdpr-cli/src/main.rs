@@ -1,23 +1,35 @@
 //! The program `cdpr`: arguments, progress, printing. All mechanics and statistics are in the library crates.
 
-#![allow(clippy::print_stdout, clippy::print_stderr)]
+#![allow(clippy::print_stderr)]
 
+#[macro_use]
+mod output;
+
+mod answer;
 mod arguments;
 mod calibration;
+mod catenary;
+mod check;
+mod deflection;
 mod derivatives;
+mod direct;
+mod inverse;
 mod robustness;
 mod sensitivity;
+mod stiffness;
 mod study;
 mod throughput;
+mod workspace;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use output::Ending;
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
 #[derive(Parser)]
-#[command(version, propagate_version = true)]
+#[command(version, propagate_version = true, after_help = output::EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -25,6 +37,41 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Compute one cable between two points: force, tensions, sag, energy.
+    #[command(
+        after_help = "Example: cdpr catenary --weight 0.9957 --stiffness 1.28e6 --length 4.3 --end 4.1,-1.7"
+    )]
+    Catenary(catenary::Settings),
+    /// Find the unstrained lengths that hold a pose.
+    #[command(after_help = "Example: cdpr inverse data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
+    Inverse(inverse::Settings),
+    /// Find where the platform stands for given unstrained lengths.
+    #[command(
+        after_help = "Example: cdpr direct data/robots/caroca.json --lengths 4.2,4.2,4.3,4.3,4.2,4.2,4.3,4.3 --certify"
+    )]
+    Direct(direct::Settings),
+    /// Tell how far the platform gives under a load.
+    #[command(after_help = "Example: cdpr deflection data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
+    Deflection(deflection::Settings),
+    /// Compute the Cartesian stiffness at a pose and its softest motions.
+    #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
+    Stiffness(stiffness::Settings),
+    /// Map where the platform is held, and how it gives, over a plane or a box.
+    #[command(after_help = "Examples:
+  cdpr workspace data/robots/caroca.json --plane z=1.75 --grid 41x41 --payload 50 --out workspace
+  cdpr workspace data/robots/caroca.json --box=-3:3:25,-1.5:1.5:13,0.5:2.5:9 --payload 50 --uncertainty a=0.002,b=0.002")]
+    Workspace(workspace::Settings),
+    /// Say everything that is odd about a robot file.
+    #[command(after_help = "Example: cdpr check data/robots/cogiro.json")]
+    Check(check::Settings),
+    /// Print completions of all commands for a shell.
+    #[command(
+        after_help = "Example: cdpr completions bash > ~/.local/share/bash-completion/completions/cdpr"
+    )]
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
     /// Study which uncertain parameters of a robot matter.
     Study {
         #[command(subcommand)]
@@ -99,25 +146,36 @@ enum StudyCommand {
 }
 
 fn main() -> ExitCode {
-    let result: Result<(), Box<dyn Error>> = match Arguments::parse().command {
+    output::exit_code(run(Arguments::parse().command))
+}
+
+fn run(command: Command) -> Result<Ending, Box<dyn Error>> {
+    match command {
+        Command::Check(settings) => return check::run(&settings),
+        Command::Direct(settings) => return direct::run(&settings),
+        Command::Catenary(settings) => catenary::run(&settings)?,
+        Command::Inverse(settings) => inverse::run(&settings)?,
+        Command::Deflection(settings) => deflection::run(&settings)?,
+        Command::Stiffness(settings) => stiffness::run(&settings)?,
+        Command::Workspace(settings) => workspace::run(&settings)?,
+        Command::Completions { shell } => completions(shell),
         Command::Study { command: StudyCommand::Run { study, out, observations, threads } } => {
-            study::run(&study::Settings { study, out, observations, threads }).map_err(Into::into)
+            study::run(&study::Settings { study, out, observations, threads })?;
         }
         Command::Study { command: StudyCommand::Throughput { study, sampling, observations, threads } } => {
-            throughput::run(&study, &sampling, observations, threads).map_err(Into::into)
+            throughput::run(&study, &sampling, observations, threads)?;
         }
-        Command::Calibration(settings) => calibration::run(&settings),
-        Command::Derivatives(settings) => derivatives::run(&settings),
+        Command::Calibration(settings) => calibration::run(&settings)?,
+        Command::Derivatives(settings) => derivatives::run(&settings)?,
         Command::Robustness { robot, poses, modulus, seed, out } => {
-            let settings = robustness::Settings { robot, poses, modulus, seed, out };
-            robustness::run(&settings).map_err(Into::into)
-        }
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
+            robustness::run(&robustness::Settings { robot, poses, modulus, seed, out })?;
         }
     }
+    Ok(Ending::Well)
+}
+
+fn completions(shell: clap_complete::Shell) {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "cdpr", &mut script);
+    println!("{}", String::from_utf8_lossy(&script));
 }

@@ -7,6 +7,7 @@
 //! | 5b, 5c: t-Student of the points' coordinates | [`point_effects`] |
 //! | none: signed effects with their intervals | [`signed_effects`] |
 //! | none: shares of the variance by all measures | [`shares`] |
+//! | none: deflection, stiffness, tension over a plane of the workspace | [`heat_map`] |
 //! | none: answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
 //! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of Cable-Driven Parallel
@@ -25,8 +26,10 @@
 //! # }
 //! ```
 
+mod color_map;
 mod effects;
 mod error;
+mod heat_map;
 mod histogram;
 mod points;
 mod robustness;
@@ -36,6 +39,7 @@ mod surface;
 
 pub use effects::signed_effects;
 pub use error::ReportError;
+pub use heat_map::{MapQuantity, heat_map};
 pub use histogram::histogram;
 pub use points::{Points, point_effects};
 pub use robustness::{found_poses, success_share};

@@ -1,6 +1,6 @@
 //! What can go wrong with a study.
 
-use cdpr_robot::{JsonError, RobotError};
+use cdpr_robot::{JsonError, RobotError, place_of};
 use cdpr_sensitivity::SensitivityError;
 use cdpr_statics::StaticsError;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// A file could not be read.
-    #[error("cannot read {path}: {source}")]
+    #[error("cannot read {path}: {source}: expected a readable text file")]
     Read {
         /// The file.
         path: PathBuf,
@@ -17,7 +17,7 @@ pub enum StudyError {
         source: std::io::Error,
     },
     /// A file could not be written, or a folder not made.
-    #[error("cannot write {path}: {source}")]
+    #[error("cannot write {path}: {source}: expected a place where files can be made")]
     Write {
         /// The file or folder.
         path: PathBuf,
@@ -39,6 +39,16 @@ pub enum StudyError {
         path: PathBuf,
         /// Place and reason.
         source: RobotError,
+    },
+    /// A failure of these, with its place in the study file.
+    #[error("{source} (line {line}, column {column})")]
+    At {
+        /// Line in the file, from 1.
+        line: usize,
+        /// Column in that line.
+        column: usize,
+        /// What is wrong there.
+        source: Box<StudyError>,
     },
     /// A value that no study can have.
     #[error("{path}: {field} is {value}: expected {expected}")]
@@ -104,6 +114,20 @@ pub enum StudyError {
 }
 
 impl StudyError {
+    /// With the place of the field in the study file's text, where it has one.
+    pub(crate) fn placed(self, text: &str) -> Self {
+        let place = match &self {
+            Self::Invalid { field, .. } | Self::Nominal { field, .. } | Self::Statistics { field, .. } => {
+                place_of(text, field)
+            }
+            _ => None,
+        };
+        match place {
+            Some((line, column)) => Self::At { line, column, source: Box::new(self) },
+            None => self,
+        }
+    }
+
     pub(crate) fn setting(
         field: impl Into<String>,
         value: impl ToString,

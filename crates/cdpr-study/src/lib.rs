@@ -8,6 +8,8 @@
 //!
 //! Where the study asks for them, [`measure`] puts all measures of sensitivity of a sampling beside each other.
 //!
+//! [`compute_workspace`] tells where the robot can work and how it gives there, [`inspect`] what is odd about it.
+//!
 //! [`run_robustness`] asks another question: how often the direct model finds the true pose from a wrong start.
 //!
 //! ```no_run
@@ -26,6 +28,8 @@
 mod comparison;
 mod error;
 mod file;
+mod grid;
+mod inspection;
 mod observation;
 mod output;
 mod robustness;
@@ -33,6 +37,7 @@ mod sampling;
 mod sensitivity;
 mod study;
 mod surface;
+mod workspace;
 
 pub use cdpr_sensitivity::{Family, Truncation};
 pub use cdpr_statics::Observation;
@@ -42,11 +47,13 @@ pub use file::{
     AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic,
     StudyFile, SurfaceSpec, json_schema,
 };
+pub use grid::{Grid, GridAxis, frame, letter};
 pub use indexmap::IndexMap;
+pub use inspection::{Finding, Severity, inspect};
 pub use observation::{Block, FITTED, KEPT, Tally, observe, observe_into};
 pub use output::{
     ObservationTable, StudySummary, Summary, check_folder, remove_summary, write_figure, write_refused,
-    write_robustness, write_sensitivity, write_solves, write_summary, write_surface,
+    write_robustness, write_sensitivity, write_solves, write_summary, write_surface, write_workspace,
 };
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
@@ -59,3 +66,6 @@ pub use sensitivity::{
 };
 pub use study::{Sampling, Study, Surface, open_robot};
 pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
+pub use workspace::{
+    Dominant, Extremes, Held, Workspace, WorkspacePose, WorkspaceRow, WorkspaceSummary, compute_workspace,
+};

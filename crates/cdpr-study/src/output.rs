@@ -8,6 +8,7 @@ use crate::sampling::SamplingSummary;
 use crate::sensitivity::SensitivitySummary;
 use crate::study::{Sampling, Surface};
 use crate::surface::{SurfaceResult, SurfaceSummary};
+use crate::workspace::WorkspaceSummary;
 use cdpr_robot::Pose;
 use cdpr_sensitivity::SampleDesign;
 use indexmap::IndexMap;
@@ -282,6 +283,21 @@ pub fn write_refused(folder: &Path, results: &[RobustnessResult]) -> Result<Path
         })
     });
     write_csv(folder.join("refused.csv"), header.map(str::to_owned).into(), rows)
+}
+
+/// Writes `workspace.csv`, one row a position, and `workspace.json`, the same with settings and extremes.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_workspace(folder: &Path, summary: &WorkspaceSummary) -> Result<PathBuf, StudyError> {
+    let path = folder.join("workspace.csv");
+    let write = || -> Result<(), csv::Error> {
+        let mut writer = csv::Writer::from_path(&path)?;
+        summary.rows.iter().try_for_each(|row| writer.serialize(row))?;
+        Ok(writer.flush()?)
+    };
+    write().map_err(|error| unwritten(path, error))?;
+    write_json(folder.join("workspace.json"), summary)
 }
 
 /// Position [m] and rotation vector [rad].

@@ -91,7 +91,7 @@ impl Study {
         let robot_path = path.parent().unwrap_or(Path::new(".")).join(&file.robot);
         let robot = open_robot(&robot_path)?;
         let study = Self { path: path.to_owned(), file, robot };
-        study.validate()?;
+        study.validate().map_err(|error| error.placed(text))?;
         Ok(study)
     }
 
@@ -232,6 +232,22 @@ impl Study {
         let y = self.axis(&format!("{field}.y"), &spec.y)?;
         let (nominal, observer) = self.nominal(&field, &pose, &load)?;
         Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal, observer })
+    }
+
+    /// Standard deviation of every parameter (SI units, in the order of [`Parameter::all`]) by an error model; steps are left out.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] for a name that is none.
+    pub fn standard_deviations(&self, error_model: &str) -> Result<Vec<f64>, StudyError> {
+        let Some(model) = self.file.error_models.get(error_model) else {
+            return Err(self.invalid("error_models", error_model, &keys(&self.file.error_models)));
+        };
+        let (inputs, places) = self.inputs(error_model, model)?;
+        let mut deviations = vec![0.0; Parameter::all(self.robot.cables.len()).len()];
+        for (input, place) in inputs.iter().zip(places) {
+            deviations[place] = input.law.std();
+        }
+        Ok(deviations)
     }
 
     /// The inputs of an error model in the order of the parameter vector, with their places in it.
