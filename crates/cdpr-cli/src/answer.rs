@@ -76,11 +76,10 @@ impl Found {
     }
 
     pub(crate) fn print(&self, lengths: &[f64]) {
-        let [x, y, z] = self.position;
-        println!("position  ({x:.6}, {y:.6}, {z:.6}) m");
+        println!("position  {} m", vector(&self.position, 6));
         for (i, row) in self.rotation.iter().enumerate() {
-            let [a, b, c] = row.map(rounded);
-            println!("{}  [{a:9.6} {b:9.6} {c:9.6}]", if i == 0 { "rotation" } else { "        " });
+            let [a, b, c] = row.map(|entry| decimal(entry, 6));
+            println!("{}  [{a:>9} {b:>9} {c:>9}]", if i == 0 { "rotation" } else { "        " });
         }
         print_cables(lengths, &self.cable_forces, &self.tensions);
         let Report { method, iterations, least_stiffness, slack_cables } = &self.report;
@@ -100,9 +99,9 @@ pub(crate) fn print_cables(lengths: &[f64], forces: &[[f64; 2]], tensions: &[f64
         rows.add_row([
             (i + 1).to_string(),
             format!("{length:.6}"),
-            format!("{fx:.3}"),
-            format!("{fz:.3}"),
-            format!("{tension:.3}"),
+            decimal(*fx, 3),
+            decimal(*fz, 3),
+            decimal(*tension, 3),
         ]);
     }
     println!("{rows}");
@@ -117,9 +116,19 @@ fn rows(pose: &Pose) -> [[f64; 3]; 3] {
     pose.rotation.matrix().transpose().into()
 }
 
-/// To six decimals, without the sign of a zero.
-fn rounded(number: f64) -> f64 {
-    (1e6 * number).round() / 1e6 + 0.0
+/// The number with so many decimals, without the sign of a zero.
+pub(crate) fn decimal(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(zero) if !zero.contains(|c: char| ('1'..='9').contains(&c)) => zero.to_owned(),
+        _ => text,
+    }
+}
+
+/// A vector in brackets.
+pub(crate) fn vector(components: &[f64], decimals: usize) -> String {
+    let texts: Vec<_> = components.iter().map(|component| decimal(*component, decimals)).collect();
+    format!("({})", texts.join(", "))
 }
 
 /// Numbers separated by commas.

@@ -1,5 +1,6 @@
 //! `cdpr catenary`: one cable between two points, from any two of its length, end, force and tension.
 
+use crate::answer::vector;
 use crate::arguments::{self, Format};
 use crate::output::Usage;
 use cdpr_cable::{Cable, Catenary, Solution, Vector2, end_force, length_for_tension};
@@ -96,10 +97,9 @@ impl Answer {
     }
 
     fn print(&self) {
-        let Self { force: [fx, fz], end: [x, z], .. } = self;
         println!("unstrained length  {:.6} m", self.unstrained_length);
-        println!("anchor point       ({x:.6}, {z:.6}) m from the exit point");
-        println!("force at it        ({fx:.6}, {fz:.6}) N on the cable");
+        println!("anchor point       {} m from the exit point", vector(&self.end, 6));
+        println!("force at it        {} N on the cable", vector(&self.force, 6));
         println!("tension            {:.6} N at the anchor point", self.tension.anchor);
         println!("                   {:.6} N at the exit point", self.tension.exit);
         println!("sag                {:.6} m below the chord", self.sag);

@@ -24,7 +24,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, Box<dyn Error>> {
         Format::Json => println!("{}", serde_json::to_string(&findings)?),
         Format::Text => {
             for Finding { severity, field, value, why, remedy } in &findings {
-                println!("{severity}: {field} is {value}: {why}; expected {remedy}");
+                println!("{severity}: {field} is {value}: {why}");
+                println!("    remedy: {remedy}");
             }
             println!(
                 "{}: {} cables, {warnings} warnings, {} notes",

@@ -1,6 +1,6 @@
 //! `cdpr deflection`: how far the platform gives under a load, with both equilibria.
 
-use crate::answer::Found;
+use crate::answer::{Found, vector};
 use crate::arguments::{self, Format, LoadArguments};
 use crate::output::Usage;
 use cdpr_robot::{Pose, Robot};
@@ -73,10 +73,8 @@ impl Answer {
     fn print(&self, robot: &Robot, pose: &Pose) {
         let [x, y, z] = pose.position.into();
         println!("{} at ({x}, {y}, {z}) m", robot.name);
-        let [dx, dy, dz] = self.deflection_mm;
-        println!("dp = ({dx:.5}, {dy:.5}, {dz:.5}) mm, |dp| = {:.5} mm", self.rms_mm);
-        let [rx, ry, rz] = self.rotation_deg;
-        println!("turned by ({rx:.5}, {ry:.5}, {rz:.5}) degrees");
+        println!("dp = {} mm, |dp| = {:.5} mm", vector(&self.deflection_mm, 5), self.rms_mm);
+        println!("turned by {} degrees", vector(&self.rotation_deg, 5));
         println!("\nunder its own weight");
         self.unloaded.print(&self.lengths);
         println!("\nwith the load");

@@ -9,9 +9,9 @@ use std::sync::OnceLock;
 /// Exit codes, as `cdpr --help` and docs/COMMANDS.md state them.
 pub(crate) const EXIT_CODES: &str = "Exit codes:
   0  all that was asked for is done
-  1  it cannot be done: a file that is none, no answer, a place that cannot be written; the reason is on the standard error
-  2  the arguments are none; the reason is on the standard error
-  3  done, and something is wrong: `check` warns, a case of `direct --from` has no answer, `--certify` proves nothing";
+  1  it cannot be done: a wrong or unreadable file, no answer, a place that cannot be written; the standard error says why
+  2  wrong arguments; the standard error says why
+  3  done, but something is wrong: `check` warns, a case of `direct --from` has no answer, `--certify` proves nothing";
 
 /// How a command ended that did all it could.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! `cdpr stiffness`: the Cartesian stiffness at a pose, its eigenvalues and the motions that belong to them.
 
+use crate::answer::{self, decimal};
 use crate::arguments::{self, Format};
 use crate::study::table;
 use cdpr_robot::{Pose, Robot};
@@ -86,13 +87,11 @@ impl Answer {
         let [x, y, z] = pose.position.into();
         println!("{} at ({x}, {y}, {z}) m: K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]", robot.name);
         for row in self.stiffness {
-            println!("{}", row.map(|entry| format!("{:14.1}", entry.round() + 0.0)).concat());
+            println!("{}", row.map(|entry| format!("{:>14}", decimal(entry, 1))).concat());
         }
         let mut rows = table(&["eigenvalue [N/m]", "translation [m/m]", "rotation [rad/m]"]);
         for Eigenvalue { stiffness, translation, rotation } in &self.eigenvalues {
-            let words = |vector: &[f64; 3]| {
-                vector.map(|part| format!("{:+.4}", (1e4 * part).round() / 1e4 + 0.0)).join(" ")
-            };
+            let words = |vector: &[f64; 3]| answer::vector(vector, 4);
             rows.add_row([format!("{stiffness:.1}"), words(translation), words(rotation)]);
         }
         println!("{rows}");

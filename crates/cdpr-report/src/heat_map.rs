@@ -34,12 +34,12 @@ impl MapQuantity {
         }
     }
 
-    /// Words for the title, label of the colour bar.
-    fn words(self) -> (&'static str, &'static str) {
+    /// Words for the title, label of the colour bar, unit.
+    fn words(self) -> (&'static str, &'static str, &'static str) {
         match self {
-            Self::Deflection => ("static deflection", "|dp| [mm]"),
-            Self::LeastStiffness => ("stiffness of the softest motion", "least stiffness [kN/m]"),
-            Self::GreatestTension => ("greatest tension", "greatest tension [N]"),
+            Self::Deflection => ("static deflection", "|dp|", "mm"),
+            Self::LeastStiffness => ("stiffness of the softest motion", "least stiffness", "kN/m"),
+            Self::GreatestTension => ("greatest tension", "greatest tension", "N"),
         }
     }
 
@@ -78,9 +78,9 @@ pub fn heat_map(
         Direction::Z => [Direction::X, Direction::Y],
     };
     let nodes = |axis| Nodes::new("grid", format!("{} [m]", letter(axis)), grid.axis(axis).places());
-    let (words, label) = quantity.words();
+    let (words, label, unit) = quantity.words();
     let values = summary.rows.iter().map(|row| quantity.value(row)).collect();
-    let map = ColorMap::new((nodes(u)?, nodes(v)?), values, quantity.name(), label)?;
+    let map = ColorMap::new((nodes(u)?, nodes(v)?), values, quantity.name(), &format!("{label} [{unit}]"))?;
     let hatched = |place: usize| summary.rows[place].status != "held";
     let held = (0..summary.rows.len()).filter(|place| !hatched(*place)).count();
 
@@ -103,7 +103,7 @@ pub fn heat_map(
             summary.payload
         ),
         lines: &[format!(
-            "min {}, max {}; {held} of {} positions held with all tensions within limits, the others are hatched",
+            "{} {unit} to {} {unit}; {held} of {} positions held with all tensions within limits, the others are hatched",
             number(map.least, 3),
             number(map.greatest, 3),
             summary.rows.len()
