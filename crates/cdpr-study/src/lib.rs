@@ -8,6 +8,8 @@
 //!
 //! Where the study asks for them, [`measure`] puts all measures of sensitivity of a sampling beside each other.
 //!
+//! [`tolerance_budget`] says which tolerances to tighten for a limit on deflection or position.
+//!
 //! [`run_robustness`] asks another question: how often the direct model finds the true pose from a wrong start.
 //!
 //! ```no_run
@@ -25,6 +27,7 @@
 
 mod comparison;
 mod error;
+mod error_model;
 mod file;
 mod observation;
 mod output;
@@ -33,11 +36,13 @@ mod sampling;
 mod sensitivity;
 mod study;
 mod surface;
+mod tolerance;
 
-pub use cdpr_sensitivity::{Family, Truncation};
+pub use cdpr_sensitivity::{Estimate, Family, Truncation};
 pub use cdpr_statics::Observation;
 pub use comparison::{ComparisonRow, Value, Verdict, compare};
 pub use error::StudyError;
+pub use error_model::ErrorModel;
 pub use file::{
     AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic,
     StudyFile, SurfaceSpec, json_schema,
@@ -59,3 +64,4 @@ pub use sensitivity::{
 };
 pub use study::{Sampling, Study, Surface, open_robot};
 pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
+pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
