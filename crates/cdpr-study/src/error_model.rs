@@ -23,10 +23,21 @@ pub struct ErrorModel {
     pub inputs: Vec<Input>,
     /// Entry of the error model that each input comes from.
     pub entries: Vec<String>,
-    /// For each input the places in [`Parameter::all`] that it is added to, with its factors.
-    pub effects: Vec<Vec<(usize, f64)>>,
+    /// What the inputs are added to.
+    pub terms: Vec<Term>,
     /// Length of the parameter vector.
     parameters: usize,
+}
+
+/// A term of equation (1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Term {
+    /// Number of the input.
+    pub input: usize,
+    /// Place in [`Parameter::all`] of the parameter that it is added to.
+    pub place: usize,
+    /// Its factor.
+    pub factor: f64,
 }
 
 /// What is wrong with an entry of an error model.
@@ -47,7 +58,7 @@ impl ErrorModel {
         let names: Vec<String> = parameters.iter().map(ToString::to_string).collect();
         let known = |key: &String| names.contains(key) || parameters.iter().any(|p| p.group() == key);
         let mut found =
-            Self { inputs: Vec::new(), entries: Vec::new(), effects: Vec::new(), parameters: names.len() };
+            Self { inputs: Vec::new(), entries: Vec::new(), terms: Vec::new(), parameters: names.len() };
         if let Some((key, _)) = model.iter().find(|(key, spec)| spec.parameters.is_none() && !known(key)) {
             let expected = "a parameter (mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...), \
                             a group of them (a, b, cog, dt), or an entry with `parameters`";
@@ -57,7 +68,7 @@ impl ErrorModel {
             // A cause of several parameters that bears the name of one is refused below.
             let entry = model.get_key_value(own).or_else(|| model.get_key_value(parameter.group()));
             if let Some((entry, spec)) = entry {
-                found.add(entry, own, spec, vec![(place, 1.0)])?;
+                found.add(entry, own, spec, [(place, 1.0)])?;
             }
         }
         for (key, spec) in model {
@@ -83,7 +94,7 @@ impl ErrorModel {
                 }
                 Ok((place, *factor))
             };
-            found.add(key, key, spec, shared.iter().map(effect).collect::<Result<_, _>>()?)?;
+            found.add(key, key, spec, shared.iter().map(effect).collect::<Result<Vec<_>, _>>()?)?;
         }
         Ok(found)
     }
@@ -93,13 +104,14 @@ impl ErrorModel {
         entry: &str,
         name: &str,
         spec: &InputSpec,
-        effects: Vec<(usize, f64)>,
+        effects: impl IntoIterator<Item = (usize, f64)>,
     ) -> Result<(), Wrong> {
         let input = Input { name: name.to_owned(), law: spec.law, steps: spec.steps };
         input.validate().map_err(Wrong::Law)?;
+        let number = self.inputs.len();
         self.inputs.push(input);
         self.entries.push(entry.to_owned());
-        self.effects.push(effects);
+        self.terms.extend(effects.into_iter().map(|(place, factor)| Term { input: number, place, factor }));
         Ok(())
     }
 
@@ -113,10 +125,8 @@ impl ErrorModel {
         let inputs = self.inputs.len();
         let mut deviations = vec![0.0; rows.len() / inputs * self.parameters];
         for (deviations, row) in deviations.chunks_exact_mut(self.parameters).zip(rows.chunks_exact(inputs)) {
-            for (effects, value) in self.effects.iter().zip(row) {
-                for (place, factor) in effects {
-                    deviations[*place] += factor * value;
-                }
+            for Term { input, place, factor } in &self.terms {
+                deviations[*place] += factor * row[*input];
             }
         }
         deviations
@@ -124,15 +134,18 @@ impl ErrorModel {
 
     /// Equation (2): derivatives with respect to the inputs from those with respect to the parameters.
     pub fn gradient(&self, slopes: &[f64]) -> Vec<f64> {
-        let slope =
-            |effects: &Vec<(usize, f64)>| effects.iter().map(|(place, factor)| factor * slopes[*place]).sum();
-        self.effects.iter().map(slope).collect()
+        let mut gradient = vec![0.0; self.inputs.len()];
+        for Term { input, place, factor } in &self.terms {
+            gradient[*input] += factor * slopes[*place];
+        }
+        gradient
     }
 
     /// The group of parameters that an input acts on; `shared` where there are several.
     pub fn group(&self, input: usize) -> &'static str {
         let parameters = Parameter::all((self.parameters - 6) / 7);
-        let mut groups = self.effects[input].iter().map(|(place, _)| parameters[*place].group());
+        let of_input = self.terms.iter().filter(|term| term.input == input);
+        let mut groups = of_input.map(|term| parameters[term.place].group());
         let first = groups.next().unwrap_or("shared");
         if groups.all(|group| group == first) { first } else { "shared" }
     }

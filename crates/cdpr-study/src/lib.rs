@@ -42,7 +42,7 @@ pub use cdpr_sensitivity::{Estimate, Family, Truncation};
 pub use cdpr_statics::Observation;
 pub use comparison::{ComparisonRow, Value, Verdict, compare};
 pub use error::StudyError;
-pub use error_model::ErrorModel;
+pub use error_model::{ErrorModel, Term};
 pub use file::{
     AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic,
     StudyFile, SurfaceSpec, json_schema,

@@ -63,7 +63,8 @@ fn what_two_points_share_correlates_them_by_its_part_of_their_variance() {
     let mut rows = vec![0.0; 3 * 1024];
     sampling.design.rows(0, &mut rows).unwrap();
     let moved = sampling.errors.deviations(&rows);
-    let places: Vec<usize> = sampling.errors.effects[2].iter().map(|(place, _)| *place).collect();
+    let places: Vec<usize> =
+        sampling.errors.terms.iter().filter(|term| term.input == 2).map(|term| term.place).collect();
     let column = |place: usize| moved.chunks_exact(62).map(move |row| row[place]);
     let product = |i, j| column(i).zip(column(j)).map(|(a, b)| a * b).sum::<f64>();
     let (i, j) = (places[0], places[1]);
