@@ -38,7 +38,9 @@ pub(crate) fn list(text: &str) -> Result<List, String> {
 
 /// N finite numbers separated by commas.
 pub(crate) fn components<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    numbers(text)?.try_into().map_err(|given: Vec<f64>| format!("{} numbers: expected {N}", given.len()))
+    numbers(text)?
+        .try_into()
+        .map_err(|given: Vec<f64>| format!("{} numbers: expected {N}, separated by commas", given.len()))
 }
 
 /// A mass, zero or more [kg].

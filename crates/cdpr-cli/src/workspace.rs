@@ -6,8 +6,8 @@ use crate::study::{start_threads, table};
 use cdpr_report::{MapQuantity, heat_map};
 use cdpr_robot::{Axis, Robot};
 use cdpr_study::{
-    Extremes, Grid, Study, Workspace, WorkspaceSummary, check_folder, compute_workspace, open_robot,
-    write_figure, write_workspace,
+    ErrorModel, Extremes, Grid, Study, Workspace, WorkspaceSummary, check_folder, compute_workspace,
+    open_robot, write_figure, write_workspace,
 };
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use std::error::Error;
@@ -28,7 +28,7 @@ pub(crate) struct Settings {
     #[arg(long, value_parser = points, default_value = "41x41", conflicts_with = "box")]
     grid: [usize; 2],
     /// Box, or a part of a plane: min:max:points of x, y and z [m], such as -2:2:9,-1:1:5,1.75:1.75:1.
-    #[arg(long = "box", id = "box", value_parser = arguments::grid, allow_hyphen_values = true)]
+    #[arg(long = "box", id = "box", value_name = "BOX", value_parser = arguments::grid, allow_hyphen_values = true)]
     within: Option<Grid>,
     /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
     #[arg(long, value_parser = arguments::mass, default_value = "50", allow_hyphen_values = true)]
@@ -90,10 +90,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
         (None, Some(Plane { normal, place })) => Grid::over_frame(&robot, normal, place, settings.grid)?,
         (None, None) => return Err(Box::new(Usage("expected --plane or --box".to_owned()))),
     };
-    let uncertainties = settings.uncertainties(&robot)?;
+    let tolerances = settings.tolerances(&robot)?;
     check_folder(&settings.out)?;
     let workspace =
-        Workspace { robot: &robot, grid, payload: settings.payload, uncertainties: uncertainties.as_deref() };
+        Workspace { robot: &robot, grid, payload: settings.payload, tolerances: tolerances.as_ref() };
     let progress = progress(grid.poses().len());
     let clock = Instant::now();
     let poses = compute_workspace(&workspace, &|| progress.inc(1))?;
@@ -120,20 +120,13 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
 }
 
 impl Settings {
-    fn uncertainties(&self, robot: &Robot) -> Result<Option<Vec<f64>>, Box<dyn Error>> {
+    fn tolerances(&self, robot: &Robot) -> Result<Option<ErrorModel>, Box<dyn Error>> {
         if let (Some(path), Some(name)) = (&self.study, &self.error_model) {
-            let study = Study::open(path)?;
-            let (here, there) = (robot.cables.len(), study.robot.cables.len());
-            if here != there {
-                return Err(Box::new(Usage(format!(
-                    "--study {} is of a robot with {there} cables: expected {here}, as {} has",
-                    path.display(),
-                    robot.name
-                ))));
-            }
-            return Ok(Some(study.standard_deviations(name)?));
+            return Ok(Some(Study::open(path)?.tolerances(name)?));
         }
-        Ok(self.uncertainty.as_ref().map(|named| arguments::uncertainties(robot, named)).transpose()?)
+        let named = self.uncertainty.as_ref();
+        let deviations = named.map(|named| arguments::uncertainties(robot, named)).transpose()?;
+        Ok(deviations.map(|deviations| ErrorModel::normal(&deviations)))
     }
 }
 

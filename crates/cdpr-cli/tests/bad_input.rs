@@ -30,7 +30,7 @@ const STUDIES: [(&str, &str, &str); 5] = [
     ("study_payload.json", r#""payload": 50"#, r#""payload": -50"#),
     ("study_robot.json", "../robots/caroca.json", "nowhere.json"),
     ("study_law.json", r#""law": "#, r#""low": "#),
-    ("study_model.json", r#""error_model": ""#, r#""error_model": "x""#),
+    ("study_model.json", r#""error_model": ""#, r#""error_model": "x"#),
     ("study_unknown.json", r#""seed""#, r#""sead""#),
 ];
 
@@ -71,8 +71,7 @@ fn prepare(folder: &Path) {
 const LENGTHS: &str = "4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44";
 
 /// What is wrong, and the arguments, separated by spaces.
-const CASES: [(&str, &str); 58] = [
-    ("no command", ""),
+const CASES: [(&str, &str); 57] = [
     ("unknown command", "invert robot.json"),
     ("missing argument", "inverse robot.json"),
     ("unknown argument", "inverse robot.json --pose 0,0,1.75 --speed 3"),

@@ -24,17 +24,20 @@ impl JsonError {
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
         let message = match message {
-            "EOF while parsing a value" => "nothing is there: expected a JSON value".to_owned(),
             "expected value" => {
                 "expected a JSON value, of which NaN, Infinity and bare words are none".to_owned()
             }
             "number out of range" => "number out of range, expected a finite number".to_owned(),
+            "EOF while parsing a value" => "the text ends where a JSON value is expected".to_owned(),
             // Types as Rust names them.
             message => message
+                .replace("EOF while parsing", "the text ends within")
                 .replace("expected f64", "expected a number")
                 .replace("expected usize", "expected a whole number"),
         };
-        let field = if field == "." { "the whole text".to_owned() } else { field };
+        // A place in no field is that of what contains it.
+        let field = field.trim_end_matches('?').trim_end_matches('.');
+        let field = if field.is_empty() { "the whole text" } else { field }.to_owned();
         Self { field, line: error.line(), column: error.column(), message }
     }
 }

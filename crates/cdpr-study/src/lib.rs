@@ -10,6 +10,8 @@
 //!
 //! [`compute_workspace`] tells where the robot can work and how it gives there, [`inspect`] what is odd about it.
 //!
+//! [`tolerance_budget`] says which tolerances to tighten for a limit on deflection or position.
+//!
 //! [`run_robustness`] asks another question: how often the direct model finds the true pose from a wrong start.
 //!
 //! ```no_run
@@ -27,6 +29,7 @@
 
 mod comparison;
 mod error;
+mod error_model;
 mod file;
 mod grid;
 mod inspection;
@@ -37,12 +40,14 @@ mod sampling;
 mod sensitivity;
 mod study;
 mod surface;
+mod tolerance;
 mod workspace;
 
-pub use cdpr_sensitivity::{Family, Truncation};
+pub use cdpr_sensitivity::{Estimate, Family, Truncation};
 pub use cdpr_statics::Observation;
 pub use comparison::{ComparisonRow, Value, Verdict, compare};
 pub use error::StudyError;
+pub use error_model::{ErrorModel, Term};
 pub use file::{
     AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic,
     StudyFile, SurfaceSpec, json_schema,
@@ -66,6 +71,7 @@ pub use sensitivity::{
 };
 pub use study::{Sampling, Study, Surface, open_robot};
 pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
+pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
 pub use workspace::{
     Dominant, Extremes, Held, Workspace, WorkspacePose, WorkspaceRow, WorkspaceSummary, compute_workspace,
 };

@@ -1,6 +1,7 @@
 //! Where a robot can work, and how well: tensions, deflection, stiffness and the tolerance that matters most, pose by pose.
 
 use crate::error::StudyError;
+use crate::error_model::ErrorModel;
 use crate::grid::Grid;
 use cdpr_robot::{Parameter, Pose, Robot, Vector3};
 use cdpr_statics::{Deflection, Derivatives, Load, StaticsError, deflection, derivatives};
@@ -18,8 +19,8 @@ pub struct Workspace<'a> {
     pub grid: Grid,
     /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
     pub payload: f64,
-    /// Standard deviation of every parameter (SI units, in the order of [`Parameter::all`]); none where no tolerance is asked for.
-    pub uncertainties: Option<&'a [f64]>,
+    /// What is uncertain; none where no tolerance is asked for.
+    pub tolerances: Option<&'a ErrorModel>,
 }
 
 /// A position and what was found there.
@@ -50,11 +51,11 @@ pub struct Held {
     pub dominant: Option<Dominant>,
 }
 
-/// The tolerance behind the largest share of the variance of |dp|, to first order.
+/// The cause behind the largest share of the variance of |dp|, to first order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dominant {
-    /// The parameter.
-    pub parameter: Parameter,
+    /// Number of the error model's input.
+    pub input: usize,
     /// Its share, 0 to 1.
     pub share: f64,
     /// Standard deviation of |dp| from all of them [m].
@@ -67,37 +68,44 @@ const ROUNDING: f64 = 1e-9;
 /// Runs in parallel; `tick` is told of every position that is done. Positions come back in the order of the grid.
 ///
 /// # Errors
-/// [`StudyError::Setting`] for a payload or uncertainties that are none. A pose that is not held is no error.
+/// [`StudyError::Setting`] for a payload or error model that is none. A pose that is not held is no error.
 pub fn compute_workspace(
     workspace: &Workspace,
     tick: &(dyn Fn() + Sync),
 ) -> Result<Vec<WorkspacePose>, StudyError> {
-    let Workspace { robot, payload, uncertainties, .. } = *workspace;
+    let Workspace { robot, payload, tolerances, .. } = *workspace;
     if !(payload.is_finite() && payload >= 0.0) {
         return Err(StudyError::setting("payload", payload, "a finite mass, zero or more [kg]"));
     }
-    let count = Parameter::all(robot.cables.len()).len();
-    let sound = |list: &[f64]| list.len() == count && list.iter().all(|std| std.is_finite() && *std >= 0.0);
-    if let Some(list) = uncertainties.filter(|list| !sound(list)) {
-        let expected = format!("{count} standard deviations, zero or more");
-        return Err(StudyError::setting("uncertainties", format!("{list:?}"), expected));
+    let parameters = Parameter::all(robot.cables.len()).len();
+    if let Some(model) = tolerances.filter(|model| model.parameters() != parameters) {
+        let expected = format!("one for the {parameters} parameters of {}", robot.name);
+        return Err(StudyError::setting(
+            "error model",
+            format!("for {} parameters", model.parameters()),
+            expected,
+        ));
     }
-    let variances = uncertainties.map(|list| list.iter().map(|std| std * std).collect::<Vec<_>>());
     let one = |pose: Pose| {
-        let outcome = held(robot, &pose, &Load::payload(payload), variances.as_deref());
+        let outcome = held(robot, &pose, &Load::payload(payload), tolerances);
         tick();
         WorkspacePose { pose, outcome }
     };
     Ok(workspace.grid.poses().into_par_iter().map(one).collect())
 }
 
-fn held(robot: &Robot, pose: &Pose, load: &Load, variances: Option<&[f64]>) -> Result<Held, StaticsError> {
+fn held(
+    robot: &Robot,
+    pose: &Pose,
+    load: &Load,
+    tolerances: Option<&ErrorModel>,
+) -> Result<Held, StaticsError> {
     let offsets = vec![0.0; robot.cables.len()];
-    let Some(variances) = variances else {
+    let Some(model) = tolerances else {
         return Ok(Held::new(robot, &deflection(robot, pose, &offsets, load)?, None));
     };
     match derivatives(robot, pose, &offsets, load) {
-        Ok(found) => Ok(Held::new(robot, &found.deflection, Dominant::of(&found, variances))),
+        Ok(found) => Ok(Held::new(robot, &found.deflection, Dominant::of(&found, model))),
         // The border of what has a derivative is held nevertheless.
         Err(StaticsError::NoDerivative { .. }) => {
             Ok(Held::new(robot, &deflection(robot, pose, &offsets, load)?, None))
@@ -130,11 +138,13 @@ impl Held {
 }
 
 impl Dominant {
-    fn of(found: &Derivatives, variances: &[f64]) -> Option<Self> {
-        let budget = found.variance_budget(variances).ok()?;
-        let shares = budget.shares.iter().copied().enumerate();
-        let (place, share) = shares.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, share)| *share > 0.0)?;
-        Some(Self { parameter: found.inputs.parameters[place], share, std: budget.std })
+    fn of(found: &Derivatives, model: &ErrorModel) -> Option<Self> {
+        let slopes = model.gradient(&found.rms().ok()?);
+        let parts = slopes.iter().zip(&model.inputs).map(|(slope, input)| (slope * input.law.std()).powi(2));
+        let parts: Vec<f64> = parts.collect();
+        let variance: f64 = parts.iter().sum();
+        let (input, part) = parts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+        (variance > 0.0).then(|| Self { input, share: part / variance, std: variance.sqrt() })
     }
 }
 
@@ -158,7 +168,7 @@ pub struct WorkspaceRow {
     pub least_stiffness: Option<f64>,
     /// Their numbers, from 1, with spaces between.
     pub slack_cables: Option<String>,
-    /// The parameter with the largest share of the variance of |dp|.
+    /// The cause with the largest share of the variance of |dp|.
     pub dominant: Option<String>,
     pub dominant_share: Option<f64>,
     /// Standard deviation of |dp| from all tolerances.
@@ -168,12 +178,13 @@ pub struct WorkspaceRow {
 }
 
 impl WorkspaceRow {
-    /// Of a pose and what was found there.
-    pub fn new(pose: &WorkspacePose) -> Self {
+    /// Of a pose of a workspace and what was found there.
+    pub fn new(workspace: &Workspace, pose: &WorkspacePose) -> Self {
         let [x, y, z] = pose.pose.position.into();
         let held = pose.outcome.as_ref().ok();
         let displacement = held.map(|held| 1e3 * held.displacement);
         let dominant = held.and_then(|held| held.dominant);
+        let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {
             x,
             y,
@@ -192,7 +203,7 @@ impl WorkspaceRow {
             least_stiffness: held.map(|held| held.least_stiffness),
             slack_cables: held
                 .map(|held| held.slack.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")),
-            dominant: dominant.map(|dominant| dominant.parameter.to_string()),
+            dominant: dominant.and_then(name),
             dominant_share: dominant.map(|dominant| dominant.share),
             std_mm: dominant.map(|dominant| 1e3 * dominant.std),
             reason: pose.outcome.as_ref().err().map(ToString::to_string),
@@ -211,11 +222,11 @@ pub struct WorkspaceSummary {
     pub payload: f64,
     /// The positions [m].
     pub grid: Grid,
-    /// Standard deviation of every uncertain parameter, in its SI unit.
+    /// Standard deviation of every cause, in SI units.
     pub uncertainties: IndexMap<String, f64>,
     /// Number of positions by status.
     pub status: BTreeMap<&'static str, usize>,
-    /// Number of positions at which each parameter dominates.
+    /// Number of positions at which each cause dominates.
     pub dominant: BTreeMap<String, usize>,
     /// |dp| [mm] over the positions with status `held`; this and the following are absent where there is none.
     pub rms_mm: Option<Extremes>,
@@ -245,7 +256,7 @@ pub struct Extremes {
 impl WorkspaceSummary {
     /// Summarises the poses of a workspace.
     pub fn new(workspace: &Workspace, poses: &[WorkspacePose]) -> Self {
-        let rows: Vec<_> = poses.iter().map(WorkspaceRow::new).collect();
+        let rows: Vec<_> = poses.iter().map(|pose| WorkspaceRow::new(workspace, pose)).collect();
         let (mut status, mut dominant) = (BTreeMap::new(), BTreeMap::new());
         for row in &rows {
             *status.entry(row.status).or_insert(0) += 1;
@@ -253,17 +264,13 @@ impl WorkspaceSummary {
                 *dominant.entry(name.clone()).or_insert(0) += 1;
             }
         }
-        let parameters = Parameter::all(workspace.robot.cables.len());
-        let uncertain = parameters.iter().zip(workspace.uncertainties.unwrap_or_default());
+        let causes = workspace.tolerances.map(|model| model.inputs.as_slice()).unwrap_or_default();
         Self {
             robot: workspace.robot.name.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             payload: workspace.payload,
             grid: workspace.grid,
-            uncertainties: uncertain
-                .filter(|(_, std)| **std > 0.0)
-                .map(|(parameter, std)| (parameter.to_string(), *std))
-                .collect(),
+            uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.law.std())).collect(),
             status,
             dominant,
             rms_mm: extremes(&rows, |row| row.rms_mm),
