@@ -1,6 +1,6 @@
 //! The measures of sensitivity beside each other: that they agree where they should, and what a failed one leaves.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use cdpr_study::{
     InputMeasures, RANKED, SensitivitySpec, SensitivitySummary, Study, StudyError, Truncation, measure,
@@ -136,8 +136,9 @@ fn settings_that_are_none_are_refused_with_field_value_and_remedy() {
         let text = text();
         assert!(text.contains(from));
         let error = Study::from_json(&text.replacen(from, to, 1), path()).unwrap_err();
-        assert!(matches!(error, StudyError::Invalid { .. }), "{error}");
-        error.to_string()
+        let StudyError::At { source, .. } = error else { panic!("no place: {error}") };
+        assert!(matches!(*source, StudyError::Invalid { .. }), "{source}");
+        source.to_string()
     };
     let blocks = refusal("\"saltelli_blocks\": 4096", "\"saltelli_blocks\": 15");
     assert!(blocks.ends_with("sensitivity.saltelli_blocks is 15: expected 16 to 1048576"), "{blocks}");
