@@ -22,7 +22,8 @@
 
 use crate::lane_algebra::{Factored, Space, Wrench, cross, dot, six, three};
 use crate::lanes::{Lanes, Mask, Simd};
-use crate::taut::{Cable, Linear, Load, MAX_ITERATIONS, Open, Plane, Robots, Scale, Span, Tangent};
+use crate::taut::{Load, MAX_ITERATIONS, Open, Robots, Scale, Tangent};
+use crate::taut_cable::{Cable, Linear, Plane, Span};
 use cdpr_cable::{Field, Response, TAUT};
 
 /// Robots at their wanted pose, with starts of lengths and forces.

@@ -6,27 +6,9 @@
 use crate::direct::MAX_STRAIN;
 use crate::lane_algebra::{Matrix, Space, Symmetric, Wrench, add, cross, dot, halves, six, three};
 use crate::lanes::{Lanes, MAX_LANES, Mask, Simd};
-use cdpr_cable::{Field, Response, TAUT, TautEnd, taut_end, taut_response};
+use crate::taut_cable::{Cable, Linear, Span};
+use cdpr_cable::{Field, TAUT, TautEnd};
 use smallvec::{SmallVec, smallvec};
-
-/// A vector in a cable's vertical plane: along the azimuth, upwards.
-pub(crate) type Plane<S> = [Lanes<S>; 2];
-
-/// A cable of every robot, or several cables of one.
-pub(crate) struct Cable<S: Simd> {
-    /// Weight per length [N/m].
-    pub(crate) weight: Lanes<S>,
-    /// 1/EA [1/N].
-    pub(crate) stretch: Lanes<S>,
-    /// Exit point [m].
-    pub(crate) exit: Space<S>,
-    /// s = R a [m].
-    pub(crate) arm: Space<S>,
-    /// Unstrained length [m].
-    pub(crate) length: Lanes<S>,
-    /// Force at A [N].
-    pub(crate) force: Plane<S>,
-}
 
 /// What the lanes hold.
 pub(crate) enum Layout<S: Simd> {
@@ -90,29 +72,6 @@ const SMALL_STEP: f64 = 1e-7;
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
 
-/// From exit to anchor point.
-pub(crate) struct Span<S: Simd> {
-    pub(crate) azimuth: Plane<S>,
-    /// (h, z) [m].
-    pub(crate) end: Plane<S>,
-}
-
-impl<S: Simd> Span<S> {
-    #[inline(always)]
-    pub(crate) fn new(position: &Space<S>, cable: &Cable<S>) -> Self {
-        let r = three(|k| position[k] + cable.arm[k] - cable.exit[k]);
-        let h = (r[0] * r[0] + r[1] * r[1]).sqrt();
-        let inverse = h.recip();
-        Self { azimuth: [r[0] * inverse, r[1] * inverse], end: [h, r[2]] }
-    }
-
-    /// What is left from the end of a cable to its anchor point.
-    #[inline(always)]
-    pub(crate) fn miss(&self, end: Plane<S>) -> Plane<S> {
-        [self.end[0] - end[0], self.end[1] - end[1]]
-    }
-}
-
 /// What acts on a platform: a weight at its centre of mass and a force at P.
 pub(crate) struct Load<S: Simd> {
     pub(crate) weight: Lanes<S>,
@@ -125,18 +84,6 @@ impl<S: Simd> Load<S> {
         let [x, y, z] = self.force;
         [x, y, z - self.weight, -center[1] * self.weight, center[0] * self.weight, self.weight.all(0.0)]
     }
-}
-
-/// A cable linearised about a force that need not fit its ends: `df = K (c + d(h, z))`, as in [`crate::newton`].
-#[derive(Clone, Copy)]
-pub(crate) struct Linear<S: Simd> {
-    azimuth: Plane<S>,
-    /// f + K c.
-    pub(crate) predicted: Plane<S>,
-    /// K: xx, xz, zz.
-    stiffness: [Lanes<S>; 3],
-    /// Stiffness across the cable's plane.
-    lateral: Lanes<S>,
 }
 
 /// The platform between linearised cables.
@@ -158,59 +105,6 @@ impl<S: Simd> Tangent<S> {
             gradient: [zero; 6],
             factored: Symmetric::new([[zero; 6]; 6]),
         }
-    }
-}
-
-impl<S: Simd> Linear<S> {
-    /// About `force`, to which the cable answers with `response`.
-    #[inline(always)]
-    pub(crate) fn new(span: &Span<S>, force: Plane<S>, response: &Response<Lanes<S>>) -> Self {
-        let [xx, xz, zz] = response.flexibility;
-        let inverse = response.determinant.recip();
-        let mut linear = Self {
-            azimuth: span.azimuth,
-            predicted: force,
-            stiffness: [zz * inverse, -xz * inverse, xx * inverse],
-            lateral: response.lateral.recip(),
-        };
-        linear.predict(force, &span.miss(response.end));
-        linear
-    }
-
-    /// The force that brings the end of a cable with force f, missed by c, to its anchor point: f + K c.
-    #[inline(always)]
-    fn predict(&mut self, [x, z]: Plane<S>, miss: &Plane<S>) {
-        let [xx, xz, zz] = self.stiffness;
-        self.predicted = [x + xx * miss[0] + xz * miss[1], z + xz * miss[0] + zz * miss[1]];
-    }
-
-    /// Takes over another one in the lanes that are `going`.
-    #[inline(always)]
-    pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {
-        for k in 0..2 {
-            self.azimuth[k] = going.select(other.azimuth[k], self.azimuth[k]);
-            self.predicted[k] = going.select(other.predicted[k], self.predicted[k]);
-        }
-        self.stiffness = three(|k| going.select(other.stiffness[k], self.stiffness[k]));
-        self.lateral = going.select(other.lateral, self.lateral);
-    }
-
-    /// A force in the cable's plane, in space.
-    #[inline(always)]
-    fn lift(&self, [x, z]: Plane<S>) -> Space<S> {
-        [x * self.azimuth[0], x * self.azimuth[1], z]
-    }
-}
-
-impl<S: Simd> Cable<S> {
-    #[inline(always)]
-    pub(crate) fn end(&self) -> TautEnd<Lanes<S>> {
-        taut_end(self.weight, self.stretch, self.length, self.force)
-    }
-
-    #[inline(always)]
-    pub(crate) fn response(&self) -> Response<Lanes<S>> {
-        taut_response(self.weight, self.stretch, self.length, self.force)
     }
 }
 
