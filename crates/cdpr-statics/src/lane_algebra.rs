@@ -66,6 +66,8 @@ pub(crate) struct Symmetric<S: Simd> {
 
 impl<S: Simd> Symmetric<S> {
     /// Of `matrix` the diagonal and what is above it are read.
+    // Indices as in the formula.
+    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     pub(crate) fn new(matrix: Matrix<S>) -> Self {
         let mut upper = matrix;

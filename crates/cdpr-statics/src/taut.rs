@@ -124,6 +124,8 @@ impl<S: Simd> Robots<S> {
     ///
     /// Where moments are out of balance the derivative of the gradient is not symmetric. Its symmetric half does as well: what it leaves
     /// out is a step times what an equilibrium has not.
+    // Indices as in the formula.
+    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     pub(crate) fn assemble(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) {
         let zero = self.weight.all(0.0);
