@@ -47,7 +47,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
     for name in study.file.surfaces.keys() {
         run.surface(&study, name)?;
     }
-    run.point_effects()?;
+    run.point_effects(&study)?;
     let mut summary = Summary {
         study: study.file.name.clone(),
         robot: study.robot.name.clone(),
@@ -130,7 +130,7 @@ impl Run<'_> {
     }
 
     /// The effects of anchor and exit points of all samplings that have them, one panel each.
-    fn point_effects(&self) -> Result<(), RunError> {
+    fn point_effects(&self, study: &Study) -> Result<(), RunError> {
         for (name, letter, points) in
             [("anchor_points", "a1.x", Points::Anchor), ("exit_points", "b1.x", Points::Exit)]
         {
@@ -145,7 +145,7 @@ impl Run<'_> {
                 })
                 .collect();
             if !samplings.is_empty() {
-                self.figure(name, cdpr_report::point_effects(&samplings, points))?;
+                self.figure(name, cdpr_report::point_effects(&study.robot, &samplings, points))?;
             }
         }
         Ok(())

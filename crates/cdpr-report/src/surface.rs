@@ -17,7 +17,7 @@ const COLORS: usize = 128;
 /// # Errors
 /// [`ReportError::Empty`] if every cell failed, [`ReportError::Invalid`] for a grid that is none, an unknown parameter, or a
 /// value that is not finite.
-pub fn surface(summary: &SurfaceSummary, result: &SurfaceResult) -> Result<String, ReportError> {
+pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result<String, ReportError> {
     let map = Map::new(summary, result)?;
     let failed = map.rms.iter().filter(|rms| rms.is_none()).count();
     let key = [("failed".to_owned(), Pen::bar(GREY))];
@@ -42,6 +42,21 @@ pub fn surface(summary: &SurfaceSummary, result: &SurfaceResult) -> Result<Strin
     })
 }
 
+/// Label of a parameter's axis, and what turns SI units into the unit that it names.
+pub(crate) fn axis_of(name: &str) -> Result<(String, f64), ReportError> {
+    let parameter: Parameter =
+        name.parse().map_err(|_| ReportError::invalid("parameters", &name, "a parameter of a robot"))?;
+    Ok(match parameter {
+        Parameter::YoungsModulus => ("Young's modulus E [GPa]".to_owned(), 1e-9),
+        Parameter::LinearDensity => ("linear density \u{3c1} [kg/m]".to_owned(), 1.0),
+        Parameter::Mass => ("mass of the platform m [kg]".to_owned(), 1.0),
+        Parameter::AnchorPoint(..) => (format!("anchor point, {name} [m]"), 1.0),
+        Parameter::ExitPoint(..) => (format!("exit point, {name} [m]"), 1.0),
+        Parameter::CenterOfMass(_) => (format!("centre of mass, {name} [m]"), 1.0),
+        Parameter::TensionOffset(_) => (format!("offset of the tension set-point, {name} [N]"), 1.0),
+    })
+}
+
 /// One axis of the grid, in the unit that its label names.
 struct Nodes {
     label: String,
@@ -50,17 +65,7 @@ struct Nodes {
 
 impl Nodes {
     fn new(field: &str, name: &str, values: &[f64]) -> Result<Self, ReportError> {
-        let parameter: Parameter =
-            name.parse().map_err(|_| ReportError::invalid("parameters", &name, "a parameter of a robot"))?;
-        let (label, scale) = match parameter {
-            Parameter::YoungsModulus => ("Young's modulus E [GPa]".to_owned(), 1e-9),
-            Parameter::LinearDensity => ("linear density \u{3c1} [kg/m]".to_owned(), 1.0),
-            Parameter::Mass => ("mass of the platform m [kg]".to_owned(), 1.0),
-            Parameter::AnchorPoint(..) => (format!("anchor point, {name} [m]"), 1.0),
-            Parameter::ExitPoint(..) => (format!("exit point, {name} [m]"), 1.0),
-            Parameter::CenterOfMass(_) => (format!("centre of mass, {name} [m]"), 1.0),
-            Parameter::TensionOffset(_) => (format!("offset of the tension set-point, {name} [N]"), 1.0),
-        };
+        let (label, scale) = axis_of(name)?;
         let ascending = values.windows(2).all(|pair| pair[0] < pair[1]);
         if values.len() < 2 || !ascending || !(values[values.len() - 1] - values[0]).is_finite() {
             return Err(ReportError::invalid(field, &format!("{values:?}"), "two or more ascending values"));
@@ -97,7 +102,7 @@ struct Map {
 }
 
 impl Map {
-    fn new(summary: &SurfaceSummary, result: &SurfaceResult) -> Result<Self, ReportError> {
+    fn new<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result<Self, ReportError> {
         let x = Nodes::new("x", &summary.parameters[0], &result.x)?;
         let y = Nodes::new("y", &summary.parameters[1], &result.y)?;
         if result.rms_mm.len() != x.values.len() * y.values.len() {
@@ -181,9 +186,10 @@ impl Map {
         ViridisRGB::get_color(self.place(rms))
     }
 
-    /// White on the dark half of viridis, black on the bright one.
+    /// White on the dark half of viridis, black on the bright one; both by a hair, so that a page that swaps black and white for
+    /// dark surroundings leaves lines on viridis as they are.
     fn line_color(&self, rms: f64) -> RGBColor {
-        if self.place(rms) < 0.5 { WHITE } else { BLACK }
+        if self.place(rms) < 0.5 { RGBColor(254, 254, 254) } else { RGBColor(1, 1, 1) }
     }
 
     /// Segments of the line where the RMS, interpolated along the edges of the grid, is `level` (marching squares).

@@ -28,6 +28,7 @@ mod error;
 mod file;
 mod observation;
 mod output;
+mod results;
 mod robustness;
 mod sampling;
 mod sensitivity;
@@ -48,6 +49,7 @@ pub use output::{
     ObservationTable, StudySummary, Summary, check_folder, remove_summary, write_figure, write_refused,
     write_robustness, write_sensitivity, write_solves, write_summary, write_surface,
 };
+pub use results::Results;
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
     Published, Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread,

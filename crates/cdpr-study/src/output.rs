@@ -11,11 +11,11 @@ use crate::surface::{SurfaceResult, SurfaceSummary};
 use cdpr_robot::Pose;
 use cdpr_sensitivity::SampleDesign;
 use indexmap::IndexMap;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// Everything a study found; `summary.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Name of the study.
     pub study: String,
@@ -34,7 +34,7 @@ pub struct Summary {
 }
 
 /// Results of a sampling or a surface.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum StudySummary {
     /// Of a sampling.
