@@ -5,6 +5,7 @@
 mod arguments;
 mod calibration;
 mod derivatives;
+mod report;
 mod robustness;
 mod sensitivity;
 mod study;
@@ -39,6 +40,9 @@ enum Command {
         after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
     )]
     Derivatives(derivatives::Settings),
+    /// Write the report of a study: one HTML file with all figures that opens offline.
+    #[command(after_help = "Example: cdpr report results")]
+    Report(report::Settings),
     /// Measure how often the direct model finds the true pose from a wrong start.
     #[command(
         after_help = "Example: cdpr robustness --robot data/robots/cogiro.json --poses 1000 --out robustness"
@@ -108,6 +112,7 @@ fn main() -> ExitCode {
         }
         Command::Calibration(settings) => calibration::run(&settings),
         Command::Derivatives(settings) => derivatives::run(&settings),
+        Command::Report(settings) => report::run(&settings).map_err(Into::into),
         Command::Robustness { robot, poses, modulus, seed, out } => {
             let settings = robustness::Settings { robot, poses, modulus, seed, out };
             robustness::run(&settings).map_err(Into::into)

@@ -1,4 +1,5 @@
-//! Static figures of study results, ready for a paper: one function a figure, results in, SVG text out. No file is written.
+//! Figures of study results, ready for a paper: one function a figure, results in, SVG text out. And [`report()`], which puts all of
+//! them into one HTML file beside the robot in space. No file is read or written.
 //!
 //! | figure of the paper | function |
 //! |---|---|
@@ -29,6 +30,7 @@ mod effects;
 mod error;
 mod histogram;
 mod points;
+mod report;
 mod robustness;
 mod shares;
 mod style;
@@ -38,6 +40,7 @@ pub use effects::signed_effects;
 pub use error::ReportError;
 pub use histogram::histogram;
 pub use points::{Points, point_effects};
+pub use report::report;
 pub use robustness::{found_poses, success_share};
 pub use shares::shares;
 pub use surface::surface;

@@ -1,7 +1,9 @@
 //! Effects of the points' coordinates, each at its place in the plan of the robot: Fig. 5b and 5c of the paper.
 
 use crate::error::ReportError;
-use crate::style::{self, Area, Axis, BLUE, DrawingError, GREEN, GREY, Heading, MARGIN, ORANGE, Pen, number, px, text};
+use crate::style::{
+    self, Area, Axis, BLUE, DrawingError, GREEN, GREY, Heading, MARGIN, ORANGE, Pen, number, px, text,
+};
 use cdpr_robot::{Axis as Coordinate, Parameter, Pose, Robot, Vector3};
 use cdpr_study::SamplingSummary;
 use plotters::prelude::*;
@@ -13,7 +15,7 @@ const COORDINATES: [(&str, RGBColor); 3] = [("x", BLUE), ("y", ORANGE), ("z", GR
 const PANEL: f64 = 286.0;
 const PANEL_TITLE: f64 = 22.0;
 /// The plan: where the feet of the bars may stand [px].
-const PLAN: [(f64, f64); 2] = [(30.0, 450.0), (92.0, 248.0)];
+const PLAN: [(f64, f64); 2] = [(30.0, 450.0), (98.0, 252.0)];
 /// Height of the longest bar, width of a bar, room of a point's bars with their names [px].
 const LONGEST: f64 = 62.0;
 const BAR: f64 = 9.0;
@@ -100,9 +102,16 @@ struct Panel {
 }
 
 impl Panel {
-    fn new(robot: &Robot, name: &str, summary: &SamplingSummary, points: Points) -> Result<Self, ReportError> {
-        let pose = Pose::with_quaternion(Vector3::from(summary.pose), summary.quaternion)
-            .ok_or_else(|| ReportError::invalid("quaternion", &format!("{:?}", summary.quaternion), "a rotation"))?;
+    fn new(
+        robot: &Robot,
+        name: &str,
+        summary: &SamplingSummary,
+        points: Points,
+    ) -> Result<Self, ReportError> {
+        let pose =
+            Pose::with_quaternion(Vector3::from(summary.pose), summary.quaternion).ok_or_else(|| {
+                ReportError::invalid("quaternion", &format!("{:?}", summary.quaternion), "a rotation")
+            })?;
         let place = |i: usize| {
             let point = match points {
                 Points::Anchor => robot.anchor_arm(&pose, i) + pose.position,
@@ -164,9 +173,11 @@ impl Panel {
     fn draw_scale(&self, area: &Area, scale: &Axis) -> Result<(), DrawingError> {
         let foot = PLAN[1].0 + 20.0;
         let place = |t: f64| foot - LONGEST * t / scale.range.end;
-        Pen::solid(BLACK, 0.8).draw(area, vec![pixel((SCALE, foot)), pixel((SCALE, place(scale.range.end)))])?;
+        Pen::solid(BLACK, 0.8)
+            .draw(area, vec![pixel((SCALE, foot)), pixel((SCALE, place(scale.range.end)))])?;
         for (tick, name) in &scale.ticks {
-            Pen::solid(BLACK, 0.8).draw(area, vec![pixel((SCALE - 4.0, place(*tick))), pixel((SCALE, place(*tick)))])?;
+            Pen::solid(BLACK, 0.8)
+                .draw(area, vec![pixel((SCALE - 4.0, place(*tick))), pixel((SCALE, place(*tick)))])?;
             let end = style::font(SMALL).pos(Pos::new(HPos::Right, VPos::Center));
             area.draw_text(name, &end, pixel((SCALE - 7.0, place(*tick))))?;
         }
@@ -227,7 +238,8 @@ impl Plan {
 
     /// Closed line through all points, around their middle.
     fn outline(&self, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
-        let middle = [0, 1].map(|axis| places.iter().map(|place| place[axis]).sum::<f64>() / places.len() as f64);
+        let middle =
+            [0, 1].map(|axis| places.iter().map(|place| place[axis]).sum::<f64>() / places.len() as f64);
         let angle = |place: &[f64; 2]| (place[1] - middle[1]).atan2(place[0] - middle[0]);
         let mut corners = places.to_vec();
         corners.sort_by(|one, other| angle(one).total_cmp(&angle(other)));
@@ -240,14 +252,16 @@ impl Plan {
         let step = ROOM.0.min((PLAN[0].1 - PLAN[0].0) / places.len() as f64);
         let mut rows: Vec<Vec<usize>> = (0..places.len()).map(|point| vec![point]).collect();
         let middle = |row: &[usize]| {
-            let sum = row.iter().map(|point| self.place(places[*point])).fold((0.0, 0.0), |sum, place| {
-                (sum.0 + place.0, sum.1 + place.1)
-            });
+            let sum = row
+                .iter()
+                .map(|point| self.place(places[*point]))
+                .fold((0.0, 0.0), |sum, place| (sum.0 + place.0, sum.1 + place.1));
             (sum.0 / row.len() as f64, sum.1 / row.len() as f64)
         };
         let covered = |one: &[usize], other: &[usize]| {
             let (a, b) = (middle(one), middle(other));
-            (a.0 - b.0).abs() < 0.5 * step * (one.len() + other.len()) as f64 - 1e-6 && (a.1 - b.1).abs() < ROOM.1
+            (a.0 - b.0).abs() < 0.5 * step * (one.len() + other.len()) as f64 - 1e-6
+                && (a.1 - b.1).abs() < ROOM.1
         };
         while let Some((i, j)) = (0..rows.len())
             .flat_map(|j| (0..j).map(move |i| (i, j)))

@@ -47,7 +47,7 @@ pub use indexmap::IndexMap;
 pub use observation::{Block, FITTED, KEPT, Tally, observe, observe_into};
 pub use output::{
     ObservationTable, StudySummary, Summary, check_folder, remove_summary, write_figure, write_refused,
-    write_robustness, write_sensitivity, write_solves, write_summary, write_surface,
+    write_robustness, write_sensitivity, write_solves, write_summary, write_surface, write_text,
 };
 pub use results::Results;
 pub use robustness::{

@@ -12,6 +12,7 @@ use cdpr_robot::Pose;
 use cdpr_sensitivity::SampleDesign;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Everything a study found; `summary.json`.
@@ -41,6 +42,32 @@ pub enum StudySummary {
     Sampling(Box<SamplingSummary>),
     /// Of a surface.
     Surface(SurfaceSummary),
+}
+
+impl StudySummary {
+    /// Title.
+    pub fn title(&self) -> &str {
+        match self {
+            Self::Sampling(sampling) => &sampling.title,
+            Self::Surface(surface) => &surface.title,
+        }
+    }
+
+    /// Observations or points of the grid, failed ones included.
+    pub fn observations(&self) -> usize {
+        match self {
+            Self::Sampling(sampling) => sampling.observations,
+            Self::Surface(surface) => surface.observations,
+        }
+    }
+
+    /// Failed ones by kind.
+    pub fn failed(&self) -> &BTreeMap<String, usize> {
+        match self {
+            Self::Sampling(sampling) => &sampling.failed,
+            Self::Surface(surface) => &surface.failed,
+        }
+    }
 }
 
 /// Makes the folder for results and checks that files can be written in it: before anything is computed.
@@ -293,7 +320,7 @@ fn pose_cells(pose: &Pose) -> [String; 6] {
 fn write_json(path: PathBuf, value: &impl Serialize) -> Result<PathBuf, StudyError> {
     let text = serde_json::to_string_pretty(value)
         .map_err(|error| StudyError::Write { path: path.clone(), source: error.into() })?;
-    std::fs::write(&path, text + "\n").map_err(|source| StudyError::Write { path: path.clone(), source })?;
+    write_text(&path, &(text + "\n"))?;
     Ok(path)
 }
 
@@ -303,8 +330,16 @@ fn write_json(path: PathBuf, value: &impl Serialize) -> Result<PathBuf, StudyErr
 /// [`StudyError::Write`].
 pub fn write_figure(folder: &Path, name: &str, svg: &str) -> Result<PathBuf, StudyError> {
     let path = folder.join(format!("{name}.svg"));
-    std::fs::write(&path, svg).map_err(|source| StudyError::Write { path: path.clone(), source })?;
+    write_text(&path, svg)?;
     Ok(path)
+}
+
+/// Writes a text to a file.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_text(path: &Path, text: &str) -> Result<(), StudyError> {
+    std::fs::write(path, text).map_err(|source| StudyError::Write { path: path.to_owned(), source })
 }
 
 fn write_csv(

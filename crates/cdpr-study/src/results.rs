@@ -78,7 +78,8 @@ fn read_surface(path: &Path, summary: &SurfaceSummary) -> Result<SurfaceResult<S
     let whole = columns > 0 && points.len() % columns == 0 && points.len() == summary.observations;
     let same = |k: usize| points[k].0 == points[k - k % columns].0 && points[k].1 == points[k % columns].1;
     if !(whole && (0..points.len()).all(same)) {
-        let expected = format!("a grid of {} points, the second parameter running faster", summary.observations);
+        let expected =
+            format!("a grid of {} points, the second parameter running faster", summary.observations);
         return Err(invalid("rows".to_owned(), &points.len().to_string(), &expected));
     }
     Ok(SurfaceResult {

@@ -188,7 +188,10 @@ pub fn measure(
         let clock = Instant::now();
         match method(&run, &mut inputs) {
             Ok(summary) => {
-                methods.insert(name.to_owned(), MethodSummary { seconds: clock.elapsed().as_secs_f64(), ..summary });
+                methods.insert(
+                    name.to_owned(),
+                    MethodSummary { seconds: clock.elapsed().as_secs_f64(), ..summary },
+                );
             }
             Err(error) => notes.push(format!("{name}: {error}")),
         }
@@ -362,10 +365,7 @@ impl MethodSummary {
 }
 
 /// [`SensitivitySummary::sums`].
-fn sums(
-    sampling: &Sampling,
-    inputs: &[InputMeasures],
-) -> IndexMap<String, IndexMap<String, f64>> {
+fn sums(sampling: &Sampling, inputs: &[InputMeasures]) -> IndexMap<String, IndexMap<String, f64>> {
     let parameters = Parameter::all(sampling.robot.cables.len());
     let groups = sampling.places.iter().map(|place| parameters[*place].group());
     let mut sums: IndexMap<String, IndexMap<String, f64>> = IndexMap::new();
@@ -383,7 +383,9 @@ fn sums(
 impl Agreement {
     fn of(inputs: &[InputMeasures]) -> Self {
         let first = LEADING.min(inputs.len().div_ceil(2));
-        let column = |(name, of): Measure| Some((name.to_owned(), inputs.iter().map(of).collect::<Option<Vec<f64>>>()?));
+        let column = |(name, of): Measure| {
+            Some((name.to_owned(), inputs.iter().map(of).collect::<Option<Vec<f64>>>()?))
+        };
         let (measures, columns): (Vec<_>, Vec<_>) = RANKED.into_iter().filter_map(column).unzip();
         let leads = |values: &Vec<f64>, input: usize| {
             values[input] > 0.0 && values.iter().filter(|value| **value > values[input]).count() < first

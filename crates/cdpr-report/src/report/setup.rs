@@ -1,0 +1,108 @@
+//! What was studied: robot, settings, poses, error models.
+
+use super::{Section, cell, table, text};
+use cdpr_robot::Parameter;
+use cdpr_study::{IndexMap, InputSpec, PoseSpec, Results};
+use maud::{Markup, html};
+
+pub(crate) fn section(results: &Results) -> Section {
+    let body = html! {
+        (settings(results))
+        (parts(results))
+        @for (name, model) in &results.study.file.error_models { (error_model(results, name, model)) }
+    };
+    Section::new("study", "The study", body)
+}
+
+fn settings(results: &Results) -> Markup {
+    let (file, robot) = (&results.study.file, &results.study.robot);
+    let cable = &robot.cables[0].properties;
+    html! {
+        @if let Some(source) = &file.source { p { (source) } }
+        dl.facts {
+            dt { "Robot" }
+            dd { (robot.name) ", " (robot.cables.len()) " cables, platform of " (text::digits(robot.platform.mass, 5)) " kg"
+                @if let Some(source) = &robot.source { span.detail { (source) } } }
+            dt { "Cable 1" }
+            dd { "E = " (text::digits(1e-9 * cable.youngs_modulus, 4)) " GPa, section " (text::digits(1e6 * cable.section, 4))
+                " mm\u{b2}, " (text::digits(1e3 * cable.linear_density, 4)) " g/m" }
+            dt { "Tension limits" }
+            dd { (text::digits(robot.tension_limits.min, 5)) " N to " (text::digits(robot.tension_limits.max, 5)) " N" }
+            dt { "Load" }
+            dd { (text::digits(file.payload, 5)) " kg added at the platform's centre of mass" }
+            dt { "Design" }
+            dd { "all uncertain parameters at once, at points of Sobol's sequence" }
+            dt { "Intervals" }
+            dd {
+                @if file.replicates == 0 { "none: no replicates" }
+                @else { (text::digits(100.0 * file.confidence, 4)) " % confidence from " (file.replicates) " scrambled replicates" }
+                "; p-values from " (file.bootstrap_resamples) " resamples"
+            }
+            dt { "Seed" }
+            dd { (file.seed) }
+        }
+    }
+}
+
+fn parts(results: &Results) -> Markup {
+    let file = &results.study.file;
+    let pose = |pose: &PoseSpec| {
+        let turned = pose.quaternion[1..].iter().any(|component| *component != 0.0);
+        html! { (text::point(&pose.position))
+        @if turned { span.detail { "quaternion " (text::point(&pose.quaternion)) } } }
+    };
+    let mut rows = Vec::new();
+    for (name, sampling) in &file.samplings {
+        let count =
+            results.summary.studies.get(name).map_or(sampling.observations, |found| found.observations());
+        rows.push(vec![
+            html! { (sampling.title) span.detail { (name) } },
+            pose(&sampling.pose),
+            html! { "error model " code { (sampling.error_model) } },
+            cell(format!("{count} observations")),
+        ]);
+    }
+    for (name, surface) in &file.surfaces {
+        let axes = [&surface.x, &surface.y].map(|axis| text::symbol(&axis.parameter)).join(" and ");
+        rows.push(vec![
+            html! { (surface.title) span.detail { (name) } },
+            pose(&surface.pose),
+            cell(format!("{axes} alone, all others nominal")),
+            cell(format!("{} \u{d7} {} grid points", surface.x.points, surface.y.points)),
+        ]);
+    }
+    table("Settings", &["Setting", "Position of the platform [m]", "Uncertain", "Size"], &rows)
+}
+
+fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec>) -> Markup {
+    let parameters = Parameter::all(results.study.robot.cables.len());
+    // A parameter's own entry goes before its group's.
+    let counts = |key: &str| {
+        let names = parameters.iter().filter(|parameter| {
+            let own = parameter.to_string();
+            own == key || (parameter.group() == key && !model.contains_key(&own))
+        });
+        names.count()
+    };
+    let rows: Vec<Vec<Markup>> = model
+        .iter()
+        .map(|(key, spec)| {
+            let (unit, scale) = text::reading_unit(key);
+            let si = parameters
+                .iter()
+                .find(|p| p.to_string() == *key || p.group() == key)
+                .map_or("", |p| p.unit());
+            let (unit, scale) = if text::is_scaled(&spec.law) { (unit, scale) } else { (si, 1.0) };
+            vec![
+                html! { (text::parameter(key)) span.detail { (key) } },
+                cell(counts(key).to_string()),
+                cell(text::law(&spec.law, scale)),
+                cell(text::steps(spec.steps.as_ref(), scale)),
+                cell(unit),
+            ]
+        })
+        .collect();
+    let all: usize = model.keys().map(|key| counts(key)).sum();
+    let caption = format!("Error model {name}: deviations from the nominal values of {all} parameters");
+    table(&caption, &["Parameter", "Number", "Law of the deviation", "Steps", "Unit"], &rows)
+}
