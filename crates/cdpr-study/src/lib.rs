@@ -8,6 +8,8 @@
 //!
 //! Where the study asks for them, [`measure`] puts all measures of sensitivity of a sampling beside each other.
 //!
+//! [`tolerance_budget`] says which tolerances to tighten for a limit on deflection or position.
+//!
 //! [`run_robustness`] asks another question: how often the direct model finds the true pose from a wrong start.
 //!
 //! ```no_run
@@ -25,6 +27,7 @@
 
 mod comparison;
 mod error;
+mod error_model;
 mod file;
 mod observation;
 mod output;
@@ -34,11 +37,13 @@ mod sampling;
 mod sensitivity;
 mod study;
 mod surface;
+mod tolerance;
 
-pub use cdpr_sensitivity::{Family, Truncation};
+pub use cdpr_sensitivity::{Estimate, Family, Truncation};
 pub use cdpr_statics::Observation;
 pub use comparison::{ComparisonRow, Value, Verdict, compare};
 pub use error::StudyError;
+pub use error_model::{ErrorModel, Term};
 pub use file::{
     AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic,
     StudyFile, SurfaceSpec, json_schema,
@@ -47,9 +52,10 @@ pub use indexmap::IndexMap;
 pub use observation::{Block, FITTED, KEPT, Tally, observe, observe_into};
 pub use output::{
     ObservationTable, StudySummary, Summary, check_folder, remove_summary, write_figure, write_refused,
-    write_robustness, write_sensitivity, write_solves, write_summary, write_surface, write_text,
+    write_robustness, write_sensitivity, write_solves, write_study, write_summary, write_surface, write_text,
+    write_timings,
 };
-pub use results::Results;
+pub use results::{Results, Timings};
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
     Published, Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread,
@@ -61,3 +67,4 @@ pub use sensitivity::{
 };
 pub use study::{Sampling, Study, Surface, open_robot};
 pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
+pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};

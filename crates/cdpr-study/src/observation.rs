@@ -8,7 +8,6 @@
 //! indices: memory does not grow with the observations, and the numbers do not depend on the threads.
 
 use crate::study::Sampling;
-use cdpr_robot::Parameter;
 use cdpr_sensitivity::{EffectSums, SampleDesign, SobolDesign};
 use cdpr_statics::{Observation, StaticsError};
 use rayon::prelude::*;
@@ -151,13 +150,26 @@ pub(crate) fn observe_rms<D: SampleDesign>(
     design: &D,
     tick: &(dyn Fn(usize) + Sync),
 ) -> Vec<Option<f64>> {
-    let points = design.points();
-    let rms_of_block = |block: usize| {
-        let range = block * BLOCK..points.min((block + 1) * BLOCK);
-        let outcomes = observe_block(sampling, design, range, tick).outcomes;
-        outcomes.into_iter().map(|outcome| outcome.ok().map(|observation| rms_mm(observation.rms())))
+    let rms_of = |rows: &mut [f64]| {
+        let outcomes = sampling.observer.observe_all(&sampling.errors.deviations(rows));
+        tick(outcomes.len());
+        let rms = |outcome: Result<Observation, _>| outcome.ok().map(|found| rms_mm(found.rms()));
+        outcomes.into_iter().map(rms).collect()
     };
-    (0..points.div_ceil(BLOCK)).into_par_iter().flat_map_iter(rms_of_block).collect()
+    observe_rows(design, rms_of)
+}
+
+/// What `observed` says of each row of a design, in parallel and in the order of the rows, from some rows at a time that follow one another.
+pub(crate) fn observe_rows<D: SampleDesign, T: Send>(
+    design: &D,
+    observed: impl Fn(&mut [f64]) -> Vec<T> + Sync,
+) -> Vec<T> {
+    let points = design.points();
+    let of_block = |block: usize| {
+        let range = block * BLOCK..points.min((block + 1) * BLOCK);
+        observed(&mut draw(design, range))
+    };
+    (0..points.div_ceil(BLOCK)).into_par_iter().flat_map_iter(of_block).collect()
 }
 
 /// The indices of all blocks, as many at a time as are under way together.
@@ -170,25 +182,23 @@ fn waves(points: usize) -> impl Iterator<Item = Vec<Range<usize>>> {
     (0..points).step_by(WAVE * BLOCK).map(move |wave| blocks(wave).collect())
 }
 
-fn observe_block<D: SampleDesign>(
+fn observe_block(
     sampling: &Sampling,
-    design: &D,
+    design: &impl SampleDesign,
     range: Range<usize>,
     tick: &(dyn Fn(usize) + Sync),
 ) -> Block {
-    let inputs = sampling.places.len();
-    let parameters = Parameter::all(sampling.robot.cables.len()).len();
-    let mut rows = vec![0.0; range.len() * inputs];
-    // The range is one of the design, and the rows are whole.
-    let drawn = design.rows(range.start, &mut rows);
-    debug_assert_eq!(drawn, Ok(()));
-    let mut deviations = vec![0.0; range.len() * parameters];
-    for (deviations, row) in deviations.chunks_exact_mut(parameters).zip(rows.chunks_exact(inputs)) {
-        for (place, value) in sampling.places.iter().zip(row) {
-            deviations[*place] = *value;
-        }
-    }
+    let rows = draw(design, range.clone());
+    let deviations = sampling.errors.deviations(&rows);
     let outcomes = sampling.observer.observe_all(&deviations);
     tick(range.len());
     Block { first: range.start, rows, outcomes }
+}
+
+fn draw(design: &impl SampleDesign, range: Range<usize>) -> Vec<f64> {
+    let mut rows = vec![0.0; range.len() * design.inputs().len()];
+    // The range is one of the design, and the rows are whole.
+    let drawn = design.rows(range.start, &mut rows);
+    debug_assert_eq!(drawn, Ok(()));
+    rows
 }

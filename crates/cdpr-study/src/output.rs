@@ -2,11 +2,13 @@
 
 use crate::comparison::ComparisonRow;
 use crate::error::StudyError;
+use crate::file::StudyFile;
 use crate::observation::{Block, rms_mm};
+use crate::results::Timings;
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::sampling::SamplingSummary;
 use crate::sensitivity::SensitivitySummary;
-use crate::study::{Sampling, Surface};
+use crate::study::{Sampling, Study, Surface};
 use crate::surface::{SurfaceResult, SurfaceSummary};
 use cdpr_robot::Pose;
 use cdpr_sensitivity::SampleDesign;
@@ -209,6 +211,24 @@ pub fn write_sensitivity(
         Ok(()) => Ok(path),
         Err(error) => Err(unwritten(path, error)),
     }
+}
+
+/// Writes `study.json` and, beside it, `robot.json`: the folder can be run again, and reported on, by itself.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_study(folder: &Path, study: &Study) -> Result<PathBuf, StudyError> {
+    let robot = "robot.json".to_owned();
+    write_text(&folder.join(&robot), &(study.robot.to_json() + "\n"))?;
+    write_json(folder.join("study.json"), &StudyFile { robot, ..study.file.clone() })
+}
+
+/// Writes `timings.json`.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_timings(folder: &Path, timings: &Timings) -> Result<PathBuf, StudyError> {
+    write_json(folder.join("timings.json"), timings)
 }
 
 /// Writes `summary.json`.

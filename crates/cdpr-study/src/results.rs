@@ -7,7 +7,22 @@ use crate::surface::{SurfaceResult, SurfaceSummary};
 use cdpr_robot::from_json;
 use indexmap::IndexMap;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
+
+/// Wall times of a run; `timings.json`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Timings {
+    /// Threads.
+    pub threads: usize,
+    /// Seconds by name of sampling or surface.
+    pub seconds: IndexMap<String, f64>,
+    /// Seconds by sampling and method of its measures of sensitivity.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub sensitivity: IndexMap<String, IndexMap<String, f64>>,
+    /// Seconds of all.
+    pub all: f64,
+}
 
 /// Everything that a folder of results holds, but the observations.
 #[derive(Clone, Debug)]
@@ -22,8 +37,8 @@ pub struct Results {
     pub summary: Summary,
     /// The tables of the surfaces by name; a point that failed has the kind of its failure.
     pub surfaces: IndexMap<String, SurfaceResult<String>>,
-    /// `timings.json`: wall time [s] by part of the study; none if there is no such file.
-    pub timings: IndexMap<String, f64>,
+    /// `timings.json`, if there is such a file.
+    pub timings: Option<Timings>,
 }
 
 impl Results {
@@ -44,10 +59,8 @@ impl Results {
             }
         }
         let timings = match read_json(&folder.join("timings.json")) {
-            Err(StudyError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {
-                IndexMap::new()
-            }
-            timings => timings?,
+            Err(StudyError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => None,
+            timings => Some(timings?),
         };
         Ok(Self { study, study_json, robot_json, summary, surfaces, timings })
     }

@@ -17,7 +17,6 @@
 use crate::file::{SensitivitySpec, StudyFile};
 use crate::observation::{observe_rms, rms_mm};
 use crate::study::Sampling;
-use cdpr_robot::Parameter;
 use cdpr_sensitivity::{
     Bootstrap, Input, MorrisDesign, Order, Regression, SaltelliDesign, SampleDesign, SensitivityError,
     Slopes, SobolDesign, dgsm, expansion, morris_effects, rank_correlation, rank_regression, regression,
@@ -216,7 +215,7 @@ impl SensitivitySummary {
 impl Sampling<'_> {
     /// Observations that a run makes: the sampling's own, those of its replicates, and those of the measures of sensitivity.
     pub fn observations(&self) -> usize {
-        let (own, inputs) = (self.design.points(), self.places.len());
+        let (own, inputs) = (self.design.points(), self.errors.inputs.len());
         let measures = self.study.file.sensitivity.map_or(0, |spec| {
             4 * spec.observations.min(own)
                 + spec.morris_blocks * (inputs + 1)
@@ -247,17 +246,14 @@ impl Run<'_> {
 
     /// RMS [mm] of the robot with these deviations of the inputs, and its derivatives [mm per unit of the input].
     fn slopes(&self, row: &[f64]) -> Result<Slopes, StaticsError> {
-        let Sampling { robot, pose, load, places, .. } = self.sampling;
-        let mut deviations = vec![0.0; Parameter::all(robot.cables.len()).len()];
-        for (place, value) in places.iter().zip(row) {
-            deviations[*place] = *value;
-        }
+        let Sampling { robot, pose, load, errors, .. } = self.sampling;
+        let deviations = errors.deviations(row);
         let perturbed = robot.perturbed(&deviations)?;
         let found = derivatives(&perturbed.robot, pose, &perturbed.tension_offsets, load)?;
         let slopes = found.rms()?;
         Ok(Slopes {
             output: rms_mm(found.deflection.rms()),
-            gradient: places.iter().map(|place| rms_mm(slopes[*place])).collect(),
+            gradient: errors.gradient(&slopes).into_iter().map(rms_mm).collect(),
         })
     }
 }
@@ -366,8 +362,7 @@ impl MethodSummary {
 
 /// [`SensitivitySummary::sums`].
 fn sums(sampling: &Sampling, inputs: &[InputMeasures]) -> IndexMap<String, IndexMap<String, f64>> {
-    let parameters = Parameter::all(sampling.robot.cables.len());
-    let groups = sampling.places.iter().map(|place| parameters[*place].group());
+    let groups = (0..inputs.len()).map(|input| sampling.errors.group(input));
     let mut sums: IndexMap<String, IndexMap<String, f64>> = IndexMap::new();
     for (group, input) in groups.zip(inputs).chain(inputs.iter().map(|input| ("all", input))) {
         let sums = sums.entry(group.to_owned()).or_default();

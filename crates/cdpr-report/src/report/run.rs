@@ -3,7 +3,7 @@
 use super::{Section, cell, numeric, table, text};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use cdpr_study::{Results, StudySummary};
+use cdpr_study::{Results, StudySummary, Timings};
 use maud::{Markup, html};
 
 pub(crate) fn observations(results: &Results) -> Section {
@@ -45,13 +45,27 @@ pub(crate) fn observations(results: &Results) -> Section {
             h3 { "Notes" }
             ul { @for (name, note) in &notes { li { code { (name) } ": " (note) } } }
         }
-        @if !results.timings.is_empty() {
-            h3 { "Timings" }
-            (table("Wall time [s]", &["Part", "Time [s]"],
-                &results.timings.iter().map(|(name, seconds)| vec![cell(name), numeric(*seconds, 3)]).collect::<Vec<_>>()))
-        }
+        @if let Some(timings) = &results.timings { (times(timings)) }
     };
     Section::new("observations", "Failed observations, notes, timings", body)
+}
+
+fn times(timings: &Timings) -> Markup {
+    let methods = timings.sensitivity.iter().flat_map(|(name, methods)| {
+        methods
+            .iter()
+            .map(move |(method, seconds)| (format!("{name}: {}", method.replace('_', " ")), *seconds))
+    });
+    let parts = timings.seconds.iter().map(|(name, seconds)| (name.clone(), *seconds));
+    let rows: Vec<Vec<Markup>> = parts
+        .chain(methods)
+        .chain([("all".to_owned(), timings.all)])
+        .map(|(name, seconds)| vec![cell(name), numeric(seconds, 3)])
+        .collect();
+    html! {
+        h3 { "Timings" }
+        (table(&format!("Wall time on {} threads", timings.threads), &["Part", "Time [s]"], &rows))
+    }
 }
 
 pub(crate) fn again(results: &Results) -> Section {

@@ -77,32 +77,44 @@ fn parts(results: &Results) -> Markup {
 fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec>) -> Markup {
     let parameters = Parameter::all(results.study.robot.cables.len());
     // A parameter's own entry goes before its group's.
-    let counts = |key: &str| {
-        let names = parameters.iter().filter(|parameter| {
+    let of_entry = |key: &str| -> Vec<&Parameter> {
+        let is_of = |parameter: &&Parameter| {
             let own = parameter.to_string();
             own == key || (parameter.group() == key && !model.contains_key(&own))
-        });
-        names.count()
+        };
+        parameters.iter().filter(is_of).collect()
     };
     let rows: Vec<Vec<Markup>> = model
         .iter()
         .map(|(key, spec)| {
-            let (unit, scale) = text::reading_unit(key);
-            let si = parameters
-                .iter()
-                .find(|p| p.to_string() == *key || p.group() == key)
-                .map_or("", |p| p.unit());
-            let (unit, scale) = if text::is_scaled(&spec.law) { (unit, scale) } else { (si, 1.0) };
+            let of = of_entry(key);
+            let tied = spec.parameters.as_ref().map(tied);
+            let measured = spec.parameters.as_ref().and_then(|shared| shared.keys().next()).unwrap_or(key);
+            let (unit, scale) = if text::is_scaled(&spec.law) {
+                text::reading_unit(measured)
+            } else {
+                (of.first().map_or("", |parameter| parameter.unit()), 1.0)
+            };
             vec![
-                html! { (text::parameter(key)) span.detail { (key) } },
-                cell(counts(key).to_string()),
+                html! { (text::parameter(key)) span.detail { (tied.as_ref().unwrap_or(key)) } },
+                cell(if tied.is_some() { 1 } else { of.len() }.to_string()),
                 cell(text::law(&spec.law, scale)),
                 cell(text::steps(spec.steps.as_ref(), scale)),
                 cell(unit),
             ]
         })
         .collect();
-    let all: usize = model.keys().map(|key| counts(key)).sum();
-    let caption = format!("Error model {name}: deviations from the nominal values of {all} parameters");
-    table(&caption, &["Parameter", "Number", "Law of the deviation", "Steps", "Unit"], &rows)
+    let inputs: usize =
+        model.iter().map(|(key, spec)| if spec.parameters.is_some() { 1 } else { of_entry(key).len() }).sum();
+    let caption = format!("Error model {name}: deviations from the nominal values, {inputs} inputs");
+    table(&caption, &["Parameter", "Inputs", "Law of the deviation", "Steps", "Unit"], &rows)
+}
+
+/// `added to b1.x, b3.x`, of a cause of several parameters.
+fn tied(parameters: &IndexMap<String, f64>) -> String {
+    let term = |(name, factor): (&String, &f64)| match factor {
+        1.0 => name.clone(),
+        factor => format!("{} {name}", text::digits(*factor, 4)),
+    };
+    format!("added to {}", parameters.iter().map(term).collect::<Vec<_>>().join(", "))
 }
