@@ -173,7 +173,7 @@ fn cell(text: impl AsRef<str>) -> Markup {
 /// A cell of a number with so many significant digits; a dash where there is none.
 fn numeric(value: impl Into<Option<f64>>, digits: usize) -> Markup {
     let value = value.into();
-    html! { span.number { @match value { Some(value) => (text::digits(value, digits)), None => "\u{2013}" } } }
+    html! { span.number { @match value { Some(value) => (text::figures(value, digits)), None => "\u{2013}" } } }
 }
 
 #[cfg(test)]

@@ -253,7 +253,7 @@ fn points_have_three_bars_each_and_a_panel_a_sampling() {
         point_effects(&robot(), &[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap();
     assert_eq!(rectangles(&svg), 2 * 8 * 3);
     let texts = texts(&svg);
-    for text in ["B1", "B8", "x", "y", "z", "t-Student index [-]"] {
+    for text in ["B1", "B8", "x", "y", "z", "t [-]", "8.0", "plan: x from −3.50 to 3.50 m"] {
         assert!(texts.contains(&text), "{text}: {texts:?}");
     }
     assert!(!texts.contains(&"A1"));

@@ -110,7 +110,7 @@ fn every_robot_and_every_part_of_a_study_has_a_report() {
         study["comparison"] = json!([]);
         study["surfaces"] = json!({});
     });
-    assert!(page(&nine).contains("A9") && page(&nine).contains("dt9"));
+    assert!(page(&nine).contains("A9") && page(&nine).contains("9 cables"));
 
     let surfaces = page(&common::caroca(|study, _| {
         study["samplings"] = json!({});

@@ -61,19 +61,19 @@ fn cards(summary: &Summary) -> Markup {
     html! {
         dl.cards {
             @if let Some(rms) = first.and_then(|(_, sampling)| sampling.rms_mm) {
-                (card("Nominal deflection", &text::digits(rms.nominal, 4), "mm", &first.map_or_else(String::new, |(name, _)| name.to_owned())))
-                (card("Mean \u{b1} standard deviation",
-                    &format!("{} \u{b1} {}", text::digits(rms.mean, 4), text::digits(rms.std, 2)), "mm",
-                    &format!("{} to {} mm", text::digits(rms.min, 4), text::digits(rms.max, 4))))
+                (card("Nominal deflection", &text::figures(rms.nominal, 4), "mm", &first.map_or_else(String::new, |(name, _)| name.to_owned())))
+                (card("Mean \u{b1} std. deviation",
+                    &format!("{} \u{b1} {}", text::figures(rms.mean, 4), text::figures(rms.std, 2)), "mm",
+                    &format!("{} to {} mm", text::figures(rms.min, 4), text::figures(rms.max, 4))))
             } @else if let Some((name, surface)) = surface {
-                (card("Nominal deflection", &text::digits(surface.rms_mm.nominal, 4), "mm", name))
+                (card("Nominal deflection", &text::figures(surface.rms_mm.nominal, 4), "mm", name))
             }
             @if let Some((_, sampling)) = first {
                 @let effects = dominant(sampling);
                 @if !effects.is_empty() {
                     (card("Dominant parameters",
                         &effects.iter().map(|effect| text::symbol(effect.0)).collect::<Vec<_>>().join(", "), "",
-                        &format!("t = {}", effects.iter().map(|effect| text::digits(effect.1, 3)).collect::<Vec<_>>().join(", "))))
+                        &format!("t = {}", effects.iter().map(|effect| text::figures(effect.1, 3)).collect::<Vec<_>>().join(", "))))
                 }
             }
             @if all > 0 {

@@ -184,8 +184,8 @@
     }];
     const scene = () => ({
       aspectmode: "manual", aspectratio: { x: 1.2, y: 1.2, z: 0.8 },
-      xaxis: { title: { text: labels[0] } }, yaxis: { title: { text: labels[1] } }, zaxis: { title: { text: "RMS [mm]" } },
-      camera: { eye: { x: 1.5, y: -1.6, z: 0.9 }, center: { x: 0, y: 0, z: -0.15 } },
+      xaxis: { title: { text: labels[0] }, nticks: 6 }, yaxis: { title: { text: labels[1] }, nticks: 6 }, zaxis: { title: { text: "RMS [mm]" }, nticks: 6 },
+      camera: { eye: { x: 1.2, y: -1.6, z: 1.15 }, center: { x: 0, y: 0, z: -0.15 } },
     });
     const show = (what) => {
       space.hidden = what !== "space";

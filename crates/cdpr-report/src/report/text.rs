@@ -8,22 +8,28 @@ use serde_json::Value;
 
 /// The number with so many significant digits, without zeros at its end; powers of ten where it is very large or small.
 pub(crate) fn digits(value: f64, digits: usize) -> String {
-    if !value.is_finite() {
-        return value.to_string();
+    let text = figures(value, digits);
+    if !text.contains('.') {
+        return text;
+    }
+    // The zeros stand before a power of ten, if there is one.
+    let (mantissa, power) = text.split_at(text.find('\u{d7}').unwrap_or(text.len()));
+    mantissa.trim_end_matches('0').trim_end_matches('.').to_owned() + power
+}
+
+/// The same with its zeros, as columns of numbers want it.
+pub(crate) fn figures(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return if value == 0.0 { "0".to_owned() } else { value.to_string() };
     }
     let scientific = format!("{value:.*e}", digits.saturating_sub(1));
     let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
     let exponent: i32 = exponent.parse().unwrap_or(0);
-    if value != 0.0 && !(-4..7).contains(&exponent) {
+    if !(-4..7).contains(&exponent) {
         let mantissa = mantissa.parse().unwrap_or(value);
-        return format!("{}\u{d7}10{}", trimmed(mantissa, digits - 1), superscript(exponent));
+        return format!("{}\u{d7}10{}", number(mantissa, digits.saturating_sub(1)), superscript(exponent));
     }
-    trimmed(value, usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0))
-}
-
-fn trimmed(value: f64, decimals: usize) -> String {
-    let text = number(value, decimals);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    number(value, usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0))
 }
 
 fn superscript(exponent: i32) -> String {
@@ -150,6 +156,8 @@ mod tests {
             assert_eq!(digits(value, 4), text);
         }
         assert_eq!(digits(12_345.6, 3), "12346");
+        assert_eq!((figures(1.13, 4), figures(0.0, 4)), ("1.130".to_owned(), "0".to_owned()));
+        assert_eq!(digits(f64::NAN, 3), "NaN");
         assert_eq!(digits(1.022e11, 4), "1.022\u{d7}10\u{b9}\u{b9}");
         assert_eq!(digits(-3e-5, 3), "\u{2212}3\u{d7}10\u{207b}\u{2075}");
     }
