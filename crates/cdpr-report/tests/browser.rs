@@ -134,14 +134,18 @@ impl Page {
         assert_eq!(held, true, "{condition}");
     }
 
-    /// Opens a file in a window of this size, in light or dark surroundings.
-    fn show(&mut self, file: &Path, width: u32, scheme: &str) {
+    /// Opens a file.
+    fn show(&mut self, file: &Path) {
+        self.call("Page.navigate", json!({"url": format!("file://{}", file.display())}));
+        self.wait_for("document.readyState === 'complete' && document.querySelector('main')");
+    }
+
+    /// A window of this width, in light or dark surroundings.
+    fn surround(&mut self, width: u32, scheme: &str) {
         let media = json!({"features": [{"name": "prefers-color-scheme", "value": scheme}]});
         self.call("Emulation.setEmulatedMedia", media);
         let size = json!({"width": width, "height": HEIGHT, "deviceScaleFactor": 1, "mobile": false});
         self.call("Emulation.setDeviceMetricsOverride", size);
-        self.call("Page.navigate", json!({"url": format!("file://{}", file.display())}));
-        self.wait_for("document.readyState === 'complete' && document.querySelector('main')");
     }
 
     /// Writes pictures of the whole page, one a window.
@@ -183,7 +187,7 @@ impl Page {
 }
 
 /// Height of the window [px].
-const HEIGHT: u32 = 1800;
+const HEIGHT: u32 = 3000;
 
 const ALL_NEAR_ARE_DRAWN: &str = "[...document.querySelectorAll('.plot:not([hidden])')].every((plot) => { \
      const { top, bottom } = plot.getBoundingClientRect(); \
@@ -212,8 +216,10 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
     let file = write_report(&folder, "caroca", &common::caroca(|_, _| ()));
     let mut page = Page::open(program);
 
-    for (scheme, width) in [("light", 1400), ("dark", 1400), ("light", 400), ("dark", 400)] {
-        page.show(&file, width, scheme);
+    page.surround(1400, "light");
+    page.show(&file);
+    for (width, scheme) in [(1400, "light"), (1400, "dark"), (400, "dark"), (400, "light")] {
+        page.surround(width, scheme);
         page.photograph(&folder, &format!("caroca-{width}-{scheme}"));
         let sizes = page.evaluate(
             "[...document.querySelectorAll('figure')].map((figure) => [figure.id, ...['.drawing:not([hidden]) svg', '.plot:not([hidden])'] \
@@ -231,7 +237,7 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
         assert_eq!(dark, scheme == "dark");
     }
 
-    page.show(&file, 1400, "light");
+    page.surround(1400, "light");
     page.evaluate(
         "document.getElementById('plot-robot').scrollIntoView({behavior: 'instant', block: 'center'})",
     );
@@ -274,7 +280,7 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
 
     let other = write_report(&folder, "cogiro", &common::cogiro());
     page.events.clear();
-    page.show(&other, 1400, "light");
+    page.show(&other);
     page.photograph(&folder, "cogiro-1400-light");
     assert_eq!(page.complaints(&other), [""; 0]);
 }

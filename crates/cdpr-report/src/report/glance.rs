@@ -18,7 +18,7 @@ pub(crate) fn header(results: &Results) -> Markup {
                 "How far " (summary.robot) " gives when " (text::digits(summary.payload, 4)) " kg are added to its platform"
                 @if observations > 0 {
                     ", and how that depends on what is not exactly known: " (observations) " observations at "
-                    (summary.studies.len()) " settings"
+                    (summary.studies.len()) @if summary.studies.len() == 1 { " setting" } @else { " settings" }
                 }
                 "."
             }

@@ -73,6 +73,13 @@
     });
   }
 
+  // Narrow views are seen from farther away, and have no room for a colour bar.
+  const isNarrow = (element) => element.clientWidth < 560;
+  const from = (element, { x, y, z }, height) => {
+    const times = isNarrow(element) ? 1.35 : 1;
+    return { eye: { x: times * x, y: times * y, z: times * z }, center: { x: 0, y: 0, z: height } };
+  };
+
   const columns = (points) => [0, 1, 2].map((axis) => points.map((point) => point[axis]));
   const metres = (point) => "(" + point.map((value) => value.toFixed(4)).join(", ") + ") m";
   const digits = (value) => Number(value.toPrecision(3)).toString();
@@ -131,7 +138,7 @@
         line([...posts, ...top, gap, ...ground], { line: { color: color("post"), width: 3 } }),
         { type: "scatter3d", mode: "lines", x, y, z, text: of_cables(label), hovertemplate: "%{text}<extra></extra>",
           line: { width: 5, color: of_cables((cable) => cable.tension), colorscale: "Viridis", cmin: Math.min(...tensions), cmax: Math.max(...tensions),
-            showscale: true, colorbar: { title: { text: "tension [N]", side: "right" }, thickness: 12, len: 0.6, x: 1, xanchor: "right", outlinewidth: 0 } } },
+            showscale: !isNarrow(byId("plot-robot")), colorbar: { title: { text: "tension [N]", side: "right" }, thickness: 12, len: 0.6, x: 1, xanchor: "right", outlinewidth: 0 } } },
         ...(loaded ? [platform(pose.unloaded.anchors, color("post"), 0.15)] : []),
         platform(anchors, ORANGE, 0.6),
         dots(exits, exits.map((exit, i) => `exit point B${i + 1}<br>${metres(exit)}`), { marker: { size: 4, color: color("ink") } }),
@@ -145,7 +152,7 @@
     const scene = () => ({
       aspectmode: "data",
       xaxis: { title: { text: "x [m]" } }, yaxis: { title: { text: "y [m]" } }, zaxis: { title: { text: "z [m]" } },
-      camera: { eye: { x: 1.15, y: -1.55, z: 0.75 }, center: { x: 0, y: 0, z: -0.12 } },
+      camera: from(byId("plot-robot"), { x: 1.15, y: -1.55, z: 0.75 }, -0.12),
     });
     const redrawn = view(byId("plot-robot"), traces, scene);
 
@@ -177,15 +184,18 @@
     if (!figure) continue;
     const [space, map] = [figure.querySelector(".space"), figure.querySelector(".map")];
     const traces = () => [{
-      type: "surface", x, y, z, colorscale: "Viridis",
+      type: "surface", x, y, z, colorscale: "Viridis", showscale: !isNarrow(space),
       colorbar: { title: { text: "RMS [mm]", side: "right" }, thickness: 14, len: 0.7, outlinewidth: 0 },
       contours: { z: { show: true, usecolormap: false, color: "#ffffff", width: 1, highlight: false } },
       hovertemplate: `${labels[0]}: %{x:.5~g}<br>${labels[1]}: %{y:.5~g}<br>RMS: %{z:.5~g} mm<extra></extra>`,
     }];
+    // Seen from where the surface is low, so that it faces the reader.
+    const mean = (values) => values.filter((value) => value !== null).reduce((sum, value, _, all) => sum + value / all.length, 0);
+    const falls = [mean(z.map((row) => row[0])) > mean(z.map((row) => row[x.length - 1])), mean(z[0]) > mean(z[y.length - 1])];
     const scene = () => ({
       aspectmode: "manual", aspectratio: { x: 1.2, y: 1.2, z: 0.8 },
       xaxis: { title: { text: labels[0] }, nticks: 6 }, yaxis: { title: { text: labels[1] }, nticks: 6 }, zaxis: { title: { text: "RMS [mm]" }, nticks: 6 },
-      camera: { eye: { x: 1.2, y: -1.6, z: 1.15 }, center: { x: 0, y: 0, z: -0.15 } },
+      camera: from(space, { x: falls[0] ? 1.2 : -1.2, y: falls[1] ? 1.6 : -1.6, z: 1 }, -0.15),
     });
     const show = (what) => {
       space.hidden = what !== "space";
