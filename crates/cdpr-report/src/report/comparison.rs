@@ -1,7 +1,7 @@
 //! Published figures beside the computed ones.
 
 use super::{Section, cell, table, text};
-use cdpr_study::{ComparisonRow, Summary, Value, Verdict};
+use cdpr_study::{ComparisonRow, ComparisonSpec, Summary, Value, Verdict};
 use maud::{Markup, html};
 
 /// None for a study without published figures.
@@ -51,13 +51,17 @@ fn row(row: &ComparisonRow) -> Vec<Markup> {
     ]
 }
 
-/// Published figures that a sampling or surface is compared with: `Fig. 4a`.
-pub(crate) fn published(summary: &Summary, name: &str) -> String {
+/// Published figures that statistics of a study are compared with: `The published counterpart is Fig. 4a.`, or nothing.
+pub(crate) fn counterpart(rows: &[ComparisonSpec], is_meant: impl Fn(&ComparisonSpec) -> bool) -> String {
     let mut figures: Vec<&str> = Vec::new();
-    for row in summary.comparison.iter().filter(|row| row.study == name) {
+    for row in rows.iter().filter(|row| is_meant(row)) {
         if row.figure.starts_with(|c: char| c.is_ascii_digit()) && !figures.contains(&row.figure.as_str()) {
             figures.push(&row.figure);
         }
     }
-    figures.join(", ")
+    if figures.is_empty() {
+        String::new()
+    } else {
+        format!(" The published counterpart is Fig. {}.", figures.join(", "))
+    }
 }

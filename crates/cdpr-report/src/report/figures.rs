@@ -4,7 +4,7 @@ use super::glance::{samplings, surfaces as all_surfaces};
 use super::{Section, cell, comparison, figure, numeric, table, text};
 use crate::surface::axis_of;
 use crate::{Points, histogram, point_effects, shares, signed_effects, surface};
-use cdpr_study::{InputMeasures, Results, SamplingSummary, SensitivitySummary};
+use cdpr_study::{InputMeasures, Results, SamplingSummary, SensitivitySummary, Statistic};
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
 
@@ -44,10 +44,13 @@ pub(crate) fn in_space(results: &Results) -> Vec<SpaceSurface> {
     drawn.collect()
 }
 
-/// `, beside Fig. 4a`, for a setting with published figures.
+/// The published counterpart of a distribution or surface.
 fn beside(results: &Results, name: &str) -> String {
-    let figures = comparison::published(&results.summary, name);
-    if figures.is_empty() { String::new() } else { format!(" The published counterpart is Fig. {figures}.") }
+    use Statistic::{AnchorPointEquality, DominantAnchorPoints, DominantExitPoints, ExitPointEquality};
+    let of_points = [AnchorPointEquality, DominantAnchorPoints, DominantExitPoints, ExitPointEquality];
+    comparison::counterpart(&results.study.file.comparison, |row| {
+        row.study == name && !of_points.contains(&row.statistic)
+    })
 }
 
 pub(crate) fn distributions(results: &Results) -> Option<Section> {
@@ -115,11 +118,25 @@ pub(crate) fn surfaces(results: &Results) -> Option<Section> {
 }
 
 pub(crate) fn points(results: &Results) -> Option<Section> {
-    let kinds =
-        [("anchor_points", "a1.x", "anchor", Points::Anchor), ("exit_points", "b1.x", "exit", Points::Exit)];
+    let kinds = [
+        (
+            "anchor_points",
+            "a1.x",
+            "anchor",
+            Points::Anchor,
+            [Statistic::AnchorPointEquality, Statistic::DominantAnchorPoints],
+        ),
+        (
+            "exit_points",
+            "b1.x",
+            "exit",
+            Points::Exit,
+            [Statistic::ExitPointEquality, Statistic::DominantExitPoints],
+        ),
+    ];
     let drawn: Vec<Markup> = kinds
         .into_iter()
-        .filter_map(|(name, letter, kind, points)| {
+        .filter_map(|(name, letter, kind, points, statistics)| {
             let with: Vec<_> =
                 samplings(&results.summary).filter(|(_, s)| s.t_student.contains_key(letter)).collect();
             if with.is_empty() {
@@ -129,6 +146,7 @@ pub(crate) fn points(results: &Results) -> Option<Section> {
             let caption = html! {
                 "Effect of the coordinates of the " (kind) " points on the RMS: t-Student index of x, y and z, each at the place of the "
                 "point seen from above. \u{d7} marks the platform's reference point P. The larger the index, the more the coordinate matters."
+                (comparison::counterpart(&results.study.file.comparison, |row| statistics.contains(&row.statistic)))
             };
             Some(figure(name, &alt, point_effects(&results.study.robot, &with, points), &caption))
         })

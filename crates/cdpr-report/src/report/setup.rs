@@ -2,7 +2,7 @@
 
 use super::{Section, cell, table, text};
 use cdpr_robot::Parameter;
-use cdpr_study::{IndexMap, InputSpec, PoseSpec, Results};
+use cdpr_study::{IndexMap, InputSpec, PoseSpec, Results, StudySummary};
 use maud::{Markup, html};
 
 pub(crate) fn section(results: &Results) -> Section {
@@ -48,13 +48,13 @@ fn parts(results: &Results) -> Markup {
     let file = &results.study.file;
     let pose = |pose: &PoseSpec| {
         let turned = pose.quaternion[1..].iter().any(|component| *component != 0.0);
-        html! { (text::point(&pose.position))
+        html! { span.number { (text::point(&pose.position)) }
         @if turned { span.detail { "quaternion " (text::point(&pose.quaternion)) } } }
     };
     let mut rows = Vec::new();
     for (name, sampling) in &file.samplings {
         let count =
-            results.summary.studies.get(name).map_or(sampling.observations, |found| found.observations());
+            results.summary.studies.get(name).map_or(sampling.observations, StudySummary::observations);
         rows.push(vec![
             html! { (sampling.title) span.detail { (name) } },
             pose(&sampling.pose),
