@@ -221,10 +221,12 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
     let file = write_report(&folder, "caroca", &results);
     let mut page = Page::open(program);
 
-    page.surround(1400, "light");
-    page.show(&file);
     for (width, scheme) in [(1400, "light"), (1400, "dark"), (400, "dark"), (400, "light")] {
         page.surround(width, scheme);
+        // Opened in the light or in the dark, the other comes while it is open.
+        if (width == 1400) == (scheme == "light") {
+            page.show(&file);
+        }
         page.photograph(&folder, &format!("caroca-{width}-{scheme}"));
         let sizes = page.evaluate(
             "[...document.querySelectorAll('figure')].map((figure) => [figure.id, ...['.drawing:not([hidden]) svg', '.plot:not([hidden])'] \
@@ -243,6 +245,7 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
     }
 
     page.surround(1400, "light");
+    page.show(&file);
     page.evaluate(
         "document.getElementById('plot-robot').scrollIntoView({behavior: 'instant', block: 'center'})",
     );

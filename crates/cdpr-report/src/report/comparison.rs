@@ -25,8 +25,8 @@ pub(crate) fn section(summary: &Summary) -> Option<Section> {
 }
 
 fn row(row: &ComparisonRow) -> Vec<Markup> {
-    let value = |value: &Value| match value {
-        Value::Number(number) => html! { span.number { (text::digits(*number, 4)) } },
+    let value = |value: &Value, said: fn(f64, usize) -> String| match value {
+        Value::Number(number) => html! { span.number { (said(*number, 4)) } },
         Value::Text(text) => cell(text),
     };
     let difference = match (&row.paper, &row.computed) {
@@ -43,8 +43,8 @@ fn row(row: &ComparisonRow) -> Vec<Markup> {
     vec![
         cell(&row.figure),
         html! { (row.quantity) span.detail { (row.study) } @if let Some(note) = &row.note { span.detail { (note) } } },
-        value(&row.paper),
-        value(&row.computed),
+        value(&row.paper, text::digits),
+        value(&row.computed, text::figures),
         cell(&row.unit),
         html! { span.number { (difference) } },
         html! { span class=(class) { (row.verdict) } },

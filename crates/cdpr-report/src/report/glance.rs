@@ -4,8 +4,9 @@ use super::{cell, numeric, table, text};
 use cdpr_study::{Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict};
 use maud::{Markup, html};
 
-/// Parameters named as dominant.
+/// Most parameters named as dominant, and the least share of the largest index that makes one so.
 const DOMINANT: usize = 3;
+const LEAST: f64 = 0.25;
 
 pub(crate) fn header(results: &Results) -> Markup {
     let summary = &results.summary;
@@ -44,11 +45,13 @@ pub(crate) fn surfaces(summary: &Summary) -> impl Iterator<Item = (&str, &Surfac
     })
 }
 
-/// The parameters with the largest t-Student index, largest first.
+/// The parameters with the largest t-Student index, largest first, without those that are far behind.
 fn dominant(sampling: &SamplingSummary) -> Vec<(&str, f64)> {
     let mut effects: Vec<_> = sampling.t_student.iter().map(|(name, t)| (name.as_str(), *t)).collect();
     effects.sort_by(|one, other| other.1.total_cmp(&one.1));
     effects.truncate(DOMINANT);
+    let least = effects.first().map_or(0.0, |largest| LEAST * largest.1);
+    effects.retain(|effect| effect.1 > 0.0 && effect.1 >= least);
     effects
 }
 
@@ -77,7 +80,7 @@ fn cards(summary: &Summary) -> Markup {
                 }
             }
             @if all > 0 {
-                (card("Published figures reproduced", &reproduced.to_string(), &format!("of {all}"), "within the last digit and 1 %"))
+                (card("Published figures reproduced", &reproduced.to_string(), &format!("of {all}"), "within the last digit and 1\u{a0}%"))
             } @else {
                 (card("Failed observations", &failed.to_string(), "", "counted, and left out of statistics"))
             }

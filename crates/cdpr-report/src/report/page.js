@@ -76,7 +76,7 @@
   // Narrow views are seen from farther away, and have no room for a colour bar.
   const isNarrow = (element) => element.clientWidth < 560;
   const from = (element, { x, y, z }, height) => {
-    const times = isNarrow(element) ? 1.35 : 1;
+    const times = isNarrow(element) ? 1.5 : 1;
     return { eye: { x: times * x, y: times * y, z: times * z }, center: { x: 0, y: 0, z: height } };
   };
 
@@ -126,7 +126,7 @@
       const cables = state.cables.map((cable, i) => stretched(cable.points, sag, anchors[i]));
       const [x, y, z] = columns(cables.flatMap((points) => [...points, gap]));
       const of_cables = (value) => state.cables.flatMap((cable, i) => [...cable.points.map(() => value(cable, i)), value(cable, i)]);
-      const tensions = poses.flatMap(({ unloaded, loaded }) => [...unloaded.cables, ...loaded.cables]).map(({ tension }) => tension);
+      const tensions = [...pose.unloaded.cables, ...pose.loaded.cables].map(({ tension }) => tension);
       const label = (cable, i) => `cable ${i + 1}<br>tension ${cable.tension.toFixed(1)} N<br>sag ${cable.sag_mm.toFixed(2)} mm`;
       const platform = (points, tone, opacity) => {
         const [x, y, z] = columns(points);
