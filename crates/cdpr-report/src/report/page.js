@@ -76,7 +76,7 @@
   // Narrow views are seen from farther away, and have no room for a colour bar.
   const isNarrow = (element) => element.clientWidth < 560;
   const from = (element, { x, y, z }, height) => {
-    const times = isNarrow(element) ? 1.5 : 1;
+    const times = isNarrow(element) ? 1.25 : 1;
     return { eye: { x: times * x, y: times * y, z: times * z }, center: { x: 0, y: 0, z: height } };
   };
 
