@@ -160,12 +160,10 @@
     function say() {
       const pose = poses[byId("pose").value];
       const largest = Math.max(...pose.unloaded.cables.map((cable) => cable.sag_mm));
-      for (const name of ["sag", "motion"]) {
-        const step = times(byId(name));
-        byId(name + "-times").textContent = "\u00d7" + step + (step === 1 ? " (true)" : "");
-      }
+      const drawn = (name) => "\u00d7" + times(byId(name));
+      for (const name of ["sag", "motion"]) byId(name + "-times").textContent = drawn(name) + (times(byId(name)) === 1 ? " (true)" : "");
       byId("robot-note").textContent =
-        `True sag: at most ${digits(largest)} mm; true deflection: ${digits(pose.deflection_mm)} mm.`;
+        `Sag drawn ${drawn("sag")}, truly at most ${digits(largest)} mm; deflection drawn ${drawn("motion")}, truly ${digits(pose.deflection_mm)} mm.`;
     }
     function fit() {
       const pose = poses[byId("pose").value];
