@@ -14,6 +14,7 @@ mod deflection;
 mod derivatives;
 mod direct;
 mod inverse;
+mod report;
 mod robustness;
 mod sensitivity;
 mod stiffness;
@@ -87,6 +88,9 @@ enum Command {
         after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
     )]
     Derivatives(derivatives::Settings),
+    /// Write the report of a study: one HTML file with all figures that opens offline.
+    #[command(after_help = "Example: cdpr report results")]
+    Report(report::Settings),
     /// Tell which tolerances of a study's error model to tighten, and by how much, so that an error stays below a limit.
     #[command(
         after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric --limit 2.9 --costs b=3"
@@ -174,6 +178,7 @@ fn run(command: Command) -> Result<Ending, Box<dyn Error>> {
         Command::Calibration(settings) => calibration::run(&settings)?,
         Command::Derivatives(settings) => derivatives::run(&settings)?,
         Command::Tolerances(settings) => tolerances::run(&settings)?,
+        Command::Report(settings) => report::run(&settings)?,
         Command::Robustness { robot, poses, modulus, seed, out } => {
             robustness::run(&robustness::Settings { robot, poses, modulus, seed, out })?;
         }

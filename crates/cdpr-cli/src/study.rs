@@ -1,12 +1,12 @@
 //! `cdpr study run`: each part of a study is written as soon as it is done, so that nothing computed is lost with what fails
 //! after it.
 
-use crate::sensitivity;
+use crate::{report, sensitivity};
 use cdpr_report::{Points, ReportError};
 use cdpr_study::{
-    IndexMap, ObservationTable, Study, StudyError, StudySummary, Summary, SurfaceSummary, analyse,
+    IndexMap, ObservationTable, Study, StudyError, StudySummary, Summary, SurfaceSummary, Timings, analyse,
     check_folder, compare, compute_surface, observe_into, remove_summary, write_figure, write_sensitivity,
-    write_summary, write_surface,
+    write_study, write_summary, write_surface, write_timings,
 };
 use comfy_table::{Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -26,6 +26,8 @@ pub(crate) struct Settings {
 pub(crate) enum RunError {
     #[error(transparent)]
     Study(#[from] StudyError),
+    #[error(transparent)]
+    Report(#[from] report::WriteError),
     #[error("cannot start {threads} threads: {source}")]
     Threads { threads: u16, source: rayon::ThreadPoolBuildError },
 }
@@ -39,15 +41,16 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
     }
     check_folder(&settings.out)?;
     remove_summary(&settings.out)?;
+    write_study(&settings.out, &study)?;
     let mut run =
-        Run { settings, progress: progress(&study)?, studies: IndexMap::new(), timings: Vec::new() };
+        Run { settings, progress: progress(&study)?, studies: IndexMap::new(), timings: Timings::default() };
     for name in study.file.samplings.keys() {
         run.sampling(&study, name)?;
     }
     for name in study.file.surfaces.keys() {
         run.surface(&study, name)?;
     }
-    run.point_effects()?;
+    run.point_effects(&study)?;
     let mut summary = Summary {
         study: study.file.name.clone(),
         robot: study.robot.name.clone(),
@@ -60,6 +63,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
     summary.comparison = compare(&study.file.comparison, &summary);
     let path = write_summary(&settings.out, &summary)?;
     run.progress.finish_and_clear();
+    let timings =
+        Timings { threads: rayon::current_num_threads(), all: clock.elapsed().as_secs_f64(), ..run.timings };
+    write_timings(&settings.out, &timings)?;
     print_results(&summary);
     for (name, study) in &summary.studies {
         if let StudySummary::Sampling(sampling) = study
@@ -69,11 +75,14 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
         }
     }
     print_comparison(&summary);
-    for (name, seconds) in &run.timings {
+    for (name, seconds) in &timings.seconds {
         println!("{name:24} {seconds:6.2} s");
     }
-    println!("{:24} {:6.2} s", "all", clock.elapsed().as_secs_f64());
+    println!("{:24} {:6.2} s", "all", timings.all);
     println!("\nresults in {}", path.parent().unwrap_or(&path).display());
+    let path = settings.out.join("report.html");
+    report::write(&settings.out, &path)?;
+    println!("report in {}", path.display());
     Ok(())
 }
 
@@ -89,7 +98,7 @@ struct Run<'a> {
     settings: &'a Settings,
     progress: ProgressBar,
     studies: IndexMap<String, StudySummary>,
-    timings: Vec<(String, f64)>,
+    timings: Timings,
 }
 
 impl Run<'_> {
@@ -108,11 +117,13 @@ impl Run<'_> {
             self.figure(&format!("{name}_effects"), cdpr_report::signed_effects(&summary, 20))?;
         }
         if let Some(measures) = &summary.sensitivity {
+            let seconds = measures.methods.iter().map(|(name, method)| (name.clone(), method.seconds));
+            self.timings.sensitivity.insert(name.to_owned(), seconds.collect());
             write_sensitivity(&self.settings.out, name, measures)?;
             self.figure(&format!("{name}_sensitivity"), cdpr_report::shares(&summary, 12))?;
         }
         self.studies.insert(name.to_owned(), StudySummary::Sampling(Box::new(summary)));
-        self.timings.push((name.to_owned(), clock.elapsed().as_secs_f64()));
+        self.timings.seconds.insert(name.to_owned(), clock.elapsed().as_secs_f64());
         Ok(())
     }
 
@@ -125,12 +136,12 @@ impl Run<'_> {
         let summary = SurfaceSummary::new(&surface, &result);
         self.figure(name, cdpr_report::surface(&summary, &result))?;
         self.studies.insert(name.to_owned(), StudySummary::Surface(summary));
-        self.timings.push((name.to_owned(), clock.elapsed().as_secs_f64()));
+        self.timings.seconds.insert(name.to_owned(), clock.elapsed().as_secs_f64());
         Ok(())
     }
 
     /// The effects of anchor and exit points of all samplings that have them, one panel each.
-    fn point_effects(&self) -> Result<(), RunError> {
+    fn point_effects(&self, study: &Study) -> Result<(), RunError> {
         for (name, letter, points) in
             [("anchor_points", "a1.x", Points::Anchor), ("exit_points", "b1.x", Points::Exit)]
         {
@@ -145,7 +156,7 @@ impl Run<'_> {
                 })
                 .collect();
             if !samplings.is_empty() {
-                self.figure(name, cdpr_report::point_effects(&samplings, points))?;
+                self.figure(name, cdpr_report::point_effects(&study.robot, &samplings, points))?;
             }
         }
         Ok(())

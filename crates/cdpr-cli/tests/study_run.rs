@@ -299,3 +299,45 @@ fn an_unbounded_law_at_the_first_point_of_the_sequence_names_the_field_to_change
         &[file, "`mass` is unbounded below", "start at index 1"],
     );
 }
+
+#[test]
+fn a_run_writes_a_report_and_so_does_its_folder_alone() {
+    let bench = Bench::new();
+    assert!(bench.run(&[]).status.success());
+    let written = std::fs::read_to_string(bench.path("out/report.html")).unwrap();
+    assert!(written.starts_with("<!DOCTYPE html>") && written.contains("id=\"figure-mechanical\""));
+    // The folder is complete by itself.
+    let moved = bench.path("moved");
+    std::fs::rename(bench.path("out"), &moved).unwrap();
+    for file in ["study.json", "robot.json"] {
+        std::fs::remove_file(bench.path(file)).unwrap();
+    }
+    let report = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_cdpr"))
+            .current_dir(bench.folder.path())
+            .arg("report")
+            .args(arguments)
+            .output()
+            .unwrap()
+    };
+    let output = report(&["moved", "--out", "again.html"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), "report in again.html\n");
+    assert!(std::fs::read_to_string(bench.path("again.html")).unwrap() == written);
+
+    let refusal = |expected: &str| {
+        let output = report(&["moved"]);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && text.contains(expected) && !text.contains("panicked"), "{text}");
+    };
+    let table = std::fs::read_to_string(moved.join("surface_E_rho.csv")).unwrap();
+    let short = table.trim_end().rsplit_once('\n').unwrap().0;
+    std::fs::write(moved.join("surface_E_rho.csv"), short).unwrap();
+    refusal("surface_E_rho.csv: rows is 19: expected a grid of 20 points");
+    std::fs::write(moved.join("surface_E_rho.csv"), table.replace("ok", "maybe,ok")).unwrap();
+    refusal("surface_E_rho.csv: row 1 is ");
+    std::fs::write(moved.join("summary.json"), "{\"study\": 1}").unwrap();
+    refusal("summary.json: line 1, column 11: study: invalid type");
+    std::fs::remove_file(moved.join("summary.json")).unwrap();
+    refusal("cannot read moved/summary.json");
+}

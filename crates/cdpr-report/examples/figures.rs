@@ -36,8 +36,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .filter(|(name, _)| name.starts_with("geometrical"))
         .map(|(name, summary)| (*name, summary))
         .collect();
-    write("anchor_points", &point_effects(&geometrical, Points::Anchor)?)?;
-    write("exit_points", &point_effects(&geometrical, Points::Exit)?)?;
+    write("anchor_points", &point_effects(&study.robot, &geometrical, Points::Anchor)?)?;
+    write("exit_points", &point_effects(&study.robot, &geometrical, Points::Exit)?)?;
 
     for name in study.file.surfaces.keys() {
         let prepared = study.surface(name)?;

@@ -171,9 +171,10 @@ impl ColorMap {
         ViridisRGB::get_color(self.place(value))
     }
 
-    /// White on the dark half of viridis, black on the bright one.
+    /// White on the dark half of viridis, black on the bright one; both by a hair, so that a page that swaps black and white for
+    /// dark surroundings leaves lines on viridis as they are.
     fn line_color(&self, value: f64) -> RGBColor {
-        if self.place(value) < 0.5 { WHITE } else { BLACK }
+        if self.place(value) < 0.5 { RGBColor(254, 254, 254) } else { RGBColor(1, 1, 1) }
     }
 
     /// Segments of the line where the value, interpolated along the edges of the grid, is `level` (marching squares).

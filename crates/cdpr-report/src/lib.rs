@@ -1,4 +1,5 @@
-//! Static figures of study results, ready for a paper: one function a figure, results in, SVG text out. No file is written.
+//! Figures of study results, ready for a paper: one function a figure, results in, SVG text out. And [`report()`], which puts all of
+//! them into one HTML file beside the robot in space. No file is read or written.
 //!
 //! | figure of the paper | function |
 //! |---|---|
@@ -32,6 +33,7 @@ mod error;
 mod heat_map;
 mod histogram;
 mod points;
+mod report;
 mod robustness;
 mod shares;
 mod style;
@@ -42,6 +44,7 @@ pub use error::ReportError;
 pub use heat_map::{MapQuantity, heat_map};
 pub use histogram::histogram;
 pub use points::{Points, point_effects};
+pub use report::report;
 pub use robustness::{found_poses, success_share};
 pub use shares::shares;
 pub use surface::surface;

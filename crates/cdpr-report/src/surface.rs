@@ -11,7 +11,7 @@ use cdpr_study::{SurfaceResult, SurfaceSummary};
 /// # Errors
 /// [`ReportError::Empty`] if every cell failed, [`ReportError::Invalid`] for a grid that is none, an unknown parameter, or a
 /// value that is not finite.
-pub fn surface(summary: &SurfaceSummary, result: &SurfaceResult) -> Result<String, ReportError> {
+pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result<String, ReportError> {
     let [x, y] = &summary.parameters;
     let nodes = (nodes("x", x, &result.x)?, nodes("y", y, &result.y)?);
     let rms = result.rms_mm.iter().map(|rms| rms.as_ref().ok().copied()).collect();
@@ -42,9 +42,15 @@ pub fn surface(summary: &SurfaceSummary, result: &SurfaceResult) -> Result<Strin
 
 /// The values of a parameter in the unit that its label names.
 fn nodes(field: &str, name: &str, values: &[f64]) -> Result<Nodes, ReportError> {
+    let (label, scale) = axis_of(name)?;
+    Nodes::new(field, label, values.iter().map(|value| scale * value).collect())
+}
+
+/// Label of a parameter's axis, and what turns SI units into the unit that it names.
+pub(crate) fn axis_of(name: &str) -> Result<(String, f64), ReportError> {
     let parameter: Parameter =
         name.parse().map_err(|_| ReportError::invalid("parameters", &name, "a parameter of a robot"))?;
-    let (label, scale) = match parameter {
+    Ok(match parameter {
         Parameter::YoungsModulus => ("Young's modulus E [GPa]".to_owned(), 1e-9),
         Parameter::LinearDensity => ("linear density \u{3c1} [kg/m]".to_owned(), 1.0),
         Parameter::Mass => ("mass of the platform m [kg]".to_owned(), 1.0),
@@ -52,6 +58,5 @@ fn nodes(field: &str, name: &str, values: &[f64]) -> Result<Nodes, ReportError> 
         Parameter::ExitPoint(..) => (format!("exit point, {name} [m]"), 1.0),
         Parameter::CenterOfMass(_) => (format!("centre of mass, {name} [m]"), 1.0),
         Parameter::TensionOffset(_) => (format!("offset of the tension set-point, {name} [N]"), 1.0),
-    };
-    Nodes::new(field, label, values.iter().map(|value| scale * value).collect())
+    })
 }

@@ -35,6 +35,7 @@ mod grid;
 mod inspection;
 mod observation;
 mod output;
+mod results;
 mod robustness;
 mod sampling;
 mod sensitivity;
@@ -58,8 +59,10 @@ pub use inspection::{Finding, Severity, inspect};
 pub use observation::{Block, FITTED, KEPT, Tally, observe, observe_into};
 pub use output::{
     ObservationTable, StudySummary, Summary, check_folder, remove_summary, write_figure, write_refused,
-    write_robustness, write_sensitivity, write_solves, write_summary, write_surface, write_workspace,
+    write_robustness, write_sensitivity, write_solves, write_study, write_summary, write_surface, write_text,
+    write_timings, write_workspace,
 };
+pub use results::{Results, Timings};
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
     Published, Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread,

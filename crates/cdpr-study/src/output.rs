@@ -2,21 +2,24 @@
 
 use crate::comparison::ComparisonRow;
 use crate::error::StudyError;
+use crate::file::StudyFile;
 use crate::observation::{Block, rms_mm};
+use crate::results::Timings;
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::sampling::SamplingSummary;
 use crate::sensitivity::SensitivitySummary;
-use crate::study::{Sampling, Surface};
+use crate::study::{Sampling, Study, Surface};
 use crate::surface::{SurfaceResult, SurfaceSummary};
 use crate::workspace::WorkspaceSummary;
 use cdpr_robot::Pose;
 use cdpr_sensitivity::SampleDesign;
 use indexmap::IndexMap;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Everything a study found; `summary.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Name of the study.
     pub study: String,
@@ -35,13 +38,39 @@ pub struct Summary {
 }
 
 /// Results of a sampling or a surface.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum StudySummary {
     /// Of a sampling.
     Sampling(Box<SamplingSummary>),
     /// Of a surface.
     Surface(SurfaceSummary),
+}
+
+impl StudySummary {
+    /// Title.
+    pub fn title(&self) -> &str {
+        match self {
+            Self::Sampling(sampling) => &sampling.title,
+            Self::Surface(surface) => &surface.title,
+        }
+    }
+
+    /// Observations or points of the grid, failed ones included.
+    pub fn observations(&self) -> usize {
+        match self {
+            Self::Sampling(sampling) => sampling.observations,
+            Self::Surface(surface) => surface.observations,
+        }
+    }
+
+    /// Failed ones by kind.
+    pub fn failed(&self) -> &BTreeMap<String, usize> {
+        match self {
+            Self::Sampling(sampling) => &sampling.failed,
+            Self::Surface(surface) => &surface.failed,
+        }
+    }
 }
 
 /// Makes the folder for results and checks that files can be written in it: before anything is computed.
@@ -185,6 +214,24 @@ pub fn write_sensitivity(
     }
 }
 
+/// Writes `study.json` and, beside it, `robot.json`: the folder can be run again, and reported on, by itself.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_study(folder: &Path, study: &Study) -> Result<PathBuf, StudyError> {
+    let robot = "robot.json".to_owned();
+    write_text(&folder.join(&robot), &(study.robot.to_json() + "\n"))?;
+    write_json(folder.join("study.json"), &StudyFile { robot, ..study.file.clone() })
+}
+
+/// Writes `timings.json`.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_timings(folder: &Path, timings: &Timings) -> Result<PathBuf, StudyError> {
+    write_json(folder.join("timings.json"), timings)
+}
+
 /// Writes `summary.json`.
 ///
 /// # Errors
@@ -309,7 +356,7 @@ fn pose_cells(pose: &Pose) -> [String; 6] {
 fn write_json(path: PathBuf, value: &impl Serialize) -> Result<PathBuf, StudyError> {
     let text = serde_json::to_string_pretty(value)
         .map_err(|error| StudyError::Write { path: path.clone(), source: error.into() })?;
-    std::fs::write(&path, text + "\n").map_err(|source| StudyError::Write { path: path.clone(), source })?;
+    write_text(&path, &(text + "\n"))?;
     Ok(path)
 }
 
@@ -319,8 +366,16 @@ fn write_json(path: PathBuf, value: &impl Serialize) -> Result<PathBuf, StudyErr
 /// [`StudyError::Write`].
 pub fn write_figure(folder: &Path, name: &str, svg: &str) -> Result<PathBuf, StudyError> {
     let path = folder.join(format!("{name}.svg"));
-    std::fs::write(&path, svg).map_err(|source| StudyError::Write { path: path.clone(), source })?;
+    write_text(&path, svg)?;
     Ok(path)
+}
+
+/// Writes a text to a file.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_text(path: &Path, text: &str) -> Result<(), StudyError> {
+    std::fs::write(path, text).map_err(|source| StudyError::Write { path: path.to_owned(), source })
 }
 
 fn write_csv(

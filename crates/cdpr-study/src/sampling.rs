@@ -10,16 +10,18 @@ use cdpr_sensitivity::{
 };
 use cdpr_statics::Deflection;
 use indexmap::IndexMap;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Results of one sampling; serialised into `summary.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SamplingSummary {
     /// Title.
     pub title: String,
     /// Position of the wanted pose [m].
     pub pose: [f64; 3],
+    /// Its rotation as a unit quaternion (w, x, y, z), w >= 0.
+    pub quaternion: [f64; 4],
     /// Number of observations, failed ones included.
     pub observations: usize,
     /// Failed observations by kind.
@@ -51,7 +53,7 @@ pub struct SamplingSummary {
 }
 
 /// Summary of the RMS of the static deflection [mm].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RmsSummary {
     /// Mean.
     pub mean: f64,
@@ -76,7 +78,7 @@ pub struct RmsSummary {
 }
 
 /// The nominal robot under the study's load.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NominalSummary {
     /// dp [mm].
     pub displacement_mm: [f64; 3],
@@ -89,7 +91,7 @@ pub struct NominalSummary {
 }
 
 /// A law fitted to the RMS [mm].
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FitSummary {
     /// Family.
     pub law: Family,
@@ -109,7 +111,7 @@ pub struct FitSummary {
 }
 
 /// Signed effect of a parameter [mm] and its confidence interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SignedEffect {
     /// Mean over the replicates.
     pub effect: f64,
@@ -172,6 +174,7 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, tick: &(dyn Fn(usize) + Sync)
     SamplingSummary {
         title: sampling.title.to_owned(),
         pose: sampling.pose.position.into(),
+        quaternion: sampling.pose.quaternion(),
         observations: sampling.design.points(),
         failed: tally.failed.clone(),
         rms_mm: moments

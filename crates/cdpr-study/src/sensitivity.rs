@@ -25,19 +25,19 @@ use cdpr_sensitivity::{
 use cdpr_statics::{StaticsError, derivatives};
 use indexmap::IndexMap;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::time::Instant;
 
 /// Measures of all inputs of a sampling; serialised into `summary.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SensitivitySummary {
     /// What the measures say, one an input, in the order of the parameter vector.
     pub inputs: Vec<InputMeasures>,
     /// What each method rests on; without those of which a note says why they have failed.
-    pub methods: IndexMap<&'static str, MethodSummary>,
+    pub methods: IndexMap<String, MethodSummary>,
     /// Sums of each share of the variance over the inputs of a group (`a`, `b`, `mass`, ...), and over all of them (`all`).
-    pub sums: IndexMap<&'static str, IndexMap<&'static str, f64>>,
+    pub sums: IndexMap<String, IndexMap<String, f64>>,
     /// What the measures agree on.
     pub agreement: Agreement,
     /// What could not be measured, and why.
@@ -45,7 +45,7 @@ pub struct SensitivitySummary {
 }
 
 /// What the measures say of one input; `None` of a method that has failed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InputMeasures {
     /// Name of the input.
     pub input: String,
@@ -84,7 +84,7 @@ pub struct InputMeasures {
 }
 
 /// What a method rests on, and how well it explains the output.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MethodSummary {
     /// Observations made, failed ones included; each with its derivatives for `derivatives` and `dgsm`.
     pub observations: usize,
@@ -105,14 +105,14 @@ pub struct MethodSummary {
 }
 
 /// What the measures agree on.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Agreement {
     /// How many inputs count as leading: ten, or half of them if that is less.
     pub first: usize,
     /// Inputs that every measure below puts above zero and among its `first` largest.
     pub inputs: Vec<String>,
     /// The measures compared: one of each method that has not failed.
-    pub measures: Vec<&'static str>,
+    pub measures: Vec<String>,
     /// Spearman's rank correlation over all inputs, of each of these measures with each; `None` with one that does not vary.
     pub rank_correlation: Vec<Vec<Option<f64>>>,
 }
@@ -187,7 +187,10 @@ pub fn measure(
         let clock = Instant::now();
         match method(&run, &mut inputs) {
             Ok(summary) => {
-                methods.insert(name, MethodSummary { seconds: clock.elapsed().as_secs_f64(), ..summary });
+                methods.insert(
+                    name.to_owned(),
+                    MethodSummary { seconds: clock.elapsed().as_secs_f64(), ..summary },
+                );
             }
             Err(error) => notes.push(format!("{name}: {error}")),
         }
@@ -202,7 +205,7 @@ impl SensitivitySummary {
     pub fn leading(&self) -> Vec<&InputMeasures> {
         let mut inputs: Vec<_> = self.inputs.iter().collect();
         let last = self.agreement.measures.last();
-        if let Some((_, of)) = RANKED.iter().find(|(name, _)| Some(name) == last) {
+        if let Some((_, of)) = RANKED.iter().find(|(name, _)| last.is_some_and(|last| last == name)) {
             inputs.sort_by(|one, other| of(other).unwrap_or(0.0).total_cmp(&of(one).unwrap_or(0.0)));
         }
         inputs
@@ -358,17 +361,14 @@ impl MethodSummary {
 }
 
 /// [`SensitivitySummary::sums`].
-fn sums(
-    sampling: &Sampling,
-    inputs: &[InputMeasures],
-) -> IndexMap<&'static str, IndexMap<&'static str, f64>> {
+fn sums(sampling: &Sampling, inputs: &[InputMeasures]) -> IndexMap<String, IndexMap<String, f64>> {
     let groups = (0..inputs.len()).map(|input| sampling.errors.group(input));
-    let mut sums: IndexMap<&str, IndexMap<&str, f64>> = IndexMap::new();
+    let mut sums: IndexMap<String, IndexMap<String, f64>> = IndexMap::new();
     for (group, input) in groups.zip(inputs).chain(inputs.iter().map(|input| ("all", input))) {
-        let sums = sums.entry(group).or_default();
+        let sums = sums.entry(group.to_owned()).or_default();
         for (name, of) in SHARES {
             if let Some(share) = of(input) {
-                *sums.entry(name).or_default() += share;
+                *sums.entry(name.to_owned()).or_default() += share;
             }
         }
     }
@@ -378,7 +378,9 @@ fn sums(
 impl Agreement {
     fn of(inputs: &[InputMeasures]) -> Self {
         let first = LEADING.min(inputs.len().div_ceil(2));
-        let column = |(name, of): Measure| Some((name, inputs.iter().map(of).collect::<Option<Vec<f64>>>()?));
+        let column = |(name, of): Measure| {
+            Some((name.to_owned(), inputs.iter().map(of).collect::<Option<Vec<f64>>>()?))
+        };
         let (measures, columns): (Vec<_>, Vec<_>) = RANKED.into_iter().filter_map(column).unzip();
         let leads = |values: &Vec<f64>, input: usize| {
             values[input] > 0.0 && values.iter().filter(|value| **value > values[input]).count() < first

@@ -343,7 +343,7 @@ fn keys<T>(map: &IndexMap<String, T>) -> String {
     format!("one of {}", map.keys().cloned().collect::<Vec<_>>().join(", "))
 }
 
-fn read(path: &Path) -> Result<String, StudyError> {
+pub(crate) fn read(path: &Path) -> Result<String, StudyError> {
     std::fs::read_to_string(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })
 }
 

@@ -94,7 +94,7 @@ fn a_cause_has_measures_of_its_own_that_agree() {
         assert!(low - 0.01 <= share && share <= high + 0.01, "{input:?}");
         assert!((input.expansion_first.unwrap() - share).abs() < 0.02, "{input:?}");
     }
-    assert_eq!(found.sums.keys().copied().collect::<Vec<_>>(), ["b", "all"]);
+    assert_eq!(found.sums.keys().collect::<Vec<_>>(), ["b", "all"]);
 }
 
 #[test]
