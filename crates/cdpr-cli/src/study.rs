@@ -4,9 +4,9 @@
 use crate::sensitivity;
 use cdpr_report::{Points, ReportError};
 use cdpr_study::{
-    IndexMap, ObservationTable, Study, StudyError, StudySummary, Summary, SurfaceSummary, analyse,
+    IndexMap, ObservationTable, Study, StudyError, StudySummary, Summary, SurfaceSummary, Timings, analyse,
     check_folder, compare, compute_surface, observe_into, remove_summary, write_figure, write_sensitivity,
-    write_summary, write_surface,
+    write_study, write_summary, write_surface, write_timings,
 };
 use comfy_table::{Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -39,8 +39,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
     }
     check_folder(&settings.out)?;
     remove_summary(&settings.out)?;
+    write_study(&settings.out, &study)?;
     let mut run =
-        Run { settings, progress: progress(&study)?, studies: IndexMap::new(), timings: Vec::new() };
+        Run { settings, progress: progress(&study)?, studies: IndexMap::new(), timings: Timings::default() };
     for name in study.file.samplings.keys() {
         run.sampling(&study, name)?;
     }
@@ -60,6 +61,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
     summary.comparison = compare(&study.file.comparison, &summary);
     let path = write_summary(&settings.out, &summary)?;
     run.progress.finish_and_clear();
+    let timings =
+        Timings { threads: rayon::current_num_threads(), all: clock.elapsed().as_secs_f64(), ..run.timings };
+    write_timings(&settings.out, &timings)?;
     print_results(&summary);
     for (name, study) in &summary.studies {
         if let StudySummary::Sampling(sampling) = study
@@ -69,10 +73,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), RunError> {
         }
     }
     print_comparison(&summary);
-    for (name, seconds) in &run.timings {
+    for (name, seconds) in &timings.seconds {
         println!("{name:24} {seconds:6.2} s");
     }
-    println!("{:24} {:6.2} s", "all", clock.elapsed().as_secs_f64());
+    println!("{:24} {:6.2} s", "all", timings.all);
     println!("\nresults in {}", path.parent().unwrap_or(&path).display());
     Ok(())
 }
@@ -89,7 +93,7 @@ struct Run<'a> {
     settings: &'a Settings,
     progress: ProgressBar,
     studies: IndexMap<String, StudySummary>,
-    timings: Vec<(String, f64)>,
+    timings: Timings,
 }
 
 impl Run<'_> {
@@ -108,11 +112,13 @@ impl Run<'_> {
             self.figure(&format!("{name}_effects"), cdpr_report::signed_effects(&summary, 20))?;
         }
         if let Some(measures) = &summary.sensitivity {
+            let seconds = measures.methods.iter().map(|(name, method)| ((*name).to_owned(), method.seconds));
+            self.timings.sensitivity.insert(name.to_owned(), seconds.collect());
             write_sensitivity(&self.settings.out, name, measures)?;
             self.figure(&format!("{name}_sensitivity"), cdpr_report::shares(&summary, 12))?;
         }
         self.studies.insert(name.to_owned(), StudySummary::Sampling(Box::new(summary)));
-        self.timings.push((name.to_owned(), clock.elapsed().as_secs_f64()));
+        self.timings.seconds.insert(name.to_owned(), clock.elapsed().as_secs_f64());
         Ok(())
     }
 
@@ -125,7 +131,7 @@ impl Run<'_> {
         let summary = SurfaceSummary::new(&surface, &result);
         self.figure(name, cdpr_report::surface(&summary, &result))?;
         self.studies.insert(name.to_owned(), StudySummary::Surface(summary));
-        self.timings.push((name.to_owned(), clock.elapsed().as_secs_f64()));
+        self.timings.seconds.insert(name.to_owned(), clock.elapsed().as_secs_f64());
         Ok(())
     }
 

@@ -23,9 +23,11 @@
 //! # Ok::<(), cdpr_study::StudyError>(())
 //! ```
 
+mod atomic;
 mod comparison;
 mod error;
 mod file;
+mod folder;
 mod observation;
 mod output;
 mod robustness;
@@ -42,6 +44,7 @@ pub use file::{
     AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic,
     StudyFile, SurfaceSpec, json_schema,
 };
+pub use folder::{ROBOT_NAME, STUDY_NAME, Timings, write_study, write_timings};
 pub use indexmap::IndexMap;
 pub use observation::{Block, FITTED, KEPT, Tally, observe, observe_into};
 pub use output::{

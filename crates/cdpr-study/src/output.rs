@@ -1,5 +1,6 @@
 //! Result files: observations as CSV, the summary as JSON.
 
+use crate::atomic::write_json;
 use crate::comparison::ComparisonRow;
 use crate::error::StudyError;
 use crate::observation::{Block, rms_mm};
@@ -288,13 +289,6 @@ pub fn write_refused(folder: &Path, results: &[RobustnessResult]) -> Result<Path
 fn pose_cells(pose: &Pose) -> [String; 6] {
     let motion = Pose::at(0.0, 0.0, 0.0).motion_to(pose);
     <[f64; 6]>::from(motion).map(|value| value.to_string())
-}
-
-fn write_json(path: PathBuf, value: &impl Serialize) -> Result<PathBuf, StudyError> {
-    let text = serde_json::to_string_pretty(value)
-        .map_err(|error| StudyError::Write { path: path.clone(), source: error.into() })?;
-    std::fs::write(&path, text + "\n").map_err(|source| StudyError::Write { path: path.clone(), source })?;
-    Ok(path)
 }
 
 /// Writes the figure `NAME.svg`.
