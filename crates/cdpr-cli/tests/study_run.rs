@@ -113,7 +113,7 @@ fn the_files_are_the_same_on_any_number_of_threads() {
     let mut bench = Bench::new();
     bench.measure();
     let files = |threads: &str| -> Vec<Vec<u8>> {
-        assert!(bench.run(&["--threads", threads]).status.success());
+        assert!(bench.run(&["--overwrite", "--threads", threads]).status.success());
         ["summary.json", "geometrical_asymmetric.csv"]
             .map(|file| std::fs::read(bench.path("out").join(file)).unwrap())
             .into()

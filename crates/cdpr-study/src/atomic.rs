@@ -32,6 +32,11 @@ impl AtomicFile {
         }
     }
 
+    /// What a failure to write to it is.
+    pub(crate) fn unwritten(&self, source: std::io::Error) -> StudyError {
+        StudyError::Write { path: self.path.clone(), source }
+    }
+
     /// Gives the file its name. After a failure of the system it may be missing or empty.
     ///
     /// # Errors
@@ -89,7 +94,7 @@ pub(crate) fn write_atomic(path: PathBuf, text: &[u8]) -> Result<PathBuf, StudyE
     let mut file = AtomicFile::new(path)?;
     match file.write_all(text) {
         Ok(()) => file.finish_on_disk(),
-        Err(source) => Err(StudyError::Write { path: file.path, source }),
+        Err(source) => Err(file.unwritten(source)),
     }
 }
 

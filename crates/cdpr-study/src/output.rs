@@ -3,14 +3,12 @@
 use crate::atomic::write_json;
 use crate::comparison::ComparisonRow;
 use crate::error::StudyError;
-use crate::observation::{Block, rms_mm};
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::sampling::SamplingSummary;
 use crate::sensitivity::SensitivitySummary;
-use crate::study::{Sampling, Surface};
+use crate::study::Surface;
 use crate::surface::{SurfaceResult, SurfaceSummary};
 use cdpr_robot::Pose;
-use cdpr_sensitivity::SampleDesign;
 use indexmap::IndexMap;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -60,7 +58,7 @@ pub fn check_folder(folder: &Path) -> Result<(), StudyError> {
 ///
 /// # Errors
 /// [`StudyError::Write`].
-pub fn remove_summary(folder: &Path) -> Result<(), StudyError> {
+pub(crate) fn remove_summary(folder: &Path) -> Result<(), StudyError> {
     let path = folder.join("summary.json");
     match std::fs::remove_file(&path) {
         Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
@@ -70,74 +68,7 @@ pub fn remove_summary(folder: &Path) -> Result<(), StudyError> {
     }
 }
 
-/// Writes `NAME.csv` block by block: one row an observation, with the deviation of each parameter from its nominal value (`d_mass`, ...
-/// in SI units), dp, RMS, status and reason.
-pub struct ObservationTable {
-    path: PathBuf,
-    writer: csv::Writer<std::fs::File>,
-    inputs: usize,
-}
-
-impl ObservationTable {
-    /// Begins the table of a sampling.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub fn new(folder: &Path, sampling: &Sampling) -> Result<Self, StudyError> {
-        let path = folder.join(format!("{}.csv", sampling.name));
-        let inputs = sampling.design.inputs();
-        let header = ["index".to_owned()]
-            .into_iter()
-            .chain(inputs.iter().map(|input| format!("d_{}", input.name)))
-            .chain(["dx_mm", "dy_mm", "dz_mm", "rms_mm", "status", "reason"].map(str::to_owned));
-        let begin = || {
-            let mut writer = csv::Writer::from_path(&path)?;
-            writer.write_record(header)?;
-            Ok(writer)
-        };
-        match begin() {
-            Ok(writer) => Ok(Self { path, writer, inputs: inputs.len() }),
-            Err(error) => Err(unwritten(path, error)),
-        }
-    }
-
-    /// Adds a block.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub fn write(&mut self, block: &Block) -> Result<(), StudyError> {
-        let rows = block.rows.chunks_exact(self.inputs);
-        for (index, (row, outcome)) in (block.first..).zip(rows.zip(&block.outcomes)) {
-            let mut record = vec![index.to_string()];
-            record.extend(row.iter().map(ToString::to_string));
-            match outcome {
-                Ok(observation) => {
-                    record.extend(observation.displacement.iter().map(|d| (1e3 * d).to_string()));
-                    record.extend([rms_mm(observation.rms()).to_string(), "ok".to_owned(), String::new()]);
-                }
-                Err(error) => {
-                    record.extend(std::iter::repeat_n(String::new(), 4));
-                    record.extend([error.kind().to_owned(), error.to_string()]);
-                }
-            }
-            self.writer.write_record(record).map_err(|error| unwritten(self.path.clone(), error))?;
-        }
-        Ok(())
-    }
-
-    /// Ends the table.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub fn finish(mut self) -> Result<PathBuf, StudyError> {
-        match self.writer.flush() {
-            Ok(()) => Ok(self.path),
-            Err(error) => Err(unwritten(self.path, error.into())),
-        }
-    }
-}
-
-fn unwritten(path: PathBuf, error: csv::Error) -> StudyError {
+pub(crate) fn unwritten(path: PathBuf, error: csv::Error) -> StudyError {
     StudyError::Write { path, source: error.into() }
 }
 
