@@ -36,6 +36,8 @@ mod file;
 mod folder;
 mod observation;
 mod output;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod robustness;
 mod sampling;
 mod sensitivity;
@@ -45,6 +47,7 @@ mod store;
 mod study;
 mod surface;
 mod table;
+mod template;
 
 pub use block::{BLOCK, BLOCK_FORMAT, BlockHeader};
 pub use cdpr_sensitivity::{Family, Truncation};
@@ -77,3 +80,4 @@ pub use store::Blocks;
 pub use study::{Sampling, Study, Surface, open_robot};
 pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
 pub use table::{ObservationTable, Rows, TableFormat};
+pub use template::{TEMPLATE_NOTES, template, write_template};

@@ -90,7 +90,7 @@ impl ObservationTable {
             }
             (Table::None, Content::None) => Ok(()),
             #[cfg(feature = "parquet")]
-            (Table::Parquet(table), Content::Parquet(part)) => table.write(&part),
+            (Table::Parquet(table), Content::Parquet(part)) => table.write(part),
             (_, _) => {
                 debug_assert!(false, "rows of another format");
                 Ok(())

@@ -1,23 +1,18 @@
 //! `cdpr study status`.
 
 use super::{RunError, table};
+use crate::arguments::Format;
 use cdpr_study::{Provisional, Status, open_results, status};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Settings {
     /// Folder of the results.
     folder: PathBuf,
-    /// What is printed.
+    /// How it is printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    Text,
-    Json,
 }
 
 pub(super) fn run(settings: &Settings) -> Result<(), RunError> {
