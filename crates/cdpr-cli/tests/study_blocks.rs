@@ -337,6 +337,24 @@ fn shards_that_are_none_and_folders_without_a_study_are_refused() {
     }
 }
 
+#[test]
+fn a_new_study_of_ones_own_robot_runs_as_it_is() {
+    let bench = Bench::new(300);
+    std::fs::create_dir(bench.path("mine")).unwrap();
+    std::fs::write(bench.path("mine/robot-1.json"), data("robots/cogiro.json").to_string()).unwrap();
+    let new = ["new", "--robot", "mine/robot-1.json", "--out", "mine/study-1.json"];
+    let output = bench.cdpr(&new);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let notes = String::from_utf8(output.stdout).unwrap();
+    assert!(notes.contains("error_models") && notes.contains("cdpr study run FILE"), "{notes}");
+    bench.done(&["run", "mine/study-1.json", "--out", "out", "--observations", "64"]);
+    assert!(bench.path("out/all_sensitivity.svg").exists());
+    let message = bench.refused(&new);
+    assert!(message.starts_with("error: cannot write mine/study-1.json: File exists"), "{message}");
+    let message = bench.refused(&["new", "--robot", "mine/robot-1.json", "--position", "0,0,99"]);
+    assert!(message.starts_with("error: --position is [0.0, 0.0, 99.0]: expected a position"), "{message}");
+}
+
 /// Signals a child as Ctrl-C does, or lets a shell limit its files.
 #[cfg(unix)]
 mod unix {
@@ -355,7 +373,7 @@ mod unix {
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130));
         let text = String::from_utf8(output.stderr).unwrap();
-        assert!(text.contains("what is done is in out; the same command with --resume goes on"), "{text}");
+        assert!(text.contains("interrupted: what is done is in out; go on with: cdpr study run out/study.json --out out --resume"), "{text}");
         assert!(!bench.blocks("out").is_empty());
     }
 

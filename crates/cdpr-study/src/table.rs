@@ -6,8 +6,7 @@ use crate::error::StudyError;
 use crate::observation::{Observed, Part, rms_mm};
 use crate::study::Sampling;
 use cdpr_sensitivity::SampleDesign;
-use std::fmt::{Display, Write as _};
-use std::io::Write as _;
+use std::io::Write;
 use std::path::Path;
 
 /// What a table is written as.
@@ -26,7 +25,7 @@ pub enum TableFormat {
 pub struct Rows(Content);
 
 enum Content {
-    Csv(csv::Result<Vec<u8>>),
+    Csv(std::io::Result<Vec<u8>>),
     #[cfg(feature = "parquet")]
     Parquet(Part),
     None,
@@ -85,7 +84,7 @@ impl ObservationTable {
     pub fn write(&mut self, rows: Rows) -> Result<(), StudyError> {
         match (&mut self.0, rows.0) {
             (Table::Csv(file), Content::Csv(text)) => {
-                let written = text.map_err(Into::into).and_then(|text| file.write_all(&text));
+                let written = text.and_then(|text| file.write_all(&text));
                 written.map_err(|source| file.unwritten(source))
             }
             (Table::None, Content::None) => Ok(()),
@@ -112,31 +111,31 @@ impl ObservationTable {
     }
 }
 
-fn csv_rows(part: &Part) -> csv::Result<Vec<u8>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut text = String::new();
-    let mut field = |writer: &mut csv::Writer<Vec<u8>>, value: &dyn Display| {
-        text.clear();
-        // A string takes all that is written to it.
-        let _ = write!(text, "{value}");
-        writer.write_field(&text)
-    };
-    let inputs = part.rows.len() / part.outcomes.len().max(1);
-    for (index, (row, outcome)) in
-        (part.first..).zip(part.rows.chunks_exact(inputs.max(1)).zip(&part.outcomes))
-    {
-        field(&mut writer, &index)?;
-        row.iter().try_for_each(|value| field(&mut writer, value))?;
+/// Lines of text. Numbers need no quotes; what is said of a failure may.
+fn csv_rows(part: &Part) -> std::io::Result<Vec<u8>> {
+    let mut text = Vec::new();
+    let inputs = (part.rows.len() / part.outcomes.len().max(1)).max(1);
+    for (index, (row, outcome)) in (part.first..).zip(part.rows.chunks_exact(inputs).zip(&part.outcomes)) {
+        write!(text, "{index}")?;
+        row.iter().try_for_each(|value| write!(text, ",{value}"))?;
         for value in observed_mm(outcome) {
             match value {
-                Some(value) => field(&mut writer, &value)?,
-                None => writer.write_field("")?,
+                Some(value) => write!(text, ",{value}")?,
+                None => text.push(b','),
             }
         }
-        let (status, reason) = status(outcome);
-        writer.write_record([status, reason])?;
+        text.push(b',');
+        match outcome {
+            Ok(_) => text.extend_from_slice(b"ok,\n"),
+            Err(_) => {
+                let (status, reason) = status(outcome);
+                let mut words = csv::Writer::from_writer(&mut text);
+                words.write_record([status, reason])?;
+                words.flush()?;
+            }
+        }
     }
-    writer.into_inner().map_err(|error| error.into_error().into())
+    Ok(text)
 }
 
 /// dp and RMS [mm].

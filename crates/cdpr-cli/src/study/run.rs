@@ -5,7 +5,7 @@ use super::{RunError, print};
 use crate::sensitivity;
 use cdpr_report::{Points, ReportError};
 use cdpr_study::{
-    Blocks, IndexMap, ObservationTable, Session, Shard, Study, StudyError, StudySummary, Summary,
+    Blocks, IndexMap, ObservationTable, STUDY_NAME, Session, Shard, Study, StudyError, StudySummary, Summary,
     SurfaceSummary, TableFormat, Timings, analyse, compare, compute_surface, observe_into, observe_shard,
     write_figure, write_sensitivity, write_summary, write_surface, write_timings,
 };
@@ -20,7 +20,7 @@ const INTERRUPTED: i32 = 130;
 /// Makes the blocks of one shard.
 pub(super) fn shard(study: &Study, out: &Path, blocks: &Blocks, shard: Shard) -> Result<(), RunError> {
     let progress = progress(study)?;
-    leave_when_interrupted(&progress, out)?;
+    leave_when_interrupted(&progress, out, "the same command goes on".to_owned())?;
     let tick = |done: usize| progress.inc(done as u64);
     let warn = warn(&progress);
     observe_shard(study, shard, &Session { blocks: Some(blocks), tick: &tick, warn: &warn })?;
@@ -33,7 +33,9 @@ pub(super) fn shard(study: &Study, out: &Path, blocks: &Blocks, shard: Shard) ->
 pub(super) fn whole(study: &Study, out: &Path, blocks: &Blocks, format: TableFormat) -> Result<(), RunError> {
     let clock = Instant::now();
     let progress = progress(study)?;
-    leave_when_interrupted(&progress, out)?;
+    let folder = out.display();
+    let remedy = format!("go on with: cdpr study run {folder}/{STUDY_NAME} --out {folder} --resume");
+    leave_when_interrupted(&progress, out, remedy)?;
     let mut run =
         Run { out, blocks, format, progress, studies: IndexMap::new(), timings: Timings::default() };
     for name in study.file.samplings.keys() {
@@ -77,11 +79,11 @@ pub(super) fn whole(study: &Study, out: &Path, blocks: &Blocks, format: TableFor
 }
 
 /// Blocks are whole or not there: on Ctrl-C (or an end of time on a cluster) the process says how to go on, and leaves.
-fn leave_when_interrupted(progress: &ProgressBar, out: &Path) -> Result<(), RunError> {
+fn leave_when_interrupted(progress: &ProgressBar, out: &Path, remedy: String) -> Result<(), RunError> {
     let (progress, out) = (progress.clone(), out.display().to_string());
     ctrlc::set_handler(move || {
         progress.abandon();
-        eprintln!("\ninterrupted: what is done is in {out}; the same command with --resume goes on");
+        eprintln!("\ninterrupted: what is done is in {out}; {remedy}");
         std::process::exit(INTERRUPTED);
     })?;
     Ok(())
