@@ -49,6 +49,18 @@ impl Bench {
         bench
     }
 
+    /// The same with measures of sensitivity: Morris's design in a block, Saltelli's in two.
+    fn with_measures(observations: usize) -> Self {
+        let bench = Self::new(observations);
+        let mut study = bench.study();
+        study["sensitivity"] = json!({
+            "observations": 200, "saltelli_blocks": 2400, "bootstrap_resamples": 20, "morris_blocks": 16,
+            "derivative_points": 8, "expansion": {"max_degree": 2, "norm": 1.0, "interactions": 2}
+        });
+        bench.write_study(&study);
+        bench
+    }
+
     fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
@@ -147,7 +159,7 @@ impl Random {
 
 #[test]
 fn a_study_killed_at_ten_random_moments_and_resumed_equals_one_that_was_not() {
-    let bench = Bench::new(BLOCK + 1000);
+    let bench = Bench::with_measures(BLOCK + 1000);
     let clock = Instant::now();
     bench.run("whole", &["--threads", "2"]);
     let whole = clock.elapsed();
@@ -175,20 +187,21 @@ fn a_study_killed_at_ten_random_moments_and_resumed_equals_one_that_was_not() {
     println!("{kills} killed, {finished} finished before, {:.1?} a whole run", whole);
     bench.run("killed", &["--resume", "--threads", "1"]);
     bench.assert_same("whole", "killed");
-    assert_eq!(bench.blocks("whole").len(), 2 * 3 * 2);
-    assert_eq!(bench.blocks("killed").len(), 2 * 3 * 2, "nothing unfinished is left");
+    // Of each sampling its own design, two replicates, Saltelli's and Morris's.
+    assert_eq!(bench.blocks("whole").len(), 2 * (2 + 2 * 2 + 2 + 1));
+    assert_eq!(bench.blocks("killed").len(), bench.blocks("whole").len(), "nothing unfinished is left");
 }
 
 #[test]
 fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there() {
-    let bench = Bench::new(BLOCK + 1000);
+    let bench = Bench::with_measures(BLOCK + 1000);
     bench.run("whole", &[]);
     let merge = ["merge", "shards"];
     for shard in ["3/3", "1/3"] {
         bench.run("shards", &["--shard", shard]);
         let message = bench.refused(&merge);
         assert!(
-            message.starts_with("error: shards lacks ") && message.contains(" of 12 blocks"),
+            message.starts_with("error: shards lacks ") && message.contains(" of 18 blocks"),
             "{message}"
         );
     }
@@ -201,7 +214,7 @@ fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there()
         let designs = samplings.flat_map(|sampling| sampling["designs"].as_object().unwrap().values());
         designs.map(|design| design[key].as_u64().unwrap()).sum()
     };
-    assert_eq!((count("blocks_done"), count("blocks_missing")), (8, 4));
+    assert_eq!((count("blocks_done"), count("blocks_missing")), (12, 6));
     // The last third, as a job array of Slurm has it.
     let mut command = bench.command(&["run", "my-study.json", "--out", "shards", "--shard", "auto"]);
     for (end, value) in [("ID", "2"), ("MIN", "1"), ("MAX", "3"), ("COUNT", "3")] {

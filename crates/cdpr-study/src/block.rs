@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Name and version of the format.
-pub const BLOCK_FORMAT: &str = "cdpr-block/1";
+pub(crate) const BLOCK_FORMAT: &str = "cdpr-block/1";
 
 /// Observations of a block, but for the last one of a design: the unit of work, of checkpoint and of reduction.
 pub const BLOCK: usize = 16_384;
@@ -26,21 +26,21 @@ const DISPLACEMENT: usize = 24;
 /// What a block is of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct BlockHeader {
+pub(crate) struct BlockHeader {
     /// Version of the program.
-    pub version: String,
+    pub(crate) version: String,
     /// Hash of the study ([`crate::Study::hash`]).
-    pub study: String,
+    pub(crate) study: String,
     /// Name of the sampling.
-    pub sampling: String,
+    pub(crate) sampling: String,
     /// Name of its design.
-    pub design: String,
+    pub(crate) design: String,
     /// Index in the design of the first observation.
-    pub first: usize,
+    pub(crate) first: usize,
     /// Number of observations.
-    pub observations: usize,
+    pub(crate) observations: usize,
     /// Failed ones by kind.
-    pub failed: BTreeMap<String, usize>,
+    pub(crate) failed: BTreeMap<String, usize>,
 }
 
 /// The blocks of a design of so many points: number and range of indices.

@@ -4,7 +4,7 @@
 
 use crate::atomic::{write_atomic, write_json};
 use crate::error::StudyError;
-use crate::output::{check_folder, remove_summary};
+use crate::output::{check_folder, remove_stale};
 use crate::store::Blocks;
 use crate::study::Study;
 use cdpr_robot::Robot;
@@ -98,7 +98,7 @@ pub fn begin(folder: &Path, study: &Study, existing: Existing) -> Result<Blocks,
         // Somebody's own file, perhaps the very study that is to run.
         return Err(StudyError::NoResults { path: folder.join(name) });
     }
-    remove_summary(folder)?;
+    remove_stale(folder.join("summary.json"))?;
     std::fs::create_dir_all(&path).map_err(|source| StudyError::Write { path, source })?;
     write_study(folder, study)?;
     Ok(blocks)

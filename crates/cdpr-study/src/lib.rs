@@ -49,7 +49,7 @@ mod surface;
 mod table;
 mod template;
 
-pub use block::{BLOCK, BLOCK_FORMAT, BlockHeader};
+pub use block::BLOCK;
 pub use cdpr_sensitivity::{Family, Truncation};
 pub use comparison::{ComparisonRow, Value, Verdict, compare};
 pub use designs::observe_shard;

@@ -49,17 +49,15 @@ pub enum StudySummary {
 pub fn check_folder(folder: &Path) -> Result<(), StudyError> {
     let write = |source| StudyError::Write { path: folder.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(write)?;
-    let probe = folder.join(".writable");
-    std::fs::write(&probe, b"").map_err(write)?;
-    std::fs::remove_file(&probe).map_err(write)
+    // A name of its own: other machines may be looking, too.
+    tempfile::tempfile_in(folder).map_err(write).map(|_| ())
 }
 
-/// Removes the summary of an earlier run, which the tables to come would no longer belong to.
+/// Removes a file of an earlier run, which what is to come would no longer belong to, if there is one.
 ///
 /// # Errors
 /// [`StudyError::Write`].
-pub(crate) fn remove_summary(folder: &Path) -> Result<(), StudyError> {
-    let path = folder.join("summary.json");
+pub(crate) fn remove_stale(path: PathBuf) -> Result<(), StudyError> {
     match std::fs::remove_file(&path) {
         Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
             Err(StudyError::Write { path, source })

@@ -78,11 +78,8 @@ pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
                     found.blocks_missing += 1;
                     return found.damaged.push(path);
                 };
-                if outcomes.len() == range.len() {
-                    found.blocks_done += 1
-                } else {
-                    found.blocks_missing += 1
-                }
+                let whole = outcomes.len() == range.len();
+                *(if whole { &mut found.blocks_done } else { &mut found.blocks_missing }) += 1;
                 found.observed += outcomes.len();
                 for kind in failures(&outcomes) {
                     *found.failed.entry(kind.to_owned()).or_default() += 1;

@@ -4,6 +4,7 @@
 use crate::atomic::AtomicFile;
 use crate::error::StudyError;
 use crate::observation::{Observed, Part, rms_mm};
+use crate::output::remove_stale;
 use crate::study::Sampling;
 use cdpr_sensitivity::SampleDesign;
 use std::io::Write;
@@ -54,11 +55,14 @@ impl TableFormat {
 }
 
 impl ObservationTable {
-    /// Begins the table of a sampling: `d_mass`, ... in SI units, `dx_mm`, ..., `rms_mm`, `status` and `reason`.
+    /// Begins the table of a sampling, and removes one of an earlier run: `d_mass`, ... in SI units, `dx_mm`, ..., `rms_mm`, `status` and `reason`.
     ///
     /// # Errors
     /// [`StudyError::Write`].
     pub fn new(folder: &Path, sampling: &Sampling, format: TableFormat) -> Result<Self, StudyError> {
+        for ending in ["csv", "parquet"] {
+            remove_stale(folder.join(format!("{}.{ending}", sampling.name)))?;
+        }
         let names = sampling.design.inputs().iter().map(|input| format!("d_{}", input.name));
         match format {
             TableFormat::Csv => {
