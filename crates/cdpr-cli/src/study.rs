@@ -92,7 +92,8 @@ struct Common {
     /// Threads; all cores if left out. The numbers do not depend on it.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// What the observations are written as; 0.9 kB each as CSV. The blocks keep them in any case.
+    /// What the observations are written as; 0.9 kB each as CSV, less as Parquet (if built with that feature). The blocks keep them in
+    /// any case.
     #[arg(long, value_enum, default_value_t = TableName::Csv)]
     table: TableName,
 }

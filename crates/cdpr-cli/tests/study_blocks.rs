@@ -184,7 +184,7 @@ fn a_study_killed_at_ten_random_moments_and_resumed_equals_one_that_was_not() {
             arguments.push("--resume");
         }
     }
-    println!("{kills} killed, {finished} finished before, {:.1?} a whole run", whole);
+    println!("{kills} killed, {finished} finished before, {whole:.1?} a whole run");
     bench.run("killed", &["--resume", "--threads", "1"]);
     bench.assert_same("whole", "killed");
     // Of each sampling its own design, two replicates, Saltelli's and Morris's.
@@ -197,14 +197,20 @@ fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there()
     let bench = Bench::with_measures(BLOCK + 1000);
     bench.run("whole", &[]);
     let merge = ["merge", "shards"];
-    for shard in ["3/3", "1/3"] {
-        bench.run("shards", &["--shard", shard]);
-        let message = bench.refused(&merge);
-        assert!(
-            message.starts_with("error: shards lacks ") && message.contains(" of 18 blocks"),
-            "{message}"
-        );
+    // Two at once, in a folder that neither has made.
+    let begin = |shard| {
+        let mut command = bench.command(&["run", "my-study.json", "--out", "shards", "--shard", shard]);
+        command.stdout(Stdio::null()).spawn().unwrap()
+    };
+    let children = ["3/3", "1/3"].map(begin);
+    for mut child in children {
+        assert!(child.wait().unwrap().success());
     }
+    let message = bench.refused(&merge);
+    assert!(
+        message.starts_with("error: shards lacks 6 of 18 blocks, the first one shards/blocks/"),
+        "{message}"
+    );
     assert!(!bench.path("shards/summary.json").exists());
     let output = bench.cdpr(&["status", "shards", "--format", "json"]);
     let status: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -309,6 +315,9 @@ fn titles_and_numbers_of_observations_make_no_other_study() {
     study["samplings"]["mechanical"]["title"] = json!("Another title");
     study["bootstrap_resamples"] = json!(3);
     bench.write_study(&study);
+    // Without a table: that of the larger run would not be of this one.
+    bench.run("out", &["--resume", "--observations", "200", "--table", "none"]);
+    assert!(!bench.path("out/mechanical.csv").exists());
     bench.run("out", &["--resume", "--observations", "200"]);
     bench.run("whole", &["--observations", "200"]);
     bench.assert_same("whole", "out");
