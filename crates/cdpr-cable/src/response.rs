@@ -89,6 +89,8 @@ pub struct Response<T> {
     pub end_per_length: [T; 2],
     /// T [N].
     pub tension: T,
+    /// (fx, fz)/T.
+    pub direction: [T; 2],
     /// q²: how slack the cable is, from 0 for a straight one to 1 for one that hangs folded.
     pub slackness: T,
 }
@@ -264,6 +266,7 @@ impl<T: Field> Terms<T> {
         let lateral = self.lateral(q2 * psi + 1.0);
         let determinant = (stretch + sag_xx + sag_zz) * stretch + sag * g * tt0_inv;
         let entering = t * tt0_inv + stretch;
+        let tension_inv = t0 * tt0_inv;
         Response {
             end: [fx * lateral, self.height()],
             flexibility: [
@@ -275,6 +278,7 @@ impl<T: Field> Terms<T> {
             lateral,
             end_per_length: [fx * entering, v0 * entering],
             tension: t,
+            direction: [fx * tension_inv, fz * tension_inv],
             slackness: q2,
         }
     }

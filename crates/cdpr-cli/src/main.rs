@@ -9,6 +9,7 @@ mod robustness;
 mod sensitivity;
 mod study;
 mod throughput;
+mod tolerances;
 
 use clap::{Parser, Subcommand};
 use std::error::Error;
@@ -39,6 +40,11 @@ enum Command {
         after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
     )]
     Derivatives(derivatives::Settings),
+    /// Tell which tolerances of a study's error model to tighten, and by how much, so that an error stays below a limit.
+    #[command(
+        after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric --limit 2.9 --costs b=3"
+    )]
+    Tolerances(tolerances::Settings),
     /// Measure how often the direct model finds the true pose from a wrong start.
     #[command(
         after_help = "Example: cdpr robustness --robot data/robots/cogiro.json --poses 1000 --out robustness"
@@ -67,6 +73,7 @@ fn main() -> ExitCode {
         Command::Study { command } => study::run(command).map_err(Into::into),
         Command::Calibration(settings) => calibration::run(&settings),
         Command::Derivatives(settings) => derivatives::run(&settings),
+        Command::Tolerances(settings) => tolerances::run(&settings),
         Command::Robustness { robot, poses, modulus, seed, out } => {
             let settings = robustness::Settings { robot, poses, modulus, seed, out };
             robustness::run(&settings).map_err(Into::into)

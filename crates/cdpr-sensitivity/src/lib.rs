@@ -9,6 +9,7 @@
 //! | which law it follows | [`mod@fit`] |
 //! | which input matters | [`effect`], [`morris`], [`mod@dgsm`], [`mod@regression`] |
 //! | how much of the variance it causes, alone and with others | [`sobol_indices`](mod@sobol_indices), [`pce`] |
+//! | which tolerances to tighten for a limit | [`allocation`] |
 //! | how sure that is, and how many runs would do | [`interval`], [`mod@convergence`] |
 //!
 //! What holds throughout:
@@ -50,6 +51,7 @@
 #[cfg(doctest)]
 struct Readme;
 
+pub mod allocation;
 pub mod convergence;
 pub mod correlated;
 pub mod design;
@@ -76,6 +78,7 @@ pub mod sobol;
 pub mod sobol_indices;
 pub mod summary;
 
+pub use allocation::allocate;
 pub use convergence::{Target, Tightened, convergence, first_tight, until_tight};
 pub use correlated::Correlated;
 pub use design::{IndependentSample, JointSample, RandomDesign, SampleDesign, SobolDesign};

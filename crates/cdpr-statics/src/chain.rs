@@ -22,8 +22,9 @@
 
 use crate::lane_algebra::{Factored, Space, Wrench, cross, dot, six, three};
 use crate::lanes::{Lanes, Mask, Simd};
-use crate::taut::{Cable, Load, MAX_ITERATIONS, Open, Plane, Robots, Scale, Span, Tangent};
-use cdpr_cable::{Field, TAUT, TautEnd, taut_response};
+use crate::taut::{Load, MAX_ITERATIONS, Open, Robots, Scale, Tangent};
+use crate::taut_cable::{Cable, Linear, Plane, Span};
+use cdpr_cable::{Field, Response, TAUT};
 
 /// Robots at their wanted pose, with starts of lengths and forces.
 pub(crate) struct Beginning<S: Simd> {
@@ -76,16 +77,14 @@ pub(crate) fn observe<S: Simd>(begin: Beginning<S>, settings: &Settings) -> Outc
     for cable in &robots.cables {
         spans.push(Span::new(&robots.position, cable));
     }
-    let within = distribute(robots, multipliers, &spans, settings);
-    let held = hold(robots, &offsets, &spans, settings);
+    let mut set_points = offsets;
+    let within = distribute(robots, multipliers, &mut set_points, &spans, settings);
+    let mut tangent = Tangent::new(zero, spans.len());
+    let held = hold(robots, &mut tangent, &set_points, &spans, settings);
 
     let own = Load { weight: robots.weight, force: [zero; 3] };
-    let mut tangent = Tangent::new(zero, spans.len());
-    let all = zero.less_or_equal(zero);
-    let closure = robots.linearise(&own, &mut tangent, all);
-    // The lengths close at the wanted pose.
-    let closed = closure.less_or_equal(zero.all(settings.scale.rounding * settings.scale.rounding));
-    let (standing, unloaded) = robots.settle(&own, &mut tangent, &settings.scale, within & held & closed);
+    robots.assemble(&own, &mut tangent, zero.less_or_equal(zero));
+    let (standing, unloaded) = robots.settle(&own, &mut tangent, &settings.scale, within & held);
     let stood = robots.position;
 
     let payload = Load { weight: zero.all(settings.payload), force: three(|k| zero.all(settings.force[k])) };
@@ -101,6 +100,8 @@ pub(crate) fn observe<S: Simd>(begin: Beginning<S>, settings: &Settings) -> Outc
 #[derive(Clone, Copy)]
 struct Held<S: Simd> {
     tension: Lanes<S>,
+    /// q².
+    slackness: Lanes<S>,
     /// û.
     along: Plane<S>,
     alpha: Lanes<S>,
@@ -121,13 +122,11 @@ impl<S: Simd> Span<S> {
 
 impl<S: Simd> Held<S> {
     #[inline(always)]
-    fn new(cable: &Cable<S>, end: &Plane<S>) -> Self {
+    fn new(cable: &Cable<S>, span: &Span<S>, response: &Response<Lanes<S>>) -> Self {
         let [fx, fz] = cable.force;
-        let response = taut_response(cable.weight, cable.stretch, cable.length, cable.force);
         let [xx, xz, zz] = response.flexibility;
-        let tension_inv = response.tension.recip();
-        let along = [fx * tension_inv, fz * tension_inv];
-        let miss = [end[0] - response.end[0], end[1] - response.end[1]];
+        let along = response.direction;
+        let miss = span.miss(response.end);
         let turn = [xz * fx - xx * fz, zz * fx - xz * fz];
         let give = [xx * along[0] + xz * along[1], xz * along[0] + zz * along[1]];
         let longer = response.end_per_length;
@@ -135,6 +134,7 @@ impl<S: Simd> Held<S> {
         let inverse = area(&turn, &longer).recip();
         Self {
             tension: response.tension,
+            slackness: response.slackness,
             along,
             alpha: area(&miss, &longer) * inverse,
             beta: -area(&give, &longer) * inverse,
@@ -158,25 +158,29 @@ impl<S: Simd> Held<S> {
     }
 }
 
-/// Least-norm tensions at the wanted pose, equations (b) and (c). Returns the lanes with taut cables and all tensions within the limits.
+/// Least-norm tensions at the wanted pose, equations (b) and (c); `offsets` are added to them and become set-points, towards which cables
+/// make a first step. Returns the lanes with taut cables and all tensions within the limits.
 #[inline(always)]
 fn distribute<S: Simd>(
     robots: &mut Robots<S>,
     mut multipliers: Wrench<S>,
+    offsets: &mut [Lanes<S>],
     spans: &[Span<S>],
     settings: &Settings,
 ) -> Mask<S> {
     let zero = robots.weight.all(0.0);
+    let (least, greatest) = (zero.all(settings.least), zero.all(settings.greatest));
     let last_change = zero.all(LAST_DISTRIBUTION);
     let weight = Load { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
     let mut going = zero.less_or_equal(zero);
+    let mut within = going;
     let mut linear = Vec::with_capacity(spans.len());
     for _ in 0..MAX_ITERATIONS {
         linear.clear();
         let mut matrix = [[zero; 6]; 6];
         let mut right = weight;
         for (span, cable) in spans.iter().zip(&robots.cables) {
-            let held = Held::new(cable, &span.end);
+            let held = Held::new(cable, span, &cable.response());
             let [ux, uz] = held.along;
             let pull = span.wrench(&cable.arm, held.along);
             let turn = span.wrench(&cable.arm, [-uz, ux]);
@@ -199,45 +203,55 @@ fn distribute<S: Simd>(
             moved = moved.max(held.change(cable, dt, going, settings));
         }
         multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
-        going = going & !moved.less_or_equal(last_change);
+        let last = going & moved.less_or_equal(last_change);
+        if last.any() {
+            for (((held, ..), cable), offset) in linear.iter().zip(&mut robots.cables).zip(&mut *offsets) {
+                let tension = dot(&cable.force, &cable.force).sqrt();
+                let sound = zero.less_or_equal(cable.force[0])
+                    & held.slackness.less_or_equal(zero.all(TAUT))
+                    & least.less_or_equal(tension)
+                    & tension.less_or_equal(greatest);
+                within = within & (sound | !last);
+                let set_point = (tension + *offset).max(least);
+                *offset = last.select(set_point, *offset);
+                let closed = Held { alpha: zero, gamma: zero, ..*held };
+                closed.change(cable, set_point - tension, last, settings);
+            }
+        }
+        going = going & !last;
         if !going.any() {
             break;
         }
     }
-    let mut within = !going;
-    for cable in &robots.cables {
-        let TautEnd { tension, slackness, .. } = cable.end();
-        within = within
-            & zero.less_or_equal(cable.force[0])
-            & slackness.less_or_equal(zero.all(TAUT))
-            & zero.all(settings.least).less_or_equal(tension)
-            & tension.less_or_equal(zero.all(settings.greatest));
-    }
-    within
+    within & !going
 }
 
-/// Lengths that give the offset tensions at the wanted pose. Returns the lanes where all were found.
+/// Lengths that give the tensions `set_points` at the wanted pose, and the cables linearised there. Returns the lanes where all were found.
 #[inline(always)]
 fn hold<S: Simd>(
     robots: &mut Robots<S>,
-    offsets: &[Lanes<S>],
+    tangent: &mut Tangent<S>,
+    set_points: &[Lanes<S>],
     spans: &[Span<S>],
     settings: &Settings,
 ) -> Mask<S> {
     let zero = robots.weight.all(0.0);
     let mut all = zero.less_or_equal(zero);
-    for ((span, offset), cable) in spans.iter().zip(offsets).zip(&mut robots.cables) {
-        let tension = dot(&cable.force, &cable.force).sqrt();
-        let set_point = (tension + *offset).max(zero.all(settings.least));
+    let cables = robots.cables.iter_mut().zip(&mut tangent.cables);
+    for ((span, set_point), (cable, linear)) in spans.iter().zip(set_points).zip(cables) {
         let mut going = all;
         for _ in 0..MAX_ITERATIONS {
-            let held = Held::new(cable, &span.end);
-            let moved = held.change(cable, set_point - held.tension, going, settings);
+            let response = cable.response();
+            let held = Held::new(cable, span, &response);
+            linear.replace(&Linear::new(span, cable.force, &response), going);
+            let moved = held.change(cable, *set_point - held.tension, going, settings);
             going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
             if !going.any() {
                 break;
             }
         }
+        // The last change closes to rounding.
+        linear.predicted = cable.force;
         // A root with a cable of negative length is none.
         all = all & !going & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
     }

@@ -9,24 +9,21 @@ pub(crate) type Space<S> = [Lanes<S>; 3];
 /// Force and moment about P, or translation and rotation.
 pub(crate) type Wrench<S> = [Lanes<S>; 6];
 
-/// L U of a matrix that needs no pivoting: that of a stable platform, or of tensions that are distributed.
-#[derive(Clone, Copy)]
+/// Six rows of six.
+pub(crate) type Matrix<S> = [[Lanes<S>; 6]; 6];
+
+/// L U of a matrix that needs no pivoting: that of tensions that are distributed.
 pub(crate) struct Factored<S: Simd> {
-    lu: [[Lanes<S>; 6]; 6],
+    lu: Matrix<S>,
     pivots_inv: [Lanes<S>; 6],
-    /// Whether all pivots are positive: of a symmetric matrix, whether it is positive definite.
-    pub(crate) positive: Mask<S>,
 }
 
 impl<S: Simd> Factored<S> {
     #[inline(always)]
-    pub(crate) fn new(matrix: [[Lanes<S>; 6]; 6]) -> Self {
+    pub(crate) fn new(matrix: Matrix<S>) -> Self {
         let mut lu = matrix;
         let mut pivots_inv = [lu[0][0]; 6];
-        let tiny = lu[0][0].all(f64::MIN_POSITIVE);
-        let mut positive = tiny.less_or_equal(lu[0][0]);
         for k in 0..6 {
-            positive = positive & tiny.less_or_equal(lu[k][k]);
             pivots_inv[k] = lu[k][k].recip();
             for row in k + 1..6 {
                 lu[row][k] = lu[row][k] * pivots_inv[k];
@@ -35,17 +32,7 @@ impl<S: Simd> Factored<S> {
                 }
             }
         }
-        Self { lu, pivots_inv, positive }
-    }
-
-    /// Takes over another one in the lanes that are `going`.
-    #[inline(always)]
-    pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {
-        for row in 0..6 {
-            self.lu[row] = six(|column| going.select(other.lu[row][column], self.lu[row][column]));
-        }
-        self.pivots_inv = six(|k| going.select(other.pivots_inv[k], self.pivots_inv[k]));
-        self.positive = (going & other.positive) | (!going & self.positive);
+        Self { lu, pivots_inv }
     }
 
     #[inline(always)]
@@ -61,6 +48,73 @@ impl<S: Simd> Factored<S> {
                 x[row] -= self.lu[row][column] * x[column];
             }
             x[row] = x[row] * self.pivots_inv[row];
+        }
+        x
+    }
+}
+
+/// Uᵀ D U of a symmetric matrix, U with ones on its diagonal.
+#[derive(Clone, Copy)]
+pub(crate) struct Symmetric<S: Simd> {
+    /// U above the diagonal; what else is there means nothing.
+    upper: Matrix<S>,
+    /// 1/D.
+    pivots_inv: [Lanes<S>; 6],
+    /// Whether the matrix is positive definite.
+    pub(crate) positive: Mask<S>,
+}
+
+impl<S: Simd> Symmetric<S> {
+    /// Of `matrix` the diagonal and what is above it are read.
+    // Indices as in the formula.
+    #[allow(clippy::needless_range_loop)]
+    #[inline(always)]
+    pub(crate) fn new(matrix: Matrix<S>) -> Self {
+        let mut upper = matrix;
+        let mut pivots_inv = [upper[0][0]; 6];
+        let tiny = upper[0][0].all(f64::MIN_POSITIVE);
+        let mut positive = tiny.less_or_equal(upper[0][0]);
+        for k in 0..6 {
+            positive = positive & tiny.less_or_equal(upper[k][k]);
+            pivots_inv[k] = upper[k][k].recip();
+            for row in k + 1..6 {
+                let share = upper[k][row] * pivots_inv[k];
+                for column in row..6 {
+                    upper[row][column] -= share * upper[k][column];
+                }
+            }
+            for column in k + 1..6 {
+                upper[k][column] = upper[k][column] * pivots_inv[k];
+            }
+        }
+        Self { upper, pivots_inv, positive }
+    }
+
+    /// Takes over another one in the lanes that are `going`.
+    #[inline(always)]
+    pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {
+        for row in 0..6 {
+            for column in row + 1..6 {
+                self.upper[row][column] = going.select(other.upper[row][column], self.upper[row][column]);
+            }
+        }
+        self.pivots_inv = six(|k| going.select(other.pivots_inv[k], self.pivots_inv[k]));
+        self.positive = (going & other.positive) | (!going & self.positive);
+    }
+
+    #[inline(always)]
+    pub(crate) fn solve(&self, right: &Wrench<S>) -> Wrench<S> {
+        let mut x = *right;
+        for row in 1..6 {
+            for column in 0..row {
+                x[row] -= self.upper[column][row] * x[column];
+            }
+        }
+        for row in (0..6).rev() {
+            x[row] = x[row] * self.pivots_inv[row];
+            for column in row + 1..6 {
+                x[row] -= self.upper[row][column] * x[column];
+            }
         }
         x
     }
@@ -95,6 +149,7 @@ pub(crate) fn dot<S: Simd, const N: usize>(a: &[Lanes<S>; N], b: &[Lanes<S>; N])
     }
     sum
 }
+
 /// Adds (F, s x F).
 #[inline(always)]
 pub(crate) fn add<S: Simd>(wrench: &mut Wrench<S>, arm: &Space<S>, force: &Space<S>) {

@@ -56,7 +56,9 @@ impl<S: Simd> Lanes<S> {
     /// The first values of an array, one a lane.
     #[inline(always)]
     pub(crate) fn from_array(simd: S, values: &[f64; MAX_LANES]) -> Self {
-        Self { simd, values: simd.partial_load_f64s(&values[..Self::COUNT]) }
+        // A whole vector: pulp's load of a part is a call.
+        let (vectors, _) = S::as_simd_f64s(&values[..Self::COUNT]);
+        Self { simd, values: vectors[0] }
     }
 
     /// The same number in all lanes, on the unit of this one.
@@ -69,7 +71,8 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(crate) fn to_array(self) -> [f64; MAX_LANES] {
         let mut values = [0.0; MAX_LANES];
-        self.simd.partial_store_f64s(&mut values[..Self::COUNT], self.values);
+        let (vectors, _) = S::as_mut_simd_f64s(&mut values[..Self::COUNT]);
+        vectors[0] = self.values;
         values
     }
 
@@ -112,7 +115,7 @@ impl<S: Simd> Mask<S> {
 
     #[inline(always)]
     pub(crate) fn any(self) -> bool {
-        self.to_array().contains(&true)
+        self.simd.first_true_m64s(self.values) < Lanes::<S>::COUNT
     }
 }
 

@@ -58,6 +58,7 @@ mod partials;
 mod stability;
 mod tangent;
 mod taut;
+mod taut_cable;
 mod tracker;
 mod trust_region;
 

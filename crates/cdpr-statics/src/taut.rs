@@ -4,29 +4,11 @@
 //! A lane stops by its own steps alone: the others of a batch change none of its digits.
 
 use crate::direct::MAX_STRAIN;
-use crate::lane_algebra::{Factored, Space, Wrench, add, cross, dot, halves, six, three};
+use crate::lane_algebra::{Matrix, Space, Symmetric, Wrench, add, cross, dot, halves, six, three};
 use crate::lanes::{Lanes, MAX_LANES, Mask, Simd};
-use cdpr_cable::{Field, TAUT, TautEnd, taut_end, taut_response};
+use crate::taut_cable::{Cable, Linear, Span};
+use cdpr_cable::{Field, TAUT, TautEnd};
 use smallvec::{SmallVec, smallvec};
-
-/// A vector in a cable's vertical plane: along the azimuth, upwards.
-pub(crate) type Plane<S> = [Lanes<S>; 2];
-
-/// A cable of every robot, or several cables of one.
-pub(crate) struct Cable<S: Simd> {
-    /// Weight per length [N/m].
-    pub(crate) weight: Lanes<S>,
-    /// 1/EA [1/N].
-    pub(crate) stretch: Lanes<S>,
-    /// Exit point [m].
-    pub(crate) exit: Space<S>,
-    /// s = R a [m].
-    pub(crate) arm: Space<S>,
-    /// Unstrained length [m].
-    pub(crate) length: Lanes<S>,
-    /// Force at A [N].
-    pub(crate) force: Plane<S>,
-}
 
 /// What the lanes hold.
 pub(crate) enum Layout<S: Simd> {
@@ -83,28 +65,12 @@ pub(crate) struct Open<S: Simd> {
 
 pub(crate) const MAX_ITERATIONS: usize = 8;
 
-/// A step below this, relative to what it changes, is followed by one below rounding: Newton's method squares it.
-const LAST_STEP: f64 = 1e-8;
+/// After a step below this, relative to the longest cable, the platform is at rest or next to it: stiffnesses are kept, and the little
+/// that is left shrinks by as much with every further step.
+const SMALL_STEP: f64 = 1e-7;
 
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
-
-/// From exit to anchor point.
-pub(crate) struct Span<S: Simd> {
-    pub(crate) azimuth: Plane<S>,
-    /// (h, z) [m].
-    pub(crate) end: Plane<S>,
-}
-
-impl<S: Simd> Span<S> {
-    #[inline(always)]
-    pub(crate) fn new(position: &Space<S>, cable: &Cable<S>) -> Self {
-        let r = three(|k| position[k] + cable.arm[k] - cable.exit[k]);
-        let h = (r[0] * r[0] + r[1] * r[1]).sqrt();
-        let inverse = h.recip();
-        Self { azimuth: [r[0] * inverse, r[1] * inverse], end: [h, r[2]] }
-    }
-}
 
 /// What acts on a platform: a weight at its centre of mass and a force at P.
 pub(crate) struct Load<S: Simd> {
@@ -120,106 +86,79 @@ impl<S: Simd> Load<S> {
     }
 }
 
-/// A cable linearised about a force that need not fit its ends: `df = K (c + d(h, z))`, as in [`crate::newton`].
-#[derive(Clone, Copy)]
-pub(crate) struct Linear<S: Simd> {
-    azimuth: Plane<S>,
-    /// f + K c.
-    predicted: Plane<S>,
-    /// K: xx, xz, zz.
-    stiffness: [Lanes<S>; 3],
-}
-
 /// The platform between linearised cables.
 pub(crate) struct Tangent<S: Simd> {
-    cables: SmallVec<[Linear<S>; INLINE]>,
+    pub(crate) cables: SmallVec<[Linear<S>; INLINE]>,
     /// Gradient of the potential with the predicted forces.
     pub(crate) gradient: Wrench<S>,
     /// Its derivative, factored.
-    factored: Factored<S>,
+    factored: Symmetric<S>,
 }
 
 impl<S: Simd> Tangent<S> {
+    /// A place for one, all zero.
     #[inline(always)]
     pub(crate) fn new(zero: Lanes<S>, cables: usize) -> Self {
-        let cable = Linear { azimuth: [zero; 2], predicted: [zero; 2], stiffness: [zero; 3] };
+        let cable = Linear { azimuth: [zero; 2], predicted: [zero; 2], stiffness: [zero; 3], lateral: zero };
         Self {
             cables: smallvec![cable; cables],
             gradient: [zero; 6],
-            factored: Factored::new([[zero; 6]; 6]),
+            factored: Symmetric::new([[zero; 6]; 6]),
         }
-    }
-}
-
-impl<S: Simd> Linear<S> {
-    /// Takes over another one in the lanes that are `going`.
-    #[inline(always)]
-    fn replace(&mut self, other: &Self, going: Mask<S>) {
-        for k in 0..2 {
-            self.azimuth[k] = going.select(other.azimuth[k], self.azimuth[k]);
-            self.predicted[k] = going.select(other.predicted[k], self.predicted[k]);
-        }
-        self.stiffness = three(|k| going.select(other.stiffness[k], self.stiffness[k]));
-    }
-}
-
-impl<S: Simd> Cable<S> {
-    #[inline(always)]
-    pub(crate) fn end(&self) -> TautEnd<Lanes<S>> {
-        taut_end(self.weight, self.stretch, self.length, self.force)
     }
 }
 
 impl<S: Simd> Robots<S> {
-    /// Linearises the lanes that are `going`. Returns the largest squared miss of a cable.
+    /// Linearises the lanes that are `going`.
     #[inline(always)]
-    pub(crate) fn linearise(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) -> Lanes<S> {
+    pub(crate) fn linearise(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) {
+        for (cable, linear) in self.cables.iter().zip(&mut tangent.cables) {
+            let span = Span::new(&self.position, cable);
+            let response = cable.response();
+            linear.replace(&Linear::new(&span, cable.force, &response), going);
+        }
+        self.assemble(load, tangent, going);
+    }
+
+    /// Puts the platform between its linearised cables in the lanes that are `going`.
+    ///
+    /// Where moments are out of balance the derivative of the gradient is not symmetric. Its symmetric half does as well: what it leaves
+    /// out is a step times what an equilibrium has not.
+    // Indices as in the formula.
+    #[allow(clippy::needless_range_loop)]
+    #[inline(always)]
+    pub(crate) fn assemble(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) {
         let zero = self.weight.all(0.0);
-        let wrench = load.wrench(&self.center);
-        let (mut gradient, mut hessian, mut closure) = ([zero; 6], [[zero; 6]; 6], zero);
-        for (i, (cable, linear)) in self.cables.iter().zip(&mut tangent.cables).enumerate() {
-            let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
-            let response = taut_response(cable.weight, cable.stretch, cable.length, cable.force);
-            let [xx, xz, zz] = response.flexibility;
-            let inverse = response.determinant.recip();
-            let k = [zz * inverse, -xz * inverse, xx * inverse];
-            let miss = [h - response.end[0], z - response.end[1]];
-            closure = closure.max(dot(&miss, &miss));
-            let [fx, fz] = cable.force;
-            let predicted = [fx + k[0] * miss[0] + k[1] * miss[1], fz + k[1] * miss[0] + k[2] * miss[1]];
-            linear.replace(&Linear { azimuth: [c, s], predicted, stiffness: k }, going);
-            let [x, z] = [self.counted(i, predicted[0]), self.counted(i, predicted[1])];
-            let force = [x * c, x * s, z];
+        let (mut gradient, mut hessian) = ([zero; 6], [[zero; 6]; 6]);
+        for (i, (cable, linear)) in self.cables.iter().zip(&tangent.cables).enumerate() {
+            let predicted = linear.predicted;
+            let force = linear.lift([self.counted(i, predicted[0]), self.counted(i, predicted[1])]);
             add(&mut gradient, &cable.arm, &force);
-            let k = three(|j| self.counted(i, k[j]));
-            let lateral = self.counted(i, response.lateral.recip());
+            let [c, s] = linear.azimuth;
+            let k = three(|j| self.counted(i, linear.stiffness[j]));
+            let lateral = self.counted(i, linear.lateral);
             let (kc, ks, swing) = (k[0] * c, k[0] * s, lateral * s);
             let (xy, xz, yz) = (kc * s - swing * c, k[1] * c, k[1] * s);
             let space = [[kc * c + swing * s, xy, xz], [xy, ks * s + lateral * c * c, yz], [xz, yz, k[2]]];
             add_stiffness(&mut hessian, &cable.arm, &force, &space);
         }
         if let Layout::Cables(_) = self.layout {
-            for k in 0..6 {
-                gradient[k] = self.total(gradient[k]);
-                // Of the lower rows only the right half is there.
-                for l in if k < 3 { 0..6 } else { 3..6 } {
-                    hessian[k][l] = self.total(hessian[k][l]);
+            for row in 0..6 {
+                gradient[row] = self.total(gradient[row]);
+                for column in row..6 {
+                    hessian[row][column] = self.total(hessian[row][column]);
                 }
             }
         }
-        // -[F_w][R c]: weight is vertical.
+        // Weight is vertical and acts at the centre of mass.
         let [cx, cy, cz] = self.center;
         hessian[3][3] -= load.weight * cz;
         hessian[4][4] -= load.weight * cz;
-        hessian[3][5] += load.weight * cx;
-        hessian[4][5] += load.weight * cy;
-        let (upper, lower) = hessian.split_at_mut(3);
-        for (k, row) in lower.iter_mut().enumerate() {
-            row[..3].copy_from_slice(&[upper[0][3 + k], upper[1][3 + k], upper[2][3 + k]]);
-        }
+        hessian[3][5] += load.weight * cx * 0.5;
+        hessian[4][5] += load.weight * cy * 0.5;
+        let wrench = load.wrench(&self.center);
         tangent.gradient = six(|k| going.select(gradient[k] - wrench[k], tangent.gradient[k]));
-        tangent.factored.replace(&Factored::new(hessian), going);
-        self.largest(closure)
+        tangent.factored.replace(&Symmetric::new(hessian), going);
     }
 
     /// The value where lanes of cable `i` are cables, else zero.
@@ -261,20 +200,33 @@ impl<S: Simd> Robots<S> {
         }
     }
 
-    /// What the platforms leave open, and the lanes where that is rounding and all cables are pulled, taut and not overstrained.
+    /// What the platforms leave open, and the lanes where that is rounding and all cables are pulled, taut and not overstrained. In the lanes
+    /// that are `near` the linearisation is moved here, with the stiffness that it had.
     #[inline(always)]
-    fn residual(&self, load: &Load<S>, scale: &Scale) -> (Open<S>, Mask<S>) {
+    fn revise(
+        &self,
+        load: &Load<S>,
+        scale: &Scale,
+        tangent: &mut Tangent<S>,
+        near: Mask<S>,
+    ) -> (Open<S>, Mask<S>) {
         let zero = self.weight.all(0.0);
         let wrench = load.wrench(&self.center);
         let mut open = Open { closure: zero, wrench: [zero; 6] };
+        let mut gradient = [zero; 6];
         let (mut tensions, mut failed) = (zero, zero);
-        for (i, cable) in self.cables.iter().enumerate() {
-            let Span { azimuth: [c, s], end: [h, z] } = Span::new(&self.position, cable);
-            let TautEnd { end, tension, slackness, .. } = cable.end();
-            let miss = [h - end[0], z - end[1]];
+        for (i, (cable, linear)) in self.cables.iter().zip(&mut tangent.cables).enumerate() {
+            let span = Span::new(&self.position, cable);
+            let TautEnd { end, tension, slackness } = cable.end();
+            let miss = span.miss(end);
             open.closure = open.closure.max(dot(&miss, &miss));
+            let mut moved = Linear { azimuth: span.azimuth, ..*linear };
+            moved.predict(cable.force, &miss);
             let [fx, fz] = [self.counted(i, cable.force[0]), self.counted(i, cable.force[1])];
-            add(&mut open.wrench, &cable.arm, &[fx * c, fx * s, fz]);
+            let [x, z] = [self.counted(i, moved.predicted[0]), self.counted(i, moved.predicted[1])];
+            add(&mut open.wrench, &cable.arm, &moved.lift([fx, fz]));
+            add(&mut gradient, &cable.arm, &moved.lift([x, z]));
+            linear.replace(&moved, near);
             tensions += self.counted(i, tension);
             let strain = (tension + cable.weight * cable.length) * cable.stretch;
             let sound = zero.less_or_equal(fx)
@@ -284,6 +236,7 @@ impl<S: Simd> Robots<S> {
         }
         open.closure = self.largest(open.closure);
         open.wrench = six(|k| self.total(open.wrench[k]) - wrench[k]);
+        tangent.gradient = six(|k| near.select(self.total(gradient[k]) - wrench[k], tangent.gradient[k]));
         tensions = self.total(tensions) + load.weight;
         let (force, moment) = halves(&open.wrench);
         let unbalanced = dot(&force, &force).sqrt() + dot(&moment, &moment).sqrt() * (1.0 / scale.arm);
@@ -294,7 +247,7 @@ impl<S: Simd> Robots<S> {
     }
 
     /// Newton's method on the direct model from a linearisation, in the lanes `alive`. Returns the lanes that found a stable equilibrium,
-    /// and what it leaves open; the linearisation is then one nearby.
+    /// and what it leaves open; the linearisation is then one at this equilibrium, with a stiffness from nearby.
     #[inline(always)]
     pub(crate) fn settle(
         &mut self,
@@ -305,9 +258,9 @@ impl<S: Simd> Robots<S> {
     ) -> (Mask<S>, Open<S>) {
         let square = |length: f64| self.weight.all(length * length);
         let (farthest, turned_most) = (square(0.3 * scale.size), square(0.1));
-        let last_step = square(LAST_STEP * scale.size);
+        let small_step = square(SMALL_STEP * scale.size);
         let (mut going, mut found) = (alive, alive & !alive);
-        let mut open = Open { closure: last_step, wrench: tangent.gradient };
+        let mut open = Open { closure: small_step, wrench: tangent.gradient };
         for _ in 0..MAX_ITERATIONS {
             let gradient = six(|k| -tangent.gradient[k]);
             let step = tangent.factored.solve(&gradient);
@@ -317,17 +270,19 @@ impl<S: Simd> Robots<S> {
             // Farther than this the linearisation means nothing, and no number is farther.
             going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
             self.apply(&translation, &rotation, turned, &tangent.cables, going);
-            let last = going & moved.less_or_equal(last_step);
-            if last.any() {
-                let (left, holds) = self.residual(load, scale);
-                let done = last & holds & tangent.factored.positive;
+            let near = going & moved.less_or_equal(small_step);
+            if near.any() {
+                let (left, holds) = self.revise(load, scale, tangent, near);
+                let done = near & holds & tangent.factored.positive;
                 open = left;
                 (found, going) = (found | done, going & !done);
             }
-            if !going.any() {
+            let far = going & !near;
+            if far.any() {
+                self.linearise(load, tangent, far);
+            } else if !going.any() {
                 break;
             }
-            self.linearise(load, tangent, going);
         }
         (found, open)
     }
@@ -376,25 +331,34 @@ fn turn<S: Simd>(v: &Space<S>, rotation: &Space<S>, a: Lanes<S>, b: Lanes<S>) ->
     (once, three(|k| v[k] + a * once[k] + b * twice[k]))
 }
 
-/// Adds a cable of stiffness K with force F at the arm s; the lower left block is left for the end.
+/// Adds a cable of stiffness K with force F at the arm s to the diagonal and what is above it.
 #[inline(always)]
-fn add_stiffness<S: Simd>(hessian: &mut [[Lanes<S>; 6]; 6], s: &Space<S>, f: &Space<S>, k: &[Space<S>; 3]) {
+fn add_stiffness<S: Simd>(hessian: &mut Matrix<S>, s: &Space<S>, f: &Space<S>, k: &[Space<S>; 3]) {
     let [sx, sy, sz] = *s;
     // K [s], row by row: k x s.
     let ks = [cross(&k[0], s), cross(&k[1], s), cross(&k[2], s)];
-    let along = dot(s, f);
     for row in 0..3 {
         for column in 0..3 {
-            hessian[row][column] += k[row][column];
             hessian[row][3 + column] -= ks[row][column];
-            hessian[3 + row][3 + column] += s[row] * f[column];
         }
-        hessian[3 + row][3 + row] -= along;
+        for column in row..3 {
+            hessian[row][column] += k[row][column];
+            // [s] K [s], column by column: s x K [s].
+            let swung = match row {
+                0 => sy * ks[2][column] - sz * ks[1][column],
+                1 => sz * ks[0][column] - sx * ks[2][column],
+                _ => sx * ks[1][column] - sy * ks[0][column],
+            };
+            hessian[3 + row][3 + column] -= swung;
+        }
     }
-    for column in 0..3 {
-        // [s] K [s], column by column: s x K [s].
-        hessian[3][3 + column] -= sy * ks[2][column] - sz * ks[1][column];
-        hessian[4][3 + column] -= sz * ks[0][column] - sx * ks[2][column];
-        hessian[5][3 + column] -= sx * ks[1][column] - sy * ks[0][column];
-    }
+    // The symmetric half of s Fᵀ - (s·F) 1.
+    let (x, y, z) = (sx * f[0], sy * f[1], sz * f[2]);
+    hessian[3][3] -= y + z;
+    hessian[4][4] -= x + z;
+    hessian[5][5] -= x + y;
+    let half = three(|j| s[j] * 0.5);
+    hessian[3][4] += half[0] * f[1] + half[1] * f[0];
+    hessian[3][5] += half[0] * f[2] + half[2] * f[0];
+    hessian[4][5] += half[1] * f[2] + half[2] * f[1];
 }

@@ -4,9 +4,9 @@ use crate::direct::{Residual, Start, direct, rounding_of_closure};
 use crate::error::StaticsError;
 use crate::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use crate::model::{Equilibrium, Load, Model};
-use crate::taut::{self, Cable, Layout, Robots, Scale, Tangent};
+use crate::taut::{self, Layout, Robots, Scale, Tangent};
+use crate::taut_cable::Cable;
 use cdpr_robot::{Matrix3, Robot, Rotation3, Vector3};
-
 use smallvec::SmallVec;
 
 /// Follows the stable equilibrium of a robot while its cables are wound and its load changes.

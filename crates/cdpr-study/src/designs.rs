@@ -23,6 +23,9 @@ pub(crate) trait Points: Sync {
     /// Number of rows.
     fn size(&self) -> usize;
 
+    /// Number of inputs, one a column.
+    fn columns(&self) -> usize;
+
     /// Writes consecutive rows, one after the other, from that of observation `first` on: whole ones of the design.
     fn fill(&self, first: usize, rows: &mut [f64]);
 }
@@ -30,6 +33,10 @@ pub(crate) trait Points: Sync {
 impl<D: SampleDesign> Points for D {
     fn size(&self) -> usize {
         self.points()
+    }
+
+    fn columns(&self) -> usize {
+        self.inputs().len()
     }
 
     fn fill(&self, first: usize, rows: &mut [f64]) {
@@ -82,7 +89,7 @@ impl Sampling<'_> {
 
     /// All designs and their numbers of points.
     pub(crate) fn designs(&self) -> Vec<(Design, usize)> {
-        let (own, inputs) = (self.design.points(), self.places.len());
+        let (own, inputs) = (self.design.points(), self.errors.inputs.len());
         let replicates = (1..=self.study.file.replicates).map(|number| (Design::Replicate(number), own));
         let measures = self.study.file.sensitivity.map(|spec| {
             let (morris, saltelli) = (spec.morris_blocks * (inputs + 1), spec.saltelli_blocks * (inputs + 2));

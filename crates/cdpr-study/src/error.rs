@@ -151,6 +151,24 @@ pub enum StudyError {
         /// What would be right.
         expected: String,
     },
+    /// A limit that no tightening of tolerances reaches.
+    #[error("limit is {limit_mm} mm: expected one that tolerances reach, but {reason} ({reached_mm:.6} mm)")]
+    Unreachable {
+        /// The limit [mm].
+        limit_mm: f64,
+        /// Why it is out of reach.
+        reason: &'static str,
+        /// The error that is reached [mm].
+        reached_mm: f64,
+    },
+    /// A quantile of an error that too many robots do not have.
+    #[error("no equilibrium at the wanted pose for {what}: expected tolerances under which robots hold it{}", because(source.as_deref()))]
+    Unobservable {
+        /// The robots.
+        what: String,
+        /// The reason, of a single robot.
+        source: Option<Box<StaticsError>>,
+    },
     /// The robot holds hardly any pose of a region.
     #[error(
         "poses is {wanted}: expected at most as many as the robot holds, but of {drawn} poses drawn {found} are held in a stable \
@@ -168,6 +186,10 @@ pub enum StudyError {
         /// Those whose equilibrium the direct model does not stay at.
         unstable: usize,
     },
+}
+
+fn because(source: Option<&StaticsError>) -> String {
+    source.map_or_else(String::new, |source| format!(": {source}"))
 }
 
 impl StudyError {

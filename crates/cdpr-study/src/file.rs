@@ -35,7 +35,7 @@ pub struct StudyFile {
     /// Samples of the parametric bootstrap behind the p-value of each fitted law.
     pub bootstrap_resamples: usize,
     /// Error models by name: the deviation of each uncertain parameter. Keys are parameters (`mass`, `b3.z`) or groups of them
-    /// (`a`, `b`, `cog`, `dt`); a parameter's own entry goes before its group's.
+    /// (`a`, `b`, `cog`, `dt`), a parameter's own entry before its group's; or names of causes that act on several parameters.
     pub error_models: IndexMap<String, IndexMap<String, InputSpec>>,
     /// Samplings by name: all uncertain parameters at once, at points of Sobol's sequence.
     #[serde(default)]
@@ -52,7 +52,7 @@ pub struct StudyFile {
 }
 
 /// Law and steps of a parameter's deviation from its nominal value, in the parameter's SI unit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InputSpec {
     /// Law of the deviation.
@@ -60,6 +60,10 @@ pub struct InputSpec {
     /// Steps it is rounded to; continuous if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<Steps>,
+    /// Parameters that this deviation is added to, each times a factor, beside deviations of their own: what ties them together, such
+    /// as both exit points of one pulley block, `{"b1.z": 1, "b2.z": 1}`. The entry's key is then a name of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parameters: Option<IndexMap<String, f64>>,
 }
 
 /// Wanted pose of the platform.

@@ -11,6 +11,8 @@
 //! A run may keep what it observes in a folder of results, [`begin`], block by block: a [`Session`] with these goes on where another ended,
 //! and gives the same results to the last bit. [`observe_shard`] makes a share of the blocks, [`status`] says how many are there.
 //!
+//! [`tolerance_budget`] says which tolerances to tighten for a limit on deflection or position.
+//!
 //! [`run_robustness`] asks another question: how often the direct model finds the true pose from a wrong start.
 //!
 //! ```no_run
@@ -32,6 +34,7 @@ mod block;
 mod comparison;
 mod designs;
 mod error;
+mod error_model;
 mod file;
 mod folder;
 mod observation;
@@ -48,12 +51,14 @@ mod study;
 mod surface;
 mod table;
 mod template;
+mod tolerance;
 
 pub use block::BLOCK;
-pub use cdpr_sensitivity::{Family, Truncation};
+pub use cdpr_sensitivity::{Estimate, Family, Truncation};
 pub use comparison::{ComparisonRow, Value, Verdict, compare};
 pub use designs::observe_shard;
 pub use error::StudyError;
+pub use error_model::{ErrorModel, Term};
 pub use file::{
     AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic,
     StudyFile, SurfaceSpec, json_schema,
@@ -81,3 +86,4 @@ pub use study::{Sampling, Study, Surface, open_robot};
 pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
 pub use table::{ObservationTable, Rows, TableFormat};
 pub use template::{TEMPLATE_NOTES, template, write_template};
+pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};

@@ -13,7 +13,7 @@ use crate::designs::{OWN, Points};
 use crate::error::StudyError;
 use crate::store::{Blocks, Place};
 use crate::study::Sampling;
-use cdpr_robot::{Parameter, Vector3};
+use cdpr_robot::Vector3;
 use cdpr_sensitivity::{EffectSums, SampleDesign};
 use cdpr_statics::StaticsError;
 use rayon::prelude::*;
@@ -206,6 +206,16 @@ pub(crate) fn observe_rms(
     Ok(all)
 }
 
+/// What `observed` says of each row of a design, in parallel and in the order of the rows, from some rows at a time that follow one another.
+pub(crate) fn observe_rows<T: Send>(
+    design: &dyn Points,
+    observed: impl Fn(&mut [f64]) -> Vec<T> + Sync,
+) -> Vec<T> {
+    let points = design.size();
+    let of_part = |part: usize| observed(&mut draw(design, part * PART..points.min((part + 1) * PART)));
+    (0..points.div_ceil(PART)).into_par_iter().flat_map_iter(of_part).collect()
+}
+
 fn observe_design<T: Send>(
     sampling: &Sampling,
     design: (&str, &dyn Points),
@@ -252,19 +262,16 @@ pub(crate) fn observe_block<T: Send>(
 
 /// A part of a design, the first observations of which may be known.
 fn observe_part(sampling: &Sampling, design: &dyn Points, range: Range<usize>, known: &[Observed]) -> Part {
-    let inputs = sampling.places.len();
-    let parameters = Parameter::all(sampling.robot.cables.len()).len();
-    let mut rows = vec![0.0; range.len() * inputs];
-    design.fill(range.start, &mut rows);
-    let unknown = &rows[known.len() * inputs..];
-    let mut deviations = vec![0.0; (range.len() - known.len()) * parameters];
-    for (deviations, row) in deviations.chunks_exact_mut(parameters).zip(unknown.chunks_exact(inputs)) {
-        for (place, value) in sampling.places.iter().zip(row) {
-            deviations[*place] = *value;
-        }
-    }
-    let observed = sampling.observer.observe_all(&deviations).into_iter();
+    let rows = draw(design, range.clone());
+    let unknown = &rows[known.len() * sampling.errors.inputs.len()..];
+    let observed = sampling.observer.observe_all(&sampling.errors.deviations(unknown)).into_iter();
     let observed = observed.map(|outcome| outcome.map(|found| found.displacement).map_err(Failure::from));
     let outcomes = known.iter().cloned().chain(observed).collect();
     Part { first: range.start, rows, outcomes }
+}
+
+fn draw(design: &dyn Points, range: Range<usize>) -> Vec<f64> {
+    let mut rows = vec![0.0; range.len() * design.columns()];
+    design.fill(range.start, &mut rows);
+    rows
 }

@@ -106,9 +106,14 @@ fn schema(sampling: &Sampling) -> Result<TypePtr> {
 /// What the table is of, and the unit of each column that has one.
 fn provenance(sampling: &Sampling, hash: String) -> Vec<KeyValue> {
     let parameters = Parameter::all(sampling.robot.cables.len());
-    let inputs = sampling.places.iter().zip(sampling.design.inputs());
+    let inputs = sampling.design.inputs().iter().enumerate().filter_map(|(number, input)| {
+        // A cause of parameters in several units has none.
+        let mut terms = sampling.errors.terms.iter().filter(|term| term.input == number);
+        let unit = parameters[terms.next()?.place].unit();
+        let same = terms.all(|term| parameters[term.place].unit() == unit);
+        same.then(|| (format!("d_{}", input.name), unit))
+    });
     let units = inputs
-        .map(|(place, input)| (format!("d_{}", input.name), parameters[*place].unit()))
         .chain(OBSERVED.map(|name| (name.to_owned(), "mm")))
         .map(|(column, unit)| (column, unit.into()));
     let units: serde_json::Map<String, serde_json::Value> = units.collect();

@@ -19,7 +19,6 @@ use crate::error::StudyError;
 use crate::file::{SensitivitySpec, StudyFile};
 use crate::observation::{Session, Tally, observe_rms, rms_mm};
 use crate::study::Sampling;
-use cdpr_robot::Parameter;
 use cdpr_sensitivity::{
     Bootstrap, Input, Regression, SampleDesign, SensitivityError, Slopes, SobolDesign, dgsm, expansion,
     morris_effects, rank_correlation, rank_regression, regression, sobol_indices, student_effects,
@@ -239,17 +238,14 @@ impl Run<'_> {
 
     /// RMS [mm] of the robot with these deviations of the inputs, and its derivatives [mm per unit of the input].
     fn slopes(&self, row: &[f64]) -> Result<Slopes, StaticsError> {
-        let Sampling { robot, pose, load, places, .. } = self.sampling;
-        let mut deviations = vec![0.0; Parameter::all(robot.cables.len()).len()];
-        for (place, value) in places.iter().zip(row) {
-            deviations[*place] = *value;
-        }
+        let Sampling { robot, pose, load, errors, .. } = self.sampling;
+        let deviations = errors.deviations(row);
         let perturbed = robot.perturbed(&deviations)?;
         let found = derivatives(&perturbed.robot, pose, &perturbed.tension_offsets, load)?;
         let slopes = found.rms()?;
         Ok(Slopes {
             output: rms_mm(found.deflection.rms()),
-            gradient: places.iter().map(|place| rms_mm(slopes[*place])).collect(),
+            gradient: errors.gradient(&slopes).into_iter().map(rms_mm).collect(),
         })
     }
 }
@@ -360,8 +356,7 @@ fn sums(
     sampling: &Sampling,
     inputs: &[InputMeasures],
 ) -> IndexMap<&'static str, IndexMap<&'static str, f64>> {
-    let parameters = Parameter::all(sampling.robot.cables.len());
-    let groups = sampling.places.iter().map(|place| parameters[*place].group());
+    let groups = (0..inputs.len()).map(|input| sampling.errors.group(input));
     let mut sums: IndexMap<&str, IndexMap<&str, f64>> = IndexMap::new();
     for (group, input) in groups.zip(inputs).chain(inputs.iter().map(|input| ("all", input))) {
         let sums = sums.entry(group).or_default();

@@ -2,9 +2,10 @@
 
 use crate::comparison::Value;
 use crate::error::StudyError;
+use crate::error_model::{ErrorModel, Wrong};
 use crate::file::{AxisSpec, InputSpec, PoseSpec, STUDY_FORMAT, SensitivitySpec, Statistic, StudyFile};
 use cdpr_robot::{Parameter, Pose, Robot, Vector3, from_json};
-use cdpr_sensitivity::{Input, SensitivityError, SobolDesign};
+use cdpr_sensitivity::{SensitivityError, SobolDesign};
 use cdpr_statics::{Deflection, Load, Observer, deflection};
 use indexmap::IndexMap;
 use std::path::{Path, PathBuf};
@@ -33,10 +34,10 @@ pub struct Sampling<'a> {
     pub pose: Pose,
     /// The load whose effect is observed.
     pub load: Load,
-    /// Uncertain inputs (deviations by parameter name) at points of Sobol's sequence.
+    /// Uncertain inputs (deviations by name of the cause) at points of Sobol's sequence.
     pub design: SobolDesign,
-    /// Where each input of the design stands in [`Parameter::all`].
-    pub places: Vec<usize>,
+    /// What each input of the design acts on.
+    pub errors: ErrorModel,
     /// The nominal robot's deflection.
     pub nominal: Deflection,
     /// Observes the robot with deviations of its parameters.
@@ -157,7 +158,7 @@ impl Study {
             return Err(self.invalid(&format!("surfaces.{name}"), name, "a name that no sampling has"));
         }
         for (name, model) in &file.error_models {
-            self.inputs(name, model)?;
+            self.error_model(name, model)?;
         }
         for name in file.samplings.keys() {
             self.sampling(name)?;
@@ -206,7 +207,7 @@ impl Study {
             let expected = keys(&self.file.error_models);
             return Err(self.invalid(&format!("{field}.error_model"), &spec.error_model, &expected));
         };
-        let (inputs, places) = self.inputs(&spec.error_model, model)?;
+        let errors = self.error_model(&spec.error_model, model)?;
         if spec.observations < 3 {
             return Err(self.invalid(
                 &format!("{field}.observations"),
@@ -214,7 +215,7 @@ impl Study {
                 "at least 3, for laws to be fitted",
             ));
         }
-        let design = SobolDesign::new(inputs, spec.first_index, spec.observations)
+        let design = SobolDesign::new(errors.inputs.clone(), spec.first_index, spec.observations)
             .map_err(|source| self.statistics(format!("{field}.first_index"), source))?;
         let pose = self.pose(&field, &spec.pose)?;
         let load = Load::payload(self.file.payload);
@@ -226,7 +227,7 @@ impl Study {
             pose,
             load,
             design,
-            places,
+            errors,
             nominal,
             observer,
             study: self,
@@ -250,39 +251,19 @@ impl Study {
         Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal, observer })
     }
 
-    /// The inputs of an error model in the order of the parameter vector, with their places in it.
-    fn inputs(
-        &self,
-        name: &str,
-        model: &IndexMap<String, InputSpec>,
-    ) -> Result<(Vec<Input>, Vec<usize>), StudyError> {
-        let parameters = Parameter::all(self.robot.cables.len());
-        let names: Vec<String> = parameters.iter().map(ToString::to_string).collect();
-        for key in model.keys() {
-            if !names.contains(key) && !parameters.iter().any(|parameter| parameter.group() == key) {
-                let expected = "a parameter (mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...) \
-                                or a group of them (a, b, cog, dt)";
-                return Err(self.invalid(&format!("error_models.{name}"), key, expected));
+    /// An error model for this robot.
+    fn error_model(&self, name: &str, model: &IndexMap<String, InputSpec>) -> Result<ErrorModel, StudyError> {
+        let field = format!("error_models.{name}");
+        let found = ErrorModel::new(model, self.robot.cables.len()).map_err(|wrong| match wrong {
+            Wrong::Field(below, value, expected) => {
+                self.invalid(&format!("{field}.{below}"), value, expected)
             }
+            Wrong::Law(source) => self.statistics(field.clone(), source),
+        })?;
+        if found.inputs.is_empty() {
+            return Err(self.invalid(&field, "empty", "at least one uncertain parameter"));
         }
-        let mut inputs = Vec::new();
-        let mut places = Vec::new();
-        for (place, (parameter, own)) in parameters.iter().zip(names).enumerate() {
-            if let Some(InputSpec { law, steps }) = model.get(&own).or_else(|| model.get(parameter.group())) {
-                let input = Input { name: own, law: *law, steps: *steps };
-                input.validate().map_err(|source| self.statistics(format!("error_models.{name}"), source))?;
-                inputs.push(input);
-                places.push(place);
-            }
-        }
-        if inputs.is_empty() {
-            return Err(self.invalid(
-                &format!("error_models.{name}"),
-                "empty",
-                "at least one uncertain parameter",
-            ));
-        }
-        Ok((inputs, places))
+        Ok(found)
     }
 
     fn axis(&self, field: &str, spec: &AxisSpec) -> Result<(Parameter, usize, Vec<f64>), StudyError> {

@@ -1,0 +1,48 @@
+//! `cdpr tolerances` as a user meets it.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use serde_json::Value;
+use std::process::{Command, Output};
+
+fn tolerances(arguments: &[&str]) -> Output {
+    let study = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
+    command.args(["tolerances", study, "--sampling", "mechanical"]).args(arguments).output().unwrap()
+}
+
+#[test]
+fn the_budget_is_printed_as_a_table_and_as_json() {
+    let text = tolerances(&["--limit", "1.4", "--observations", "2000"]);
+    let text = String::from_utf8(text.stdout).unwrap();
+    let modulus = text.lines().find(|line| line.contains("youngs_modulus")).unwrap();
+    assert!(modulus.contains("99.45") && text.contains("95 % of the robots at most 1.4 mm"), "{text}");
+
+    let json = tolerances(&["--limit", "1.4", "--costs", "youngs_modulus=3", "--format", "json"]);
+    let json: Value = serde_json::from_slice(&json.stdout).unwrap();
+    let tightest = &json["tolerances"][0];
+    assert_eq!(
+        (tightest["name"].as_str().unwrap(), tightest["cost"].as_f64().unwrap()),
+        ("youngs_modulus", 3.0)
+    );
+    assert!(json["tightened"]["quantile_mm"]["low"].as_f64().unwrap() <= 1.4);
+    assert!(json["tightened"]["within"]["value"].as_f64() > json["now"]["within"]["value"].as_f64());
+}
+
+#[test]
+fn what_is_wrong_is_named_and_the_exit_code_is_not_zero() {
+    for (arguments, words) in [
+        (&["--limit", "1.2"][..], "limit is 1.2 mm: expected one that tolerances reach"),
+        (&["--limit", "-1"], "limit is -1: expected a positive finite number"),
+        (&["--limit", "1.4", "--quantile", "2"], "quantile is 2: expected a share"),
+        (
+            &["--limit", "1.4", "--costs", "z=2"],
+            "costs is z: expected one of the tolerances mass, linear_density",
+        ),
+        (&["--limit", "far"], "`far` is not a finite number"),
+    ] {
+        let output = tolerances(arguments);
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && message.contains(words), "{message}");
+    }
+}
