@@ -119,7 +119,13 @@ impl Blocks {
         let unfinished = |path: &&PathBuf| {
             path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(UNFINISHED))
         };
-        for path in files(results)?.iter().filter(unfinished) {
+        // Beside the blocks, not below: the folder of results may be one that holds much else.
+        let read = |source| StudyError::Read { path: results.to_owned(), source };
+        let mut all = files(&self.folder)?;
+        for entry in fs::read_dir(results).map_err(read)? {
+            all.push(entry.map_err(read)?.path());
+        }
+        for path in all.iter().filter(unfinished) {
             fs::remove_file(path).map_err(|source| StudyError::Write { path: path.clone(), source })?;
         }
         Ok(())
