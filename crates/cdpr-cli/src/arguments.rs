@@ -88,6 +88,13 @@ impl LoadArguments {
     }
 }
 
+/// `x,y,z` [m].
+pub(crate) fn position(text: &str) -> Result<[f64; 3], String> {
+    numbers(text)?
+        .try_into()
+        .map_err(|numbers: Vec<f64>| format!("{} numbers: expected x,y,z [m]", numbers.len()))
+}
+
 /// Position and quaternion (w, x, y, z), as [`pose`] reads them.
 pub(crate) fn pose_numbers(pose: &Pose) -> [f64; 7] {
     let [x, y, z] = pose.position.into();

@@ -77,7 +77,7 @@ enum Command {
     /// Study which uncertain parameters of a robot matter.
     Study {
         #[command(subcommand)]
-        command: StudyCommand,
+        command: study::Command,
     },
     /// Tell which combinations of a robot's parameters measurements identify, and which poses tell most.
     #[command(after_help = "Example: cdpr calibration data/robots/caroca.json --grid=-2:2:5,-1:1:3,1:2.5:3 \
@@ -119,42 +119,6 @@ enum Command {
     },
 }
 
-#[derive(Subcommand)]
-enum StudyCommand {
-    /// Run a study file and write observations, figures and a summary.
-    #[command(after_help = "Example: cdpr study run data/studies/caroca.json --out results")]
-    Run {
-        /// Study file (JSON, `cdpr-study/1`).
-        study: PathBuf,
-        /// Folder for the results; made if missing.
-        #[arg(long, default_value = "results")]
-        out: PathBuf,
-        /// Observations of each sampling, in place of the file's.
-        #[arg(long)]
-        observations: Option<usize>,
-        /// Threads; all cores if left out. The numbers do not depend on it.
-        #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
-        threads: Option<u16>,
-    },
-    /// Run one sampling of a study without writing anything; print how long it took, its memory and its results as JSON.
-    #[command(
-        after_help = "Example: cdpr study throughput data/studies/caroca.json --sampling mechanical --observations 1000000"
-    )]
-    Throughput {
-        /// Study file (JSON, `cdpr-study/1`).
-        study: PathBuf,
-        /// Name of the sampling.
-        #[arg(long)]
-        sampling: String,
-        /// Observations, in place of the file's.
-        #[arg(long, default_value_t = 1_000_000)]
-        observations: usize,
-        /// Threads; all cores if left out. The numbers do not depend on it.
-        #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
-        threads: Option<u16>,
-    },
-}
-
 fn main() -> ExitCode {
     output::exit_code(run(Arguments::parse().command))
 }
@@ -169,12 +133,7 @@ fn run(command: Command) -> Result<Ending, Box<dyn Error>> {
         Command::Stiffness(settings) => stiffness::run(&settings)?,
         Command::Workspace(settings) => workspace::run(&settings)?,
         Command::Completions { shell } => completions(shell),
-        Command::Study { command: StudyCommand::Run { study, out, observations, threads } } => {
-            study::run(&study::Settings { study, out, observations, threads })?;
-        }
-        Command::Study { command: StudyCommand::Throughput { study, sampling, observations, threads } } => {
-            throughput::run(&study, &sampling, observations, threads)?;
-        }
+        Command::Study { command } => study::run(command)?,
         Command::Calibration(settings) => calibration::run(&settings)?,
         Command::Derivatives(settings) => derivatives::run(&settings)?,
         Command::Tolerances(settings) => tolerances::run(&settings)?,

@@ -113,7 +113,7 @@ fn the_files_are_the_same_on_any_number_of_threads() {
     let mut bench = Bench::new();
     bench.measure();
     let files = |threads: &str| -> Vec<Vec<u8>> {
-        assert!(bench.run(&["--threads", threads]).status.success());
+        assert!(bench.run(&["--overwrite", "--threads", threads]).status.success());
         ["summary.json", "geometrical_asymmetric.csv"]
             .map(|file| std::fs::read(bench.path("out").join(file)).unwrap())
             .into()
@@ -147,6 +147,27 @@ fn measures_of_sensitivity_have_a_table_a_figure_a_part_of_the_summary_and_a_tab
         assert_eq!(sensitivity["inputs"][2]["regression_share"], Value::Null);
         assert!(sensitivity["sums"]["b"]["sobol_first"].is_number());
     }
+}
+
+#[test]
+fn a_folder_of_results_runs_again_and_gives_the_same_summary() {
+    let bench = Bench::new();
+    assert!(bench.run(&["--observations", "40"]).status.success());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
+    command.current_dir(bench.folder.path()).args(["study", "run", "out/study.json", "--out", "again"]);
+    assert!(command.status().unwrap().success());
+    for file in ["study.json", "robot.json", "summary.json", "mechanical.csv"] {
+        let [first, again] =
+            ["out", "again"].map(|folder| std::fs::read(bench.path(folder).join(file)).unwrap());
+        assert!(first == again, "{file}");
+    }
+    let text = std::fs::read_to_string(bench.path("out/study.json")).unwrap();
+    let study: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(study["robot"], "robot.json");
+    assert_eq!(study["samplings"]["mechanical"]["observations"], 40);
+    let text = std::fs::read_to_string(bench.path("out/timings.json")).unwrap();
+    let timings: Value = serde_json::from_str(&text).unwrap();
+    assert!(timings["all"].as_f64().unwrap() >= timings["seconds"]["surface_E_rho"].as_f64().unwrap());
 }
 
 /// Spoils one value of the robot or the study and expects the message to hold all the given words.

@@ -16,12 +16,13 @@
 //! colour-blind. The same results give the same bytes.
 //!
 //! ```no_run
-//! use cdpr_study::{Study, analyse, observe, write_figure};
+//! use cdpr_study::{Session, Study, analyse, observe, write_figure};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let study = Study::open("data/studies/caroca.json".as_ref())?;
 //! let sampling = study.sampling("mechanical")?;
-//! let summary = analyse(&sampling, &observe(&sampling, &|_| ()), &|_| ());
+//! let session = Session::in_memory();
+//! let summary = analyse(&sampling, &observe(&sampling, &session)?, &session)?;
 //! write_figure("results".as_ref(), "mechanical", &cdpr_report::histogram(&summary)?)?;
 //! # Ok(())
 //! # }

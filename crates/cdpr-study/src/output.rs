@@ -1,18 +1,15 @@
 //! Result files: observations as CSV, the summary as JSON.
 
+use crate::atomic::write_json;
 use crate::comparison::ComparisonRow;
 use crate::error::StudyError;
-use crate::file::StudyFile;
-use crate::observation::{Block, rms_mm};
-use crate::results::Timings;
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::sampling::SamplingSummary;
 use crate::sensitivity::SensitivitySummary;
-use crate::study::{Sampling, Study, Surface};
+use crate::study::Surface;
 use crate::surface::{SurfaceResult, SurfaceSummary};
 use crate::workspace::WorkspaceSummary;
 use cdpr_robot::Pose;
-use cdpr_sensitivity::SampleDesign;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -80,17 +77,15 @@ impl StudySummary {
 pub fn check_folder(folder: &Path) -> Result<(), StudyError> {
     let write = |source| StudyError::Write { path: folder.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(write)?;
-    let probe = folder.join(".writable");
-    std::fs::write(&probe, b"").map_err(write)?;
-    std::fs::remove_file(&probe).map_err(write)
+    // A name of its own: other machines may be looking, too.
+    tempfile::tempfile_in(folder).map_err(write).map(|_| ())
 }
 
-/// Removes the summary of an earlier run, which the tables to come would no longer belong to.
+/// Removes a file of an earlier run, which what is to come would no longer belong to, if there is one.
 ///
 /// # Errors
 /// [`StudyError::Write`].
-pub fn remove_summary(folder: &Path) -> Result<(), StudyError> {
-    let path = folder.join("summary.json");
+pub(crate) fn remove_stale(path: PathBuf) -> Result<(), StudyError> {
     match std::fs::remove_file(&path) {
         Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
             Err(StudyError::Write { path, source })
@@ -99,74 +94,7 @@ pub fn remove_summary(folder: &Path) -> Result<(), StudyError> {
     }
 }
 
-/// Writes `NAME.csv` block by block: one row an observation, with the deviation of each parameter from its nominal value (`d_mass`, ...
-/// in SI units), dp, RMS, status and reason.
-pub struct ObservationTable {
-    path: PathBuf,
-    writer: csv::Writer<std::fs::File>,
-    inputs: usize,
-}
-
-impl ObservationTable {
-    /// Begins the table of a sampling.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub fn new(folder: &Path, sampling: &Sampling) -> Result<Self, StudyError> {
-        let path = folder.join(format!("{}.csv", sampling.name));
-        let inputs = sampling.design.inputs();
-        let header = ["index".to_owned()]
-            .into_iter()
-            .chain(inputs.iter().map(|input| format!("d_{}", input.name)))
-            .chain(["dx_mm", "dy_mm", "dz_mm", "rms_mm", "status", "reason"].map(str::to_owned));
-        let begin = || {
-            let mut writer = csv::Writer::from_path(&path)?;
-            writer.write_record(header)?;
-            Ok(writer)
-        };
-        match begin() {
-            Ok(writer) => Ok(Self { path, writer, inputs: inputs.len() }),
-            Err(error) => Err(unwritten(path, error)),
-        }
-    }
-
-    /// Adds a block.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub fn write(&mut self, block: &Block) -> Result<(), StudyError> {
-        let rows = block.rows.chunks_exact(self.inputs);
-        for (index, (row, outcome)) in (block.first..).zip(rows.zip(&block.outcomes)) {
-            let mut record = vec![index.to_string()];
-            record.extend(row.iter().map(ToString::to_string));
-            match outcome {
-                Ok(observation) => {
-                    record.extend(observation.displacement.iter().map(|d| (1e3 * d).to_string()));
-                    record.extend([rms_mm(observation.rms()).to_string(), "ok".to_owned(), String::new()]);
-                }
-                Err(error) => {
-                    record.extend(std::iter::repeat_n(String::new(), 4));
-                    record.extend([error.kind().to_owned(), error.to_string()]);
-                }
-            }
-            self.writer.write_record(record).map_err(|error| unwritten(self.path.clone(), error))?;
-        }
-        Ok(())
-    }
-
-    /// Ends the table.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub fn finish(mut self) -> Result<PathBuf, StudyError> {
-        match self.writer.flush() {
-            Ok(()) => Ok(self.path),
-            Err(error) => Err(unwritten(self.path, error.into())),
-        }
-    }
-}
-
-fn unwritten(path: PathBuf, error: csv::Error) -> StudyError {
+pub(crate) fn unwritten(path: PathBuf, error: csv::Error) -> StudyError {
     StudyError::Write { path, source: error.into() }
 }
 
@@ -212,24 +140,6 @@ pub fn write_sensitivity(
         Ok(()) => Ok(path),
         Err(error) => Err(unwritten(path, error)),
     }
-}
-
-/// Writes `study.json` and, beside it, `robot.json`: the folder can be run again, and reported on, by itself.
-///
-/// # Errors
-/// [`StudyError::Write`].
-pub fn write_study(folder: &Path, study: &Study) -> Result<PathBuf, StudyError> {
-    let robot = "robot.json".to_owned();
-    write_text(&folder.join(&robot), &(study.robot.to_json() + "\n"))?;
-    write_json(folder.join("study.json"), &StudyFile { robot, ..study.file.clone() })
-}
-
-/// Writes `timings.json`.
-///
-/// # Errors
-/// [`StudyError::Write`].
-pub fn write_timings(folder: &Path, timings: &Timings) -> Result<PathBuf, StudyError> {
-    write_json(folder.join("timings.json"), timings)
 }
 
 /// Writes `summary.json`.
@@ -351,13 +261,6 @@ pub fn write_workspace(folder: &Path, summary: &WorkspaceSummary) -> Result<Path
 fn pose_cells(pose: &Pose) -> [String; 6] {
     let motion = Pose::at(0.0, 0.0, 0.0).motion_to(pose);
     <[f64; 6]>::from(motion).map(|value| value.to_string())
-}
-
-fn write_json(path: PathBuf, value: &impl Serialize) -> Result<PathBuf, StudyError> {
-    let text = serde_json::to_string_pretty(value)
-        .map_err(|error| StudyError::Write { path: path.clone(), source: error.into() })?;
-    write_text(&path, &(text + "\n"))?;
-    Ok(path)
 }
 
 /// Writes the figure `NAME.svg`.

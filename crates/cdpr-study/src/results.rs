@@ -1,28 +1,14 @@
 //! A folder of results read back, for what is made of it afterwards.
 
 use crate::error::StudyError;
+use crate::folder::{STUDY_NAME, Timings};
 use crate::output::{StudySummary, Summary};
 use crate::study::{Study, read};
 use crate::surface::{SurfaceResult, SurfaceSummary};
 use cdpr_robot::from_json;
 use indexmap::IndexMap;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 use std::path::Path;
-
-/// Wall times of a run; `timings.json`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Timings {
-    /// Threads.
-    pub threads: usize,
-    /// Seconds by name of sampling or surface.
-    pub seconds: IndexMap<String, f64>,
-    /// Seconds by sampling and method of its measures of sensitivity.
-    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
-    pub sensitivity: IndexMap<String, IndexMap<String, f64>>,
-    /// Seconds of all.
-    pub all: f64,
-}
 
 /// Everything that a folder of results holds, but the observations.
 #[derive(Clone, Debug)]
@@ -47,7 +33,7 @@ impl Results {
     /// # Errors
     /// [`StudyError`] naming the file that is missing or is none, with field and reason.
     pub fn read(folder: &Path) -> Result<Self, StudyError> {
-        let path = folder.join("study.json");
+        let path = folder.join(STUDY_NAME);
         let study_json = read(&path)?;
         let study = Study::from_json(&study_json, &path)?;
         let robot_json = read(&folder.join(&study.file.robot))?;

@@ -105,6 +105,22 @@ impl Study {
         self.validate()
     }
 
+    /// Gives every sampling this number of observations, if that is no fewer than it has.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] for fewer.
+    pub fn extend(&mut self, observations: usize) -> Result<(), StudyError> {
+        let most = self.file.samplings.values().map(|sampling| sampling.observations).max();
+        let Some(most) = most else {
+            return Err(self.invalid("samplings", "empty", "a sampling to extend"));
+        };
+        if observations < most {
+            let expected = format!("at least {most}, as many as there are");
+            return Err(StudyError::setting("--observations", observations, expected));
+        }
+        self.set_observations(observations)
+    }
+
     fn validate(&self) -> Result<(), StudyError> {
         let file = &self.file;
         if file.format != STUDY_FORMAT {

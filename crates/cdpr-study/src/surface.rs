@@ -80,7 +80,8 @@ impl SurfaceSummary {
     /// Summarises a surface.
     pub fn new(surface: &Surface, result: &SurfaceResult) -> Self {
         let succeeded = || result.rms_mm.iter().filter_map(|rms| rms.as_ref().ok().copied());
-        let failed = count_failed(result.rms_mm.iter().filter_map(|rms| rms.as_ref().err()));
+        let failed =
+            count_failed(result.rms_mm.iter().filter_map(|rms| rms.as_ref().err()).map(StaticsError::kind));
         Self {
             title: surface.title.to_owned(),
             pose: surface.pose.position.into(),

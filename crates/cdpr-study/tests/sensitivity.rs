@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use cdpr_study::{
-    InputMeasures, RANKED, SensitivitySpec, SensitivitySummary, Study, StudyError, Truncation, measure,
+    InputMeasures, RANKED, SensitivitySpec, SensitivitySummary, Session, Study, StudyError, Truncation,
+    measure, observe,
 };
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -27,7 +28,9 @@ const SMALL: SensitivitySpec = SensitivitySpec {
 
 fn of_sampling(name: &str, spec: &SensitivitySpec) -> SensitivitySummary {
     let study = Study::open(path()).unwrap();
-    measure(&study.sampling(name).unwrap(), spec, &|_| ())
+    let sampling = study.sampling(name).unwrap();
+    let session = Session::in_memory();
+    measure(&sampling, spec, &observe(&sampling, &session).unwrap(), &session).unwrap()
 }
 
 fn input<'a>(found: &'a SensitivitySummary, name: &str) -> &'a InputMeasures {
@@ -108,12 +111,17 @@ fn the_numbers_do_not_depend_on_the_number_of_threads_and_every_observation_is_t
             told.fetch_add(done, Ordering::Relaxed);
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let found = pool.install(|| measure(&sampling, &SMALL, &tick));
+        let session = Session { tick: &tick, ..Session::in_memory() };
+        let found = pool.install(|| {
+            let tally = observe(&sampling, &session).unwrap();
+            measure(&sampling, &SMALL, &tally, &session).unwrap()
+        });
         (timeless(found), told.into_inner())
     };
     let one = on(1);
     assert_eq!(one, on(3));
-    assert_eq!(2000 + one.1, sampling.observations());
+    let replicates = 2000 * study.file.replicates;
+    assert_eq!(one.1 + replicates, sampling.observations());
 }
 
 #[test]

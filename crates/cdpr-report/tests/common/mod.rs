@@ -1,8 +1,8 @@
 //! Small studies with their folders of results.
 
 use cdpr_study::{
-    IndexMap, Results, Study, StudySummary, Summary, SurfaceSummary, Timings, analyse, compare,
-    compute_surface, observe, write_study, write_summary, write_surface, write_timings,
+    Existing, IndexMap, Results, Session, Study, StudySummary, Summary, SurfaceSummary, Timings, analyse,
+    begin, compare, compute_surface, observe, write_summary, write_surface, write_timings,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -52,16 +52,18 @@ fn run(mut study: Value, robot: &Value) -> Results {
     study["robot"] = json!("robot.json");
     std::fs::write(folder.path().join("robot.json"), robot.to_string()).unwrap();
     let study = Study::from_json(&study.to_string(), &folder.path().join("study.json")).unwrap();
-    let mut studies = IndexMap::new();
+    let out = folder.path().join("results");
+    begin(&out, &study, Existing::Refuse).unwrap();
+    let (mut studies, session) = (IndexMap::new(), Session::in_memory());
     for name in study.file.samplings.keys() {
         let sampling = study.sampling(name).unwrap();
-        let summary = analyse(&sampling, &observe(&sampling, &|_| ()), &|_| ());
+        let summary = analyse(&sampling, &observe(&sampling, &session).unwrap(), &session).unwrap();
         studies.insert(name.clone(), StudySummary::Sampling(Box::new(summary)));
     }
     for name in study.file.surfaces.keys() {
         let surface = study.surface(name).unwrap();
         let result = compute_surface(&surface, &|_| ());
-        write_surface(folder.path(), &surface, &result).unwrap();
+        write_surface(&out, &surface, &result).unwrap();
         studies.insert(name.clone(), StudySummary::Surface(SurfaceSummary::new(&surface, &result)));
     }
     let mut summary = Summary {
@@ -74,11 +76,10 @@ fn run(mut study: Value, robot: &Value) -> Results {
         comparison: Vec::new(),
     };
     summary.comparison = compare(&study.file.comparison, &summary);
-    write_study(folder.path(), &study).unwrap();
-    write_summary(folder.path(), &summary).unwrap();
+    write_summary(&out, &summary).unwrap();
     let seconds = study.file.samplings.keys().map(|name| (name.clone(), 0.25)).collect();
-    write_timings(folder.path(), &Timings { threads: 2, seconds, all: 0.8, ..Timings::default() }).unwrap();
-    let results = Results::read(folder.path()).unwrap();
+    write_timings(&out, &Timings { threads: 2, seconds, all: 0.8, ..Timings::default() }).unwrap();
+    let results = Results::read(&out).unwrap();
     assert_eq!(results.summary.comparison, summary.comparison);
     results
 }
