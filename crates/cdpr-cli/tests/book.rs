@@ -30,7 +30,8 @@ fn links(text: &str) -> Vec<String> {
 /// Lines of `sh` blocks that call the program.
 fn commands(text: &str) -> Vec<String> {
     let blocks = text.split("```sh\n").skip(1).filter_map(|rest| rest.split("```").next());
-    let lines = blocks.flat_map(|block| block.replace("\\\n", " ").lines().map(str::to_owned).collect::<Vec<_>>());
+    let lines =
+        blocks.flat_map(|block| block.replace("\\\n", " ").lines().map(str::to_owned).collect::<Vec<_>>());
     lines.filter(|line| line.starts_with("cdpr ")).collect()
 }
 
@@ -53,7 +54,8 @@ fn the_commands_of_the_book_run() {
     let mut count = 0;
     for (name, text) in chapters() {
         for line in commands(&text) {
-            let output = Command::new("sh").args(["-c", &line]).env("PATH", &path).current_dir(folder.path()).output();
+            let output =
+                Command::new("sh").args(["-c", &line]).env("PATH", &path).current_dir(folder.path()).output();
             let output = output.unwrap();
             let message = String::from_utf8_lossy(&output.stderr);
             assert!(output.status.success(), "docs/{name}: {line}: {message}");
