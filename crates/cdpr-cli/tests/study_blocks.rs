@@ -112,7 +112,7 @@ impl Bench {
         let files = entries.filter(|entry| entry.file_type().unwrap().is_file());
         let named = files.map(|entry| (entry.file_name().into_string().unwrap(), entry.path()));
         named
-            .filter(|(name, _)| name != "timings.json")
+            .filter(|(name, _)| !["timings.json", "report.html"].contains(&name.as_str()))
             .map(|(name, path)| (name, std::fs::read(path).unwrap()))
             .collect()
     }
