@@ -5,6 +5,8 @@
 mod arguments;
 mod calibration;
 mod derivatives;
+mod linear_density;
+mod modulus;
 mod robustness;
 mod sensitivity;
 mod study;
@@ -40,6 +42,16 @@ enum Command {
         after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
     )]
     Derivatives(derivatives::Settings),
+    /// Mass per length of a cable from the weighing of a piece of it.
+    #[command(
+        after_help = "Example: cdpr linear-density --mass 0.203 --length 2 --mass-error 0.001 --length-error 0.001"
+    )]
+    LinearDensity(linear_density::Settings),
+    /// Moduli of a cable from a load-elongation record, with their uncertainty, and the energy that the loop dissipates.
+    #[command(
+        after_help = "Example: cdpr modulus data/cables/caroca-4mm-record.csv --breaking-force 10290 --section 1.2566370614e-5 --length 1 --range 5-10 --range 10-30"
+    )]
+    Modulus(modulus::Settings),
     /// Tell which tolerances of a study's error model to tighten, and by how much, so that an error stays below a limit.
     #[command(
         after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric --limit 2.9 --costs b=3"
@@ -114,6 +126,8 @@ fn main() -> ExitCode {
         }
         Command::Calibration(settings) => calibration::run(&settings),
         Command::Derivatives(settings) => derivatives::run(&settings),
+        Command::LinearDensity(settings) => linear_density::run(&settings),
+        Command::Modulus(settings) => modulus::run(&settings),
         Command::Tolerances(settings) => tolerances::run(&settings),
         Command::Robustness { robot, poses, modulus, seed, out } => {
             let settings = robustness::Settings { robot, poses, modulus, seed, out };

@@ -2,6 +2,7 @@
 //!
 //! | figure of the paper | function |
 //! |---|---|
+//! | 3: load over elongation, and other cycles | [`cycle`] |
 //! | 4a, 5a: distribution of the RMS with its fitted laws | [`histogram`] |
 //! | 4b, 4c: RMS over two parameters | [`surface`] |
 //! | 5b, 5c: t-Student of the points' coordinates | [`point_effects`] |
@@ -25,6 +26,7 @@
 //! # }
 //! ```
 
+mod cycle;
 mod effects;
 mod error;
 mod histogram;
@@ -34,6 +36,7 @@ mod shares;
 mod style;
 mod surface;
 
+pub use cycle::{Cycle, cycle};
 pub use effects::signed_effects;
 pub use error::ReportError;
 pub use histogram::histogram;

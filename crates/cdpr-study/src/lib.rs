@@ -31,6 +31,7 @@ mod error_model;
 mod file;
 mod observation;
 mod output;
+mod record;
 mod robustness;
 mod sampling;
 mod sensitivity;
@@ -53,6 +54,7 @@ pub use output::{
     ObservationTable, StudySummary, Summary, check_folder, remove_summary, write_figure, write_refused,
     write_robustness, write_sensitivity, write_solves, write_summary, write_surface,
 };
+pub use record::open_record;
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
     Published, Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread,
