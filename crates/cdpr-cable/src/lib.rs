@@ -16,7 +16,7 @@
 //! ```
 //! use cdpr_cable::{Cable, Vector2, end_force};
 //!
-//! let cable = Cable { weight_per_length: 0.9957, axial_stiffness: 1.28e6 }; // [N/m], [N]
+//! let cable = Cable::linear(0.9957, 1.28e6); // [N/m], [N]
 //! let solution = end_force(&cable, 4.3, Vector2::new(4.1, -1.7))?; // 4.3 m of cable, A 1.7 m below B
 //! let catenary = solution.catenary;
 //! assert!((catenary.end_position() - Vector2::new(4.1, -1.7)).norm() < 1e-12);
@@ -28,6 +28,8 @@
 
 mod catenary;
 mod error;
+mod law;
+mod pieces;
 mod real;
 mod record;
 mod response;
@@ -38,6 +40,7 @@ mod weighing;
 
 pub use catenary::{Cable, Catenary, Compliance};
 pub use error::CableError;
+pub use law::{ElasticLaw, PiecewiseLaw, Segment};
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use real::{Field, Real};
 pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen};
