@@ -91,6 +91,11 @@ impl PiecewiseLaw {
         self.at(tension).strain_at(tension)
     }
 
+    /// Integral of the strain over the tension from zero up to a tension [N], times the cable's axial stiffness [N²].
+    pub fn scaled_energy(&self, tension: f64) -> f64 {
+        self.at(tension).energy_at(tension)
+    }
+
     /// Stiffness at a tension [N] over the cable's, κ; at a kink that of the piece above it.
     pub fn ratio(&self, tension: f64) -> f64 {
         self.at(tension).ratio

@@ -18,6 +18,9 @@
 //! The energy dissipated by the loop is the area `∮ F dx` between its branches, closed by a straight line where it does not close
 //! by itself.
 
+use crate::error::CableError;
+use crate::law::PiecewiseLaw;
+
 /// Whether a cable is being loaded or unloaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
@@ -261,6 +264,23 @@ impl Record {
         let around = || self.loading.iter().chain(&self.unloading);
         let closed = around().zip(around().skip(1).chain(self.loading.first()));
         closed.map(|(a, b)| 0.5 * (a.force + b.force) * (b.elongation - a.elongation)).sum()
+    }
+
+    /// The strain over tension of a phase, for a specimen of length `length` [m], in proportion to an axial stiffness [N]: straight between the
+    /// samples, and on with the first and last slope; without strain at rest.
+    ///
+    /// # Errors
+    /// [`CableError::InvalidInput`] for a slope that no law has.
+    pub fn law(&self, phase: Phase, length: f64, axial_stiffness: f64) -> Result<PiecewiseLaw, CableError> {
+        let slope = |one: &Sample, other: &Sample| {
+            let stiffness = length * (other.force - one.force) / (other.elongation - one.elongation);
+            (one.force.min(other.force), stiffness / axial_stiffness)
+        };
+        let mut segments: Vec<_> =
+            self.samples(phase).windows(2).map(|pair| slope(&pair[0], &pair[1])).collect();
+        segments.sort_by(|one, other| one.0.total_cmp(&other.0));
+        segments[0].0 = 0.0;
+        PiecewiseLaw::new(0.0, &segments)
     }
 
     /// Strain at the turning point, whose excess is the sign of another unit.

@@ -5,6 +5,7 @@
 mod arguments;
 mod calibration;
 mod derivatives;
+mod hysteresis;
 mod linear_density;
 mod modulus;
 mod robustness;
@@ -42,6 +43,11 @@ enum Command {
         after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
     )]
     Derivatives(derivatives::Settings),
+    /// Put a payload on a robot and take it off again, on cables with the hysteresis of a load-elongation record.
+    #[command(
+        after_help = "Example: cdpr hysteresis data/robots/caroca.json --record data/cables/caroca-4mm-record.csv --length 1 --pose 0,0,1.75 --payload 50"
+    )]
+    Hysteresis(hysteresis::Settings),
     /// Mass per length of a cable from the weighing of a piece of it.
     #[command(
         after_help = "Example: cdpr linear-density --mass 0.203 --length 2 --mass-error 0.001 --length-error 0.001"
@@ -126,6 +132,7 @@ fn main() -> ExitCode {
         }
         Command::Calibration(settings) => calibration::run(&settings),
         Command::Derivatives(settings) => derivatives::run(&settings),
+        Command::Hysteresis(settings) => hysteresis::run(&settings),
         Command::LinearDensity(settings) => linear_density::run(&settings),
         Command::Modulus(settings) => modulus::run(&settings),
         Command::Tolerances(settings) => tolerances::run(&settings),
