@@ -144,8 +144,9 @@ fn print(found: &Found) {
             (format!("{:.2}", cable.modulus_gpa), format!("{:.4}", 1e3 * cable.dissipated_j));
         rows.add_row([(i + 1).to_string(), a, b, c, modulus, energy]);
     }
-    let [dx, dy, dz] = found.deflection_mm.map(|d| format!("{d:.4}"));
-    let [rx, ry, rz] = found.residual_mm.map(|d| format!("{d:.5}"));
+    // Without the sign of a zero.
+    let [dx, dy, dz] = found.deflection_mm.map(|d| format!("{:.4}", (1e4 * d).round() / 1e4 + 0.0));
+    let [rx, ry, rz] = found.residual_mm.map(|d| format!("{:.5}", (1e5 * d).round() / 1e5 + 0.0));
     println!(
         "{rows}\ndisplaced by the payload  ({dx}, {dy}, {dz}) mm\nleft when it is gone      ({rx}, {ry}, {rz}) mm"
     );

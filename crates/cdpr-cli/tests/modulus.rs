@@ -37,7 +37,11 @@ fn moduli_of_several_ranges_come_as_json_and_the_loop_as_a_picture() {
 fn what_cannot_be_answered_ends_with_an_error_that_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let bad = folder.path().join("bad.csv");
-    std::fs::write(&bad, "force_n,elongation_mm,phase\n1,1,loading\n1,2,loading\n").unwrap();
+    std::fs::write(
+        &bad,
+        "force_n,elongation_mm,phase\n1,1,loading\n1,2,loading\n1,1,unloading\n0,0,unloading\n",
+    )
+    .unwrap();
     for (record, range, words) in [
         (RECORD, "30-40", "the range 30 to 40 % of the breaking force is not in the record"),
         (RECORD, "30-10", "range is 10: expected an upper end above the lower one"),
