@@ -14,9 +14,9 @@ const HELP: &str = "\
 usage: cargo xtask TASK
 
 tasks:
-  caroca-study [--out DIR] [--observations N] [--threads N]
+  caroca-study [--out DIR] [--observations N] [--threads N] [--resume]
                  the study of Baklouti, Caro, Courteille (CableCon 2017) beside its figures, then all measures of its sensitivity
-                 in DIR/sensitivity; DIR is target/caroca-study
+                 in DIR/sensitivity; DIR is target/caroca-study. Begins anew, or with --resume goes on with what was interrupted
   robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
                  how often the direct model finds CoGiRo's true pose from a wrong start, by the protocol of Mahnke and Caverly
                  (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
@@ -64,6 +64,10 @@ fn main() -> ExitCode {
 fn caroca_study(mut rest: Vec<String>) -> ExitCode {
     default(&mut rest, "--out", "target/caroca-study");
     let study = |file: &str| root().join("data/studies").join(file).display().to_string();
+    // What another state of the code has observed is not gone on with, unless the user says so.
+    if !rest.iter().any(|argument| argument == "--resume") {
+        rest.push("--overwrite".to_owned());
+    }
     let (paper, measures) = (study("caroca.json"), study("caroca-sensitivity.json"));
     eprintln!("building the program (a few minutes the first time), then running {paper} and {measures}");
     let code = cdpr(&["study", "run", &paper], &rest);

@@ -1,6 +1,6 @@
 //! A cable in equilibrium and what follows from the force at its end; the equations are in `response`.
 
-use crate::error::{CableError, SMALLEST, check};
+use crate::error::{CableError, SMALLEST, check, check_length};
 use crate::law::ElasticLaw;
 use crate::pieces;
 use crate::response::{Response, Terms};
@@ -97,7 +97,27 @@ pub struct Compliance {
     pub end_per_length: Vector2<f64>,
 }
 
-impl Catenary<'_> {
+impl<'a> Catenary<'a> {
+    /// The cable of unstrained length `unstrained_length` [m] with the force `(fx, fz)` [N] at A.
+    ///
+    /// # Errors
+    /// [`CableError::InvalidInput`] for values no cable can have, among them a force that pushes towards the exit point and a slack cable
+    /// without weight, which has no shape.
+    pub fn new(cable: Cable<'a>, unstrained_length: f64, force: Vector2<f64>) -> Result<Self, CableError> {
+        cable.validate()?;
+        check_length(unstrained_length)?;
+        check(
+            "force.x",
+            force.x,
+            force.x >= 0.0,
+            "a horizontal force away from the exit point, zero or more [N]",
+        )?;
+        check("force.z", force.y, true, "a finite vertical force [N]")?;
+        let catenary = Self { cable, unstrained_length, force };
+        check("force", 0.0, !catenary.is_limp(), "a force other than zero on a cable without weight [N]")?;
+        Ok(catenary)
+    }
+
     /// Position `(x, z)` of A relative to B [m], equations (1)-(2).
     pub fn end_position(&self) -> Vector2<f64> {
         match self.cable.law {
@@ -237,6 +257,20 @@ mod tests {
 
     fn catenary(cable: Cable<'static>, length: f64, fx: f64, fz: f64) -> Catenary<'static> {
         Catenary { cable, unstrained_length: length, force: Vector2::new(fx, fz) }
+    }
+
+    #[test]
+    fn a_cable_is_refused_that_no_end_can_be_computed_of() {
+        let refused = |cable, length, fx, fz| match Catenary::new(cable, length, Vector2::new(fx, fz)) {
+            Err(CableError::InvalidInput { field, .. }) => field,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(refused(CABLE, 0.0, 1.0, 1.0), "unstrained_length");
+        assert_eq!(refused(CABLE, 1.0, -1.0, 1.0), "force.x");
+        assert_eq!(refused(CABLE, 1.0, 1.0, f64::NAN), "force.z");
+        assert_eq!(refused(Cable { weight_per_length: 0.0, ..CABLE }, 1.0, 0.0, 0.0), "force");
+        assert_eq!(refused(Cable { axial_stiffness: -1.0, ..CABLE }, 1.0, 1.0, 0.0), "axial_stiffness");
+        assert!(Catenary::new(CABLE, 1.0, Vector2::zeros()).is_ok());
     }
 
     #[test]

@@ -54,3 +54,8 @@ pub(crate) fn check(
         Err(CableError::InvalidInput { field, value, expected })
     }
 }
+
+pub(crate) fn check_length(unstrained_length: f64) -> Result<(), CableError> {
+    let admissible = unstrained_length >= SMALLEST;
+    check("unstrained_length", unstrained_length, admissible, "an unstrained length from 1e-30 to 1e30 [m]")
+}

@@ -54,10 +54,28 @@ impl<'a> Catenary<'a> {
         if self.cable.weight_per_length == 0.0 || chord == 0.0 {
             return 0.0;
         }
-        // The cable is parallel to its chord where V/fx = z/x.
-        let v = if end.x > 0.0 { self.force.x * end.y / end.x } else { 0.0 };
-        let point = self.point((v - self.exit_vertical_force()) / self.cable.weight_per_length);
+        let point = self.parallel_point(end);
         (point.x * end.y - point.y * end.x).abs() / chord
+    }
+
+    /// Vertical sag [m]: the greatest height of the chord above the cable; for points one above the other, how far the cable hangs
+    /// below the lower of them.
+    pub fn vertical_sag(&self) -> f64 {
+        let end = self.end_position();
+        if self.cable.weight_per_length == 0.0 {
+            0.0
+        } else if end.x > 0.0 {
+            let point = self.parallel_point(end);
+            (point.x / end.x * end.y - point.y).max(0.0)
+        } else {
+            end.y.min(0.0) - self.lowest_point().y
+        }
+    }
+
+    /// Where the cable, which has weight, is parallel to its chord from the origin to `end`: there V/fx = z/x.
+    fn parallel_point(&self, end: Vector2<f64>) -> Vector2<f64> {
+        let v = if end.x > 0.0 { self.force.x * end.y / end.x } else { 0.0 };
+        self.point((v - self.exit_vertical_force()) / self.cable.weight_per_length)
     }
 }
 
@@ -103,6 +121,25 @@ mod tests {
         let greatest = distances.fold(0.0, f64::max);
         assert!(greatest <= catenary.sag() * (1.0 + 1e-12));
         assert_relative_eq!(greatest, catenary.sag(), max_relative = 1e-5);
+    }
+
+    #[test]
+    fn no_point_lies_lower_under_the_chord_than_the_vertical_sag() {
+        for (x, z) in [(3.0, -2.0), (3.0, 2.0), (1e-3, 4.0), (6.9, 0.0)] {
+            let catenary = hanging(7.0, x, z);
+            let depths = catenary.profile(10_001).into_iter().map(|p| p.x / x * z - p.y);
+            let greatest = depths.fold(0.0, f64::max);
+            assert!(greatest <= catenary.vertical_sag() * (1.0 + 1e-12));
+            assert_relative_eq!(greatest, catenary.vertical_sag(), max_relative = 1e-3);
+        }
+    }
+
+    #[test]
+    fn a_vertical_cable_sags_by_its_loop_and_a_taut_one_not_at_all() {
+        // 7 m over 4 m of height leave a loop of 1.5 m below the lower end, up to the stretch by the weight.
+        assert_relative_eq!(hanging(7.0, 0.0, 4.0).vertical_sag(), 1.5, epsilon = 1e-4);
+        assert_relative_eq!(hanging(7.0, 0.0, -4.0).vertical_sag(), 1.5, epsilon = 1e-4);
+        assert_eq!(hanging(3.9, 0.0, -4.0).vertical_sag(), 0.0);
     }
 
     #[test]

@@ -10,7 +10,7 @@
 //! A vertical cable (`x = 0`) is linear in each of three regimes: hanging taut, folded, pulled up from below.
 
 use crate::catenary::{Cable, Catenary, Compliance};
-use crate::error::{CableError, SMALLEST, check};
+use crate::error::{CableError, check, check_length};
 use crate::law::ElasticLaw;
 use nalgebra::Vector2;
 
@@ -57,12 +57,7 @@ pub fn end_force<'a>(
     end: Vector2<f64>,
 ) -> Result<Solution<'a>, CableError> {
     cable.validate()?;
-    check(
-        "unstrained_length",
-        unstrained_length,
-        unstrained_length >= SMALLEST,
-        "an unstrained length from 1e-30 to 1e30 [m]",
-    )?;
+    check_length(unstrained_length)?;
     check_end(end)?;
     let at = |force| Catenary { cable: *cable, unstrained_length, force };
     if cable.is_weightless(unstrained_length) {

@@ -1,7 +1,10 @@
 //! Arguments that are more than a number or a path, as functions for clap, which names the argument and its value in what it
 //! reports.
 
-use cdpr_robot::{Pose, UnitQuaternion, Vector3};
+use crate::output::Usage;
+use cdpr_robot::{Parameter, Pose, Robot, UnitQuaternion, Vector3, Wrench};
+use cdpr_statics::Load;
+use cdpr_study::{Grid, GridAxis};
 use std::path::Path;
 
 /// How results are printed.
@@ -24,16 +27,72 @@ pub(crate) fn numbers(text: &str) -> Result<Vec<f64>, String> {
     text.split(',').map(number).collect()
 }
 
+/// Finite numbers of one argument.
+#[derive(Clone)]
+pub(crate) struct List(pub(crate) Vec<f64>);
+
+/// Finite numbers separated by commas.
+pub(crate) fn list(text: &str) -> Result<List, String> {
+    numbers(text).map(List)
+}
+
+/// N finite numbers separated by commas.
+pub(crate) fn components<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    numbers(text)?
+        .try_into()
+        .map_err(|given: Vec<f64>| format!("{} numbers: expected {N}, separated by commas", given.len()))
+}
+
+/// A mass, zero or more [kg].
+pub(crate) fn mass(text: &str) -> Result<f64, String> {
+    let mass = number(text)?;
+    if mass >= 0.0 { Ok(mass) } else { Err("expected a mass, zero or more [kg]".to_owned()) }
+}
+
 /// `x,y,z` [m], followed by the quaternion `qw,qx,qy,qz` where the platform is rotated.
 pub(crate) fn pose(text: &str) -> Result<Pose, String> {
-    let expected = "expected x,y,z [m] or x,y,z,qw,qx,qy,qz";
-    let numbers = numbers(text).map_err(|error| format!("{error}: {expected}"))?;
-    match numbers[..] {
+    let numbers = numbers(text).map_err(|error| format!("{error}: {POSE}"))?;
+    pose_of(&numbers)
+}
+
+const POSE: &str = "expected x,y,z [m] or x,y,z,qw,qx,qy,qz";
+
+/// The pose of three or seven finite numbers.
+pub(crate) fn pose_of(numbers: &[f64]) -> Result<Pose, String> {
+    match *numbers {
         [x, y, z] => Ok(Pose::at(x, y, z)),
         [x, y, z, qw, qx, qy, qz] => Pose::with_quaternion(Vector3::new(x, y, z), [qw, qx, qy, qz])
             .ok_or_else(|| "the quaternion is zero: expected one that can be normalised".to_owned()),
-        _ => Err(format!("{} numbers: {expected}", numbers.len())),
+        _ => Err(format!("{} numbers: {POSE}", numbers.len())),
     }
+}
+
+/// What acts on the platform besides its own weight.
+#[derive(clap::Args)]
+pub(crate) struct LoadArguments {
+    /// Force, in the base frame: fx,fy,fz [N].
+    #[arg(long, value_parser = components::<3>, default_value = "0,0,0", allow_hyphen_values = true)]
+    force: [f64; 3],
+    /// Moment about P, of constant components in the base frame: mx,my,mz [N m].
+    #[arg(long, value_parser = components::<3>, default_value = "0,0,0", allow_hyphen_values = true)]
+    moment: [f64; 3],
+    /// Mass added at the platform's centre of mass [kg].
+    #[arg(long, value_parser = mass, default_value = "0", allow_hyphen_values = true)]
+    payload: f64,
+}
+
+impl LoadArguments {
+    pub(crate) fn load(&self) -> Load {
+        let wrench = Wrench { force: self.force.into(), moment: self.moment.into() };
+        Load { payload: self.payload, wrench }
+    }
+}
+
+/// `x,y,z` [m].
+pub(crate) fn position(text: &str) -> Result<[f64; 3], String> {
+    numbers(text)?
+        .try_into()
+        .map_err(|numbers: Vec<f64>| format!("{} numbers: expected x,y,z [m]", numbers.len()))
 }
 
 /// Position and quaternion (w, x, y, z), as [`pose`] reads them.
@@ -55,29 +114,17 @@ pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, String> {
         .collect()
 }
 
-/// Poses of one argument.
-#[derive(Clone)]
-pub(crate) struct Poses(pub(crate) Vec<Pose>);
-
 /// Positions on a grid: `min:max:points` of each axis [m], separated by commas.
-pub(crate) fn grid(text: &str) -> Result<Poses, String> {
+pub(crate) fn grid(text: &str) -> Result<Grid, String> {
     let expected = "expected min:max:points of x, y and z, such as -2:2:5,-1:1:3,0.5:2.5:3";
     let axis = |text: &str| {
         let [min, max, points] = text.split(':').collect::<Vec<_>>()[..] else { return None };
-        let (min, max) = (number(min).ok()?, number(max).ok()?);
-        let points = points.trim().parse().ok().filter(|points: &usize| (1..=1000).contains(points))?;
-        let step = (max - min) / (points.max(2) - 1) as f64;
-        Some((0..points).map(|k| min + step * k as f64).collect::<Vec<_>>())
+        let points = points.trim().parse().ok().filter(|points| *points > 0)?;
+        Some(GridAxis { min: number(min).ok()?, max: number(max).ok()?, points })
     };
     let axes: Option<Vec<_>> = text.split(',').map(axis).collect();
-    let Some([x, y, z]) = axes.as_deref() else { return Err(expected.to_owned()) };
-    let mut poses = Vec::with_capacity(x.len() * y.len() * z.len());
-    for x in x {
-        for y in y {
-            poses.extend(z.iter().map(|z| Pose::at(*x, *y, *z)));
-        }
-    }
-    Ok(Poses(poses))
+    let axes = axes.and_then(|axes| <[GridAxis; 3]>::try_from(axes).ok());
+    Grid::new(axes.ok_or_else(|| expected.to_owned())?).map_err(|error| error.to_string())
 }
 
 /// Numbers with names.
@@ -91,6 +138,20 @@ pub(crate) fn named(text: &str) -> Result<Named, String> {
         Ok((name.trim().to_owned(), number(value)?))
     };
     text.split(',').map(one).collect::<Result<_, _>>().map(Named)
+}
+
+/// The standard deviation of each parameter: its own, else that of its group, else none.
+pub(crate) fn uncertainties(robot: &Robot, Named(named): &Named) -> Result<Vec<f64>, Usage> {
+    let parameters = Parameter::all(robot.cables.len());
+    let known = |name: &str| parameters.iter().any(|p| p.group() == name || p.to_string() == name);
+    if let Some((name, value)) = named.iter().find(|(name, value)| !known(name) || *value <= 0.0) {
+        return Err(Usage(format!(
+            "--uncertainty {name}={value}: expected a positive standard deviation of mass, linear_density, youngs_modulus, a, b, cog, dt \
+             or one of their parameters, such as a1.x"
+        )));
+    }
+    let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, value)| *value);
+    Ok(parameters.iter().map(|p| of(&p.to_string()).or_else(|| of(p.group())).unwrap_or(0.0)).collect())
 }
 
 #[cfg(test)]
@@ -117,7 +178,7 @@ mod tests {
 
     #[test]
     fn a_grid_has_its_ends_and_a_list_its_names() {
-        let Poses(poses) = grid("-1:1:3,0:0:1,2:3:2").unwrap();
+        let poses = grid("-1:1:3,0:0:1,2:3:2").unwrap().poses();
         assert_eq!(poses.len(), 6);
         assert_eq!((poses[0], poses[5]), (Pose::at(-1.0, 0.0, 2.0), Pose::at(1.0, 0.0, 3.0)));
         for text in ["", "0:1:2", "0:1:0,0:1:1,0:1:1", "0:1:2,0:1:2,0:x:2", "0:1:2,0:1:2,0:1:2,0:1:2"] {

@@ -1,10 +1,11 @@
 //! `cdpr calibration`: which combinations of parameters measurements at given poses tell, and which poses tell most.
 
-use crate::arguments::{self, Format, Named, Poses};
+use crate::arguments::{self, Format, Named};
+use crate::output::Usage;
 use crate::study::table;
-use cdpr_robot::{Parameter, Pose, Robot};
+use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement};
-use cdpr_study::open_robot;
+use cdpr_study::{Grid, open_robot};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -21,7 +22,7 @@ pub(crate) struct Settings {
     poses: Option<PathBuf>,
     /// Grid of candidate positions, min:max:points of each axis: -2:2:5,-1:1:3,0.5:2.5:3.
     #[arg(long, value_parser = arguments::grid, allow_hyphen_values = true)]
-    grid: Option<Poses>,
+    grid: Option<Grid>,
     /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5. The others are known.
     #[arg(long, value_parser = arguments::named)]
     uncertainty: Named,
@@ -43,12 +44,13 @@ pub(crate) struct Settings {
 pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     let robot = open_robot(&settings.robot)?;
     let candidates = match (&settings.grid, &settings.poses) {
-        (Some(Poses(poses)), _) => poses.clone(),
+        (Some(grid), _) => grid.poses(),
         (None, Some(path)) => arguments::pose_file(path)?,
         (None, None) => Vec::new(),
     };
     let measurements = measurements(&settings.noise)?;
-    let mut calibration = Calibration::new(&robot, &uncertainties(&robot, &settings.uncertainty)?)?;
+    let mut calibration =
+        Calibration::new(&robot, &arguments::uncertainties(&robot, &settings.uncertainty)?)?;
     let (mut poses, mut refused) = (Vec::new(), BTreeMap::new());
     for pose in candidates {
         match calibration.add(&pose, &Load::payload(settings.payload), &measurements) {
@@ -67,30 +69,16 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The standard deviation of each parameter: its own, else that of its group, else none.
-fn uncertainties(robot: &Robot, Named(named): &Named) -> Result<Vec<f64>, String> {
-    let parameters = Parameter::all(robot.cables.len());
-    let known = |name: &str| parameters.iter().any(|p| p.group() == name || p.to_string() == name);
-    if let Some((name, value)) = named.iter().find(|(name, value)| !known(name) || *value <= 0.0) {
-        return Err(format!(
-            "--uncertainty {name}={value}: expected a positive standard deviation of mass, linear_density, youngs_modulus, a, b, cog, dt \
-             or one of their parameters, such as a1.x"
-        ));
-    }
-    let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, value)| *value);
-    Ok(parameters.iter().map(|p| of(&p.to_string()).or_else(|| of(p.group())).unwrap_or(0.0)).collect())
-}
-
-fn measurements(Named(named): &Named) -> Result<Vec<Measurement>, String> {
+fn measurements(Named(named): &Named) -> Result<Vec<Measurement>, Usage> {
     let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, value)| *value);
     let pose = match (of("position"), of("rotation")) {
         (Some(position), Some(rotation)) => Some(Measurement::Pose { position, rotation }),
         (None, None) => None,
-        _ => return Err("--noise: expected position and rotation together".to_owned()),
+        _ => return Err(Usage("--noise: expected position and rotation together".to_owned())),
     };
     let all = ["position", "rotation", "tensions", "lengths"];
     if let Some((name, value)) = named.iter().find(|(name, _)| !all.contains(&name.as_str())) {
-        return Err(format!("--noise {name}={value}: expected one of {}", all.join(", ")));
+        return Err(Usage(format!("--noise {name}={value}: expected one of {}", all.join(", "))));
     }
     let others = [of("tensions").map(Measurement::Tensions), of("lengths").map(Measurement::Lengths)];
     Ok(pose.into_iter().chain(others.into_iter().flatten()).collect())

@@ -1,27 +1,40 @@
 //! The program `cdpr`: arguments, progress, printing. All mechanics and statistics are in the library crates.
 
-#![allow(clippy::print_stdout, clippy::print_stderr)]
+#![allow(clippy::print_stderr)]
 
+#[macro_use]
+mod output;
+
+mod answer;
 mod arguments;
 mod calibration;
+mod catenary;
+mod check;
+mod deflection;
 mod derivatives;
+mod direct;
 mod hysteresis;
+mod inverse;
 mod linear_density;
 mod modulus;
+mod report;
 mod robustness;
 mod sensitivity;
+mod stiffness;
 mod study;
 mod throughput;
 mod tolerances;
+mod workspace;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use output::Ending;
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
 #[derive(Parser)]
-#[command(version, propagate_version = true)]
+#[command(version, propagate_version = true, after_help = output::EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -29,10 +42,45 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Compute one cable between two points: force, tensions, sag, energy.
+    #[command(
+        after_help = "Example: cdpr catenary --weight 0.9957 --stiffness 1.28e6 --length 4.3 --end 4.1,-1.7"
+    )]
+    Catenary(catenary::Settings),
+    /// Find the unstrained lengths that hold a pose.
+    #[command(after_help = "Example: cdpr inverse data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
+    Inverse(inverse::Settings),
+    /// Find where the platform stands for given unstrained lengths.
+    #[command(
+        after_help = "Example: cdpr direct data/robots/caroca.json --lengths 4.2,4.2,4.3,4.3,4.2,4.2,4.3,4.3 --certify"
+    )]
+    Direct(direct::Settings),
+    /// Tell how far the platform gives under a load.
+    #[command(after_help = "Example: cdpr deflection data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
+    Deflection(deflection::Settings),
+    /// Compute the Cartesian stiffness at a pose and its softest motions.
+    #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
+    Stiffness(stiffness::Settings),
+    /// Map where the platform is held, and how it gives, over a plane or a box.
+    #[command(after_help = "Examples:
+  cdpr workspace data/robots/caroca.json --plane z=1.75 --grid 41x41 --payload 50 --out workspace
+  cdpr workspace data/robots/caroca.json --box=-3:3:25,-1.5:1.5:13,0.5:2.5:9 --payload 50 --uncertainty a=0.002,b=0.002")]
+    Workspace(workspace::Settings),
+    /// Say everything that is odd about a robot file.
+    #[command(after_help = "Example: cdpr check data/robots/cogiro.json")]
+    Check(check::Settings),
+    /// Print completions of all commands for a shell.
+    #[command(
+        after_help = "Example: cdpr completions bash > ~/.local/share/bash-completion/completions/cdpr"
+    )]
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
     /// Study which uncertain parameters of a robot matter.
     Study {
         #[command(subcommand)]
-        command: StudyCommand,
+        command: study::Command,
     },
     /// Tell which combinations of a robot's parameters measurements identify, and which poses tell most.
     #[command(after_help = "Example: cdpr calibration data/robots/caroca.json --grid=-2:2:5,-1:1:3,1:2.5:3 \
@@ -58,6 +106,9 @@ enum Command {
         after_help = "Example: cdpr modulus data/cables/caroca-4mm-record.csv --breaking-force 10290 --section 1.2566370614e-5 --length 1 --range 5-10 --range 10-30"
     )]
     Modulus(modulus::Settings),
+    /// Write the report of a study: one HTML file with all figures that opens offline.
+    #[command(after_help = "Example: cdpr report results")]
+    Report(report::Settings),
     /// Tell which tolerances of a study's error model to tighten, and by how much, so that an error stays below a limit.
     #[command(
         after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric --limit 2.9 --costs b=3"
@@ -86,66 +137,37 @@ enum Command {
     },
 }
 
-#[derive(Subcommand)]
-enum StudyCommand {
-    /// Run a study file and write observations, figures and a summary.
-    #[command(after_help = "Example: cdpr study run data/studies/caroca.json --out results")]
-    Run {
-        /// Study file (JSON, `cdpr-study/1`).
-        study: PathBuf,
-        /// Folder for the results; made if missing.
-        #[arg(long, default_value = "results")]
-        out: PathBuf,
-        /// Observations of each sampling, in place of the file's.
-        #[arg(long)]
-        observations: Option<usize>,
-        /// Threads; all cores if left out. The numbers do not depend on it.
-        #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
-        threads: Option<u16>,
-    },
-    /// Run one sampling of a study without writing anything; print how long it took, its memory and its results as JSON.
-    #[command(
-        after_help = "Example: cdpr study throughput data/studies/caroca.json --sampling mechanical --observations 1000000"
-    )]
-    Throughput {
-        /// Study file (JSON, `cdpr-study/1`).
-        study: PathBuf,
-        /// Name of the sampling.
-        #[arg(long)]
-        sampling: String,
-        /// Observations, in place of the file's.
-        #[arg(long, default_value_t = 1_000_000)]
-        observations: usize,
-        /// Threads; all cores if left out. The numbers do not depend on it.
-        #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
-        threads: Option<u16>,
-    },
+fn main() -> ExitCode {
+    output::exit_code(run(Arguments::parse().command))
 }
 
-fn main() -> ExitCode {
-    let result: Result<(), Box<dyn Error>> = match Arguments::parse().command {
-        Command::Study { command: StudyCommand::Run { study, out, observations, threads } } => {
-            study::run(&study::Settings { study, out, observations, threads }).map_err(Into::into)
-        }
-        Command::Study { command: StudyCommand::Throughput { study, sampling, observations, threads } } => {
-            throughput::run(&study, &sampling, observations, threads).map_err(Into::into)
-        }
-        Command::Calibration(settings) => calibration::run(&settings),
-        Command::Derivatives(settings) => derivatives::run(&settings),
-        Command::Hysteresis(settings) => hysteresis::run(&settings),
-        Command::LinearDensity(settings) => linear_density::run(&settings),
-        Command::Modulus(settings) => modulus::run(&settings),
-        Command::Tolerances(settings) => tolerances::run(&settings),
+fn run(command: Command) -> Result<Ending, Box<dyn Error>> {
+    match command {
+        Command::Check(settings) => return check::run(&settings),
+        Command::Direct(settings) => return direct::run(&settings),
+        Command::Catenary(settings) => catenary::run(&settings)?,
+        Command::Inverse(settings) => inverse::run(&settings)?,
+        Command::Deflection(settings) => deflection::run(&settings)?,
+        Command::Stiffness(settings) => stiffness::run(&settings)?,
+        Command::Workspace(settings) => workspace::run(&settings)?,
+        Command::Completions { shell } => completions(shell),
+        Command::Study { command } => study::run(command)?,
+        Command::Calibration(settings) => calibration::run(&settings)?,
+        Command::Derivatives(settings) => derivatives::run(&settings)?,
+        Command::Hysteresis(settings) => hysteresis::run(&settings)?,
+        Command::LinearDensity(settings) => linear_density::run(&settings)?,
+        Command::Modulus(settings) => modulus::run(&settings)?,
+        Command::Tolerances(settings) => tolerances::run(&settings)?,
+        Command::Report(settings) => report::run(&settings)?,
         Command::Robustness { robot, poses, modulus, seed, out } => {
-            let settings = robustness::Settings { robot, poses, modulus, seed, out };
-            robustness::run(&settings).map_err(Into::into)
-        }
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
+            robustness::run(&robustness::Settings { robot, poses, modulus, seed, out })?;
         }
     }
+    Ok(Ending::Well)
+}
+
+fn completions(shell: clap_complete::Shell) {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "cdpr", &mut script);
+    println!("{}", String::from_utf8_lossy(&script));
 }

@@ -1,7 +1,7 @@
 //! `cdpr study throughput`: how fast a sampling runs, in one line of JSON.
 
 use crate::study::{RunError, start_threads};
-use cdpr_study::{Study, analyse, observe};
+use cdpr_study::{Session, Study, analyse, observe};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -20,8 +20,9 @@ pub(crate) fn run(
     study.file.sensitivity = None;
     let sampling = study.sampling(sampling)?;
     let clock = Instant::now();
-    let tally = observe(&sampling, &|_| ());
-    let summary = analyse(&sampling, &tally, &|_| ());
+    let session = Session::in_memory();
+    let tally = observe(&sampling, &session)?;
+    let summary = analyse(&sampling, &tally, &session)?;
     let wall = clock.elapsed().as_secs_f64();
     let threads = rayon::current_num_threads();
     let rms = summary.rms_mm.map(|rms| json!({ "mean": rms.mean, "std": rms.std }));

@@ -113,7 +113,7 @@ fn the_files_are_the_same_on_any_number_of_threads() {
     let mut bench = Bench::new();
     bench.measure();
     let files = |threads: &str| -> Vec<Vec<u8>> {
-        assert!(bench.run(&["--threads", threads]).status.success());
+        assert!(bench.run(&["--overwrite", "--threads", threads]).status.success());
         ["summary.json", "geometrical_asymmetric.csv"]
             .map(|file| std::fs::read(bench.path("out").join(file)).unwrap())
             .into()
@@ -149,6 +149,27 @@ fn measures_of_sensitivity_have_a_table_a_figure_a_part_of_the_summary_and_a_tab
     }
 }
 
+#[test]
+fn a_folder_of_results_runs_again_and_gives_the_same_summary() {
+    let bench = Bench::new();
+    assert!(bench.run(&["--observations", "40"]).status.success());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
+    command.current_dir(bench.folder.path()).args(["study", "run", "out/study.json", "--out", "again"]);
+    assert!(command.status().unwrap().success());
+    for file in ["study.json", "robot.json", "summary.json", "mechanical.csv"] {
+        let [first, again] =
+            ["out", "again"].map(|folder| std::fs::read(bench.path(folder).join(file)).unwrap());
+        assert!(first == again, "{file}");
+    }
+    let text = std::fs::read_to_string(bench.path("out/study.json")).unwrap();
+    let study: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(study["robot"], "robot.json");
+    assert_eq!(study["samplings"]["mechanical"]["observations"], 40);
+    let text = std::fs::read_to_string(bench.path("out/timings.json")).unwrap();
+    let timings: Value = serde_json::from_str(&text).unwrap();
+    assert!(timings["all"].as_f64().unwrap() >= timings["seconds"]["surface_E_rho"].as_f64().unwrap());
+}
+
 /// Spoils one value of the robot or the study and expects the message to hold all the given words.
 fn refused(spoil: impl Fn(&mut Value, &mut Value), words: &[&str]) {
     let mut bench = Bench::new();
@@ -172,7 +193,7 @@ fn bad_robots_are_refused_with_file_field_value_and_remedy() {
         |r, _| r["platform"]["mas"] = json!(1),
         &[file, "platform.mas: unknown field `mas`", "expected `mass`"],
     );
-    refused(|r, _| r["gravity"] = json!(null), &[file, "gravity: invalid type: null, expected f64"]);
+    refused(|r, _| r["gravity"] = json!(null), &[file, "gravity: invalid type: null, expected a number"]);
     refused(
         |r, _| r["cables"].as_array_mut().unwrap().truncate(5),
         &[file, "cables is a list of 5", "at least 6 cables"],
@@ -298,4 +319,46 @@ fn an_unbounded_law_at_the_first_point_of_the_sequence_names_the_field_to_change
         |_, s| s["error_models"]["table_3"]["mass"] = law.clone(),
         &[file, "`mass` is unbounded below", "start at index 1"],
     );
+}
+
+#[test]
+fn a_run_writes_a_report_and_so_does_its_folder_alone() {
+    let bench = Bench::new();
+    assert!(bench.run(&[]).status.success());
+    let written = std::fs::read_to_string(bench.path("out/report.html")).unwrap();
+    assert!(written.starts_with("<!DOCTYPE html>") && written.contains("id=\"figure-mechanical\""));
+    // The folder is complete by itself.
+    let moved = bench.path("moved");
+    std::fs::rename(bench.path("out"), &moved).unwrap();
+    for file in ["study.json", "robot.json"] {
+        std::fs::remove_file(bench.path(file)).unwrap();
+    }
+    let report = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_cdpr"))
+            .current_dir(bench.folder.path())
+            .arg("report")
+            .args(arguments)
+            .output()
+            .unwrap()
+    };
+    let output = report(&["moved", "--out", "again.html"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), "report in again.html\n");
+    assert!(std::fs::read_to_string(bench.path("again.html")).unwrap() == written);
+
+    let refusal = |expected: &str| {
+        let output = report(&["moved"]);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && text.contains(expected) && !text.contains("panicked"), "{text}");
+    };
+    let table = std::fs::read_to_string(moved.join("surface_E_rho.csv")).unwrap();
+    let short = table.trim_end().rsplit_once('\n').unwrap().0;
+    std::fs::write(moved.join("surface_E_rho.csv"), short).unwrap();
+    refusal("surface_E_rho.csv: rows is 19: expected a grid of 20 points");
+    std::fs::write(moved.join("surface_E_rho.csv"), table.replace("ok", "maybe,ok")).unwrap();
+    refusal("surface_E_rho.csv: row 1 is ");
+    std::fs::write(moved.join("summary.json"), "{\"study\": 1}").unwrap();
+    refusal("summary.json: line 1, column 11: study: invalid type");
+    std::fs::remove_file(moved.join("summary.json")).unwrap();
+    refusal("cannot read moved/summary.json");
 }

@@ -5,7 +5,9 @@
 #![allow(clippy::print_stdout)]
 
 use cdpr_report::{Points, histogram, point_effects, signed_effects, surface};
-use cdpr_study::{Study, SurfaceSummary, analyse, check_folder, compute_surface, observe, write_figure};
+use cdpr_study::{
+    Session, Study, SurfaceSummary, analyse, check_folder, compute_surface, observe, write_figure,
+};
 use std::path::Path;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -25,7 +27,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut summaries = Vec::new();
     for name in study.file.samplings.keys() {
         let sampling = study.sampling(name)?;
-        let summary = analyse(&sampling, &observe(&sampling, &|_| ()), &|_| ());
+        let session = Session::in_memory();
+        let summary = analyse(&sampling, &observe(&sampling, &session)?, &session)?;
         write(name, &histogram(&summary)?)?;
         write(&format!("{name}_effects"), &signed_effects(&summary, 20)?)?;
         summaries.push((name.as_str(), summary));
@@ -36,8 +39,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .filter(|(name, _)| name.starts_with("geometrical"))
         .map(|(name, summary)| (*name, summary))
         .collect();
-    write("anchor_points", &point_effects(&geometrical, Points::Anchor)?)?;
-    write("exit_points", &point_effects(&geometrical, Points::Exit)?)?;
+    write("anchor_points", &point_effects(&study.robot, &geometrical, Points::Anchor)?)?;
+    write("exit_points", &point_effects(&study.robot, &geometrical, Points::Exit)?)?;
 
     for name in study.file.surfaces.keys() {
         let prepared = study.surface(name)?;

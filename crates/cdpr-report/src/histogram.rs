@@ -121,6 +121,8 @@ fn legend(fit: &FitSummary, preferred: &FitSummary) -> String {
     if fit == preferred {
         format!("{} (preferred)", fit.law)
     } else {
-        format!("{} (AIC {:+.0})", fit.law, fit.aic - preferred.aic)
+        let difference = number(fit.aic - preferred.aic, 0);
+        let sign = if difference.starts_with('\u{2212}') { "" } else { "+" };
+        format!("{} (AIC {sign}{difference})", fit.law)
     }
 }

@@ -1,4 +1,5 @@
-//! Static figures of study results, ready for a paper: one function a figure, results in, SVG text out. No file is written.
+//! Figures of study results, ready for a paper: one function a figure, results in, SVG text out. And [`report()`], which puts all of
+//! them into one HTML file beside the robot in space. No file is read or written.
 //!
 //! | figure of the paper | function |
 //! |---|---|
@@ -8,6 +9,7 @@
 //! | 5b, 5c: t-Student of the points' coordinates | [`point_effects`] |
 //! | none: signed effects with their intervals | [`signed_effects`] |
 //! | none: shares of the variance by all measures | [`shares`] |
+//! | none: deflection, stiffness, tension over a plane of the workspace | [`heat_map`] |
 //! | none: answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
 //! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of Cable-Driven Parallel
@@ -15,22 +17,26 @@
 //! colour-blind. The same results give the same bytes.
 //!
 //! ```no_run
-//! use cdpr_study::{Study, analyse, observe, write_figure};
+//! use cdpr_study::{Session, Study, analyse, observe, write_figure};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let study = Study::open("data/studies/caroca.json".as_ref())?;
 //! let sampling = study.sampling("mechanical")?;
-//! let summary = analyse(&sampling, &observe(&sampling, &|_| ()), &|_| ());
+//! let session = Session::in_memory();
+//! let summary = analyse(&sampling, &observe(&sampling, &session)?, &session)?;
 //! write_figure("results".as_ref(), "mechanical", &cdpr_report::histogram(&summary)?)?;
 //! # Ok(())
 //! # }
 //! ```
 
+mod color_map;
 mod cycle;
 mod effects;
 mod error;
+mod heat_map;
 mod histogram;
 mod points;
+mod report;
 mod robustness;
 mod shares;
 mod style;
@@ -39,8 +45,10 @@ mod surface;
 pub use cycle::{Cycle, cycle};
 pub use effects::signed_effects;
 pub use error::ReportError;
+pub use heat_map::{MapQuantity, heat_map};
 pub use histogram::histogram;
 pub use points::{Points, point_effects};
+pub use report::report;
 pub use robustness::{found_poses, success_share};
 pub use shares::shares;
 pub use surface::surface;

@@ -6,7 +6,7 @@ use cdpr_report::{
     Points, ReportError, found_poses, histogram, point_effects, shares, signed_effects, success_share,
     surface,
 };
-use cdpr_robot::Pose;
+use cdpr_robot::{Pose, Robot};
 use cdpr_sensitivity::{Family, Histogram, Law};
 use cdpr_statics::{Method, Residual, StaticsError};
 use cdpr_study::{
@@ -14,6 +14,10 @@ use cdpr_study::{
     RmsSummary, RobustnessResult, SamplingSummary, SensitivitySummary, SignedEffect, Solve, Study,
     SurfaceResult, SurfaceSummary,
 };
+
+fn robot() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
 
 fn sampling() -> SamplingSummary {
     let fit = |law, parameters, aic| FitSummary {
@@ -42,6 +46,7 @@ fn sampling() -> SamplingSummary {
     SamplingSummary {
         title: "Everything, E < 104 & \"rest\"".to_owned(),
         pose: [0.0, 0.0, 1.75],
+        quaternion: [1.0, 0.0, 0.0, 0.0],
         observations: 101,
         failed: [("infeasible_tension".to_owned(), 1)].into(),
         rms_mm: Some(rms),
@@ -90,7 +95,7 @@ fn measured() -> SamplingSummary {
     let agreement = Agreement {
         first: 1,
         inputs: vec!["b2.x".to_owned()],
-        measures: vec!["derivative_share", "sobol_total"],
+        measures: ["derivative_share", "sobol_total"].map(str::to_owned).into(),
         rank_correlation: vec![vec![Some(1.0); 2]; 2],
     };
     let sensitivity = SensitivitySummary {
@@ -154,7 +159,7 @@ fn figures() -> [String; 7] {
     [
         histogram(&sampling).unwrap(),
         surface(&summary, &result).unwrap(),
-        point_effects(&[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap(),
+        point_effects(&robot(), &[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap(),
         signed_effects(&sampling, 20).unwrap(),
         shares(&measured(), 12).unwrap(),
         found_poses(&robustness).unwrap(),
@@ -244,10 +249,11 @@ fn a_surface_has_a_cell_for_each_point_and_shows_the_failed_ones() {
 #[test]
 fn points_have_three_bars_each_and_a_panel_a_sampling() {
     let sampling = sampling();
-    let svg = point_effects(&[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap();
+    let svg =
+        point_effects(&robot(), &[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap();
     assert_eq!(rectangles(&svg), 2 * 8 * 3);
     let texts = texts(&svg);
-    for text in ["B1", "B8", "x", "y", "z", "t-Student index [-]"] {
+    for text in ["B1", "B8", "x", "y", "z", "t [-]", "8.0", "plan: x from −3.50 to 3.50 m"] {
         assert!(texts.contains(&text), "{text}: {texts:?}");
     }
     assert!(!texts.contains(&"A1"));
@@ -324,8 +330,11 @@ fn without_data_there_is_no_figure() {
     assert!(matches!(histogram(&empty), Err(ReportError::Empty { .. })));
     assert!(matches!(signed_effects(&empty, 20), Err(ReportError::Empty { .. })));
     assert!(matches!(signed_effects(&sampling(), 0), Err(ReportError::Empty { .. })));
-    assert!(matches!(point_effects(&[], Points::Exit), Err(ReportError::Empty { .. })));
-    assert!(matches!(point_effects(&[("a", &empty)], Points::Anchor), Err(ReportError::Empty { .. })));
+    assert!(matches!(point_effects(&robot(), &[], Points::Exit), Err(ReportError::Empty { .. })));
+    assert!(matches!(
+        point_effects(&robot(), &[("a", &empty)], Points::Anchor),
+        Err(ReportError::Empty { .. })
+    ));
     let (summary, mut result) = grid();
     let failure = result.rms_mm[2].clone();
     result.rms_mm.fill(failure);
@@ -347,7 +356,7 @@ fn what_has_no_place_on_an_axis_is_refused() {
     }))));
     assert!(invalid(histogram(&change(|s| s.histogram.as_mut().unwrap().edges.truncate(5)))));
     let nan = change(|s| s.t_student.values_mut().for_each(|t| *t = f64::NAN));
-    assert!(invalid(point_effects(&[("a", &nan)], Points::Exit)));
+    assert!(invalid(point_effects(&robot(), &[("a", &nan)], Points::Exit)));
     let wide = SignedEffect { effect: 0.0, low: f64::NEG_INFINITY, high: f64::INFINITY };
     let mut summary = sampling();
     summary.signed_effects_mm.insert("mass".to_owned(), wide);

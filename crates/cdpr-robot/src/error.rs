@@ -1,6 +1,6 @@
 //! What can be wrong with a robot.
 
-use crate::json::JsonError;
+use crate::json::{JsonError, place_of};
 
 /// Why a robot, its file or its parameters were refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -17,6 +17,16 @@ pub enum RobotError {
         value: String,
         /// What would be right.
         expected: String,
+    },
+    /// The same, with its place in a robot file.
+    #[error("{source} (line {line}, column {column})")]
+    At {
+        /// Line in the file, from 1.
+        line: usize,
+        /// Column in that line.
+        column: usize,
+        /// What is wrong there.
+        source: Box<RobotError>,
     },
     /// A parameter name that this robot does not have.
     #[error("no parameter is named `{name}`: expected one of {expected}")]
@@ -43,5 +53,17 @@ impl RobotError {
         expected: impl Into<String>,
     ) -> Self {
         Self::Invalid { field: field.into(), value: value.to_string(), expected: expected.into() }
+    }
+
+    /// With the place of the field in the file's text, where it has one.
+    pub(crate) fn placed(self, text: &str) -> Self {
+        let place = match &self {
+            Self::Invalid { field, .. } => place_of(text, field),
+            _ => None,
+        };
+        match place {
+            Some((line, column)) => Self::At { line, column, source: Box::new(self) },
+            None => self,
+        }
     }
 }

@@ -115,16 +115,11 @@ impl Robot {
     /// Reads and validates a robot file.
     ///
     /// # Errors
-    /// [`RobotError::Format`] with field, line and column for a file of another shape; [`RobotError::Invalid`] for a value
-    /// that no robot can have.
+    /// [`RobotError::Format`] with field, line and column for a file of another shape; [`RobotError::Invalid`] within
+    /// [`RobotError::At`] for a value that no robot can have.
     pub fn from_json(text: &str) -> Result<Self, RobotError> {
         let file: RobotFile = from_json(text)?;
-        if file.format != FORMAT {
-            return Err(RobotError::invalid("format", format!("{:?}", file.format), format!("{FORMAT:?}")));
-        }
-        let robot = file.into_robot()?;
-        robot.validate()?;
-        Ok(robot)
+        file.checked().map_err(|error| error.placed(text))
     }
 
     /// Writes the robot file; every cable carries its own properties unless all are the same.
@@ -159,6 +154,15 @@ impl Robot {
 }
 
 impl RobotFile {
+    fn checked(self) -> Result<Robot, RobotError> {
+        if self.format != FORMAT {
+            return Err(RobotError::invalid("format", format!("{:?}", self.format), format!("{FORMAT:?}")));
+        }
+        let robot = self.into_robot()?;
+        robot.validate()?;
+        Ok(robot)
+    }
+
     fn into_robot(self) -> Result<Robot, RobotError> {
         let shared = self.cable.as_ref().map(|entry| properties(entry, "cable")).transpose()?;
         let cables = self

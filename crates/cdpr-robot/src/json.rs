@@ -1,12 +1,14 @@
 //! JSON text to data, with the place of what is wrong.
 
 use serde::de::DeserializeOwned;
+use serde_json::value::RawValue;
+use std::collections::BTreeMap;
 
 /// Where a JSON text is not what was expected: a missing, misspelt or mistyped field, or no JSON at all.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}, column {column}: {field}: {message}")]
 pub struct JsonError {
-    /// Path of the field, such as `cables[2].exit_point`; `.` for the whole text.
+    /// Path of the field, such as `cables[2].exit_point`; `the whole text` where it is none in particular.
     pub field: String,
     /// Line in the text, from 1.
     pub line: usize,
@@ -20,7 +22,22 @@ impl JsonError {
     fn new(field: String, error: &serde_json::Error) -> Self {
         // serde_json ends its message with the place, which is given apart.
         let message = error.to_string();
-        let message = message.split(" at line ").next().unwrap_or_default().to_owned();
+        let message = message.split(" at line ").next().unwrap_or_default();
+        let message = match message {
+            "expected value" => {
+                "expected a JSON value, of which NaN, Infinity and bare words are none".to_owned()
+            }
+            "number out of range" => "number out of range, expected a finite number".to_owned(),
+            "EOF while parsing a value" => "the text ends where a JSON value is expected".to_owned(),
+            // Types as Rust names them.
+            message => message
+                .replace("EOF while parsing", "the text ends within")
+                .replace("expected f64", "expected a number")
+                .replace("expected usize", "expected a whole number"),
+        };
+        // A place in no field is that of what contains it.
+        let field = field.trim_end_matches('?').trim_end_matches('.');
+        let field = if field.is_empty() { "the whole text" } else { field }.to_owned();
         Self { field, line: error.line(), column: error.column(), message }
     }
 }
@@ -38,4 +55,47 @@ pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
     // What follows the value is looked at, too: half a file may have been pasted behind another.
     deserializer.end().map_err(|error| JsonError::new(".".to_owned(), &error))?;
     Ok(value)
+}
+
+/// Line and column, both from 1, at which the value of `field`, such as `cables[2].exit_point[0]`, stands in a JSON text; those of what
+/// would contain it where it is missing.
+pub fn place_of(text: &str, field: &str) -> Option<(usize, usize)> {
+    let mut value: &RawValue = serde_json::from_str(text).ok()?;
+    for key in field.split(['.', '[', ']']).filter(|key| !key.is_empty()) {
+        let inner = match key.parse::<usize>() {
+            Ok(index) => serde_json::from_str::<Vec<&RawValue>>(value.get())
+                .ok()
+                .and_then(|list| list.get(index).copied()),
+            Err(_) => serde_json::from_str::<BTreeMap<String, &RawValue>>(value.get())
+                .ok()
+                .and_then(|map| map.get(key).copied()),
+        };
+        let Some(inner) = inner else { break };
+        value = inner;
+    }
+    // The value borrows from the text: where it begins is a difference of addresses.
+    let before = text.get(..value.get().as_ptr() as usize - text.as_ptr() as usize)?;
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::place_of;
+
+    #[test]
+    fn a_value_is_found_where_it_stands_and_a_missing_one_where_it_should() {
+        let text = "{\n  \"mass\": 180,\n  \"cables\": [{\"exit\": [1, 2]},\n    {\"exit\": [3, -4]}]}\n";
+        for (field, place) in [
+            ("mass", (2, 11)),
+            ("cables[1].exit[1]", (4, 18)),
+            ("cables[0].anchor", (3, 14)),
+            ("cables[*].exit", (3, 13)),
+            ("cables[2]", (3, 13)),
+            ("nothing.at.all", (1, 1)),
+        ] {
+            assert_eq!(place_of(text, field), Some(place), "{field}");
+        }
+        assert_eq!(place_of("{", "mass"), None);
+    }
 }

@@ -29,7 +29,7 @@ mod robot;
 pub use cdpr_cable::PiecewiseLaw;
 pub use error::RobotError;
 pub use format::{FORMAT, json_schema};
-pub use json::{JsonError, from_json};
+pub use json::{JsonError, from_json, place_of};
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
 pub use parameter::{Axis, Parameter, Perturbed, deviations};
 pub use pose::{Pose, Wrench};

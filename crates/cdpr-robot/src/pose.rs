@@ -24,6 +24,14 @@ impl Pose {
         finite.then(|| Self { position, rotation: quaternion.to_rotation_matrix() })
     }
 
+    /// Its rotation as a unit quaternion (w, x, y, z), w >= 0: the inverse of [`Pose::with_quaternion`].
+    pub fn quaternion(&self) -> [f64; 4] {
+        let quaternion = UnitQuaternion::from_rotation_matrix(&self.rotation);
+        let sign = if quaternion.w < 0.0 { -1.0 } else { 1.0 };
+        // Adding 0 turns -0 into 0.
+        [quaternion.w, quaternion.i, quaternion.j, quaternion.k].map(|component| sign * component + 0.0)
+    }
+
     /// The pose moved by `translation` [m] and turned by the rotation vector `rotation` [rad], both in the base frame:
     /// `p + dp`, `exp(dphi) R`.
     pub fn moved(&self, translation: Vector3<f64>, rotation: Vector3<f64>) -> Self {
@@ -101,5 +109,15 @@ mod tests {
         assert!(Pose::with_quaternion(Vector3::zeros(), [f64::NAN, 0.0, 0.0, 0.0]).is_none());
         let half_turn = Pose::with_quaternion(Vector3::zeros(), [0.0, 0.0, 0.0, 2.0]).unwrap();
         assert_relative_eq!(half_turn.rotation * Vector3::x(), -Vector3::x(), epsilon = 1e-15);
+    }
+
+    #[test]
+    fn the_quaternion_of_a_pose_gives_the_pose_again() {
+        assert_eq!(Pose::at(1.0, 2.0, 3.0).quaternion(), [1.0, 0.0, 0.0, 0.0]);
+        for quaternion in [[0.5, -0.5, 0.5, 0.5], [0.6, 0.0, -0.8, 0.0]] {
+            let negative = quaternion.map(|component: f64| -component);
+            let pose = Pose::with_quaternion(Vector3::zeros(), negative).unwrap();
+            assert_relative_eq!(&pose.quaternion()[..], &quaternion[..], epsilon = 1e-15);
+        }
     }
 }

@@ -7,7 +7,7 @@ use crate::model::{Equilibrium, Load, Model};
 use crate::newton::{Converged, newton};
 use crate::stability::Stability;
 use crate::trust_region::{cables_at, minimise};
-use cdpr_robot::{Pose, Robot, Vector2, Vector3, Wrench};
+use cdpr_robot::{Matrix3, Pose, Robot, Rotation3, Vector2, Vector3, Wrench};
 
 /// Where the search begins.
 #[derive(Clone, Copy, Debug)]
@@ -97,6 +97,27 @@ pub fn direct_any(
     start: Start,
 ) -> Result<DirectSolution, StaticsError> {
     search(&Model::new(robot, lengths, load)?, start, |_| true)
+}
+
+/// A level pose to start from where none is known: where straight cables of these lengths [m] would hold a point. With `d_i` the exit
+/// points from their middle and q the point from there, `L_i² = |d_i|² - 2 d_i·q + |q|²`; the differences of these equations, by
+/// least squares, give q in the space that the exit points span, their mean what is left of |q|, taken downwards.
+pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
+    let n = robot.cables.len() as f64;
+    let middle = robot.cables.iter().map(|cable| cable.exit_point).sum::<Vector3<f64>>() / n;
+    let (mut scatter, mut moment, mut mean) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
+    for (cable, length) in robot.cables.iter().zip(lengths) {
+        let d = cable.exit_point - middle;
+        let excess = length * length - d.norm_squared();
+        scatter += d * d.transpose();
+        moment += d * excess;
+        mean += excess / n;
+    }
+    // Survey errors of exit points in one plane span no space.
+    let inverse = scatter.pseudo_inverse(0.01 * scatter.trace()).unwrap_or_else(|_| Matrix3::zeros());
+    let q = -0.5 * inverse * moment;
+    let depth = (mean - q.norm_squared()).max(0.0).sqrt();
+    Pose { position: middle + q - Vector3::z() * depth, rotation: Rotation3::identity() }
 }
 
 fn search(

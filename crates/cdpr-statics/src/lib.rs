@@ -69,7 +69,7 @@ pub use certificate::{Certificate, certify};
 pub use continuation::{Loss, LossKind, Path, PathStep, Setting, follow};
 pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections};
 pub use derivatives::{Derivatives, EquilibriumDerivatives, VarianceBudget, derivatives};
-pub use direct::{DirectSolution, Method, Report, Residual, Start, direct, direct_any};
+pub use direct::{DirectSolution, Method, Report, Residual, Start, direct, direct_any, rough_pose};
 pub use error::StaticsError;
 pub use hysteresis::{HysteresisLaw, LoadCycle, Unloading, load_cycle};
 pub use inverse::{InverseSolution, inverse, lengths_for_tensions};
@@ -77,6 +77,8 @@ pub use many::{Equilibria, Found, Starts, direct_all};
 pub use model::{Equilibrium, Load};
 pub use observer::{Observation, Observer};
 pub use partials::Inputs;
-pub use stability::Stability;
+pub use stability::{Mode, Stability};
 pub use tangent::Tangent;
 pub use tracker::Tracker;
+
+pub use cdpr_tension::Bound;

@@ -1,6 +1,8 @@
 //! Whether an equilibrium holds, and how far it is from losing hold.
 
+use cdpr_robot::Vector3;
 use nalgebra::{Matrix6, Vector6};
+use std::array::from_fn;
 
 /// Stability of an equilibrium: the Hessian of the potential in (dp, ρ dφ), where the length ρ makes rotations comparable with
 /// translations. Stable where all its eigenvalues are positive.
@@ -9,6 +11,17 @@ pub struct Stability {
     hessian: Matrix6<f64>,
     arm: f64,
     stable: bool,
+}
+
+/// A motion of the platform along an eigenvector of its stiffness, `|translation|² + ρ² |rotation|² = 1`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode {
+    /// Eigenvalue [N/m].
+    pub stiffness: f64,
+    /// Translation of P per unit of the motion [m/m].
+    pub translation: Vector3<f64>,
+    /// Rotation per unit of the motion [rad/m].
+    pub rotation: Vector3<f64>,
 }
 
 impl Stability {
@@ -31,6 +44,20 @@ impl Stability {
         values
     }
 
+    /// The motions that are each resisted along themselves only, with their stiffness, from the softest.
+    pub fn modes(&self) -> [Mode; 6] {
+        let eigen = self.hessian.symmetric_eigen();
+        let mut modes = from_fn(|k| {
+            let direction = eigen.eigenvectors.column(k);
+            // Of the two signs, that with the largest component positive.
+            let direction = direction * direction[direction.iamax()].signum();
+            let [translation, rotation] = [0, 3].map(|row| direction.fixed_rows::<3>(row).into_owned());
+            Mode { stiffness: eigen.eigenvalues[k], translation, rotation: rotation / self.arm }
+        });
+        modes.sort_by(|a, b| a.stiffness.total_cmp(&b.stiffness));
+        modes
+    }
+
     /// The smallest eigenvalue [N/m]: the stiffness of the softest motion. An equilibrium disappears where it reaches zero.
     pub fn least_stiffness(&self) -> f64 {
         self.eigenvalues()[0]
@@ -47,5 +74,30 @@ impl Stability {
     /// points from P, or a thousandth of the longest cable where that is more.
     pub fn arm(&self) -> f64 {
         self.arm
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_modes_make_up_the_stiffness() {
+        let half = Matrix6::from_fn(|i, j| ((3 * i + 5 * j) as f64).sin() + if i == j { 4.0 } else { 0.0 });
+        let hessian = half * half.transpose();
+        let stability = Stability::new(&hessian, 0.5);
+        let modes = stability.modes();
+        let sum: Matrix6<f64> = modes
+            .iter()
+            .map(|mode| {
+                let [t, r] = [mode.translation, 0.5 * 0.5 * mode.rotation];
+                let covector = Vector6::new(t.x, t.y, t.z, r.x, r.y, r.z);
+                mode.stiffness * covector * covector.transpose()
+            })
+            .sum();
+        assert!((sum - hessian).norm() < 1e-12 * hessian.norm());
+        for (mode, value) in modes.iter().zip(stability.eigenvalues()) {
+            assert!((mode.stiffness - value).abs() < 1e-12 * hessian.norm());
+        }
     }
 }

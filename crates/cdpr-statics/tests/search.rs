@@ -5,7 +5,7 @@
 use cdpr_robot::{Platform, Pose, Robot, RobotCable, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
     DirectSolution, Load, LossKind, Method, Setting, Start, Starts, StaticsError, certify, direct,
-    direct_all, direct_any, follow, inverse,
+    direct_all, direct_any, follow, inverse, rough_pose,
 };
 
 fn caroca() -> Robot {
@@ -269,4 +269,23 @@ fn winding_all_cables_in_ends_where_they_are_strained_and_keeps_what_was_found()
         let largest = step.solution.equilibrium.tensions().into_iter().fold(0.0, f64::max);
         assert!(largest < 0.1 * stiffness, "{largest} N at {}", step.share);
     }
+}
+
+#[test]
+fn lengths_alone_tell_where_to_start_from() {
+    let cogiro = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
+    let mut held = 0;
+    for k in 0..200 {
+        // Places and turns that fill the region evenly.
+        let draw = |irrational: f64| 2.0 * (f64::from(k) * irrational).fract() - 1.0;
+        let wanted = Pose::at(6.0 * draw(0.618), 4.0 * draw(0.755), 2.0 + 1.3 * draw(0.57));
+        let wanted = wanted
+            .moved(Vector3::zeros(), Vector3::new(0.15 * draw(0.31), 0.15 * draw(0.77), 0.3 * draw(0.19)));
+        let Ok(wound) = inverse(&cogiro, &wanted, &Load::none(), None) else { continue };
+        let start = rough_pose(&cogiro, &wound.lengths);
+        let found = direct(&cogiro, &wound.lengths, &Load::none(), Start::Pose(&start)).unwrap();
+        assert!(found.equilibrium.pose.motion_to(&wanted).norm() < 1e-8, "{wanted:?} from {start:?}");
+        held += 1;
+    }
+    assert!(held > 150, "{held}");
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout)]
 
-use cdpr_study::{Study, analyse, observe};
+use cdpr_study::{Session, Study, analyse, observe};
 use std::time::Instant;
 
 const STUDY: &str = r#"{
@@ -22,8 +22,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let study = Study::from_json(STUDY, beside.as_ref())?;
     let sampling = study.sampling("middle")?;
     let clock = Instant::now();
-    let observations = observe(&sampling, &|_| ());
-    let summary = analyse(&sampling, &observations, &|_| ());
+    let observations = observe(&sampling, &Session::in_memory())?;
+    let summary = analyse(&sampling, &observations, &Session::in_memory())?;
     let rms = summary.rms_mm.ok_or("too few observations succeeded")?;
     println!("deflection {:.3} mm +- {:.3} mm ({:.2?})", rms.mean, rms.std, clock.elapsed());
     let mut effects: Vec<_> = summary.signed_effects_mm.iter().collect();

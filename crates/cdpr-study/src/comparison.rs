@@ -32,7 +32,7 @@ impl fmt::Display for Value {
 }
 
 /// Whether a published figure comes out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// Within the rule.
     #[serde(rename = "reproduced")]
@@ -52,7 +52,7 @@ impl fmt::Display for Verdict {
 }
 
 /// One row of the comparison.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ComparisonRow {
     /// Where it is published.
     pub figure: String,
@@ -68,6 +68,9 @@ pub struct ComparisonRow {
     pub unit: String,
     /// Whether they agree.
     pub verdict: Verdict,
+    /// What the study file says of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
 }
 
 /// The largest t of a point may be this many times the smallest for all to count as nearly equal.
@@ -87,6 +90,7 @@ pub fn compare(rows: &[ComparisonSpec], summary: &Summary) -> Vec<ComparisonRow>
                 verdict: verdict(&row.paper, &computed, row.last_digit),
                 computed,
                 unit: row.unit.clone(),
+                note: row.note.clone(),
             }
         })
         .collect()

@@ -1,7 +1,7 @@
 //! What can go wrong with a study.
 
 use cdpr_cable::RecordError;
-use cdpr_robot::{JsonError, RobotError};
+use cdpr_robot::{JsonError, RobotError, place_of};
 use cdpr_sensitivity::SensitivityError;
 use cdpr_statics::StaticsError;
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// A file could not be read.
-    #[error("cannot read {path}: {source}")]
+    #[error("cannot read {path}: {source}: expected a readable text file")]
     Read {
         /// The file.
         path: PathBuf,
@@ -18,7 +18,7 @@ pub enum StudyError {
         source: std::io::Error,
     },
     /// A file could not be written, or a folder not made.
-    #[error("cannot write {path}: {source}")]
+    #[error("cannot write {path}: {source}: expected a place where files can be made")]
     Write {
         /// The file or folder.
         path: PathBuf,
@@ -49,6 +49,16 @@ pub enum StudyError {
         /// Line and reason.
         source: RecordError,
     },
+    /// A failure of these, with its place in the study file.
+    #[error("{source} (line {line}, column {column})")]
+    At {
+        /// Line in the file, from 1.
+        line: usize,
+        /// Column in that line.
+        column: usize,
+        /// What is wrong there.
+        source: Box<StudyError>,
+    },
     /// A value that no study can have.
     #[error("{path}: {field} is {value}: expected {expected}")]
     Invalid {
@@ -73,6 +83,73 @@ pub enum StudyError {
         /// The reason.
         source: Box<StaticsError>,
     },
+    /// A block that is not what was written: it is made again where a study runs.
+    #[error("{path} is damaged: {reason}")]
+    DamagedBlock {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A block of another study, or of another place in this one.
+    #[error("{path} is of {field} {found}: expected {expected}; remove it, or use another folder")]
+    ForeignBlock {
+        /// The file.
+        path: PathBuf,
+        /// What tells them apart.
+        field: &'static str,
+        /// What the block says.
+        found: String,
+        /// What belongs there.
+        expected: String,
+    },
+    /// A folder with the blocks of another study.
+    #[error(
+        "{folder} holds study {found}, and this is study {expected} (version {version}): expected the same robot, error models, \
+         poses, payload, seed and version; use another folder, or --overwrite what is there"
+    )]
+    ForeignFolder {
+        /// The folder.
+        folder: PathBuf,
+        /// Hash of the study in it.
+        found: String,
+        /// Hash of the study to run.
+        expected: String,
+        /// Version of this program, which is part of the hash.
+        version: &'static str,
+    },
+    /// A folder with blocks, and nobody has said what is to become of them.
+    #[error(
+        "{folder} holds {blocks} blocks of this study: --resume goes on with them, --overwrite begins anew"
+    )]
+    FolderInUse {
+        /// The folder.
+        folder: PathBuf,
+        /// Blocks in it.
+        blocks: usize,
+    },
+    /// A file that no run has written stands where one would write.
+    #[error(
+        "{path} was not written by a run, which would write over it: choose another folder for the results"
+    )]
+    NoResults {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A study cannot be analysed yet.
+    #[error(
+        "{folder} lacks {missing} of {blocks} blocks, the first one {first}: run the rest with --resume or --shard"
+    )]
+    MissingBlocks {
+        /// The folder.
+        folder: PathBuf,
+        /// Blocks that are not there.
+        missing: usize,
+        /// Blocks of the whole study.
+        blocks: usize,
+        /// The first that is not there.
+        first: PathBuf,
+    },
     /// A law, its steps or a design that is none.
     #[error("{path}: {field}: {source}")]
     Statistics {
@@ -83,7 +160,7 @@ pub enum StudyError {
         /// The reason.
         source: SensitivityError,
     },
-    /// A setting that no test of robustness can have.
+    /// A setting that no run or test can have.
     #[error("{field} is {value}: expected {expected}")]
     Setting {
         /// The setting.
@@ -135,6 +212,20 @@ fn because(source: Option<&StaticsError>) -> String {
 }
 
 impl StudyError {
+    /// With the place of the field in the study file's text, where it has one.
+    pub(crate) fn placed(self, text: &str) -> Self {
+        let place = match &self {
+            Self::Invalid { field, .. } | Self::Nominal { field, .. } | Self::Statistics { field, .. } => {
+                place_of(text, field)
+            }
+            _ => None,
+        };
+        match place {
+            Some((line, column)) => Self::At { line, column, source: Box::new(self) },
+            None => self,
+        }
+    }
+
     pub(crate) fn setting(
         field: impl Into<String>,
         value: impl ToString,

@@ -13,7 +13,7 @@
 
 use crate::file::InputSpec;
 use cdpr_robot::Parameter;
-use cdpr_sensitivity::{Input, SensitivityError};
+use cdpr_sensitivity::{Input, Law, SensitivityError};
 use indexmap::IndexMap;
 
 /// The causes of an error model, for robots with a given number of cables.
@@ -97,6 +97,26 @@ impl ErrorModel {
             found.add(key, key, spec, shared.iter().map(effect).collect::<Result<Vec<_>, _>>()?)?;
         }
         Ok(found)
+    }
+
+    /// Independent normal deviations with these standard deviations (SI units, in the order of [`Parameter::all`]); a parameter with zero
+    /// is known.
+    pub fn normal(deviations: &[f64]) -> Self {
+        let names: Vec<String> =
+            Parameter::all(deviations.len().saturating_sub(6) / 7).iter().map(ToString::to_string).collect();
+        let uncertain = || names.iter().zip(deviations).enumerate().filter(|(_, (_, std))| **std > 0.0);
+        let inputs: Vec<_> = uncertain()
+            .map(|(_, (name, std))| Input::continuous(name, Law::Normal { mean: 0.0, std: *std }))
+            .collect();
+        Self {
+            entries: inputs.iter().map(|input| input.name.clone()).collect(),
+            inputs,
+            terms: uncertain()
+                .enumerate()
+                .map(|(input, (place, _))| Term { input, place, factor: 1.0 })
+                .collect(),
+            parameters: deviations.len(),
+        }
     }
 
     fn add(

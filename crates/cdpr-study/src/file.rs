@@ -200,6 +200,9 @@ pub struct ComparisonSpec {
     /// Last printed digit of a published number, such as 0.01; 0 for a word.
     #[serde(default)]
     pub last_digit: f64,
+    /// What is known of it, such as why it cannot be reproduced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
 }
 
 /// A number or word of ours.

@@ -8,53 +8,79 @@
 //!
 //! Where the study asks for them, [`measure`] puts all measures of sensitivity of a sampling beside each other.
 //!
+//! A run may keep what it observes in a folder of results, [`begin`], block by block: a [`Session`] with these goes on where another ended,
+//! and gives the same results to the last bit. [`observe_shard`] makes a share of the blocks, [`status`] says how many are there.
+//!
+//! [`compute_workspace`] tells where the robot can work and how it gives there, [`inspect`] what is odd about it.
+//!
 //! [`tolerance_budget`] says which tolerances to tighten for a limit on deflection or position.
 //!
 //! [`run_robustness`] asks another question: how often the direct model finds the true pose from a wrong start.
 //!
 //! ```no_run
-//! use cdpr_study::{Study, analyse, observe};
+//! use cdpr_study::{Session, Study, analyse, observe};
 //!
 //! let study = Study::open("data/studies/caroca.json".as_ref())?;
 //! let sampling = study.sampling("mechanical")?;
-//! let tally = observe(&sampling, &|_| ());
-//! let summary = analyse(&sampling, &tally, &|_| ());
+//! let session = Session::in_memory();
+//! let tally = observe(&sampling, &session)?;
+//! let summary = analyse(&sampling, &tally, &session)?;
 //! if let Some(rms) = summary.rms_mm {
 //!     println!("{:.3} mm +- {:.3} mm", rms.mean, rms.std);
 //! }
 //! # Ok::<(), cdpr_study::StudyError>(())
 //! ```
 
+mod atomic;
+mod block;
 mod comparison;
+mod designs;
 mod error;
 mod error_model;
 mod file;
+mod folder;
+mod grid;
+mod inspection;
 mod observation;
 mod output;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod record;
+mod results;
 mod robustness;
 mod sampling;
 mod sensitivity;
+mod shard;
+mod status;
+mod store;
 mod study;
 mod surface;
+mod table;
+mod template;
 mod tolerance;
+mod workspace;
 
+pub use block::BLOCK;
 pub use cdpr_sensitivity::{Estimate, Family, Truncation};
-pub use cdpr_statics::Observation;
 pub use comparison::{ComparisonRow, Value, Verdict, compare};
+pub use designs::observe_shard;
 pub use error::StudyError;
 pub use error_model::{ErrorModel, Term};
 pub use file::{
     AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic,
     StudyFile, SurfaceSpec, json_schema,
 };
+pub use folder::{Existing, ROBOT_NAME, STUDY_NAME, Timings, begin, open_results, write_timings};
+pub use grid::{Grid, GridAxis, frame, letter};
 pub use indexmap::IndexMap;
-pub use observation::{Block, FITTED, KEPT, Tally, observe, observe_into};
+pub use inspection::{Finding, Severity, inspect};
+pub use observation::{FITTED, Failure, KEPT, Observed, Part, Session, Tally, observe, observe_into};
 pub use output::{
-    ObservationTable, StudySummary, Summary, check_folder, remove_summary, write_figure, write_refused,
-    write_robustness, write_sensitivity, write_solves, write_summary, write_surface,
+    StudySummary, Summary, check_folder, write_figure, write_refused, write_robustness, write_sensitivity,
+    write_solves, write_summary, write_surface, write_text, write_workspace,
 };
 pub use record::open_record;
+pub use results::Results;
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
     Published, Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread,
@@ -64,6 +90,14 @@ pub use sampling::{FitSummary, NominalSummary, RmsSummary, SamplingSummary, Sign
 pub use sensitivity::{
     Agreement, InputMeasures, Measure, MethodSummary, RANKED, SHARES, SensitivitySummary, measure,
 };
+pub use shard::Shard;
+pub use status::{DesignStatus, Provisional, SamplingStatus, Status, check_complete, status};
+pub use store::Blocks;
 pub use study::{Sampling, Study, Surface, open_robot};
 pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
+pub use table::{ObservationTable, Rows, TableFormat};
+pub use template::{TEMPLATE_NOTES, template, write_template};
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
+pub use workspace::{
+    Dominant, Extremes, Held, Workspace, WorkspacePose, WorkspaceRow, WorkspaceSummary, compute_workspace,
+};

@@ -4,21 +4,24 @@
 //! its tensions are offset by dt_i and the unstrained lengths computed for the offset tensions; the direct model runs on the
 //! perturbed robot with those lengths, under its own weight and with the payload added; dp is the difference (Eq. (4)).
 //!
-//! Observations are made in blocks of consecutive indices. What is kept of a block are sums, which are merged in the order of the
-//! indices: memory does not grow with the observations, and the numbers do not depend on the threads.
+//! Observations are made in blocks of consecutive indices, which a [`Session`] may keep on disk, and these in parts, one a thread. What
+//! is kept of a part in memory are sums, which are merged in the order of the indices: memory does not grow with the observations, and
+//! the numbers depend neither on the threads nor on what was on disk already.
 
+use crate::block::{BLOCK, blocks};
+use crate::designs::{OWN, Points};
+use crate::error::StudyError;
+use crate::store::{Blocks, Place};
 use crate::study::Sampling;
-use cdpr_sensitivity::{EffectSums, SampleDesign, SobolDesign};
-use cdpr_statics::{Observation, StaticsError};
+use cdpr_robot::Vector3;
+use cdpr_sensitivity::{EffectSums, SampleDesign};
+use cdpr_statics::StaticsError;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Observations of a block.
-const BLOCK: usize = 256;
-
-/// Blocks under way at a time.
-const WAVE: usize = 64;
+/// Observations of a part of a block.
+const PART: usize = 256;
 
 /// Outputs that are kept for quantiles and histogram: the first ones.
 pub const KEPT: usize = 1 << 16;
@@ -26,15 +29,51 @@ pub const KEPT: usize = 1 << 16;
 /// Outputs that laws are fitted to, the first ones: each of the bootstrap's resamples is as long.
 pub const FITTED: usize = 1 << 13;
 
-/// Consecutive observations.
+/// The displacement dp [m] of an observation, or why there is none.
+pub type Observed = Result<Vector3<f64>, Failure>;
+
+/// Why an observation failed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Block {
+pub struct Failure {
+    /// Kind of the failure, such as `infeasible_tension`.
+    pub kind: String,
+    /// The reason with its numbers.
+    pub reason: String,
+}
+
+impl From<StaticsError> for Failure {
+    fn from(error: StaticsError) -> Self {
+        Self { kind: error.kind().to_owned(), reason: error.to_string() }
+    }
+}
+
+/// Consecutive observations with their inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
     /// Index of the first one.
     pub first: usize,
     /// Values of the inputs of each observation, one after the other.
     pub rows: Vec<f64>,
     /// For each observation what was observed, or why nothing was.
-    pub outcomes: Vec<Result<Observation, StaticsError>>,
+    pub outcomes: Vec<Observed>,
+}
+
+/// Where observations are kept, and who is told of them.
+#[derive(Clone, Copy)]
+pub struct Session<'a> {
+    /// Blocks on disk: what is there is not made again, what is made is kept. `None` keeps nothing.
+    pub blocks: Option<&'a Blocks>,
+    /// Told how many more observations are there.
+    pub tick: &'a (dyn Fn(usize) + Sync),
+    /// Told of each damaged block, which is made again.
+    pub warn: &'a (dyn Fn(&StudyError) + Sync),
+}
+
+impl Session<'static> {
+    /// Nothing is kept and nobody told.
+    pub fn in_memory() -> Self {
+        Self { blocks: None, tick: &|_| (), warn: &|_| () }
+    }
 }
 
 /// What all observations of a sampling add up to.
@@ -57,15 +96,15 @@ impl Tally {
         }
     }
 
-    fn of_block(sampling: &Sampling, block: &Block) -> Self {
+    fn of_part(sampling: &Sampling, part: &Part) -> Self {
         let mut tally = Self::new(sampling);
         let inputs = sampling.design.inputs().len();
-        for (outcome, row) in block.outcomes.iter().zip(block.rows.chunks_exact(inputs)) {
-            let rms = outcome.as_ref().ok().map(|observation| rms_mm(observation.rms()));
+        for (outcome, row) in part.outcomes.iter().zip(part.rows.chunks_exact(inputs)) {
+            let rms = outcome_rms_mm(outcome);
             tally.sums.add(row, rms);
             tally.first_rms_mm.push(rms);
         }
-        tally.failed = count_failed(block.outcomes.iter().filter_map(|outcome| outcome.as_ref().err()));
+        tally.failed = count_failed(failures(&part.outcomes));
         tally
     }
 
@@ -85,120 +124,154 @@ pub(crate) fn rms_mm(rms: f64) -> f64 {
     1e3 * rms
 }
 
+/// RMS [mm] of an observation that has not failed.
+pub(crate) fn outcome_rms_mm(outcome: &Observed) -> Option<f64> {
+    outcome.as_ref().ok().map(|displacement| rms_mm(displacement.norm()))
+}
+
+/// Kinds of the failures among outcomes.
+pub(crate) fn failures(outcomes: &[Observed]) -> impl Iterator<Item = &str> {
+    outcomes.iter().filter_map(|outcome| outcome.as_ref().err()).map(|failure| failure.kind.as_str())
+}
+
 /// Failures by kind; the usual kinds are always listed.
-pub(crate) fn count_failed<'a>(errors: impl Iterator<Item = &'a StaticsError>) -> BTreeMap<String, usize> {
+pub(crate) fn count_failed<'a>(kinds: impl Iterator<Item = &'a str>) -> BTreeMap<String, usize> {
     let usual = ["infeasible_tension", "inverse_not_converged", "direct_not_converged"];
     let mut failed: BTreeMap<String, usize> = usual.map(|kind| (kind.to_owned(), 0)).into();
-    for error in errors {
-        *failed.entry(error.kind().to_owned()).or_default() += 1;
+    for kind in kinds {
+        *failed.entry(kind.to_owned()).or_default() += 1;
     }
     failed
 }
 
-/// Makes all observations of a sampling in parallel; `tick` is told how many more are done.
-pub fn observe(sampling: &Sampling, tick: &(dyn Fn(usize) + Sync)) -> Tally {
-    observe_design(sampling, &sampling.design, tick)
-}
-
-/// The same, and hands every block to `sink` in the order of the indices. Ends where `sink` fails.
+/// Makes all observations of a sampling in parallel.
 ///
 /// # Errors
-/// That of `sink`.
-pub fn observe_into<E>(
+/// Those of the session's blocks; none of a session in memory.
+pub fn observe(sampling: &Sampling, session: &Session) -> Result<Tally, StudyError> {
+    observe_into(sampling, session, |_| (), |()| Ok(()))
+}
+
+/// The same, and hands what `each` makes of every part, in parallel, to `sink` in the order of the indices. Ends where `sink` fails.
+///
+/// # Errors
+/// As [`observe`], and that of `sink`.
+pub fn observe_into<T: Send>(
     sampling: &Sampling,
-    tick: &(dyn Fn(usize) + Sync),
-    mut sink: impl FnMut(&Block) -> Result<(), E>,
-) -> Result<Tally, E> {
+    session: &Session,
+    each: impl Fn(&Part) -> T + Sync,
+    mut sink: impl FnMut(T) -> Result<(), StudyError>,
+) -> Result<Tally, StudyError> {
     let mut whole = Tally::new(sampling);
-    for wave in waves(sampling.design.points()) {
-        let blocks: Vec<(Block, Tally)> = wave
-            .into_par_iter()
-            .map(|range| {
-                let block = observe_block(sampling, &sampling.design, range, tick);
-                let tally = Tally::of_block(sampling, &block);
-                (block, tally)
-            })
-            .collect();
-        for (block, tally) in &blocks {
-            sink(block)?;
-            whole.merge(tally);
-        }
-    }
+    observe_design(
+        sampling,
+        (OWN, &sampling.design),
+        session,
+        |part| (Tally::of_part(sampling, part), each(part)),
+        |(tally, made)| {
+            whole.merge(&tally);
+            sink(made)
+        },
+    )?;
     Ok(whole)
 }
 
-/// [`observe`] for another design over the same inputs.
-pub(crate) fn observe_design(
+/// [`observe`] for another design over the same inputs, with the name of its blocks.
+pub(crate) fn observe_tally(
     sampling: &Sampling,
-    design: &SobolDesign,
-    tick: &(dyn Fn(usize) + Sync),
-) -> Tally {
+    design: (&str, &dyn Points),
+    session: &Session,
+) -> Result<Tally, StudyError> {
     let mut whole = Tally::new(sampling);
-    for wave in waves(design.points()) {
-        let tallies: Vec<Tally> = wave
-            .into_par_iter()
-            .map(|range| Tally::of_block(sampling, &observe_block(sampling, design, range, tick)))
-            .collect();
-        tallies.iter().for_each(|tally| whole.merge(tally));
-    }
-    whole
+    let each = |part: &Part| Tally::of_part(sampling, part);
+    observe_design(sampling, design, session, each, |tally| {
+        whole.merge(&tally);
+        Ok(())
+    })?;
+    Ok(whole)
 }
 
 /// RMS [mm] of each observation of a design over the inputs of the sampling, `None` where it fails.
-pub(crate) fn observe_rms<D: SampleDesign>(
+pub(crate) fn observe_rms(
     sampling: &Sampling,
-    design: &D,
-    tick: &(dyn Fn(usize) + Sync),
-) -> Vec<Option<f64>> {
-    let rms_of = |rows: &mut [f64]| {
-        let outcomes = sampling.observer.observe_all(&sampling.errors.deviations(rows));
-        tick(outcomes.len());
-        let rms = |outcome: Result<Observation, _>| outcome.ok().map(|found| rms_mm(found.rms()));
-        outcomes.into_iter().map(rms).collect()
-    };
-    observe_rows(design, rms_of)
+    design: (&str, &dyn Points),
+    session: &Session,
+) -> Result<Vec<Option<f64>>, StudyError> {
+    let mut all = Vec::with_capacity(design.1.size());
+    let each = |part: &Part| part.outcomes.iter().map(outcome_rms_mm).collect::<Vec<_>>();
+    observe_design(sampling, design, session, each, |rms| {
+        all.extend(rms);
+        Ok(())
+    })?;
+    Ok(all)
 }
 
 /// What `observed` says of each row of a design, in parallel and in the order of the rows, from some rows at a time that follow one another.
-pub(crate) fn observe_rows<D: SampleDesign, T: Send>(
-    design: &D,
+pub(crate) fn observe_rows<T: Send>(
+    design: &dyn Points,
     observed: impl Fn(&mut [f64]) -> Vec<T> + Sync,
 ) -> Vec<T> {
-    let points = design.points();
-    let of_block = |block: usize| {
-        let range = block * BLOCK..points.min((block + 1) * BLOCK);
-        observed(&mut draw(design, range))
-    };
-    (0..points.div_ceil(BLOCK)).into_par_iter().flat_map_iter(of_block).collect()
+    let points = design.size();
+    let of_part = |part: usize| observed(&mut draw(design, part * PART..points.min((part + 1) * PART)));
+    (0..points.div_ceil(PART)).into_par_iter().flat_map_iter(of_part).collect()
 }
 
-/// The indices of all blocks, as many at a time as are under way together.
-fn waves(points: usize) -> impl Iterator<Item = Vec<Range<usize>>> {
-    let blocks = move |wave: usize| {
-        (wave..points.min(wave + WAVE * BLOCK))
-            .step_by(BLOCK)
-            .map(move |first| first..points.min(first + BLOCK))
-    };
-    (0..points).step_by(WAVE * BLOCK).map(move |wave| blocks(wave).collect())
-}
-
-fn observe_block(
+fn observe_design<T: Send>(
     sampling: &Sampling,
-    design: &impl SampleDesign,
-    range: Range<usize>,
-    tick: &(dyn Fn(usize) + Sync),
-) -> Block {
-    let rows = draw(design, range.clone());
-    let deviations = sampling.errors.deviations(&rows);
-    let outcomes = sampling.observer.observe_all(&deviations);
-    tick(range.len());
-    Block { first: range.start, rows, outcomes }
+    design: (&str, &dyn Points),
+    session: &Session,
+    each: impl Fn(&Part) -> T + Sync,
+    mut sink: impl FnMut(T) -> Result<(), StudyError>,
+) -> Result<(), StudyError> {
+    for (number, range) in blocks(design.1.size()) {
+        let made = observe_block(sampling, design, (number, range), session, &each)?;
+        made.into_iter().try_for_each(&mut sink)?;
+    }
+    Ok(())
 }
 
-fn draw(design: &impl SampleDesign, range: Range<usize>) -> Vec<f64> {
-    let mut rows = vec![0.0; range.len() * design.inputs().len()];
-    // The range is one of the design, and the rows are whole.
-    let drawn = design.rows(range.start, &mut rows);
-    debug_assert_eq!(drawn, Ok(()));
+/// What `each` makes of the parts of a block. Observations that are on disk are taken from there; if there are others, the block is written.
+pub(crate) fn observe_block<T: Send>(
+    sampling: &Sampling,
+    (name, design): (&str, &dyn Points),
+    (number, range): (usize, Range<usize>),
+    session: &Session,
+    each: &(impl Fn(&Part) -> T + Sync),
+) -> Result<Vec<T>, StudyError> {
+    debug_assert!(range.len() <= BLOCK);
+    let place = Place { sampling: sampling.name, design: name, number };
+    let known = match session.blocks {
+        Some(blocks) => blocks.known(&place, session.warn)?,
+        None => Vec::new(),
+    };
+    let known = &known[..known.len().min(range.len())];
+    let parts: Vec<usize> = range.clone().step_by(PART).collect();
+    let observed = |first: usize| {
+        let part = first..range.end.min(first + PART);
+        let known = &known[known.len().min(first - range.start)..known.len().min(part.end - range.start)];
+        let part = observe_part(sampling, design, part, known);
+        (session.tick)(part.outcomes.len());
+        (each(&part), part.outcomes)
+    };
+    let (made, outcomes): (Vec<T>, Vec<Vec<Observed>>) = parts.into_par_iter().map(observed).unzip();
+    if let Some(blocks) = session.blocks.filter(|_| known.len() < range.len()) {
+        blocks.write(&place, &outcomes.concat())?;
+    }
+    Ok(made)
+}
+
+/// A part of a design, the first observations of which may be known.
+fn observe_part(sampling: &Sampling, design: &dyn Points, range: Range<usize>, known: &[Observed]) -> Part {
+    let rows = draw(design, range.clone());
+    let unknown = &rows[known.len() * sampling.errors.inputs.len()..];
+    let observed = sampling.observer.observe_all(&sampling.errors.deviations(unknown)).into_iter();
+    let observed = observed.map(|outcome| outcome.map(|found| found.displacement).map_err(Failure::from));
+    let outcomes = known.iter().cloned().chain(observed).collect();
+    Part { first: range.start, rows, outcomes }
+}
+
+fn draw(design: &dyn Points, range: Range<usize>) -> Vec<f64> {
+    let mut rows = vec![0.0; range.len() * design.columns()];
+    design.fill(range.start, &mut rows);
     rows
 }

@@ -1,21 +1,22 @@
 //! Result files: observations as CSV, the summary as JSON.
 
+use crate::atomic::write_json;
 use crate::comparison::ComparisonRow;
 use crate::error::StudyError;
-use crate::observation::{Block, rms_mm};
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::sampling::SamplingSummary;
 use crate::sensitivity::SensitivitySummary;
-use crate::study::{Sampling, Surface};
+use crate::study::Surface;
 use crate::surface::{SurfaceResult, SurfaceSummary};
+use crate::workspace::WorkspaceSummary;
 use cdpr_robot::Pose;
-use cdpr_sensitivity::SampleDesign;
 use indexmap::IndexMap;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Everything a study found; `summary.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Name of the study.
     pub study: String,
@@ -34,13 +35,39 @@ pub struct Summary {
 }
 
 /// Results of a sampling or a surface.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum StudySummary {
     /// Of a sampling.
     Sampling(Box<SamplingSummary>),
     /// Of a surface.
     Surface(SurfaceSummary),
+}
+
+impl StudySummary {
+    /// Title.
+    pub fn title(&self) -> &str {
+        match self {
+            Self::Sampling(sampling) => &sampling.title,
+            Self::Surface(surface) => &surface.title,
+        }
+    }
+
+    /// Observations or points of the grid, failed ones included.
+    pub fn observations(&self) -> usize {
+        match self {
+            Self::Sampling(sampling) => sampling.observations,
+            Self::Surface(surface) => surface.observations,
+        }
+    }
+
+    /// Failed ones by kind.
+    pub fn failed(&self) -> &BTreeMap<String, usize> {
+        match self {
+            Self::Sampling(sampling) => &sampling.failed,
+            Self::Surface(surface) => &surface.failed,
+        }
+    }
 }
 
 /// Makes the folder for results and checks that files can be written in it: before anything is computed.
@@ -50,17 +77,15 @@ pub enum StudySummary {
 pub fn check_folder(folder: &Path) -> Result<(), StudyError> {
     let write = |source| StudyError::Write { path: folder.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(write)?;
-    let probe = folder.join(".writable");
-    std::fs::write(&probe, b"").map_err(write)?;
-    std::fs::remove_file(&probe).map_err(write)
+    // A name of its own: other machines may be looking, too.
+    tempfile::tempfile_in(folder).map_err(write).map(|_| ())
 }
 
-/// Removes the summary of an earlier run, which the tables to come would no longer belong to.
+/// Removes a file of an earlier run, which what is to come would no longer belong to, if there is one.
 ///
 /// # Errors
 /// [`StudyError::Write`].
-pub fn remove_summary(folder: &Path) -> Result<(), StudyError> {
-    let path = folder.join("summary.json");
+pub(crate) fn remove_stale(path: PathBuf) -> Result<(), StudyError> {
     match std::fs::remove_file(&path) {
         Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
             Err(StudyError::Write { path, source })
@@ -69,74 +94,7 @@ pub fn remove_summary(folder: &Path) -> Result<(), StudyError> {
     }
 }
 
-/// Writes `NAME.csv` block by block: one row an observation, with the deviation of each parameter from its nominal value (`d_mass`, ...
-/// in SI units), dp, RMS, status and reason.
-pub struct ObservationTable {
-    path: PathBuf,
-    writer: csv::Writer<std::fs::File>,
-    inputs: usize,
-}
-
-impl ObservationTable {
-    /// Begins the table of a sampling.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub fn new(folder: &Path, sampling: &Sampling) -> Result<Self, StudyError> {
-        let path = folder.join(format!("{}.csv", sampling.name));
-        let inputs = sampling.design.inputs();
-        let header = ["index".to_owned()]
-            .into_iter()
-            .chain(inputs.iter().map(|input| format!("d_{}", input.name)))
-            .chain(["dx_mm", "dy_mm", "dz_mm", "rms_mm", "status", "reason"].map(str::to_owned));
-        let begin = || {
-            let mut writer = csv::Writer::from_path(&path)?;
-            writer.write_record(header)?;
-            Ok(writer)
-        };
-        match begin() {
-            Ok(writer) => Ok(Self { path, writer, inputs: inputs.len() }),
-            Err(error) => Err(unwritten(path, error)),
-        }
-    }
-
-    /// Adds a block.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub fn write(&mut self, block: &Block) -> Result<(), StudyError> {
-        let rows = block.rows.chunks_exact(self.inputs);
-        for (index, (row, outcome)) in (block.first..).zip(rows.zip(&block.outcomes)) {
-            let mut record = vec![index.to_string()];
-            record.extend(row.iter().map(ToString::to_string));
-            match outcome {
-                Ok(observation) => {
-                    record.extend(observation.displacement.iter().map(|d| (1e3 * d).to_string()));
-                    record.extend([rms_mm(observation.rms()).to_string(), "ok".to_owned(), String::new()]);
-                }
-                Err(error) => {
-                    record.extend(std::iter::repeat_n(String::new(), 4));
-                    record.extend([error.kind().to_owned(), error.to_string()]);
-                }
-            }
-            self.writer.write_record(record).map_err(|error| unwritten(self.path.clone(), error))?;
-        }
-        Ok(())
-    }
-
-    /// Ends the table.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub fn finish(mut self) -> Result<PathBuf, StudyError> {
-        match self.writer.flush() {
-            Ok(()) => Ok(self.path),
-            Err(error) => Err(unwritten(self.path, error.into())),
-        }
-    }
-}
-
-fn unwritten(path: PathBuf, error: csv::Error) -> StudyError {
+pub(crate) fn unwritten(path: PathBuf, error: csv::Error) -> StudyError {
     StudyError::Write { path, source: error.into() }
 }
 
@@ -284,17 +242,25 @@ pub fn write_refused(folder: &Path, results: &[RobustnessResult]) -> Result<Path
     write_csv(folder.join("refused.csv"), header.map(str::to_owned).into(), rows)
 }
 
+/// Writes `workspace.csv`, one row a position, and `workspace.json`, the same with settings and extremes.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_workspace(folder: &Path, summary: &WorkspaceSummary) -> Result<PathBuf, StudyError> {
+    let path = folder.join("workspace.csv");
+    let write = || -> Result<(), csv::Error> {
+        let mut writer = csv::Writer::from_path(&path)?;
+        summary.rows.iter().try_for_each(|row| writer.serialize(row))?;
+        Ok(writer.flush()?)
+    };
+    write().map_err(|error| unwritten(path, error))?;
+    write_json(folder.join("workspace.json"), summary)
+}
+
 /// Position [m] and rotation vector [rad].
 fn pose_cells(pose: &Pose) -> [String; 6] {
     let motion = Pose::at(0.0, 0.0, 0.0).motion_to(pose);
     <[f64; 6]>::from(motion).map(|value| value.to_string())
-}
-
-fn write_json(path: PathBuf, value: &impl Serialize) -> Result<PathBuf, StudyError> {
-    let text = serde_json::to_string_pretty(value)
-        .map_err(|error| StudyError::Write { path: path.clone(), source: error.into() })?;
-    std::fs::write(&path, text + "\n").map_err(|source| StudyError::Write { path: path.clone(), source })?;
-    Ok(path)
 }
 
 /// Writes the figure `NAME.svg`.
@@ -303,8 +269,16 @@ fn write_json(path: PathBuf, value: &impl Serialize) -> Result<PathBuf, StudyErr
 /// [`StudyError::Write`].
 pub fn write_figure(folder: &Path, name: &str, svg: &str) -> Result<PathBuf, StudyError> {
     let path = folder.join(format!("{name}.svg"));
-    std::fs::write(&path, svg).map_err(|source| StudyError::Write { path: path.clone(), source })?;
+    write_text(&path, svg)?;
     Ok(path)
+}
+
+/// Writes a text to a file.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_text(path: &Path, text: &str) -> Result<(), StudyError> {
+    std::fs::write(path, text).map_err(|source| StudyError::Write { path: path.to_owned(), source })
 }
 
 fn write_csv(

@@ -1,6 +1,8 @@
 //! What a sampling says: summary, fitted laws, effects.
 
-use crate::observation::{FITTED, KEPT, Tally, observe_design};
+use crate::designs::replicate_name;
+use crate::error::StudyError;
+use crate::observation::{FITTED, KEPT, Session, Tally, observe_tally};
 use crate::sensitivity::{SensitivitySummary, measure};
 use crate::study::Sampling;
 use cdpr_robot::Robot;
@@ -10,16 +12,18 @@ use cdpr_sensitivity::{
 };
 use cdpr_statics::Deflection;
 use indexmap::IndexMap;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Results of one sampling; serialised into `summary.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SamplingSummary {
     /// Title.
     pub title: String,
     /// Position of the wanted pose [m].
     pub pose: [f64; 3],
+    /// Its rotation as a unit quaternion (w, x, y, z), w >= 0.
+    pub quaternion: [f64; 4],
     /// Number of observations, failed ones included.
     pub observations: usize,
     /// Failed observations by kind.
@@ -51,7 +55,7 @@ pub struct SamplingSummary {
 }
 
 /// Summary of the RMS of the static deflection [mm].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RmsSummary {
     /// Mean.
     pub mean: f64,
@@ -76,7 +80,7 @@ pub struct RmsSummary {
 }
 
 /// The nominal robot under the study's load.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NominalSummary {
     /// dp [mm].
     pub displacement_mm: [f64; 3],
@@ -89,7 +93,7 @@ pub struct NominalSummary {
 }
 
 /// A law fitted to the RMS [mm].
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FitSummary {
     /// Family.
     pub law: Family,
@@ -109,7 +113,7 @@ pub struct FitSummary {
 }
 
 /// Signed effect of a parameter [mm] and its confidence interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SignedEffect {
     /// Mean over the replicates.
     pub effect: f64,
@@ -139,9 +143,12 @@ impl From<Fit> for FitSummary {
 }
 
 /// Analyses the observations of a sampling. The replicates behind the intervals of signed effects and the measures of
-/// sensitivity are run here; `tick` is told how many more of their observations are done. What cannot be computed from too few observations is left out and named in
+/// sensitivity are run here, in the same session. What cannot be computed from too few observations is left out and named in
 /// [`SamplingSummary::notes`]; so is how many observations quantiles, histogram and laws rest on, where these are not all.
-pub fn analyse(sampling: &Sampling, tally: &Tally, tick: &(dyn Fn(usize) + Sync)) -> SamplingSummary {
+///
+/// # Errors
+/// Those of the session's blocks; none of a session in memory.
+pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<SamplingSummary, StudyError> {
     let settings = &sampling.study.file;
     let mut notes = Vec::new();
     for (what, used) in [("quantiles, histogram", KEPT), ("fitted laws", FITTED)] {
@@ -168,10 +175,12 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, tick: &(dyn Fn(usize) + Sync)
         .sums
         .effects(sampling.design.inputs())
         .map(|effects| effects.effects.into_iter().map(|effect| (effect.input, effect.student)).collect());
-    let signed = signed_effects(sampling, tick);
-    SamplingSummary {
+    let signed = signed_effects(sampling, session)?;
+    let sensitivity = settings.sensitivity.as_ref().map(|spec| measure(sampling, spec, tally, session));
+    Ok(SamplingSummary {
         title: sampling.title.to_owned(),
         pose: sampling.pose.position.into(),
+        quaternion: sampling.pose.quaternion(),
         observations: sampling.design.points(),
         failed: tally.failed.clone(),
         rms_mm: moments
@@ -191,9 +200,9 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, tick: &(dyn Fn(usize) + Sync)
         }),
         replicates: settings.replicates,
         confidence: settings.confidence,
-        sensitivity: settings.sensitivity.as_ref().map(|spec| measure(sampling, spec, tick)),
+        sensitivity: sensitivity.transpose()?,
         notes,
-    }
+    })
 }
 
 impl RmsSummary {
@@ -213,25 +222,33 @@ impl RmsSummary {
     }
 }
 
+/// Signed effects, or why there are none: an error of the statistics is a note, one of the session ends the run.
 fn signed_effects(
     sampling: &Sampling,
-    tick: &(dyn Fn(usize) + Sync),
-) -> Result<IndexMap<String, SignedEffect>, SensitivityError> {
+    session: &Session,
+) -> Result<Result<IndexMap<String, SignedEffect>, SensitivityError>, StudyError> {
     let settings = &sampling.study.file;
-    let designs: Vec<SobolDesign> = (1..=settings.replicates as u64)
-        .map(|k| sampling.design.replicate(settings.seed.wrapping_add(k)))
-        .collect();
+    let numbers = 1..=settings.replicates;
+    let designs: Vec<SobolDesign> = numbers.clone().map(|number| sampling.replicate(number)).collect();
     if designs.is_empty() {
-        return Ok(IndexMap::new());
+        return Ok(Ok(IndexMap::new()));
     }
-    let effects: Vec<Effects> = designs
-        .iter()
-        .map(|design| observe_design(sampling, design, tick).sums.effects(design.inputs()))
+    let tallies: Vec<Tally> = numbers
+        .zip(&designs)
+        .map(|(number, design)| observe_tally(sampling, (&replicate_name(number), design), session))
         .collect::<Result<_, _>>()?;
-    let designs: Vec<&SobolDesign> = designs.iter().collect();
-    let intervals = intervals_of_effects(&designs, &effects, settings.confidence)?;
-    Ok(intervals
-        .into_iter()
-        .map(|e| (e.input, SignedEffect { effect: e.effect, low: e.low, high: e.high }))
-        .collect())
+    let intervals = || {
+        let effects: Vec<Effects> = designs
+            .iter()
+            .zip(&tallies)
+            .map(|(design, tally)| tally.sums.effects(design.inputs()))
+            .collect::<Result<_, _>>()?;
+        let designs: Vec<&SobolDesign> = designs.iter().collect();
+        let intervals = intervals_of_effects(&designs, &effects, settings.confidence)?;
+        let named = intervals
+            .into_iter()
+            .map(|e| (e.input, SignedEffect { effect: e.effect, low: e.low, high: e.high }));
+        Ok(named.collect())
+    };
+    Ok(intervals())
 }

@@ -14,30 +14,31 @@
 //! Derivatives and polynomials take the continuous laws: steps of h in a uniform range R change a variance by a relative
 //! (h / R)². All observations are of the stepped inputs.
 
+use crate::designs::{MORRIS, Points, SALTELLI};
+use crate::error::StudyError;
 use crate::file::{SensitivitySpec, StudyFile};
-use crate::observation::{observe_rms, rms_mm};
+use crate::observation::{Session, Tally, observe_rms, rms_mm};
 use crate::study::Sampling;
 use cdpr_sensitivity::{
-    Bootstrap, Input, MorrisDesign, Order, Regression, SaltelliDesign, SampleDesign, SensitivityError,
-    Slopes, SobolDesign, dgsm, expansion, morris_effects, rank_correlation, rank_regression, regression,
-    sobol_indices, student_effects,
+    Bootstrap, Input, Regression, SampleDesign, SensitivityError, Slopes, SobolDesign, dgsm, expansion,
+    morris_effects, rank_correlation, rank_regression, regression, sobol_indices, student_effects,
 };
 use cdpr_statics::{StaticsError, derivatives};
 use indexmap::IndexMap;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::time::Instant;
 
 /// Measures of all inputs of a sampling; serialised into `summary.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SensitivitySummary {
     /// What the measures say, one an input, in the order of the parameter vector.
     pub inputs: Vec<InputMeasures>,
     /// What each method rests on; without those of which a note says why they have failed.
-    pub methods: IndexMap<&'static str, MethodSummary>,
+    pub methods: IndexMap<String, MethodSummary>,
     /// Sums of each share of the variance over the inputs of a group (`a`, `b`, `mass`, ...), and over all of them (`all`).
-    pub sums: IndexMap<&'static str, IndexMap<&'static str, f64>>,
+    pub sums: IndexMap<String, IndexMap<String, f64>>,
     /// What the measures agree on.
     pub agreement: Agreement,
     /// What could not be measured, and why.
@@ -45,7 +46,7 @@ pub struct SensitivitySummary {
 }
 
 /// What the measures say of one input; `None` of a method that has failed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InputMeasures {
     /// Name of the input.
     pub input: String,
@@ -84,7 +85,7 @@ pub struct InputMeasures {
 }
 
 /// What a method rests on, and how well it explains the output.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MethodSummary {
     /// Observations made, failed ones included; each with its derivatives for `derivatives` and `dgsm`.
     pub observations: usize,
@@ -105,14 +106,14 @@ pub struct MethodSummary {
 }
 
 /// What the measures agree on.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Agreement {
     /// How many inputs count as leading: ten, or half of them if that is less.
     pub first: usize,
     /// Inputs that every measure below puts above zero and among its `first` largest.
     pub inputs: Vec<String>,
     /// The measures compared: one of each method that has not failed.
-    pub measures: Vec<&'static str>,
+    pub measures: Vec<String>,
     /// Spearman's rank correlation over all inputs, of each of these measures with each; `None` with one that does not vary.
     pub rank_correlation: Vec<Vec<Option<f64>>>,
 }
@@ -151,7 +152,8 @@ struct Run<'a> {
     sampling: &'a Sampling<'a>,
     spec: &'a SensitivitySpec,
     settings: &'a StudyFile,
-    tick: &'a (dyn Fn(usize) + Sync),
+    tally: &'a Tally,
+    session: &'a Session<'a>,
 }
 
 /// Fills in its fields of all inputs, unless it fails.
@@ -172,14 +174,18 @@ const METHODS: [(&str, Method); 8] = [
     ("sobol", sobol),
 ];
 
-/// Measures all inputs of a sampling by every method; `tick` is told how many more observations are done. A method that fails
-/// is left out and named in [`SensitivitySummary::notes`].
+/// Measures all inputs of a sampling by every method, from its observations and others made here. A method that fails is left out and
+/// named in [`SensitivitySummary::notes`].
+///
+/// # Errors
+/// Those of the session's blocks; none of a session in memory.
 pub fn measure(
     sampling: &Sampling,
     spec: &SensitivitySpec,
-    tick: &(dyn Fn(usize) + Sync),
-) -> SensitivitySummary {
-    let run = Run { sampling, spec, settings: &sampling.study.file, tick };
+    tally: &Tally,
+    session: &Session,
+) -> Result<SensitivitySummary, StudyError> {
+    let run = Run { sampling, spec, settings: &sampling.study.file, tally, session };
     let named = |input: &Input| InputMeasures { input: input.name.clone(), ..InputMeasures::default() };
     let mut inputs: Vec<_> = sampling.design.inputs().iter().map(named).collect();
     let (mut methods, mut notes) = (IndexMap::new(), Vec::new());
@@ -187,13 +193,20 @@ pub fn measure(
         let clock = Instant::now();
         match method(&run, &mut inputs) {
             Ok(summary) => {
-                methods.insert(name, MethodSummary { seconds: clock.elapsed().as_secs_f64(), ..summary });
+                methods.insert(
+                    name.to_owned(),
+                    MethodSummary { seconds: clock.elapsed().as_secs_f64(), ..summary },
+                );
             }
-            Err(error) => notes.push(format!("{name}: {error}")),
+            // What keeps observations from being made is nothing to be noted: the run ends.
+            Err(error) => match error.downcast::<StudyError>() {
+                Ok(error) => return Err(*error),
+                Err(error) => notes.push(format!("{name}: {error}")),
+            },
         }
     }
     let (sums, agreement) = (sums(sampling, &inputs), Agreement::of(&inputs));
-    SensitivitySummary { inputs, methods, sums, agreement, notes }
+    Ok(SensitivitySummary { inputs, methods, sums, agreement, notes })
 }
 
 impl SensitivitySummary {
@@ -202,24 +215,10 @@ impl SensitivitySummary {
     pub fn leading(&self) -> Vec<&InputMeasures> {
         let mut inputs: Vec<_> = self.inputs.iter().collect();
         let last = self.agreement.measures.last();
-        if let Some((_, of)) = RANKED.iter().find(|(name, _)| Some(name) == last) {
+        if let Some((_, of)) = RANKED.iter().find(|(name, _)| last.is_some_and(|last| last == name)) {
             inputs.sort_by(|one, other| of(other).unwrap_or(0.0).total_cmp(&of(one).unwrap_or(0.0)));
         }
         inputs
-    }
-}
-
-impl Sampling<'_> {
-    /// Observations that a run makes: the sampling's own, those of its replicates, and those of the measures of sensitivity.
-    pub fn observations(&self) -> usize {
-        let (own, inputs) = (self.design.points(), self.errors.inputs.len());
-        let measures = self.study.file.sensitivity.map_or(0, |spec| {
-            4 * spec.observations.min(own)
-                + spec.morris_blocks * (inputs + 1)
-                + spec.derivative_points
-                + spec.saltelli_blocks * (inputs + 2)
-        });
-        own * (1 + self.study.file.replicates) + measures
     }
 }
 
@@ -228,8 +227,8 @@ impl Run<'_> {
         self.sampling.design.inputs()
     }
 
-    fn observe(&self, design: &impl SampleDesign) -> Vec<Option<f64>> {
-        observe_rms(self.sampling, design, self.tick)
+    fn observe(&self, name: &str, design: &dyn Points) -> Result<Vec<Option<f64>>, StudyError> {
+        observe_rms(self.sampling, (name, design), self.session)
     }
 
     /// The sampling's first observations.
@@ -237,8 +236,7 @@ impl Run<'_> {
         let whole = &self.sampling.design;
         let points = whole.points().min(self.spec.observations);
         let design = SobolDesign::new(whole.inputs().to_vec(), whole.first_index(), points)?;
-        let outputs = self.observe(&design);
-        Ok((design, outputs))
+        Ok((design, self.tally.first_rms_mm.iter().copied().take(points).collect()))
     }
 
     /// RMS [mm] of the robot with these deviations of the inputs, and its derivatives [mm per unit of the input].
@@ -294,8 +292,8 @@ fn regress(
 }
 
 fn morris(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
-    let design = MorrisDesign::radial(run.inputs().to_vec(), run.spec.morris_blocks, run.settings.seed)?;
-    let outputs = run.observe(&design);
+    let design = run.sampling.morris_design(run.spec.morris_blocks)?;
+    let outputs = run.observe(MORRIS, &design)?;
     for (input, effect) in inputs.iter_mut().zip(morris_effects(&design, &outputs, run.settings.confidence)?)
     {
         input.morris_mean_absolute_mm = Some(effect.mean_absolute.value);
@@ -309,7 +307,7 @@ fn derivative_bounds(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSu
     let design = SobolDesign::scrambled(run.inputs().to_vec(), points, run.settings.seed)?;
     let slopes_at = |row: &mut Vec<f64>, index| {
         design.row(index, row)?;
-        (run.tick)(1);
+        (run.session.tick)(1);
         Ok(run.slopes(row).ok())
     };
     let slopes: Result<Vec<Option<Slopes>>, SensitivityError> =
@@ -336,9 +334,8 @@ fn chaos_expansion(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSumm
 
 fn sobol(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
     let SensitivitySpec { saltelli_blocks, bootstrap_resamples: resamples, .. } = *run.spec;
-    let all = run.inputs().to_vec();
-    let design = SaltelliDesign::scrambled(all, saltelli_blocks, Order::First, run.settings.seed)?;
-    let outputs = run.observe(&design);
+    let design = run.sampling.saltelli_design(saltelli_blocks)?;
+    let outputs = run.observe(SALTELLI, &design)?;
     let bootstrap = Bootstrap { resamples, seed: run.settings.seed };
     let found = sobol_indices(&design, &outputs, bootstrap, run.settings.confidence)?;
     for (input, index) in inputs.iter_mut().zip(found.inputs) {
@@ -358,17 +355,14 @@ impl MethodSummary {
 }
 
 /// [`SensitivitySummary::sums`].
-fn sums(
-    sampling: &Sampling,
-    inputs: &[InputMeasures],
-) -> IndexMap<&'static str, IndexMap<&'static str, f64>> {
+fn sums(sampling: &Sampling, inputs: &[InputMeasures]) -> IndexMap<String, IndexMap<String, f64>> {
     let groups = (0..inputs.len()).map(|input| sampling.errors.group(input));
-    let mut sums: IndexMap<&str, IndexMap<&str, f64>> = IndexMap::new();
+    let mut sums: IndexMap<String, IndexMap<String, f64>> = IndexMap::new();
     for (group, input) in groups.zip(inputs).chain(inputs.iter().map(|input| ("all", input))) {
-        let sums = sums.entry(group).or_default();
+        let sums = sums.entry(group.to_owned()).or_default();
         for (name, of) in SHARES {
             if let Some(share) = of(input) {
-                *sums.entry(name).or_default() += share;
+                *sums.entry(name.to_owned()).or_default() += share;
             }
         }
     }
@@ -378,7 +372,9 @@ fn sums(
 impl Agreement {
     fn of(inputs: &[InputMeasures]) -> Self {
         let first = LEADING.min(inputs.len().div_ceil(2));
-        let column = |(name, of): Measure| Some((name, inputs.iter().map(of).collect::<Option<Vec<f64>>>()?));
+        let column = |(name, of): Measure| {
+            Some((name.to_owned(), inputs.iter().map(of).collect::<Option<Vec<f64>>>()?))
+        };
         let (measures, columns): (Vec<_>, Vec<_>) = RANKED.into_iter().filter_map(column).unzip();
         let leads = |values: &Vec<f64>, input: usize| {
             values[input] > 0.0 && values.iter().filter(|value| **value > values[input]).count() < first

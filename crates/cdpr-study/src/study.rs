@@ -92,7 +92,7 @@ impl Study {
         let robot_path = path.parent().unwrap_or(Path::new(".")).join(&file.robot);
         let robot = open_robot(&robot_path)?;
         let study = Self { path: path.to_owned(), file, robot };
-        study.validate()?;
+        study.validate().map_err(|error| error.placed(text))?;
         Ok(study)
     }
 
@@ -103,6 +103,22 @@ impl Study {
     pub fn set_observations(&mut self, observations: usize) -> Result<(), StudyError> {
         self.file.samplings.values_mut().for_each(|sampling| sampling.observations = observations);
         self.validate()
+    }
+
+    /// Gives every sampling this number of observations, if that is no fewer than it has.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] for fewer.
+    pub fn extend(&mut self, observations: usize) -> Result<(), StudyError> {
+        let most = self.file.samplings.values().map(|sampling| sampling.observations).max();
+        let Some(most) = most else {
+            return Err(self.invalid("samplings", "empty", "a sampling to extend"));
+        };
+        if observations < most {
+            let expected = format!("at least {most}, as many as there are");
+            return Err(StudyError::setting("--observations", observations, expected));
+        }
+        self.set_observations(observations)
     }
 
     fn validate(&self) -> Result<(), StudyError> {
@@ -235,6 +251,17 @@ impl Study {
         Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal, observer })
     }
 
+    /// The error model called `name`.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] for a name that is none.
+    pub fn tolerances(&self, name: &str) -> Result<ErrorModel, StudyError> {
+        match self.file.error_models.get(name) {
+            Some(model) => self.error_model(name, model),
+            None => Err(self.invalid("error_models", name, &keys(&self.file.error_models))),
+        }
+    }
+
     /// An error model for this robot.
     fn error_model(&self, name: &str, model: &IndexMap<String, InputSpec>) -> Result<ErrorModel, StudyError> {
         let field = format!("error_models.{name}");
@@ -332,7 +359,7 @@ fn keys<T>(map: &IndexMap<String, T>) -> String {
     format!("one of {}", map.keys().cloned().collect::<Vec<_>>().join(", "))
 }
 
-fn read(path: &Path) -> Result<String, StudyError> {
+pub(crate) fn read(path: &Path) -> Result<String, StudyError> {
     std::fs::read_to_string(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })
 }
 

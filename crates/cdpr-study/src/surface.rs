@@ -5,27 +5,29 @@ use crate::study::Surface;
 use cdpr_robot::Parameter;
 use cdpr_statics::StaticsError;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The deflection over a grid.
+/// The deflection over a grid. `E` says why a point has none: the error itself, or its kind as read back from a table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SurfaceResult {
+pub struct SurfaceResult<E = StaticsError> {
     /// Values of the first parameter (nominal value plus deviation), in its SI unit.
     pub x: Vec<f64>,
     /// Values of the second parameter.
     pub y: Vec<f64>,
     /// RMS [mm] at `x[i], y[j]`, in place `i * y.len() + j`; or why there is none.
-    pub rms_mm: Vec<Result<f64, StaticsError>>,
+    pub rms_mm: Vec<Result<f64, E>>,
 }
 
 /// Results of one surface; serialised into `summary.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceSummary {
     /// Title.
     pub title: String,
     /// Position of the wanted pose [m].
     pub pose: [f64; 3],
+    /// Its rotation as a unit quaternion (w, x, y, z), w >= 0.
+    pub quaternion: [f64; 4],
     /// Points of the grid.
     pub observations: usize,
     /// Failed points by kind.
@@ -37,7 +39,7 @@ pub struct SurfaceSummary {
 }
 
 /// Extremes of the RMS over a surface [mm]; absent where no point succeeded.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceRms {
     /// Least value.
     pub min: Option<f64>,
@@ -78,10 +80,12 @@ impl SurfaceSummary {
     /// Summarises a surface.
     pub fn new(surface: &Surface, result: &SurfaceResult) -> Self {
         let succeeded = || result.rms_mm.iter().filter_map(|rms| rms.as_ref().ok().copied());
-        let failed = count_failed(result.rms_mm.iter().filter_map(|rms| rms.as_ref().err()));
+        let failed =
+            count_failed(result.rms_mm.iter().filter_map(|rms| rms.as_ref().err()).map(StaticsError::kind));
         Self {
             title: surface.title.to_owned(),
             pose: surface.pose.position.into(),
+            quaternion: surface.pose.quaternion(),
             observations: result.rms_mm.len(),
             failed,
             parameters: [surface.x.0.to_string(), surface.y.0.to_string()],

@@ -4,7 +4,7 @@
 
 use cdpr_robot::deviations;
 use cdpr_sensitivity::SampleDesign;
-use cdpr_study::{SensitivitySpec, Study, StudyError, Truncation, measure, observe};
+use cdpr_study::{SensitivitySpec, Session, Study, StudyError, Truncation, measure, observe};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -77,7 +77,9 @@ fn what_two_points_share_correlates_them_by_its_part_of_their_variance() {
 fn a_cause_has_measures_of_its_own_that_agree() {
     let study = study(two_points_of_a_block()).unwrap();
     let sampling = study.sampling("blocks").unwrap();
-    assert_eq!(observe(&sampling, &|_| ()).failed.values().sum::<usize>(), 0);
+    let session = Session::in_memory();
+    let tally = observe(&sampling, &session).unwrap();
+    assert_eq!(tally.failed.values().sum::<usize>(), 0);
     let spec = SensitivitySpec {
         observations: 1024,
         saltelli_blocks: 256,
@@ -86,7 +88,7 @@ fn a_cause_has_measures_of_its_own_that_agree() {
         derivative_points: 32,
         expansion: Truncation { max_degree: 2, norm: 1.0, interactions: 2 },
     };
-    let found = measure(&sampling, &spec, &|_| ());
+    let found = measure(&sampling, &spec, &tally, &session).unwrap();
     assert_eq!(found.notes, [""; 0]);
     for input in &found.inputs {
         let (low, high) = (input.sobol_first_low.unwrap(), input.sobol_first_high.unwrap());
@@ -94,7 +96,7 @@ fn a_cause_has_measures_of_its_own_that_agree() {
         assert!(low - 0.01 <= share && share <= high + 0.01, "{input:?}");
         assert!((input.expansion_first.unwrap() - share).abs() < 0.02, "{input:?}");
     }
-    assert_eq!(found.sums.keys().copied().collect::<Vec<_>>(), ["b", "all"]);
+    assert_eq!(found.sums.keys().collect::<Vec<_>>(), ["b", "all"]);
 }
 
 #[test]

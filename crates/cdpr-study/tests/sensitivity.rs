@@ -1,9 +1,10 @@
 //! The measures of sensitivity beside each other: that they agree where they should, and what a failed one leaves.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use cdpr_study::{
-    InputMeasures, RANKED, SensitivitySpec, SensitivitySummary, Study, StudyError, Truncation, measure,
+    InputMeasures, RANKED, SensitivitySpec, SensitivitySummary, Session, Study, StudyError, Truncation,
+    measure, observe,
 };
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -27,7 +28,9 @@ const SMALL: SensitivitySpec = SensitivitySpec {
 
 fn of_sampling(name: &str, spec: &SensitivitySpec) -> SensitivitySummary {
     let study = Study::open(path()).unwrap();
-    measure(&study.sampling(name).unwrap(), spec, &|_| ())
+    let sampling = study.sampling(name).unwrap();
+    let session = Session::in_memory();
+    measure(&sampling, spec, &observe(&sampling, &session).unwrap(), &session).unwrap()
 }
 
 fn input<'a>(found: &'a SensitivitySummary, name: &str) -> &'a InputMeasures {
@@ -108,12 +111,17 @@ fn the_numbers_do_not_depend_on_the_number_of_threads_and_every_observation_is_t
             told.fetch_add(done, Ordering::Relaxed);
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let found = pool.install(|| measure(&sampling, &SMALL, &tick));
+        let session = Session { tick: &tick, ..Session::in_memory() };
+        let found = pool.install(|| {
+            let tally = observe(&sampling, &session).unwrap();
+            measure(&sampling, &SMALL, &tally, &session).unwrap()
+        });
         (timeless(found), told.into_inner())
     };
     let one = on(1);
     assert_eq!(one, on(3));
-    assert_eq!(2000 + one.1, sampling.observations());
+    let replicates = 2000 * study.file.replicates;
+    assert_eq!(one.1 + replicates, sampling.observations());
 }
 
 #[test]
@@ -126,7 +134,7 @@ fn a_measure_that_fails_is_a_note() {
     assert!(found.notes[0].contains("64"), "{:?}", found.notes);
     assert!(found.inputs.iter().all(|input| input.regression_share.is_none() && input.sobol_first.is_some()));
     assert!(!found.sums["all"].contains_key("regression_share"));
-    assert!(!found.agreement.measures.contains(&"regression_share"));
+    assert!(!found.agreement.measures.iter().any(|name| name == "regression_share"));
     assert_eq!(found.leading()[0].input, "youngs_modulus");
 }
 
@@ -136,8 +144,9 @@ fn settings_that_are_none_are_refused_with_field_value_and_remedy() {
         let text = text();
         assert!(text.contains(from));
         let error = Study::from_json(&text.replacen(from, to, 1), path()).unwrap_err();
-        assert!(matches!(error, StudyError::Invalid { .. }), "{error}");
-        error.to_string()
+        let StudyError::At { source, .. } = error else { panic!("no place: {error}") };
+        assert!(matches!(*source, StudyError::Invalid { .. }), "{source}");
+        source.to_string()
     };
     let blocks = refusal("\"saltelli_blocks\": 4096", "\"saltelli_blocks\": 15");
     assert!(blocks.ends_with("sensitivity.saltelli_blocks is 15: expected 16 to 1048576"), "{blocks}");

@@ -1,0 +1,137 @@
+//! Results that several commands print, as they stand in JSON (SI units; cables are numbered from 1, as in `a1.x`) and as tables.
+
+use crate::study::table;
+use cdpr_robot::Pose;
+use cdpr_statics::{DirectSolution, Equilibrium, Method, Residual};
+use serde::Serialize;
+
+/// What stays open in the equations.
+#[derive(Serialize)]
+pub(crate) struct Open {
+    /// Largest distance between the end of a cable and its anchor point [m].
+    closure: f64,
+    /// On the platform [N].
+    force: f64,
+    /// About P [N m].
+    moment: f64,
+}
+
+impl Open {
+    pub(crate) fn new(residual: &Residual) -> Self {
+        let Residual { closure, force, moment } = *residual;
+        Self { closure, force, moment }
+    }
+
+    pub(crate) fn print(&self) {
+        println!("open: {:.1e} m, {:.1e} N, {:.1e} N m", self.closure, self.force, self.moment);
+    }
+}
+
+/// A stable equilibrium of the direct model.
+#[derive(Serialize)]
+pub(crate) struct Found {
+    /// Of P in the base frame.
+    position: [f64; 3],
+    /// Rows of R.
+    rotation: [[f64; 3]; 3],
+    /// (fx, fz) on each cable at its anchor point, in its vertical plane.
+    cable_forces: Vec<[f64; 2]>,
+    tensions: Vec<f64>,
+    stable: bool,
+    residual: Open,
+    report: Report,
+}
+
+#[derive(Serialize)]
+struct Report {
+    method: &'static str,
+    iterations: usize,
+    /// Stiffness of the softest motion [N/m].
+    least_stiffness: f64,
+    /// Cables that are longer than the distance of their points.
+    slack_cables: Vec<usize>,
+}
+
+impl Found {
+    pub(crate) fn new(solution: &DirectSolution) -> Self {
+        let DirectSolution { equilibrium, report, stability } = solution;
+        Self {
+            position: equilibrium.pose.position.into(),
+            rotation: rows(&equilibrium.pose),
+            cable_forces: forces(equilibrium),
+            tensions: equilibrium.tensions(),
+            stable: stability.is_stable(),
+            residual: Open::new(&report.residual),
+            report: Report {
+                method: match report.method {
+                    Method::Newton => "newton",
+                    Method::TrustRegion => "trust_region",
+                    Method::Continuation => "continuation",
+                },
+                iterations: report.iterations,
+                least_stiffness: stability.least_stiffness(),
+                slack_cables: report.slack.iter().map(|i| i + 1).collect(),
+            },
+        }
+    }
+
+    pub(crate) fn print(&self, lengths: &[f64]) {
+        println!("position  {} m", vector(&self.position, 6));
+        for (i, row) in self.rotation.iter().enumerate() {
+            let [a, b, c] = row.map(|entry| decimal(entry, 6));
+            println!("{}  [{a:>9} {b:>9} {c:>9}]", if i == 0 { "rotation" } else { "        " });
+        }
+        print_cables(lengths, &self.cable_forces, &self.tensions);
+        let Report { method, iterations, least_stiffness, slack_cables } = &self.report;
+        let stable = if self.stable { "stable" } else { "unstable" };
+        println!("{stable}, softest motion {least_stiffness:.1} N/m; {method}, {iterations} iterations");
+        if !slack_cables.is_empty() {
+            println!("slack cables: {}", numbers(slack_cables));
+        }
+        self.residual.print();
+    }
+}
+
+/// Lengths, forces and tensions of all cables.
+pub(crate) fn print_cables(lengths: &[f64], forces: &[[f64; 2]], tensions: &[f64]) {
+    let mut rows = table(&["cable", "unstrained length [m]", "fx [N]", "fz [N]", "tension [N]"]);
+    for (i, ((length, [fx, fz]), tension)) in lengths.iter().zip(forces).zip(tensions).enumerate() {
+        rows.add_row([
+            (i + 1).to_string(),
+            format!("{length:.6}"),
+            decimal(*fx, 3),
+            decimal(*fz, 3),
+            decimal(*tension, 3),
+        ]);
+    }
+    println!("{rows}");
+}
+
+pub(crate) fn forces(equilibrium: &Equilibrium) -> Vec<[f64; 2]> {
+    equilibrium.cable_forces.iter().map(|force| (*force).into()).collect()
+}
+
+/// Rows of R.
+fn rows(pose: &Pose) -> [[f64; 3]; 3] {
+    pose.rotation.matrix().transpose().into()
+}
+
+/// The number with so many decimals, without the sign of a zero.
+pub(crate) fn decimal(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(zero) if !zero.contains(|c: char| ('1'..='9').contains(&c)) => zero.to_owned(),
+        _ => text,
+    }
+}
+
+/// A vector in brackets.
+pub(crate) fn vector(components: &[f64], decimals: usize) -> String {
+    let texts: Vec<_> = components.iter().map(|component| decimal(*component, decimals)).collect();
+    format!("({})", texts.join(", "))
+}
+
+/// Numbers separated by commas.
+pub(crate) fn numbers(list: &[usize]) -> String {
+    list.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}

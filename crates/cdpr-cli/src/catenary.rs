@@ -1,0 +1,108 @@
+//! `cdpr catenary`: one cable between two points, from any two of its length, end, force and tension.
+
+use crate::answer::vector;
+use crate::arguments::{self, Format};
+use crate::output::Usage;
+use cdpr_cable::{Cable, Catenary, Solution, Vector2, end_force, length_for_tension};
+use serde::Serialize;
+use std::error::Error;
+
+/// What was asked for.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Weight per unstrained length [N/m]; 0 makes the cable a straight spring.
+    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
+    weight: f64,
+    /// Axial stiffness EA [N].
+    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
+    stiffness: f64,
+    /// Unstrained length [m].
+    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
+    length: Option<f64>,
+    /// Position x,z of the anchor point [m]; the exit point is the origin, x >= 0, z up.
+    #[arg(long, value_parser = arguments::components::<2>, allow_hyphen_values = true)]
+    end: Option<[f64; 2]>,
+    /// Force fx,fz on the cable at the anchor point [N], with --length, in place of --end.
+    #[arg(long, value_parser = arguments::components::<2>, allow_hyphen_values = true)]
+    force: Option<[f64; 2]>,
+    /// Tension at the anchor point [N], with --end, in place of --length.
+    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
+    tension: Option<f64>,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+    let answer = Answer::new(settings)?;
+    match settings.format {
+        Format::Json => println!("{}", serde_json::to_string(&answer)?),
+        Format::Text => answer.print(),
+    }
+    Ok(())
+}
+
+/// SI units.
+#[derive(Serialize)]
+struct Answer {
+    /// On the cable at the anchor point.
+    force: [f64; 2],
+    tension: Tension,
+    /// Greatest height of the chord above the cable.
+    sag: f64,
+    /// Elastic energy plus work done against gravity; zero for a massless cable at rest with its weight at the height of the exit point.
+    energy: f64,
+    unstrained_length: f64,
+    end: [f64; 2],
+    /// Distance between the end asked for and that of the equations.
+    residual: f64,
+}
+
+#[derive(Serialize)]
+struct Tension {
+    anchor: f64,
+    exit: f64,
+}
+
+impl Answer {
+    fn new(settings: &Settings) -> Result<Self, Box<dyn Error>> {
+        let Settings { weight, stiffness, length, end, force, tension, .. } = *settings;
+        let cable = Cable::linear(weight, stiffness);
+        let (solution, end) = match (length, end, force, tension) {
+            (Some(length), Some(end), None, None) => (end_force(&cable, length, Vector2::from(end))?, end),
+            (None, Some(end), None, Some(tension)) => {
+                (length_for_tension(&cable, Vector2::from(end), tension)?, end)
+            }
+            (Some(length), None, Some(force), None) => {
+                let catenary = Catenary::new(cable, length, Vector2::from(force))?;
+                (Solution { catenary, iterations: 0, residual: 0.0 }, catenary.end_position().into())
+            }
+            _ => {
+                return Err(Box::new(Usage(
+                    "expected two of what is known: --length and --end, --length and --force, or --end and --tension"
+                        .to_owned(),
+                )));
+            }
+        };
+        let catenary = &solution.catenary;
+        Ok(Self {
+            force: catenary.force.into(),
+            tension: Tension { anchor: catenary.anchor_tension(), exit: catenary.exit_tension() },
+            sag: catenary.vertical_sag(),
+            energy: catenary.potential_energy(),
+            unstrained_length: catenary.unstrained_length,
+            end,
+            residual: solution.residual,
+        })
+    }
+
+    fn print(&self) {
+        println!("unstrained length  {:.6} m", self.unstrained_length);
+        println!("anchor point       {} m from the exit point", vector(&self.end, 6));
+        println!("force at it        {} N on the cable", vector(&self.force, 6));
+        println!("tension            {:.6} N at the anchor point", self.tension.anchor);
+        println!("                   {:.6} N at the exit point", self.tension.exit);
+        println!("sag                {:.6} m below the chord", self.sag);
+        println!("energy             {:.6} J", self.energy);
+    }
+}

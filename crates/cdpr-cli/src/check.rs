@@ -1,0 +1,39 @@
+//! `cdpr check`: everything odd about a robot file that is not an error.
+
+use crate::arguments::Format;
+use crate::output::Ending;
+use cdpr_study::{Finding, Severity, inspect, open_robot};
+use std::error::Error;
+use std::path::PathBuf;
+
+/// What was asked for.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// How the findings are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<Ending, Box<dyn Error>> {
+    let robot = open_robot(&settings.robot)?;
+    let findings = inspect(&robot);
+    let warnings = findings.iter().filter(|finding| finding.severity == Severity::Warning).count();
+    match settings.format {
+        Format::Json => println!("{}", serde_json::to_string(&findings)?),
+        Format::Text => {
+            for Finding { severity, field, value, why, remedy } in &findings {
+                println!("{severity}: {field} is {value}: {why}");
+                println!("    remedy: {remedy}");
+            }
+            println!(
+                "{}: {} cables, {warnings} warnings, {} notes",
+                robot.name,
+                robot.cables.len(),
+                findings.len() - warnings
+            );
+        }
+    }
+    Ok(if warnings > 0 { Ending::SomethingWrong } else { Ending::Well })
+}

@@ -1,0 +1,88 @@
+//! `cdpr inverse`: the unstrained lengths that hold a pose.
+
+use crate::answer::{self, Open};
+use crate::arguments::{self, Format, LoadArguments};
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{Bound, InverseSolution, inverse};
+use cdpr_study::open_robot;
+use serde::Serialize;
+use std::error::Error;
+use std::path::PathBuf;
+
+/// What was asked for.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// Wanted pose: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
+    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
+    pose: Pose,
+    #[command(flatten)]
+    load: LoadArguments,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+    let robot = open_robot(&settings.robot)?;
+    let answer = Answer::new(&inverse(&robot, &settings.pose, &settings.load.load(), None)?);
+    match settings.format {
+        Format::Json => println!("{}", serde_json::to_string(&answer)?),
+        Format::Text => answer.print(&robot, &settings.pose),
+    }
+    Ok(())
+}
+
+/// SI units.
+#[derive(Serialize)]
+struct Answer {
+    /// Unstrained.
+    lengths: Vec<f64>,
+    tensions: Vec<f64>,
+    /// (fx, fz) on each cable at its anchor point, in its vertical plane.
+    cable_forces: Vec<[f64; 2]>,
+    report: Report,
+}
+
+#[derive(Serialize)]
+struct Report {
+    /// Turns of distribution and Newton's method.
+    turns: usize,
+    /// The bound that each tension rests on, `min` or `max`; `null` where it rests on none.
+    active: Vec<Option<&'static str>>,
+    residual: Open,
+}
+
+impl Answer {
+    fn new(solution: &InverseSolution) -> Self {
+        let bound = |bound: &Option<Bound>| {
+            bound.map(|bound| match bound {
+                Bound::Min => "min",
+                Bound::Max => "max",
+            })
+        };
+        Self {
+            lengths: solution.lengths.clone(),
+            tensions: solution.tensions.clone(),
+            cable_forces: answer::forces(&solution.equilibrium),
+            report: Report {
+                turns: solution.turns,
+                active: solution.active.iter().map(bound).collect(),
+                residual: Open::new(&solution.residual),
+            },
+        }
+    }
+
+    fn print(&self, robot: &Robot, pose: &Pose) {
+        let [x, y, z] = pose.position.into();
+        println!("{} at ({x}, {y}, {z}) m", robot.name);
+        answer::print_cables(&self.lengths, &self.cable_forces, &self.tensions);
+        for (i, bound) in self.report.active.iter().enumerate() {
+            if let Some(bound) = bound {
+                println!("cable {} rests on its {bound}imum tension", i + 1);
+            }
+        }
+        self.report.residual.print();
+    }
+}

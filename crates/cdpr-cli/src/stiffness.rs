@@ -1,0 +1,104 @@
+//! `cdpr stiffness`: the Cartesian stiffness at a pose, its eigenvalues and the motions that belong to them.
+
+use crate::answer::{self, decimal};
+use crate::arguments::{self, Format};
+use crate::study::table;
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{Load, Stability, Start, Tangent, direct_any, inverse};
+use cdpr_study::open_robot;
+use serde::Serialize;
+use std::error::Error;
+use std::path::PathBuf;
+
+/// What was asked for.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// Pose: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
+    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
+    pose: Pose,
+    /// Mass that the platform carries there, at its centre of mass [kg].
+    #[arg(long, value_parser = arguments::mass, default_value = "0", allow_hyphen_values = true)]
+    payload: f64,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+    let robot = open_robot(&settings.robot)?;
+    let load = Load::payload(settings.payload);
+    let wanted = inverse(&robot, &settings.pose, &load, None)?;
+    // The equilibrium at the pose itself, be it stable or not.
+    let held = direct_any(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium))?;
+    let tangent = Tangent::at(&robot, &wanted.lengths, &load, &held)?;
+    let answer = Answer::new(&tangent, &held.stability);
+    match settings.format {
+        Format::Json => println!("{}", serde_json::to_string(&answer)?),
+        Format::Text => answer.print(&robot, &settings.pose),
+    }
+    Ok(())
+}
+
+#[derive(Serialize)]
+struct Answer {
+    /// Rows of K in (dp, dφ) [N/m, N/rad, N, N m/rad].
+    stiffness: [[f64; 6]; 6],
+    /// From the softest motion.
+    eigenvalues: Vec<Eigenvalue>,
+    least_stiffness: f64,
+    stable: bool,
+    /// The length ρ that makes rotations comparable with translations [m].
+    arm: f64,
+}
+
+/// Of the stiffness in (dp, ρ dφ).
+#[derive(Serialize)]
+struct Eigenvalue {
+    /// [N/m].
+    stiffness: f64,
+    /// [m/m], `|translation|² + ρ² |rotation|² = 1`.
+    translation: [f64; 3],
+    /// [rad/m].
+    rotation: [f64; 3],
+}
+
+impl Answer {
+    fn new(tangent: &Tangent, stability: &Stability) -> Self {
+        Self {
+            stiffness: tangent.stiffness().transpose().into(),
+            eigenvalues: stability
+                .modes()
+                .iter()
+                .map(|mode| Eigenvalue {
+                    stiffness: mode.stiffness,
+                    translation: mode.translation.into(),
+                    rotation: mode.rotation.into(),
+                })
+                .collect(),
+            least_stiffness: stability.least_stiffness(),
+            stable: stability.is_stable(),
+            arm: stability.arm(),
+        }
+    }
+
+    fn print(&self, robot: &Robot, pose: &Pose) {
+        let [x, y, z] = pose.position.into();
+        println!("{} at ({x}, {y}, {z}) m: K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]", robot.name);
+        for row in self.stiffness {
+            println!("{}", row.map(|entry| format!("{:>14}", decimal(entry, 1))).concat());
+        }
+        let mut rows = table(&["eigenvalue [N/m]", "translation [m/m]", "rotation [rad/m]"]);
+        for Eigenvalue { stiffness, translation, rotation } in &self.eigenvalues {
+            let words = |vector: &[f64; 3]| answer::vector(vector, 4);
+            rows.add_row([format!("{stiffness:.1}"), words(translation), words(rotation)]);
+        }
+        println!("{rows}");
+        let stable = if self.stable { "stable" } else { "unstable" };
+        println!(
+            "{stable}; least stiffness {:.1} N/m, with rotations times \u{3c1} = {:.4} m",
+            self.least_stiffness, self.arm
+        );
+    }
+}

@@ -1,0 +1,69 @@
+//! The results of a study on the terminal.
+
+use super::table;
+use cdpr_study::{StudySummary, Summary};
+
+pub(crate) fn print_results(summary: &Summary) {
+    println!("{}: {}\n", summary.robot, summary.study);
+    let mut rows = table(&["study", "n", "failed", "nominal", "mean", "std", "min", "max", "[mm]  best fit"]);
+    for (name, study) in &summary.studies {
+        rows.add_row(match study {
+            StudySummary::Sampling(s) => {
+                let best = s.fits.iter().find(|fit| Some(fit.law) == s.best_fit);
+                let best = best.map(|fit| format!("{}, p = {:.3}", fit.law, fit.p_value));
+                let rms = s.rms_mm.as_ref();
+                let rms = rms.map_or([None; 5], |r| [r.nominal, r.mean, r.std, r.min, r.max].map(Some));
+                let counts = [s.observations, s.failed.values().sum()].map(|count| count.to_string());
+                row(name, counts, rms, best.unwrap_or_default())
+            }
+            StudySummary::Surface(s) => {
+                let rms = [Some(s.rms_mm.nominal), None, None, s.rms_mm.min, s.rms_mm.max];
+                let counts = [s.observations, s.failed.values().sum()].map(|count| count.to_string());
+                row(name, counts, rms, String::new())
+            }
+        });
+    }
+    println!("{rows}\n");
+    for (name, study) in &summary.studies {
+        let failed = match study {
+            StudySummary::Sampling(s) => &s.failed,
+            StudySummary::Surface(s) => &s.failed,
+        };
+        if let StudySummary::Sampling(s) = study {
+            for note in &s.notes {
+                println!("{name}: {note}");
+            }
+        }
+        for (kind, count) in failed.iter().filter(|(_, count)| **count > 0) {
+            println!("{name}: {count} failed: {kind}");
+        }
+    }
+}
+
+fn row(name: &str, counts: [String; 2], rms: [Option<f64>; 5], last: String) -> Vec<String> {
+    let rms = rms.map(|value| value.map_or_else(String::new, |value| format!("{value:.4}")));
+    [name.to_owned()].into_iter().chain(counts).chain(rms).chain([last]).collect()
+}
+
+pub(crate) fn print_comparison(summary: &Summary) {
+    if summary.comparison.is_empty() {
+        return;
+    }
+    let mut rows = table(&["figure", "quantity", "paper", "computed", "unit", "verdict"]);
+    for r in &summary.comparison {
+        let cells = [
+            &r.figure,
+            &r.quantity,
+            &r.paper.to_string(),
+            &r.computed.to_string(),
+            &r.unit,
+            &r.verdict.to_string(),
+        ];
+        rows.add_row(cells.map(String::clone));
+    }
+    println!("{rows}");
+    println!("reproduced: within half of the published figure's last digit plus 1 % of it; words: the same");
+    println!(
+        "points: by the largest t of their coordinates; nearly equal: the largest at most 1.5 times the smallest\n"
+    );
+}

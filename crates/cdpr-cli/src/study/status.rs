@@ -1,0 +1,64 @@
+//! `cdpr study status`.
+
+use super::{RunError, table};
+use crate::arguments::Format;
+use cdpr_study::{Provisional, Status, open_results, status};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct Settings {
+    /// Folder of the results.
+    folder: PathBuf,
+    /// How it is printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+pub(super) fn run(settings: &Settings) -> Result<(), RunError> {
+    let (study, blocks) = open_results(&settings.folder)?;
+    let found = status(&study, &blocks)?;
+    match settings.format {
+        Format::Json => println!("{}", serde_json::to_string_pretty(&found)?),
+        Format::Text => print(&found),
+    }
+    Ok(())
+}
+
+fn print(status: &Status) {
+    println!("{} (hash {})\n", status.study, status.hash);
+    let mut rows = table(&["sampling", "design", "blocks", "missing", "observations", "of", "failed"]);
+    for (name, sampling) in &status.samplings {
+        for (design, found) in &sampling.designs {
+            let failed: usize = found.failed.values().sum();
+            let counts =
+                [found.blocks_done, found.blocks_missing, found.observed, found.observations, failed];
+            let cells = counts.iter().map(ToString::to_string);
+            rows.add_row([name.clone(), design.clone()].into_iter().chain(cells));
+        }
+    }
+    println!("{rows}");
+    for (name, sampling) in &status.samplings {
+        for path in sampling.designs.values().flat_map(|design| &design.damaged) {
+            println!("damaged, will be made again: {}", path.display());
+        }
+        let kinds = sampling.designs.iter().flat_map(|(design, found)| {
+            found.failed.iter().map(move |(kind, count)| format!("{count} {kind} of {design}"))
+        });
+        let kinds: Vec<String> = kinds.collect();
+        if !kinds.is_empty() {
+            println!("{name}: failed: {}", kinds.join(", "));
+        }
+        if let Some(Provisional { mean, std }) = sampling.provisional_rms_mm {
+            println!("{name}: so far {mean:.4} mm, standard deviation {std:.4} mm");
+        }
+    }
+    println!(
+        "\n{}",
+        if status.complete {
+            "complete: cdpr study merge analyses it"
+        } else {
+            "not complete: cdpr study run --resume or --shard goes on"
+        }
+    );
+}

@@ -1,0 +1,40 @@
+//! `cdpr study new`.
+
+use super::RunError;
+use crate::arguments;
+use cdpr_study::{TEMPLATE_NOTES, open_robot, template, write_template};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    #[arg(long)]
+    robot: PathBuf,
+    /// File to write, which must not be there; printed if left out.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Position of the platform: x,y,z [m]; in the middle of the exit points if left out.
+    #[arg(long, value_parser = arguments::position, allow_hyphen_values = true)]
+    position: Option<[f64; 3]>,
+    /// Mass added, whose effect is the deflection [kg]; a tenth of the platform's if left out.
+    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
+    payload: Option<f64>,
+}
+
+pub(super) fn run(settings: &Settings) -> Result<(), RunError> {
+    let Settings { robot: path, out, position, payload } = settings;
+    let robot = open_robot(path)?;
+    let text = |robot_path: &str| template(&robot, robot_path, *position, *payload);
+    match out {
+        Some(out) => {
+            write_template(out, path, text)?;
+            println!("{} is a study of {}\n\n{TEMPLATE_NOTES}", out.display(), path.display());
+        }
+        None => {
+            print!("{}", text(&path.display().to_string())?);
+            eprintln!("{TEMPLATE_NOTES}");
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,175 @@
+//! `cdpr workspace`: where the platform is held and how it gives, over a plane or a box.
+
+use crate::arguments::{self, Format, Named};
+use crate::output::Usage;
+use crate::study::{start_threads, table};
+use cdpr_report::{MapQuantity, heat_map};
+use cdpr_robot::{Axis, Robot};
+use cdpr_study::{
+    ErrorModel, Extremes, Grid, Study, Workspace, WorkspaceSummary, check_folder, compute_workspace,
+    open_robot, write_figure, write_workspace,
+};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use std::error::Error;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// What was asked for.
+#[derive(clap::Args)]
+#[command(group = clap::ArgGroup::new("where").required(true).args(["plane", "box"]))]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// Plane over the frame of the exit points: x=, y= or z= a coordinate [m].
+    #[arg(long, value_parser = plane, allow_hyphen_values = true)]
+    plane: Option<Plane>,
+    /// Points of the plane along its two axes.
+    #[arg(long, value_parser = points, default_value = "41x41", conflicts_with = "box")]
+    grid: [usize; 2],
+    /// Box, or a part of a plane: min:max:points of x, y and z [m], such as -2:2:9,-1:1:5,1.75:1.75:1.
+    #[arg(long = "box", id = "box", value_name = "BOX", value_parser = arguments::grid, allow_hyphen_values = true)]
+    within: Option<Grid>,
+    /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
+    #[arg(long, value_parser = arguments::mass, default_value = "50", allow_hyphen_values = true)]
+    payload: f64,
+    /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5.
+    #[arg(long, value_parser = arguments::named)]
+    uncertainty: Option<Named>,
+    /// Study file whose error model gives the standard deviations.
+    #[arg(long, conflicts_with = "uncertainty", requires = "error_model")]
+    study: Option<PathBuf>,
+    /// Name of the study's error model.
+    #[arg(long, requires = "study")]
+    error_model: Option<String>,
+    /// Folder for the results; made if missing.
+    #[arg(long, default_value = "workspace")]
+    out: PathBuf,
+    /// Threads; all cores if left out. The numbers do not depend on it.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// Where a coordinate has one value.
+#[derive(Clone, Copy)]
+struct Plane {
+    normal: Axis,
+    place: f64,
+}
+
+fn plane(text: &str) -> Result<Plane, String> {
+    let parts = text.split_once('=').and_then(|(name, place)| {
+        let normal = match name.trim() {
+            "x" => Axis::X,
+            "y" => Axis::Y,
+            "z" => Axis::Z,
+            _ => return None,
+        };
+        Some(Plane { normal, place: arguments::number(place).ok()? })
+    });
+    parts.ok_or_else(|| "expected x=, y= or z= a coordinate [m], such as z=1.75".to_owned())
+}
+
+fn points(text: &str) -> Result<[usize; 2], String> {
+    let parts: Vec<_> =
+        text.split('x').map(|count| count.trim().parse().ok().filter(|count| *count > 1)).collect();
+    match parts[..] {
+        [Some(first), Some(second)] => Ok([first, second]),
+        _ => Err("expected two numbers of points, 2 or more, such as 41x41".to_owned()),
+    }
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+    start_threads(settings.threads)?;
+    let robot = open_robot(&settings.robot)?;
+    let grid = match (&settings.within, settings.plane) {
+        (Some(grid), _) => *grid,
+        (None, Some(Plane { normal, place })) => Grid::over_frame(&robot, normal, place, settings.grid)?,
+        (None, None) => return Err(Box::new(Usage("expected --plane or --box".to_owned()))),
+    };
+    let tolerances = settings.tolerances(&robot)?;
+    check_folder(&settings.out)?;
+    let workspace =
+        Workspace { robot: &robot, grid, payload: settings.payload, tolerances: tolerances.as_ref() };
+    let progress = progress(grid.poses().len());
+    let clock = Instant::now();
+    let poses = compute_workspace(&workspace, &|| progress.inc(1))?;
+    let seconds = clock.elapsed().as_secs_f64();
+    progress.finish_and_clear();
+    let summary = WorkspaceSummary::new(&workspace, &poses);
+    write_workspace(&settings.out, &summary)?;
+    if grid.normal().is_some() {
+        for quantity in MapQuantity::ALL {
+            match heat_map(&robot, &summary, quantity) {
+                Ok(svg) => write_figure(&settings.out, quantity.name(), &svg).map(|_| ())?,
+                Err(error) => eprintln!("note: no figure {}: {error}", quantity.name()),
+            }
+        }
+    }
+    match settings.format {
+        Format::Json => println!("{}", serde_json::to_string(&summary)?),
+        Format::Text => {
+            print(&summary);
+            println!("{} poses in {seconds:.2} s; results in {}", poses.len(), settings.out.display());
+        }
+    }
+    Ok(())
+}
+
+impl Settings {
+    fn tolerances(&self, robot: &Robot) -> Result<Option<ErrorModel>, Box<dyn Error>> {
+        if let (Some(path), Some(name)) = (&self.study, &self.error_model) {
+            return Ok(Some(Study::open(path)?.tolerances(name)?));
+        }
+        let named = self.uncertainty.as_ref();
+        let deviations = named.map(|named| arguments::uncertainties(robot, named)).transpose()?;
+        Ok(deviations.map(|deviations| ErrorModel::normal(&deviations)))
+    }
+}
+
+/// A bar with rate and time left; silent when not on a terminal.
+fn progress(poses: usize) -> ProgressBar {
+    let rate = |state: &ProgressState, out: &mut dyn Write| {
+        // Nothing to be done about a terminal that takes no text.
+        let _ = write!(out, "{:.0}/s", state.per_sec());
+    };
+    let bar = ProgressBar::new(poses as u64);
+    match ProgressStyle::with_template("{bar:30} {pos}/{len} poses, {rate}, {eta} left") {
+        Ok(style) => bar.with_style(style.with_key("rate", rate)),
+        Err(_) => bar,
+    }
+}
+
+fn print(summary: &WorkspaceSummary) {
+    println!("{}: {} positions, payload {} kg", summary.robot, summary.rows.len(), summary.payload);
+    for (status, count) in &summary.status {
+        println!("{count:8} {status}");
+    }
+    let mut rows = table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
+    let place = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
+    for (name, extremes) in [
+        ("|dp| [mm]", summary.rms_mm),
+        ("least stiffness [N/m]", summary.least_stiffness),
+        ("greatest tension [N]", summary.greatest_tension),
+        ("least tension [N]", summary.least_tension),
+    ] {
+        if let Some(Extremes { min, min_at, max, max_at }) = extremes {
+            rows.add_row([
+                name.to_owned(),
+                format!("{min:.4}"),
+                place(min_at),
+                format!("{max:.4}"),
+                place(max_at),
+            ]);
+        }
+    }
+    println!("{rows}");
+    let mut dominant: Vec<_> = summary.dominant.iter().collect();
+    dominant.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+    for (name, count) in dominant.into_iter().take(5) {
+        println!("{name} dominates the tolerance of |dp| at {count} positions");
+    }
+}

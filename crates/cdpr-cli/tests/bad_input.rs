@@ -1,0 +1,155 @@
+//! Every kind of bad input on the command line and in files: the whole message, a snapshot to be read as a user reads it.
+//!
+//! After a change, `INSTA_UPDATE=always cargo test -p cdpr-cli --test bad_input` writes the snapshot anew; read its difference.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Command;
+use tempfile::TempDir;
+
+/// Files made from CAROCA's robot and study by replacing text.
+const ROBOTS: [(&str, &str, &str); 14] = [
+    ("no_mass.json", r#""mass": 180.0, "#, ""),
+    ("misspelt.json", r#""mass": 180.0"#, r#""mas": 180.0"#),
+    ("text_mass.json", r#""mass": 180.0"#, r#""mass": "heavy""#),
+    ("nan_mass.json", r#""mass": 180.0"#, r#""mass": NaN"#),
+    ("huge_mass.json", r#""mass": 180.0"#, r#""mass": 1e999"#),
+    ("negative_mass.json", r#""mass": 180.0"#, r#""mass": -180"#),
+    ("negative_modulus.json", "1.022e11", "-1.022e11"),
+    ("no_section.json", r#""diameter": 0.004, "section": 1.2566370614e-5, "#, ""),
+    ("limits.json", r#""min": 1.0, "max": 10290.0"#, r#""min": 100, "max": 50"#),
+    ("format.json", "cdpr-robot/1", "cdpr-robot/9"),
+    ("short_point.json", "[-3.5, 2, 3.5]", "[-3.5, 2]"),
+    ("coincident.json", "[-0.2, 0.15, -0.125]", "[-0.2, -0.15, 0.125]"),
+    ("cut.json", r#""tension_limits""#, "\u{0}"),
+    ("weak.json", r#""max": 10290.0"#, r#""max": 100"#),
+];
+const STUDIES: [(&str, &str, &str); 5] = [
+    ("study_payload.json", r#""payload": 50"#, r#""payload": -50"#),
+    ("study_robot.json", "../robots/caroca.json", "nowhere.json"),
+    ("study_law.json", r#""law": "#, r#""low": "#),
+    ("study_model.json", r#""error_model": ""#, r#""error_model": "x"#),
+    ("study_unknown.json", r#""seed""#, r#""sead""#),
+];
+
+fn data(file: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file)).unwrap()
+}
+
+fn prepare(folder: &Path) {
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    let (robot, study) = (data("robots/caroca.json"), data("studies/caroca.json"));
+    for (name, from, to) in ROBOTS {
+        assert!(robot.contains(from), "{from}");
+        let text = robot.replacen(from, to, 1);
+        write(name, text.split('\u{0}').next().unwrap());
+    }
+    let study_here = study.replace("../robots/caroca.json", "robot.json");
+    for (name, from, to) in STUDIES {
+        assert!(study.contains(from), "{from}");
+        write(name, &study.replacen(from, to, 1).replace("../robots/caroca.json", "robot.json"));
+    }
+    write("robot.json", &robot);
+    write("study.json", &study_here);
+    // Coincident cables need the same exit point: the second with the eighth's anchor point and place.
+    let seventh = r#"    {"exit_point": [-3.5, -2, 3.5], "anchor_point": [0.2, -0.15, -0.125]},"#;
+    let first = r#"    {"exit_point": [-3.5, 2, 3.5], "anchor_point": [0.2, 0.15, 0.125]},"#;
+    write("coincident.json", &robot.replacen(seventh, first, 1));
+    let five: Vec<_> = robot.lines().filter(|line| !line.contains("[3.5, -2, 3.5]")).collect();
+    let five = five.join("\n").replacen(&format!("\n{first}"), "", 1);
+    write("five.json", &five.replace("-0.125]},\n  ]", "-0.125]}\n  ]"));
+    write("empty.json", "");
+    std::fs::write(folder.join("binary.json"), [0x7f, 0x45, 0x4c, 0x46, 0xff, 0xfe]).unwrap();
+    write("list.json", "[1, 2]");
+    write("case_unknown.json", "{\"lengths\": [4, 4, 4, 4, 4, 4, 4, 4],\n \"weight\": 3}");
+    write("case_text.json", "[{\"lengths\": [4, 4, 4, 4, \"four\", 4, 4, 4]}]");
+    std::fs::create_dir(folder.join("folder")).unwrap();
+}
+
+const LENGTHS: &str = "4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44";
+
+/// What is wrong, and the arguments, separated by spaces.
+const CASES: [(&str, &str); 57] = [
+    ("unknown command", "invert robot.json"),
+    ("missing argument", "inverse robot.json"),
+    ("unknown argument", "inverse robot.json --pose 0,0,1.75 --speed 3"),
+    ("unknown format", "check robot.json --format xml"),
+    ("robot file that is not there", "check nowhere.json"),
+    ("folder for a robot file", "check folder"),
+    ("empty robot file", "check empty.json"),
+    ("binary robot file", "check binary.json"),
+    ("robot file cut off", "check cut.json"),
+    ("robot file that is a list", "check list.json"),
+    ("study for a robot", "check study.json"),
+    ("missing field", "check no_mass.json"),
+    ("misspelt field", "check misspelt.json"),
+    ("text for a number", "check text_mass.json"),
+    ("NaN in a file", "check nan_mass.json"),
+    ("number out of range", "check huge_mass.json"),
+    ("negative mass", "check negative_mass.json"),
+    ("negative modulus", "check negative_modulus.json"),
+    ("neither section nor diameter", "check no_section.json"),
+    ("limits the wrong way round", "check limits.json"),
+    ("another format", "check format.json"),
+    ("point with two coordinates", "check short_point.json"),
+    ("too few cables", "check five.json"),
+    ("two cables in one place", "check coincident.json"),
+    ("pose with two coordinates", "inverse robot.json --pose 0,0"),
+    ("pose that is no number", "inverse robot.json --pose 0,0,high"),
+    ("NaN in a pose", "inverse robot.json --pose 0,0,NaN"),
+    ("quaternion of zeros", "inverse robot.json --pose 0,0,1,0,0,0,0"),
+    ("pose above the frame", "inverse robot.json --pose 0,0,9"),
+    ("limits too tight for the platform", "inverse weak.json --pose 0,0,1.75"),
+    ("negative payload", "deflection robot.json --pose 0,0,1.75 --payload -5"),
+    ("no load", "deflection robot.json --pose 0,0,1.75"),
+    ("force with two components", "inverse robot.json --pose 0,0,1.75 --force 1,2"),
+    ("derivative of nothing", "derivatives robot.json --pose 0,0,1.75 --payload 0"),
+    ("wrong number of lengths", "direct robot.json --lengths 4,4,4"),
+    ("negative length", "direct robot.json --lengths 4.44,4.54,-4.36,4.26,4.26,4.36,4.54,4.44"),
+    ("lengths that are none", "direct robot.json --lengths long"),
+    ("lengths far too short", "direct robot.json --lengths 1,1,1,1,1,1,1,1"),
+    ("mass of zero", "direct robot.json --mass 0 --lengths"),
+    ("lengths and a file", "direct robot.json --from case_text.json --lengths"),
+    ("unknown field in a case", "direct robot.json --from case_unknown.json"),
+    ("text in a case of a list", "direct robot.json --from case_text.json"),
+    ("cable without anything known", "catenary --weight 1 --stiffness 1e6"),
+    ("cable of negative stiffness", "catenary --weight 1 --stiffness -1e6 --length 4 --end 3,1"),
+    ("anchor point behind the exit point", "catenary --weight 1 --stiffness 1e6 --length 4 --end -3,1"),
+    ("tension too small for the weight", "catenary --weight 10 --stiffness 1e6 --end 4,0 --tension 3"),
+    ("force that pushes", "catenary --weight 1 --stiffness 1e6 --length 4 --force -3,1"),
+    ("plane that is none", "workspace robot.json --plane 1.75"),
+    ("grid of one number", "workspace robot.json --plane z=1.75 --grid 41"),
+    ("box the wrong way round", "workspace robot.json --box=1:-1:3,0:1:2,1:2:2"),
+    ("uncertainty of no parameter", "workspace robot.json --plane z=1.75 --uncertainty spring=1"),
+    ("folder that cannot be made", "workspace robot.json --plane z=1.75 --out robot.json/out"),
+    ("negative payload in a study", "study run study_payload.json"),
+    ("robot of a study not there", "study run study_robot.json"),
+    ("unknown field deep in a study", "study run study_law.json"),
+    ("unknown error model", "study run study_model.json"),
+    ("unknown field in a study", "study run study_unknown.json"),
+];
+
+#[test]
+fn every_kind_of_bad_input_is_refused_with_place_value_and_remedy() {
+    let folder = TempDir::new().unwrap();
+    prepare(folder.path());
+    let mut messages = String::new();
+    for (what, line) in CASES {
+        let mut arguments: Vec<_> = line.split_whitespace().collect();
+        if line.ends_with("--lengths") {
+            arguments.push(LENGTHS);
+        }
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
+        let output = command.current_dir(folder.path()).args(&arguments).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        let code = output.status.code().unwrap();
+        assert!(code == 1 || code == 2, "{what}: {code}: {error}");
+        assert!(output.stdout.is_empty(), "{what}");
+        assert!(!error.contains("panicked"), "{what}: {error}");
+        writeln!(messages, "# {what}\n$ cdpr {}\n[{code}] {}\n", arguments.join(" "), error.trim_end())
+            .unwrap();
+    }
+    insta::assert_snapshot!(messages);
+}

@@ -1,0 +1,23 @@
+//! Every command has an example in docs/COMMANDS.md; `book.rs` runs them.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use std::process::Command;
+
+const DOCUMENT: &str = include_str!("../../../docs/COMMANDS.md");
+
+fn examples() -> Vec<&'static str> {
+    let blocks = DOCUMENT.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    blocks.flat_map(str::lines).collect()
+}
+
+#[test]
+fn every_command_has_an_example() {
+    let help = Command::new(env!("CARGO_BIN_EXE_cdpr")).arg("--help").output().unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    let commands = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
+    for command in commands.lines().map(|line| line.split_whitespace().next().unwrap()) {
+        let has_one = examples().iter().any(|line| line.starts_with(&format!("cdpr {command} ")));
+        assert!(has_one || command == "help", "docs/COMMANDS.md has no example of `{command}`");
+    }
+}

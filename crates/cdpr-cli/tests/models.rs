@@ -1,0 +1,331 @@
+//! `cdpr catenary`, `inverse`, `direct`, `deflection`, `stiffness`, `check` and `completions` as a user meets them: the numbers of the
+//! library and of the references in 40-digit arithmetic.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{
+    CableProperties, Platform, Pose, Robot, RobotCable, TensionLimits, UnitQuaternion, Vector3, Wrench,
+};
+use cdpr_statics::{Load, Start, Tangent, deflection, direct, inverse};
+use serde_json::{Value, json};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+fn data(file: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file);
+    path.to_str().unwrap().to_owned()
+}
+
+fn read(file: &str) -> String {
+    std::fs::read_to_string(data(file)).unwrap()
+}
+
+fn caroca() -> Robot {
+    Robot::from_json(&read("robots/caroca.json")).unwrap()
+}
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_cdpr")).args(arguments).output().unwrap()
+}
+
+/// The standard output of a run that must do all that was asked for.
+fn text(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert!(
+        output.status.success() && output.stderr.is_empty(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn answer(arguments: &[&str]) -> Value {
+    serde_json::from_str(&text(&[arguments, &["--format", "json"]].concat())).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    match value {
+        Value::String(digits) => digits.parse().unwrap(),
+        value => value.as_f64().unwrap(),
+    }
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(number).collect()
+}
+
+fn vector(value: &Value) -> Vector3<f64> {
+    Vector3::from_column_slice(&numbers(value))
+}
+
+fn joined(numbers: &[f64]) -> String {
+    numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
+}
+
+fn close(a: f64, b: f64, relative: f64) -> bool {
+    (a - b).abs() <= relative * b.abs()
+}
+
+#[test]
+fn a_cable_is_that_of_40_digit_arithmetic_whichever_two_of_its_values_are_known() {
+    let cases: Vec<Value> = serde_json::from_str(&read("reference/catenary.json")).unwrap();
+    for case in cases.iter().take(24) {
+        let of = |key: &str| number(&case[key]);
+        let (length, end) = (of("unstrained_length"), joined(&[of("x"), of("z")]));
+        let cable = [
+            "catenary",
+            "--weight",
+            &of("weight_per_length").to_string(),
+            "--stiffness",
+            &of("axial_stiffness").to_string(),
+        ];
+        let force = Vector3::new(of("force_x"), of("force_z"), 0.0);
+
+        let length_text = length.to_string();
+        let known = answer(&[&cable[..], &["--length", &length_text, "--end", &end]].concat());
+        let found = numbers(&known["force"]);
+        let error = (Vector3::new(found[0], found[1], 0.0) - force).norm();
+        assert!(error < 1e-8 * force.norm(), "{case}: {known}");
+        assert!(close(number(&known["tension"]["anchor"]), force.norm(), 1e-8));
+        assert!(number(&known["sag"]) >= 0.0 && known["energy"].is_f64());
+
+        let force_text = joined(&found);
+        let end_found = answer(&[&cable[..], &["--length", &length_text, "--force", &force_text]].concat());
+        let apart = vector(&json!([end_found["end"][0], end_found["end"][1], 0.0]))
+            - Vector3::new(of("x"), of("z"), 0.0);
+        assert!(apart.norm() < 1e-12 * length, "{case}: {end_found}");
+
+        // The shorter of two cables has the tension: a taut one.
+        if case["kind"] == "taut" {
+            let tension = number(&known["tension"]["anchor"]).to_string();
+            let length_found = answer(&[&cable[..], &["--end", &end, "--tension", &tension]].concat());
+            assert!(
+                close(number(&length_found["unstrained_length"]), length, 1e-9),
+                "{case}: {length_found}"
+            );
+        }
+    }
+    let printed = text(&["catenary", "--weight", "2", "--stiffness", "1e6", "--length", "6", "--end", "5,0"]);
+    assert!(printed.contains("anchor point       (5.000000, 0.000000) m"), "{printed}");
+}
+
+#[test]
+fn the_inverse_model_prints_the_library_s_numbers_to_the_last_bit() {
+    let robot = data("robots/caroca.json");
+    let arguments = [
+        "inverse",
+        &robot,
+        "--pose",
+        "0.5,-0.3,1.5,0.99,0,0.05,0.1",
+        "--force",
+        "10,0,-20",
+        "--moment",
+        "0,3,0",
+        "--payload",
+        "20",
+    ];
+    let found = answer(&arguments);
+    let pose = Pose::with_quaternion(Vector3::new(0.5, -0.3, 1.5), [0.99, 0.0, 0.05, 0.1]).unwrap();
+    let wrench = Wrench { force: Vector3::new(10.0, 0.0, -20.0), moment: Vector3::new(0.0, 3.0, 0.0) };
+    let exact = inverse(&caroca(), &pose, &Load { payload: 20.0, wrench }, None).unwrap();
+    assert_eq!(numbers(&found["lengths"]), exact.lengths);
+    assert_eq!(numbers(&found["tensions"]), exact.tensions);
+    for (force, exact) in
+        found["cable_forces"].as_array().unwrap().iter().zip(&exact.equilibrium.cable_forces)
+    {
+        assert_eq!(numbers(force), exact.as_slice());
+    }
+    assert_eq!(number(&found["report"]["residual"]["force"]), exact.residual.force);
+    assert!(text(&arguments).contains(&format!("{:.3}", exact.tensions[2])));
+}
+
+/// A robot of the references, its case for `--from`, and what is to be found.
+fn reference(case: &Value) -> (Robot, Value) {
+    let gravity = number(&case["gravity"]);
+    let properties = CableProperties {
+        section: 1.0,
+        linear_density: number(&case["weight_per_length"]) / gravity,
+        youngs_modulus: number(&case["axial_stiffness"]),
+        diameter: None,
+        breaking_force: None,
+    };
+    let points =
+        case["exit_points"].as_array().unwrap().iter().zip(case["anchor_points"].as_array().unwrap());
+    let robot = Robot {
+        name: case["kind"].as_str().unwrap().to_owned(),
+        source: None,
+        gravity,
+        platform: Platform { mass: 1.0, center_of_mass: vector(&case["center_of_mass"]) },
+        tension_limits: TensionLimits { min: 1.0, max: 1e6 },
+        cables: points
+            .map(|(b, a)| RobotCable { exit_point: vector(b), anchor_point: vector(a), properties })
+            .collect(),
+    };
+    let rotation = cdpr_robot::Matrix3::from_fn(|i, j| number(&case["start_rotation"][i][j]));
+    let q = UnitQuaternion::from_matrix(&rotation);
+    let p = numbers(&case["start_position"]);
+    let start = json!([p[0], p[1], p[2], q.w, q.i, q.j, q.k]);
+    let case = json!({
+        "lengths": numbers(&case["unstrained_lengths"]), "mass": number(&case["mass"]), "start": start,
+        "force": numbers(&case["external_force"]), "moment": numbers(&case["external_moment"]),
+    });
+    (robot, case)
+}
+
+#[test]
+fn the_direct_model_finds_the_equilibria_of_40_digit_arithmetic_from_a_file() {
+    let folder = TempDir::new().unwrap();
+    let [robot_path, case_path] = ["robot.json", "case.json"].map(|name| folder.path().join(name));
+    let cases: Vec<Value> = serde_json::from_str(&read("reference/equilibria.json")).unwrap();
+    for expected in cases.iter().take(12) {
+        let (robot, case) = reference(expected);
+        std::fs::write(&robot_path, robot.to_json()).unwrap();
+        std::fs::write(&case_path, case.to_string()).unwrap();
+        let found = answer(&[
+            "direct",
+            robot_path.to_str().unwrap(),
+            "--from",
+            case_path.to_str().unwrap(),
+            "--certify",
+        ]);
+        let far = (vector(&found["position"]) - vector(&expected["position"])).norm();
+        assert!(far < 1e-9, "{}: {far} m", robot.name);
+        for i in 0..3 {
+            for j in 0..3 {
+                let difference = number(&found["rotation"][i][j]) - number(&expected["rotation"][i][j]);
+                assert!(difference.abs() < 1e-9, "{}: {found}", robot.name);
+            }
+        }
+        for (i, force) in found["cable_forces"].as_array().unwrap().iter().enumerate() {
+            let difference = [
+                number(&force[0]) - number(&expected["cable_force_horizontal"][i]),
+                number(&force[1]) - number(&expected["cable_force_vertical"][i]),
+            ];
+            assert!(difference[0].hypot(difference[1]) < 1e-6, "{}: {found}", robot.name);
+        }
+        assert_eq!((&found["stable"], &found["certificate"]["stable"]), (&json!(true), &json!(true)));
+        assert!(number(&found["certificate"]["position"]) < 1e-10);
+        assert!(number(&found["residual"]["force"]) < 1e-6);
+    }
+}
+
+#[test]
+fn a_case_without_answer_keeps_its_place_among_the_others() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("cases.json");
+    let robot = data("robots/caroca.json");
+    let held = inverse(&caroca(), &Pose::at(0.3, 0.2, 1.4), &Load::none(), None).unwrap();
+    let case = |lengths: &[f64], mass: f64| json!({ "lengths": lengths, "mass": mass });
+    let short = [1.0; 8];
+    let cases = json!([
+        case(&held.lengths, 180.0),
+        case(&short, 180.0),
+        case(&held.lengths[..7], 180.0),
+        case(&held.lengths, 230.0)
+    ]);
+    std::fs::write(&path, cases.to_string()).unwrap();
+    let output = run(&["direct", &robot, "--from", path.to_str().unwrap(), "--format", "json"]);
+    assert_eq!(output.status.code(), Some(3));
+    let found: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(found.len(), 4);
+    assert_eq!(found[1]["error"]["kind"], "cable_overstrained");
+    assert_eq!(
+        found[2]["error"]["message"],
+        "lengths is a list of 7: expected one value for each of the 8 cables"
+    );
+    let alone = answer(&["direct", &robot, "--lengths", &joined(&held.lengths)]);
+    assert_eq!(found[0], alone);
+    let mut heavier = caroca();
+    heavier.platform.mass = 230.0;
+    let exact =
+        direct(&heavier, &held.lengths, &Load::none(), Start::Pose(&Pose::at(0.3, 0.2, 1.4))).unwrap();
+    let apart = vector(&found[3]["position"]) - exact.equilibrium.pose.position;
+    assert!(apart.norm() < 1e-12, "{apart}");
+    let text = String::from_utf8(run(&["direct", &robot, "--from", path.to_str().unwrap()]).stdout).unwrap();
+    assert!(text.contains("case 2\nno answer: cable ") && text.contains("case 4\nposition  (0.3"), "{text}");
+}
+
+#[test]
+fn the_deflection_is_that_of_the_paper_s_nominal_robot() {
+    let robot = data("robots/caroca.json");
+    let arguments = ["deflection", &robot, "--pose", "0,0,1.75", "--payload", "50"];
+    let found = answer(&arguments);
+    let exact = deflection(&caroca(), &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0)).unwrap();
+    assert_eq!(number(&found["rms_mm"]), 1e3 * exact.rms());
+    assert_eq!(numbers(&found["deflection_mm"]), (1e3 * exact.displacement()).as_slice());
+    assert_eq!(numbers(&found["loaded"]["tensions"]), exact.loaded.equilibrium.tensions());
+    assert!(text(&arguments).contains("dp = (0.00000, 0.00000, -1.33125) mm, |dp| = 1.33125 mm"));
+}
+
+#[test]
+fn the_stiffness_predicts_the_displacement_under_a_small_force() {
+    let robot = data("robots/caroca.json");
+    let arguments = ["stiffness", &robot, "--pose", "0.4,0.2,1.5"];
+    let found = answer(&arguments);
+    let rows: Vec<Vec<f64>> = found["stiffness"].as_array().unwrap().iter().map(numbers).collect();
+    let pose = Pose::at(0.4, 0.2, 1.5);
+    let held = inverse(&caroca(), &pose, &Load::none(), None).unwrap();
+    let tangent = Tangent::new(&caroca(), &held.lengths, &Load::none(), &held.equilibrium).unwrap();
+    let wrench = Wrench { force: Vector3::new(1.0, 2.0, -3.0), moment: Vector3::zeros() };
+    let motion = tangent.displacement(&wrench);
+    for (row, force) in rows.iter().zip(wrench.to_vector().iter()) {
+        let balanced: f64 = row.iter().zip(motion.iter()).map(|(k, x)| k * x).sum();
+        assert!((balanced - force).abs() < 1e-9, "{balanced} N for {force} N");
+    }
+    let values: Vec<f64> =
+        found["eigenvalues"].as_array().unwrap().iter().map(|v| number(&v["stiffness"])).collect();
+    assert!(values.is_sorted() && values[0] > 0.0 && found["stable"] == true);
+    assert!(close(values[0], number(&found["least_stiffness"]), 1e-12));
+    assert!(text(&arguments).contains("stable; least stiffness"));
+}
+
+#[test]
+fn a_check_ends_with_its_own_code_where_it_warns() {
+    let notes = text(&["check", &data("robots/caroca.json")]);
+    assert!(notes.contains(
+        "note: cables[2].exit_point is [-3.5, 2.0, 3.5] m: the same place as cables[0].exit_point"
+    ));
+    assert!(notes.ends_with("CAROCA: 8 cables, 0 warnings, 5 notes\n"), "{notes}");
+    assert_eq!(answer(&["check", &data("robots/cogiro.json")]), json!([]));
+
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("robot.json");
+    std::fs::write(&path, read("robots/cogiro.json").replace("1.0e11", "100")).unwrap();
+    let output = run(&["check", path.to_str().unwrap(), "--format", "json"]);
+    assert_eq!(output.status.code(), Some(3));
+    let findings: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(findings[0]["severity"], "warning");
+    assert_eq!(findings[0]["field"], "cable.youngs_modulus");
+    assert_eq!(findings[0]["value"], "100 Pa");
+    assert!(findings[0]["remedy"].as_str().unwrap().contains("100 GPa is 1e11"));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    for arguments in [
+        vec!["derivatives", &data("robots/caroca.json"), "--pose", "0,0,1.75", "--payload", "50"],
+        vec!["check", &data("robots/caroca.json")],
+        vec!["completions", "bash"],
+    ] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_cdpr"))
+            .args(&arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success() && output.stderr.is_empty(), "{arguments:?}: {output:?}");
+    }
+}
+
+#[test]
+fn every_shell_gets_completions_of_every_command() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = text(&["completions", shell]);
+        for word in ["catenary", "workspace", "certify"] {
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+    }
+}

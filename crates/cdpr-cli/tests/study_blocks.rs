@@ -1,0 +1,420 @@
+//! Studies in blocks on disk: whatever happens to a run, what comes out in the end is what one that nothing happened to writes.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// Observations of a block.
+const BLOCK: usize = 16_384;
+
+fn data(file: &str) -> Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file);
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// A folder with CAROCA and a study of two samplings, of several blocks each.
+struct Bench {
+    folder: TempDir,
+}
+
+impl Bench {
+    fn new(observations: usize) -> Self {
+        let mut study = data("studies/caroca.json");
+        study["robot"] = json!("caroca.json");
+        study["replicates"] = json!(2);
+        study["bootstrap_resamples"] = json!(2);
+        study["comparison"] = json!([]);
+        // Few inputs: scrambled rows of many would take longer than the mechanics.
+        for model in study["error_models"].as_object_mut().unwrap().values_mut() {
+            model
+                .as_object_mut()
+                .unwrap()
+                .retain(|name, _| ["mass", "youngs_modulus", "cog"].contains(&name.as_str()));
+        }
+        study["samplings"].as_object_mut().unwrap().remove("geometrical");
+        study["surfaces"].as_object_mut().unwrap().remove("surface_rho_m");
+        study["surfaces"]["surface_E_rho"]["x"]["points"] = json!(5);
+        study["surfaces"]["surface_E_rho"]["y"]["points"] = json!(4);
+        for sampling in study["samplings"].as_object_mut().unwrap().values_mut() {
+            sampling["observations"] = json!(observations);
+        }
+        let bench = Self { folder: TempDir::new().unwrap() };
+        std::fs::write(bench.path("caroca.json"), data("robots/caroca.json").to_string()).unwrap();
+        bench.write_study(&study);
+        bench
+    }
+
+    /// The same with measures of sensitivity: Morris's design in a block, Saltelli's in two.
+    fn with_measures(observations: usize) -> Self {
+        let bench = Self::new(observations);
+        let mut study = bench.study();
+        study["sensitivity"] = json!({
+            "observations": 200, "saltelli_blocks": 2400, "bootstrap_resamples": 20, "morris_blocks": 16,
+            "derivative_points": 8, "expansion": {"max_degree": 2, "norm": 1.0, "interactions": 2}
+        });
+        bench.write_study(&study);
+        bench
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn study(&self) -> Value {
+        serde_json::from_str(&std::fs::read_to_string(self.path("my-study.json")).unwrap()).unwrap()
+    }
+
+    fn write_study(&self, study: &Value) {
+        std::fs::write(self.path("my-study.json"), study.to_string()).unwrap();
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
+        command.current_dir(self.folder.path()).arg("study").args(arguments);
+        for variable in ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID"] {
+            command.env_remove(variable);
+        }
+        command
+    }
+
+    fn cdpr(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().unwrap()
+    }
+
+    /// Standard error of a command that must succeed.
+    fn done(&self, arguments: &[&str]) -> String {
+        let output = self.cdpr(arguments);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{arguments:?}: {text}");
+        text
+    }
+
+    /// Message of a command that must fail with code 1, without panicking.
+    fn refused(&self, arguments: &[&str]) -> String {
+        let output = self.cdpr(arguments);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {text}");
+        text
+    }
+
+    fn run(&self, out: &str, arguments: &[&str]) -> String {
+        self.done(&[&["run", "my-study.json", "--out", out], arguments].concat())
+    }
+
+    /// Results by name, but for times.
+    fn results(&self, out: &str) -> BTreeMap<String, Vec<u8>> {
+        let entries = std::fs::read_dir(self.path(out)).unwrap().map(|entry| entry.unwrap());
+        let files = entries.filter(|entry| entry.file_type().unwrap().is_file());
+        let named = files.map(|entry| (entry.file_name().into_string().unwrap(), entry.path()));
+        named
+            .filter(|(name, _)| !["timings.json", "report.html"].contains(&name.as_str()))
+            .map(|(name, path)| (name, std::fs::read(path).unwrap()))
+            .collect()
+    }
+
+    fn assert_same(&self, one: &str, other: &str) {
+        let [one, other] = [one, other].map(|out| self.results(out));
+        assert_eq!(one.keys().collect::<Vec<_>>(), other.keys().collect::<Vec<_>>());
+        assert!(
+            ["summary.json", "mechanical.csv", "mechanical.svg", "surface_E_rho.csv"]
+                .iter()
+                .all(|name| one.contains_key(*name))
+        );
+        for (name, text) in &one {
+            assert!(*text == other[name], "{name} differs");
+        }
+    }
+
+    /// Blocks on disk.
+    fn blocks(&self, out: &str) -> Vec<PathBuf> {
+        let mut folders = vec![self.path(out).join("blocks")];
+        let mut blocks = Vec::new();
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).into_iter().flatten() {
+                let path = entry.unwrap().path();
+                if path.is_dir() { folders.push(path) } else { blocks.push(path) }
+            }
+        }
+        blocks.sort();
+        blocks
+    }
+}
+
+/// Pseudo-random numbers in 0 .. 1, the same in every run of the test (Marsaglia's xorshift).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+#[test]
+fn a_study_killed_at_ten_random_moments_and_resumed_equals_one_that_was_not() {
+    let bench = Bench::with_measures(BLOCK + 1000);
+    let clock = Instant::now();
+    bench.run("whole", &["--threads", "2"]);
+    let whole = clock.elapsed();
+    let mut random = Random(2017);
+    let (mut kills, mut finished) = (0, 0);
+    let mut arguments = vec!["run", "my-study.json", "--out", "killed", "--threads", "1"];
+    while kills < 10 {
+        let mut child =
+            bench.command(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        // Early moments hit the blocks, late ones the analysis and what it writes.
+        std::thread::sleep(Duration::from_secs_f64(1.2 * random.next() * whole.as_secs_f64()));
+        child.kill().unwrap();
+        let output = child.wait_with_output().unwrap();
+        match output.status.code() {
+            None => kills += 1,
+            Some(code) => {
+                assert_eq!(code, 0, "{}", String::from_utf8_lossy(&output.stderr));
+                finished += 1;
+            }
+        }
+        if arguments.len() == 6 {
+            arguments.push("--resume");
+        }
+    }
+    println!("{kills} killed, {finished} finished before, {whole:.1?} a whole run");
+    bench.run("killed", &["--resume", "--threads", "1"]);
+    bench.assert_same("whole", "killed");
+    // Of each sampling its own design, two replicates, Saltelli's and Morris's.
+    assert_eq!(bench.blocks("whole").len(), 2 * (2 + 2 * 2 + 2 + 1));
+    assert_eq!(bench.blocks("killed").len(), bench.blocks("whole").len(), "nothing unfinished is left");
+}
+
+#[test]
+fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there() {
+    let bench = Bench::with_measures(BLOCK + 1000);
+    bench.run("whole", &[]);
+    let merge = ["merge", "shards"];
+    // Two at once, in a folder that neither has made.
+    let begin = |shard| {
+        let mut command = bench.command(&["run", "my-study.json", "--out", "shards", "--shard", shard]);
+        command.stdout(Stdio::null()).spawn().unwrap()
+    };
+    let children = ["3/3", "1/3"].map(begin);
+    for mut child in children {
+        assert!(child.wait().unwrap().success());
+    }
+    let message = bench.refused(&merge);
+    assert!(
+        message.starts_with("error: shards lacks 6 of 18 blocks, the first one shards/blocks/"),
+        "{message}"
+    );
+    assert!(!bench.path("shards/summary.json").exists());
+    let output = bench.cdpr(&["status", "shards", "--format", "json"]);
+    let status: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(status["complete"], false);
+    let count = |key: &str| -> u64 {
+        let samplings = status["samplings"].as_object().unwrap().values();
+        let designs = samplings.flat_map(|sampling| sampling["designs"].as_object().unwrap().values());
+        designs.map(|design| design[key].as_u64().unwrap()).sum()
+    };
+    assert_eq!((count("blocks_done"), count("blocks_missing")), (12, 6));
+    // The last third, as a job array of Slurm has it.
+    let mut command = bench.command(&["run", "my-study.json", "--out", "shards", "--shard", "auto"]);
+    for (end, value) in [("ID", "2"), ("MIN", "1"), ("MAX", "3"), ("COUNT", "3")] {
+        command.env(format!("SLURM_ARRAY_TASK_{end}"), value);
+    }
+    assert!(command.output().unwrap().status.success());
+    bench.done(&merge);
+    bench.assert_same("whole", "shards");
+}
+
+#[test]
+fn a_study_extended_twice_equals_one_run_of_its_last_size_and_keeps_its_blocks() {
+    let bench = Bench::new(500);
+    bench.run("extended", &[]);
+    bench.done(&["extend", "extended", "--observations", "16800"]);
+    let first = bench.path("extended/blocks/mechanical/sampling/000000.block");
+    let written = std::fs::metadata(&first).unwrap().modified().unwrap();
+    bench.done(&["extend", "extended", "--observations", "17000", "--threads", "1"]);
+    assert_eq!(std::fs::metadata(&first).unwrap().modified().unwrap(), written, "a full block is left alone");
+    bench.run("whole", &["--observations", "17000"]);
+    bench.assert_same("whole", "extended");
+    let message = bench.refused(&["extend", "extended", "--observations", "16999"]);
+    assert!(message.contains("--observations is 16999: expected at least 17000"), "{message}");
+}
+
+#[test]
+fn damaged_blocks_are_named_and_made_again() {
+    let bench = Bench::new(300);
+    bench.run("whole", &[]);
+    bench.run("out", &[]);
+    let blocks = bench.blocks("out");
+    let mut bytes = std::fs::read(&blocks[0]).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    std::fs::write(&blocks[0], &bytes).unwrap();
+    std::fs::write(&blocks[1], &bytes[..middle]).unwrap();
+    std::fs::write(&blocks[2], b"").unwrap();
+    let message = bench.refused(&["merge", "out"]);
+    assert!(message.contains("out lacks 3 of 6 blocks"), "{message}");
+    let text = String::from_utf8(bench.cdpr(&["status", "out"]).stdout).unwrap();
+    assert_eq!(text.matches("damaged, will be made again").count(), 3, "{text}");
+    let warnings = bench.run("out", &["--resume"]);
+    for block in &blocks[..3] {
+        let name = block.strip_prefix(bench.path("")).unwrap().display().to_string();
+        assert!(warnings.contains(&format!("warning: {name} is damaged: ")), "{warnings}");
+    }
+    assert_eq!(warnings.lines().count(), 3, "{warnings}");
+    bench.assert_same("whole", "out");
+}
+
+#[test]
+fn blocks_of_another_study_are_refused_with_both_hashes() {
+    let bench = Bench::new(300);
+    bench.run("out", &[]);
+    let blocks = bench.blocks("out");
+    let mut study = bench.study();
+    study["payload"] = json!(51.0);
+    study["name"] = json!("Another payload");
+    bench.write_study(&study);
+    let run = ["run", "my-study.json", "--out", "out"];
+    for options in [&[][..], &["--resume"], &["--shard", "1/2"]] {
+        let message = bench.refused(&[&run[..], options].concat());
+        assert!(
+            message.starts_with("error: out holds study ") && message.contains("--overwrite"),
+            "{message}"
+        );
+        let hashes: Vec<_> = message
+            .split([' ', ','])
+            .filter(|word| word.len() == 32 && word.chars().all(|c| c.is_ascii_hexdigit()))
+            .collect();
+        assert!(hashes.len() == 2 && hashes[0] != hashes[1], "{message}");
+    }
+    bench.run("other", &[]);
+    std::fs::copy(&blocks[0], &bench.blocks("other")[0]).unwrap();
+    let message = bench.refused(&["run", "my-study.json", "--out", "other", "--resume"]);
+    assert!(message.contains("000000.block is of study ") && message.contains("expected"), "{message}");
+    // Nor is a block read in the place of another.
+    std::fs::copy(&bench.blocks("other")[2], &bench.blocks("other")[0]).unwrap();
+    let message = bench.refused(&["merge", "other"]);
+    assert!(message.contains("is of design sampling: expected replicate-1"), "{message}");
+    // It is told to.
+    bench.run("out", &["--overwrite"]);
+    assert!(bench.path("out/summary.json").exists());
+}
+
+#[test]
+fn titles_and_numbers_of_observations_make_no_other_study() {
+    let bench = Bench::new(300);
+    bench.run("out", &[]);
+    let mut study = bench.study();
+    study["name"] = json!("Another name");
+    study["samplings"]["mechanical"]["title"] = json!("Another title");
+    study["bootstrap_resamples"] = json!(3);
+    bench.write_study(&study);
+    // Without a table: that of the larger run would not be of this one.
+    bench.run("out", &["--resume", "--observations", "200", "--table", "none"]);
+    assert!(!bench.path("out/mechanical.csv").exists());
+    bench.run("out", &["--resume", "--observations", "200"]);
+    bench.run("whole", &["--observations", "200"]);
+    bench.assert_same("whole", "out");
+}
+
+#[test]
+fn a_folder_in_use_is_refused_and_nothing_of_it_touched() {
+    let bench = Bench::new(300);
+    bench.run("out", &[]);
+    let before = bench.results("out");
+    let message = bench.refused(&["run", "my-study.json", "--out", "out"]);
+    assert_eq!(
+        message,
+        "error: out holds 6 blocks of this study: --resume goes on with them, --overwrite begins anew\n"
+    );
+    assert_eq!(bench.results("out"), before);
+    // A study file that no run has written, the very one to run among them.
+    std::fs::rename(bench.path("my-study.json"), bench.path("study.json")).unwrap();
+    let message = bench.refused(&["run", "study.json", "--out", "."]);
+    assert!(message.contains("study.json was not written by a run"), "{message}");
+    // One that a run has written goes on in its own folder.
+    bench.done(&["run", "out/study.json", "--out", "out", "--resume"]);
+    assert_eq!(bench.results("out"), before);
+}
+
+#[test]
+fn shards_that_are_none_and_folders_without_a_study_are_refused() {
+    let bench = Bench::new(300);
+    for shard in ["0/4", "5/4", "x"] {
+        let message = bench.refused(&["run", "my-study.json", "--shard", shard]);
+        assert!(message.starts_with(&format!("error: --shard is {shard}: expected i/n")), "{message}");
+    }
+    assert!(!bench.path("results").exists());
+    for command in
+        [&["merge", "nowhere"][..], &["status", "nowhere"], &["extend", "nowhere", "--observations", "9"]]
+    {
+        let message = bench.refused(command);
+        assert!(message.starts_with("error: cannot read nowhere/study.json: No such file"), "{message}");
+    }
+}
+
+#[test]
+fn a_new_study_of_ones_own_robot_runs_as_it_is() {
+    let bench = Bench::new(300);
+    std::fs::create_dir(bench.path("mine")).unwrap();
+    std::fs::write(bench.path("mine/robot-1.json"), data("robots/cogiro.json").to_string()).unwrap();
+    let new = ["new", "--robot", "mine/robot-1.json", "--out", "mine/study-1.json"];
+    let output = bench.cdpr(&new);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let notes = String::from_utf8(output.stdout).unwrap();
+    assert!(notes.contains("error_models") && notes.contains("cdpr study run FILE"), "{notes}");
+    bench.done(&["run", "mine/study-1.json", "--out", "out", "--observations", "64"]);
+    assert!(bench.path("out/all_sensitivity.svg").exists());
+    let message = bench.refused(&new);
+    assert!(message.starts_with("error: cannot write mine/study-1.json: File exists"), "{message}");
+    let message = bench.refused(&["new", "--robot", "mine/robot-1.json", "--position", "0,0,99"]);
+    assert!(message.starts_with("error: --position is [0.0, 0.0, 99.0]: expected a position"), "{message}");
+}
+
+/// Signals a child as Ctrl-C does, or lets a shell limit its files.
+#[cfg(unix)]
+mod unix {
+    use super::*;
+
+    #[test]
+    fn an_interrupted_run_says_how_to_go_on_and_exits_with_130() {
+        let bench = Bench::new(400_000);
+        let arguments = ["run", "my-study.json", "--out", "out"];
+        let child = bench.command(&arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+        let clock = Instant::now();
+        while bench.blocks("out").is_empty() && clock.elapsed() < Duration::from_secs(60) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130));
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(text.contains("interrupted: what is done is in out; go on with: cdpr study run out/study.json --out out --resume"), "{text}");
+        assert!(!bench.blocks("out").is_empty());
+    }
+
+    #[test]
+    fn a_disk_that_is_full_is_named_and_the_blocks_before_it_are_kept() {
+        let bench = Bench::new(2 * BLOCK);
+        bench.run("whole", &[]);
+        // Files of at most 2 MB: the table does not fit, blocks do.
+        let limited =
+            "trap '' XFSZ; ulimit -f 2000; exec \"$0\" study run my-study.json --out out --threads 1";
+        let mut command = Command::new("bash");
+        command.current_dir(bench.folder.path()).args(["-c", limited, env!("CARGO_BIN_EXE_cdpr")]);
+        let output = command.output().unwrap();
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(text.starts_with("error: cannot write out/mechanical.csv: File too large"), "{text}");
+        assert!(!bench.path("out/mechanical.csv").exists(), "half a table looks like a whole one");
+        assert_eq!(bench.blocks("out").len(), 1);
+        bench.run("out", &["--resume"]);
+        bench.assert_same("whole", "out");
+    }
+}

@@ -1,0 +1,113 @@
+//! `cdpr workspace` as a user meets it: the table, the summary, the maps.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{Load, deflection};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+fn data(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file)
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
+    command.current_dir(folder).arg("workspace").arg(data("robots/caroca.json")).args(arguments);
+    let output = command.output().unwrap();
+    assert!(
+        output.status.success() && output.stderr.is_empty(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    output
+}
+
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<_> = entries
+        .map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), std::fs::read(&path).unwrap()))
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_threads() {
+    let folder = TempDir::new().unwrap();
+    let arguments = [
+        "--plane",
+        "z=1.75",
+        "--grid",
+        "9x7",
+        "--payload",
+        "50",
+        "--uncertainty",
+        "a=0.002,youngs_modulus=5e9",
+    ];
+    let text = run(folder.path(), &[&arguments[..], &["--threads", "1", "--out", "one"]].concat()).stdout;
+    let json = run(
+        folder.path(),
+        &[&arguments[..], &["--threads", "2", "--out", "two", "--format", "json"]].concat(),
+    );
+    let written = files(&folder.path().join("one"));
+    assert_eq!(written, files(&folder.path().join("two")));
+    let names: Vec<_> = written.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(
+        names,
+        ["deflection.svg", "greatest_tension.svg", "least_stiffness.svg", "workspace.csv", "workspace.json"]
+    );
+    assert!(String::from_utf8(text).unwrap().contains("63 positions, payload 50 kg"));
+
+    let summary: Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(summary, serde_json::from_slice::<Value>(&written[4].1).unwrap());
+    assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 25);
+    let robot = Robot::from_json(&std::fs::read_to_string(data("robots/caroca.json")).unwrap()).unwrap();
+    let center = &summary["rows"][31];
+    let exact = deflection(&robot, &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0)).unwrap();
+    assert_eq!((center["x"].as_f64(), center["y"].as_f64()), (Some(0.0), Some(0.0)));
+    assert_eq!(center["rms_mm"].as_f64(), Some((1e3 * exact.displacement()).norm()));
+    assert_eq!((&center["status"], &center["dominant"]), (&"held".into(), &"youngs_modulus".into()));
+    assert_eq!(
+        (&summary["rows"][0]["status"], &summary["rows"][0]["rms_mm"]),
+        (&"infeasible_tension".into(), &Value::Null)
+    );
+
+    let table = String::from_utf8(written[3].1.clone()).unwrap();
+    let lines: Vec<_> = table.lines().collect();
+    assert_eq!(lines.len(), 64);
+    assert!(lines[0].starts_with("x,y,z,status,least_tension,greatest_tension,dx_mm"));
+    assert!(
+        lines[32].starts_with("0,0,1.75,held,") || lines[32].starts_with("0.0,0.0,1.75,held,"),
+        "{}",
+        lines[32]
+    );
+    assert!(lines[1].contains("no tensions between 1 N and 10290 N"), "{}", lines[1]);
+}
+
+#[test]
+fn a_box_has_no_maps_and_a_study_may_give_the_tolerances() {
+    let folder = TempDir::new().unwrap();
+    let study = data("studies/caroca.json");
+    let arguments = [
+        "--box=-1:1:3,0:0:1,1:2:2",
+        "--study",
+        study.to_str().unwrap(),
+        "--error-model",
+        "table_3",
+        "--out",
+        "out",
+    ];
+    let summary: Value =
+        serde_json::from_slice(&run(folder.path(), &[&arguments[..], &["--format", "json"]].concat()).stdout)
+            .unwrap();
+    assert_eq!(summary["rows"].as_array().unwrap().len(), 6);
+    assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 62);
+    // A uniform law of half width 18 kg.
+    assert!((summary["uncertainties"]["mass"].as_f64().unwrap() - 18.0 / 3f64.sqrt()).abs() < 1e-12);
+    assert_eq!(files(&folder.path().join("out")).len(), 5, "the box is a plane: y has one place");
+    run(folder.path(), &["--box=-1:1:2,0:1:2,1:2:2", "--out", "box"]);
+    assert_eq!(files(&folder.path().join("box")).len(), 2);
+}

@@ -1,0 +1,65 @@
+//! Maps of a plane: what is in them, and what is no plane.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_report::{MapQuantity, ReportError, heat_map};
+use cdpr_robot::{Axis, Robot};
+use cdpr_study::{Grid, GridAxis, Workspace, WorkspaceSummary, compute_workspace};
+
+fn caroca() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+fn summary(robot: &Robot, grid: Grid) -> WorkspaceSummary {
+    let workspace = Workspace { robot, grid, payload: 50.0, tolerances: None };
+    WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| ()).unwrap())
+}
+
+fn count(svg: &str, what: &str) -> usize {
+    svg.matches(what).count()
+}
+
+#[test]
+fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
+    let robot = caroca();
+    let summary = summary(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap());
+    let not_held = summary.rows.iter().filter(|row| row.status != "held").count();
+    assert!(not_held > 0 && not_held < 63);
+    for quantity in MapQuantity::ALL {
+        let svg = heat_map(&robot, &summary, quantity).unwrap();
+        // The paper, 63 cells, 128 steps of the colour bar; grey for a cell without value and for the key's bar as a line.
+        assert_eq!(count(&svg, "<rect"), 1 + 63 + 128, "{quantity:?}");
+        assert_eq!(count(&svg, "fill=\"#B0B0B0\""), not_held);
+        assert_eq!(count(&svg, "<circle"), 8);
+        for words in
+            ["CAROCA: ", "at z = 1.75 m, payload 50 kg", "x [m]", "y [m]", "frame of the exit points"]
+        {
+            assert!(svg.contains(words), "{quantity:?}: {words}");
+        }
+        assert_eq!(svg, heat_map(&robot, &summary, quantity).unwrap());
+    }
+}
+
+#[test]
+fn a_load_beyond_the_limits_is_coloured_and_hatched() {
+    let robot = caroca();
+    let mut summary = summary(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap());
+    let lines = |summary: &WorkspaceSummary| {
+        count(&heat_map(&robot, summary, MapQuantity::Deflection).unwrap(), "<polyline")
+    };
+    let before = lines(&summary);
+    summary.rows[31].status = "beyond_limits";
+    assert_eq!(lines(&summary), before + 1);
+}
+
+#[test]
+fn a_box_and_a_plane_without_any_held_position_have_no_map() {
+    let robot = caroca();
+    let axis = |min, max, points| GridAxis { min, max, points };
+    let solid = Grid::new([axis(0.0, 1.0, 2), axis(0.0, 1.0, 2), axis(1.0, 2.0, 2)]).unwrap();
+    let error = heat_map(&robot, &summary(&robot, solid), MapQuantity::Deflection).unwrap_err();
+    assert!(error.to_string().ends_with("expected one place along one axis: a plane"), "{error}");
+    let above = Grid::over_frame(&robot, Axis::Z, 9.0, [3, 3]).unwrap();
+    let error = heat_map(&robot, &summary(&robot, above), MapQuantity::Deflection).unwrap_err();
+    assert!(matches!(error, ReportError::Empty { .. }), "{error}");
+}

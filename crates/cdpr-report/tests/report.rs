@@ -1,0 +1,134 @@
+//! What the report holds, and that nothing in it breaks out or is loaded.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod common;
+
+use cdpr_report::{Points, histogram, point_effects, report, shares, signed_effects, surface};
+use cdpr_study::{Results, StudySummary};
+use serde_json::json;
+
+const PLOTLY: &str = include_str!("../vendor/plotly/plotly-gl3d.min.js");
+
+/// The page without the library that it carries.
+fn page(results: &Results) -> String {
+    let html = report(results).unwrap();
+    assert_eq!(html.matches(PLOTLY).count(), 1);
+    html.replace(PLOTLY, "")
+}
+
+/// The value of each attribute of this name.
+fn attributes<'a>(html: &'a str, name: &str) -> Vec<&'a str> {
+    html.split(&format!(" {name}=\"")).skip(1).map(|rest| rest.split('"').next().unwrap()).collect()
+}
+
+#[test]
+fn every_figure_of_the_study_is_in_the_report_with_the_bytes_of_its_file() {
+    let results = common::caroca(|_, _| ());
+    let html = page(&results);
+    let mut samplings = Vec::new();
+    for (name, study) in &results.summary.studies {
+        match study {
+            StudySummary::Sampling(sampling) => {
+                assert!(html.contains(&histogram(sampling).unwrap()), "{name}");
+                assert!(html.contains(&signed_effects(sampling, 20).unwrap()), "{name}_effects");
+                assert!(html.contains(&shares(sampling, 12).unwrap()), "{name}_sensitivity");
+                samplings.push((name.as_str(), sampling.as_ref()));
+            }
+            StudySummary::Surface(summary) => {
+                assert!(html.contains(&surface(summary, &results.surfaces[name]).unwrap()), "{name}");
+            }
+        }
+    }
+    for points in [Points::Anchor, Points::Exit] {
+        assert!(html.contains(&point_effects(&results.study.robot, &samplings, points).unwrap()));
+    }
+    assert!(html.contains("id=\"plot-robot\"") && html.contains("id=\"plot-surface_E_rho\""));
+}
+
+#[test]
+fn the_report_says_what_is_reproduced_what_is_not_and_why() {
+    let results = common::caroca(|study, _| study["comparison"][6]["note"] = json!("no load explains it"));
+    let html = page(&results);
+    let not =
+        results.summary.comparison.iter().filter(|row| row.verdict.to_string() == "not reproduced").count();
+    assert!(not > 0);
+    assert_eq!(html.matches("class=\"verdict no\"").count(), not);
+    assert!(html.contains("no load explains it"));
+    for text in ["Seed", "2017", "cdpr study run study.json", "Wall time on 2 threads", "\u{b1}18", "GPa"] {
+        assert!(html.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn nothing_is_loaded_from_outside() {
+    for results in [common::caroca(|_, _| ()), common::cogiro()] {
+        let html = page(&results);
+        assert!(attributes(&html, "src").is_empty());
+        for address in attributes(&html, "href") {
+            assert!(
+                address.starts_with('#') || address.starts_with("data:application/json;base64,"),
+                "{address}"
+            );
+        }
+        assert!(!html.contains("url(") && !html.contains("@import"));
+        assert!(html.contains("default-src 'none'; script-src 'sha256-"));
+    }
+}
+
+#[test]
+fn hostile_names_stay_text() {
+    let hostile = "</script><script>alert('x')</script><img src=x onerror=alert(1)>";
+    let results = common::caroca(|study, robot| {
+        study["name"] = json!(hostile);
+        study["source"] = json!(hostile);
+        study["samplings"]["mechanical"]["title"] = json!(hostile);
+        study["surfaces"]["surface_E_rho"]["title"] = json!(hostile);
+        study["comparison"][0]["quantity"] = json!(hostile);
+        robot["name"] = json!(hostile);
+        robot["source"] = json!(hostile);
+    });
+    let html = page(&results);
+    assert_eq!(html.matches("<script").count(), 3, "the data and two scripts");
+    assert_eq!(html.matches("</script").count(), 3);
+    assert!(!html.contains("<img"));
+    assert!(html.contains("&lt;script&gt;alert"));
+}
+
+#[test]
+fn every_robot_and_every_part_of_a_study_has_a_report() {
+    let html = page(&common::cogiro());
+    assert!(html.contains("CoGiRo") && html.contains("id=\"figure-all\""));
+    for id in ["surfaces", "comparison", "effects", "measures"] {
+        assert!(!html.contains(&format!("<section id=\"{id}\"")), "{id}");
+    }
+
+    let nine = common::caroca(|study, robot| {
+        let cable = json!({"exit_point": [0.0, 2.0, 3.5], "anchor_point": [0.0, 0.15, 0.125]});
+        robot["cables"].as_array_mut().unwrap().push(cable);
+        study["samplings"].as_object_mut().unwrap().retain(|name, _| name == "geometrical");
+        study["comparison"] = json!([]);
+        study["surfaces"] = json!({});
+    });
+    assert!(page(&nine).contains("A9") && page(&nine).contains("9 cables"));
+
+    let surfaces = page(&common::caroca(|study, _| {
+        study["samplings"] = json!({});
+        study["comparison"] = json!([]);
+    }));
+    assert!(
+        surfaces.contains("id=\"figure-surface_rho_m\"")
+            && !surfaces.contains("<section id=\"distributions\"")
+    );
+}
+
+#[test]
+fn what_cannot_be_drawn_is_said_in_its_place() {
+    let mut results = common::cogiro();
+    let Some(StudySummary::Sampling(sampling)) = results.summary.studies.get_mut("all") else {
+        panic!("no sampling")
+    };
+    sampling.histogram = None;
+    let html = page(&results);
+    assert!(html.contains("No figure <code>all</code>: nothing to draw: histogram"));
+}

@@ -1,0 +1,207 @@
+//! Grids of positions: a plane or a box of the base frame.
+
+use crate::error::StudyError;
+use cdpr_robot::{Axis, Pose, Robot};
+use serde::Serialize;
+
+/// Places along one axis, equally spaced from `min` to `max`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct GridAxis {
+    /// First place [m].
+    pub min: f64,
+    /// Last place [m].
+    pub max: f64,
+    /// Number of places; 1 where `min` is `max`.
+    pub points: usize,
+}
+
+/// Level positions on a grid of the base frame, x slowest and z fastest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Grid {
+    x: GridAxis,
+    y: GridAxis,
+    z: GridAxis,
+}
+
+/// Positions of a grid, whose results are held in memory as a whole.
+const MOST: usize = 4_000_000;
+
+/// Exit points that differ by less than this share of the frame's size along an axis lie in a plane across it.
+const FLAT: f64 = 0.1;
+
+impl GridAxis {
+    fn validate(&self, name: &str) -> Result<(), StudyError> {
+        let Self { min, max, points } = *self;
+        let many = points > 1 && min < max;
+        if min.is_finite() && max.is_finite() && (many || (points == 1 && min == max)) {
+            return Ok(());
+        }
+        let expected =
+            "min:max:points in [m], min below max and two points or more, or one point at min = max";
+        Err(StudyError::setting(format!("grid along {name}"), format!("{min}:{max}:{points}"), expected))
+    }
+
+    /// The places [m].
+    pub fn places(&self) -> Vec<f64> {
+        let last = (self.points.max(2) - 1) as f64;
+        // Weighted ends: the last place is `max` itself.
+        let place = |k: usize| self.min * ((last - k as f64) / last) + self.max * (k as f64 / last);
+        (0..self.points).map(place).collect()
+    }
+}
+
+impl Grid {
+    /// From the places along x, y and z.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] for places that are none, and for more positions than fit in memory.
+    pub fn new(axes: [GridAxis; 3]) -> Result<Self, StudyError> {
+        for (axis, name) in axes.iter().zip(["x", "y", "z"]) {
+            axis.validate(name)?;
+        }
+        let count = axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.points));
+        if count.is_none_or(|count| count > MOST) {
+            let value = axes.map(|axis| axis.points.to_string()).join(" x ");
+            return Err(StudyError::setting("grid", value, format!("at most {MOST} positions")));
+        }
+        let [x, y, z] = axes;
+        Ok(Self { x, y, z })
+    }
+
+    /// The plane in which the coordinate `normal` is `place` [m], over the frame: the ranges of the exit points' other two coordinates,
+    /// with so many points each. Where all exit points are at about one height, heights begin at the floor of the base frame, z = 0.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] where the exit points do not span the plane, and as [`Grid::new`].
+    pub fn over_frame(
+        robot: &Robot,
+        normal: Axis,
+        place: f64,
+        points: [usize; 2],
+    ) -> Result<Self, StudyError> {
+        let frame = frame(robot);
+        let size = frame.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+        let mut points = points.into_iter();
+        let mut axes = [GridAxis { min: place, max: place, points: 1 }; 3];
+        for (axis, [low, high]) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip(frame) {
+            if axis == normal {
+                continue;
+            }
+            let flat = high - low < FLAT * size;
+            let (min, max) = if flat && axis == Axis::Z { (0.0, high) } else { (low, high) };
+            if max - min < FLAT * size {
+                return Err(StudyError::setting(
+                    "plane",
+                    format!("{}={place}", letter(normal)),
+                    format!(
+                        "a plane that the exit points span: along {} they do not; give a box",
+                        letter(axis)
+                    ),
+                ));
+            }
+            axes[axis as usize] = GridAxis { min, max, points: points.next().unwrap_or(1) };
+        }
+        Self::new(axes)
+    }
+
+    /// The places along an axis.
+    pub fn axis(&self, axis: Axis) -> &GridAxis {
+        match axis {
+            Axis::X => &self.x,
+            Axis::Y => &self.y,
+            Axis::Z => &self.z,
+        }
+    }
+
+    /// The axis across, if the grid is a plane: the only one with one place.
+    pub fn normal(&self) -> Option<Axis> {
+        let mut across = [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|axis| self.axis(*axis).points == 1);
+        across.next().filter(|_| across.next().is_none())
+    }
+
+    /// All positions as level poses.
+    pub fn poses(&self) -> Vec<Pose> {
+        let [x, y, z] = [self.x, self.y, self.z].map(|axis| axis.places());
+        let mut poses = Vec::with_capacity(x.len() * y.len() * z.len());
+        for x in x {
+            for y in &y {
+                poses.extend(z.iter().map(|z| Pose::at(x, *y, *z)));
+            }
+        }
+        poses
+    }
+}
+
+/// Least and greatest coordinate of the exit points along x, y and z [m].
+pub fn frame(robot: &Robot) -> [[f64; 2]; 3] {
+    [0, 1, 2].map(|axis| {
+        let places = || robot.cables.iter().map(|cable| cable.exit_point[axis]);
+        [places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max)]
+    })
+}
+
+/// The letter of an axis.
+pub fn letter(axis: Axis) -> char {
+    match axis {
+        Axis::X => 'x',
+        Axis::Y => 'y',
+        Axis::Z => 'z',
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(min: f64, max: f64, points: usize) -> GridAxis {
+        GridAxis { min, max, points }
+    }
+
+    #[test]
+    fn a_grid_runs_from_end_to_end_with_z_fastest() {
+        let grid = Grid::new([axis(-0.3, 0.1, 3), axis(0.0, 0.0, 1), axis(2.0, 3.0, 2)]).unwrap();
+        let poses = grid.poses();
+        assert_eq!(poses.len(), 6);
+        assert_eq!((poses[0], poses[1]), (Pose::at(-0.3, 0.0, 2.0), Pose::at(-0.3, 0.0, 3.0)));
+        assert_eq!(poses[5], Pose::at(0.1, 0.0, 3.0));
+        assert_eq!(grid.normal(), Some(Axis::Y));
+    }
+
+    #[test]
+    fn a_grid_that_is_none_is_refused_with_its_numbers() {
+        let fine = axis(0.0, 1.0, 2);
+        for (bad, value) in [
+            (axis(1.0, 0.0, 2), "1:0:2"),
+            (axis(0.0, 1.0, 1), "0:1:1"),
+            (axis(0.0, 0.0, 0), "0:0:0"),
+            (axis(f64::NAN, 1.0, 2), "NaN:1:2"),
+        ] {
+            let message = Grid::new([fine, bad, fine]).unwrap_err().to_string();
+            assert!(
+                message.starts_with(&format!("grid along y is {value}: expected min:max:points")),
+                "{message}"
+            );
+        }
+        let large = Grid::new([axis(0.0, 1.0, usize::MAX); 3]).unwrap_err().to_string();
+        assert!(large.ends_with("expected at most 4000000 positions"), "{large}");
+    }
+
+    #[test]
+    fn a_plane_covers_the_frame_and_a_suspended_robot_hangs_over_the_floor() {
+        let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
+        let level = Grid::over_frame(&robot, Axis::Z, 1.75, [5, 3]).unwrap();
+        assert_eq!(
+            (level.x, level.y, level.z),
+            (axis(-3.5, 3.5, 5), axis(-2.0, 2.0, 3), axis(1.75, 1.75, 1))
+        );
+        let upright = Grid::over_frame(&robot, Axis::X, 0.5, [5, 3]).unwrap();
+        assert_eq!(
+            (upright.x, upright.y, upright.z),
+            (axis(0.5, 0.5, 1), axis(-2.0, 2.0, 5), axis(0.0, 3.5, 3))
+        );
+        let mut sunk = robot.clone();
+        sunk.cables.iter_mut().for_each(|cable| cable.exit_point.z -= 3.5);
+        let message = Grid::over_frame(&sunk, Axis::X, 0.0, [5, 3]).unwrap_err().to_string();
+        assert!(message.starts_with("plane is x=0: expected a plane that the exit points span"), "{message}");
+    }
+}

@@ -1,0 +1,89 @@
+//! A folder of results read back, for what is made of it afterwards.
+
+use crate::error::StudyError;
+use crate::folder::{STUDY_NAME, Timings};
+use crate::output::{StudySummary, Summary};
+use crate::study::{Study, read};
+use crate::surface::{SurfaceResult, SurfaceSummary};
+use cdpr_robot::from_json;
+use indexmap::IndexMap;
+use serde::de::DeserializeOwned;
+use std::path::Path;
+
+/// Everything that a folder of results holds, but the observations.
+#[derive(Clone, Debug)]
+pub struct Results {
+    /// The study with its robot, from `study.json`.
+    pub study: Study,
+    /// The text of `study.json`.
+    pub study_json: String,
+    /// The text of the robot file that it names.
+    pub robot_json: String,
+    /// `summary.json`.
+    pub summary: Summary,
+    /// The tables of the surfaces by name; a point that failed has the kind of its failure.
+    pub surfaces: IndexMap<String, SurfaceResult<String>>,
+    /// `timings.json`, if there is such a file.
+    pub timings: Option<Timings>,
+}
+
+impl Results {
+    /// Reads the folder that a run of a study has written.
+    ///
+    /// # Errors
+    /// [`StudyError`] naming the file that is missing or is none, with field and reason.
+    pub fn read(folder: &Path) -> Result<Self, StudyError> {
+        let path = folder.join(STUDY_NAME);
+        let study_json = read(&path)?;
+        let study = Study::from_json(&study_json, &path)?;
+        let robot_json = read(&folder.join(&study.file.robot))?;
+        let summary: Summary = read_json(&folder.join("summary.json"))?;
+        let mut surfaces = IndexMap::new();
+        for (name, found) in &summary.studies {
+            if let StudySummary::Surface(surface) = found {
+                surfaces.insert(name.clone(), read_surface(&folder.join(format!("{name}.csv")), surface)?);
+            }
+        }
+        let timings = match read_json(&folder.join("timings.json")) {
+            Err(StudyError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => None,
+            timings => Some(timings?),
+        };
+        Ok(Self { study, study_json, robot_json, summary, surfaces, timings })
+    }
+}
+
+fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, StudyError> {
+    from_json(&read(path)?).map_err(|source| StudyError::Format { path: path.to_owned(), source })
+}
+
+/// Reads the table that `write_surface` has written: the second parameter runs faster.
+fn read_surface(path: &Path, summary: &SurfaceSummary) -> Result<SurfaceResult<String>, StudyError> {
+    let invalid = |field: String, value: &str, expected: &str| StudyError::Invalid {
+        path: path.to_owned(),
+        field,
+        value: value.to_owned(),
+        expected: expected.to_owned(),
+    };
+    let text = read(path)?;
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let mut points = Vec::new();
+    for (k, record) in reader.deserialize::<(f64, f64, Option<f64>, String)>().enumerate() {
+        let (x, y, rms, status) = record.map_err(|error| {
+            invalid(format!("row {}", k + 1), &error.to_string(), "two parameters, rms_mm and status")
+        })?;
+        points.push((x, y, rms.ok_or(status)));
+    }
+    let columns = points.iter().take_while(|point| point.0 == points[0].0).count();
+    let whole = columns > 0 && points.len() % columns == 0 && points.len() == summary.observations;
+    let same = |k: usize| points[k].0 == points[k - k % columns].0 && points[k].1 == points[k % columns].1;
+    if !(whole && (0..points.len()).all(same)) {
+        let expected =
+            format!("a grid of {} points, the second parameter running faster", summary.observations);
+        return Err(invalid("rows".to_owned(), &points.len().to_string(), &expected));
+    }
+    Ok(SurfaceResult {
+        x: points.iter().step_by(columns).map(|point| point.0).collect(),
+        y: points[..columns].iter().map(|point| point.1).collect(),
+        rms_mm: points.into_iter().map(|(.., rms)| rms).collect(),
+    })
+}

@@ -1,0 +1,293 @@
+//! Where a robot can work, and how well: tensions, deflection, stiffness and the tolerance that matters most, pose by pose.
+
+use crate::error::StudyError;
+use crate::error_model::ErrorModel;
+use crate::grid::Grid;
+use cdpr_robot::{Parameter, Pose, Robot, Vector3};
+use cdpr_statics::{Deflection, Derivatives, Load, StaticsError, deflection, derivatives};
+use indexmap::IndexMap;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// What is asked of every position of a grid.
+#[derive(Clone, Copy, Debug)]
+pub struct Workspace<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// The positions; the platform is level.
+    pub grid: Grid,
+    /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
+    pub payload: f64,
+    /// What is uncertain; none where no tolerance is asked for.
+    pub tolerances: Option<&'a ErrorModel>,
+}
+
+/// A position and what was found there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorkspacePose {
+    /// The wanted pose.
+    pub pose: Pose,
+    /// What holds the platform there; the reason if nothing does, or if what does cannot bear the load.
+    pub outcome: Result<Held, StaticsError>,
+}
+
+/// A pose that is held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Held {
+    /// Least tension at the platform, without and with the load [N].
+    pub least_tension: f64,
+    /// Greatest tension at the platform, without and with the load [N].
+    pub greatest_tension: f64,
+    /// Whether the load leaves all tensions within the robot's limits; without it they always are.
+    pub within_limits: bool,
+    /// dp, Eq. (4) [m].
+    pub displacement: Vector3<f64>,
+    /// Stiffness of the softest motion with the load [N/m], see [`cdpr_statics::Stability`].
+    pub least_stiffness: f64,
+    /// Cables (from 0) that are slack with the load.
+    pub slack: Vec<usize>,
+    /// The tolerance that matters most; none where none was asked for, nothing is uncertain, or |dp| has no derivative.
+    pub dominant: Option<Dominant>,
+}
+
+/// The cause behind the largest share of the variance of |dp|, to first order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dominant {
+    /// Number of the error model's input.
+    pub input: usize,
+    /// Its share, 0 to 1.
+    pub share: f64,
+    /// Standard deviation of |dp| from all of them [m].
+    pub std: f64,
+}
+
+/// Rounding of a tension that rests on its limit.
+const ROUNDING: f64 = 1e-9;
+
+/// Runs in parallel; `tick` is told of every position that is done. Positions come back in the order of the grid.
+///
+/// # Errors
+/// [`StudyError::Setting`] for a payload or error model that is none. A pose that is not held is no error.
+pub fn compute_workspace(
+    workspace: &Workspace,
+    tick: &(dyn Fn() + Sync),
+) -> Result<Vec<WorkspacePose>, StudyError> {
+    let Workspace { robot, payload, tolerances, .. } = *workspace;
+    if !(payload.is_finite() && payload >= 0.0) {
+        return Err(StudyError::setting("payload", payload, "a finite mass, zero or more [kg]"));
+    }
+    let parameters = Parameter::all(robot.cables.len()).len();
+    if let Some(model) = tolerances.filter(|model| model.parameters() != parameters) {
+        let expected = format!("one for the {parameters} parameters of {}", robot.name);
+        return Err(StudyError::setting(
+            "error model",
+            format!("for {} parameters", model.parameters()),
+            expected,
+        ));
+    }
+    let one = |pose: Pose| {
+        let outcome = held(robot, &pose, &Load::payload(payload), tolerances);
+        tick();
+        WorkspacePose { pose, outcome }
+    };
+    Ok(workspace.grid.poses().into_par_iter().map(one).collect())
+}
+
+fn held(
+    robot: &Robot,
+    pose: &Pose,
+    load: &Load,
+    tolerances: Option<&ErrorModel>,
+) -> Result<Held, StaticsError> {
+    let offsets = vec![0.0; robot.cables.len()];
+    let Some(model) = tolerances else {
+        return Ok(Held::new(robot, &deflection(robot, pose, &offsets, load)?, None));
+    };
+    match derivatives(robot, pose, &offsets, load) {
+        Ok(found) => Ok(Held::new(robot, &found.deflection, Dominant::of(&found, model))),
+        // The border of what has a derivative is held nevertheless.
+        Err(StaticsError::NoDerivative { .. }) => {
+            Ok(Held::new(robot, &deflection(robot, pose, &offsets, load)?, None))
+        }
+        Err(error) => Err(error),
+    }
+}
+
+impl Held {
+    fn new(robot: &Robot, deflection: &Deflection, dominant: Option<Dominant>) -> Self {
+        let Deflection { unloaded, loaded, .. } = deflection;
+        let extremes = |tensions: Vec<f64>| {
+            let least = tensions.iter().copied().fold(f64::INFINITY, f64::min);
+            (least, tensions.iter().copied().fold(0.0, f64::max))
+        };
+        let (least_before, greatest_before) = extremes(unloaded.equilibrium.tensions());
+        let (least, greatest) = extremes(loaded.equilibrium.tensions());
+        let limits = robot.tension_limits;
+        Self {
+            least_tension: least.min(least_before),
+            greatest_tension: greatest.max(greatest_before),
+            within_limits: least >= limits.min * (1.0 - ROUNDING)
+                && greatest <= limits.max * (1.0 + ROUNDING),
+            displacement: deflection.displacement(),
+            least_stiffness: loaded.stability.least_stiffness(),
+            slack: loaded.report.slack.clone(),
+            dominant,
+        }
+    }
+}
+
+impl Dominant {
+    fn of(found: &Derivatives, model: &ErrorModel) -> Option<Self> {
+        let slopes = model.gradient(&found.rms().ok()?);
+        let parts = slopes.iter().zip(&model.inputs).map(|(slope, input)| (slope * input.law.std()).powi(2));
+        let parts: Vec<f64> = parts.collect();
+        let variance: f64 = parts.iter().sum();
+        let (input, part) = parts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+        (variance > 0.0).then(|| Self { input, share: part / variance, std: variance.sqrt() })
+    }
+}
+
+/// A position as it stands in `workspace.csv` and `workspace.json`: positions [m], deflection [mm], tensions [N], stiffness [N/m]. What
+/// does not exist is empty.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct WorkspaceRow {
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
+    /// `held`; `beyond_limits` where the load takes a tension out of the limits; else the kind of failure.
+    pub status: &'static str,
+    pub least_tension: Option<f64>,
+    pub greatest_tension: Option<f64>,
+    pub dx_mm: Option<f64>,
+    pub dy_mm: Option<f64>,
+    pub dz_mm: Option<f64>,
+    /// |dp|.
+    pub rms_mm: Option<f64>,
+    pub least_stiffness: Option<f64>,
+    /// Their numbers, from 1, with spaces between.
+    pub slack_cables: Option<String>,
+    /// The cause with the largest share of the variance of |dp|.
+    pub dominant: Option<String>,
+    pub dominant_share: Option<f64>,
+    /// Standard deviation of |dp| from all tolerances.
+    pub std_mm: Option<f64>,
+    /// Why the pose is not held.
+    pub reason: Option<String>,
+}
+
+impl WorkspaceRow {
+    /// Of a pose of a workspace and what was found there.
+    pub fn new(workspace: &Workspace, pose: &WorkspacePose) -> Self {
+        let [x, y, z] = pose.pose.position.into();
+        let held = pose.outcome.as_ref().ok();
+        let displacement = held.map(|held| 1e3 * held.displacement);
+        let dominant = held.and_then(|held| held.dominant);
+        let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
+        Self {
+            x,
+            y,
+            z,
+            status: match &pose.outcome {
+                Ok(held) if held.within_limits => "held",
+                Ok(_) => "beyond_limits",
+                Err(error) => error.kind(),
+            },
+            least_tension: held.map(|held| held.least_tension),
+            greatest_tension: held.map(|held| held.greatest_tension),
+            dx_mm: displacement.map(|dp| dp.x),
+            dy_mm: displacement.map(|dp| dp.y),
+            dz_mm: displacement.map(|dp| dp.z),
+            rms_mm: displacement.map(|dp| dp.norm()),
+            least_stiffness: held.map(|held| held.least_stiffness),
+            slack_cables: held
+                .map(|held| held.slack.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")),
+            dominant: dominant.and_then(name),
+            dominant_share: dominant.map(|dominant| dominant.share),
+            std_mm: dominant.map(|dominant| 1e3 * dominant.std),
+            reason: pose.outcome.as_ref().err().map(ToString::to_string),
+        }
+    }
+}
+
+/// A workspace with its settings; `workspace.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WorkspaceSummary {
+    /// Name of the robot.
+    pub robot: String,
+    /// Version of the program.
+    pub version: String,
+    /// Mass added [kg].
+    pub payload: f64,
+    /// The positions [m].
+    pub grid: Grid,
+    /// Standard deviation of every cause, in SI units.
+    pub uncertainties: IndexMap<String, f64>,
+    /// Number of positions by status.
+    pub status: BTreeMap<&'static str, usize>,
+    /// Number of positions at which each cause dominates.
+    pub dominant: BTreeMap<String, usize>,
+    /// |dp| [mm] over the positions with status `held`; this and the following are absent where there is none.
+    pub rms_mm: Option<Extremes>,
+    /// Stiffness of the softest motion [N/m].
+    pub least_stiffness: Option<Extremes>,
+    /// Greatest tension [N].
+    pub greatest_tension: Option<Extremes>,
+    /// Least tension [N].
+    pub least_tension: Option<Extremes>,
+    /// Every position, in the order of the grid.
+    pub rows: Vec<WorkspaceRow>,
+}
+
+/// Extremes over the positions that are held, and where they are [m].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Extremes {
+    /// Least value.
+    pub min: f64,
+    /// Its position.
+    pub min_at: [f64; 3],
+    /// Greatest value.
+    pub max: f64,
+    /// Its position.
+    pub max_at: [f64; 3],
+}
+
+impl WorkspaceSummary {
+    /// Summarises the poses of a workspace.
+    pub fn new(workspace: &Workspace, poses: &[WorkspacePose]) -> Self {
+        let rows: Vec<_> = poses.iter().map(|pose| WorkspaceRow::new(workspace, pose)).collect();
+        let (mut status, mut dominant) = (BTreeMap::new(), BTreeMap::new());
+        for row in &rows {
+            *status.entry(row.status).or_insert(0) += 1;
+            if let Some(name) = &row.dominant {
+                *dominant.entry(name.clone()).or_insert(0) += 1;
+            }
+        }
+        let causes = workspace.tolerances.map(|model| model.inputs.as_slice()).unwrap_or_default();
+        Self {
+            robot: workspace.robot.name.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            payload: workspace.payload,
+            grid: workspace.grid,
+            uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.law.std())).collect(),
+            status,
+            dominant,
+            rms_mm: extremes(&rows, |row| row.rms_mm),
+            least_stiffness: extremes(&rows, |row| row.least_stiffness),
+            greatest_tension: extremes(&rows, |row| row.greatest_tension),
+            least_tension: extremes(&rows, |row| row.least_tension),
+            rows,
+        }
+    }
+}
+
+fn extremes(rows: &[WorkspaceRow], value: impl Fn(&WorkspaceRow) -> Option<f64>) -> Option<Extremes> {
+    let held = || {
+        let held = rows.iter().filter(|row| row.status == "held");
+        held.filter_map(|row| Some((value(row)?, [row.x, row.y, row.z])))
+    };
+    let (min, min_at) = held().min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let (max, max_at) = held().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(Extremes { min, min_at, max, max_at })
+}
