@@ -32,7 +32,7 @@ pub(super) fn run(settings: &Settings) -> Result<(), RunError> {
             println!("{} is a study of {}\n\n{TEMPLATE_NOTES}", out.display(), path.display());
         }
         None => {
-            print!("{}", text(&path.display().to_string())?);
+            println!("{}", text(&path.display().to_string())?.trim_end());
             eprintln!("{TEMPLATE_NOTES}");
         }
     }
