@@ -29,7 +29,7 @@ pub(crate) struct Settings {
     #[arg(long, value_parser = number, allow_hyphen_values = true)]
     payload: f64,
     /// Which part of the unloading curve a cable follows.
-    #[arg(long, value_enum, default_value_t = Branch::SameTension)]
+    #[arg(long, value_enum, default_value_t = Branch::TurningPoint)]
     unloading: Branch,
     /// Steps each way.
     #[arg(long, default_value_t = 50)]
