@@ -14,7 +14,7 @@ fn counted<T>(task: impl FnOnce() -> T) -> T {
 }
 
 fn catenary(criterion: &mut Criterion) {
-    let cable = Cable { weight_per_length: 0.9957, axial_stiffness: 1.284e6 };
+    let cable = Cable::linear(0.9957, 1.284e6);
     let end = Vector2::new(4.1, -1.7);
     let mut group = criterion.benchmark_group("catenary");
     for slack in [-5e-4, 0.0, 1e-3, 1e-2, 1e-1, 1.0] {

@@ -5,7 +5,7 @@
 use cdpr_cable::{Cable, CableError, Vector2, end_force};
 
 fn main() -> Result<(), CableError> {
-    let cable = Cable { weight_per_length: 0.9957, axial_stiffness: 1.284e6 };
+    let cable = Cable::linear(0.9957, 1.284e6);
     let end = Vector2::new(4.1, -1.7);
     println!(
         "{:>12} {:>12} {:>12} {:>10} {:>10}",

@@ -1,36 +1,69 @@
 //! A cable in equilibrium and what follows from the force at its end; the equations are in `response`.
 
 use crate::error::{CableError, SMALLEST, check, check_length};
-use crate::response::Terms;
+use crate::law::ElasticLaw;
+use crate::pieces;
+use crate::response::{Response, Terms};
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 /// What a cable is made of, per metre of unstrained length.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cable {
+pub struct Cable<'a> {
     /// Weight per unstrained length w = rho g [N/m]; zero makes the cable a straight spring.
     pub weight_per_length: f64,
-    /// Axial stiffness EA [N].
+    /// Axial stiffness EA [N]; of a piecewise law the scale.
     pub axial_stiffness: f64,
+    /// How its strain follows from its tension.
+    pub law: ElasticLaw<'a>,
 }
 
-impl Cable {
+impl Cable<'_> {
+    /// A cable of this weight per unstrained length [N/m] and axial stiffness [N] whose strain is T/EA.
+    pub const fn linear(weight_per_length: f64, axial_stiffness: f64) -> Self {
+        Self { weight_per_length, axial_stiffness, law: ElasticLaw::Linear }
+    }
+
+    /// Strain at a tension [N].
+    pub fn strain(&self, tension: f64) -> f64 {
+        match self.law {
+            ElasticLaw::Linear => tension / self.axial_stiffness,
+            ElasticLaw::Piecewise(law) => law.scaled_strain(tension) / self.axial_stiffness,
+        }
+    }
+
+    /// Tension at a strain [N]; a cable does not push.
+    pub fn tension(&self, strain: f64) -> f64 {
+        match self.law {
+            ElasticLaw::Linear => (self.axial_stiffness * strain).max(0.0),
+            ElasticLaw::Piecewise(law) => law.tension(self.axial_stiffness * strain),
+        }
+    }
+
+    /// Tangent of tension over strain at a tension [N], in [N].
+    pub fn tangent_stiffness(&self, tension: f64) -> f64 {
+        match self.law {
+            ElasticLaw::Linear => self.axial_stiffness,
+            ElasticLaw::Piecewise(law) => self.axial_stiffness * law.ratio(tension),
+        }
+    }
+
     /// Checks that the weight is zero or from 1e-30 N/m to 1e30 N/m, the stiffness from 1e-30 N to 1e30 N.
     ///
     /// # Errors
     /// [`CableError::InvalidInput`] names the field.
     pub fn validate(&self) -> Result<(), CableError> {
-        let Self { weight_per_length: w, axial_stiffness: ea } = *self;
+        let Self { weight_per_length: w, axial_stiffness: ea, .. } = *self;
         check(
             "weight_per_length",
             w,
             w == 0.0 || w >= SMALLEST,
             "a weight per length, zero or from 1e-30 to 1e30 [N/m]",
         )?;
-        check("axial_stiffness", ea, ea >= SMALLEST, "an axial stiffness from 1e-30 to 1e30 [N]")
+        check("axial_stiffness", ea, ea >= SMALLEST, "an axial stiffness from 1e-30 to 1e30 [N]")?;
+        let at_rest = self.strain(0.0);
+        check("law.strain_at_rest", at_rest, at_rest > -1.0, "a strain above -1")
     }
-}
 
-impl Cable {
     /// Whether the weight of this length vanishes beside the stiffness, and its square below the smallest number.
     pub(crate) fn is_weightless(&self, unstrained_length: f64) -> bool {
         self.weight_per_length * unstrained_length <= 1e-100 * self.axial_stiffness
@@ -39,9 +72,9 @@ impl Cable {
 
 /// A cable in equilibrium: its unstrained length and the force applied to it at the anchor point A.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Catenary {
+pub struct Catenary<'a> {
     /// The cable.
-    pub cable: Cable,
+    pub cable: Cable<'a>,
     /// Unstrained length L [m].
     pub unstrained_length: f64,
     /// Force `(fx, fz)` on the cable at A, in the cable's plane [N]; `fx >= 0`.
@@ -64,13 +97,13 @@ pub struct Compliance {
     pub end_per_length: Vector2<f64>,
 }
 
-impl Catenary {
+impl<'a> Catenary<'a> {
     /// The cable of unstrained length `unstrained_length` [m] with the force `(fx, fz)` [N] at A.
     ///
     /// # Errors
     /// [`CableError::InvalidInput`] for values no cable can have, among them a force that pushes towards the exit point and a slack cable
     /// without weight, which has no shape.
-    pub fn new(cable: Cable, unstrained_length: f64, force: Vector2<f64>) -> Result<Self, CableError> {
+    pub fn new(cable: Cable<'a>, unstrained_length: f64, force: Vector2<f64>) -> Result<Self, CableError> {
         cable.validate()?;
         check_length(unstrained_length)?;
         check(
@@ -87,24 +120,41 @@ impl Catenary {
 
     /// Position `(x, z)` of A relative to B [m], equations (1)-(2).
     pub fn end_position(&self) -> Vector2<f64> {
-        self.terms().end_position().into()
+        match self.cable.law {
+            ElasticLaw::Linear => self.terms().end_position().into(),
+            ElasticLaw::Piecewise(law) => pieces::end_position(self, law),
+        }
+    }
+
+    /// How the end answers to forces, as [`crate::response`] gives it for a linear cable.
+    pub fn response(&self) -> Response<f64> {
+        match self.cable.law {
+            ElasticLaw::Linear => self.terms().response(),
+            ElasticLaw::Piecewise(law) => pieces::response(self, law),
+        }
     }
 
     /// End position, in-plane flexibility and lateral stiffness at once.
     pub fn compliance(&self) -> Compliance {
-        self.terms().compliance()
+        self.response().into()
     }
 
     /// Derivative of the end position with respect to the weight per length at constant force at A and constant unstrained
     /// length [m²/N], equation (10).
     pub fn end_per_weight(&self) -> Vector2<f64> {
-        self.terms().end_per_weight()
+        match self.cable.law {
+            ElasticLaw::Linear => self.terms().end_per_weight(),
+            ElasticLaw::Piecewise(law) => pieces::end_per_weight(self, law),
+        }
     }
 
     /// Derivative of the end position with respect to the axial stiffness EA at constant force at A and constant unstrained
     /// length [m/N], equation (11).
     pub fn end_per_stiffness(&self) -> Vector2<f64> {
-        self.terms().end_per_stiffness()
+        match self.cable.law {
+            ElasticLaw::Linear => self.terms().end_per_stiffness(),
+            ElasticLaw::Piecewise(law) => pieces::end_per_stiffness(self, law),
+        }
     }
 
     /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], the inverse of the flexibility. Zero for a slack cable without weight.
@@ -140,13 +190,19 @@ impl Catenary {
 
     /// Complementary energy U*(f) [J], equation (6): strictly convex, its gradient is the end position.
     pub fn complementary_energy(&self) -> f64 {
-        self.terms().complementary_energy()
+        match self.cable.law {
+            ElasticLaw::Linear => self.terms().complementary_energy(),
+            ElasticLaw::Piecewise(law) => pieces::complementary_energy(self, law),
+        }
     }
 
     /// Potential energy V [J], equation (7): elastic energy plus the work done against gravity, zero for a massless cable at
     /// rest with its weight at the height of B. As a function of the end position its gradient is the force at A.
     pub fn potential_energy(&self) -> f64 {
-        self.terms().potential_energy()
+        match self.cable.law {
+            ElasticLaw::Linear => self.terms().potential_energy(),
+            ElasticLaw::Piecewise(law) => pieces::potential_energy(self, law),
+        }
     }
 
     /// Whether this is a slack cable without weight: it carries nothing, resists nothing and has no shape, so that end
@@ -197,9 +253,9 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    const CABLE: Cable = Cable { weight_per_length: 0.995_715, axial_stiffness: 1.284_283e6 };
+    const CABLE: Cable = Cable::linear(0.995_715, 1.284_283e6);
 
-    fn catenary(cable: Cable, length: f64, fx: f64, fz: f64) -> Catenary {
+    fn catenary(cable: Cable<'static>, length: f64, fx: f64, fz: f64) -> Catenary<'static> {
         Catenary { cable, unstrained_length: length, force: Vector2::new(fx, fz) }
     }
 
@@ -219,7 +275,7 @@ mod tests {
 
     #[test]
     fn a_weightless_cable_is_a_spring() {
-        let cable = Cable { weight_per_length: 0.0, axial_stiffness: 1e4 };
+        let cable = Cable::linear(0.0, 1e4);
         let spring = catenary(cable, 2.0, 30.0, 40.0);
         let expected = Vector2::new(0.6, 0.8) * 2.0 * (1.0 + 50.0 / 1e4);
         assert_relative_eq!(spring.end_position(), expected, max_relative = 1e-15);
@@ -232,14 +288,13 @@ mod tests {
         let v0: f64 = fz - w * length;
         let x = fx * length / ea + fx / w * ((fz / fx).asinh() - (v0 / fx).asinh());
         let z = (fz - w * length / 2.0) * length / ea + (fz.hypot(fx) - v0.hypot(fx)) / w;
-        let end =
-            catenary(Cable { weight_per_length: w, axial_stiffness: ea }, length, fx, fz).end_position();
+        let end = catenary(Cable::linear(w, ea), length, fx, fz).end_position();
         assert_relative_eq!(end, Vector2::new(x, z), max_relative = 1e-14);
     }
 
     #[test]
     fn a_straight_spring_is_as_stiff_across_as_its_tension_makes_it() {
-        let spring = catenary(Cable { weight_per_length: 0.0, axial_stiffness: 1e6 }, 10.0, 1e-11, 1e-11);
+        let spring = catenary(Cable::linear(0.0, 1e6), 10.0, 1e-11, 1e-11);
         // EA/L along and T/L across the direction (1, 1).
         let k = spring.in_plane_stiffness();
         assert_relative_eq!(k, Matrix2::new(5e4, 5e4, 5e4, 5e4), max_relative = 1e-12);
@@ -248,7 +303,7 @@ mod tests {
     #[test]
     fn a_stiff_taut_cable_keeps_the_digits_of_its_energy() {
         // f·r and U* are 1e5 J each; 40-digit arithmetic gives their difference.
-        let cable = Cable { weight_per_length: 1e-3, axial_stiffness: 1e9 };
+        let cable = Cable::linear(1e-3, 1e9);
         let taut = catenary(cable, 100.0, 800.0, 600.0);
         assert_relative_eq!(taut.potential_energy(), 3.0497866520994881, max_relative = 1e-14);
     }
@@ -265,15 +320,15 @@ mod tests {
 
     #[test]
     fn a_limp_cable_has_no_stiffness() {
-        let limp = catenary(Cable { weight_per_length: 0.0, axial_stiffness: 1e4 }, 2.0, 0.0, 0.0);
+        let limp = catenary(Cable::linear(0.0, 1e4), 2.0, 0.0, 0.0);
         assert_eq!(limp.stiffness(Vector2::x()), Matrix3::zeros());
     }
 
     /// Cables from taut to folded: weights, stiffnesses, lengths and forces over many decades.
-    fn any_catenary() -> impl Strategy<Value = Catenary> {
+    fn any_catenary() -> impl Strategy<Value = Catenary<'static>> {
         (-2.0..2.0f64, 4.0..8.0f64, -0.3..2.0f64, -2.0..3.0f64, -3.0..3.0f64).prop_map(
             |(w, ea, l, fx, fz)| {
-                let cable = Cable { weight_per_length: 10f64.powf(w), axial_stiffness: 10f64.powf(ea) };
+                let cable = Cable::linear(10f64.powf(w), 10f64.powf(ea));
                 let length = 10f64.powf(l);
                 let weight = cable.weight_per_length * length;
                 catenary(cable, length, weight * 10f64.powf(fx), weight * fz.sinh())

@@ -9,12 +9,14 @@
 //! | what is the force for an end position and an unstrained length? | [`end_force`] |
 //! | what unstrained length gives a wanted tension at A? | [`length_for_tension`] |
 //! | what is the least tension at A over a span? | [`least_tension`] |
+//! | what modulus does a load-elongation record give? | [`Record::modulus`] |
+//! | what mass per length does a weighing give? | [`linear_density`] |
 //! | how stiff, how much energy, what shape? | the other methods of [`Catenary`] |
 //!
 //! ```
 //! use cdpr_cable::{Cable, Vector2, end_force};
 //!
-//! let cable = Cable { weight_per_length: 0.9957, axial_stiffness: 1.28e6 }; // [N/m], [N]
+//! let cable = Cable::linear(0.9957, 1.28e6); // [N/m], [N]
 //! let solution = end_force(&cable, 4.3, Vector2::new(4.1, -1.7))?; // 4.3 m of cable, A 1.7 m below B
 //! let catenary = solution.catenary;
 //! assert!((catenary.end_position() - Vector2::new(4.1, -1.7)).norm() < 1e-12);
@@ -26,16 +28,23 @@
 
 mod catenary;
 mod error;
+mod law;
+mod pieces;
 mod real;
+mod record;
 mod response;
 mod shape;
 mod solve;
 mod tensioned;
+mod weighing;
 
 pub use catenary::{Cable, Catenary, Compliance};
 pub use error::CableError;
+pub use law::{ElasticLaw, PiecewiseLaw, Segment};
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use real::{Field, Real};
+pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen};
 pub use response::{Response, TAUT, TautEnd, response, taut_end, taut_response};
 pub use solve::{Solution, end_force, end_force_near};
 pub use tensioned::{least_tension, length_for_tension, length_for_tension_near};
+pub use weighing::{Measured, linear_density};

@@ -158,18 +158,6 @@ impl Terms<f64> {
         Self::new(cable.weight_per_length, 1.0 / cable.axial_stiffness, unstrained_length, force.x, force.y)
     }
 
-    pub(crate) fn compliance(&self) -> Compliance {
-        let Response { end: [x, z], flexibility: [xx, xz, zz], determinant, lateral, end_per_length, .. } =
-            self.response();
-        Compliance {
-            end: Vector2::new(x, z),
-            flexibility: Matrix2::new(xx, xz, xz, zz),
-            determinant,
-            lateral_stiffness: 1.0 / lateral,
-            end_per_length: end_per_length.into(),
-        }
-    }
-
     pub(crate) fn complementary_energy(&self) -> f64 {
         let Self { fx, fz, v0, length, stretch, t, t0, .. } = *self;
         let (q2, psi) = self.sag_terms();
@@ -207,6 +195,36 @@ impl Terms<f64> {
     pub(crate) fn end_per_stiffness(&self) -> Vector2<f64> {
         let Self { fx, fz, length, weight, stretch, .. } = *self;
         Vector2::new(fx, fz - 0.5 * weight) * (-length * stretch * stretch)
+    }
+}
+
+impl Response<f64> {
+    /// The same in another kind of number.
+    pub fn map<T: Copy>(self, of: impl Fn(f64) -> T) -> Response<T> {
+        Response {
+            end: self.end.map(&of),
+            flexibility: self.flexibility.map(&of),
+            determinant: of(self.determinant),
+            lateral: of(self.lateral),
+            end_per_length: self.end_per_length.map(&of),
+            tension: of(self.tension),
+            direction: self.direction.map(&of),
+            slackness: of(self.slackness),
+        }
+    }
+}
+
+impl From<Response<f64>> for Compliance {
+    fn from(response: Response<f64>) -> Self {
+        let Response { end: [x, z], flexibility: [xx, xz, zz], determinant, lateral, end_per_length, .. } =
+            response;
+        Self {
+            end: Vector2::new(x, z),
+            flexibility: Matrix2::new(xx, xz, xz, zz),
+            determinant,
+            lateral_stiffness: 1.0 / lateral,
+            end_per_length: end_per_length.into(),
+        }
     }
 }
 
@@ -285,7 +303,7 @@ impl<T: Field> Terms<T> {
 }
 
 impl<T: Real> Terms<T> {
-    fn new(w: T, stretch: T, length: T, fx: T, fz: T) -> Self {
+    pub(crate) fn new(w: T, stretch: T, length: T, fx: T, fz: T) -> Self {
         let others = fz.value().abs() + (w * length).value();
         let mut fx2 = fx * fx;
         if fx.value() <= (1e-25 * others).max(1e-150) {
@@ -327,7 +345,7 @@ impl<T: Real> Terms<T> {
         [self.fx * self.lateral(q2 * psi + 1.0), self.height()]
     }
 
-    fn response(&self) -> Response<T> {
+    pub(crate) fn response(&self) -> Response<T> {
         let (q2, psi) = self.sag_terms();
         let p = self.fz * self.v0;
         let shape = if q2.upper() <= TAUT || p.value() >= 0.0 {

@@ -6,9 +6,9 @@
 use crate::catenary::Catenary;
 use nalgebra::Vector2;
 
-impl Catenary {
+impl<'a> Catenary<'a> {
     /// The piece between B and the unstrained arc length `s`, which is clamped to `[0, L]`.
-    fn up_to(&self, s: f64) -> Catenary {
+    fn up_to(&self, s: f64) -> Catenary<'a> {
         let s = s.clamp(0.0, self.unstrained_length);
         let vertical = self.exit_vertical_force() + self.cable.weight_per_length * s;
         Catenary { unstrained_length: s, force: Vector2::new(self.force.x, vertical), ..*self }
@@ -84,9 +84,9 @@ mod tests {
     use crate::{Cable, Catenary, Vector2, end_force};
     use approx::assert_relative_eq;
 
-    const CABLE: Cable = Cable { weight_per_length: 2.0, axial_stiffness: 1e6 };
+    const CABLE: Cable = Cable::linear(2.0, 1e6);
 
-    fn hanging(length: f64, x: f64, z: f64) -> Catenary {
+    fn hanging(length: f64, x: f64, z: f64) -> Catenary<'static> {
         end_force(&CABLE, length, Vector2::new(x, z)).unwrap().catenary
     }
 

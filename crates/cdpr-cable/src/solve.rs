@@ -11,24 +11,25 @@
 
 use crate::catenary::{Cable, Catenary, Compliance};
 use crate::error::{CableError, check, check_length};
+use crate::law::ElasticLaw;
 use nalgebra::Vector2;
 
 /// A cable in equilibrium between two given points, with what was left open.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Solution {
+pub struct Solution<'a> {
     /// The equilibrium.
-    pub catenary: Catenary,
+    pub catenary: Catenary<'a>,
     /// Newton steps made; 0 for a closed form.
     pub iterations: usize,
     /// Distance between the end of the catenary and the wanted one [m].
     pub residual: f64,
 }
 
-impl Solution {
-    pub(crate) fn of(catenary: Catenary, end: Vector2<f64>, iterations: usize) -> Self {
+impl<'a> Solution<'a> {
+    pub(crate) fn of(catenary: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Self {
         // A slack cable without weight has no shape: it is open by what it is too short.
         let residual = if catenary.is_limp() {
-            (end.norm() - catenary.unstrained_length).max(0.0)
+            (end.norm() - catenary.unstrained_length * (1.0 + catenary.cable.strain(0.0))).max(0.0)
         } else {
             (end - catenary.end_position()).norm()
         };
@@ -50,7 +51,11 @@ const LAST_STEP: f64 = 1e-8;
 ///
 /// # Errors
 /// [`CableError::InvalidInput`] for values no cable can have; [`CableError::NotConverged`] with what is left open.
-pub fn end_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Result<Solution, CableError> {
+pub fn end_force<'a>(
+    cable: &Cable<'a>,
+    unstrained_length: f64,
+    end: Vector2<f64>,
+) -> Result<Solution<'a>, CableError> {
     cable.validate()?;
     check_length(unstrained_length)?;
     check_end(end)?;
@@ -62,8 +67,13 @@ pub fn end_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Re
     }
     // Closer to the vertical than this, the horizontal force is below rounding of the weight.
     if end.x < 1e-30 * unstrained_length {
-        let force = Vector2::new(0.0, vertical_force(cable, unstrained_length, end.y));
-        return Ok(Solution::of(at(force), end, 0));
+        return match cable.law {
+            ElasticLaw::Linear => {
+                let force = Vector2::new(0.0, vertical_force(cable, unstrained_length, end.y));
+                Ok(Solution::of(at(force), end, 0))
+            }
+            ElasticLaw::Piecewise(_) => vertical_newton(cable, unstrained_length, end),
+        };
     }
     let dual = |force: Vector2<f64>| force.dot(&end) - at(force).complementary_energy();
     let taut = taut_start(cable, unstrained_length, end);
@@ -81,7 +91,7 @@ pub fn end_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Re
 ///
 /// # Errors
 /// As [`end_force`].
-pub fn end_force_near(near: &Catenary, end: Vector2<f64>) -> Result<Solution, CableError> {
+pub fn end_force_near<'a>(near: &Catenary<'a>, end: Vector2<f64>) -> Result<Solution<'a>, CableError> {
     let regular = near.force.x > 0.0 && !near.cable.is_weightless(near.unstrained_length);
     if regular && end.x > 1e-30 * near.unstrained_length && end.x.is_finite() && end.y.is_finite() {
         let begun = newton(*near, end, MAX_ITERATIONS_NEAR);
@@ -100,7 +110,7 @@ pub(crate) fn check_end(end: Vector2<f64>) -> Result<(), CableError> {
     check("end.z", end.y, true, "a finite height difference [m]")
 }
 
-fn newton(start: Catenary, end: Vector2<f64>, iterations: usize) -> Result<Solution, CableError> {
+fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Result<Solution<'a>, CableError> {
     let mut now = start;
     let mut compliance = now.compliance();
     let mut open = end - compliance.end;
@@ -136,8 +146,9 @@ fn newton(start: Catenary, end: Vector2<f64>, iterations: usize) -> Result<Solut
         };
         let moved = next.force - now.force;
         let at_rounding = next_open.x.abs() <= rounding.x && next_open.y.abs() <= rounding.y;
-        // A full step so small: the next one is below rounding.
+        // A full step so small: the next one is below rounding, unless the step met a kink.
         let last = fraction == 1.0
+            && now.cable.law == ElasticLaw::Linear
             && moved.x.abs() <= LAST_STEP * next.force.x
             && moved.y.abs() <= LAST_STEP * next.anchor_tension().min(next.exit_tension());
         (now, compliance, open) = (next, next_compliance, next_open);
@@ -155,7 +166,11 @@ fn rounding(catenary: &Catenary, compliance: &Compliance, end: Vector2<f64>) -> 
     f64::EPSILON * (sums + compliance.flexibility.abs() * forces)
 }
 
-fn accept(catenary: Catenary, end: Vector2<f64>, iterations: usize) -> Result<Solution, CableError> {
+fn accept<'a>(
+    catenary: Catenary<'a>,
+    end: Vector2<f64>,
+    iterations: usize,
+) -> Result<Solution<'a>, CableError> {
     let solution = Solution::of(catenary, end, iterations);
     // However much rounding may explain, an end farther off than this is none.
     let largest = 1e-9 * (catenary.unstrained_length + end.norm());
@@ -169,6 +184,10 @@ fn accept(catenary: Catenary, end: Vector2<f64>, iterations: usize) -> Result<So
 /// A cable without weight: a spring that cannot push.
 fn spring_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Vector2<f64> {
     let chord = end.norm();
+    if let ElasticLaw::Piecewise(_) = cable.law {
+        let tension = cable.tension((chord - unstrained_length) / unstrained_length);
+        return if tension > 0.0 { end * (tension / chord) } else { Vector2::zeros() };
+    }
     if chord <= unstrained_length {
         return Vector2::zeros();
     }
@@ -190,8 +209,41 @@ fn vertical_force(cable: &Cable, unstrained_length: f64, z: f64) -> f64 {
     }
 }
 
+/// The same with kinks in the law: the height grows with the force, so that Newton's method between two bounds ends at its root.
+fn vertical_newton<'a>(
+    cable: &Cable<'a>,
+    unstrained_length: f64,
+    end: Vector2<f64>,
+) -> Result<Solution<'a>, CableError> {
+    let at = |fz| Catenary { cable: *cable, unstrained_length, force: Vector2::new(0.0, fz) };
+    let open = |fz| end.y - at(fz).end_position().y;
+    let mut now = vertical_force(cable, unstrained_length, end.y);
+    let size = now.abs() + cable.weight_per_length * unstrained_length;
+    let (mut low, mut high) = (now - size, now + size);
+    for _ in 0..100 {
+        if open(low) >= 0.0 && open(high) <= 0.0 {
+            break;
+        }
+        (low, high) = (low - (high - low), high + (high - low));
+    }
+    let mut iterations = 0;
+    while iterations < MAX_ITERATIONS {
+        let compliance = at(now).compliance();
+        let miss = end.y - compliance.end.y;
+        *(if miss > 0.0 { &mut low } else { &mut high }) = now;
+        let next = now + miss / compliance.flexibility.m22;
+        let next = if low < next && next < high { next } else { 0.5 * (low + high) };
+        if next == now || miss == 0.0 {
+            break;
+        }
+        now = next;
+        iterations += 1;
+    }
+    accept(at(now), end, iterations)
+}
+
 fn taut_start(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Option<Vector2<f64>> {
-    let Cable { weight_per_length: w, axial_stiffness: ea } = *cable;
+    let Cable { weight_per_length: w, axial_stiffness: ea, .. } = *cable;
     let chord = end.norm();
     let strain = (chord - unstrained_length) / unstrained_length;
     let across = w * unstrained_length * end.x / chord;

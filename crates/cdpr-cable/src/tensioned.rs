@@ -20,7 +20,11 @@ use nalgebra::{Matrix2, Vector2};
 /// # Errors
 /// [`CableError::InvalidInput`] for values no cable can have, [`CableError::TensionTooSmall`] where the cable's weight
 /// alone demands more, with the least tension there is.
-pub fn length_for_tension(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<Solution, CableError> {
+pub fn length_for_tension<'a>(
+    cable: &Cable<'a>,
+    end: Vector2<f64>,
+    tension: f64,
+) -> Result<Solution<'a>, CableError> {
     check_inputs(cable, end, tension)?;
     match newton(taut_start(cable, end, tension), end, tension) {
         Some(solution) => Ok(solution),
@@ -39,11 +43,11 @@ pub fn length_for_tension(cable: &Cable, end: Vector2<f64>, tension: f64) -> Res
 ///
 /// # Errors
 /// As [`length_for_tension`].
-pub fn length_for_tension_near(
-    near: &Catenary,
+pub fn length_for_tension_near<'a>(
+    near: &Catenary<'a>,
     end: Vector2<f64>,
     tension: f64,
-) -> Result<Solution, CableError> {
+) -> Result<Solution<'a>, CableError> {
     check_inputs(&near.cable, end, tension)?;
     let scale = tension / near.anchor_tension();
     let start = Catenary { force: near.force * scale, ..*near };
@@ -58,7 +62,7 @@ pub fn length_for_tension_near(
 ///
 /// # Errors
 /// [`CableError::InvalidInput`] for values no cable can have, and for a cable without weight, which may be slack.
-pub fn least_tension(cable: &Cable, end: Vector2<f64>) -> Result<Catenary, CableError> {
+pub fn least_tension<'a>(cable: &Cable<'a>, end: Vector2<f64>) -> Result<Catenary<'a>, CableError> {
     let w = cable.weight_per_length;
     check("weight_per_length", w, w >= SMALLEST, "a weight per length from 1e-30 to 1e30 [N/m]")?;
     // Any tension that a cable can have passes.
@@ -74,10 +78,10 @@ fn check_inputs(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<(), Ca
 }
 
 /// A straight spring, turned by half its weight and lengthened by the sag of a parabola.
-fn taut_start(cable: &Cable, end: Vector2<f64>, tension: f64) -> Catenary {
+fn taut_start<'a>(cable: &Cable<'a>, end: Vector2<f64>, tension: f64) -> Catenary<'a> {
     let chord = end.norm();
-    let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
-    let length = chord / (1.0 + tension / ea);
+    let w = cable.weight_per_length;
+    let length = chord / (1.0 + cable.strain(tension));
     let across = w * end.x / (chord * tension);
     let pull = end * (tension / chord) + Vector2::new(0.0, 0.5 * w * length);
     Catenary {
@@ -87,7 +91,7 @@ fn taut_start(cable: &Cable, end: Vector2<f64>, tension: f64) -> Catenary {
     }
 }
 
-fn newton(start: Catenary, end: Vector2<f64>, tension: f64) -> Option<Solution> {
+fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, tension: f64) -> Option<Solution<'a>> {
     let chord = end.norm();
     let mut now = start;
     let mut compliance = now.compliance();
@@ -124,7 +128,7 @@ fn tension_slope(catenary: &Catenary) -> f64 {
     catenary.force.dot(&catenary.compliance().force_per_length()) / catenary.anchor_tension()
 }
 
-fn bisect(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<Solution, CableError> {
+fn bisect<'a>(cable: &Cable<'a>, end: Vector2<f64>, tension: f64) -> Result<Solution<'a>, CableError> {
     let lowest = lowest(cable, end, tension)?;
     if lowest.anchor_tension() > tension {
         return Err(CableError::TensionTooSmall { tension, least: lowest.anchor_tension() });
@@ -151,7 +155,7 @@ fn bisect(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<Solution, Ca
 /// A cable short enough to carry a tension and its own weight on top [m].
 fn short_enough(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, CableError> {
     let chord = end.norm();
-    let mut short = chord / (1.0 + (tension + cable.weight_per_length * chord) / cable.axial_stiffness);
+    let mut short = chord / (1.0 + cable.strain(tension + cable.weight_per_length * chord));
     while end_force(cable, short, end)?.catenary.anchor_tension() < tension {
         short *= 0.5;
     }
@@ -159,7 +163,7 @@ fn short_enough(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, C
 }
 
 /// The catenary of least tension, or the first one met on the way there with no more than `enough` [N].
-fn lowest(cable: &Cable, end: Vector2<f64>, enough: f64) -> Result<Catenary, CableError> {
+fn lowest<'a>(cable: &Cable<'a>, end: Vector2<f64>, enough: f64) -> Result<Catenary<'a>, CableError> {
     let solve = |length: f64| end_force(cable, length, end).map(|solution| solution.catenary);
     // A cable long enough to have passed the least tension; a weightless one ends with no tension at all.
     let mut long = 2.0 * end.norm();

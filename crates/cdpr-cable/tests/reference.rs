@@ -13,7 +13,7 @@ fn conditioned_bound(catenary: &Catenary, end: Vector2<f64>) -> f64 {
 
 struct Case {
     kind: String,
-    cable: Cable,
+    cable: Cable<'static>,
     length: f64,
     end: Vector2<f64>,
     force: Vector2<f64>,
@@ -30,10 +30,7 @@ fn reference_cases() -> Vec<Case> {
         .iter()
         .map(|case| Case {
             kind: case["kind"].as_str().unwrap().to_owned(),
-            cable: Cable {
-                weight_per_length: number(case, "weight_per_length"),
-                axial_stiffness: number(case, "axial_stiffness"),
-            },
+            cable: Cable::linear(number(case, "weight_per_length"), number(case, "axial_stiffness")),
             length: number(case, "unstrained_length"),
             end: Vector2::new(number(case, "x"), number(case, "z")),
             force: Vector2::new(number(case, "force_x"), number(case, "force_z")),
@@ -118,7 +115,7 @@ fn published_cases_of_other_programs() {
         (8.0, 4.0, 8.95, 820510.0, 0.62784, 34.9618378936994, 20.3205540878714),
     ];
     for (x, z, length, ea, w, horizontal, top) in moorpy {
-        let cable = Cable { weight_per_length: w, axial_stiffness: ea };
+        let cable = Cable::linear(w, ea);
         let catenary = end_force(&cable, length, Vector2::new(x, z)).unwrap().catenary;
         let bound = conditioned_bound(&catenary, Vector2::new(x, z));
         let error = catenary.force - Vector2::new(horizontal, top);
@@ -129,7 +126,7 @@ fn published_cases_of_other_programs() {
 
 #[test]
 fn a_vertical_cable_taut_and_folded() {
-    let cable = Cable { weight_per_length: 0.62784, axial_stiffness: 820_510.0 };
+    let cable = Cable::linear(0.62784, 820_510.0);
     // B low, A 4 m above: force at the top is the force at A, force at the bottom V0.
     let up = Vector2::new(0.0, 4.0);
     let taut = end_force(&cable, 3.99, up).unwrap().catenary;

@@ -67,7 +67,7 @@ struct Tension {
 impl Answer {
     fn new(settings: &Settings) -> Result<Self, Box<dyn Error>> {
         let Settings { weight, stiffness, length, end, force, tension, .. } = *settings;
-        let cable = Cable { weight_per_length: weight, axial_stiffness: stiffness };
+        let cable = Cable::linear(weight, stiffness);
         let (solution, end) = match (length, end, force, tension) {
             (Some(length), Some(end), None, None) => (end_force(&cable, length, Vector2::from(end))?, end),
             (None, Some(end), None, Some(tension)) => {

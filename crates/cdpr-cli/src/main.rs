@@ -13,7 +13,10 @@ mod check;
 mod deflection;
 mod derivatives;
 mod direct;
+mod hysteresis;
 mod inverse;
+mod linear_density;
+mod modulus;
 mod report;
 mod robustness;
 mod sensitivity;
@@ -88,6 +91,21 @@ enum Command {
         after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
     )]
     Derivatives(derivatives::Settings),
+    /// Put a payload on a robot and take it off again, on cables with the hysteresis of a load-elongation record.
+    #[command(
+        after_help = "Example: cdpr hysteresis data/robots/caroca.json --record data/cables/caroca-4mm-record.csv --length 1 --pose 0,0,1.75 --payload 50"
+    )]
+    Hysteresis(hysteresis::Settings),
+    /// Mass per length of a cable from the weighing of a piece of it.
+    #[command(
+        after_help = "Example: cdpr linear-density --mass 0.203 --length 2 --mass-error 0.001 --length-error 0.001"
+    )]
+    LinearDensity(linear_density::Settings),
+    /// Moduli of a cable from a load-elongation record, with their uncertainty, and the energy that the loop dissipates.
+    #[command(
+        after_help = "Example: cdpr modulus data/cables/caroca-4mm-record.csv --breaking-force 10290 --section 1.2566370614e-5 --length 1 --range 5-10 --range 10-30"
+    )]
+    Modulus(modulus::Settings),
     /// Write the report of a study: one HTML file with all figures that opens offline.
     #[command(after_help = "Example: cdpr report results")]
     Report(report::Settings),
@@ -136,6 +154,9 @@ fn run(command: Command) -> Result<Ending, Box<dyn Error>> {
         Command::Study { command } => study::run(command)?,
         Command::Calibration(settings) => calibration::run(&settings)?,
         Command::Derivatives(settings) => derivatives::run(&settings)?,
+        Command::Hysteresis(settings) => hysteresis::run(&settings)?,
+        Command::LinearDensity(settings) => linear_density::run(&settings)?,
+        Command::Modulus(settings) => modulus::run(&settings)?,
         Command::Tolerances(settings) => tolerances::run(&settings)?,
         Command::Report(settings) => report::run(&settings)?,
         Command::Robustness { robot, poses, modulus, seed, out } => {

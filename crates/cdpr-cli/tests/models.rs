@@ -149,6 +149,7 @@ fn reference(case: &Value) -> (Robot, Value) {
         youngs_modulus: number(&case["axial_stiffness"]),
         diameter: None,
         breaking_force: None,
+        law: None,
     };
     let points =
         case["exit_points"].as_array().unwrap().iter().zip(case["anchor_points"].as_array().unwrap());
@@ -159,7 +160,11 @@ fn reference(case: &Value) -> (Robot, Value) {
         platform: Platform { mass: 1.0, center_of_mass: vector(&case["center_of_mass"]) },
         tension_limits: TensionLimits { min: 1.0, max: 1e6 },
         cables: points
-            .map(|(b, a)| RobotCable { exit_point: vector(b), anchor_point: vector(a), properties })
+            .map(|(b, a)| RobotCable {
+                exit_point: vector(b),
+                anchor_point: vector(a),
+                properties: properties.clone(),
+            })
             .collect(),
     };
     let rotation = cdpr_robot::Matrix3::from_fn(|i, j| number(&case["start_rotation"][i][j]));

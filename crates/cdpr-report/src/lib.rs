@@ -3,6 +3,7 @@
 //!
 //! | figure of the paper | function |
 //! |---|---|
+//! | 3: load over elongation, and other cycles | [`cycle`] |
 //! | 4a, 5a: distribution of the RMS with its fitted laws | [`histogram`] |
 //! | 4b, 4c: RMS over two parameters | [`surface`] |
 //! | 5b, 5c: t-Student of the points' coordinates | [`point_effects`] |
@@ -29,6 +30,7 @@
 //! ```
 
 mod color_map;
+mod cycle;
 mod effects;
 mod error;
 mod heat_map;
@@ -40,6 +42,7 @@ mod shares;
 mod style;
 mod surface;
 
+pub use cycle::{Cycle, cycle};
 pub use effects::signed_effects;
 pub use error::ReportError;
 pub use heat_map::{MapQuantity, heat_map};

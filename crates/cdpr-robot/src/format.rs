@@ -3,6 +3,7 @@
 use crate::error::RobotError;
 use crate::json::from_json;
 use crate::robot::{CableProperties, Platform, Robot, RobotCable, TensionLimits};
+use cdpr_cable::{CableError, PiecewiseLaw};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -44,7 +45,7 @@ struct PlatformEntry {
     center_of_mass: [f64; 3],
 }
 
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
+#[derive(Serialize, Deserialize, JsonSchema, Clone)]
 #[serde(deny_unknown_fields)]
 struct PropertiesEntry {
     /// Diameter [m].
@@ -60,6 +61,28 @@ struct PropertiesEntry {
     /// Breaking force [N].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     breaking_force: Option<f64>,
+    /// Strain over tension where it is not in proportion; a deviation of the modulus scales it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    law: Option<LawEntry>,
+}
+
+#[derive(Serialize, Deserialize, JsonSchema, Clone)]
+#[serde(deny_unknown_fields)]
+struct LawEntry {
+    /// Strain without tension, zero for a new cable.
+    #[serde(default)]
+    strain_at_rest: f64,
+    /// Pieces of constant modulus, from zero tension up.
+    segments: Vec<SegmentEntry>,
+}
+
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
+#[serde(deny_unknown_fields)]
+struct SegmentEntry {
+    /// Tension at which the piece begins [N]; zero for the first.
+    tension: f64,
+    /// Young's modulus from there on [Pa].
+    modulus: f64,
 }
 
 #[derive(Serialize, Deserialize, JsonSchema)]
@@ -113,7 +136,7 @@ impl Robot {
                 mass: self.platform.mass,
                 center_of_mass: self.platform.center_of_mass.into(),
             },
-            cable: entries.first().copied().filter(|_| shared),
+            cable: entries.first().filter(|_| shared).cloned(),
             tension_limits: LimitsEntry { min: self.tension_limits.min, max: self.tension_limits.max },
             cables: self
                 .cables
@@ -122,7 +145,7 @@ impl Robot {
                 .map(|(cable, entry)| CableEntry {
                     exit_point: cable.exit_point.into(),
                     anchor_point: cable.anchor_point.into(),
-                    cable: (!shared).then_some(*entry),
+                    cable: (!shared).then(|| entry.clone()),
                 })
                 .collect(),
         };
@@ -141,15 +164,15 @@ impl RobotFile {
     }
 
     fn into_robot(self) -> Result<Robot, RobotError> {
-        let shared = self.cable.map(|entry| properties(&entry, "cable")).transpose()?;
+        let shared = self.cable.as_ref().map(|entry| properties(entry, "cable")).transpose()?;
         let cables = self
             .cables
             .iter()
             .enumerate()
             .map(|(i, cable)| {
-                let own =
-                    cable.cable.map(|entry| properties(&entry, &format!("cables[{i}].cable"))).transpose()?;
-                let properties = own.or(shared).ok_or_else(|| {
+                let own = cable.cable.as_ref();
+                let own = own.map(|entry| properties(entry, &format!("cables[{i}].cable"))).transpose()?;
+                let properties = own.or_else(|| shared.clone()).ok_or_else(|| {
                     RobotError::invalid(
                         format!("cables[{i}].cable"),
                         "missing",
@@ -192,6 +215,25 @@ fn properties(entry: &PropertiesEntry, field: &str) -> Result<CableProperties, R
         youngs_modulus: entry.youngs_modulus,
         diameter: entry.diameter,
         breaking_force: entry.breaking_force,
+        law: entry.law.as_ref().map(|law| law_of(law, entry.youngs_modulus, section, field)).transpose()?,
+    })
+}
+
+/// A law in proportion to the cable's modulus.
+fn law_of(
+    entry: &LawEntry,
+    youngs_modulus: f64,
+    section: f64,
+    field: &str,
+) -> Result<PiecewiseLaw, RobotError> {
+    let segments: Vec<_> =
+        entry.segments.iter().map(|segment| (segment.tension, segment.modulus / youngs_modulus)).collect();
+    let scaled_strain = entry.strain_at_rest * youngs_modulus * section;
+    PiecewiseLaw::new(scaled_strain, &segments).map_err(|error| match error {
+        CableError::InvalidInput { field: of_law, value, expected } => {
+            RobotError::invalid(format!("{field}.{of_law}"), value, expected)
+        }
+        error => RobotError::invalid(format!("{field}.law"), error, "a law of strain over tension"),
     })
 }
 
@@ -202,5 +244,16 @@ fn entry(properties: &CableProperties) -> PropertiesEntry {
         linear_density: properties.linear_density,
         youngs_modulus: properties.youngs_modulus,
         breaking_force: properties.breaking_force,
+        law: properties.law.as_ref().map(|law| LawEntry {
+            strain_at_rest: law.scaled_strain_at_rest() / properties.axial_stiffness(),
+            segments: law
+                .segments()
+                .iter()
+                .map(|segment| SegmentEntry {
+                    tension: segment.tension,
+                    modulus: segment.ratio * properties.youngs_modulus,
+                })
+                .collect(),
+        }),
     }
 }

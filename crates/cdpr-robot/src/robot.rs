@@ -7,7 +7,7 @@
 
 use crate::error::RobotError;
 use crate::pose::{Pose, Wrench};
-use cdpr_cable::Cable;
+use cdpr_cable::{Cable, ElasticLaw, PiecewiseLaw};
 use nalgebra::{Matrix6xX, Vector3};
 
 /// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables.
@@ -46,7 +46,7 @@ pub struct TensionLimits {
 }
 
 /// One cable of the robot and the two points it joins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RobotCable {
     /// Exit point b_i in the base frame [m].
     pub exit_point: Vector3<f64>,
@@ -57,7 +57,7 @@ pub struct RobotCable {
 }
 
 /// What a cable is made of.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CableProperties {
     /// Section S that carries the tension [m²].
     pub section: f64,
@@ -69,6 +69,8 @@ pub struct CableProperties {
     pub diameter: Option<f64>,
     /// Breaking force [N], if known.
     pub breaking_force: Option<f64>,
+    /// Strain over tension where it is not T/EA, in proportion to the modulus; `None` for a linear cable.
+    pub law: Option<PiecewiseLaw>,
 }
 
 impl CableProperties {
@@ -79,13 +81,24 @@ impl CableProperties {
 }
 
 impl Robot {
-    /// The mechanics of cable `i`: weight per length w = rho g and axial stiffness E S.
-    pub fn cable(&self, i: usize) -> Cable {
+    /// The mechanics of cable `i`: weight per length w = rho g, axial stiffness E S, and its law.
+    pub fn cable(&self, i: usize) -> Cable<'_> {
         let properties = &self.cables[i].properties;
         Cable {
             weight_per_length: properties.linear_density * self.gravity,
             axial_stiffness: properties.axial_stiffness(),
+            law: properties.law.as_ref().map_or(ElasticLaw::Linear, ElasticLaw::Piecewise),
         }
+    }
+
+    /// Whether all cables are linear.
+    pub fn is_linear(&self) -> bool {
+        self.cables.iter().all(|cable| cable.properties.law.is_none())
+    }
+
+    /// Young's modulus of cable `i` at a tension [N]: the slope of its law there [Pa].
+    pub fn modulus_at(&self, i: usize, tension: f64) -> f64 {
+        self.cable(i).tangent_stiffness(tension) / self.cables[i].properties.section
     }
 
     /// s_i = R a_i: from P to anchor point i, in the base frame [m].

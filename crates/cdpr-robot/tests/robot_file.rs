@@ -184,3 +184,35 @@ fn the_wrench_matrix_turns_pulls_into_force_and_moment_about_p() {
     }
     assert!((wrench - expected.to_vector()).norm() < 1e-10);
 }
+
+#[test]
+fn a_law_of_strain_over_tension_is_read_written_and_checked() {
+    let text = include_str!("../../../data/robots/caroca.json");
+    let with = |law: &str| {
+        let text = text.replacen(
+            "\"breaking_force\": 10290.0",
+            &format!("\"breaking_force\": 10290.0, \"law\": {law}"),
+            1,
+        );
+        Robot::from_json(&text)
+    };
+    let segments = r#"[{"tension": 0, "modulus": 7.25e10}, {"tension": 514.5, "modulus": 8.32e10}]"#;
+    let robot = with(&format!(r#"{{"strain_at_rest": 1e-4, "segments": {segments}}}"#)).unwrap();
+    assert!(!robot.is_linear());
+    assert!(
+        (robot.modulus_at(3, 100.0) - 7.25e10).abs() < 1.0
+            && (robot.modulus_at(3, 600.0) - 8.32e10).abs() < 1.0
+    );
+    let strain = 1e-4 + 514.5 / (7.25e10 * 1.2566370614e-5);
+    assert!((robot.cable(0).strain(514.5) - strain).abs() < 1e-15);
+    let again = Robot::from_json(&robot.to_json()).unwrap();
+    assert!((again.cable(7).strain(900.0) / robot.cable(7).strain(900.0) - 1.0).abs() < 1e-14);
+    for (law, words) in [
+        (r#"{"segments": []}"#.to_owned(), "cable.law.segments is 0: expected one segment"),
+        (r#"{"segments": [{"tension": 5, "modulus": 1e11}]}"#.to_owned(), "cable.law.segments.tension is 5"),
+        (r#"{"segments": [{"tension": 0, "modulus": -1}]}"#.to_owned(), "cable.law.segments.ratio is"),
+    ] {
+        let message = with(&law).unwrap_err().to_string();
+        assert!(message.starts_with(words), "{message}");
+    }
+}

@@ -76,6 +76,10 @@ pub fn certify(
         model.cables(),
     )?;
     let failed = |reason, growth| StaticsError::NotCertified { reason, growth };
+    if !robot.is_linear() {
+        let reason = "a cable's elastic law has pieces; certificates are for linear cables";
+        return Err(failed(reason, f64::INFINITY));
+    }
     let state = State::from(equilibrium);
     let rotation = exact_rotation(&state.rotation);
     let at = |radius: &DVector<f64>| enclose(&state, &rotation, radius);

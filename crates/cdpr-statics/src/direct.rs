@@ -225,7 +225,7 @@ pub(crate) fn solution(
         let (length, chord) = (model.lengths[i], model.span(&equilibrium.pose, i).end.norm());
         let catenary = model.catenary(i, *force);
         let tension = catenary.anchor_tension().max(catenary.exit_tension());
-        let strain = tension / model.cable(i).axial_stiffness;
+        let strain = model.cable(i).strain(tension);
         if strain > MAX_STRAIN {
             return Err(StaticsError::Overstrained { index: i, length, distance: chord, strain });
         }

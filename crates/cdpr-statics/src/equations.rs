@@ -82,14 +82,21 @@ impl<T: Number> Strung<T> {
         let f = state.forces[i];
         let p = &cable.properties;
         let w = T::of(p.linear_density) * T::of(model.robot.gravity);
-        let limp = model.catenary(i, Vector2::new(f.x.value(), f.y.value())).is_limp();
-        let ea = T::of(p.youngs_modulus) * T::of(p.section);
+        let catenary = model.catenary(i, Vector2::new(f.x.value(), f.y.value()));
+        let response = || match p.law {
+            None => {
+                let ea = T::of(p.youngs_modulus) * T::of(p.section);
+                response(w, ea.recip(), T::of(model.lengths[i]), [f.x, f.y])
+            }
+            // Doubles: certificates are refused for such a cable.
+            Some(_) => catenary.response().map(T::of),
+        };
         Self {
             arm,
             azimuth,
             end: Vector2::new(h, r.z),
             force: Vector3::new(f.x * azimuth.x, f.x * azimuth.y, f.y),
-            response: (!limp).then(|| response(w, ea.recip(), T::of(model.lengths[i]), [f.x, f.y])),
+            response: (!catenary.is_limp()).then(response),
         }
     }
 

@@ -94,7 +94,7 @@ struct Inverse<'a> {
     reference: &'a [f64],
 }
 
-impl Inverse<'_> {
+impl<'a> Inverse<'a> {
     fn cables(&self) -> usize {
         self.reference.len()
     }
@@ -175,7 +175,7 @@ impl Inverse<'_> {
     }
 
     /// All catenaries at given tensions, or the first cable whose span demands more.
-    fn catenaries(&self, spans: &[Span], tensions: &[f64]) -> Result<Turn, StaticsError> {
+    fn catenaries(&self, spans: &[Span], tensions: &[f64]) -> Result<Turn<'a>, StaticsError> {
         let mut catenaries = Vec::with_capacity(spans.len());
         for (i, (span, t)) in spans.iter().zip(tensions).enumerate() {
             match length_for_tension(&self.robot.cable(i), span.end, *t) {
@@ -195,7 +195,7 @@ impl Inverse<'_> {
         spans: &[Span],
         limits: &[TensionLimits],
         distribution: &Distribution,
-    ) -> Result<Turn, StaticsError> {
+    ) -> Result<Turn<'a>, StaticsError> {
         let wrench = self.wrench();
         let mut tensions = distribution.tensions.clone();
         let mut multipliers = Vector6::zeros();
@@ -265,11 +265,11 @@ impl Inverse<'_> {
 }
 
 /// What one turn of the inverse model ends with.
-enum Turn {
+enum Turn<'a> {
     /// The optimum, to rounding.
-    Solved { catenaries: Vec<Catenary>, tensions: Vec<f64> },
+    Solved { catenaries: Vec<Catenary<'a>>, tensions: Vec<f64> },
     /// Catenaries whose directions make a better distribution.
-    Catenaries(Vec<Catenary>),
+    Catenaries(Vec<Catenary<'a>>),
     /// A cable whose span demands at least this tension [N].
     TooSmall { cable: usize, least: f64 },
     /// Nothing to go by.

@@ -10,6 +10,7 @@
 //! | where else could it stand? | [`direct_all`], [`direct_any`] |
 //! | where does it go while cables are wound or loads change, and where does it jump? | [`follow`] |
 //! | how far does it give under a load (Eq. (4))? | [`deflection`], [`deflections`] |
+//! | where does it end when a payload comes and goes, on cables that dissipate? | [`load_cycle`] |
 //! | and with other parameters, a million times? | [`Observer`] |
 //! | which parameter changes lengths, tensions, poses and deflection, and by how much? | [`derivatives`] |
 //! | how stiff is it, how do lengths and loads move it? | [`Tangent`] |
@@ -46,6 +47,7 @@ mod derivatives;
 mod direct;
 mod equations;
 mod error;
+mod hysteresis;
 mod interval;
 mod inverse;
 mod lane_algebra;
@@ -69,6 +71,7 @@ pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, d
 pub use derivatives::{Derivatives, EquilibriumDerivatives, VarianceBudget, derivatives};
 pub use direct::{DirectSolution, Method, Report, Residual, Start, direct, direct_any, rough_pose};
 pub use error::StaticsError;
+pub use hysteresis::{HysteresisLaw, LoadCycle, Unloading, load_cycle};
 pub use inverse::{InverseSolution, inverse, lengths_for_tensions};
 pub use many::{Equilibria, Found, Starts, direct_all};
 pub use model::{Equilibrium, Load};

@@ -122,7 +122,7 @@ impl<'a> Model<'a> {
         self.lengths.len()
     }
 
-    pub(crate) fn cable(&self, i: usize) -> Cable {
+    pub(crate) fn cable(&self, i: usize) -> Cable<'a> {
         self.robot.cable(i)
     }
 
@@ -135,7 +135,7 @@ impl<'a> Model<'a> {
         Span::new(pose.position + arm - self.robot.cables[i].exit_point)
     }
 
-    pub(crate) fn catenary(&self, i: usize, force: Vector2<f64>) -> Catenary {
+    pub(crate) fn catenary(&self, i: usize, force: Vector2<f64>) -> Catenary<'a> {
         Catenary { cable: self.cable(i), unstrained_length: self.lengths[i], force }
     }
 

@@ -100,7 +100,8 @@ impl<'a> Observer<'a> {
 impl Nominal {
     fn new(robot: &Robot, pose: &Pose, load: &Load) -> Option<Self> {
         // A moment has no potential: whether its equilibria are stable is not seen from pivots.
-        if load.wrench.moment != Vector3::zeros() {
+        // The lanes hold linear cables.
+        if load.wrench.moment != Vector3::zeros() || !robot.is_linear() {
             return None;
         }
         let solution = inverse(robot, pose, &Load::none(), None).ok()?;

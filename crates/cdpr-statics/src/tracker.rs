@@ -68,8 +68,10 @@ impl<'a> Tracker<'a> {
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let model = Model::new(self.robot, lengths, load)?;
         // A moment has no potential: whether its equilibria are stable is not seen from pivots.
-        let taut =
-            load.wrench.moment == Vector3::zeros() && dispatch(Update { tracker: self, model: &model });
+        // The lanes hold linear cables.
+        let taut = load.wrench.moment == Vector3::zeros()
+            && self.robot.is_linear()
+            && dispatch(Update { tracker: self, model: &model });
         if !taut {
             let solution = direct(self.robot, lengths, load, Start::Near(&self.equilibrium))?;
             self.residual = solution.report.residual;

@@ -54,6 +54,7 @@ fn case(seed: u64) -> Case {
         youngs_modulus: weight / log_uniform(rng, 1e-6, 1e-2) / 1e-5,
         diameter: None,
         breaking_force: None,
+        law: None,
     };
     let cables = (0..n)
         .map(|_| {
@@ -62,7 +63,7 @@ fn case(seed: u64) -> Case {
             RobotCable {
                 exit_point: Vector3::new(exit.x, exit.y, height),
                 anchor_point: Vector3::from_fn(|_, _| rng.random_range(-0.5..0.5) * platform),
-                properties,
+                properties: properties.clone(),
             }
         })
         .collect();

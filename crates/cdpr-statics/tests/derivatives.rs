@@ -281,7 +281,7 @@ fn derivatives_of_caroca_are_those_of_differences() {
 fn random_case(seed: u64) -> Case {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let n = rng.random_range(6..=12);
-    let mut properties = caroca().cables[0].properties;
+    let mut properties = caroca().cables[0].properties.clone();
     properties.youngs_modulus *= 10f64.powf(rng.random_range(-1.5..0.5));
     properties.linear_density *= 10f64.powf(rng.random_range(-1.0..0.7));
     let cables = (0..n)
@@ -298,7 +298,7 @@ fn random_case(seed: u64) -> Case {
                     0.5 * anchor.sin(),
                     height + 0.1 * a,
                 ),
-                properties,
+                properties: properties.clone(),
             }
         })
         .collect();

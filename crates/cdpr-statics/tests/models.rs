@@ -19,7 +19,7 @@ fn cogiro() -> Robot {
 
 /// A suspended robot with `n` cables that alternate between the upper and the lower rim of a drum-shaped platform.
 fn drum(n: usize, jitter: &[f64], mass: f64) -> Robot {
-    let properties = caroca().cables[0].properties;
+    let properties = caroca().cables[0].properties.clone();
     let cables = (0..n)
         .map(|i| {
             let around = std::f64::consts::TAU * i as f64 / n as f64;
@@ -33,7 +33,7 @@ fn drum(n: usize, jitter: &[f64], mass: f64) -> Robot {
                     0.5 * anchor.sin(),
                     height + 0.1 * a,
                 ),
-                properties,
+                properties: properties.clone(),
             }
         })
         .collect();

@@ -31,6 +31,7 @@ fn robot(case: &Value) -> Robot {
         youngs_modulus: number(&case["axial_stiffness"]),
         diameter: None,
         breaking_force: None,
+        law: None,
     };
     let (exits, anchors) =
         (case["exit_points"].as_array().unwrap(), case["anchor_points"].as_array().unwrap());
@@ -43,7 +44,11 @@ fn robot(case: &Value) -> Robot {
         cables: exits
             .iter()
             .zip(anchors)
-            .map(|(b, a)| RobotCable { exit_point: vector(b), anchor_point: vector(a), properties })
+            .map(|(b, a)| RobotCable {
+                exit_point: vector(b),
+                anchor_point: vector(a),
+                properties: properties.clone(),
+            })
             .collect(),
     }
 }

@@ -15,7 +15,7 @@ fn caroca() -> Robot {
 /// A platform on six cables in threefold symmetry, drawn up and down at a triangle of radius `radius`, with its centre of mass
 /// `height` above it.
 fn tripod(radius: f64, height: f64, mass: f64) -> Robot {
-    let properties = caroca().cables[0].properties;
+    let properties = caroca().cables[0].properties.clone();
     let cable = |i: usize| {
         let around = std::f64::consts::TAU * (i / 2) as f64 / 3.0;
         let up = if i.is_multiple_of(2) { 2.0 } else { -2.0 };
@@ -26,7 +26,7 @@ fn tripod(radius: f64, height: f64, mass: f64) -> Robot {
                 radius * (around + 0.3 * up).sin(),
                 0.0,
             ),
-            properties,
+            properties: properties.clone(),
         }
     };
     Robot {

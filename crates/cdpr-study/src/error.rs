@@ -1,5 +1,6 @@
 //! What can go wrong with a study.
 
+use cdpr_cable::RecordError;
 use cdpr_robot::{JsonError, RobotError, place_of};
 use cdpr_sensitivity::SensitivityError;
 use cdpr_statics::StaticsError;
@@ -39,6 +40,14 @@ pub enum StudyError {
         path: PathBuf,
         /// Place and reason.
         source: RobotError,
+    },
+    /// The text is no load-elongation record.
+    #[error("{path}: {source}")]
+    Record {
+        /// The file.
+        path: PathBuf,
+        /// Line and reason.
+        source: RecordError,
     },
     /// A failure of these, with its place in the study file.
     #[error("{source} (line {line}, column {column})")]

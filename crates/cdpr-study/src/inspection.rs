@@ -142,7 +142,7 @@ impl Findings<'_> {
     }
 
     fn properties(&mut self, path: &str, properties: &CableProperties) {
-        let CableProperties { section, linear_density, youngs_modulus, diameter, breaking_force } =
+        let CableProperties { section, linear_density, youngs_modulus, diameter, breaking_force, .. } =
             *properties;
         if !MODULUS.contains(&youngs_modulus) {
             self.add(

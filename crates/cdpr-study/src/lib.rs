@@ -45,6 +45,7 @@ mod observation;
 mod output;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod record;
 mod results;
 mod robustness;
 mod sampling;
@@ -78,6 +79,7 @@ pub use output::{
     StudySummary, Summary, check_folder, write_figure, write_refused, write_robustness, write_sensitivity,
     write_solves, write_summary, write_surface, write_text, write_workspace,
 };
+pub use record::open_record;
 pub use results::Results;
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,

@@ -4,7 +4,7 @@ use cdpr_cable::{Cable, CableError, Catenary, Solution, Vector2};
 
 /// `w, EA, L, x, z`: an equilibrium with an honest residual, or a typed error.
 pub fn end_force([weight_per_length, axial_stiffness, length, x, z]: [f64; 5]) {
-    let cable = Cable { weight_per_length, axial_stiffness };
+    let cable = Cable::linear(weight_per_length, axial_stiffness);
     let end = Vector2::new(x, z);
     match cdpr_cable::end_force(&cable, length, end) {
         Ok(solution) => {
@@ -18,7 +18,7 @@ pub fn end_force([weight_per_length, axial_stiffness, length, x, z]: [f64; 5]) {
 
 /// `w, EA, x, z, tension`: a length with an honest residual and the wanted tension, or a typed error.
 pub fn length_for_tension([weight_per_length, axial_stiffness, x, z, tension]: [f64; 5]) {
-    let cable = Cable { weight_per_length, axial_stiffness };
+    let cable = Cable::linear(weight_per_length, axial_stiffness);
     let end = Vector2::new(x, z);
     match cdpr_cable::length_for_tension(&cable, end, tension) {
         Ok(solution) => {
@@ -37,7 +37,7 @@ pub fn length_for_tension([weight_per_length, axial_stiffness, x, z, tension]: [
 
 /// `w, EA, L, fx, fz, s`: all that a valid catenary is asked, at the arc length `s`, is finite.
 pub fn catenary([weight_per_length, axial_stiffness, unstrained_length, fx, fz, s]: [f64; 6]) {
-    let cable = Cable { weight_per_length, axial_stiffness };
+    let cable = Cable::linear(weight_per_length, axial_stiffness);
     let ordinary = |value: f64| (SMALLEST..=LARGEST).contains(&value);
     let positive = [axial_stiffness, unstrained_length].into_iter().all(ordinary);
     // A weightless cable with next to no tension has next to no stiffness across, and no digits of it.

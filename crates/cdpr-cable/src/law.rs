@@ -1,0 +1,196 @@
+//! How a cable stretches under tension: in proportion, or by pieces of different stiffness.
+//!
+//! The strain is a continuous, strictly increasing function of the tension. It is written as `ε(T) = σ(T)/EA` with the cable's
+//! axial stiffness EA as a scale, so that a change of the modulus scales the whole law:
+//!
+//! ```text
+//! linear:      σ = T
+//! piecewise:   σ = σ_k + (T - T_k)/κ_k      for T_k <= T < T_{k+1},   κ_k = EA_k/EA
+//! ```
+//!
+//! Within a piece `1 + ε = α_k + T/EA_k`, `α_k = 1 + (σ_k - T_k/κ_k)/EA`, and the complementary energy per length is
+//! `∫ ε dT = c_k + (α_k - 1) T + T²/2EA_k`.
+
+use crate::error::{CableError, check};
+
+/// Strain over tension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ElasticLaw<'a> {
+    /// ε = T/EA.
+    Linear,
+    /// Pieces of different stiffness.
+    Piecewise(&'a PiecewiseLaw),
+}
+
+/// A strain that grows with the tension by pieces of different stiffness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PiecewiseLaw {
+    segments: Vec<Segment>,
+}
+
+/// A piece of a law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Tension T_k at which it begins [N].
+    pub tension: f64,
+    /// Its stiffness over the cable's, κ_k = EA_k/EA.
+    pub ratio: f64,
+    /// σ_k: strain at its beginning, times EA [N].
+    scaled_strain: f64,
+    /// ∫ σ dT from zero to its beginning [N²].
+    scaled_energy: f64,
+}
+
+/// A segment as the catenary takes it, for a given EA.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    /// α_k.
+    pub(crate) alpha: f64,
+    /// 1/EA_k [1/N].
+    pub(crate) flexibility: f64,
+    /// c_k [N].
+    pub(crate) energy: f64,
+}
+
+impl PiecewiseLaw {
+    /// A law from the tension [N] at which each segment begins and its stiffness over the cable's, κ. The first one begins at zero;
+    /// `scaled_strain_at_rest` is the strain without tension times the cable's axial stiffness [N], zero for a new cable.
+    ///
+    /// # Errors
+    /// [`CableError::InvalidInput`] for no segment, tensions that do not grow from zero, or a stiffness that is not positive.
+    pub fn new(scaled_strain_at_rest: f64, segments: &[(f64, f64)]) -> Result<Self, CableError> {
+        check("law.segments", segments.len() as f64, !segments.is_empty(), "one segment at least")?;
+        check("law.strain_at_rest", scaled_strain_at_rest, true, "a finite strain")?;
+        let mut made: Vec<Segment> = Vec::with_capacity(segments.len());
+        for &(tension, ratio) in segments {
+            let begins = made.last().map_or(tension == 0.0, |before| tension > before.tension);
+            let expected = "tensions that grow from 0 [N], where each segment begins";
+            check("law.segments.tension", tension, begins, expected)?;
+            let expected = "a stiffness from 1e-6 to 1e6 of the cable's";
+            check("law.segments.ratio", ratio, (1e-6..=1e6).contains(&ratio), expected)?;
+            let (scaled_strain, scaled_energy) = made.last().map_or((scaled_strain_at_rest, 0.0), |before| {
+                (before.strain_at(tension), before.energy_at(tension))
+            });
+            made.push(Segment { tension, ratio, scaled_strain, scaled_energy });
+        }
+        Ok(Self { segments: made })
+    }
+
+    /// The pieces, from zero tension up.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// Strain without tension, times the cable's axial stiffness [N].
+    pub fn scaled_strain_at_rest(&self) -> f64 {
+        self.segments[0].scaled_strain
+    }
+
+    /// Strain at a tension [N], times the cable's axial stiffness [N].
+    pub fn scaled_strain(&self, tension: f64) -> f64 {
+        self.at(tension).strain_at(tension)
+    }
+
+    /// Integral of the strain over the tension from zero up to a tension [N], times the cable's axial stiffness [N²].
+    pub fn scaled_energy(&self, tension: f64) -> f64 {
+        self.at(tension).energy_at(tension)
+    }
+
+    /// Stiffness at a tension [N] over the cable's, κ; at a kink that of the piece above it.
+    pub fn ratio(&self, tension: f64) -> f64 {
+        self.at(tension).ratio
+    }
+
+    /// Tension [N] at a strain times the cable's axial stiffness [N]; zero below the strain at rest.
+    pub fn tension(&self, scaled_strain: f64) -> f64 {
+        let above = self.segments.partition_point(|segment| segment.scaled_strain <= scaled_strain);
+        let segment = &self.segments[above.max(1) - 1];
+        (segment.tension + (scaled_strain - segment.scaled_strain) * segment.ratio).max(0.0)
+    }
+
+    fn at(&self, tension: f64) -> &Segment {
+        let above = self.segments.partition_point(|segment| segment.tension <= tension);
+        &self.segments[above.max(1) - 1]
+    }
+
+    /// The segment at a tension, for a cable of axial stiffness `ea` [N].
+    pub(crate) fn stretch(&self, tension: f64, ea: f64) -> Stretch {
+        let Segment { tension: t, ratio, scaled_strain, scaled_energy } = *self.at(tension);
+        Stretch {
+            alpha: 1.0 + (scaled_strain - t / ratio) / ea,
+            flexibility: 1.0 / (ratio * ea),
+            energy: (scaled_energy - scaled_strain * t + 0.5 * t * t / ratio) / ea,
+        }
+    }
+
+    /// Tensions at which the stiffness changes [N].
+    pub(crate) fn kinks(&self) -> impl Iterator<Item = f64> {
+        self.segments[1..].iter().map(|segment| segment.tension)
+    }
+}
+
+impl Segment {
+    fn strain_at(&self, tension: f64) -> f64 {
+        self.scaled_strain + (tension - self.tension) / self.ratio
+    }
+
+    fn energy_at(&self, tension: f64) -> f64 {
+        let more = tension - self.tension;
+        self.scaled_energy + more * (self.scaled_strain + 0.5 * more / self.ratio)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn stiffening() -> PiecewiseLaw {
+        PiecewiseLaw::new(3.0, &[(0.0, 0.5), (100.0, 1.0), (300.0, 2.0)]).unwrap()
+    }
+
+    #[test]
+    fn strain_and_tension_are_inverse_of_each_other() {
+        let law = stiffening();
+        assert_eq!(law.scaled_strain(100.0), 203.0);
+        assert_eq!(law.scaled_strain(300.0), 403.0);
+        assert_eq!(law.scaled_strain(500.0), 503.0);
+        for tension in [0.0, 1.0, 100.0, 250.0, 300.0, 1e4] {
+            assert_relative_eq!(law.tension(law.scaled_strain(tension)), tension, epsilon = 1e-12);
+        }
+        assert_eq!(law.tension(2.0), 0.0);
+    }
+
+    #[test]
+    fn the_form_of_the_catenary_is_the_law_and_its_integral() {
+        let (law, ea) = (stiffening(), 1e4);
+        let mut energy = 0.0;
+        let step = 0.25;
+        for k in 0..2000 {
+            let (low, middle, high) =
+                (step * f64::from(k), step * (f64::from(k) + 0.5), step * f64::from(k + 1));
+            energy += step * law.scaled_strain(middle) / ea;
+            let Stretch { alpha, flexibility, energy: c } = law.stretch(low, ea);
+            assert_relative_eq!(
+                alpha + high * flexibility,
+                1.0 + law.scaled_strain(high) / ea,
+                max_relative = 1e-14
+            );
+            let closed = c + (alpha - 1.0) * high + 0.5 * high * high * flexibility;
+            assert_relative_eq!(closed, energy, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_law_that_does_not_grow_is_refused() {
+        let field = |segments: &[(f64, f64)]| match PiecewiseLaw::new(0.0, segments) {
+            Err(CableError::InvalidInput { field, .. }) => field,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(field(&[]), "law.segments");
+        assert_eq!(field(&[(1.0, 1.0)]), "law.segments.tension");
+        assert_eq!(field(&[(0.0, 1.0), (0.0, 2.0)]), "law.segments.tension");
+        assert_eq!(field(&[(0.0, 0.0)]), "law.segments.ratio");
+        assert_eq!(field(&[(0.0, 1.0), (5.0, f64::NAN)]), "law.segments.ratio");
+    }
+}

@@ -1,0 +1,172 @@
+//! A cable whose stiffness changes with its tension, as the sum of pieces that each stay within one segment of its law.
+//!
+//! Each element points along its force, stretched by `1 + ε(T)`:
+//!
+//! ```text
+//! dx = (1 + ε) fx/T ds,      dz = (1 + ε) V/T ds,      1 + ε = α_k + T/EA_k
+//! ```
+//!
+//! so that a piece of cable whose tension stays within segment k has the equations of `response` with 1/EA_k for 1/EA and their
+//! inextensible part times α_k: `Q = Q(1/EA_k) + (α_k - 1) Q(0)` for every Q that is linear in the two. The cable is cut where its
+//! tension crosses a kink, at `V = ±sqrt(T_k² - fx²)`. Since ε is continuous, what a cut that moves adds to one piece it takes from
+//! the next: all derivatives are sums over the pieces at fixed ranges of s, with `dV = df_z` and, for the weight, `dV = -(L - s) dw`.
+//!
+//! With S the sum of L_k/EA_k and N that of α_k times the inextensible flexibilities, the flexibility is `S 1 + N` and its determinant
+//! `S² + S tr N + det N`. The complementary energy is the integral over the cable of a convex function of a convex one: the force at
+//! the end stays unique.
+
+use crate::catenary::Catenary;
+use crate::law::{PiecewiseLaw, Stretch};
+use crate::response::{Response, Terms};
+use nalgebra::Vector2;
+
+/// A piece of a cable.
+struct Piece {
+    /// As if it were linear with 1/EA_k.
+    elastic: Terms<f64>,
+    /// As if it could not stretch.
+    inextensible: Terms<f64>,
+    stretch: Stretch,
+    length: f64,
+    /// Length of the cable beyond it, towards A.
+    beyond: f64,
+    /// Vertical force at its ends, nearer to B and to A.
+    vertical: [f64; 2],
+}
+
+/// The pieces from B to A.
+fn pieces(catenary: &Catenary, law: &PiecewiseLaw) -> Vec<Piece> {
+    let Catenary { cable, unstrained_length: length, force } = *catenary;
+    let (w, fx, v0) = (cable.weight_per_length, force.x, catenary.exit_vertical_force());
+    let mut cuts = vec![0.0, length];
+    if !cable.is_weightless(length) {
+        for kink in law.kinks().filter(|kink| *kink > fx) {
+            let v = ((kink - fx) * (kink + fx)).sqrt();
+            cuts.extend([-v, v].map(|v| (v - v0) / w).iter().filter(|s| (0.0..length).contains(*s)));
+        }
+    }
+    cuts.sort_by(f64::total_cmp);
+    let between = cuts.windows(2).filter(|ends| ends[1] > ends[0]);
+    between
+        .map(|ends| {
+            // The middle decides: an end lies on a kink.
+            let tension = fx.hypot(v0 + w * 0.5 * (ends[0] + ends[1]));
+            let stretch = law.stretch(tension, cable.axial_stiffness);
+            let piece = ends[1] - ends[0];
+            let vertical = [0, 1].map(|k| if ends[k] == length { force.y } else { v0 + w * ends[k] });
+            let terms = |flexibility| Terms::new(w, flexibility, piece, fx, vertical[1]);
+            Piece {
+                elastic: terms(stretch.flexibility),
+                inextensible: terms(0.0),
+                stretch,
+                length: piece,
+                beyond: length - ends[1],
+                vertical,
+            }
+        })
+        .collect()
+}
+
+impl Piece {
+    /// `Q(1/EA_k) + (α_k - 1) Q(0)`.
+    fn of<T>(&self, quantity: impl Fn(&Terms<f64>) -> T) -> T
+    where
+        T: std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
+    {
+        quantity(&self.elastic) + quantity(&self.inextensible) * (self.stretch.alpha - 1.0)
+    }
+}
+
+/// Position (x, z) of A [m].
+pub(crate) fn end_position(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
+    let ends = pieces(catenary, law).into_iter();
+    ends.map(|piece| piece.of(|terms| Vector2::from(terms.end_position()))).sum()
+}
+
+/// How the end answers to forces.
+pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64> {
+    let Catenary { unstrained_length: length, force, cable } = *catenary;
+    let (tension, exit) = (catenary.anchor_tension(), catenary.exit_tension());
+    let q = cable.weight_per_length * length / (tension + exit);
+    let mut sum = Response {
+        end: [0.0; 2],
+        flexibility: [0.0; 3],
+        determinant: 0.0,
+        lateral: 0.0,
+        end_per_length: [0.0; 2],
+        tension,
+        direction: [force.x / tension, force.y / tension],
+        slackness: q * q,
+    };
+    let (mut straight, mut bent, mut determinant) = (0.0, [0.0; 3], 0.0);
+    for (place, piece) in pieces(catenary, law).iter().enumerate() {
+        let Piece { stretch: Stretch { alpha, flexibility, .. }, length, .. } = *piece;
+        let (elastic, inextensible) = (piece.elastic.response(), piece.inextensible.response());
+        let add = |one: f64, other: f64| one + (alpha - 1.0) * other;
+        for k in 0..2 {
+            sum.end[k] += add(elastic.end[k], inextensible.end[k]);
+        }
+        for k in 0..3 {
+            sum.flexibility[k] += add(elastic.flexibility[k], inextensible.flexibility[k]);
+        }
+        sum.lateral += add(elastic.lateral, inextensible.lateral);
+        if place == 0 {
+            // What is paid out enters at B.
+            for k in 0..2 {
+                sum.end_per_length[k] = add(elastic.end_per_length[k], inextensible.end_per_length[k]);
+            }
+        }
+        let n = inextensible.flexibility.map(|c| alpha * c);
+        let mixed = bent[0] * n[2] + bent[2] * n[0] - 2.0 * bent[1] * n[1];
+        determinant += alpha * alpha * inextensible.determinant + mixed.max(0.0);
+        straight += length * flexibility;
+        (0..3).for_each(|k| bent[k] += n[k]);
+    }
+    sum.determinant = straight * (straight + bent[0] + bent[2]) + determinant;
+    sum
+}
+
+/// d(x, z)/dw at constant force at A [m²/N].
+pub(crate) fn end_per_weight(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
+    let all = pieces(catenary, law).into_iter();
+    all.map(|piece| {
+        // The force at the piece's own end falls by what the cable beyond it weighs more.
+        let per_vertical = piece.of(|terms| {
+            let [_, xz, zz] = terms.response().flexibility;
+            Vector2::new(xz, zz)
+        });
+        piece.of(Terms::end_per_weight) - per_vertical * piece.beyond
+    })
+    .sum()
+}
+
+/// d(x, z)/dEA at constant force at A [m/N]: the strain of each element is inverse to EA.
+pub(crate) fn end_per_stiffness(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
+    let strained: Vector2<f64> = pieces(catenary, law)
+        .into_iter()
+        .map(|piece| {
+            let [below, above] = piece.vertical;
+            let pull = Vector2::new(catenary.force.x, 0.5 * (below + above));
+            let bare = Vector2::from(piece.inextensible.end_position());
+            pull * (piece.length * piece.stretch.flexibility) + bare * (piece.stretch.alpha - 1.0)
+        })
+        .sum();
+    -strained / catenary.cable.axial_stiffness
+}
+
+/// Complementary energy [J].
+pub(crate) fn complementary_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f64 {
+    let all = pieces(catenary, law).into_iter();
+    all.map(|piece| piece.of(Terms::complementary_energy) + piece.length * piece.stretch.energy).sum()
+}
+
+/// Potential energy [J]: `f·r - U*` by pieces; each lifts what hangs beyond it.
+pub(crate) fn potential_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f64 {
+    let w = catenary.cable.weight_per_length;
+    let all = pieces(catenary, law).into_iter();
+    all.map(|piece| {
+        let [_, z] = [0, 1].map(|k| piece.of(|terms| terms.end_position()[k]));
+        piece.of(Terms::potential_energy) - piece.length * piece.stretch.energy + w * piece.beyond * z
+    })
+    .sum()
+}

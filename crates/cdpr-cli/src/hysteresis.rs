@@ -1,0 +1,184 @@
+//! `cdpr hysteresis`: a payload comes and goes.
+
+use crate::arguments::{self, Format, number};
+use crate::study::table;
+use cdpr_cable::Phase;
+use cdpr_report::{Cycle, cycle};
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{DirectSolution, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+use cdpr_study::{open_record, open_robot};
+use serde::Serialize;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+/// The robot, its cables and its load.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// Record of all its cables (CSV with the columns force_n, elongation_mm, phase: loading or unloading).
+    #[arg(long)]
+    record: PathBuf,
+    /// Length of the record's specimen between its clamps [m].
+    #[arg(long, value_parser = number, allow_hyphen_values = true)]
+    length: f64,
+    /// Pose under the platform's own weight: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
+    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
+    pose: Pose,
+    /// Mass put on the platform's centre of mass and taken off again [kg].
+    #[arg(long, value_parser = number, allow_hyphen_values = true)]
+    payload: f64,
+    /// Which part of the unloading curve a cable follows.
+    #[arg(long, value_enum, default_value_t = Branch::TurningPoint)]
+    unloading: Branch,
+    /// Steps each way.
+    #[arg(long, default_value_t = 50)]
+    steps: usize,
+    /// File for a picture of payload over height (SVG).
+    #[arg(long)]
+    figure: Option<PathBuf>,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// Which part of the unloading curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Branch {
+    /// That of the same tensions.
+    SameTension,
+    /// Its beginning, from wherever the tension turns.
+    TurningPoint,
+}
+
+#[derive(Serialize)]
+struct Found {
+    deflection_mm: [f64; 3],
+    residual_mm: [f64; 3],
+    payload_work_j: f64,
+    dissipated_j: f64,
+    cables: Vec<InCable>,
+}
+
+/// A cable; tensions at its middle.
+#[derive(Serialize)]
+struct InCable {
+    tension_own_weight_n: f64,
+    tension_payload_n: f64,
+    tension_removed_n: f64,
+    /// Secant between own weight and payload.
+    modulus_gpa: f64,
+    dissipated_j: f64,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+    let robot = open_robot(&settings.robot)?;
+    let law = curves(&robot, settings)?;
+    let cycle = load_cycle(&robot, &law, &settings.pose, settings.payload, settings.steps)?;
+    let found = Found::new(&robot, &law, &cycle);
+    match settings.format {
+        Format::Json => println!("{}", serde_json::to_string(&found)?),
+        Format::Text => print(&found),
+    }
+    if found.cables.iter().any(|cable| cable.dissipated_j < 0.0) {
+        eprintln!(
+            "warning: the loop of a cable runs the wrong way round and gives energy: in its range of tension the record's unloading \
+             curve is softer than its loading curve, as it can be far below the turning point that it was measured from"
+        );
+    }
+    settings.figure.as_deref().map_or(Ok(()), |path| draw(&robot, &cycle, &found, path))
+}
+
+/// The record in proportion to the robot's cables, which have to be alike.
+fn curves(robot: &Robot, settings: &Settings) -> Result<HysteresisLaw, Box<dyn Error>> {
+    if settings.length <= 0.0 {
+        return Err(format!("--length is {}: expected a positive length [m]", settings.length).into());
+    }
+    let stiffness = robot.cables[0].properties.axial_stiffness();
+    if robot.cables.iter().any(|cable| cable.properties.axial_stiffness() != stiffness) {
+        return Err("the cables of the robot differ in their axial stiffness: expected one record for cables that are alike".into());
+    }
+    let record = open_record(&settings.record)?;
+    let [_, turning_tension] = record.forces(Phase::Loading);
+    Ok(HysteresisLaw {
+        loading: record.law(Phase::Loading, settings.length, stiffness)?,
+        unloading: record.law(Phase::Unloading, settings.length, stiffness)?,
+        turning_tension,
+        unloading_from: match settings.unloading {
+            Branch::SameTension => Unloading::SameTension,
+            Branch::TurningPoint => Unloading::TurningPoint,
+        },
+    })
+}
+
+impl Found {
+    fn new(robot: &Robot, law: &HysteresisLaw, cycle: &LoadCycle) -> Self {
+        let modulus = |[from, to, _]: [f64; 3]| {
+            let strain = law.loading.scaled_strain(to) - law.loading.scaled_strain(from);
+            robot.cables[0].properties.youngs_modulus * (to - from) / strain
+        };
+        let cables = cycle.tensions.iter().zip(&cycle.dissipated).map(|(tensions, dissipated)| InCable {
+            tension_own_weight_n: tensions[0],
+            tension_payload_n: tensions[1],
+            tension_removed_n: tensions[2],
+            modulus_gpa: 1e-9 * modulus(*tensions),
+            dissipated_j: *dissipated,
+        });
+        Self {
+            deflection_mm: (1e3 * cycle.deflection()).into(),
+            residual_mm: (1e3 * cycle.residual()).into(),
+            payload_work_j: cycle.payload_work,
+            dissipated_j: cycle.dissipated.iter().sum(),
+            cables: cables.collect(),
+        }
+    }
+}
+
+fn print(found: &Found) {
+    let mut rows =
+        table(&["cable", "own weight [N]", "payload [N]", "removed [N]", "E [GPa]", "dissipated [mJ]"]);
+    for (i, cable) in found.cables.iter().enumerate() {
+        let [a, b, c] = [cable.tension_own_weight_n, cable.tension_payload_n, cable.tension_removed_n]
+            .map(|tension| format!("{tension:.2}"));
+        let (modulus, energy) =
+            (format!("{:.2}", cable.modulus_gpa), format!("{:.4}", 1e3 * cable.dissipated_j));
+        rows.add_row([(i + 1).to_string(), a, b, c, modulus, energy]);
+    }
+    // Without the sign of a zero.
+    let [dx, dy, dz] = found.deflection_mm.map(|d| format!("{:.4}", (1e4 * d).round() / 1e4 + 0.0));
+    let [rx, ry, rz] = found.residual_mm.map(|d| format!("{:.5}", (1e5 * d).round() / 1e5 + 0.0));
+    println!(
+        "{rows}\ndisplaced by the payload  ({dx}, {dy}, {dz}) mm\nleft when it is gone      ({rx}, {ry}, {rz}) mm"
+    );
+    println!(
+        "energy: {:.4} mJ given by the payload, {:.4} mJ in the loops of the cables",
+        1e3 * found.payload_work_j,
+        1e3 * found.dissipated_j
+    );
+}
+
+fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<(), Box<dyn Error>> {
+    let begin = ran.loading.first().map_or(0.0, |(_, solution)| solution.equilibrium.pose.position.z);
+    let points = |way: &[(f64, DirectSolution)]| {
+        let at = |(mass, solution): &(f64, DirectSolution)| {
+            (1e3 * (begin - solution.equilibrium.pose.position.z), *mass)
+        };
+        way.iter().map(at).collect::<Vec<_>>()
+    };
+    let branches = [
+        ("payload put on".to_owned(), points(&ran.loading)),
+        ("payload taken off".to_owned(), points(&ran.unloading)),
+    ];
+    let figure = cycle(&Cycle {
+        title: &format!("{}: payload over the way down", robot.name),
+        lines: &[format!(
+            "{:.5} mm stay; {:.3} mJ given by the payload",
+            -found.residual_mm[2],
+            1e3 * found.payload_work_j
+        )],
+        x: "way down [mm]",
+        y: "payload [kg]",
+        branches: &branches,
+    })?;
+    std::fs::write(path, figure).map_err(|error| format!("cannot write {}: {error}", path.display()).into())
+}

@@ -1,0 +1,152 @@
+//! `cdpr modulus`: what a load-elongation record says of a cable.
+
+use crate::arguments::{Format, number};
+use crate::study::table;
+use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
+use cdpr_report::{Cycle, cycle};
+use cdpr_study::open_record;
+use serde::Serialize;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+/// The record and its specimen.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Record (CSV with the columns force_n, elongation_mm, phase: loading or unloading).
+    record: PathBuf,
+    /// Breaking force, of which ranges are percentages [N].
+    #[arg(long, value_parser = number, allow_hyphen_values = true)]
+    breaking_force: f64,
+    /// Section [m²].
+    #[arg(long, value_parser = number, allow_hyphen_values = true)]
+    section: f64,
+    /// Length of the specimen between its clamps [m].
+    #[arg(long, value_parser = number, allow_hyphen_values = true)]
+    length: f64,
+    /// Range of load in percent of the breaking force, such as 10-30; may be given several times.
+    #[arg(long = "range", value_parser = range, required = true)]
+    ranges: Vec<(f64, f64)>,
+    /// Error of each force [N].
+    #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 1.0)]
+    force_error: f64,
+    /// Error of each elongation [mm].
+    #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.03)]
+    elongation_error: f64,
+    /// Error of the length [m].
+    #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.0)]
+    length_error: f64,
+    /// Error of the section [m²].
+    #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.0)]
+    section_error: f64,
+    /// File for a picture of the loop (SVG).
+    #[arg(long)]
+    figure: Option<PathBuf>,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// `p-q`.
+fn range(text: &str) -> Result<(f64, f64), String> {
+    let ends = text.split_once('-').ok_or_else(|| format!("`{text}`: expected p-q, such as 10-30"))?;
+    Ok((number(ends.0)?, number(ends.1)?))
+}
+
+#[derive(Serialize)]
+struct Found {
+    ranges: Vec<InRange>,
+    dissipated_energy_j: f64,
+}
+
+#[derive(Serialize)]
+struct InRange {
+    from_percent: f64,
+    to_percent: f64,
+    loading: Modulus,
+    unloading: Modulus,
+}
+
+/// Uncertainties as in `cdpr_cable::SecantModulus`.
+#[derive(Serialize)]
+struct Modulus {
+    modulus_gpa: f64,
+    standard_uncertainty_gpa: f64,
+    greatest_uncertainty_gpa: f64,
+}
+
+impl From<SecantModulus> for Modulus {
+    fn from(found: SecantModulus) -> Self {
+        Self {
+            modulus_gpa: found.modulus / 1e9,
+            standard_uncertainty_gpa: found.standard / 1e9,
+            greatest_uncertainty_gpa: found.greatest / 1e9,
+        }
+    }
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+    let record = open_record(&settings.record)?;
+    let specimen = Specimen {
+        breaking_force: settings.breaking_force,
+        section: settings.section,
+        length: settings.length,
+        force_error: settings.force_error,
+        elongation_error: 1e-3 * settings.elongation_error,
+        length_error: settings.length_error,
+        section_error: settings.section_error,
+    };
+    let ranges = settings.ranges.iter().map(|&(from_percent, to_percent)| {
+        let of = |phase| record.modulus(&specimen, phase, from_percent, to_percent).map(Modulus::from);
+        Ok(InRange {
+            from_percent,
+            to_percent,
+            loading: of(Phase::Loading)?,
+            unloading: of(Phase::Unloading)?,
+        })
+    });
+    let found = Found {
+        ranges: ranges.collect::<Result<_, cdpr_cable::RecordError>>()?,
+        dissipated_energy_j: record.dissipated_energy(),
+    };
+    match settings.format {
+        Format::Json => println!("{}", serde_json::to_string(&found)?),
+        Format::Text => print(&found),
+    }
+    settings.figure.as_deref().map_or(Ok(()), |path| draw(&record, &found, path))
+}
+
+fn print(found: &Found) {
+    let mut rows = table(&[
+        "range [%]",
+        "loading [GPa]",
+        "standard",
+        "greatest",
+        "unloading [GPa]",
+        "standard",
+        "greatest",
+    ]);
+    for range in &found.ranges {
+        let cells = |of: &Modulus| {
+            [of.modulus_gpa, of.standard_uncertainty_gpa, of.greatest_uncertainty_gpa]
+                .map(|value| format!("{value:.2}"))
+        };
+        let name = format!("{} to {}", range.from_percent, range.to_percent);
+        rows.add_row([name].into_iter().chain(cells(&range.loading)).chain(cells(&range.unloading)));
+    }
+    println!("{rows}\nthe loop dissipates {:.4} J", found.dissipated_energy_j);
+}
+
+fn draw(record: &Record, found: &Found, path: &Path) -> Result<(), Box<dyn Error>> {
+    let branches = [Phase::Loading, Phase::Unloading].map(|phase| {
+        let points = record.samples(phase).iter().map(|sample| (1e3 * sample.elongation, sample.force));
+        (phase.name().to_owned(), points.collect())
+    });
+    let figure = cycle(&Cycle {
+        title: "Load over elongation",
+        lines: &[format!("the loop dissipates {:.4} J", found.dissipated_energy_j)],
+        x: "elongation [mm]",
+        y: "force [N]",
+        branches: &branches,
+    })?;
+    std::fs::write(path, figure).map_err(|error| format!("cannot write {}: {error}", path.display()).into())
+}

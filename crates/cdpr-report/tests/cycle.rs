@@ -1,0 +1,33 @@
+//! The figure of a cycle.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_report::{Cycle, ReportError, cycle};
+
+fn figure(branches: &[(String, Vec<(f64, f64)>)]) -> Result<String, ReportError> {
+    cycle(&Cycle {
+        title: "Loop",
+        lines: &["dissipates <1 J".to_owned()],
+        x: "elongation [mm]",
+        y: "force [N]",
+        branches,
+    })
+}
+
+#[test]
+fn each_sample_of_a_loop_has_its_dot() {
+    let branches = [
+        ("loading".to_owned(), vec![(0.0, 0.0), (1.0, 10.0), (2.0, 30.0)]),
+        ("unloading".to_owned(), vec![(2.0, 30.0), (0.5, 1.0)]),
+    ];
+    let svg = figure(&branches).unwrap();
+    assert_eq!(svg.matches("<circle").count(), 5);
+    assert!(svg.contains("dissipates &lt;1 J") && svg.contains("unloading") && !svg.contains("NaN"));
+}
+
+#[test]
+fn a_cycle_without_points_or_with_one_that_is_none_has_no_figure() {
+    assert!(matches!(figure(&[]), Err(ReportError::Empty { .. })));
+    let nowhere = [("loading".to_owned(), vec![(0.0, f64::NAN)])];
+    assert!(matches!(figure(&nowhere), Err(ReportError::Invalid { .. })));
+}

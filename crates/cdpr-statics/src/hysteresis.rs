@@ -1,0 +1,208 @@
+//! A payload is put on and taken off again, on cables that lose energy: where the platform ends, and what the cycle dissipates.
+//!
+//! A cable follows its loading curve while its tension grows and an unloading curve while it falls. Which, is decided at the turning
+//! points of the load: under its own weight (A) the platform has been loaded; the payload is added up to B and removed again to C.
+//! At a turning point (ε*, T*) the law of a cable becomes
+//!
+//! ```text
+//! ε(T) = ε* - [U(T*) - U(T)]  for T < T*,      ε(T) = ε* + [L(T) - L(T*)]  for T > T*
+//! ```
+//!
+//! with L and U the strains of the loading and unloading curves: each continues from where the cable is ([`Unloading`] says which part of
+//! U). One law holds for a whole cable; T* is the tension at its middle, from which the ends differ by half its weight.
+//!
+//! Energy that the payload gives is the area `∮ m g dz` of payload over height of its centre; that of the cables is `∮ T dε L` of each,
+//! closed by a straight line from C to A, over which all tensions do the work of a payload that is none. Both are the same but for the weight of the
+//! cables, whose tension varies along them.
+
+use crate::deflection::wind;
+use crate::direct::{DirectSolution, Start, direct};
+use crate::error::StaticsError;
+use crate::model::{Equilibrium, Load, Model};
+use cdpr_cable::{CableError, PiecewiseLaw};
+use cdpr_robot::{Pose, Robot, Vector3};
+
+/// The two curves of a cable, strains in proportion to the robot's modulus.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HysteresisLaw {
+    /// Strain while the tension grows.
+    pub loading: PiecewiseLaw,
+    /// Strain while it falls, from `turning_tension` down.
+    pub unloading: PiecewiseLaw,
+    /// Tension from which the unloading curve was measured [N].
+    pub turning_tension: f64,
+    /// Which part of the unloading curve is taken.
+    pub unloading_from: Unloading,
+}
+
+/// Which part of the unloading curve a cable follows from a turning point below that of the record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unloading {
+    /// That of the same tensions: the modulus is a function of tension and direction.
+    SameTension,
+    /// Its beginning, whatever the tension: the modulus is a function of the way back from the turning point (Masing's rule).
+    TurningPoint,
+}
+
+/// A payload put on and taken off.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadCycle {
+    /// Unstrained lengths [m].
+    pub lengths: Vec<f64>,
+    /// Equilibria from own weight to the whole payload, with the payload of each [kg].
+    pub loading: Vec<(f64, DirectSolution)>,
+    /// Equilibria back to own weight; begins with the last one of loading.
+    pub unloading: Vec<(f64, DirectSolution)>,
+    /// Tension at the middle of each cable under own weight, with the payload, and without it again [N].
+    pub tensions: Vec<[f64; 3]>,
+    /// Energy dissipated by each cable [J]: the area of its loop.
+    pub dissipated: Vec<f64>,
+    /// Energy that the payload gave [J].
+    pub payload_work: f64,
+}
+
+impl LoadCycle {
+    /// Where the platform ends less where it began [m].
+    pub fn residual(&self) -> Vector3<f64> {
+        self.ends(&self.unloading)
+    }
+
+    /// Displacement by the whole payload [m].
+    pub fn deflection(&self) -> Vector3<f64> {
+        self.ends(&self.loading)
+    }
+
+    fn ends(&self, way: &[(f64, DirectSolution)]) -> Vector3<f64> {
+        let position = |at: Option<&(f64, DirectSolution)>| {
+            at.map_or_else(Vector3::zeros, |(_, solution)| solution.equilibrium.pose.position)
+        };
+        position(way.last()) - position(self.loading.first())
+    }
+}
+
+impl HysteresisLaw {
+    /// The law of a cable that is at `tension` [N] on the law `now`.
+    fn turned(&self, now: &PiecewiseLaw, tension: f64) -> Result<PiecewiseLaw, CableError> {
+        let moved = match self.unloading_from {
+            Unloading::SameTension => 0.0,
+            Unloading::TurningPoint => (self.turning_tension - tension).max(0.0),
+        };
+        // Each segment begins at `moved` less than on its curve; what lies below zero is cut off.
+        let below = self.unloading.segments().iter().map(|segment| (segment.tension - moved, segment.ratio));
+        let below = below.filter(|(begin, _)| 0.0 < *begin && *begin < tension);
+        let above = self.loading.segments().iter().map(|segment| (segment.tension, segment.ratio));
+        let above = above.filter(|(begin, _)| *begin > tension);
+        let segments: Vec<_> = [(0.0, self.unloading.ratio(moved))]
+            .into_iter()
+            .chain(below)
+            .chain([(tension, self.loading.ratio(tension))])
+            .chain(above)
+            .collect();
+        let back = self.unloading.scaled_strain(tension + moved) - self.unloading.scaled_strain(moved);
+        let at_rest = now.scaled_strain(tension) - back;
+        PiecewiseLaw::new(at_rest, &segments)
+    }
+}
+
+/// The cycle of `payload` [kg] at a pose that the inverse model holds under the platform's own weight, in `steps` steps each way. All
+/// cables have the same two curves; laws that the robot's cables have of their own are not asked.
+///
+/// # Errors
+/// [`StaticsError::Invalid`] for a payload that is not positive or no step; those of the inverse and the direct model.
+pub fn load_cycle(
+    robot: &Robot,
+    law: &HysteresisLaw,
+    pose: &Pose,
+    payload: f64,
+    steps: usize,
+) -> Result<LoadCycle, StaticsError> {
+    let invalid = |field: &str, value: String, expected: &str| {
+        Err(StaticsError::Invalid { field: field.to_owned(), value, expected: expected.to_owned() })
+    };
+    if !(payload.is_finite() && payload > 0.0) {
+        return invalid("payload", payload.to_string(), "a finite, positive mass [kg]");
+    }
+    if steps == 0 {
+        return invalid("steps", steps.to_string(), "one step at least");
+    }
+    let n = robot.cables.len();
+    let mut robot = with_laws(robot, vec![law.loading.clone(); n]);
+    let wound = wind(&robot, pose, &vec![0.0; n])?;
+    let lengths = wound.lengths;
+    let mut ways = Vec::with_capacity(2);
+    let mut middles = Vec::with_capacity(3);
+    let mut energies = vec![0.0; n];
+    let first = direct(&robot, &lengths, &Load::none(), Start::Near(&wound.held))?;
+    let mut here = (0.0, first);
+    middles.push(middle_tensions(&robot, &lengths, &here.1.equilibrium)?);
+    for up in [true, false] {
+        let from = &middles[middles.len() - 1];
+        let laws =
+            (0..n).map(|i| law.turned(law_of(&robot, i, law), from[i]).map_err(StaticsError::cable(i)));
+        robot = with_laws(&robot, laws.collect::<Result<_, _>>()?);
+        let mut way = vec![here];
+        for step in 1..=steps {
+            let share = step as f64 / steps as f64;
+            let mass = payload * if up { share } else { 1.0 - share };
+            let near = &way[way.len() - 1].1.equilibrium;
+            let next = direct(&robot, &lengths, &Load::payload(mass), Start::Near(near))?;
+            way.push((mass, next));
+        }
+        here = way[way.len() - 1].clone();
+        let to = middle_tensions(&robot, &lengths, &here.1.equilibrium)?;
+        for i in 0..n {
+            // ∫ T dε = [T ε] - ∫ ε dT, in multiples of 1/EA
+            let law = law_of(&robot, i, law);
+            let [begin, end] = [from[i], to[i]].map(|t| t * law.scaled_strain(t) - law.scaled_energy(t));
+            energies[i] += end - begin;
+        }
+        middles.push(to);
+        ways.push(way);
+    }
+    let dissipated = (0..n).map(|i| {
+        let (begin, end) = (middles[0][i], middles[2][i]);
+        let strained = law.loading.scaled_strain(begin) - law_of(&robot, i, law).scaled_strain(end);
+        let around = energies[i] + 0.5 * (begin + end) * strained;
+        around * lengths[i] / robot.cables[i].properties.axial_stiffness()
+    });
+    let dissipated = dissipated.collect();
+    let height = |solution: &DirectSolution| {
+        let pose = &solution.equilibrium.pose;
+        pose.position.z + (pose.rotation * robot.platform.center_of_mass).z
+    };
+    let payload_work = ways
+        .iter()
+        .flat_map(|way| way.windows(2))
+        .map(|pair| {
+            let [(m0, s0), (m1, s1)] = [&pair[0], &pair[1]];
+            0.5 * (m0 + m1) * robot.gravity * (height(s0) - height(s1))
+        })
+        .sum();
+    let tensions = (0..n).map(|i| [middles[0][i], middles[1][i], middles[2][i]]).collect();
+    let (unloading, loading) = (ways.pop().unwrap_or_default(), ways.pop().unwrap_or_default());
+    Ok(LoadCycle { lengths, loading, unloading, tensions, dissipated, payload_work })
+}
+
+fn with_laws(robot: &Robot, laws: Vec<PiecewiseLaw>) -> Robot {
+    let mut robot = robot.clone();
+    for (cable, law) in robot.cables.iter_mut().zip(laws) {
+        cable.properties.law = Some(law);
+    }
+    robot
+}
+
+fn law_of<'a>(robot: &'a Robot, i: usize, law: &'a HysteresisLaw) -> &'a PiecewiseLaw {
+    robot.cables[i].properties.law.as_ref().unwrap_or(&law.loading)
+}
+
+/// Tension half way along each cable [N].
+fn middle_tensions(
+    robot: &Robot,
+    lengths: &[f64],
+    equilibrium: &Equilibrium,
+) -> Result<Vec<f64>, StaticsError> {
+    let load = Load::none();
+    let model = Model::new(robot, lengths, &load)?;
+    let forces = equilibrium.cable_forces.iter().enumerate();
+    Ok(forces.map(|(i, force)| model.catenary(i, *force).tension(0.5 * lengths[i])).collect())
+}

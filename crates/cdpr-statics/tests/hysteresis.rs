@@ -1,0 +1,77 @@
+//! A payload that comes and goes, on cables with hysteresis.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_robot::{PiecewiseLaw, Pose, Robot};
+use cdpr_statics::{HysteresisLaw, Load, StaticsError, Unloading, deflection, load_cycle};
+
+fn caroca() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+fn curves(loading: &[(f64, f64)], unloading: &[(f64, f64)]) -> HysteresisLaw {
+    HysteresisLaw {
+        loading: PiecewiseLaw::new(0.0, loading).unwrap(),
+        unloading: PiecewiseLaw::new(0.0, unloading).unwrap(),
+        turning_tension: 3087.0,
+        unloading_from: Unloading::SameTension,
+    }
+}
+
+const POSE: [f64; 3] = [0.0, 0.0, 1.75];
+
+fn pose() -> Pose {
+    Pose::at(POSE[0], POSE[1], POSE[2])
+}
+
+#[test]
+fn without_hysteresis_the_platform_comes_back_and_nothing_is_lost() {
+    let segments = [(0.0, 0.8), (600.0, 1.0)];
+    let cycle = load_cycle(&caroca(), &curves(&segments, &segments), &pose(), 50.0, 20).unwrap();
+    assert!(cycle.residual().norm() < 1e-12, "{}", cycle.residual());
+    assert!(cycle.payload_work.abs() < 1e-10 && cycle.dissipated.iter().all(|energy| energy.abs() < 1e-12));
+}
+
+#[test]
+fn the_first_way_is_the_deflection_of_the_loading_curve() {
+    let law = curves(&[(0.0, 0.8), (600.0, 1.0)], &[(0.0, 1.1)]);
+    let cycle = load_cycle(&caroca(), &law, &pose(), 50.0, 4).unwrap();
+    let mut robot = caroca();
+    robot.cables.iter_mut().for_each(|cable| cable.properties.law = Some(law.loading.clone()));
+    let once = deflection(&robot, &pose(), &[0.0; 8], &Load::payload(50.0)).unwrap();
+    // The parts of a cable below the tension of its middle count as unloading: a few per thousand of half of it.
+    assert!((cycle.deflection() - once.displacement()).norm() < 5e-3 * once.rms());
+}
+
+#[test]
+fn a_stiffer_way_back_leaves_the_platform_below_and_dissipates_the_loops_of_its_cables() {
+    let law = curves(&[(0.0, 0.8), (600.0, 0.9)], &[(0.0, 1.1)]);
+    let cycle = load_cycle(&caroca(), &law, &pose(), 50.0, 200).unwrap();
+    let (gone, residual) = (cycle.deflection().z, cycle.residual().z);
+    println!("{gone:e} m down, {residual:e} m stay");
+    assert!(gone < -1e-3 && residual < 0.05 * gone, "{gone} {residual}");
+    let loops: f64 = cycle.dissipated.iter().sum();
+    println!("payload {:e} J, loops {loops:e} J", cycle.payload_work);
+    assert!(cycle.dissipated.iter().all(|energy| *energy > 0.0));
+    // Second order in how much tensions vary along a cable by its weight, 4 N of 600 N.
+    assert!((cycle.payload_work / loops - 1.0).abs() < 1e-4, "{}", cycle.payload_work / loops);
+}
+
+#[test]
+fn a_way_back_from_the_turning_point_begins_as_the_record_does() {
+    // Stiff just below 3087 N, soft below 2900 N: cables around 600 N meet the stiff part only if the curve moves with them.
+    let soft = curves(&[(0.0, 0.8)], &[(0.0, 0.7), (2900.0, 1.2)]);
+    let moved = HysteresisLaw { unloading_from: Unloading::TurningPoint, ..soft.clone() };
+    let [soft, stiff] = [soft, moved].map(|law| load_cycle(&caroca(), &law, &pose(), 50.0, 20).unwrap());
+    assert!(soft.residual().z > 0.0 && soft.payload_work < 0.0);
+    assert!(stiff.residual().z < 0.0 && stiff.payload_work > 0.0);
+}
+
+#[test]
+fn a_cycle_of_nothing_is_refused() {
+    let law = curves(&[(0.0, 1.0)], &[(0.0, 1.0)]);
+    for (payload, steps, name) in [(0.0, 1, "payload"), (f64::NAN, 1, "payload"), (50.0, 0, "steps")] {
+        let refused = load_cycle(&caroca(), &law, &pose(), payload, steps);
+        assert!(matches!(refused, Err(StaticsError::Invalid { field, .. }) if field == name));
+    }
+}

@@ -1,0 +1,112 @@
+//! Load-elongation records as files: CSV with the columns `force_n`, `elongation_mm`, `phase` (`loading` or `unloading`); lines
+//! that begin with `#` are comments.
+
+use crate::error::StudyError;
+use cdpr_cable::{Phase, Record, RecordError, Sample};
+use std::path::Path;
+
+const COLUMNS: [&str; 3] = ["force_n", "elongation_mm", "phase"];
+
+/// Reads and checks a record.
+///
+/// # Errors
+/// [`StudyError::Read`]; [`StudyError::Record`] names the line.
+pub fn open_record(path: &Path) -> Result<Record, StudyError> {
+    let text =
+        std::fs::read_to_string(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })?;
+    read(&text).map_err(|source| StudyError::Record { path: path.to_owned(), source })
+}
+
+fn read(text: &str) -> Result<Record, RecordError> {
+    let mut samples = Vec::new();
+    let mut places = None;
+    for (i, text) in text.lines().enumerate() {
+        let row: Vec<&str> = text.split(',').map(str::trim).collect();
+        if text.starts_with('#') || row == [""] {
+            continue;
+        }
+        match places {
+            None => places = Some(header(&row, i + 1)?),
+            Some(places) => samples.push(sample(&row, places, i + 1)?),
+        }
+    }
+    if places.is_none() {
+        return Err(invalid(1, "header", "missing", &COLUMNS.join(",")));
+    }
+    Record::new(&samples)
+}
+
+/// Places of the three columns. Another unit is another name: `force_kn` is refused.
+fn header(row: &[&str], line: usize) -> Result<[usize; 3], RecordError> {
+    let mut places = [0; 3];
+    for (place, column) in places.iter_mut().zip(COLUMNS) {
+        *place = row.iter().position(|name| *name == column).ok_or_else(|| {
+            let names = row.join(",");
+            invalid(line, "header", names, &format!("a column `{column}`"))
+        })?;
+    }
+    Ok(places)
+}
+
+fn sample(row: &[&str], places: [usize; 3], line: usize) -> Result<Sample, RecordError> {
+    let text = |k: usize| row.get(places[k]).copied().unwrap_or_default();
+    let number = |k: usize| -> Result<f64, RecordError> {
+        text(k).parse().map_err(|_| invalid(line, COLUMNS[k], format!("`{}`", text(k)), "a number"))
+    };
+    let phase = match text(2) {
+        "loading" => Phase::Loading,
+        "unloading" => Phase::Unloading,
+        other => return Err(invalid(line, "phase", format!("`{other}`"), "loading or unloading")),
+    };
+    Ok(Sample { line, force: number(0)?, elongation: 1e-3 * number(1)?, phase })
+}
+
+fn invalid(line: usize, field: &'static str, value: impl ToString, expected: &str) -> RecordError {
+    RecordError::Invalid { line, field, value: value.to_string(), expected: expected.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = "# a comment\nphase,force_n,elongation_mm\nloading,100,0\nloading, 1000, 2\nunloading,100,0.5\nunloading,50,0.2\n";
+
+    #[test]
+    fn columns_may_stand_in_any_order_among_comments() {
+        let record = read(GOOD).unwrap();
+        assert_eq!(record.samples(Phase::Loading).len(), 2);
+        assert_eq!(
+            record.samples(Phase::Unloading)[2],
+            Sample { line: 6, force: 50.0, elongation: 2e-4, phase: Phase::Unloading }
+        );
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_record_is_named_with_its_line() {
+        for (good, bad, words) in [
+            (
+                "force_n",
+                "force_kn",
+                "line 2: header is phase,force_kn,elongation_mm: expected a column `force_n`",
+            ),
+            ("unloading,100,0.5", "unloading,100", "line 5: elongation_mm is ``: expected a number"),
+            ("loading, 1000, 2", "loading, 1000, 2 mm", "line 4: elongation_mm is `2 mm`: expected a number"),
+            ("loading, 1000, 2", ", 1000, 2", "line 4: phase is ``: expected loading or unloading"),
+            ("loading, 1000, 2", "loading, NaN, 2", "line 4: force_n is NaN: expected a finite number"),
+            ("loading, 1000, 2", "loading, 50, 2", "line 4: force_n is 50: expected more than 100 of line 3"),
+        ] {
+            let message = read(&GOOD.replace(good, bad)).unwrap_err().to_string();
+            assert!(message.starts_with(words), "{message}");
+        }
+        for (text, words) in [
+            ("", "line 1: header is missing"),
+            (
+                "force_n,elongation_mm,phase\n1,1,loading\n2,2,loading\n",
+                "the record ends at line 3 with 0 samples of phase unloading",
+            ),
+        ] {
+            let message = read(text).unwrap_err().to_string();
+            assert!(message.starts_with(words), "{message}");
+        }
+    }
+}
