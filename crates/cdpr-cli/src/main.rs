@@ -52,7 +52,7 @@ enum Command {
     Inverse(inverse::Settings),
     /// Find where the platform stands for given unstrained lengths.
     #[command(
-        after_help = "Example: cdpr direct data/robots/caroca.json --lengths 4.2,4.2,4.3,4.3,4.2,4.2,4.3,4.3 --certify"
+        after_help = "Example: cdpr direct data/robots/caroca.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44 --certify"
     )]
     Direct(direct::Settings),
     /// Tell how far the platform gives under a load.
@@ -111,7 +111,7 @@ enum Command {
     Report(report::Settings),
     /// Tell which tolerances of a study's error model to tighten, and by how much, so that an error stays below a limit.
     #[command(
-        after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric --limit 2.9 --costs b=3"
+        after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric --limit 0.9 --costs b=3"
     )]
     Tolerances(tolerances::Settings),
     /// Measure how often the direct model finds the true pose from a wrong start.
