@@ -1,5 +1,5 @@
 //! Figures of study results, ready for a paper: one function a figure, results in, SVG text out. And [`report()`], which puts all of
-//! them into one HTML file beside the robot in space. No file is read or written.
+//! them into one HTML file beside the robot in space. [`run()`] carries out a whole study in its folder; nothing else here reads or writes files.
 //!
 //! | figure of the paper | function |
 //! |---|---|
@@ -38,6 +38,7 @@ mod histogram;
 mod points;
 mod report;
 mod robustness;
+mod run;
 mod shares;
 mod style;
 mod surface;
@@ -50,5 +51,6 @@ pub use histogram::histogram;
 pub use points::{Points, point_effects};
 pub use report::report;
 pub use robustness::{found_poses, success_share};
+pub use run::{Watcher, run};
 pub use shares::shares;
 pub use surface::surface;

@@ -113,10 +113,24 @@ impl Sampling<'_> {
     }
 }
 
+impl Study {
+    /// Blocks of all designs of all samplings: as many shards make one block each.
+    ///
+    /// # Errors
+    /// None that a study which was read can have.
+    pub fn blocks(&self) -> Result<usize, StudyError> {
+        let of_sampling = |name: &String| {
+            let designs = self.sampling(name)?.designs();
+            Ok(designs.into_iter().map(|(_, points)| blocks(points).count()).sum::<usize>())
+        };
+        self.file.samplings.keys().map(of_sampling).sum()
+    }
+}
+
 /// Makes the blocks of a shard that are not on disk; of each design in turn, so that all shards are as long.
 ///
 /// # Errors
-/// Those of the session's blocks; [`StudyError::Statistics`] for a design that cannot be made.
+/// Those of the session's blocks; [`StudyError::Stopped`]; [`StudyError::Statistics`] for a design that cannot be made.
 pub fn observe_shard(study: &Study, shard: Shard, session: &Session) -> Result<(), StudyError> {
     let mut count = 0;
     for name in study.file.samplings.keys() {
