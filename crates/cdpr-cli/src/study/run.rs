@@ -6,7 +6,7 @@ use crate::{report, sensitivity};
 use cdpr_report::{Points, ReportError};
 use cdpr_study::{
     Blocks, IndexMap, ObservationTable, STUDY_NAME, Session, Shard, Study, StudyError, StudySummary, Summary,
-    SurfaceSummary, TableFormat, Timings, analyse, compare, compute_surface, observe_into, observe_shard,
+    SurfaceSummary, TableFormat, Timings, analyse, compute_surface, observe_into, observe_shard,
     write_figure, write_sensitivity, write_summary, write_surface, write_timings,
 };
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -45,16 +45,7 @@ pub(super) fn whole(study: &Study, out: &Path, blocks: &Blocks, format: TableFor
         run.surface(study, name)?;
     }
     run.point_effects(study)?;
-    let mut summary = Summary {
-        study: study.file.name.clone(),
-        robot: study.robot.name.clone(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        payload: study.file.payload,
-        seed: study.file.seed,
-        studies: run.studies,
-        comparison: Vec::new(),
-    };
-    summary.comparison = compare(&study.file.comparison, &summary);
+    let summary = Summary::new(study, run.studies);
     write_summary(out, &summary)?;
     blocks.remove_unfinished()?;
     run.progress.finish_and_clear();
