@@ -6,7 +6,6 @@ use cdpr_sensitivity::SensitivityError;
 use cdpr_statics::StaticsError;
 use cdpr_study::StudyError;
 use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 
 /// What becomes an exception.
@@ -29,26 +28,25 @@ pub(crate) type Answer<T> = Result<T, Raised>;
 
 impl From<Raised> for PyErr {
     fn from(raised: Raised) -> Self {
-        static INPUT: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-        static FILE: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-        static NO_SOLUTION: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-        let class =
-            |py, class: &PyOnceLock<Py<PyType>>, name: &str| class.import(py, "cdpr.errors", name).cloned();
         Python::attach(|py| {
             let made = match raised {
                 Raised::Input(message) => {
-                    class(py, &INPUT, "InputError").map(|class| Self::from_type(class, message))
+                    class(py, "InputError").map(|class| Self::from_type(class, message))
                 }
-                Raised::File(message) => {
-                    class(py, &FILE, "FileError").map(|class| Self::from_type(class, message))
+                Raised::File(message) => class(py, "FileError").map(|class| Self::from_type(class, message)),
+                Raised::NoSolution { kind, message } => {
+                    class(py, "NoSolutionError").map(|class| Self::from_type(class, (message, kind)))
                 }
-                Raised::NoSolution { kind, message } => class(py, &NO_SOLUTION, "NoSolutionError")
-                    .map(|class| Self::from_type(class, (message, kind))),
                 Raised::Python(error) => Ok(error),
             };
             made.unwrap_or_else(|error| error)
         })
     }
+}
+
+/// A class of `cdpr.errors`.
+fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyType>> {
+    Ok(py.import("cdpr.errors")?.getattr(name)?.cast_into()?)
 }
 
 impl From<PyErr> for Raised {

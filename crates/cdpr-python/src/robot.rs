@@ -4,7 +4,7 @@ use crate::arrays::Numbers;
 use crate::error::{Answer, Raised};
 use cdpr_robot::{CableProperties, Parameter, Platform, RobotCable, TensionLimits, Vector3};
 use cdpr_study::open_robot;
-use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{PyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 use std::path::PathBuf;

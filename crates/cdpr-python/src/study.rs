@@ -3,6 +3,7 @@
 use crate::error::{Answer, Raised};
 use crate::threads::watched;
 use cdpr_report::{Watcher, report};
+use cdpr_robot::Vector3;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
     Existing, Part, Results, Session, Shard, Study, StudyError, TableFormat, check_complete, observe_into,
@@ -121,7 +122,7 @@ pub(crate) fn carry_out(
     Ok(notes.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Names of the inputs, deviations (m, k), displacements [m] (m, 3) and kinds of failure of the observations of a sampling in a folder.
+/// Names of the inputs, deviations (m, k), dx, dy, dz and |dp| [mm] (m, 4) and kinds of failure of the observations of a sampling in a folder.
 #[pyfunction]
 #[allow(clippy::type_complexity)]
 pub(crate) fn observations(
@@ -132,7 +133,7 @@ pub(crate) fn observations(
     let (study, blocks) = open_results(&out)?;
     check_complete(&out, &study, &blocks)?;
     let sampling = study.sampling(sampling)?;
-    let (mut rows, mut displacements, mut failures) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut rows, mut deflections, mut failures) = (Vec::new(), Vec::new(), Vec::new());
     watched(
         py,
         None,
@@ -148,8 +149,9 @@ pub(crate) fn observations(
                 rows.extend(part.rows);
                 for outcome in part.outcomes {
                     let displacement =
-                        outcome.as_ref().map_or([f64::NAN; 3], |displacement| (*displacement).into());
-                    displacements.extend(displacement);
+                        outcome.as_ref().copied().unwrap_or_else(|_| Vector3::repeat(f64::NAN));
+                    let [dx, dy, dz] = displacement.into();
+                    deflections.extend([dx, dy, dz, displacement.norm()].map(|metres| 1e3 * metres));
                     failures.push(outcome.err().map(|failure| failure.kind));
                 }
                 Ok(())
@@ -161,8 +163,8 @@ pub(crate) fn observations(
         let array = PyArray1::from_vec(py, values).reshape(IxDyn(&[failures.len(), width]))?;
         Ok(array.into_any().unbind())
     };
-    let (rows, displacements) = (array(rows, names.len())?, array(displacements, 3)?);
-    Ok((names, rows, displacements, failures))
+    let (rows, deflections) = (array(rows, names.len())?, array(deflections, 4)?);
+    Ok((names, rows, deflections, failures))
 }
 
 /// Observations and points of a whole run, replicates and measures of sensitivity included.

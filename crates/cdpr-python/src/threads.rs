@@ -51,11 +51,13 @@ pub(crate) fn watched<T: Send>(
 ) -> Answer<T> {
     let pool = pool(threads)?;
     let stop = AtomicBool::new(false);
-    let (done, wait) = channel();
     let (outcome, raised) = py.detach(|| {
+        let (done, wait) = channel();
+        let (pool, stop) = (&pool, &stop);
         std::thread::scope(|scope| {
-            let worker = scope.spawn(|| {
-                let outcome = pool.install(|| work(&stop));
+            // With its end of the channel, which a panic drops.
+            let worker = scope.spawn(move || {
+                let outcome = pool.install(|| work(stop));
                 // The receiver waits longer than this thread lives.
                 let _ = done.send(());
                 outcome

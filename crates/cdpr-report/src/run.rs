@@ -6,7 +6,7 @@ use crate::points::{Points, point_effects};
 use crate::{histogram, shares, signed_effects, surface};
 use cdpr_study::{
     Blocks, IndexMap, ObservationTable, Session, Study, StudyError, StudySummary, Summary, SurfaceSummary,
-    TableFormat, Timings, analyse, compare, compute_surface, observe_into, write_figure, write_sensitivity,
+    TableFormat, Timings, analyse, compute_surface, observe_into, write_figure, write_sensitivity,
     write_summary, write_surface, write_timings,
 };
 use std::path::Path;
@@ -48,16 +48,7 @@ pub fn run(
         run.surface(study, name)?;
     }
     run.point_effects(study)?;
-    let mut summary = Summary {
-        study: study.file.name.clone(),
-        robot: study.robot.name.clone(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        payload: study.file.payload,
-        seed: study.file.seed,
-        studies: run.studies,
-        comparison: Vec::new(),
-    };
-    summary.comparison = compare(&study.file.comparison, &summary);
+    let summary = Summary::new(study, run.studies);
     write_summary(out, &summary)?;
     blocks.remove_unfinished()?;
     let timings =

@@ -62,7 +62,7 @@ mod workspace;
 
 pub use block::BLOCK;
 pub use cdpr_sensitivity::{Estimate, Family, Truncation};
-pub use comparison::{ComparisonRow, Value, Verdict, compare};
+pub use comparison::{ComparisonRow, Value, Verdict};
 pub use designs::observe_shard;
 pub use error::StudyError;
 pub use error_model::{ErrorModel, Term};

@@ -1,12 +1,12 @@
 //! Result files: observations as CSV, the summary as JSON.
 
 use crate::atomic::write_json;
-use crate::comparison::ComparisonRow;
+use crate::comparison::{ComparisonRow, compare};
 use crate::error::StudyError;
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::sampling::SamplingSummary;
 use crate::sensitivity::SensitivitySummary;
-use crate::study::Surface;
+use crate::study::{Study, Surface};
 use crate::surface::{SurfaceResult, SurfaceSummary};
 use crate::workspace::WorkspaceSummary;
 use cdpr_robot::Pose;
@@ -32,6 +32,21 @@ pub struct Summary {
     pub studies: IndexMap<String, StudySummary>,
     /// Published figures beside the computed ones.
     pub comparison: Vec<ComparisonRow>,
+}
+
+impl Summary {
+    /// Of a study whose samplings and surfaces gave these results.
+    pub fn new(study: &Study, studies: IndexMap<String, StudySummary>) -> Self {
+        Self {
+            study: study.file.name.clone(),
+            robot: study.robot.name.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            payload: study.file.payload,
+            seed: study.file.seed,
+            comparison: compare(&study.file.comparison, &studies),
+            studies,
+        }
+    }
 }
 
 /// Results of a sampling or a surface.
