@@ -24,7 +24,7 @@ fn main() -> Result<(), StaticsError> {
         .collect::<Result<_, StaticsError>>()?;
     let start = Pose::at(0.0, 0.0, 1.75);
     let mut times: Vec<f64> = Vec::new();
-    for _ in 0..7 {
+    for _ in 0..3 {
         let clock = Instant::now();
         let found = lengths
             .par_iter()
