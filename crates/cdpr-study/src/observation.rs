@@ -239,7 +239,7 @@ pub(crate) fn observe_block<T: Send>(
     each: &(impl Fn(&Part) -> T + Sync),
 ) -> Result<Vec<T>, StudyError> {
     debug_assert!(range.len() <= BLOCK);
-    let place = Place { sampling: sampling.name, design: name, number };
+    let place = Place { sampling: &sampling.name, design: name, number };
     let known = match session.blocks {
         Some(blocks) => blocks.known(&place, session.warn)?,
         None => Vec::new(),

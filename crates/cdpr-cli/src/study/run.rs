@@ -3,11 +3,12 @@
 
 use super::{RunError, print};
 use crate::{report, sensitivity};
-use cdpr_report::{Points, ReportError};
+use cdpr_report::{Points, ReportError, pose_maps};
 use cdpr_study::{
-    Blocks, IndexMap, ObservationTable, STUDY_NAME, Session, Shard, Study, StudyError, StudySummary, Summary,
-    SurfaceSummary, TableFormat, Timings, analyse, compute_surface, observe_into, observe_shard,
-    write_figure, write_sensitivity, write_summary, write_surface, write_timings,
+    Blocks, IndexMap, ObservationTable, STUDY_NAME, Sampling, Session, Shard, Study, StudyError,
+    StudySummary, Summary, SurfaceSummary, TableFormat, Tally, Timings, analyse, compute_surface,
+    observe_into, observe_poses, observe_shard, write_figure, write_poses, write_sensitivity, write_summary,
+    write_surface, write_timings,
 };
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use std::fmt::Write;
@@ -29,8 +30,13 @@ pub(super) fn shard(study: &Study, out: &Path, blocks: &Blocks, shard: Shard) ->
     Ok(())
 }
 
-/// Makes what is missing and analyses the whole.
-pub(super) fn whole(study: &Study, out: &Path, blocks: &Blocks, format: TableFormat) -> Result<(), RunError> {
+/// Makes what is missing and analyses the whole. Without a format, samplings at one pose have tables as CSV.
+pub(super) fn whole(
+    study: &Study,
+    out: &Path,
+    blocks: &Blocks,
+    format: Option<TableFormat>,
+) -> Result<(), RunError> {
     let clock = Instant::now();
     let progress = progress(study)?;
     let folder = out.display();
@@ -38,8 +44,8 @@ pub(super) fn whole(study: &Study, out: &Path, blocks: &Blocks, format: TableFor
     leave_when_interrupted(&progress, out, remedy)?;
     let mut run =
         Run { out, blocks, format, progress, studies: IndexMap::new(), timings: Timings::default() };
-    for name in study.file.samplings.keys() {
-        run.sampling(study, name)?;
+    for (name, spec) in &study.file.samplings {
+        if spec.poses.is_some() { run.poses(study, name)? } else { run.sampling(study, name)? }
     }
     for name in study.file.surfaces.keys() {
         run.surface(study, name)?;
@@ -91,7 +97,7 @@ fn warn(progress: &ProgressBar) -> impl Fn(&StudyError) + Sync {
 struct Run<'a> {
     out: &'a Path,
     blocks: &'a Blocks,
-    format: TableFormat,
+    format: Option<TableFormat>,
     progress: ProgressBar,
     studies: IndexMap<String, StudySummary>,
     timings: Timings,
@@ -100,16 +106,11 @@ struct Run<'a> {
 impl Run<'_> {
     fn sampling(&mut self, study: &Study, name: &str) -> Result<(), RunError> {
         let clock = Instant::now();
-        self.progress.set_message(name.to_owned());
-        let tick = |done: usize| self.progress.inc(done as u64);
         let sampling = study.sampling(name)?;
+        let tick = |done: usize| self.progress.inc(done as u64);
         let warn = warn(&self.progress);
         let session = Session { blocks: Some(self.blocks), tick: &tick, warn: &warn };
-        let mut table = ObservationTable::new(self.out, &sampling, self.format)?;
-        let rows = |part: &_| self.format.rows(part);
-        let tally = observe_into(&sampling, &session, rows, |rows| table.write(rows))?;
-        // The table is written whether or not its statistics can be computed.
-        table.finish()?;
+        let tally = self.observed(&sampling, &session, self.format.unwrap_or(TableFormat::Csv))?;
         let summary = analyse(&sampling, &tally, &session)?;
         self.figure(name, cdpr_report::histogram(&summary))?;
         if !summary.signed_effects_mm.is_empty() {
@@ -124,6 +125,43 @@ impl Run<'_> {
         self.studies.insert(name.to_owned(), StudySummary::Sampling(Box::new(summary)));
         self.timings.seconds.insert(name.to_owned(), clock.elapsed().as_secs_f64());
         Ok(())
+    }
+
+    /// A sampling at several poses; tables of their observations only if they are asked for: those of all poses may be more than a disk holds.
+    fn poses(&mut self, study: &Study, name: &str) -> Result<(), RunError> {
+        let clock = Instant::now();
+        let tick = |done: usize| self.progress.inc(done as u64);
+        let warn = warn(&self.progress);
+        let session = Session { blocks: Some(self.blocks), tick: &tick, warn: &warn };
+        let format = self.format.unwrap_or(TableFormat::None);
+        let observe = |sampling: &Sampling| self.observed(sampling, &session, format);
+        let (summary, rows) = observe_poses(study, name, &session, observe)?;
+        write_poses(self.out, name, &rows)?;
+        let maps = pose_maps(&study.robot, &summary, &rows);
+        if maps.is_empty() {
+            self.progress.suspend(|| eprintln!("note: no map of {name}: its poses are on no plane or box"));
+        }
+        for (map, svg) in maps {
+            self.figure(&format!("{name}_{map}"), svg)?;
+        }
+        self.studies.insert(name.to_owned(), StudySummary::Poses(summary));
+        self.timings.seconds.insert(name.to_owned(), clock.elapsed().as_secs_f64());
+        Ok(())
+    }
+
+    /// Observations of a sampling, and their table.
+    fn observed(
+        &self,
+        sampling: &Sampling,
+        session: &Session,
+        format: TableFormat,
+    ) -> Result<Tally, StudyError> {
+        self.progress.set_message(sampling.name.clone());
+        let mut table = ObservationTable::new(self.out, sampling, format)?;
+        let tally = observe_into(sampling, session, |part| format.rows(part), |rows| table.write(rows))?;
+        // The table is written whether or not its statistics can be computed.
+        table.finish()?;
+        Ok(tally)
     }
 
     fn surface(&mut self, study: &Study, name: &str) -> Result<(), RunError> {
@@ -174,8 +212,7 @@ impl Run<'_> {
 /// A bar with rate and time left over all observations and grid points; silent when not on a terminal.
 fn progress(study: &Study) -> Result<ProgressBar, StudyError> {
     let file = &study.file;
-    let observations = |name| study.sampling(name).map(|sampling| sampling.observations());
-    let samplings = file.samplings.keys().map(|name| observations(name)).sum::<Result<usize, _>>()?;
+    let samplings = file.samplings.keys().map(|name| study.observations(name)).sum::<Result<usize, _>>()?;
     let surfaces = file.surfaces.values().map(|s| s.x.points * s.y.points).sum::<usize>();
     let template = "{msg:24} {bar:30} {pos}/{len} observations, {rate}, {eta} left";
     let rate = |state: &ProgressState, out: &mut dyn Write| {
