@@ -102,7 +102,7 @@ impl Study {
         if spec.poses.is_some() {
             return Ok(vec![own]);
         }
-        let inputs = self.design(name, spec)?.0.inputs.len();
+        let inputs = self.design(name, spec, &[])?.0.inputs.len();
         let replicates =
             (1..=self.file.replicates).map(|number| (Design::Replicate(number), spec.observations));
         let measures = self.file.sensitivity.map(|spec| {

@@ -1,5 +1,6 @@
 //! The study file, `cdpr-study/1`: JSON, SI units unless a name says otherwise. Described by [`json_schema`].
 
+use crate::cable_law::CableLaw;
 use crate::grid::GridAxis;
 use cdpr_sensitivity::pce::MAX_DEGREE;
 use cdpr_sensitivity::sobol_indices::MIN_BLOCKS;
@@ -65,6 +66,10 @@ pub struct InputSpec {
     /// as both exit points of one pulley block, `{"b1.z": 1, "b2.z": 1}`. The entry's key is then a name of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parameters: Option<IndexMap<String, f64>>,
+    /// Of `youngs_modulus`: law of the cables from which the modulus between their tensions without and with the payload is taken. The
+    /// deviation, which has to be uniform, is then from that modulus, or from the range of those of all cables, loaded and unloaded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub operating_point: Option<CableLaw>,
 }
 
 /// Wanted pose of the platform.

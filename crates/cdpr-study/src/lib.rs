@@ -36,6 +36,7 @@
 
 mod atomic;
 mod block;
+mod cable_law;
 mod comparison;
 mod designs;
 mod error;
@@ -45,6 +46,7 @@ mod folder;
 mod grid;
 mod inspection;
 mod observation;
+mod operating_point;
 mod output;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -67,6 +69,7 @@ mod tolerance;
 mod workspace;
 
 pub use block::BLOCK;
+pub use cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema, open_law};
 pub use cdpr_sensitivity::{Estimate, Family, Truncation};
 pub use comparison::{ComparisonRow, Value, Verdict};
 pub use error::StudyError;

@@ -5,6 +5,7 @@ use crate::error::StudyError;
 use crate::error_model::{ErrorModel, Wrong};
 use crate::file::{AxisSpec, InputSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic, StudyFile};
 use crate::folder::BLOCKS_NAME;
+use crate::operating_point::{Moduli, resolved};
 use crate::pose_set::Located;
 use cdpr_robot::{Parameter, Pose, Robot, from_json};
 use cdpr_sensitivity::{SensitivityError, SobolDesign};
@@ -40,6 +41,8 @@ pub struct Sampling<'a> {
     pub design: SobolDesign,
     /// What each input of the design acts on.
     pub errors: ErrorModel,
+    /// Least and greatest modulus of the cables' law at the tensions of pose and load [Pa], where the error model asks for them.
+    pub operating_moduli: Option<[f64; 2]>,
     /// The nominal robot's deflection.
     pub nominal: Deflection,
     /// Observes the robot with deviations of its parameters.
@@ -160,7 +163,7 @@ impl Study {
             return Err(self.invalid(&format!("surfaces.{name}"), name, "a name that no sampling has"));
         }
         for (name, model) in &file.error_models {
-            self.error_model(name, model)?;
+            self.error_model(name, model, &[])?;
         }
         for (name, spec) in &file.samplings {
             self.check_sampling(name, spec)?;
@@ -207,7 +210,7 @@ impl Study {
             let expected = "another name for a sampling at several poses: its tables have a folder of that name, and the blocks, too";
             return Err(self.invalid("samplings", name, expected));
         }
-        self.design(name, spec)?;
+        self.design(name, spec, &[])?;
         self.check_poses(name, &set)
     }
 
@@ -218,9 +221,9 @@ impl Study {
     /// hold the pose.
     pub fn sampling(&self, name: &str) -> Result<Sampling<'_>, StudyError> {
         let Located { name, entry, spec, pose, field } = self.located(name)?;
-        let (errors, design) = self.design(entry, spec)?;
         let load = Load::payload(self.file.payload);
         let (nominal, observer) = self.nominal(field, &pose, &load)?;
+        let (errors, operating_moduli, design) = self.design(entry, spec, &[&nominal])?;
         Ok(Sampling {
             name,
             title: &spec.title,
@@ -229,24 +232,27 @@ impl Study {
             load,
             design,
             errors,
+            operating_moduli,
             nominal,
             observer,
             study: self,
         })
     }
 
-    /// What is uncertain in a sampling, and the points at which it is observed.
+    /// What is uncertain in a sampling at the operating point of these deflections of the nominal robot, and the points at which it is
+    /// observed.
     pub(crate) fn design(
         &self,
         name: &str,
         spec: &SamplingSpec,
-    ) -> Result<(ErrorModel, SobolDesign), StudyError> {
+        at: &[&Deflection],
+    ) -> Result<(ErrorModel, Option<Moduli>, SobolDesign), StudyError> {
         let field = format!("samplings.{name}");
         let Some(model) = self.file.error_models.get(&spec.error_model) else {
             let expected = keys(&self.file.error_models);
             return Err(self.invalid(&format!("{field}.error_model"), &spec.error_model, &expected));
         };
-        let errors = self.error_model(&spec.error_model, model)?;
+        let (errors, moduli) = self.error_model(&spec.error_model, model, at)?;
         if spec.observations < 3 {
             return Err(self.invalid(
                 &format!("{field}.observations"),
@@ -256,7 +262,7 @@ impl Study {
         }
         let design = SobolDesign::new(errors.inputs.clone(), spec.first_index, spec.observations)
             .map_err(|source| self.statistics(format!("{field}.first_index"), source))?;
-        Ok((errors, design))
+        Ok((errors, moduli, design))
     }
 
     /// Prepares the surface called `name`.
@@ -276,30 +282,45 @@ impl Study {
         Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal, observer })
     }
 
-    /// The error model called `name`.
+    /// The error model called `name`, of deviations from the robot file.
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for a name that is none.
+    /// [`StudyError::Invalid`] for a name that is none, and for an operating point: that of a sampling is known from its pose and load.
     pub fn tolerances(&self, name: &str) -> Result<ErrorModel, StudyError> {
-        match self.file.error_models.get(name) {
-            Some(model) => self.error_model(name, model),
-            None => Err(self.invalid("error_models", name, &keys(&self.file.error_models))),
+        let Some(model) = self.file.error_models.get(name) else {
+            return Err(self.invalid("error_models", name, &keys(&self.file.error_models)));
+        };
+        if let Some((key, _)) = model.iter().find(|(_, spec)| spec.operating_point.is_some()) {
+            let field = format!("error_models.{name}.{key}.operating_point");
+            return Err(self.invalid(
+                &field,
+                "given",
+                "an error model without one, as there is no pose and load of a sampling",
+            ));
         }
+        Ok(self.error_model(name, model, &[])?.0)
     }
 
-    /// An error model for this robot.
-    fn error_model(&self, name: &str, model: &IndexMap<String, InputSpec>) -> Result<ErrorModel, StudyError> {
+    /// An error model for this robot, at the operating point of these deflections of the nominal one.
+    fn error_model(
+        &self,
+        name: &str,
+        model: &IndexMap<String, InputSpec>,
+        at: &[&Deflection],
+    ) -> Result<(ErrorModel, Option<Moduli>), StudyError> {
         let field = format!("error_models.{name}");
-        let found = ErrorModel::new(model, self.robot.cables.len()).map_err(|wrong| match wrong {
+        let wrong = |wrong| match wrong {
             Wrong::Field(below, value, expected) => {
                 self.invalid(&format!("{field}.{below}"), value, expected)
             }
             Wrong::Law(source) => self.statistics(field.clone(), source),
-        })?;
+        };
+        let (model, moduli) = resolved(model, &self.robot, at).map_err(wrong)?;
+        let found = ErrorModel::new(&model, self.robot.cables.len()).map_err(wrong)?;
         if found.inputs.is_empty() {
             return Err(self.invalid(&field, "empty", "at least one uncertain parameter"));
         }
-        Ok(found)
+        Ok((found, moduli))
     }
 
     fn axis(&self, field: &str, spec: &AxisSpec) -> Result<(Parameter, usize, Vec<f64>), StudyError> {

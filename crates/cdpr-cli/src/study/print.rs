@@ -31,6 +31,9 @@ pub(crate) fn print_results(summary: &Summary) {
     println!("{rows}\n");
     for (name, study) in &summary.studies {
         if let StudySummary::Sampling(s) = study {
+            if let Some([least, greatest]) = s.operating_moduli_gpa {
+                println!("{name}: E at the operating point {least:.2} to {greatest:.2} GPa");
+            }
             for note in &s.notes {
                 println!("{name}: {note}");
             }

@@ -53,8 +53,12 @@ fn parts(results: &Results) -> Markup {
     };
     let mut rows = Vec::new();
     for (name, sampling) in &file.samplings {
-        let count =
-            results.summary.studies.get(name).map_or(sampling.observations, StudySummary::observations);
+        let found = results.summary.studies.get(name);
+        let count = found.map_or(sampling.observations, StudySummary::observations);
+        let moduli = found.and_then(|found| match found {
+            StudySummary::Sampling(sampling) => sampling.operating_moduli_gpa,
+            _ => None,
+        });
         let place = match (&sampling.pose, &sampling.poses) {
             (Some(one), _) => pose(one),
             (None, Some(PosesSpec::List(list))) => cell(format!("{} poses", list.len())),
@@ -71,7 +75,10 @@ fn parts(results: &Results) -> Markup {
         rows.push(vec![
             html! { (sampling.title) span.detail { (name) } },
             place,
-            html! { "error model " code { (sampling.error_model) } },
+            html! { "error model " code { (sampling.error_model) }
+                @if let Some([least, greatest]) = moduli {
+                    span.detail { "E at the operating point " (text::digits(least, 4)) " to " (text::digits(greatest, 4)) " GPa" }
+                } },
             cell(format!("{count} observations")),
         ]);
     }
@@ -111,7 +118,8 @@ fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec
             vec![
                 html! { (text::parameter(key)) span.detail { (tied.as_ref().unwrap_or(key)) } },
                 cell(if tied.is_some() { 1 } else { of.len() }.to_string()),
-                cell(text::law(&spec.law, scale)),
+                html! { (text::law(&spec.law, scale))
+                    @if spec.operating_point.is_some() { span.detail { "from the modulus at the operating point" } } },
                 cell(text::steps(spec.steps.as_ref(), scale)),
                 cell(unit),
             ]
