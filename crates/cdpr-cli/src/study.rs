@@ -1,7 +1,7 @@
 //! `cdpr study ...`: arguments of its subcommands.
 
+mod carry_out;
 mod print;
-mod run;
 mod status;
 mod template;
 
@@ -150,15 +150,15 @@ pub(crate) fn run(command: Command) -> Result<(), RunError> {
             };
             let blocks = cdpr_study::begin(out, &study, existing)?;
             match shard {
-                Some(shard) => run::shard(&study, out, &blocks, shard),
-                None => run::whole(&study, out, &blocks, settings.common.table.map(TableFormat::from)),
+                Some(shard) => carry_out::shard(&study, out, &blocks, shard),
+                None => carry_out::whole(&study, out, &blocks, settings.common.table.map(TableFormat::from)),
             }
         }
         Command::Merge(FolderSettings { folder, common }) => {
             start_threads(common.threads)?;
             let (study, blocks) = cdpr_study::open_results(&folder)?;
             cdpr_study::check_complete(&folder, &study, &blocks)?;
-            run::whole(&study, &folder, &blocks, common.table.map(TableFormat::from))
+            carry_out::whole(&study, &folder, &blocks, common.table.map(TableFormat::from))
         }
         Command::Status(settings) => status::run(&settings),
         Command::Extend { folder: FolderSettings { folder, common }, observations } => {
@@ -166,7 +166,7 @@ pub(crate) fn run(command: Command) -> Result<(), RunError> {
             let (mut study, _) = cdpr_study::open_results(&folder)?;
             study.extend(observations)?;
             let blocks = cdpr_study::begin(&folder, &study, Existing::GoOn)?;
-            run::whole(&study, &folder, &blocks, common.table.map(TableFormat::from))
+            carry_out::whole(&study, &folder, &blocks, common.table.map(TableFormat::from))
         }
         Command::Throughput { study, sampling, observations, threads } => {
             throughput::run(&study, &sampling, observations, threads)

@@ -1,5 +1,5 @@
 //! Figures of study results, ready for a paper: one function a figure, results in, SVG text out. And [`report()`], which puts all of
-//! them into one HTML file beside the robot in space. No file is read or written.
+//! them into one HTML file beside the robot in space. [`run()`] carries out a whole study in its folder; nothing else here reads or writes files.
 //!
 //! | figure of the paper | function |
 //! |---|---|
@@ -41,6 +41,7 @@ mod points;
 mod pose_map;
 mod report;
 mod robustness;
+mod run;
 mod shares;
 mod style;
 mod surface;
@@ -54,5 +55,6 @@ pub use points::{Points, point_effects};
 pub use pose_map::{PoseMap, pose_maps};
 pub use report::report;
 pub use robustness::{found_poses, success_share};
+pub use run::{Watcher, run};
 pub use shares::shares;
 pub use surface::surface;
