@@ -89,6 +89,16 @@ impl Rows {
         Self { name, values: vec![value], width: 1, count: None }
     }
 
+    /// Numbers a row.
+    pub(crate) fn width(&self) -> usize {
+        self.width
+    }
+
+    /// All rows, one after the other.
+    pub(crate) fn all(&self) -> &[f64] {
+        &self.values
+    }
+
     /// The row of a case.
     pub(crate) fn row(&self, case: usize) -> &[f64] {
         let case = if self.count.is_some() { case } else { 0 };
@@ -153,7 +163,12 @@ impl Loads {
             Some(payload) => Rows::scalars("payload", payload)?,
             None => Rows::constant("payload", 0.0),
         };
-        Ok(Self { force, moment, payload })
+        match payload.values.iter().find(|mass| **mass < 0.0) {
+            None => Ok(Self { force, moment, payload }),
+            Some(mass) => {
+                Err(Raised::Input(format!("payload is {mass}: expected a mass, zero or more [kg]")))
+            }
+        }
     }
 
     pub(crate) fn rows(&self) -> [&Rows; 3] {

@@ -57,6 +57,9 @@ pub(crate) fn catenary(
     tension: Option<Numbers>,
     points: usize,
 ) -> Answer<Catenary> {
+    if points < 2 {
+        return Err(Raised::Input(format!("points is {points}: expected 2 or more")));
+    }
     let weight = Rows::scalars("weight", &weight)?;
     let stiffness = Rows::scalars("stiffness", &stiffness)?;
     let scalars = |name, array: Option<Numbers>| array.map(|array| Rows::scalars(name, &array)).transpose();
@@ -96,7 +99,7 @@ pub(crate) fn catenary(
             ));
         }
     };
-    Ok(Catenary::new(py, cases, &outcomes, points.max(2))?)
+    Catenary::new(py, cases, &outcomes, points)
 }
 
 impl Catenary {

@@ -12,6 +12,7 @@ mod designs;
 mod direct;
 mod error;
 mod inverse;
+mod observe;
 mod robot;
 mod stiffness;
 mod study;
@@ -37,6 +38,8 @@ mod _core {
     use crate::direct::DirectSolution;
     #[pymodule_export]
     use crate::inverse::InverseSolution;
+    #[pymodule_export]
+    use crate::observe::Observations;
     #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]

@@ -134,7 +134,7 @@ fn tolerances(robot: &cdpr_robot::Robot, named: &Bound<PyDict>) -> Answer<ErrorM
     let parameters = Parameter::all(robot.cables.len());
     let known = |name: &str| parameters.iter().any(|p| p.group() == name || p.to_string() == name);
     if let Some((name, std)) =
-        named.iter().find(|(name, std)| !known(name) || !(*std > 0.0 && std.is_finite()))
+        named.iter().find(|(name, std)| !(known(name) && *std > 0.0 && std.is_finite()))
     {
         return Err(Raised::Input(format!(
             "uncertainty of {name} is {std}: expected a positive standard deviation of mass, linear_density, youngs_modulus, a, b, cog, dt \

@@ -129,7 +129,8 @@ def test_a_row_of_an_array_is_what_the_case_is_alone(caroca):
     wanted = caroca.inverse(poses)
     direct = caroca.direct(wanted.lengths, force=loads, start=POSE)
     deflection = caroca.deflection(poses, force=loads, payload=10.0)
-    stiffness = caroca.stiffness(poses, payload=numpy.linspace(0, 50, 40))
+    payloads = numpy.linspace(0, 50, 40)
+    stiffness = caroca.stiffness(poses, payload=payloads)
     derivatives = caroca.derivatives(poses[:5], payload=50)
     for i, (pose, load) in enumerate(zip(poses, loads)):
         lengths = caroca.inverse(pose).lengths
@@ -139,11 +140,28 @@ def test_a_row_of_an_array_is_what_the_case_is_alone(caroca):
         same(direct.slack[i], alone.slack)
         assert direct.method[i] == alone.method
         assert deflection.rms[i] == caroca.deflection(pose, force=load, payload=10.0).rms
-        same(stiffness.matrix[i], caroca.stiffness(pose, payload=50 * i / 39).matrix)
+        same(stiffness.matrix[i], caroca.stiffness(pose, payload=payloads[i]).matrix)
         if i < 5:
             same(derivatives.lengths[i], caroca.derivatives(pose, payload=50).lengths)
     assert wanted.reasons == [None] * 40
     assert wanted.active.dtype == numpy.int8 and direct.stable.dtype == bool
+
+
+def test_robots_that_deviate_are_observed_as_they_are_alone(caroca):
+    generator = numpy.random.default_rng(2)
+    names = list(caroca.parameters)
+    sizes = numpy.array([{"mass": 5.0, "linear_density": 1e-3, "youngs_modulus": 5e9}.get(name, 2e-3) for name in names])
+    deviations = sizes * generator.uniform(-1, 1, (600, len(names)))
+    deviations[7, 0] = -1e4
+    found = caroca.observe(POSE, deviations, payload=50)
+    assert found.reasons[7].startswith("platform.mass is -") and numpy.isnan(found.rms[7])
+    same(found.displacement[300:], caroca.observe(POSE, deviations[300:], payload=50).displacement)
+    for row in (0, 100, 599):
+        values = dict(zip(names, numpy.array(list(caroca.parameters.values())) + deviations[row]))
+        offsets = [values.pop(f"dt{i + 1}") for i in range(8)]
+        alone = caroca.with_parameters(values).deflection(POSE, payload=50, tension_offsets=offsets)
+        numpy.testing.assert_allclose(found.displacement[row], alone.displacement, atol=1e-12)
+        assert abs(caroca.observe(POSE, deviations[row], payload=50).rms - alone.rms) < 1e-12
 
 
 def test_no_case_is_an_empty_answer(caroca):
@@ -175,6 +193,10 @@ def test_bad_input_is_refused_with_field_value_and_what_would_be_right(caroca, c
         (lambda: caroca.inverse([[[0]]]), "pose has the shape [1, 1, 1]: expected"),
         (lambda: caroca.inverse(POSE, force=[1, 2]), "force has 2 numbers a row: expected 3"),
         (lambda: caroca.inverse([POSE] * 3, payload=[1, 2]), "pose has 3 rows: expected one for all cases, or 2"),
+        (lambda: caroca.inverse(POSE, payload=-1), "payload is -1: expected a mass, zero or more"),
+        (lambda: caroca.observe(POSE, [0.0] * 61), "deviations has 61 numbers a row: expected 62"),
+        (lambda: caroca.observe([POSE, POSE], [0.0] * 62), "pose or load has a row for each case"),
+        (lambda: cdpr.catenary(1, 1e6, length=4, end=[3, 0], points=1), "points is 1: expected 2 or more"),
         (lambda: caroca.with_parameters({"a9.x": 1.0}), "no parameter is named `a9.x`"),
         (lambda: caroca.with_parameters({"mass": -1.0}), "platform.mass is -1: expected a finite, positive mass"),
         (lambda: caroca.workspace(x=0, y=0, z=0, uncertainty={"q": 1}), "uncertainty of q is 1: expected"),

@@ -23,7 +23,7 @@ OBSERVATIONS = 33_000
 def study(data, tmp_path_factory):
     """The mechanical sampling of CAROCA alone, without replicates."""
     file = json.loads((data / "studies" / "caroca.json").read_text())
-    file.update(robot=str(data / "robots" / "caroca.json"), replicates=1 + 1, bootstrap_resamples=20)
+    file.update(robot=str(data / "robots" / "caroca.json"), replicates=2, bootstrap_resamples=20)
     file["samplings"] = {"mechanical": file["samplings"]["mechanical"]}
     file.update(surfaces={}, comparison=[])
     path = tmp_path_factory.mktemp("study") / "mechanical.json"
@@ -65,11 +65,12 @@ def test_a_run_writes_what_the_command_line_writes(study, expected, tmp_path):
     assert results.timings["threads"] == 1
     assert results.notes == []
     table = results.observations("mechanical")
-    csv = numpy.genfromtxt(results.folder / "mechanical.csv", delimiter=",", names=True, dtype=None,
-                           encoding="utf-8", deletechars="", usecols=range(len(table.dtype.names)))
-    assert csv.dtype.names == table.dtype.names
-    for name in table.dtype.names:
-        numpy.testing.assert_array_equal(table[name], csv[name])
+    lines = (results.folder / "mechanical.csv").read_text().splitlines()
+    assert len(lines) == OBSERVATIONS + 1 and lines[0].split(",") == [*table.dtype.names, "reason"]
+    for row in (0, 1, 20_000, OBSERVATIONS - 1):
+        written = lines[row + 1].split(",")
+        assert written[-2] == table["status"][row]
+        assert [float(number) for number in written[:-2]] == list(table[row])[:-1]
     mean = results.summary["studies"]["mechanical"]["rms_mm"]["mean"]
     assert abs(numpy.nanmean(table["rms_mm"]) - mean) < 1e-12
     pandas = pytest.importorskip("pandas")

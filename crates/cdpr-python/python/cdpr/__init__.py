@@ -11,7 +11,7 @@ it. A single case without an answer raises.
 1.3312 mm
 """
 
-from . import errors, sensitivity, study
+from . import errors, sensitivity
 from ._core import (
     VERSION as __version__,
     Catenary,
@@ -19,12 +19,17 @@ from ._core import (
     Derivatives,
     DirectSolution,
     InverseSolution,
+    Observations,
     Robot,
     Stiffness,
     Workspace,
     catenary,
 )
 from .errors import CdprError, FileError, InputError, NoSolutionError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from . import study
 
 __all__ = [
     "Catenary",
@@ -36,6 +41,7 @@ __all__ = [
     "InputError",
     "InverseSolution",
     "NoSolutionError",
+    "Observations",
     "Robot",
     "Stiffness",
     "Workspace",
@@ -45,3 +51,12 @@ __all__ = [
     "sensitivity",
     "study",
 ]
+
+
+def __getattr__(name: str) -> object:
+    # `cdpr.study` is loaded by whoever uses it: the modules that it needs take longer than all the rest.
+    if name == "study":
+        import importlib
+
+        return importlib.import_module("cdpr.study")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -99,6 +99,15 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
     ) -> Derivatives: ...
+    def observe(
+        self,
+        pose: ArrayLike,
+        deviations: ArrayLike,
+        *,
+        payload: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        moment: ArrayLike | None = None,
+    ) -> Observations: ...
     def workspace(
         self,
         *,
@@ -180,6 +189,12 @@ class Derivatives:
     set_points: Floats
     tensions: Floats
     deflection: Deflection
+    reasons: Reasons
+
+@final
+class Observations:
+    displacement: Floats
+    rms: Float
     reasons: Reasons
 
 @final

@@ -14,8 +14,6 @@ array([0.2, 0.8])
 
 from __future__ import annotations
 
-from typing import Dict
-
 from ._core import (
     Effects,
     Expansion,
@@ -43,7 +41,7 @@ __all__ = [
 ]
 
 #: A law as it stands in a study file.
-Law = Dict[str, Dict[str, float]]
+Law = dict[str, dict[str, float]]
 
 
 def uniform(min: float, max: float) -> Law:
