@@ -68,10 +68,9 @@ fn prepare(folder: &Path) {
     let (record, law) = (data("cables/caroca-4mm-record.csv"), data("cables/caroca-4mm-law.json"));
     write("record.csv", &record);
     write("noisy.csv", &record.replace("1543.5,1.48870837248", "1543.5,1.0368"));
-    write("micrometres.csv", &record.replace(".", ""));
     write("no_phase.csv", &record.replace(",loading", ","));
     write("law.json", &law);
-    write("law_order.json", &law.replacen(r#""tension": 1029"#, r#""tension": 102.9"#, 1));
+    write("law_order.json", &law.replacen(r#""tension": 1029.0"#, r#""tension": 102.9"#, 1));
     write("law_modulus.json", &law.replacen("7.25e10", "-7.25e10", 1));
     write("law_format.json", &law.replace("cdpr-law/1", "cdpr-law/9"));
     write("table.json", &data("cables/caroca-4mm.json").replace("[72.5, ", "["));

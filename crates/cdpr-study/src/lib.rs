@@ -82,7 +82,7 @@ pub use output::{
     StudySummary, Summary, check_folder, write_figure, write_refused, write_robustness, write_sensitivity,
     write_solves, write_summary, write_surface, write_text, write_workspace,
 };
-pub use record::open_record;
+pub use record::{open_record, read_record};
 pub use results::Results;
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
