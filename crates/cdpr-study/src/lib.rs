@@ -89,7 +89,7 @@ pub use output::{
 };
 pub use plan::{BlockMaker, Plan, observe_shard};
 pub use poses::{HELD, PoseRow, PosesSummary, observe_poses};
-pub use record::open_record;
+pub use record::{open_record, read_record};
 pub use results::Results;
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,

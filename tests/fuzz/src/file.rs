@@ -1,8 +1,9 @@
 //! What must hold for a file, whatever its text.
 
+use cdpr_cable::Phase;
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{DirectSolution, Equilibrium, InverseSolution, Load, Residual, Start, direct, inverse};
-use cdpr_study::Study;
+use cdpr_study::{Study, read_record};
 use serde_json::Value;
 use std::path::Path;
 
@@ -68,6 +69,25 @@ pub fn study(text: &str) {
             }
         }
         Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+/// A record is refused, or has laws whose tension grows with the strain, and moduli that are numbers.
+pub fn record(text: &str) {
+    let record = match read_record(text) {
+        Ok(record) => record,
+        Err(error) => return assert!(!error.to_string().is_empty()),
+    };
+    finite("dissipated energy", &[record.dissipated_energy()]);
+    let (length, section) = (1.0, 1.2566370614e-5);
+    for phase in [Phase::Loading, Phase::Unloading] {
+        match record.moduli(phase, length, section) {
+            Ok(pieces) => {
+                assert!(pieces.iter().all(|(_, modulus)| *modulus > 0.0), "{pieces:?}");
+                assert!(pieces.windows(2).all(|pair| pair[0].0 < pair[1].0), "{pieces:?}");
+            }
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
     }
 }
 
