@@ -39,9 +39,11 @@ fn every_study_file_is_a_study_with_a_source() {
 
 #[test]
 fn the_schemas_in_the_docs_are_those_of_the_code() {
-    for (file, schema) in
-        [("cdpr-robot-1", cdpr_robot::json_schema()), ("cdpr-study-1", cdpr_study::json_schema())]
-    {
+    for (file, schema) in [
+        ("cdpr-robot-1", cdpr_robot::json_schema()),
+        ("cdpr-study-1", cdpr_study::json_schema()),
+        ("cdpr-law-1", cdpr_study::law_schema()),
+    ] {
         let path = root().join(format!("docs/schemas/{file}.schema.json"));
         assert_eq!(std::fs::read_to_string(path).unwrap(), schema, "run: cargo xtask schemas");
     }

@@ -3,6 +3,7 @@
 #![allow(clippy::print_stderr)]
 
 mod bench;
+mod cable;
 mod fuzz;
 mod peers;
 mod scaling;
@@ -15,8 +16,8 @@ usage: cargo xtask TASK
 
 tasks:
   caroca-study [--out DIR] [--observations N] [--threads N] [--resume]
-                 the study of Baklouti, Caro, Courteille (CableCon 2017) beside its figures, then all measures of its sensitivity
-                 in DIR/sensitivity; DIR is target/caroca-study. Begins anew, or with --resume goes on with what was interrupted
+                 the study of Baklouti, Caro, Courteille (CableCon 2017) beside its figures, all measures of its sensitivity in
+                 DIR/sensitivity, and the hysteresis of its cables in DIR/cable; DIR is target/caroca-study. Begins anew, or with --resume goes on with what was interrupted
   robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
                  how often the direct model finds CoGiRo's true pose from a wrong start, by the protocol of Mahnke and Caverly
                  (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
@@ -74,8 +75,20 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
     if code != ExitCode::SUCCESS {
         return code;
     }
-    within(&mut rest, "--out", "sensitivity");
-    cdpr(&["study", "run", &measures], &rest)
+    let mut within_out = rest.clone();
+    within(&mut within_out, "--out", "sensitivity");
+    let code = cdpr(&["study", "run", &measures], &within_out);
+    if code != ExitCode::SUCCESS {
+        return code;
+    }
+    let (out, settings) = without(&rest, "--out");
+    match cable::run(Path::new(out), &settings) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 fn robustness(mut rest: Vec<String>) -> ExitCode {
@@ -108,6 +121,22 @@ fn within(arguments: &mut [String], option: &str, folder: &str) {
         }
         is_path = argument == option;
     }
+}
+
+/// The value of `option`, empty without one, and the other arguments.
+fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>) {
+    let given = format!("{option}=");
+    let (mut value, mut rest, mut is_value) = ("", Vec::new(), false);
+    for argument in arguments {
+        match argument.strip_prefix(&given) {
+            _ if is_value => value = argument,
+            Some(joined) => value = joined,
+            None if argument == option => {}
+            None => rest.push(argument.as_str()),
+        }
+        is_value = !is_value && argument == option;
+    }
+    (value, rest)
 }
 
 /// Builds and runs the program.

@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use cdpr_cable::{Cable, Catenary, Vector2, end_force, length_for_tension, response};
+use cdpr_cable::{
+    Cable, Catenary, ElasticLaw, PiecewiseLaw, Vector2, end_force, length_for_tension, response,
+};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
@@ -45,9 +47,31 @@ fn catenary(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// A cable whose stiffness changes within its length, and one that stays within a piece of its law.
+fn elastic_law(criterion: &mut Criterion) {
+    let law = PiecewiseLaw::new(0.0, &[(0.0, 0.6), (50.0, 0.8), (50.5, 1.0), (600.0, 1.2)]).unwrap();
+    let cable = Cable { law: ElasticLaw::Piecewise(&law), ..Cable::linear(0.9957, 1.284e6) };
+    let end = Vector2::new(4.1, -1.7);
+    let mut group = criterion.benchmark_group("catenary/law");
+    for (name, tension) in [("kink", 51.0), ("piece", 550.0)] {
+        let taut = length_for_tension(&cable, end, tension).unwrap();
+        assert!(taut.residual < 1e-13);
+        let Catenary { unstrained_length: length, .. } = taut.catenary;
+        let found = end_force(&cable, length, end).unwrap();
+        assert!((found.catenary.anchor_tension() / tension - 1.0).abs() < 1e-9);
+        group.bench_function(BenchmarkId::new("response", name), |b| {
+            b.iter(|| counted(|| black_box(&taut.catenary).response()));
+        });
+        group.bench_function(BenchmarkId::new("end_force", name), |b| {
+            b.iter(|| counted(|| end_force(black_box(&cable), length, black_box(end))));
+        });
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(2));
-    targets = catenary
+    targets = catenary, elastic_law
 }
 criterion_main!(benches);

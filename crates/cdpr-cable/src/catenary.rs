@@ -60,8 +60,13 @@ impl Cable<'_> {
             "a weight per length, zero or from 1e-30 to 1e30 [N/m]",
         )?;
         check("axial_stiffness", ea, ea >= SMALLEST, "an axial stiffness from 1e-30 to 1e30 [N]")?;
-        let at_rest = self.strain(0.0);
-        check("law.strain_at_rest", at_rest, at_rest > -1.0, "a strain above -1")
+        match self.law {
+            ElasticLaw::Linear => Ok(()),
+            ElasticLaw::Piecewise(_) => {
+                let at_rest = self.strain(0.0);
+                check("law.strain_at_rest", at_rest, at_rest > -1.0, "a strain above -1")
+            }
+        }
     }
 
     /// Whether the weight of this length vanishes beside the stiffness, and its square below the smallest number.

@@ -101,6 +101,15 @@ impl PiecewiseLaw {
         self.at(tension).ratio
     }
 
+    /// Stiffness of the secant between two tensions [N] over the cable's; where they are the same, [`PiecewiseLaw::ratio`].
+    pub fn secant_ratio(&self, from: f64, to: f64) -> f64 {
+        if from == to {
+            self.ratio(to)
+        } else {
+            (to - from) / (self.scaled_strain(to) - self.scaled_strain(from))
+        }
+    }
+
     /// Tension [N] at a strain times the cable's axial stiffness [N]; zero below the strain at rest.
     pub fn tension(&self, scaled_strain: f64) -> f64 {
         let above = self.segments.partition_point(|segment| segment.scaled_strain <= scaled_strain);
@@ -159,6 +168,16 @@ mod tests {
             assert_relative_eq!(law.tension(law.scaled_strain(tension)), tension, epsilon = 1e-12);
         }
         assert_eq!(law.tension(2.0), 0.0);
+    }
+
+    #[test]
+    fn a_secant_lies_between_the_pieces_that_it_spans() {
+        let law = stiffening();
+        // 200 N in each of the two pieces, of κ = 1 and 2.
+        assert_relative_eq!(law.secant_ratio(100.0, 500.0), 400.0 / 300.0, max_relative = 1e-15);
+        assert_relative_eq!(law.secant_ratio(500.0, 100.0), 400.0 / 300.0, max_relative = 1e-15);
+        assert_eq!(law.secant_ratio(120.0, 180.0), 1.0);
+        assert_eq!(law.secant_ratio(300.0, 300.0), 2.0);
     }
 
     #[test]

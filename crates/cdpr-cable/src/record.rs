@@ -18,9 +18,6 @@
 //! The energy dissipated by the loop is the area `∮ F dx` between its branches, closed by a straight line where it does not close
 //! by itself.
 
-use crate::error::CableError;
-use crate::law::PiecewiseLaw;
-
 /// Whether a cable is being loaded or unloaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
@@ -227,7 +224,7 @@ impl Record {
         specimen.validate()?;
         setting("range", low, low >= 0.0, "a lower end of zero or more [%]")?;
         setting("range", high, high > low, "an upper end above the lower one [%]")?;
-        self.check_units(specimen)?;
+        self.check_strain(specimen.length)?;
         let [least, greatest] = self.forces(phase).map(|force| 100.0 * force / specimen.breaking_force);
         let force = |percent: f64| 0.01 * percent * specimen.breaking_force;
         let (Some(x_low), Some(x_high)) =
@@ -237,13 +234,7 @@ impl Record {
         };
         let (df, dx) = (force(high) - force(low), x_high - x_low);
         let modulus = specimen.length * df / (specimen.section * dx);
-        if !MODULI.contains(&modulus) {
-            return Err(self.samples(phase)[0].invalid(
-                "modulus",
-                format!("{modulus:e} Pa between {low} and {high} %"),
-                "a modulus from 1e9 to 1e12 Pa: forces in N, elongations in mm, length in m, section in m²",
-            ));
-        }
+        self.samples(phase)[0].check_modulus(modulus, &format!("between {low} and {high} %"))?;
         let (of_force, of_elongation) = (specimen.force_error / df, specimen.elongation_error / dx);
         let once = [specimen.length_error / specimen.length, specimen.section_error / specimen.section];
         let squares = 2.0 * (of_force * of_force + of_elongation * of_elongation)
@@ -266,27 +257,34 @@ impl Record {
         closed.map(|(a, b)| 0.5 * (a.force + b.force) * (b.elongation - a.elongation)).sum()
     }
 
-    /// The strain over tension of a phase, for a specimen of length `length` [m], in proportion to an axial stiffness [N]: straight between the
-    /// samples, and on with the first and last slope; without strain at rest.
+    /// The tangent modulus [Pa] of each piece between two samples of a phase, with the tension at which it begins [N], in ascending order,
+    /// for a specimen of this length [m] and section [m²]. The first piece goes on down to zero.
     ///
     /// # Errors
-    /// [`CableError::InvalidInput`] for a slope that no law has.
-    pub fn law(&self, phase: Phase, length: f64, axial_stiffness: f64) -> Result<PiecewiseLaw, CableError> {
-        let slope = |one: &Sample, other: &Sample| {
-            let stiffness = length * (other.force - one.force) / (other.elongation - one.elongation);
-            (one.force.min(other.force), stiffness / axial_stiffness)
+    /// [`RecordError::Setting`] for a length or section that is none; [`RecordError::Invalid`] where strain or modulus of the whole
+    /// phase are those of no cable, as with other units.
+    pub fn moduli(&self, phase: Phase, length: f64, section: f64) -> Result<Vec<(f64, f64)>, RecordError> {
+        check_specimen(length, section)?;
+        self.check_strain(length)?;
+        let modulus = |one: &Sample, other: &Sample| {
+            length * (other.force - one.force) / (section * (other.elongation - one.elongation))
         };
-        let mut segments: Vec<_> =
-            self.samples(phase).windows(2).map(|pair| slope(&pair[0], &pair[1])).collect();
-        segments.sort_by(|one, other| one.0.total_cmp(&other.0));
-        segments[0].0 = 0.0;
-        PiecewiseLaw::new(0.0, &segments)
+        let samples = self.samples(phase);
+        let (first, last) = (&samples[0], &samples[samples.len() - 1]);
+        first.check_modulus(modulus(first, last), "over the whole phase")?;
+        let mut pieces: Vec<_> = samples
+            .windows(2)
+            .map(|pair| (pair[0].force.min(pair[1].force), modulus(&pair[0], &pair[1])))
+            .collect();
+        pieces.sort_by(|one, other| one.0.total_cmp(&other.0));
+        pieces[0].0 = 0.0;
+        Ok(pieces)
     }
 
     /// Strain at the turning point, whose excess is the sign of another unit.
-    fn check_units(&self, specimen: &Specimen) -> Result<(), RecordError> {
+    fn check_strain(&self, length: f64) -> Result<(), RecordError> {
         let (first, turning) = (self.loading[0], self.unloading[0]);
-        let strain = (turning.elongation - first.elongation) / specimen.length;
+        let strain = (turning.elongation - first.elongation) / length;
         if strain > MAX_STRAIN {
             return Err(turning.invalid(
                 "elongation_mm",
@@ -305,8 +303,7 @@ impl Record {
 impl Specimen {
     fn validate(&self) -> Result<(), RecordError> {
         setting("breaking force", self.breaking_force, self.breaking_force > 0.0, "a positive force [N]")?;
-        setting("section", self.section, self.section > 0.0, "a positive section [m²]")?;
-        setting("length", self.length, self.length > 0.0, "a positive length [m]")?;
+        check_specimen(self.length, self.section)?;
         for (field, value) in [
             ("force error", self.force_error),
             ("elongation error", self.elongation_error),
@@ -319,7 +316,22 @@ impl Specimen {
     }
 }
 
+fn check_specimen(length: f64, section: f64) -> Result<(), RecordError> {
+    setting("section", section, section > 0.0, "a positive section [m²]")?;
+    setting("length", length, length > 0.0, "a positive length [m]")
+}
+
 impl Sample {
+    /// A modulus that no cable has is the sign of another unit.
+    fn check_modulus(&self, modulus: f64, of: &str) -> Result<(), RecordError> {
+        if MODULI.contains(&modulus) {
+            return Ok(());
+        }
+        let expected =
+            "a modulus from 1e9 to 1e12 Pa: forces in N, elongations in mm, length in m, section in m²";
+        Err(self.invalid("modulus", format!("{modulus:e} Pa {of}"), expected))
+    }
+
     fn invalid(&self, field: &'static str, value: impl ToString, expected: &str) -> RecordError {
         RecordError::Invalid {
             line: self.line,
@@ -354,8 +366,11 @@ fn monotone(samples: &[Sample], sign: f64) -> Result<(), RecordError> {
         ];
         for (field, value, previous) in fields {
             if sign * (value - previous) <= 0.0 {
-                let expected =
-                    format!("{way} than {previous} of line {} while {}", before.line, now.phase.name());
+                let expected = format!(
+                    "{way} than {previous} of line {} while {}; smooth a noisy record, or thin it out",
+                    before.line,
+                    now.phase.name()
+                );
                 return Err(now.invalid(field, value, &expected));
             }
         }
@@ -493,6 +508,28 @@ mod tests {
         let metres = LOOP.map(|(force, mm, phase)| (force, 1e-3 * mm, phase));
         let error = record(&metres).unwrap().modulus(&SPECIMEN, Loading, 10.0, 20.0).unwrap_err();
         assert!(matches!(error, RecordError::Invalid { field: "modulus", .. }), "{error}");
+    }
+
+    #[test]
+    fn tangents_are_those_of_the_pieces_whose_units_are_looked_at() {
+        let moduli = |phase| record(&LOOP).unwrap().moduli(phase, 2.0, 1e-5).unwrap();
+        let close = |found: Vec<(f64, f64)>, expected: &[(f64, f64)]| {
+            assert_eq!(found.len(), expected.len());
+            for (one, other) in found.iter().zip(expected) {
+                assert_eq!(one.0, other.0);
+                assert_relative_eq!(one.1, other.1, max_relative = 1e-12);
+            }
+        };
+        close(moduli(Loading), &[(0.0, 9e10), (1000.0, 2e11)]);
+        close(moduli(Unloading), &[(0.0, 9e10), (1000.0, 4e11)]);
+        let micrometres = LOOP.map(|(force, mm, phase)| (force, 1e3 * mm, phase));
+        let metres = LOOP.map(|(force, mm, phase)| (force, 1e-3 * mm, phase));
+        for (rows, word) in [(micrometres, "elongation_mm"), (metres, "modulus")] {
+            let error = record(&rows).unwrap().moduli(Loading, 2.0, 1e-5).unwrap_err();
+            assert!(matches!(error, RecordError::Invalid { field, .. } if field == word), "{error}");
+        }
+        let error = record(&LOOP).unwrap().moduli(Loading, 2.0, 0.0).unwrap_err();
+        assert!(matches!(error, RecordError::Setting { field: "section", .. }), "{error}");
     }
 
     #[test]

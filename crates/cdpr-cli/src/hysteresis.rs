@@ -2,11 +2,10 @@
 
 use crate::arguments::{self, Format, number};
 use crate::study::table;
-use cdpr_cable::Phase;
 use cdpr_report::{Cycle, cycle};
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable};
 use cdpr_statics::{DirectSolution, HysteresisLaw, LoadCycle, Unloading, load_cycle};
-use cdpr_study::{open_record, open_robot};
+use cdpr_study::{CableLaw, open_law, open_record, open_robot};
 use serde::Serialize;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -16,12 +15,18 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Settings {
     /// Robot file (JSON, `cdpr-robot/1`).
     robot: PathBuf,
-    /// Record of all its cables (CSV with the columns force_n, elongation_mm, phase: loading or unloading).
-    #[arg(long)]
-    record: PathBuf,
+    /// Record of its cables (CSV with the columns force_n, elongation_mm, phase: loading or unloading).
+    #[arg(long, requires = "length")]
+    record: Option<PathBuf>,
     /// Length of the record's specimen between its clamps [m].
-    #[arg(long, value_parser = number, allow_hyphen_values = true)]
-    length: f64,
+    #[arg(long, value_parser = number, allow_hyphen_values = true, requires = "record")]
+    length: Option<f64>,
+    /// Section of the record's specimen [m²]; that of the cables if left out.
+    #[arg(long, value_parser = number, allow_hyphen_values = true, requires = "record")]
+    section: Option<f64>,
+    /// Law of its cables (JSON, `cdpr-law/1`). Without record and law: the laws in the robot file.
+    #[arg(long, conflicts_with = "record")]
+    law: Option<PathBuf>,
     /// Pose under the platform's own weight: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
     #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
     pose: Pose,
@@ -73,9 +78,9 @@ struct InCable {
 
 pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     let robot = open_robot(&settings.robot)?;
-    let law = curves(&robot, settings)?;
-    let cycle = load_cycle(&robot, &law, &settings.pose, settings.payload, settings.steps)?;
-    let found = Found::new(&robot, &law, &cycle);
+    let laws = laws(&robot, settings)?;
+    let cycle = load_cycle(&robot, &laws, &settings.pose, settings.payload, settings.steps)?;
+    let found = Found::new(&robot, &laws, &cycle);
     match settings.format {
         Format::Json => println!("{}", serde_json::to_string(&found)?),
         Format::Text => print(&found),
@@ -89,39 +94,60 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     settings.figure.as_deref().map_or(Ok(()), |path| draw(&robot, &cycle, &found, path))
 }
 
-/// The record in proportion to the robot's cables, which have to be alike.
-fn curves(robot: &Robot, settings: &Settings) -> Result<HysteresisLaw, Box<dyn Error>> {
-    if settings.length <= 0.0 {
-        return Err(format!("--length is {}: expected a positive length [m]", settings.length).into());
+/// The curves of each cable.
+fn laws(robot: &Robot, settings: &Settings) -> Result<Vec<HysteresisLaw>, Box<dyn Error>> {
+    let law = match (&settings.record, &settings.length, &settings.law) {
+        (Some(record), Some(length), _) => of_record(robot, record, *length, settings.section)?,
+        (_, _, Some(law)) => open_law(law)?,
+        _ => return own(robot),
+    };
+    let from = match settings.unloading {
+        Branch::SameTension => Unloading::SameTension,
+        Branch::TurningPoint => Unloading::TurningPoint,
+    };
+    let cables = robot.cables.iter().enumerate();
+    let curves = cables.map(|(i, cable)| {
+        law.curves(&cable.properties, from).map_err(|error| format!("cable {}: {error}", i + 1).into())
+    });
+    curves.collect()
+}
+
+fn of_record(
+    robot: &Robot,
+    record: &Path,
+    length: f64,
+    section: Option<f64>,
+) -> Result<CableLaw, Box<dyn Error>> {
+    let of_cables = robot.cables[0].properties.section;
+    if section.is_none() && robot.cables.iter().any(|cable| cable.properties.section != of_cables) {
+        return Err("the cables of the robot differ in their section: expected --section, that of the record's specimen".into());
     }
-    let stiffness = robot.cables[0].properties.axial_stiffness();
-    if robot.cables.iter().any(|cable| cable.properties.axial_stiffness() != stiffness) {
-        return Err("the cables of the robot differ in their axial stiffness: expected one record for cables that are alike".into());
+    let law = CableLaw::of_record(&open_record(record)?, length, section.unwrap_or(of_cables));
+    law.map_err(|error| format!("{}: {error}", record.display()).into())
+}
+
+/// The laws of the robot file, by which cables lose no energy.
+fn own(robot: &Robot) -> Result<Vec<HysteresisLaw>, Box<dyn Error>> {
+    if robot.is_linear() {
+        return Err(
+            "no cable of the robot has a law: expected --record, --law, or a `law` in the robot file".into(),
+        );
     }
-    let record = open_record(&settings.record)?;
-    let [_, turning_tension] = record.forces(Phase::Loading);
-    Ok(HysteresisLaw {
-        loading: record.law(Phase::Loading, settings.length, stiffness)?,
-        unloading: record.law(Phase::Unloading, settings.length, stiffness)?,
-        turning_tension,
-        unloading_from: match settings.unloading {
-            Branch::SameTension => Unloading::SameTension,
-            Branch::TurningPoint => Unloading::TurningPoint,
-        },
-    })
+    let linear = PiecewiseLaw::new(0.0, &[(0.0, 1.0)])?;
+    let law = |cable: &RobotCable| cable.properties.law.clone().unwrap_or_else(|| linear.clone());
+    Ok(robot.cables.iter().map(|cable| HysteresisLaw::elastic(law(cable))).collect())
 }
 
 impl Found {
-    fn new(robot: &Robot, law: &HysteresisLaw, cycle: &LoadCycle) -> Self {
-        let modulus = |[from, to, _]: [f64; 3]| {
-            let strain = law.loading.scaled_strain(to) - law.loading.scaled_strain(from);
-            robot.cables[0].properties.youngs_modulus * (to - from) / strain
-        };
-        let cables = cycle.tensions.iter().zip(&cycle.dissipated).map(|(tensions, dissipated)| InCable {
+    fn new(robot: &Robot, laws: &[HysteresisLaw], cycle: &LoadCycle) -> Self {
+        let cables = cycle.tensions.iter().zip(&cycle.dissipated).enumerate();
+        let cables = cables.map(|(i, (tensions, dissipated))| InCable {
             tension_own_weight_n: tensions[0],
             tension_payload_n: tensions[1],
             tension_removed_n: tensions[2],
-            modulus_gpa: 1e-9 * modulus(*tensions),
+            modulus_gpa: 1e-9
+                * robot.cables[i].properties.youngs_modulus
+                * laws[i].loading.secant_ratio(tensions[0], tensions[1]),
             dissipated_j: *dissipated,
         });
         Self {

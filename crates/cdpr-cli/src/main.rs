@@ -91,10 +91,11 @@ enum Command {
         after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
     )]
     Derivatives(derivatives::Settings),
-    /// Put a payload on a robot and take it off again, on cables with the hysteresis of a load-elongation record.
-    #[command(
-        after_help = "Example: cdpr hysteresis data/robots/caroca.json --record data/cables/caroca-4mm-record.csv --length 1 --pose 0,0,1.75 --payload 50"
-    )]
+    /// Put a payload on a robot and take it off again, on cables with the hysteresis of a load-elongation record or a law.
+    #[command(after_help = "Examples:
+  cdpr hysteresis data/robots/caroca.json --record data/cables/caroca-4mm-record.csv --length 1 --pose 0,0,1.75 --payload 50
+  cdpr hysteresis data/robots/caroca.json --law data/cables/caroca-4mm-law.json --pose 0,0,1.75 --payload 50
+  cdpr hysteresis data/robots/caroca-law.json --pose 0,0,1.75 --payload 50")]
     Hysteresis(hysteresis::Settings),
     /// Mass per length of a cable from the weighing of a piece of it.
     #[command(
@@ -102,9 +103,9 @@ enum Command {
     )]
     LinearDensity(linear_density::Settings),
     /// Moduli of a cable from a load-elongation record, with their uncertainty, and the energy that the loop dissipates.
-    #[command(
-        after_help = "Example: cdpr modulus data/cables/caroca-4mm-record.csv --breaking-force 10290 --section 1.2566370614e-5 --length 1 --range 5-10 --range 10-30"
-    )]
+    #[command(after_help = "Examples:
+  cdpr modulus data/cables/caroca-4mm-record.csv --breaking-force 10290 --section 1.2566370614e-5 --length 1 --range 5-10 --range 10-30
+  cdpr modulus data/cables/caroca-4mm-record.csv --published data/cables/caroca-4mm.json --length 1 --law target/law.json")]
     Modulus(modulus::Settings),
     /// Write the report of a study: one HTML file with all figures that opens offline.
     #[command(after_help = "Example: cdpr report results")]

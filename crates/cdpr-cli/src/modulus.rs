@@ -1,10 +1,13 @@
 //! `cdpr modulus`: what a load-elongation record says of a cable.
 
+mod published;
+
 use crate::arguments::{Format, number};
 use crate::study::table;
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, cycle};
-use cdpr_study::open_record;
+use cdpr_study::{CableLaw, law_json, open_record};
+use published::{Entry, Published};
 use serde::Serialize;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -15,17 +18,20 @@ pub(crate) struct Settings {
     /// Record (CSV with the columns force_n, elongation_mm, phase: loading or unloading).
     record: PathBuf,
     /// Breaking force, of which ranges are percentages [N].
-    #[arg(long, value_parser = number, allow_hyphen_values = true)]
-    breaking_force: f64,
+    #[arg(long, value_parser = number, allow_hyphen_values = true, required_unless_present = "published")]
+    breaking_force: Option<f64>,
     /// Section [m²].
-    #[arg(long, value_parser = number, allow_hyphen_values = true)]
-    section: f64,
+    #[arg(long, value_parser = number, allow_hyphen_values = true, required_unless_present = "published")]
+    section: Option<f64>,
     /// Length of the specimen between its clamps [m].
     #[arg(long, value_parser = number, allow_hyphen_values = true)]
     length: f64,
     /// Range of load in percent of the breaking force, such as 10-30; may be given several times.
-    #[arg(long = "range", value_parser = range, required = true)]
+    #[arg(long = "range", value_parser = range, required_unless_present = "published")]
     ranges: Vec<(f64, f64)>,
+    /// Published table (JSON as data/cables/caroca-4mm.json) to stand beside: breaking force, section and ranges are its own.
+    #[arg(long, conflicts_with_all = ["breaking_force", "section", "ranges"])]
+    published: Option<PathBuf>,
     /// Error of each force [N].
     #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 1.0)]
     force_error: f64,
@@ -41,6 +47,9 @@ pub(crate) struct Settings {
     /// File for a picture of the loop (SVG).
     #[arg(long)]
     figure: Option<PathBuf>,
+    /// File for the record's law (JSON, `cdpr-law/1`), as `cdpr hysteresis --law` and an operating point of a study take it.
+    #[arg(long)]
+    law: Option<PathBuf>,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -56,6 +65,8 @@ fn range(text: &str) -> Result<(f64, f64), String> {
 struct Found {
     ranges: Vec<InRange>,
     dissipated_energy_j: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    published: Option<Vec<Entry>>,
 }
 
 #[derive(Serialize)]
@@ -86,16 +97,22 @@ impl From<SecantModulus> for Modulus {
 
 pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     let record = open_record(&settings.record)?;
+    let published = settings.published.as_deref().map(Published::open).transpose()?;
+    let (breaking_force, section, ranges) = match (&published, settings.breaking_force, settings.section) {
+        (Some(table), ..) => (table.breaking_force, table.section, &table.ranges),
+        (None, Some(breaking_force), Some(section)) => (breaking_force, section, &settings.ranges),
+        _ => return Err("expected --breaking-force, --section and --range, or --published".into()),
+    };
     let specimen = Specimen {
-        breaking_force: settings.breaking_force,
-        section: settings.section,
+        breaking_force,
+        section,
         length: settings.length,
         force_error: settings.force_error,
         elongation_error: 1e-3 * settings.elongation_error,
         length_error: settings.length_error,
         section_error: settings.section_error,
     };
-    let ranges = settings.ranges.iter().map(|&(from_percent, to_percent)| {
+    let ranges = ranges.iter().map(|&(from_percent, to_percent)| {
         let of = |phase| record.modulus(&specimen, phase, from_percent, to_percent).map(Modulus::from);
         Ok(InRange {
             from_percent,
@@ -104,13 +121,23 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
             unloading: of(Phase::Unloading)?,
         })
     });
-    let found = Found {
+    let mut found = Found {
         ranges: ranges.collect::<Result<_, cdpr_cable::RecordError>>()?,
         dissipated_energy_j: record.dissipated_energy(),
+        published: None,
     };
+    found.published = published.as_ref().map(|table| table.beside(&found));
     match settings.format {
         Format::Json => println!("{}", serde_json::to_string(&found)?),
-        Format::Text => print(&found),
+        Format::Text => {
+            print(&found);
+            if let (Some(table), Some(entries)) = (&published, &found.published) {
+                published::print(table, entries);
+            }
+        }
+    }
+    if let Some(path) = &settings.law {
+        write_law(&record, &specimen, settings, path)?;
     }
     settings.figure.as_deref().map_or(Ok(()), |path| draw(&record, &found, path))
 }
@@ -130,10 +157,27 @@ fn print(found: &Found) {
             [of.modulus_gpa, of.standard_uncertainty_gpa, of.greatest_uncertainty_gpa]
                 .map(|value| format!("{value:.2}"))
         };
-        let name = format!("{} to {}", range.from_percent, range.to_percent);
+        let name = percent(range.from_percent, range.to_percent);
         rows.add_row([name].into_iter().chain(cells(&range.loading)).chain(cells(&range.unloading)));
     }
     println!("{rows}\nthe loop dissipates {:.4} J", found.dissipated_energy_j);
+}
+
+fn percent(from: f64, to: f64) -> String {
+    format!("{from} to {to}")
+}
+
+fn write_law(
+    record: &Record,
+    specimen: &Specimen,
+    settings: &Settings,
+    path: &Path,
+) -> Result<(), Box<dyn Error>> {
+    let law = CableLaw::of_record(record, specimen.length, specimen.section)?;
+    let source =
+        format!("load-elongation record {}, specimen of {} m", settings.record.display(), specimen.length);
+    let text = law_json(Some(source), law)? + "\n";
+    std::fs::write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()).into())
 }
 
 fn draw(record: &Record, found: &Found, path: &Path) -> Result<(), Box<dyn Error>> {

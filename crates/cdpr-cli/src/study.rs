@@ -92,10 +92,10 @@ struct Common {
     /// Threads; all cores if left out. The numbers do not depend on it.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// What the observations are written as; 0.9 kB each as CSV, less as Parquet (if built with that feature). The blocks keep them in
-    /// any case.
-    #[arg(long, value_enum, default_value_t = TableName::Csv)]
-    table: TableName,
+    /// What the observations are written as; 0.9 kB each as CSV, less as Parquet (if built with that feature). If left out, as CSV, but
+    /// not those of samplings at several poses. The blocks keep them in any case.
+    #[arg(long, value_enum)]
+    table: Option<TableName>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -151,14 +151,14 @@ pub(crate) fn run(command: Command) -> Result<(), RunError> {
             let blocks = cdpr_study::begin(out, &study, existing)?;
             match shard {
                 Some(shard) => carry_out::shard(&study, out, &blocks, shard),
-                None => carry_out::whole(&study, out, &blocks, settings.common.table.into()),
+                None => carry_out::whole(&study, out, &blocks, settings.common.table.map(TableFormat::from)),
             }
         }
         Command::Merge(FolderSettings { folder, common }) => {
             start_threads(common.threads)?;
             let (study, blocks) = cdpr_study::open_results(&folder)?;
             cdpr_study::check_complete(&folder, &study, &blocks)?;
-            carry_out::whole(&study, &folder, &blocks, common.table.into())
+            carry_out::whole(&study, &folder, &blocks, common.table.map(TableFormat::from))
         }
         Command::Status(settings) => status::run(&settings),
         Command::Extend { folder: FolderSettings { folder, common }, observations } => {
@@ -166,7 +166,7 @@ pub(crate) fn run(command: Command) -> Result<(), RunError> {
             let (mut study, _) = cdpr_study::open_results(&folder)?;
             study.extend(observations)?;
             let blocks = cdpr_study::begin(&folder, &study, Existing::GoOn)?;
-            carry_out::whole(&study, &folder, &blocks, common.table.into())
+            carry_out::whole(&study, &folder, &blocks, common.table.map(TableFormat::from))
         }
         Command::Throughput { study, sampling, observations, threads } => {
             throughput::run(&study, &sampling, observations, threads)

@@ -65,13 +65,25 @@ fn prepare(folder: &Path) {
     write("list.json", "[1, 2]");
     write("case_unknown.json", "{\"lengths\": [4, 4, 4, 4, 4, 4, 4, 4],\n \"weight\": 3}");
     write("case_text.json", "[{\"lengths\": [4, 4, 4, 4, \"four\", 4, 4, 4]}]");
+    let (record, law) = (data("cables/caroca-4mm-record.csv"), data("cables/caroca-4mm-law.json"));
+    write("record.csv", &record);
+    write("noisy.csv", &record.replace("1543.5,1.48870837248", "1543.5,1.0368"));
+    write("no_phase.csv", &record.replace(",loading", ","));
+    write("law.json", &law);
+    write("law_order.json", &law.replacen(r#""tension": 1029.0"#, r#""tension": 102.9"#, 1));
+    write("law_modulus.json", &law.replacen("7.25e10", "-7.25e10", 1));
+    write("law_format.json", &law.replace("cdpr-law/1", "cdpr-law/9"));
+    write("table.json", &data("cables/caroca-4mm.json").replace("[72.5, ", "["));
+    let operating =
+        data("studies/caroca-operating-point.json").replace("../robots/caroca.json", "robot.json");
+    write("study_point.json", &operating.replacen(r#""tension": 514.5"#, r#""tension": -514.5"#, 1));
     std::fs::create_dir(folder.join("folder")).unwrap();
 }
 
 const LENGTHS: &str = "4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44";
 
 /// What is wrong, and the arguments, separated by spaces.
-const CASES: [(&str, &str); 57] = [
+const CASES: [(&str, &str); 70] = [
     ("unknown command", "invert robot.json"),
     ("missing argument", "inverse robot.json"),
     ("unknown argument", "inverse robot.json --pose 0,0,1.75 --speed 3"),
@@ -129,6 +141,34 @@ const CASES: [(&str, &str); 57] = [
     ("unknown field deep in a study", "study run study_law.json"),
     ("unknown error model", "study run study_model.json"),
     ("unknown field in a study", "study run study_unknown.json"),
+    ("operating point that is none", "study run study_point.json"),
+    ("noisy record", "modulus noisy.csv --published table.json --length 1"),
+    ("another number of moduli", "modulus record.csv --published table.json --length 1"),
+    ("record without range", "modulus record.csv --breaking-force 10290 --section 1e-5 --length 1"),
+    (
+        "noisy record of cables",
+        "hysteresis robot.json --record noisy.csv --length 1 --pose 0,0,1.75 --payload 50",
+    ),
+    (
+        "record in other units",
+        "hysteresis robot.json --record micrometres.csv --length 1 --pose 0,0,1.75 --payload 50",
+    ),
+    (
+        "record without phase",
+        "hysteresis robot.json --record no_phase.csv --length 1 --pose 0,0,1.75 --payload 50",
+    ),
+    ("record without length", "hysteresis robot.json --record record.csv --pose 0,0,1.75 --payload 50"),
+    (
+        "record and law",
+        "hysteresis robot.json --record record.csv --length 1 --law law.json --pose 0,0,1.75 --payload 50",
+    ),
+    ("no law at all", "hysteresis robot.json --pose 0,0,1.75 --payload 50"),
+    (
+        "law whose tensions do not grow",
+        "hysteresis robot.json --law law_order.json --pose 0,0,1.75 --payload 50",
+    ),
+    ("law of negative modulus", "hysteresis robot.json --law law_modulus.json --pose 0,0,1.75 --payload 50"),
+    ("another format of law", "hysteresis robot.json --law law_format.json --pose 0,0,1.75 --payload 50"),
 ];
 
 #[test]

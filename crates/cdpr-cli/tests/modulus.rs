@@ -34,6 +34,30 @@ fn moduli_of_several_ranges_come_as_json_and_the_loop_as_a_picture() {
 }
 
 #[test]
+fn a_published_table_stands_beside_the_record_and_its_inconsistent_entry_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let law = folder.path().join("law.json");
+    let table = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/cables/caroca-4mm.json");
+    let with = ["modulus", RECORD, "--published", table, "--length", "1", "--law", law.to_str().unwrap()];
+    let text = String::from_utf8(cdpr(&with).stdout).unwrap();
+    assert!(text.contains("E_10-30 while loading: 102.2 GPa is published, 101.5 GPa follows"), "{text}");
+    let output = cdpr(&[&with[..], &["--format", "json"]].concat());
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let entries = found["published"].as_array().unwrap();
+    let inconsistent: Vec<_> = entries.iter().filter(|entry| entry["consistent"] == false).collect();
+    assert_eq!((entries.len(), inconsistent.len()), (16, 1));
+    assert_eq!(
+        (&inconsistent[0]["phase"], &inconsistent[0]["from_percent"]),
+        (&"loading".into(), &10.0.into())
+    );
+    let law = cdpr_study::open_law(&law).unwrap();
+    assert!(
+        (law.loading[1].modulus / 8.32e10 - 1.0).abs() < 1e-9
+            && law.unloading.unwrap().turning_tension == 3087.0
+    );
+}
+
+#[test]
 fn what_cannot_be_answered_ends_with_an_error_that_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let bad = folder.path().join("bad.csv");

@@ -6,8 +6,8 @@ use cdpr_report::{Watcher, report};
 use cdpr_robot::Vector3;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
-    Existing, Part, Results, Session, Shard, Study, StudyError, TableFormat, check_complete, observe_into,
-    observe_shard, open_results, write_text,
+    Existing, Part, Plan, Results, Session, Shard, Study, StudyError, TableFormat, check_complete,
+    observe_into, observe_shard, open_results, write_text,
 };
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -37,7 +37,7 @@ pub(crate) fn begin(
         (false, false) => Existing::Refuse,
     };
     cdpr_study::begin(&out, &study, existing)?;
-    Ok((study.blocks()?, observations_of(&study)?))
+    Ok((Plan::new(&study)?.blocks(), observations_of(&study)?))
 }
 
 /// Makes the blocks of the `index`-th of `count` shards that are not in the folder; says how many observations they are.
@@ -114,7 +114,7 @@ pub(crate) fn carry_out(
             note: &note,
             stop: &|| stop.load(Ordering::Relaxed),
         };
-        cdpr_report::run(&study, &out, &blocks, format, watcher).map(|_| ())
+        cdpr_report::run(&study, &out, &blocks, Some(format), watcher).map(|_| ())
     })??;
     tell(py)?;
     let page = report(&Results::read(&out)?);
@@ -169,7 +169,7 @@ pub(crate) fn observations(
 
 /// Observations and points of a whole run, replicates and measures of sensitivity included.
 fn observations_of(study: &Study) -> Answer<usize> {
-    let of_sampling = |name: &String| study.sampling(name).map(|sampling| sampling.observations());
+    let of_sampling = |name: &String| study.observations(name);
     let samplings: usize = study.file.samplings.keys().map(of_sampling).sum::<Result<_, _>>()?;
     let surfaces: usize =
         study.file.surfaces.values().map(|surface| surface.x.points * surface.y.points).sum();

@@ -10,6 +10,7 @@
 //! | none: signed effects with their intervals | [`signed_effects`] |
 //! | none: shares of the variance by all measures | [`shares`] |
 //! | none: deflection, stiffness, tension over a plane of the workspace | [`heat_map`] |
+//! | none: what a sampling at many poses says over the workspace | [`pose_maps`] |
 //! | none: answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
 //! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of Cable-Driven Parallel
@@ -35,7 +36,9 @@ mod effects;
 mod error;
 mod heat_map;
 mod histogram;
+mod plane;
 mod points;
+mod pose_map;
 mod report;
 mod robustness;
 mod run;
@@ -49,6 +52,7 @@ pub use error::ReportError;
 pub use heat_map::{MapQuantity, heat_map};
 pub use histogram::histogram;
 pub use points::{Points, point_effects};
+pub use pose_map::{PoseMap, pose_maps};
 pub use report::report;
 pub use robustness::{found_poses, success_share};
 pub use run::{Watcher, run};

@@ -56,6 +56,7 @@ fn sampling() -> SamplingSummary {
             unloaded_tensions: vec![574.0; 8],
             loaded_tensions: vec![730.0; 8],
         },
+        operating_moduli_gpa: None,
         fits: vec![
             fit(Family::Uniform, Law::Uniform { min: 1.1, max: 1.6 }, 10.0),
             fit(Family::Normal, Law::Normal { mean: 1.35, std: 0.1375 }, 25.0),

@@ -2,6 +2,7 @@
 
 use crate::error::RobotError;
 use crate::json::from_json;
+use crate::law::LawSegment;
 use crate::robot::{CableProperties, Platform, Robot, RobotCable, TensionLimits};
 use cdpr_cable::{CableError, PiecewiseLaw};
 use nalgebra::Vector3;
@@ -73,16 +74,7 @@ struct LawEntry {
     #[serde(default)]
     strain_at_rest: f64,
     /// Pieces of constant modulus, from zero tension up.
-    segments: Vec<SegmentEntry>,
-}
-
-#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
-#[serde(deny_unknown_fields)]
-struct SegmentEntry {
-    /// Tension at which the piece begins [N]; zero for the first.
-    tension: f64,
-    /// Young's modulus from there on [Pa].
-    modulus: f64,
+    segments: Vec<LawSegment>,
 }
 
 #[derive(Serialize, Deserialize, JsonSchema)]
@@ -226,8 +218,7 @@ fn law_of(
     section: f64,
     field: &str,
 ) -> Result<PiecewiseLaw, RobotError> {
-    let segments: Vec<_> =
-        entry.segments.iter().map(|segment| (segment.tension, segment.modulus / youngs_modulus)).collect();
+    let segments = LawSegment::in_proportion(&entry.segments, youngs_modulus);
     let scaled_strain = entry.strain_at_rest * youngs_modulus * section;
     PiecewiseLaw::new(scaled_strain, &segments).map_err(|error| match error {
         CableError::InvalidInput { field: of_law, value, expected } => {
@@ -249,7 +240,7 @@ fn entry(properties: &CableProperties) -> PropertiesEntry {
             segments: law
                 .segments()
                 .iter()
-                .map(|segment| SegmentEntry {
+                .map(|segment| LawSegment {
                     tension: segment.tension,
                     modulus: segment.ratio * properties.youngs_modulus,
                 })

@@ -22,6 +22,7 @@
 mod error;
 mod format;
 mod json;
+mod law;
 mod parameter;
 mod pose;
 mod robot;
@@ -30,6 +31,7 @@ pub use cdpr_cable::PiecewiseLaw;
 pub use error::RobotError;
 pub use format::{FORMAT, json_schema};
 pub use json::{JsonError, from_json, place_of};
+pub use law::LawSegment;
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
 pub use parameter::{Axis, Parameter, Perturbed, deviations};
 pub use pose::{Pose, Wrench};

@@ -4,7 +4,7 @@
 
 mod problems;
 
-use cdpr_robot::{Pose, Vector3};
+use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{
     Load, Setting, Start, Tangent, Tracker, certify, deflection, derivatives, direct, follow, inverse,
 };
@@ -46,6 +46,13 @@ fn direct_model(criterion: &mut Criterion) {
             b.iter(|| counted(|| direct(black_box(&robot), black_box(lengths), &load, start)));
         });
     }
+    let lawful = Robot::from_json(include_str!("../../../data/robots/caroca-law.json")).unwrap();
+    let wound = inverse(&lawful, &pose, &Load::none(), None).unwrap();
+    let (load, near) = (Load::payload(50.0), Start::Near(&wound.equilibrium));
+    assert!(direct(&lawful, &wound.lengths, &load, near).unwrap().report.residual.force < 1e-8);
+    group.bench_function("law", |b| {
+        b.iter(|| counted(|| direct(black_box(&lawful), black_box(&wound.lengths), &load, near)));
+    });
     for n in [6, 8, 12, 16] {
         let robot = ring(n);
         let pose = Pose::at(0.1, 0.2, 1.5);

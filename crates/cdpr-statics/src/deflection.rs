@@ -72,6 +72,15 @@ pub fn deflection(
     deflection_from(robot, lengths, load, &held)
 }
 
+/// Unstrained lengths [m] at which the cables have the least-norm tensions for `pose` under the platform's own weight, plus
+/// `tension_offsets` [N], while the platform is held there; let go, it stands elsewhere.
+///
+/// # Errors
+/// Those of the inverse model.
+pub fn wound_lengths(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Result<Vec<f64>, StaticsError> {
+    Ok(wind(robot, pose, tension_offsets)?.lengths)
+}
+
 /// Winds the cables for `pose`.
 pub(crate) fn wind(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Result<Wound, StaticsError> {
     StaticsError::one_per_cable("tension_offsets", tension_offsets, robot.cables.len())?;

@@ -81,6 +81,12 @@ impl LoadCycle {
 }
 
 impl HysteresisLaw {
+    /// A law whose way back is its way there: a cable that loses no energy.
+    pub fn elastic(law: PiecewiseLaw) -> Self {
+        let unloading = law.clone();
+        Self { loading: law, unloading, turning_tension: 0.0, unloading_from: Unloading::SameTension }
+    }
+
     /// The law of a cable that is at `tension` [N] on the law `now`.
     fn turned(&self, now: &PiecewiseLaw, tension: f64) -> Result<PiecewiseLaw, CableError> {
         let moved = match self.unloading_from {
@@ -104,14 +110,15 @@ impl HysteresisLaw {
     }
 }
 
-/// The cycle of `payload` [kg] at a pose that the inverse model holds under the platform's own weight, in `steps` steps each way. All
-/// cables have the same two curves; laws that the robot's cables have of their own are not asked.
+/// The cycle of `payload` [kg] at a pose that the inverse model holds under the platform's own weight, in `steps` steps each way, with
+/// a law for each cable; laws that the robot's cables have of their own are not asked.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] for a payload that is not positive or no step; those of the inverse and the direct model.
+/// [`StaticsError::Invalid`] for a payload that is not positive, no step, or a law too few or too many; those of the inverse and the
+/// direct model.
 pub fn load_cycle(
     robot: &Robot,
-    law: &HysteresisLaw,
+    laws: &[HysteresisLaw],
     pose: &Pose,
     payload: f64,
     steps: usize,
@@ -126,7 +133,10 @@ pub fn load_cycle(
         return invalid("steps", steps.to_string(), "one step at least");
     }
     let n = robot.cables.len();
-    let mut robot = with_laws(robot, vec![law.loading.clone(); n]);
+    if laws.len() != n {
+        return invalid("laws", format!("a list of {}", laws.len()), &format!("{n}, one a cable"));
+    }
+    let mut robot = with_laws(robot, laws.iter().map(|law| law.loading.clone()).collect());
     let wound = wind(&robot, pose, &vec![0.0; n])?;
     let lengths = wound.lengths;
     let mut ways = Vec::with_capacity(2);
@@ -137,9 +147,11 @@ pub fn load_cycle(
     middles.push(middle_tensions(&robot, &lengths, &here.1.equilibrium)?);
     for up in [true, false] {
         let from = &middles[middles.len() - 1];
-        let laws =
-            (0..n).map(|i| law.turned(law_of(&robot, i, law), from[i]).map_err(StaticsError::cable(i)));
-        robot = with_laws(&robot, laws.collect::<Result<_, _>>()?);
+        let turned = laws
+            .iter()
+            .enumerate()
+            .map(|(i, law)| law.turned(law_of(&robot, i, law), from[i]).map_err(StaticsError::cable(i)));
+        robot = with_laws(&robot, turned.collect::<Result<_, _>>()?);
         let mut way = vec![here];
         for step in 1..=steps {
             let share = step as f64 / steps as f64;
@@ -152,7 +164,7 @@ pub fn load_cycle(
         let to = middle_tensions(&robot, &lengths, &here.1.equilibrium)?;
         for i in 0..n {
             // ∫ T dε = [T ε] - ∫ ε dT, in multiples of 1/EA
-            let law = law_of(&robot, i, law);
+            let law = law_of(&robot, i, &laws[i]);
             let [begin, end] = [from[i], to[i]].map(|t| t * law.scaled_strain(t) - law.scaled_energy(t));
             energies[i] += end - begin;
         }
@@ -161,7 +173,8 @@ pub fn load_cycle(
     }
     let dissipated = (0..n).map(|i| {
         let (begin, end) = (middles[0][i], middles[2][i]);
-        let strained = law.loading.scaled_strain(begin) - law_of(&robot, i, law).scaled_strain(end);
+        let last = law_of(&robot, i, &laws[i]);
+        let strained = laws[i].loading.scaled_strain(begin) - last.scaled_strain(end);
         let around = energies[i] + 0.5 * (begin + end) * strained;
         around * lengths[i] / robot.cables[i].properties.axial_stiffness()
     });

@@ -67,7 +67,7 @@ mod trust_region;
 pub use calibration::{Calibration, ChosenPose, Combination, Identifiability, Measurement};
 pub use certificate::{Certificate, certify};
 pub use continuation::{Loss, LossKind, Path, PathStep, Setting, follow};
-pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections};
+pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections, wound_lengths};
 pub use derivatives::{Derivatives, EquilibriumDerivatives, VarianceBudget, derivatives};
 pub use direct::{DirectSolution, Method, Report, Residual, Start, direct, direct_any, rough_pose};
 pub use error::StaticsError;

@@ -9,13 +9,15 @@ fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
 }
 
-fn curves(loading: &[(f64, f64)], unloading: &[(f64, f64)]) -> HysteresisLaw {
-    HysteresisLaw {
+/// One law for all eight cables.
+fn curves(loading: &[(f64, f64)], unloading: &[(f64, f64)]) -> Vec<HysteresisLaw> {
+    let law = HysteresisLaw {
         loading: PiecewiseLaw::new(0.0, loading).unwrap(),
         unloading: PiecewiseLaw::new(0.0, unloading).unwrap(),
         turning_tension: 3087.0,
         unloading_from: Unloading::SameTension,
-    }
+    };
+    vec![law; 8]
 }
 
 const POSE: [f64; 3] = [0.0, 0.0, 1.75];
@@ -37,7 +39,7 @@ fn the_first_way_is_the_deflection_of_the_loading_curve() {
     let law = curves(&[(0.0, 0.8), (600.0, 1.0)], &[(0.0, 1.1)]);
     let cycle = load_cycle(&caroca(), &law, &pose(), 50.0, 4).unwrap();
     let mut robot = caroca();
-    robot.cables.iter_mut().for_each(|cable| cable.properties.law = Some(law.loading.clone()));
+    robot.cables.iter_mut().for_each(|cable| cable.properties.law = Some(law[0].loading.clone()));
     let once = deflection(&robot, &pose(), &[0.0; 8], &Load::payload(50.0)).unwrap();
     // The parts of a cable below the tension of its middle count as unloading: a few per thousand of half of it.
     assert!((cycle.deflection() - once.displacement()).norm() < 5e-3 * once.rms());
@@ -61,7 +63,8 @@ fn a_stiffer_way_back_leaves_the_platform_below_and_dissipates_the_loops_of_its_
 fn a_way_back_from_the_turning_point_begins_as_the_record_does() {
     // Stiff just below 3087 N, soft below 2900 N: cables around 600 N meet the stiff part only if the curve moves with them.
     let soft = curves(&[(0.0, 0.8)], &[(0.0, 0.7), (2900.0, 1.2)]);
-    let moved = HysteresisLaw { unloading_from: Unloading::TurningPoint, ..soft.clone() };
+    let mut moved = soft.clone();
+    moved.iter_mut().for_each(|law| law.unloading_from = Unloading::TurningPoint);
     let [soft, stiff] = [soft, moved].map(|law| load_cycle(&caroca(), &law, &pose(), 50.0, 20).unwrap());
     assert!(soft.residual().z > 0.0 && soft.payload_work < 0.0);
     assert!(stiff.residual().z < 0.0 && stiff.payload_work > 0.0);
@@ -74,4 +77,6 @@ fn a_cycle_of_nothing_is_refused() {
         let refused = load_cycle(&caroca(), &law, &pose(), payload, steps);
         assert!(matches!(refused, Err(StaticsError::Invalid { field, .. }) if field == name));
     }
+    let refused = load_cycle(&caroca(), &law[1..], &pose(), 50.0, 1);
+    assert!(matches!(refused, Err(StaticsError::Invalid { field, .. }) if field == "laws"));
 }

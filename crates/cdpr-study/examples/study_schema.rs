@@ -1,6 +1,11 @@
-//! Writes the JSON Schema of the study file to `docs/schemas/` of the repository.
+//! Writes the JSON Schemas of the study and of the law file to `docs/schemas/` of the repository.
 
 fn main() -> std::io::Result<()> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/schemas/cdpr-study-1.schema.json");
-    std::fs::write(path, cdpr_study::json_schema())
+    for (file, schema) in
+        [("cdpr-study-1", cdpr_study::json_schema()), ("cdpr-law-1", cdpr_study::law_schema())]
+    {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/schemas");
+        std::fs::write(format!("{folder}/{file}.schema.json"), schema)?;
+    }
+    Ok(())
 }

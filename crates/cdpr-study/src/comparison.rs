@@ -114,6 +114,8 @@ fn computed(statistic: Statistic, study: &StudySummary) -> Option<Value> {
     match study {
         StudySummary::Sampling(sampling) => of_sampling(statistic, sampling),
         StudySummary::Surface(surface) => of_surface(statistic, surface),
+        // The study file has no such row.
+        StudySummary::Poses(_) => None,
     }
 }
 

@@ -244,7 +244,7 @@ pub(crate) fn observe_block<T: Send>(
     if (session.stop)() {
         return Err(StudyError::Stopped);
     }
-    let place = Place { sampling: sampling.name, design: name, number };
+    let place = Place { sampling: &sampling.name, design: name, number };
     let known = match session.blocks {
         Some(blocks) => blocks.known(&place, session.warn)?,
         None => Vec::new(),

@@ -14,10 +14,14 @@ const COLUMNS: [&str; 3] = ["force_n", "elongation_mm", "phase"];
 pub fn open_record(path: &Path) -> Result<Record, StudyError> {
     let text =
         std::fs::read_to_string(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })?;
-    read(&text).map_err(|source| StudyError::Record { path: path.to_owned(), source })
+    read_record(&text).map_err(|source| StudyError::Record { path: path.to_owned(), source })
 }
 
-fn read(text: &str) -> Result<Record, RecordError> {
+/// The same from text.
+///
+/// # Errors
+/// [`RecordError`] naming the line.
+pub fn read_record(text: &str) -> Result<Record, RecordError> {
     let mut samples = Vec::new();
     let mut places = None;
     for (i, text) in text.lines().enumerate() {
@@ -73,7 +77,7 @@ mod tests {
 
     #[test]
     fn columns_may_stand_in_any_order_among_comments() {
-        let record = read(GOOD).unwrap();
+        let record = read_record(GOOD).unwrap();
         assert_eq!(record.samples(Phase::Loading).len(), 2);
         assert_eq!(
             record.samples(Phase::Unloading)[2],
@@ -95,7 +99,7 @@ mod tests {
             ("loading, 1000, 2", "loading, NaN, 2", "line 4: force_n is NaN: expected a finite number"),
             ("loading, 1000, 2", "loading, 50, 2", "line 4: force_n is 50: expected more than 100 of line 3"),
         ] {
-            let message = read(&GOOD.replace(good, bad)).unwrap_err().to_string();
+            let message = read_record(&GOOD.replace(good, bad)).unwrap_err().to_string();
             assert!(message.starts_with(words), "{message}");
         }
         for (text, words) in [
@@ -105,7 +109,7 @@ mod tests {
                 "the record ends at line 3 with 0 samples of phase unloading",
             ),
         ] {
-            let message = read(text).unwrap_err().to_string();
+            let message = read_record(text).unwrap_err().to_string();
             assert!(message.starts_with(words), "{message}");
         }
     }

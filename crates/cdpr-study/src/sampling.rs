@@ -32,6 +32,9 @@ pub struct SamplingSummary {
     pub rms_mm: Option<RmsSummary>,
     /// The nominal robot at this pose.
     pub nominal: NominalSummary,
+    /// Least and greatest modulus of the cables' law at the tensions of pose and load [GPa], where the error model asks for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub operating_moduli_gpa: Option<[f64; 2]>,
     /// Fitted laws by ascending AIC; none where they cannot be fitted.
     pub fits: Vec<FitSummary>,
     /// Family preferred by AIC: the least, or the most common of those that the sample supports alike (within 2).
@@ -187,6 +190,7 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
             .zip(sample.as_ref())
             .and_then(|(all, sample)| RmsSummary::new(&all, sample, 1e3 * sampling.nominal.rms()).ok()),
         nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
+        operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
         fits: fits.into_iter().map(FitSummary::from).collect(),
         best_fit,
         histogram: sample.and_then(|sample| sample.histogram(cdpr_sensitivity::Bins::FreedmanDiaconis).ok()),

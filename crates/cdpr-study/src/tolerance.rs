@@ -16,11 +16,15 @@
 use crate::error::StudyError;
 use crate::observation::observe_rows;
 use crate::study::Sampling;
+use cdpr_robot::Perturbed;
 use cdpr_sensitivity::{Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate};
-use cdpr_statics::{EquilibriumDerivatives, Load, Start, StaticsError, derivatives, direct};
+use cdpr_statics::{
+    EquilibriumDerivatives, Load, Start, StaticsError, Tangent, derivatives, direct, wound_lengths,
+};
 use indexmap::IndexMap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// The error that is limited [mm].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -28,7 +32,8 @@ use serde::{Deserialize, Serialize};
 pub enum Limited {
     /// |dp| of the static deflection under the study's load.
     Deflection,
-    /// Distance of P from the wanted pose where the deviating robot gets the nominal robot's lengths, without the load.
+    /// Distance of P from the wanted pose where the deviating robot gets the nominal robot's lengths, without the load. Offsets of tension
+    /// set-points are in these lengths.
     Position,
 }
 
@@ -173,8 +178,8 @@ fn left(variances: &[f64], factors: &[f64]) -> f64 {
 struct Model<'a> {
     sampling: &'a Sampling<'a>,
     limit: &'a Limit,
-    /// Lengths of the nominal robot at the wanted pose.
-    lengths: Vec<f64>,
+    /// Whether tension set-points deviate.
+    offsets: bool,
     names: Vec<String>,
     costs: Vec<f64>,
     /// Largest standard deviation of the inputs of a tolerance.
@@ -206,7 +211,7 @@ impl<'a> Model<'a> {
         let mut model = Self {
             sampling,
             limit,
-            lengths: sampling.nominal.lengths.clone(),
+            offsets: (0..errors.inputs.len()).any(|input| errors.group(input) == "dt"),
             costs: names.iter().map(|name| limit.costs.get(name).copied().unwrap_or(1.0)).collect(),
             stds: vec![0.0; names.len()],
             variances: vec![0.0; names.len()],
@@ -249,10 +254,19 @@ impl<'a> Model<'a> {
                 Ok((1e3 * found.deflection.rms(), squares(&[found.rms()?])))
             }
             Limited::Position => {
-                let none = Load::none();
-                let found = direct(&perturbed.robot, &self.lengths, &none, Start::Pose(pose))?.equilibrium;
-                let slopes = EquilibriumDerivatives::at(&perturbed.robot, &self.lengths, &none, &found)?;
-                let row = |axis| slopes.pose.row(axis).iter().copied().collect();
+                let (none, lengths) = (Load::none(), self.lengths(&perturbed)?);
+                let found = direct(&perturbed.robot, &lengths, &none, Start::Pose(pose))?.equilibrium;
+                let mut slopes = EquilibriumDerivatives::at(&perturbed.robot, &lengths, &none, &found)?.pose;
+                if self.offsets {
+                    // Offsets act through the lengths alone, which are those of the nominal robot.
+                    let wound = derivatives(robot, pose, &perturbed.tension_offsets, load)?.lengths;
+                    let moved =
+                        Tangent::new(&perturbed.robot, &lengths, &none, &found)?.pose_per_length() * wound;
+                    let n = robot.cables.len();
+                    let first = errors.parameters() - n;
+                    slopes.columns_mut(first, n).copy_from(&moved.columns(first, n));
+                }
+                let row = |axis| slopes.row(axis).iter().copied().collect();
                 let away = (found.pose.position - pose.position).norm();
                 Ok((1e3 * away, squares(&[0, 1, 2].map(row))))
             }
@@ -290,8 +304,19 @@ impl<'a> Model<'a> {
     fn away(&self, deviations: &[f64]) -> Option<f64> {
         let Sampling { robot, pose, .. } = self.sampling;
         let perturbed = robot.perturbed(deviations).ok()?;
-        let found = direct(&perturbed.robot, &self.lengths, &Load::none(), Start::Pose(pose)).ok()?;
+        let lengths = self.lengths(&perturbed).ok()?;
+        let found = direct(&perturbed.robot, &lengths, &Load::none(), Start::Pose(pose)).ok()?;
         Some((found.equilibrium.pose.position - pose.position).norm())
+    }
+
+    /// Lengths of the nominal robot for the wanted pose, with the offsets of a deviating one.
+    fn lengths(&self, deviating: &Perturbed) -> Result<Cow<'_, [f64]>, StaticsError> {
+        let Sampling { robot, pose, nominal, .. } = self.sampling;
+        if self.offsets {
+            wound_lengths(robot, pose, &deviating.tension_offsets).map(Cow::Owned)
+        } else {
+            Ok(Cow::Borrowed(&nominal.lengths))
+        }
     }
 
     /// The quantile [mm] of a round: of the same points whatever the factors, so that it changes with them alone.

@@ -56,6 +56,25 @@ fn the_position_depends_on_the_points_and_a_dearer_tolerance_is_tightened_less()
 }
 
 #[test]
+fn tension_offsets_alone_move_the_platform_in_proportion() {
+    let study = Study::open(Path::new(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../data/studies/caroca-tension.json"
+    )))
+    .unwrap();
+    let reached = |sampling| {
+        let limit = limit(Limited::Position, 1.0);
+        tolerance_budget(&study.sampling(sampling).unwrap(), &limit).unwrap()
+    };
+    let (wide, narrow) = (reached("no_feedback_alone"), reached("measured_alone"));
+    assert!(wide.least_mm < 1e-6 && wide.now.quantile_mm.low > 0.05, "{wide:?}");
+    let ratio = wide.now.quantile_mm.value / narrow.now.quantile_mm.value;
+    assert!((ratio - 2.0).abs() < 1e-3, "{ratio}");
+    // What equation (2) predicts from exact derivatives is what a narrower sample reaches.
+    assert!((wide.tolerances[0].halved_mm / narrow.now.quantile_mm.value - 1.0).abs() < 0.03, "{wide:?}");
+}
+
+#[test]
 fn a_limit_that_holds_already_asks_for_nothing() {
     let found = budget("mechanical", &limit(Limited::Deflection, 2.0)).unwrap();
     assert!(found.tolerances.iter().all(|tolerance| tolerance.factor == 1.0));

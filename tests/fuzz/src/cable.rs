@@ -1,6 +1,6 @@
 //! What must hold for a cable, whatever the numbers.
 
-use cdpr_cable::{Cable, CableError, Catenary, Solution, Vector2};
+use cdpr_cable::{Cable, CableError, Catenary, ElasticLaw, PiecewiseLaw, Solution, Vector2};
 
 /// `w, EA, L, x, z`: an equilibrium with an honest residual, or a typed error.
 pub fn end_force([weight_per_length, axial_stiffness, length, x, z]: [f64; 5]) {
@@ -11,6 +11,29 @@ pub fn end_force([weight_per_length, axial_stiffness, length, x, z]: [f64; 5]) {
             honest(&solution, &cable, end);
             assert_eq!(solution.catenary.unstrained_length, length);
             assert!(solution.iterations <= 200, "{} iterations", solution.iterations);
+        }
+        Err(error) => typed(&error, &[weight_per_length, axial_stiffness, length, x, z]),
+    }
+}
+
+/// `w, EA, L, x, z, T_1, κ_0, κ_1`: an equilibrium on a law of two pieces with an honest residual, or a typed error.
+pub fn law([weight_per_length, axial_stiffness, length, x, z, kink, soft, stiff]: [f64; 8]) {
+    let law = match PiecewiseLaw::new(0.0, &[(0.0, soft), (kink, stiff)]) {
+        Ok(law) => law,
+        Err(error) => return typed(&error, &[kink, soft, stiff]),
+    };
+    let cable =
+        Cable { law: ElasticLaw::Piecewise(&law), ..Cable::linear(weight_per_length, axial_stiffness) };
+    let end = Vector2::new(x, z);
+    match cdpr_cable::end_force(&cable, length, end) {
+        Ok(Solution { catenary, residual, .. }) => {
+            finite("force", catenary.force.as_slice());
+            if !catenary.is_limp() {
+                finite("stiffness", catenary.in_plane_stiffness().as_slice());
+            }
+            let strain = catenary.cable.strain(catenary.anchor_tension() + catenary.weight());
+            let size = length * (1.0 + strain) + end.norm();
+            assert!(residual <= 1e-12 * size, "residual {residual:e} is accepted for a size of {size:e}");
         }
         Err(error) => typed(&error, &[weight_per_length, axial_stiffness, length, x, z]),
     }

@@ -29,8 +29,13 @@ pub(super) fn shard(study: &Study, out: &Path, blocks: &Blocks, shard: Shard) ->
     Ok(())
 }
 
-/// Makes what is missing and analyses the whole.
-pub(super) fn whole(study: &Study, out: &Path, blocks: &Blocks, format: TableFormat) -> Result<(), RunError> {
+/// Makes what is missing and analyses the whole. Without a format, samplings at one pose have tables as CSV.
+pub(super) fn whole(
+    study: &Study,
+    out: &Path,
+    blocks: &Blocks,
+    format: Option<TableFormat>,
+) -> Result<(), RunError> {
     let progress = progress(study)?;
     let folder = out.display();
     let remedy = format!("go on with: cdpr study run {folder}/{STUDY_NAME} --out {folder} --resume");
@@ -82,8 +87,7 @@ fn warn(progress: &ProgressBar) -> impl Fn(&StudyError) + Sync {
 /// A bar with rate and time left over all observations and grid points; silent when not on a terminal.
 fn progress(study: &Study) -> Result<ProgressBar, StudyError> {
     let file = &study.file;
-    let observations = |name| study.sampling(name).map(|sampling| sampling.observations());
-    let samplings = file.samplings.keys().map(|name| observations(name)).sum::<Result<usize, _>>()?;
+    let samplings = file.samplings.keys().map(|name| study.observations(name)).sum::<Result<usize, _>>()?;
     let surfaces = file.surfaces.values().map(|s| s.x.points * s.y.points).sum::<usize>();
     let template = "{msg:24} {bar:30} {pos}/{len} observations, {rate}, {eta} left";
     let rate = |state: &ProgressState, out: &mut dyn Write| {

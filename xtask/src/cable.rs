@@ -1,0 +1,108 @@
+//! `cargo xtask caroca-study`, the cable as it is (sections 4.2.1 to 4.2.3 of the paper): Table 2 beside what follows from its record, a payload that comes
+//! and goes, and how far the paper's deflections move where the modulus is that of the cables' tensions.
+
+#![allow(clippy::print_stdout)]
+
+use crate::{cargo_command, cdpr, root};
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Where each row of the table of deflections comes from, and its words.
+const ROWS: [(&str, &str); 3] = [
+    ("summary.json", "E = 102.2 GPa ± 2 GPa, as in the paper"),
+    ("cable/operating-point/summary.json", "E of the cables' law at their tensions ± 2 GPa"),
+    ("cable/law/summary.json", "the law in the model"),
+];
+const STUDIES: [&str; 2] = ["operating-point", "law"];
+
+/// Adds to the results in `out`; `settings` are those of `cdpr study run` but for its folder.
+pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
+    let folder = out.join("cable");
+    std::fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
+    let data = |file: &str| root().join("data").join(file).display().to_string();
+    let figure = |name: &str| folder.join(name).display().to_string();
+    let (record, table) = (data("cables/caroca-4mm-record.csv"), data("cables/caroca-4mm.json"));
+    let (robot, law) = (data("robots/caroca.json"), data("cables/caroca-4mm-law.json"));
+    let modulus =
+        ["modulus", &record, "--published", &table, "--length", "1", "--figure", &figure("loop.svg")];
+    let cycle = [
+        "hysteresis",
+        &robot,
+        "--law",
+        &law,
+        "--pose",
+        "0,0,1.75",
+        "--payload",
+        "50",
+        "--figure",
+        &figure("cycle.svg"),
+    ];
+    let mut text = format!("{}\n{}\n", output(&modulus)?, output(&cycle)?);
+    for study in STUDIES {
+        let (file, results) = (data(&format!("studies/caroca-{study}.json")), figure(study));
+        let arguments = [
+            &["--out".to_owned(), results][..],
+            &settings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        ]
+        .concat();
+        if cdpr(&["study", "run", &file], &arguments) != ExitCode::SUCCESS {
+            return Err(format!("{file} has not run"));
+        }
+    }
+    write!(text, "{}", moved(out)?).map_err(|error| error.to_string())?;
+    print!("{text}");
+    let path = folder.join("cable.txt");
+    std::fs::write(&path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    println!("\ntables and pictures of the cable in {}", folder.display());
+    Ok(())
+}
+
+/// How far the deflections of Fig. 5a move.
+fn moved(out: &Path) -> Result<String, String> {
+    let mut text = format!(
+        "static deflection under 50 kg, ranges of Table 4\n{:<50} {:>22} {:>22}\n",
+        "", "symmetric pose", "non-symmetric pose"
+    );
+    let mut first: Vec<f64> = Vec::new();
+    for (file, words) in ROWS {
+        let path = out.join(file);
+        let read = std::fs::read_to_string(&path).map_err(|error| error.to_string());
+        let summary: Result<Value, _> =
+            read.and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
+        let summary = summary.map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        let mut cells = Vec::new();
+        for sampling in ["geometrical", "geometrical_asymmetric"] {
+            let number = |name: &str| {
+                summary.pointer(&format!("/studies/{sampling}/rms_mm/{name}")).and_then(Value::as_f64)
+            };
+            // Too few observations have no deviation.
+            cells.push(
+                number("mean")
+                    .zip(number("std"))
+                    .ok_or_else(|| format!("{}: no deflection of {sampling}", path.display()))?,
+            );
+        }
+        if first.is_empty() {
+            first = cells.iter().map(|(mean, _)| *mean).collect();
+        }
+        let cell = |((mean, std), first): (&(f64, f64), &f64)| {
+            format!("{mean:.3} ± {std:.3} mm {:+3.0} %", 100.0 * (mean / first - 1.0))
+        };
+        let cells: Vec<String> = cells.iter().zip(&first).map(cell).collect();
+        writeln!(text, "{words:<50} {:>22} {:>22}", cells[0], cells[1]).map_err(|error| error.to_string())?;
+    }
+    Ok(text + "mean ± standard deviation, and how far the mean moves\n")
+}
+
+/// What the program prints.
+fn output(command: &[&str]) -> Result<String, String> {
+    let run = ["run", "--quiet", "--release", "--package", "cdpr-cli", "--"];
+    let output = cargo_command(&[&run, command].concat()).output().map_err(|error| error.to_string())?;
+    if output.status.success() {
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    } else {
+        Err(String::from_utf8_lossy(&output.stderr).into_owned())
+    }
+}
