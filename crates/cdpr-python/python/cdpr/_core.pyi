@@ -311,7 +311,7 @@ def begin(
 def make_shard(out: Path, index: int, count: int, threads: int) -> int: ...
 def carry_out(
     out: Path,
-    table: str,
+    table: str | None,
     threads: int | None,
     complete: bool,
     progress: Callable[[int, int], object] | None,
