@@ -16,4 +16,4 @@ python3 -m venv --clear "$environment"
 "$environment/bin/pip" install --quiet ./crates/cdpr-python pytest pandas matplotlib mypy "$@"
 cd crates/cdpr-python
 CDPR=$target/release/cdpr "$environment/bin/python" -m pytest -q -rs -p no:cacheprovider tests
-"$environment/bin/python" -m mypy.stubtest cdpr
+"$environment/bin/python" -m mypy.stubtest cdpr --mypy-config-file pyproject.toml

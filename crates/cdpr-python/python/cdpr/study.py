@@ -18,7 +18,6 @@ from . import _core
 
 if TYPE_CHECKING:
     import numpy
-    import pandas
 
 __all__ = ["Results", "open_results", "run"]
 
@@ -63,8 +62,8 @@ class Results:
         table["status"] = status
         return table
 
-    def frame(self, sampling: str) -> "pandas.DataFrame":
-        """The same as a pandas frame, with the index as its index."""
+    def frame(self, sampling: str) -> Any:
+        """The same as a `pandas.DataFrame`, with the index as its index."""
         import pandas
 
         return pandas.DataFrame(self.observations(sampling)).set_index("index")
