@@ -30,18 +30,22 @@ pub(super) fn shard(study: &Study, out: &Path, blocks: &Blocks, shard: Shard) ->
     Ok(())
 }
 
-/// Makes what is missing and analyses the whole. Without a format, samplings at one pose have tables as CSV.
+/// Makes what `first` leaves missing and analyses the whole. Without a format, samplings at one pose have tables as CSV.
 pub(super) fn whole(
     study: &Study,
     out: &Path,
     blocks: &Blocks,
     format: Option<TableFormat>,
+    first: impl FnOnce(&Session) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
     let clock = Instant::now();
     let progress = progress(study)?;
     let folder = out.display();
     let remedy = format!("go on with: cdpr study run {folder}/{STUDY_NAME} --out {folder} --resume");
     leave_when_interrupted(&progress, out, remedy)?;
+    let tick = |done: usize| progress.inc(done as u64);
+    first(&Session { blocks: Some(blocks), tick: &tick, warn: &warn(&progress) })?;
+    progress.reset();
     let mut run =
         Run { out, blocks, format, progress, studies: IndexMap::new(), timings: Timings::default() };
     for (name, spec) in &study.file.samplings {
