@@ -5,7 +5,8 @@ use crate::output::Usage;
 use cdpr_robot::{Parameter, Pose, Robot, UnitQuaternion, Vector3, Wrench};
 use cdpr_statics::Load;
 use cdpr_study::{Grid, GridAxis};
-use std::path::Path;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
 
 /// How results are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -14,6 +15,38 @@ pub(crate) enum Format {
     Text,
     /// JSON, numbers to the last bit.
     Json,
+}
+
+impl Format {
+    /// Prints an answer as one line of JSON, or as `text` does.
+    pub(crate) fn print<T: Serialize>(self, answer: &T, text: impl FnOnce(&T)) -> serde_json::Result<()> {
+        match self {
+            Self::Json => println!("{}", serde_json::to_string(answer)?),
+            Self::Text => text(answer),
+        }
+        Ok(())
+    }
+}
+
+/// A robot at a pose, and how the answer is printed.
+#[derive(clap::Args)]
+pub(crate) struct RobotAtPose {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    pub(crate) robot: PathBuf,
+    /// Pose that the lengths hold: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
+    #[arg(long, value_parser = pose, allow_hyphen_values = true)]
+    pub(crate) pose: Pose,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
+}
+
+impl RobotAtPose {
+    /// The heading of an answer.
+    pub(crate) fn heading(&self, robot: &Robot) -> String {
+        let [x, y, z] = self.pose.position.into();
+        format!("{} at ({x}, {y}, {z}) m", robot.name)
+    }
 }
 
 /// A finite number.

@@ -62,11 +62,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     }
     let told = calibration.identify(0..poses.len());
     let output = Output::new(poses, refused, &told, &calibration, settings.choose);
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&output)?),
-        Format::Text => print(&robot, &output),
-    }
-    Ok(())
+    Ok(settings.format.print(&output, |output| print(&robot, output))?)
 }
 
 fn measurements(Named(named): &Named) -> Result<Vec<Measurement>, Usage> {

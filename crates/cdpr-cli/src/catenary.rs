@@ -35,11 +35,7 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     let answer = Answer::new(settings)?;
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&answer)?),
-        Format::Text => answer.print(),
-    }
-    Ok(())
+    Ok(settings.format.print(&answer, Answer::print)?)
 }
 
 /// SI units.

@@ -1,45 +1,34 @@
 //! `cdpr deflection`: how far the platform gives under a load, with both equilibria.
 
 use crate::answer::{Found, vector};
-use crate::arguments::{self, Format, LoadArguments};
+use crate::arguments::{LoadArguments, RobotAtPose};
 use crate::output::Usage;
-use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{Deflection, Load, deflection};
 use cdpr_study::open_robot;
 use serde::Serialize;
 use std::error::Error;
-use std::path::PathBuf;
 
 /// What was asked for.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
-    /// Wanted pose under the platform's own weight: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
-    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
-    pose: Pose,
+    #[command(flatten)]
+    at: RobotAtPose,
     #[command(flatten)]
     load: LoadArguments,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+    let at = &settings.at;
     let load = settings.load.load();
     if load == Load::none() {
         return Err(Box::new(Usage(
             "nothing displaces the platform: expected --payload, --force or --moment".to_owned(),
         )));
     }
-    let robot = open_robot(&settings.robot)?;
-    let found = deflection(&robot, &settings.pose, &vec![0.0; robot.cables.len()], &load)?;
+    let robot = open_robot(&at.robot)?;
+    let found = deflection(&robot, &at.pose, &vec![0.0; robot.cables.len()], &load)?;
     let answer = Answer::new(&found);
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&answer)?),
-        Format::Text => answer.print(&robot, &settings.pose),
-    }
-    Ok(())
+    Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
 }
 
 /// SI units, but for what is named otherwise.
@@ -70,9 +59,8 @@ impl Answer {
         }
     }
 
-    fn print(&self, robot: &Robot, pose: &Pose) {
-        let [x, y, z] = pose.position.into();
-        println!("{} at ({x}, {y}, {z}) m", robot.name);
+    fn print(&self, heading: &str) {
+        println!("{heading}");
         println!("dp = {} mm, |dp| = {:.5} mm", vector(&self.deflection_mm, 5), self.rms_mm);
         println!("turned by {} degrees", vector(&self.rotation_deg, 5));
         println!("\nunder its own weight");

@@ -30,11 +30,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     let offsets = vec![0.0; robot.cables.len()];
     let found = derivatives(&robot, &settings.pose, &offsets, &Load::payload(settings.payload))?;
     let slopes = Slopes::new(&found)?;
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&slopes)?),
-        Format::Text => print(&robot, settings, &found, &slopes),
-    }
-    Ok(())
+    Ok(settings.format.print(&slopes, |slopes| print(&robot, settings, &found, slopes))?)
 }
 
 /// Derivatives with respect to each parameter; the outer lists are in the order of the parameters.

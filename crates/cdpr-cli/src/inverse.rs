@@ -1,37 +1,26 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
 use crate::answer::{self, Open};
-use crate::arguments::{self, Format, LoadArguments};
-use cdpr_robot::{Pose, Robot};
+use crate::arguments::{LoadArguments, RobotAtPose};
 use cdpr_statics::{Bound, InverseSolution, inverse};
 use cdpr_study::open_robot;
 use serde::Serialize;
 use std::error::Error;
-use std::path::PathBuf;
 
 /// What was asked for.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
-    /// Wanted pose: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
-    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
-    pose: Pose,
+    #[command(flatten)]
+    at: RobotAtPose,
     #[command(flatten)]
     load: LoadArguments,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
-    let robot = open_robot(&settings.robot)?;
-    let answer = Answer::new(&inverse(&robot, &settings.pose, &settings.load.load(), None)?);
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&answer)?),
-        Format::Text => answer.print(&robot, &settings.pose),
-    }
-    Ok(())
+    let at = &settings.at;
+    let robot = open_robot(&at.robot)?;
+    let answer = Answer::new(&inverse(&robot, &at.pose, &settings.load.load(), None)?);
+    Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
 }
 
 /// SI units.
@@ -74,9 +63,8 @@ impl Answer {
         }
     }
 
-    fn print(&self, robot: &Robot, pose: &Pose) {
-        let [x, y, z] = pose.position.into();
-        println!("{} at ({x}, {y}, {z}) m", robot.name);
+    fn print(&self, heading: &str) {
+        println!("{heading}");
         answer::print_cables(&self.lengths, &self.cable_forces, &self.tensions);
         for (i, bound) in self.report.active.iter().enumerate() {
             if let Some(bound) = bound {

@@ -1,44 +1,33 @@
 //! `cdpr stiffness`: the Cartesian stiffness at a pose, its eigenvalues and the motions that belong to them.
 
 use crate::answer::{self, decimal};
-use crate::arguments::{self, Format};
+use crate::arguments::{self, RobotAtPose};
 use crate::study::table;
-use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{Load, Stability, Start, Tangent, direct_any, inverse};
 use cdpr_study::open_robot;
 use serde::Serialize;
 use std::error::Error;
-use std::path::PathBuf;
 
 /// What was asked for.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
-    /// Pose: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
-    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
-    pose: Pose,
+    #[command(flatten)]
+    at: RobotAtPose,
     /// Mass that the platform carries there, at its centre of mass [kg].
     #[arg(long, value_parser = arguments::mass, default_value = "0", allow_hyphen_values = true)]
     payload: f64,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
-    let robot = open_robot(&settings.robot)?;
+    let at = &settings.at;
+    let robot = open_robot(&at.robot)?;
     let load = Load::payload(settings.payload);
-    let wanted = inverse(&robot, &settings.pose, &load, None)?;
+    let wanted = inverse(&robot, &at.pose, &load, None)?;
     // The equilibrium at the pose itself, be it stable or not.
     let held = direct_any(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium))?;
     let tangent = Tangent::at(&robot, &wanted.lengths, &load, &held)?;
     let answer = Answer::new(&tangent, &held.stability);
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&answer)?),
-        Format::Text => answer.print(&robot, &settings.pose),
-    }
-    Ok(())
+    Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
 }
 
 #[derive(Serialize)]
@@ -83,9 +72,8 @@ impl Answer {
         }
     }
 
-    fn print(&self, robot: &Robot, pose: &Pose) {
-        let [x, y, z] = pose.position.into();
-        println!("{} at ({x}, {y}, {z}) m: K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]", robot.name);
+    fn print(&self, heading: &str) {
+        println!("{heading}: K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]");
         for row in self.stiffness {
             println!("{}", row.map(|entry| format!("{:>14}", decimal(entry, 1))).concat());
         }

@@ -61,11 +61,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
         verified_with: settings.observations,
     };
     let budget = tolerance_budget(&sampling, &limit)?;
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&budget)?),
-        Format::Text => print(sampling.title, &budget),
-    }
-    Ok(())
+    Ok(settings.format.print(&budget, |budget| print(sampling.title, budget))?)
 }
 
 fn print(title: &str, budget: &ToleranceBudget) {

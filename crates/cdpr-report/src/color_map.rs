@@ -48,11 +48,16 @@ impl Nodes {
     }
 }
 
-/// Values over a grid.
-pub(crate) struct ColorMap {
+/// The cells of a grid; that of node i, j has place `i * y.len() + j`.
+pub(crate) struct Cells {
     pub(crate) x: Nodes,
     pub(crate) y: Nodes,
-    /// Of node i, j in place `i * y.len() + j`; none where there is none.
+}
+
+/// Values over a grid.
+pub(crate) struct ColorMap {
+    pub(crate) cells: Cells,
+    /// Of each cell; none where there is none.
     pub(crate) values: Vec<Option<f64>>,
     pub(crate) least: f64,
     pub(crate) greatest: f64,
@@ -60,51 +65,27 @@ pub(crate) struct ColorMap {
     color_axis: Axis,
 }
 
-impl ColorMap {
-    /// `field` names the values in errors, `label` on the colour bar.
-    pub(crate) fn new(
-        (x, y): (Nodes, Nodes),
-        values: Vec<Option<f64>>,
-        field: &str,
-        label: &str,
-    ) -> Result<Self, ReportError> {
-        if values.len() != x.values.len() * y.values.len() {
-            return Err(ReportError::invalid(field, &values.len(), "one value a grid point"));
-        }
-        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
-        for &value in values.iter().flatten() {
-            ReportError::finite(field, value)?;
-            (least, greatest) = (least.min(value), greatest.max(value));
-        }
-        if least > greatest {
-            return Err(ReportError::Empty { what: "no point of the grid has a value" });
-        }
-        let color_axis = Axis::numbers(least..greatest, 9, label);
-        Ok(Self { x, y, values, least, greatest, color_axis })
+impl Cells {
+    pub(crate) fn count(&self) -> usize {
+        self.x.values.len() * self.y.values.len()
     }
 
-    /// Draws all cells and contour lines at the ticks of the colour bar. A cell without value is grey.
-    pub(crate) fn draw<C>(&self, plot: &DrawingArea<SVGBackend, C>) -> Result<(), DrawingError>
+    /// Draws all cells, those without a colour in grey.
+    pub(crate) fn draw<C>(
+        &self,
+        plot: &DrawingArea<SVGBackend, C>,
+        color: impl Fn(usize) -> Option<RGBColor>,
+    ) -> Result<(), DrawingError>
     where
         C: plotters::coord::CoordTranslate<From = (f64, f64)>,
     {
-        let (columns, rows) = (self.x.values.len(), self.y.values.len());
-        for i in 0..columns {
-            for j in 0..rows {
-                let value = self.values[i * rows + j];
-                let from = (self.x.edge(i), self.y.edge(j));
-                // Each cell reaches a pixel or two below the ones drawn after it, lest the white between them show.
-                let below = (self.x.past_edge(i + 1), self.y.past_edge(j + 1));
-                plot.draw(&Rectangle::new(
-                    [from, below],
-                    value.map_or(GREY, |value| self.color(value)).filled(),
-                ))?;
-            }
-        }
-        for (level, _) in &self.color_axis.ticks {
-            for segment in self.contour(*level) {
-                Pen::solid(self.line_color(*level), 0.8).draw(plot, segment.to_vec())?;
-            }
+        let rows = self.y.values.len();
+        for place in 0..self.count() {
+            let (i, j) = (place / rows, place % rows);
+            let from = (self.x.edge(i), self.y.edge(j));
+            // Each cell reaches a pixel or two below the ones drawn after it, lest the white between them show.
+            let below = (self.x.past_edge(i + 1), self.y.past_edge(j + 1));
+            plot.draw(&Rectangle::new([from, below], color(place).unwrap_or(GREY).filled()))?;
         }
         Ok(())
     }
@@ -126,6 +107,44 @@ impl ColorMap {
                 let from = (self.x.edge(i), self.y.edge(j));
                 let to = (self.x.edge(i + 1), self.y.edge(j + 1));
                 Pen::solid(BLACK, 0.5).draw(plot, vec![from, to])?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl ColorMap {
+    /// `field` names the values in errors, `label` on the colour bar.
+    pub(crate) fn new(
+        cells: Cells,
+        values: Vec<Option<f64>>,
+        field: &str,
+        label: &str,
+    ) -> Result<Self, ReportError> {
+        if values.len() != cells.count() {
+            return Err(ReportError::invalid(field, &values.len(), "one value a grid point"));
+        }
+        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+        for &value in values.iter().flatten() {
+            ReportError::finite(field, value)?;
+            (least, greatest) = (least.min(value), greatest.max(value));
+        }
+        if least > greatest {
+            return Err(ReportError::Empty { what: "no point of the grid has a value" });
+        }
+        let color_axis = Axis::numbers(least..greatest, 9, label);
+        Ok(Self { cells, values, least, greatest, color_axis })
+    }
+
+    /// Draws all cells and contour lines at the ticks of the colour bar. A cell without value is grey.
+    pub(crate) fn draw<C>(&self, plot: &DrawingArea<SVGBackend, C>) -> Result<(), DrawingError>
+    where
+        C: plotters::coord::CoordTranslate<From = (f64, f64)>,
+    {
+        self.cells.draw(plot, |place| self.values[place].map(|value| self.color(value)))?;
+        for (level, _) in &self.color_axis.ticks {
+            for segment in self.contour(*level) {
+                Pen::solid(self.line_color(*level), 0.8).draw(plot, segment.to_vec())?;
             }
         }
         Ok(())
@@ -179,7 +198,7 @@ impl ColorMap {
 
     /// Segments of the line where the value, interpolated along the edges of the grid, is `level` (marching squares).
     fn contour(&self, level: f64) -> Vec<[(f64, f64); 2]> {
-        let (x, y) = (&self.x.values, &self.y.values);
+        let (x, y) = (&self.cells.x.values, &self.cells.y.values);
         let mut segments = Vec::new();
         for i in 0..x.len() - 1 {
             for j in 0..y.len() - 1 {

@@ -1,5 +1,5 @@
 //! Figures of study results, ready for a paper: one function a figure, results in, SVG text out. And [`report()`], which puts all of
-//! them into one HTML file beside the robot in space. No file is read or written.
+//! them into one HTML file beside the robot in space. [`run()`] carries out a whole study in its folder; nothing else here reads or writes files.
 //!
 //! | figure of the paper | function |
 //! |---|---|
@@ -10,6 +10,7 @@
 //! | none: signed effects with their intervals | [`signed_effects`] |
 //! | none: shares of the variance by all measures | [`shares`] |
 //! | none: deflection, stiffness, tension over a plane of the workspace | [`heat_map`] |
+//! | none: what a sampling at many poses says over the workspace | [`pose_maps`] |
 //! | none: answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
 //! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of Cable-Driven Parallel
@@ -35,9 +36,12 @@ mod effects;
 mod error;
 mod heat_map;
 mod histogram;
+mod plane;
 mod points;
+mod pose_map;
 mod report;
 mod robustness;
+mod run;
 mod shares;
 mod style;
 mod surface;
@@ -48,7 +52,9 @@ pub use error::ReportError;
 pub use heat_map::{MapQuantity, heat_map};
 pub use histogram::histogram;
 pub use points::{Points, point_effects};
+pub use pose_map::{PoseMap, pose_maps};
 pub use report::report;
 pub use robustness::{found_poses, success_share};
+pub use run::{Watcher, run};
 pub use shares::shares;
 pub use surface::surface;

@@ -8,6 +8,7 @@
 mod comparison;
 mod figures;
 mod glance;
+mod poses;
 mod robot;
 mod run;
 mod scene;
@@ -62,6 +63,7 @@ pub fn report(results: &Results) -> Result<String, ReportError> {
         Some(setup::section(results)),
         figures::distributions(results),
         figures::surfaces(results),
+        poses::section(results),
         figures::points(results),
         figures::effects(results),
         figures::measures(results),

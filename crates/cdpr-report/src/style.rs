@@ -32,7 +32,13 @@ pub(crate) const GREY: RGBColor = RGBColor(0xB0, 0xB0, 0xB0);
 
 const TITLE: f64 = 15.0;
 pub(crate) const TEXT: f64 = 12.0;
+/// Text of a key that is smaller is hard to read.
+const SMALL: f64 = 9.0;
 const LINE_HEIGHT: f64 = 20.0;
+/// Line of an entry of a key, gap to its name, and both with the gap to the next entry [px].
+const KEY_LINE: f64 = 24.0;
+const KEY_GAP: f64 = 5.0;
+const KEY_ENTRY: f64 = KEY_LINE + KEY_GAP + 12.0;
 /// Mean width of a character over the size of its font, on the safe side: the fonts that will show the figure are unknown.
 const CHARACTER: f64 = 0.58;
 /// plotters rounds coordinates to integers: they count tenths of a pixel.
@@ -110,7 +116,7 @@ pub(crate) struct Heading<'a> {
 impl Heading<'_> {
     /// Height [px].
     pub(crate) fn height(&self) -> f64 {
-        let rows = 1 + self.lines.len() + usize::from(!self.key.is_empty());
+        let rows = 1 + self.lines.len() + self.key_rows().count();
         MARGIN + LINE_HEIGHT * rows as f64 + 4.0
     }
 
@@ -123,19 +129,31 @@ impl Heading<'_> {
             y += LINE_HEIGHT;
             text(&head, line, TEXT, (MARGIN, y))?;
         }
-        y += LINE_HEIGHT;
-        let (line, gap, between) = (24.0, 5.0, 12.0);
-        let characters: usize = self.key.iter().map(|(name, _)| name.chars().count()).sum();
-        let room = WIDTH - 2.0 * MARGIN - (line + gap + between) * self.key.len() as f64;
-        let size = TEXT.min(room / (CHARACTER * characters as f64));
-        let mut x = MARGIN;
-        for (name, pen) in self.key {
-            pen.draw(&head, vec![(px(x), px(y)), (px(x + line), px(y))])?;
-            text(&head, name, size, (x + line + gap, y))?;
-            x += line + gap + between + CHARACTER * size * name.chars().count() as f64;
+        for row in self.key_rows() {
+            y += LINE_HEIGHT;
+            let size = key_size(row);
+            let mut x = MARGIN;
+            for (name, pen) in row {
+                pen.draw(&head, vec![(px(x), px(y)), (px(x + KEY_LINE), px(y))])?;
+                text(&head, name, size, (x + KEY_LINE + KEY_GAP, y))?;
+                x += KEY_ENTRY + CHARACTER * size * name.chars().count() as f64;
+            }
         }
         Ok(rest)
     }
+
+    /// The key in one row, or in two where its text would be too small.
+    fn key_rows(&self) -> impl Iterator<Item = &[(String, Pen)]> {
+        let rows = if key_size(self.key) < SMALL { 2 } else { 1 };
+        self.key.chunks(self.key.len().div_ceil(rows).max(1))
+    }
+}
+
+/// Size of the text of a row of a key.
+fn key_size(row: &[(String, Pen)]) -> f64 {
+    let characters: usize = row.iter().map(|(name, _)| name.chars().count()).sum();
+    let room = WIDTH - 2.0 * MARGIN - KEY_ENTRY * row.len() as f64;
+    TEXT.min(room / (CHARACTER * characters as f64))
 }
 
 /// Writes text from (x, y) [px] to the right, centred on its height; smaller if it is too long.

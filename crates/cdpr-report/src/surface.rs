@@ -1,6 +1,6 @@
 //! The RMS over two parameters: Fig. 4b and 4c of the paper.
 
-use crate::color_map::{COLOR_BAR, ColorMap, Nodes};
+use crate::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
 use crate::error::ReportError;
 use crate::style::{self, GREY, Grid, HEIGHT, Heading, Pen, number, px};
 use cdpr_robot::Parameter;
@@ -13,9 +13,9 @@ use cdpr_study::{SurfaceResult, SurfaceSummary};
 /// value that is not finite.
 pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result<String, ReportError> {
     let [x, y] = &summary.parameters;
-    let nodes = (nodes("x", x, &result.x)?, nodes("y", y, &result.y)?);
+    let cells = Cells { x: nodes("x", x, &result.x)?, y: nodes("y", y, &result.y)? };
     let rms = result.rms_mm.iter().map(|rms| rms.as_ref().ok().copied()).collect();
-    let map = ColorMap::new(nodes, rms, "rms_mm", "RMS [mm]")?;
+    let map = ColorMap::new(cells, rms, "rms_mm", "RMS [mm]")?;
     let failed = map.values.iter().filter(|rms| rms.is_none()).count();
     let key = [("failed".to_owned(), Pen::bar(GREY))];
     let heading = Heading {
@@ -29,13 +29,13 @@ pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result
         )],
         key: if failed == 0 { &[] } else { &key },
     };
-    let (x, y) = (map.x.axis(), map.y.axis());
+    let (x, y) = (map.cells.x.axis(), map.cells.y.axis());
     style::figure(HEIGHT, |area| {
         let width = px(style::WIDTH - COLOR_BAR);
         let (left, right) = heading.draw(area)?.split_horizontally(width);
         let chart = style::chart(&left, &x, &y, Grid::None)?;
         map.draw(chart.plotting_area())?;
-        map.hatch(chart.plotting_area(), |place| map.values[place].is_none())?;
+        map.cells.hatch(chart.plotting_area(), |place| map.values[place].is_none())?;
         map.draw_color_bar(&right)
     })
 }

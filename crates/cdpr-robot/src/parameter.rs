@@ -100,20 +100,21 @@ impl Parameter {
         }
     }
 
-    fn add(&self, deviation: f64, perturbed: &mut Perturbed) {
+    /// Changes what this parameter stands for, of all cables what they share.
+    fn change(&self, perturbed: &mut Perturbed, change: impl Fn(&mut f64)) {
         let Perturbed { robot, tension_offsets } = perturbed;
         match *self {
-            Self::Mass => robot.platform.mass += deviation,
+            Self::Mass => change(&mut robot.platform.mass),
             Self::LinearDensity => {
-                robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density += deviation);
+                robot.cables.iter_mut().for_each(|cable| change(&mut cable.properties.linear_density));
             }
             Self::YoungsModulus => {
-                robot.cables.iter_mut().for_each(|cable| cable.properties.youngs_modulus += deviation);
+                robot.cables.iter_mut().for_each(|cable| change(&mut cable.properties.youngs_modulus));
             }
-            Self::AnchorPoint(i, axis) => robot.cables[i].anchor_point[axis.index()] += deviation,
-            Self::ExitPoint(i, axis) => robot.cables[i].exit_point[axis.index()] += deviation,
-            Self::CenterOfMass(axis) => robot.platform.center_of_mass[axis.index()] += deviation,
-            Self::TensionOffset(i) => tension_offsets[i] += deviation,
+            Self::AnchorPoint(i, axis) => change(&mut robot.cables[i].anchor_point[axis.index()]),
+            Self::ExitPoint(i, axis) => change(&mut robot.cables[i].exit_point[axis.index()]),
+            Self::CenterOfMass(axis) => change(&mut robot.platform.center_of_mass[axis.index()]),
+            Self::TensionOffset(i) => change(&mut tension_offsets[i]),
         }
     }
 }
@@ -195,10 +196,36 @@ impl Robot {
             if !deviation.is_finite() {
                 return Err(RobotError::invalid(parameter.to_string(), deviation, "a finite deviation"));
             }
-            parameter.add(*deviation, &mut perturbed);
+            parameter.change(&mut perturbed, |value| *value += deviation);
         }
         perturbed.robot.validate()?;
         Ok(perturbed)
+    }
+
+    /// The robot with other values of some parameters, by name and in [`Parameter::unit`].
+    ///
+    /// # Errors
+    /// [`RobotError::UnknownParameter`] for a name that the robot does not have, among them offsets of tension, which are not its own;
+    /// [`RobotError::Invalid`] for a value that it cannot have.
+    pub fn with_values(&self, named: &[(&str, f64)]) -> Result<Self, RobotError> {
+        let cables = self.cables.len();
+        let mut changed = Perturbed { robot: self.clone(), tension_offsets: Vec::new() };
+        for (name, value) in named {
+            let parameter: Parameter = name.parse()?;
+            if matches!(parameter, Parameter::TensionOffset(_))
+                || !Parameter::all(cables).contains(&parameter)
+            {
+                return Err(RobotError::UnknownParameter {
+                    name: (*name).to_owned(),
+                    expected: format!(
+                        "those of a robot with {cables} cables, but for the offsets dt of its tensions"
+                    ),
+                });
+            }
+            parameter.change(&mut changed, |old| *old = *value);
+        }
+        changed.robot.validate()?;
+        Ok(changed.robot)
     }
 }
 
@@ -246,6 +273,19 @@ mod tests {
         }
         for name in ["", "a", "a0.x", "a1.w", "a1", "b.x", "dt", "dt0", "c1.x", "Mass", "ä1.x"] {
             assert!(name.parse::<Parameter>().is_err(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_robot_with_another_value_has_that_very_value() {
+        let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
+        for (parameter, value) in Parameter::all(8)[..54].iter().zip(1..) {
+            let value = f64::from(value) / 3.0;
+            let changed = robot.with_values(&[(&parameter.to_string(), value)]).unwrap();
+            assert_eq!(parameter.nominal(&changed), value, "{parameter}");
+        }
+        for (name, value) in [("dt1", 1.0), ("a9.x", 1.0), ("mass", -1.0), ("b1.x", f64::NAN)] {
+            assert!(robot.with_values(&[(name, value)]).is_err(), "{name}");
         }
     }
 

@@ -45,7 +45,17 @@ pub(crate) struct BlockHeader {
 
 /// The blocks of a design of so many points: number and range of indices.
 pub(crate) fn blocks(points: usize) -> impl Iterator<Item = (usize, Range<usize>)> {
-    (0..points.div_ceil(BLOCK)).map(move |number| (number, number * BLOCK..points.min((number + 1) * BLOCK)))
+    (0..count(points)).map(move |number| (number, range(points, number)))
+}
+
+/// Number of blocks of a design of so many points.
+pub(crate) fn count(points: usize) -> usize {
+    points.div_ceil(BLOCK)
+}
+
+/// Indices in the block of that number.
+pub(crate) fn range(points: usize, number: usize) -> Range<usize> {
+    number * BLOCK..points.min((number + 1) * BLOCK)
 }
 
 /// The file of a block.

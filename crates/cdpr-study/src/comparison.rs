@@ -4,9 +4,10 @@
 //! is the same. Nothing else decides.
 
 use crate::file::{ComparisonSpec, Statistic};
-use crate::output::{StudySummary, Summary};
+use crate::output::StudySummary;
 use crate::sampling::SamplingSummary;
 use crate::surface::SurfaceSummary;
+use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -76,11 +77,14 @@ pub struct ComparisonRow {
 /// The largest t of a point may be this many times the smallest for all to count as nearly equal.
 const NEARLY_EQUAL: f64 = 1.5;
 
-/// Compares published figures with a summary. A statistic that a study does not have is computed as `none`.
-pub fn compare(rows: &[ComparisonSpec], summary: &Summary) -> Vec<ComparisonRow> {
+/// Compares published figures with results. A statistic that a study does not have is computed as `none`.
+pub(crate) fn compare(
+    rows: &[ComparisonSpec],
+    studies: &IndexMap<String, StudySummary>,
+) -> Vec<ComparisonRow> {
     rows.iter()
         .map(|row| {
-            let computed = summary.studies.get(&row.study).and_then(|study| computed(row.statistic, study));
+            let computed = studies.get(&row.study).and_then(|study| computed(row.statistic, study));
             let computed = computed.unwrap_or_else(|| Value::Text("none".to_owned()));
             ComparisonRow {
                 figure: row.figure.clone(),
@@ -110,6 +114,8 @@ fn computed(statistic: Statistic, study: &StudySummary) -> Option<Value> {
     match study {
         StudySummary::Sampling(sampling) => of_sampling(statistic, sampling),
         StudySummary::Surface(surface) => of_surface(statistic, surface),
+        // The study file has no such row.
+        StudySummary::Poses(_) => None,
     }
 }
 

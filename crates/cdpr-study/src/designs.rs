@@ -1,11 +1,8 @@
 //! The designs that a sampling is observed at: its own, scrambled replicates of it, and those of the measures of sensitivity. A row
 //! follows from its index alone, so that blocks of a design stay what they are when it grows.
 
-use crate::block::blocks;
 use crate::error::StudyError;
-use crate::observation::{Session, observe_block};
-use crate::shard::Shard;
-use crate::store::Place;
+use crate::file::SamplingSpec;
 use crate::study::{Sampling, Study};
 use cdpr_sensitivity::{MorrisDesign, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolDesign};
 
@@ -65,7 +62,7 @@ impl Design {
         }
     }
 
-    fn make(self, sampling: &Sampling) -> Result<Box<dyn Points>, SensitivityError> {
+    pub(crate) fn make(self, sampling: &Sampling) -> Result<Box<dyn Points>, SensitivityError> {
         let spec = sampling.study.file.sensitivity.unwrap_or_default();
         Ok(match self {
             Self::Own => Box::new(sampling.design.clone()),
@@ -80,24 +77,43 @@ pub(crate) fn replicate_name(number: usize) -> String {
     format!("replicate-{number}")
 }
 
-impl Sampling<'_> {
-    /// Observations that a run makes: those of all designs, and those whose derivatives are taken.
-    pub fn observations(&self) -> usize {
-        let derivatives = self.study.file.sensitivity.map_or(0, |spec| spec.derivative_points);
-        self.designs().into_iter().map(|(_, points)| points).sum::<usize>() + derivatives
+impl Study {
+    /// Observations that a run makes of a sampling of the study file, at all its poses: those of all designs, and those whose derivatives
+    /// are taken.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] for a name that is none.
+    pub fn observations(&self, name: &str) -> Result<usize, StudyError> {
+        let spec = self.entry(name)?.1;
+        let of_designs = self.designs(name, spec)?.into_iter().map(|(_, points)| points).sum::<usize>();
+        Ok(match self.poses(name, spec)?.several() {
+            Some(poses) => poses * of_designs,
+            None => of_designs + self.file.sensitivity.map_or(0, |spec| spec.derivative_points),
+        })
     }
 
-    /// All designs and their numbers of points.
-    pub(crate) fn designs(&self) -> Vec<(Design, usize)> {
-        let (own, inputs) = (self.design.points(), self.errors.inputs.len());
-        let replicates = (1..=self.study.file.replicates).map(|number| (Design::Replicate(number), own));
-        let measures = self.study.file.sensitivity.map(|spec| {
+    /// All designs of a sampling and their numbers of points. At several poses there is its own alone.
+    pub(crate) fn designs(
+        &self,
+        name: &str,
+        spec: &SamplingSpec,
+    ) -> Result<Vec<(Design, usize)>, StudyError> {
+        let own = (Design::Own, spec.observations);
+        if spec.poses.is_some() {
+            return Ok(vec![own]);
+        }
+        let inputs = self.design(name, spec, &[])?.0.inputs.len();
+        let replicates =
+            (1..=self.file.replicates).map(|number| (Design::Replicate(number), spec.observations));
+        let measures = self.file.sensitivity.map(|spec| {
             let (morris, saltelli) = (spec.morris_blocks * (inputs + 1), spec.saltelli_blocks * (inputs + 2));
             [(Design::Morris, morris), (Design::Saltelli, saltelli)]
         });
-        [(Design::Own, own)].into_iter().chain(replicates).chain(measures.into_iter().flatten()).collect()
+        Ok([own].into_iter().chain(replicates).chain(measures.into_iter().flatten()).collect())
     }
+}
 
+impl Sampling<'_> {
     /// A scrambled replicate of the sampling's design.
     pub(crate) fn replicate(&self, number: usize) -> SobolDesign {
         self.design.replicate(self.study.file.seed.wrapping_add(number as u64))
@@ -111,44 +127,4 @@ impl Sampling<'_> {
         let inputs = self.design.inputs().to_vec();
         SaltelliDesign::scrambled(inputs, blocks, Order::First, self.study.file.seed)
     }
-}
-
-/// Makes the blocks of a shard that are not on disk; of each design in turn, so that all shards are as long.
-///
-/// # Errors
-/// Those of the session's blocks; [`StudyError::Statistics`] for a design that cannot be made.
-pub fn observe_shard(study: &Study, shard: Shard, session: &Session) -> Result<(), StudyError> {
-    let mut count = 0;
-    for name in study.file.samplings.keys() {
-        let sampling = study.sampling(name)?;
-        for (kind, points) in sampling.designs() {
-            let design_name = kind.name();
-            let mut design = None;
-            for (number, range) in blocks(points) {
-                count += 1;
-                if !shard.has(count - 1) {
-                    continue;
-                }
-                let place = Place { sampling: name, design: &design_name, number };
-                if let Some(blocks) = session.blocks
-                    && blocks.known(&place, session.warn)?.len() >= range.len()
-                {
-                    (session.tick)(range.len());
-                    continue;
-                }
-                // Made when the first block needs it: Saltelli's takes seconds.
-                let design = match &mut design {
-                    Some(design) => design,
-                    none => none.insert(kind.make(&sampling).map_err(|source| StudyError::Statistics {
-                        path: study.path.clone(),
-                        field: format!("samplings.{name}: design `{design_name}`"),
-                        source,
-                    })?),
-                };
-                let design = (design_name.as_str(), design.as_ref());
-                observe_block(&sampling, design, (number, range), session, &|_| ())?;
-            }
-        }
-    }
-    Ok(())
 }

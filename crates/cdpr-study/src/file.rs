@@ -1,6 +1,7 @@
 //! The study file, `cdpr-study/1`: JSON, SI units unless a name says otherwise. Described by [`json_schema`].
 
 use crate::cable_law::CableLaw;
+use crate::grid::GridAxis;
 use cdpr_sensitivity::pce::MAX_DEGREE;
 use cdpr_sensitivity::sobol_indices::MIN_BLOCKS;
 use cdpr_sensitivity::{Law, Steps, Truncation};
@@ -86,17 +87,42 @@ fn no_rotation() -> [f64; 4] {
     [1.0, 0.0, 0.0, 0.0]
 }
 
-/// A sampling of all uncertain parameters at one pose.
+/// Wanted poses of the platform.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PosesSpec {
+    /// One by one.
+    List(Vec<PoseSpec>),
+    /// Level poses over a plane or a box, x slowest and z fastest.
+    Grid(GridSpec),
+}
+
+/// Positions on a grid of the base frame: a plane where one axis has one point.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)]
+pub struct GridSpec {
+    pub x: GridAxis,
+    pub y: GridAxis,
+    pub z: GridAxis,
+}
+
+/// A sampling of all uncertain parameters, at one pose or at each of several.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SamplingSpec {
     /// Title for tables and figures.
     pub title: String,
-    /// Wanted pose.
-    pub pose: PoseSpec,
+    /// Wanted pose; left out where there are `poses`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pose: Option<PoseSpec>,
+    /// Wanted poses in place of one, each with all the observations: what the deflection is over the workspace, without replicates and
+    /// measures of sensitivity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poses: Option<PosesSpec>,
     /// Name of the error model.
     pub error_model: String,
-    /// Number of observations.
+    /// Number of observations at each pose.
     pub observations: usize,
     /// Index in Sobol's sequence of the first one.
     #[serde(default)]

@@ -19,7 +19,7 @@ pub const STUDY_NAME: &str = "study.json";
 pub const ROBOT_NAME: &str = "robot.json";
 
 /// Name of the folder of blocks in a folder of results.
-const BLOCKS_NAME: &str = "blocks";
+pub(crate) const BLOCKS_NAME: &str = "blocks";
 
 /// What becomes of blocks that a folder holds already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +80,7 @@ impl Study {
 pub fn begin(folder: &Path, study: &Study, existing: Existing) -> Result<Blocks, StudyError> {
     check_folder(folder)?;
     let path = folder.join(BLOCKS_NAME);
-    let blocks = Blocks::new(path.clone(), study.hash()?);
+    let blocks = Blocks::new(folder, study)?;
     if path.is_dir() {
         let unwritten = |source| StudyError::Write { path: path.clone(), source };
         match existing {
@@ -112,7 +112,7 @@ pub fn open_results(folder: &Path) -> Result<(Study, Blocks), StudyError> {
     let study = Study::open(&folder.join(STUDY_NAME))?;
     let path = folder.join(BLOCKS_NAME);
     std::fs::read_dir(&path).map_err(|source| StudyError::Read { path: path.clone(), source })?;
-    let blocks = Blocks::new(path, study.hash()?);
+    let blocks = Blocks::new(folder, &study)?;
     Ok((study, blocks))
 }
 

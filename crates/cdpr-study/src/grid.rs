@@ -1,11 +1,14 @@
 //! Grids of positions: a plane or a box of the base frame.
 
 use crate::error::StudyError;
+use crate::file::GridSpec;
 use cdpr_robot::{Axis, Pose, Robot};
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Places along one axis, equally spaced from `min` to `max`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct GridAxis {
     /// First place [m].
     pub min: f64,
@@ -16,7 +19,7 @@ pub struct GridAxis {
 }
 
 /// Level positions on a grid of the base frame, x slowest and z fastest.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     x: GridAxis,
     y: GridAxis,
@@ -29,24 +32,25 @@ const MOST: usize = 4_000_000;
 /// Exit points that differ by less than this share of the frame's size along an axis lie in a plane across it.
 const FLAT: f64 = 0.1;
 
+/// What is wrong with the places along an axis, or with all of them: axis, value, what would be right.
+pub(crate) type Wrong = (Option<char>, String, String);
+
 impl GridAxis {
-    fn validate(&self, name: &str) -> Result<(), StudyError> {
+    fn is_sound(&self) -> bool {
         let Self { min, max, points } = *self;
         let many = points > 1 && min < max;
-        if min.is_finite() && max.is_finite() && (many || (points == 1 && min == max)) {
-            return Ok(());
-        }
-        let expected =
-            "min:max:points in [m], min below max and two points or more, or one point at min = max";
-        Err(StudyError::setting(format!("grid along {name}"), format!("{min}:{max}:{points}"), expected))
+        min.is_finite() && max.is_finite() && (many || (points == 1 && min == max))
     }
 
     /// The places [m].
     pub fn places(&self) -> Vec<f64> {
+        (0..self.points).map(|k| self.place(k)).collect()
+    }
+
+    fn place(&self, k: usize) -> f64 {
         let last = (self.points.max(2) - 1) as f64;
         // Weighted ends: the last place is `max` itself.
-        let place = |k: usize| self.min * ((last - k as f64) / last) + self.max * (k as f64 / last);
-        (0..self.points).map(place).collect()
+        self.min * ((last - k as f64) / last) + self.max * (k as f64 / last)
     }
 }
 
@@ -55,16 +59,27 @@ impl Grid {
     ///
     /// # Errors
     /// [`StudyError::Setting`] for places that are none, and for more positions than fit in memory.
-    pub fn new(axes: [GridAxis; 3]) -> Result<Self, StudyError> {
-        for (axis, name) in axes.iter().zip(["x", "y", "z"]) {
-            axis.validate(name)?;
+    pub fn new([x, y, z]: [GridAxis; 3]) -> Result<Self, StudyError> {
+        Self::of(&GridSpec { x, y, z }).map_err(|(axis, value, expected)| {
+            let field = axis.map_or("grid".to_owned(), |axis| format!("grid along {axis}"));
+            StudyError::Setting { field, value, expected }
+        })
+    }
+
+    /// The same of a study file.
+    pub(crate) fn of(&GridSpec { x, y, z }: &GridSpec) -> Result<Self, Wrong> {
+        let axes = [x, y, z];
+        if let Some((axis, name)) = axes.iter().zip(['x', 'y', 'z']).find(|(axis, _)| !axis.is_sound()) {
+            let GridAxis { min, max, points } = axis;
+            let expected =
+                "min:max:points in [m], min below max and two points or more, or one point at min = max";
+            return Err((Some(name), format!("{min}:{max}:{points}"), expected.to_owned()));
         }
         let count = axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.points));
         if count.is_none_or(|count| count > MOST) {
             let value = axes.map(|axis| axis.points.to_string()).join(" x ");
-            return Err(StudyError::setting("grid", value, format!("at most {MOST} positions")));
+            return Err((None, value, format!("at most {MOST} positions")));
         }
-        let [x, y, z] = axes;
         Ok(Self { x, y, z })
     }
 
@@ -119,16 +134,20 @@ impl Grid {
         across.next().filter(|_| across.next().is_none())
     }
 
+    /// Number of positions.
+    pub fn count(&self) -> usize {
+        self.x.points * self.y.points * self.z.points
+    }
+
+    /// The level pose at a position, by its number from 0 on.
+    pub fn pose(&self, number: usize) -> Pose {
+        let (column, k) = (number / self.z.points, number % self.z.points);
+        Pose::at(self.x.place(column / self.y.points), self.y.place(column % self.y.points), self.z.place(k))
+    }
+
     /// All positions as level poses.
     pub fn poses(&self) -> Vec<Pose> {
-        let [x, y, z] = [self.x, self.y, self.z].map(|axis| axis.places());
-        let mut poses = Vec::with_capacity(x.len() * y.len() * z.len());
-        for x in x {
-            for y in &y {
-                poses.extend(z.iter().map(|z| Pose::at(x, *y, *z)));
-            }
-        }
-        poses
+        (0..self.count()).map(|number| self.pose(number)).collect()
     }
 }
 

@@ -9,7 +9,10 @@
 //! Where the study asks for them, [`measure`] puts all measures of sensitivity of a sampling beside each other.
 //!
 //! A run may keep what it observes in a folder of results, [`begin`], block by block: a [`Session`] with these goes on where another ended,
-//! and gives the same results to the last bit. [`observe_shard`] makes a share of the blocks, [`status`] says how many are there.
+//! and gives the same results to the last bit. A [`Plan`] numbers the blocks of a study, of which [`observe_shard`] makes a share and a [`BlockMaker`]
+//! any; [`status`] says how many are there.
+//!
+//! A sampling may be at many poses, [`observe_poses`]: its results are a row a pose. Poses that the nominal robot does not hold are data, too.
 //!
 //! [`compute_workspace`] tells where the robot can work and how it gives there, [`inspect`] what is odd about it.
 //!
@@ -47,6 +50,9 @@ mod operating_point;
 mod output;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod plan;
+mod pose_set;
+mod poses;
 mod record;
 mod results;
 mod robustness;
@@ -65,13 +71,12 @@ mod workspace;
 pub use block::BLOCK;
 pub use cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema, open_law};
 pub use cdpr_sensitivity::{Estimate, Family, Truncation};
-pub use comparison::{ComparisonRow, Value, Verdict, compare};
-pub use designs::observe_shard;
+pub use comparison::{ComparisonRow, Value, Verdict};
 pub use error::StudyError;
 pub use error_model::{ErrorModel, Term};
 pub use file::{
-    AxisSpec, ComparisonSpec, InputSpec, PoseSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic,
-    StudyFile, SurfaceSpec, json_schema,
+    AxisSpec, ComparisonSpec, GridSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec,
+    SensitivitySpec, Statistic, StudyFile, SurfaceSpec, json_schema,
 };
 pub use folder::{Existing, ROBOT_NAME, STUDY_NAME, Timings, begin, open_results, write_timings};
 pub use grid::{Grid, GridAxis, frame, letter};
@@ -79,9 +84,11 @@ pub use indexmap::IndexMap;
 pub use inspection::{Finding, Severity, inspect};
 pub use observation::{FITTED, Failure, KEPT, Observed, Part, Session, Tally, observe, observe_into};
 pub use output::{
-    StudySummary, Summary, check_folder, write_figure, write_refused, write_robustness, write_sensitivity,
-    write_solves, write_summary, write_surface, write_text, write_workspace,
+    StudySummary, Summary, check_folder, write_figure, write_poses, write_refused, write_robustness,
+    write_sensitivity, write_solves, write_summary, write_surface, write_text, write_workspace,
 };
+pub use plan::{BlockMaker, Plan, observe_shard};
+pub use poses::{HELD, PoseRow, PosesSummary, observe_poses};
 pub use record::{open_record, read_record};
 pub use results::Results;
 pub use robustness::{

@@ -67,12 +67,14 @@ pub struct Session<'a> {
     pub tick: &'a (dyn Fn(usize) + Sync),
     /// Told of each damaged block, which is made again.
     pub warn: &'a (dyn Fn(&StudyError) + Sync),
+    /// Asked before each block whether to end there.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Session<'static> {
     /// Nothing is kept and nobody told.
     pub fn in_memory() -> Self {
-        Self { blocks: None, tick: &|_| (), warn: &|_| () }
+        Self { blocks: None, tick: &|_| (), warn: &|_| (), stop: &|| false }
     }
 }
 
@@ -147,7 +149,7 @@ pub(crate) fn count_failed<'a>(kinds: impl Iterator<Item = &'a str>) -> BTreeMap
 /// Makes all observations of a sampling in parallel.
 ///
 /// # Errors
-/// Those of the session's blocks; none of a session in memory.
+/// Those of the session's blocks; [`StudyError::Stopped`]; none of a session in memory.
 pub fn observe(sampling: &Sampling, session: &Session) -> Result<Tally, StudyError> {
     observe_into(sampling, session, |_| (), |()| Ok(()))
 }
@@ -239,7 +241,10 @@ pub(crate) fn observe_block<T: Send>(
     each: &(impl Fn(&Part) -> T + Sync),
 ) -> Result<Vec<T>, StudyError> {
     debug_assert!(range.len() <= BLOCK);
-    let place = Place { sampling: sampling.name, design: name, number };
+    if (session.stop)() {
+        return Err(StudyError::Stopped);
+    }
+    let place = Place { sampling: &sampling.name, design: name, number };
     let known = match session.blocks {
         Some(blocks) => blocks.known(&place, session.warn)?,
         None => Vec::new(),

@@ -1,12 +1,13 @@
 //! Result files: observations as CSV, the summary as JSON.
 
 use crate::atomic::write_json;
-use crate::comparison::ComparisonRow;
+use crate::comparison::{ComparisonRow, compare};
 use crate::error::StudyError;
+use crate::poses::{PoseRow, PosesSummary};
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::sampling::SamplingSummary;
 use crate::sensitivity::SensitivitySummary;
-use crate::study::Surface;
+use crate::study::{Study, Surface};
 use crate::surface::{SurfaceResult, SurfaceSummary};
 use crate::workspace::WorkspaceSummary;
 use cdpr_robot::Pose;
@@ -34,7 +35,22 @@ pub struct Summary {
     pub comparison: Vec<ComparisonRow>,
 }
 
-/// Results of a sampling or a surface.
+impl Summary {
+    /// Of a study whose samplings and surfaces gave these results.
+    pub fn new(study: &Study, studies: IndexMap<String, StudySummary>) -> Self {
+        Self {
+            study: study.file.name.clone(),
+            robot: study.robot.name.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            payload: study.file.payload,
+            seed: study.file.seed,
+            comparison: compare(&study.file.comparison, &studies),
+            studies,
+        }
+    }
+}
+
+/// Results of a sampling, at one pose or several, or of a surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum StudySummary {
@@ -42,6 +58,8 @@ pub enum StudySummary {
     Sampling(Box<SamplingSummary>),
     /// Of a surface.
     Surface(SurfaceSummary),
+    /// Of a sampling at several poses.
+    Poses(PosesSummary),
 }
 
 impl StudySummary {
@@ -50,6 +68,7 @@ impl StudySummary {
         match self {
             Self::Sampling(sampling) => &sampling.title,
             Self::Surface(surface) => &surface.title,
+            Self::Poses(poses) => &poses.title,
         }
     }
 
@@ -58,6 +77,7 @@ impl StudySummary {
         match self {
             Self::Sampling(sampling) => sampling.observations,
             Self::Surface(surface) => surface.observations,
+            Self::Poses(poses) => poses.observations,
         }
     }
 
@@ -66,6 +86,7 @@ impl StudySummary {
         match self {
             Self::Sampling(sampling) => &sampling.failed,
             Self::Surface(surface) => &surface.failed,
+            Self::Poses(poses) => &poses.failed,
         }
     }
 }
@@ -130,16 +151,15 @@ pub fn write_sensitivity(
     name: &str,
     sensitivity: &SensitivitySummary,
 ) -> Result<PathBuf, StudyError> {
-    let path = folder.join(format!("{name}_sensitivity.csv"));
-    let write = || -> Result<(), csv::Error> {
-        let mut writer = csv::Writer::from_path(&path)?;
-        sensitivity.inputs.iter().try_for_each(|input| writer.serialize(input))?;
-        Ok(writer.flush()?)
-    };
-    match write() {
-        Ok(()) => Ok(path),
-        Err(error) => Err(unwritten(path, error)),
-    }
+    write_rows(folder.join(format!("{name}_sensitivity.csv")), &sensitivity.inputs)
+}
+
+/// Writes `NAME.csv` of a sampling at several poses: one row each.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_poses(folder: &Path, name: &str, rows: &[PoseRow]) -> Result<PathBuf, StudyError> {
+    write_rows(folder.join(format!("{name}.csv")), rows)
 }
 
 /// Writes `summary.json`.
@@ -247,13 +267,7 @@ pub fn write_refused(folder: &Path, results: &[RobustnessResult]) -> Result<Path
 /// # Errors
 /// [`StudyError::Write`].
 pub fn write_workspace(folder: &Path, summary: &WorkspaceSummary) -> Result<PathBuf, StudyError> {
-    let path = folder.join("workspace.csv");
-    let write = || -> Result<(), csv::Error> {
-        let mut writer = csv::Writer::from_path(&path)?;
-        summary.rows.iter().try_for_each(|row| writer.serialize(row))?;
-        Ok(writer.flush()?)
-    };
-    write().map_err(|error| unwritten(path, error))?;
+    write_rows(folder.join("workspace.csv"), &summary.rows)?;
     write_json(folder.join("workspace.json"), summary)
 }
 
@@ -279,6 +293,19 @@ pub fn write_figure(folder: &Path, name: &str, svg: &str) -> Result<PathBuf, Stu
 /// [`StudyError::Write`].
 pub fn write_text(path: &Path, text: &str) -> Result<(), StudyError> {
     std::fs::write(path, text).map_err(|source| StudyError::Write { path: path.to_owned(), source })
+}
+
+/// A table whose columns are the fields of its rows.
+fn write_rows<T: Serialize>(path: PathBuf, rows: &[T]) -> Result<PathBuf, StudyError> {
+    let write = || -> Result<(), csv::Error> {
+        let mut writer = csv::Writer::from_path(&path)?;
+        rows.iter().try_for_each(|row| writer.serialize(row))?;
+        Ok(writer.flush()?)
+    };
+    match write() {
+        Ok(()) => Ok(path),
+        Err(error) => Err(unwritten(path, error)),
+    }
 }
 
 fn write_csv(

@@ -121,7 +121,7 @@ fn provenance(sampling: &Sampling, hash: String) -> Vec<KeyValue> {
     [
         ("robot", sampling.robot.name.clone()),
         ("study", sampling.study.file.name.clone()),
-        ("sampling", sampling.name.to_owned()),
+        ("sampling", sampling.name.clone()),
         ("seed", seed),
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("hash", hash),

@@ -3,6 +3,7 @@
 use crate::error::StudyError;
 use crate::folder::{STUDY_NAME, Timings};
 use crate::output::{StudySummary, Summary};
+use crate::poses::{PoseRow, PosesSummary};
 use crate::study::{Study, read};
 use crate::surface::{SurfaceResult, SurfaceSummary};
 use cdpr_robot::from_json;
@@ -23,6 +24,8 @@ pub struct Results {
     pub summary: Summary,
     /// The tables of the surfaces by name; a point that failed has the kind of its failure.
     pub surfaces: IndexMap<String, SurfaceResult<String>>,
+    /// The tables of the samplings at several poses by name.
+    pub poses: IndexMap<String, Vec<PoseRow>>,
     /// `timings.json`, if there is such a file.
     pub timings: Option<Timings>,
 }
@@ -38,22 +41,55 @@ impl Results {
         let study = Study::from_json(&study_json, &path)?;
         let robot_json = read(&folder.join(&study.file.robot))?;
         let summary: Summary = read_json(&folder.join("summary.json"))?;
-        let mut surfaces = IndexMap::new();
+        let (mut surfaces, mut poses) = (IndexMap::new(), IndexMap::new());
         for (name, found) in &summary.studies {
-            if let StudySummary::Surface(surface) = found {
-                surfaces.insert(name.clone(), read_surface(&folder.join(format!("{name}.csv")), surface)?);
+            let path = folder.join(format!("{name}.csv"));
+            match found {
+                StudySummary::Surface(surface) => {
+                    surfaces.insert(name.clone(), read_surface(&path, surface)?);
+                }
+                StudySummary::Poses(summary) => {
+                    poses.insert(name.clone(), read_poses(&path, summary)?);
+                }
+                StudySummary::Sampling(_) => (),
             }
         }
         let timings = match read_json(&folder.join("timings.json")) {
             Err(StudyError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => None,
             timings => Some(timings?),
         };
-        Ok(Self { study, study_json, robot_json, summary, surfaces, timings })
+        Ok(Self { study, study_json, robot_json, summary, surfaces, poses, timings })
     }
 }
 
 fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, StudyError> {
     from_json(&read(path)?).map_err(|source| StudyError::Format { path: path.to_owned(), source })
+}
+
+/// Reads the table that `write_poses` has written.
+fn read_poses(path: &Path, summary: &PosesSummary) -> Result<Vec<PoseRow>, StudyError> {
+    let invalid = |field: String, value: String, expected: String| StudyError::Invalid {
+        path: path.to_owned(),
+        field,
+        value,
+        expected,
+    };
+    let text = read(path)?;
+    let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize().enumerate();
+    let row = |(k, row): (usize, Result<PoseRow, csv::Error>)| {
+        row.map_err(|error| {
+            invalid(format!("row {}", k + 1), error.to_string(), "a pose and its results".to_owned())
+        })
+    };
+    let rows: Vec<_> = rows.map(row).collect::<Result<_, _>>()?;
+    if rows.len() != summary.poses {
+        return Err(invalid(
+            "rows".to_owned(),
+            rows.len().to_string(),
+            format!("{}, one a pose", summary.poses),
+        ));
+    }
+    Ok(rows)
 }
 
 /// Reads the table that `write_surface` has written: the second parameter runs faster.

@@ -1,16 +1,15 @@
 //! How far a study in a folder of results is.
 
-use crate::block::blocks;
 use crate::designs::Design;
 use crate::error::StudyError;
 use crate::observation::{Observed, failures, outcome_rms_mm};
+use crate::plan::{Plan, Planned};
 use crate::store::{Blocks, Place};
 use crate::study::Study;
 use cdpr_sensitivity::Moments;
 use indexmap::IndexMap;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// How far a study is.
@@ -29,9 +28,12 @@ pub struct Status {
 /// How far a sampling is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SamplingStatus {
-    /// Its designs by name: its own, `sampling`, and those of replicates and measures.
+    /// Its designs by name: its own, `sampling`, and those of replicates and measures. Of all poses, if it has several.
     pub designs: IndexMap<String, DesignStatus>,
-    /// What its own observations that are there say of the RMS, wherever they are; none for fewer than two.
+    /// Poses of several that the nominal robot does not hold: they have no blocks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poses_not_held: Option<usize>,
+    /// What its own observations that are there say of the RMS, wherever they are; none for fewer than two, or several poses.
     pub provisional_rms_mm: Option<Provisional>,
 }
 
@@ -67,31 +69,41 @@ pub struct Provisional {
 /// [`StudyError::Read`]; [`StudyError::ForeignBlock`].
 pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
     let mut samplings = IndexMap::new();
-    for name in study.file.samplings.keys() {
-        let mut moments = Moments::default();
-        let mut designs = IndexMap::new();
-        for (design, points) in study.sampling(name)?.designs() {
-            let mut found = DesignStatus { observations: points, ..DesignStatus::default() };
-            let design_name = design.name();
-            visit(blocks, name, &design_name, points, |path, range, outcomes| {
-                let Ok(outcomes) = outcomes else {
-                    found.blocks_missing += 1;
-                    return found.damaged.push(path);
-                };
-                let whole = outcomes.len() == range.len();
-                *(if whole { &mut found.blocks_done } else { &mut found.blocks_missing }) += 1;
-                found.observed += outcomes.len();
-                for kind in failures(&outcomes) {
-                    *found.failed.entry(kind.to_owned()).or_default() += 1;
-                }
-                if design == Design::Own {
-                    outcomes.iter().for_each(|outcome| moments.add(outcome_rms_mm(outcome)));
-                }
-            })?;
-            designs.insert(design_name, found);
+    for (name, spec) in &study.file.samplings {
+        let designs = study.designs(name, spec)?.into_iter();
+        let designs = designs.map(|(design, _)| (design.name(), DesignStatus::default())).collect();
+        let poses_not_held = spec.poses.as_ref().map(|_| 0);
+        samplings.insert(name.clone(), SamplingStatus { designs, poses_not_held, provisional_rms_mm: None });
+    }
+    let mut moments: IndexMap<String, Moments> = IndexMap::new();
+    visit(study, blocks, |Seen { block, path, outcomes }| {
+        let Some(sampling) = samplings.get_mut(block.entry) else { return };
+        let Some(found) = sampling.designs.get_mut(&block.design.name()) else { return };
+        let Some(outcomes) = outcomes else {
+            if let (Some(not_held), 0) = (&mut sampling.poses_not_held, block.number) {
+                *not_held += 1;
+            }
+            return;
+        };
+        found.observations += block.range.len();
+        let Ok(outcomes) = outcomes else {
+            found.blocks_missing += 1;
+            return found.damaged.push(path);
+        };
+        let whole = outcomes.len() == block.range.len();
+        *(if whole { &mut found.blocks_done } else { &mut found.blocks_missing }) += 1;
+        found.observed += outcomes.len();
+        for kind in failures(&outcomes) {
+            *found.failed.entry(kind.to_owned()).or_default() += 1;
         }
-        let provisional = moments.summary().ok().map(|rms| Provisional { mean: rms.mean, std: rms.std });
-        samplings.insert(name.clone(), SamplingStatus { designs, provisional_rms_mm: provisional });
+        if block.design == Design::Own && sampling.poses_not_held.is_none() {
+            let moments = moments.entry(block.entry.to_owned()).or_default();
+            outcomes.iter().for_each(|outcome| moments.add(outcome_rms_mm(outcome)));
+        }
+    })?;
+    for (name, sampling) in &mut samplings {
+        let rms = moments.get(name).and_then(|moments| moments.summary().ok());
+        sampling.provisional_rms_mm = rms.map(|rms| Provisional { mean: rms.mean, std: rms.std });
     }
     let mut all = samplings.values().flat_map(|sampling: &SamplingStatus| sampling.designs.values());
     let complete = all.all(|design| design.blocks_missing == 0);
@@ -104,16 +116,13 @@ pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
 /// [`StudyError::MissingBlocks`], damaged ones counted; as [`status`].
 pub fn check_complete(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(), StudyError> {
     let (mut all, mut missing) = (0, Vec::new());
-    for name in study.file.samplings.keys() {
-        for (design, points) in study.sampling(name)?.designs() {
-            visit(blocks, name, &design.name(), points, |path, range, outcomes| {
-                all += 1;
-                if !outcomes.is_ok_and(|outcomes| outcomes.len() == range.len()) {
-                    missing.push(path);
-                }
-            })?;
+    visit(study, blocks, |Seen { block, path, outcomes }| {
+        let Some(outcomes) = outcomes else { return };
+        all += 1;
+        if !outcomes.is_ok_and(|outcomes| outcomes.len() == block.range.len()) {
+            missing.push(path);
         }
-    }
+    })?;
     match missing.first().cloned() {
         None => Ok(()),
         Some(first) => {
@@ -123,25 +132,38 @@ pub fn check_complete(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(
     }
 }
 
-/// Shows each block of a design: path, range of indices, and what of it is there or why it is damaged.
-fn visit(
-    blocks_on_disk: &Blocks,
-    sampling: &str,
-    design: &str,
-    points: usize,
-    mut see: impl FnMut(PathBuf, Range<usize>, Result<Vec<Observed>, StudyError>),
-) -> Result<(), StudyError> {
-    for (number, range) in blocks(points) {
-        let place = Place { sampling, design, number };
-        let read = match blocks_on_disk.read(&place) {
+/// A block of a study and what of it is on disk.
+struct Seen<'a> {
+    block: Planned<'a>,
+    path: PathBuf,
+    /// What is there, or why it is damaged; none where nothing holds the pose, so that nothing is missing.
+    outcomes: Option<Result<Vec<Observed>, StudyError>>,
+}
+
+/// Shows each block of a study.
+fn visit(study: &Study, blocks: &Blocks, mut see: impl FnMut(Seen)) -> Result<(), StudyError> {
+    let plan = Plan::new(study)?;
+    // Of a pose that nothing holds no block is missing: looked at once a pose, and only where one is not there.
+    let mut held = (String::new(), true);
+    let mut is_held = |block: &Planned| {
+        if block.sampling != held.0 {
+            held = (block.sampling.clone(), study.held(&block.sampling)?.is_some());
+        }
+        Ok::<_, StudyError>(held.1)
+    };
+    for block in (0..plan.blocks()).filter_map(|number| plan.block(number)) {
+        let design = block.design.name();
+        let place = Place { sampling: &block.sampling, design: &design, number: block.number };
+        let outcomes = match blocks.read(&place) {
+            Ok(outcomes) if outcomes.is_empty() && block.sampling != block.entry && !is_held(&block)? => None,
             Ok(mut outcomes) => {
-                outcomes.truncate(range.len());
-                Ok(outcomes)
+                outcomes.truncate(block.range.len());
+                Some(Ok(outcomes))
             }
-            Err(error @ StudyError::DamagedBlock { .. }) => Err(error),
+            Err(error @ StudyError::DamagedBlock { .. }) => Some(Err(error)),
             Err(error) => return Err(error),
         };
-        see(blocks_on_disk.path(&place), range, read);
+        see(Seen { path: blocks.path(&place), block, outcomes });
     }
     Ok(())
 }

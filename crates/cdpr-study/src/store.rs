@@ -3,7 +3,9 @@
 use crate::atomic::{UNFINISHED, write_atomic};
 use crate::block::{BLOCK, BlockHeader, decode, encode};
 use crate::error::StudyError;
+use crate::folder::BLOCKS_NAME;
 use crate::observation::{Observed, count_failed, failures};
+use crate::study::Study;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -13,6 +15,8 @@ use std::path::{Path, PathBuf};
 pub struct Blocks {
     folder: PathBuf,
     study: String,
+    /// Folders of tables of several poses, beside.
+    tables: Vec<PathBuf>,
 }
 
 /// Which block.
@@ -24,9 +28,14 @@ pub(crate) struct Place<'a> {
 }
 
 impl Blocks {
-    /// Blocks in `folder`, which is there, of the study with this hash.
-    pub(crate) fn new(folder: PathBuf, study: String) -> Self {
-        Self { folder, study }
+    /// Blocks of a study in the folder `blocks` of its results.
+    ///
+    /// # Errors
+    /// As [`Study::hash`].
+    pub(crate) fn new(results: &Path, study: &Study) -> Result<Self, StudyError> {
+        let at_several = study.file.samplings.iter().filter(|(_, spec)| spec.poses.is_some());
+        let tables = at_several.map(|(name, _)| results.join(name)).collect();
+        Ok(Self { folder: results.join(BLOCKS_NAME), study: study.hash()?, tables })
     }
 
     pub(crate) fn path(&self, place: &Place) -> PathBuf {
@@ -122,8 +131,11 @@ impl Blocks {
         // Beside the blocks, not below: the folder of results may be one that holds much else.
         let read = |source| StudyError::Read { path: results.to_owned(), source };
         let mut all = files(&self.folder)?;
-        for entry in fs::read_dir(results).map_err(read)? {
-            all.push(entry.map_err(read)?.path());
+        let tables = self.tables.iter().map(PathBuf::as_path).filter(|folder| folder.is_dir());
+        for folder in [results].into_iter().chain(tables) {
+            for entry in fs::read_dir(folder).map_err(read)? {
+                all.push(entry.map_err(read)?.path());
+            }
         }
         for path in all.iter().filter(unfinished) {
             fs::remove_file(path).map_err(|source| StudyError::Write { path: path.clone(), source })?;

@@ -3,9 +3,11 @@
 use crate::comparison::Value;
 use crate::error::StudyError;
 use crate::error_model::{ErrorModel, Wrong};
-use crate::file::{AxisSpec, InputSpec, PoseSpec, STUDY_FORMAT, SensitivitySpec, Statistic, StudyFile};
+use crate::file::{AxisSpec, InputSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic, StudyFile};
+use crate::folder::BLOCKS_NAME;
 use crate::operating_point::{Moduli, resolved};
-use cdpr_robot::{Parameter, Pose, Robot, Vector3, from_json};
+use crate::pose_set::Located;
+use cdpr_robot::{Parameter, Pose, Robot, from_json};
 use cdpr_sensitivity::{SensitivityError, SobolDesign};
 use cdpr_statics::{Deflection, Load, Observer, deflection};
 use indexmap::IndexMap;
@@ -25,8 +27,8 @@ pub struct Study {
 /// One sampling of a study, ready to run.
 #[derive(Clone, Debug)]
 pub struct Sampling<'a> {
-    /// Name in the study.
-    pub name: &'a str,
+    /// Name in the study; `NAME/0000`, ... of one at several poses.
+    pub name: String,
     /// Title for tables and figures.
     pub title: &'a str,
     /// The nominal robot.
@@ -76,7 +78,7 @@ pub struct Surface<'a> {
 const MOST_POINTS: usize = 10_000;
 
 impl Study {
-    /// Reads and checks a study file and its robot file. Every sampling and surface is prepared once, so that what is wrong
+    /// Reads and checks a study file and its robot file. Every surface and sampling at one pose is prepared once, so that what is wrong
     /// with the last one is said before the first one runs.
     ///
     /// # Errors
@@ -163,16 +165,18 @@ impl Study {
         for (name, model) in &file.error_models {
             self.error_model(name, model, &[])?;
         }
-        for name in file.samplings.keys() {
-            self.sampling(name)?;
+        for (name, spec) in &file.samplings {
+            self.check_sampling(name, spec)?;
         }
         for name in file.surfaces.keys() {
             self.surface(name)?;
         }
         for (i, row) in file.comparison.iter().enumerate() {
-            if !file.samplings.contains_key(&row.study) && !file.surfaces.contains_key(&row.study) {
+            let at_one_pose = file.samplings.get(&row.study).is_some_and(|spec| spec.pose.is_some());
+            if !at_one_pose && !file.surfaces.contains_key(&row.study) {
                 let field = format!("comparison[{i}].study");
-                return Err(self.invalid(&field, &row.study, "the name of a sampling or surface"));
+                let expected = "the name of a sampling at one pose, or of a surface";
+                return Err(self.invalid(&field, &row.study, expected));
             }
             let of_surface = matches!(row.statistic, Statistic::Min | Statistic::Max | Statistic::Spread);
             if file.surfaces.contains_key(&row.study) && !of_surface {
@@ -196,33 +200,30 @@ impl Study {
         Ok(())
     }
 
-    /// Prepares the sampling called `name`.
+    /// A sampling at one pose is prepared; of one at several, that there is an equilibrium is found out where it runs.
+    fn check_sampling(&self, name: &str, spec: &SamplingSpec) -> Result<(), StudyError> {
+        let set = self.poses(name, spec)?;
+        if set.several().is_none() {
+            return self.sampling(name).map(|_| ());
+        }
+        if name == BLOCKS_NAME {
+            let expected = "another name for a sampling at several poses: its tables have a folder of that name, and the blocks, too";
+            return Err(self.invalid("samplings", name, expected));
+        }
+        self.design(name, spec, &[])?;
+        self.check_poses(name, &set)
+    }
+
+    /// Prepares the sampling called `name`; at several poses, that at one of them: `NAME/0000`, ....
     ///
     /// # Errors
     /// [`StudyError::Invalid`] for a name or setting that is none, [`StudyError::Nominal`] where the nominal robot cannot
     /// hold the pose.
     pub fn sampling(&self, name: &str) -> Result<Sampling<'_>, StudyError> {
-        let field = format!("samplings.{name}");
-        let Some((name, spec)) = self.file.samplings.get_key_value(name) else {
-            return Err(self.invalid(&field, "missing", &keys(&self.file.samplings)));
-        };
-        let Some(model) = self.file.error_models.get(&spec.error_model) else {
-            let expected = keys(&self.file.error_models);
-            return Err(self.invalid(&format!("{field}.error_model"), &spec.error_model, &expected));
-        };
-        let pose = self.pose(&field, &spec.pose)?;
+        let Located { name, entry, spec, pose, field } = self.located(name)?;
         let load = Load::payload(self.file.payload);
-        let (nominal, observer) = self.nominal(&field, &pose, &load)?;
-        let (errors, operating_moduli) = self.error_model(&spec.error_model, model, &[&nominal])?;
-        if spec.observations < 3 {
-            return Err(self.invalid(
-                &format!("{field}.observations"),
-                spec.observations,
-                "at least 3, for laws to be fitted",
-            ));
-        }
-        let design = SobolDesign::new(errors.inputs.clone(), spec.first_index, spec.observations)
-            .map_err(|source| self.statistics(format!("{field}.first_index"), source))?;
+        let (nominal, observer) = self.nominal(field, &pose, &load)?;
+        let (errors, operating_moduli, design) = self.design(entry, spec, &[&nominal])?;
         Ok(Sampling {
             name,
             title: &spec.title,
@@ -238,6 +239,32 @@ impl Study {
         })
     }
 
+    /// What is uncertain in a sampling at the operating point of these deflections of the nominal robot, and the points at which it is
+    /// observed.
+    pub(crate) fn design(
+        &self,
+        name: &str,
+        spec: &SamplingSpec,
+        at: &[&Deflection],
+    ) -> Result<(ErrorModel, Option<Moduli>, SobolDesign), StudyError> {
+        let field = format!("samplings.{name}");
+        let Some(model) = self.file.error_models.get(&spec.error_model) else {
+            let expected = keys(&self.file.error_models);
+            return Err(self.invalid(&format!("{field}.error_model"), &spec.error_model, &expected));
+        };
+        let (errors, moduli) = self.error_model(&spec.error_model, model, at)?;
+        if spec.observations < 3 {
+            return Err(self.invalid(
+                &format!("{field}.observations"),
+                spec.observations,
+                "at least 3, for laws to be fitted",
+            ));
+        }
+        let design = SobolDesign::new(errors.inputs.clone(), spec.first_index, spec.observations)
+            .map_err(|source| self.statistics(format!("{field}.first_index"), source))?;
+        Ok((errors, moduli, design))
+    }
+
     /// Prepares the surface called `name`.
     ///
     /// # Errors
@@ -247,11 +274,11 @@ impl Study {
         let Some((name, spec)) = self.file.surfaces.get_key_value(name) else {
             return Err(self.invalid(&field, "missing", &keys(&self.file.surfaces)));
         };
-        let pose = self.pose(&field, &spec.pose)?;
+        let pose = self.pose(&format!("{field}.pose"), &spec.pose)?;
         let load = Load::payload(self.file.payload);
         let x = self.axis(&format!("{field}.x"), &spec.x)?;
         let y = self.axis(&format!("{field}.y"), &spec.y)?;
-        let (nominal, observer) = self.nominal(&field, &pose, &load)?;
+        let (nominal, observer) = self.nominal(format!("{field}.pose.position"), &pose, &load)?;
         Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal, observer })
     }
 
@@ -321,20 +348,9 @@ impl Study {
         Ok((parameter, place, (0..spec.points).map(point).collect()))
     }
 
-    fn pose(&self, field: &str, spec: &PoseSpec) -> Result<Pose, StudyError> {
-        Pose::with_quaternion(Vector3::from(spec.position), spec.quaternion).ok_or_else(|| {
-            let value = format!("{spec:?}");
-            self.invalid(
-                &format!("{field}.pose"),
-                value,
-                "a finite position [m] and a quaternion that is not zero",
-            )
-        })
-    }
-
     fn nominal(
         &self,
-        field: &str,
+        field: String,
         pose: &Pose,
         load: &Load,
     ) -> Result<(Deflection, Observer<'_>), StudyError> {
@@ -345,7 +361,7 @@ impl Study {
         };
         nominal().map_err(|source| StudyError::Nominal {
             path: self.path.clone(),
-            field: format!("{field}.pose.position"),
+            field,
             value: format!("{:?}", pose.position.as_slice()),
             source: Box::new(source),
         })
@@ -355,7 +371,7 @@ impl Study {
         StudyError::Statistics { path: self.path.clone(), field, source }
     }
 
-    fn invalid(&self, field: &str, value: impl ToString, expected: &str) -> StudyError {
+    pub(crate) fn invalid(&self, field: &str, value: impl ToString, expected: &str) -> StudyError {
         StudyError::Invalid {
             path: self.path.clone(),
             field: field.to_owned(),
@@ -374,7 +390,7 @@ pub fn open_robot(path: &Path) -> Result<Robot, StudyError> {
     robot.map_err(|source| StudyError::Robot { path: path.to_owned(), source })
 }
 
-fn keys<T>(map: &IndexMap<String, T>) -> String {
+pub(crate) fn keys<T>(map: &IndexMap<String, T>) -> String {
     format!("one of {}", map.keys().cloned().collect::<Vec<_>>().join(", "))
 }
 

@@ -63,6 +63,11 @@ impl ObservationTable {
         for ending in ["csv", "parquet"] {
             remove_stale(folder.join(format!("{}.{ending}", sampling.name)))?;
         }
+        // The tables of several poses have a folder of their own.
+        if let (Some((name, _)), true) = (sampling.name.split_once('/'), format != TableFormat::None) {
+            let path = folder.join(name);
+            std::fs::create_dir_all(&path).map_err(|source| StudyError::Write { path, source })?;
+        }
         let names = sampling.design.inputs().iter().map(|input| format!("d_{}", input.name));
         match format {
             TableFormat::Csv => {

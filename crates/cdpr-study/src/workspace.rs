@@ -7,7 +7,7 @@ use cdpr_robot::{Parameter, Pose, Robot, Vector3};
 use cdpr_statics::{Deflection, Derivatives, Load, StaticsError, deflection, derivatives};
 use indexmap::IndexMap;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// What is asked of every position of a grid.
@@ -241,7 +241,7 @@ pub struct WorkspaceSummary {
 }
 
 /// Extremes over the positions that are held, and where they are [m].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// Least value.
     pub min: f64,
@@ -283,11 +283,22 @@ impl WorkspaceSummary {
 }
 
 fn extremes(rows: &[WorkspaceRow], value: impl Fn(&WorkspaceRow) -> Option<f64>) -> Option<Extremes> {
-    let held = || {
-        let held = rows.iter().filter(|row| row.status == "held");
-        held.filter_map(|row| Some((value(row)?, [row.x, row.y, row.z])))
-    };
-    let (min, min_at) = held().min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let (max, max_at) = held().max_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(Extremes { min, min_at, max, max_at })
+    let held = rows.iter().filter(|row| row.status == "held");
+    Extremes::of(held.filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
+}
+
+impl Extremes {
+    /// Of values and their positions; none of none.
+    pub(crate) fn of(values: impl Iterator<Item = (f64, [f64; 3])>) -> Option<Self> {
+        values.fold(None, |found, (value, at)| {
+            let mut all = found.unwrap_or(Self { min: value, min_at: at, max: value, max_at: at });
+            if value < all.min {
+                (all.min, all.min_at) = (value, at);
+            }
+            if value >= all.max {
+                (all.max, all.max_at) = (value, at);
+            }
+            Some(all)
+        })
+    }
 }

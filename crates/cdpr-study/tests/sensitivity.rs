@@ -121,7 +121,7 @@ fn the_numbers_do_not_depend_on_the_number_of_threads_and_every_observation_is_t
     let one = on(1);
     assert_eq!(one, on(3));
     let replicates = 2000 * study.file.replicates;
-    assert_eq!(one.1 + replicates, sampling.observations());
+    assert_eq!(one.1 + replicates, study.observations("geometrical_asymmetric").unwrap());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The results of a study on the terminal.
 
 use super::table;
-use cdpr_study::{StudySummary, Summary};
+use cdpr_study::{Extremes, PosesSummary, StudySummary, Summary};
 
 pub(crate) fn print_results(summary: &Summary) {
     println!("{}: {}\n", summary.robot, summary.study);
@@ -21,14 +21,15 @@ pub(crate) fn print_results(summary: &Summary) {
                 let counts = [s.observations, s.failed.values().sum()].map(|count| count.to_string());
                 row(name, counts, rms, String::new())
             }
+            StudySummary::Poses(s) => {
+                let means = [s.mean_mm.map(|mean| mean.min), s.mean_mm.map(|mean| mean.max)];
+                let counts = [s.observations, s.failed.values().sum()].map(|count| count.to_string());
+                row(name, counts, [None, None, None, means[0], means[1]], "means at the poses".to_owned())
+            }
         });
     }
     println!("{rows}\n");
     for (name, study) in &summary.studies {
-        let failed = match study {
-            StudySummary::Sampling(s) => &s.failed,
-            StudySummary::Surface(s) => &s.failed,
-        };
         if let StudySummary::Sampling(s) = study {
             if let Some([least, greatest]) = s.operating_moduli_gpa {
                 println!("{name}: E at the operating point {least:.2} to {greatest:.2} GPa");
@@ -37,9 +38,27 @@ pub(crate) fn print_results(summary: &Summary) {
                 println!("{name}: {note}");
             }
         }
-        for (kind, count) in failed.iter().filter(|(_, count)| **count > 0) {
+        if let StudySummary::Poses(s) = study {
+            print_poses(name, s);
+        }
+        for (kind, count) in study.failed().iter().filter(|(_, count)| **count > 0) {
             println!("{name}: {count} failed: {kind}");
         }
+    }
+}
+
+/// Poses that are held and that are not, extremes, what dominates where.
+fn print_poses(name: &str, summary: &PosesSummary) {
+    for (status, count) in &summary.status {
+        println!("{name}: {count} of {} poses {}", summary.poses, status.replace('_', " "));
+    }
+    if let Some(Extremes { min, min_at, max, max_at }) = summary.mean_mm {
+        println!("{name}: mean RMS from {min:.4} mm at {min_at:?} m to {max:.4} mm at {max_at:?} m");
+    }
+    let mut dominant: Vec<_> = summary.dominant.iter().collect();
+    dominant.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+    for (parameter, count) in dominant.into_iter().take(5) {
+        println!("{name}: {parameter} dominates at {count} poses");
     }
 }
 

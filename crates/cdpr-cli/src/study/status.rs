@@ -49,6 +49,9 @@ fn print(status: &Status) {
         if !kinds.is_empty() {
             println!("{name}: failed: {}", kinds.join(", "));
         }
+        if let Some(count) = sampling.poses_not_held.filter(|count| *count > 0) {
+            println!("{name}: {count} poses have no blocks: the nominal robot does not hold them");
+        }
         if let Some(Provisional { mean, std }) = sampling.provisional_rms_mm {
             println!("{name}: so far {mean:.4} mm, standard deviation {std:.4} mm");
         }

@@ -1,7 +1,7 @@
 //! Title and main figures.
 
 use super::{cell, numeric, table, text};
-use cdpr_study::{Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict};
+use cdpr_study::{PosesSummary, Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict};
 use maud::{Markup, html};
 
 /// Most parameters named as dominant, and the least share of the largest index that makes one so.
@@ -10,7 +10,8 @@ const LEAST: f64 = 0.25;
 
 pub(crate) fn header(results: &Results) -> Markup {
     let summary = &results.summary;
-    let observations: usize = samplings(summary).map(|(_, sampling)| sampling.observations).sum();
+    let at_one: usize = samplings(summary).map(|(_, sampling)| sampling.observations).sum();
+    let observations = at_one + poses(summary).map(|(_, poses)| poses.observations).sum::<usize>();
     html! {
         header {
             p.kicker { "Static deflection of a cable-driven parallel robot" }
@@ -33,7 +34,7 @@ pub(crate) fn header(results: &Results) -> Markup {
 pub(crate) fn samplings(summary: &Summary) -> impl Iterator<Item = (&str, &SamplingSummary)> {
     summary.studies.iter().filter_map(|(name, study)| match study {
         StudySummary::Sampling(sampling) => Some((name.as_str(), sampling.as_ref())),
-        StudySummary::Surface(_) => None,
+        StudySummary::Surface(_) | StudySummary::Poses(_) => None,
     })
 }
 
@@ -41,7 +42,15 @@ pub(crate) fn samplings(summary: &Summary) -> impl Iterator<Item = (&str, &Sampl
 pub(crate) fn surfaces(summary: &Summary) -> impl Iterator<Item = (&str, &SurfaceSummary)> {
     summary.studies.iter().filter_map(|(name, study)| match study {
         StudySummary::Surface(surface) => Some((name.as_str(), surface)),
-        StudySummary::Sampling(_) => None,
+        StudySummary::Sampling(_) | StudySummary::Poses(_) => None,
+    })
+}
+
+/// The samplings of a summary at several poses.
+pub(crate) fn poses(summary: &Summary) -> impl Iterator<Item = (&str, &PosesSummary)> {
+    summary.studies.iter().filter_map(|(name, study)| match study {
+        StudySummary::Poses(poses) => Some((name.as_str(), poses)),
+        StudySummary::Sampling(_) | StudySummary::Surface(_) => None,
     })
 }
 
@@ -125,6 +134,13 @@ fn overview(summary: &Summary) -> Markup {
                     let rms = surface.rms_mm;
                     let over = surface.parameters.each_ref().map(|name| text::symbol(name)).join(", ");
                     (Some(rms.nominal), None, None, rms.min, rms.max, String::new(), format!("over {over}"))
+                }
+                StudySummary::Poses(poses) => {
+                    // Means over the observations, at the poses where they are least and greatest.
+                    let [least, greatest] =
+                        [poses.mean_mm.map(|mean| mean.min), poses.mean_mm.map(|mean| mean.max)];
+                    let leading = format!("means at {} of {} poses", poses.held(), poses.poses);
+                    (None, None, None, least, greatest, String::new(), leading)
                 }
             };
             let mut row = vec![title];

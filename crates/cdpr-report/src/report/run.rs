@@ -27,7 +27,7 @@ pub(crate) fn observations(results: &Results) -> Section {
         .iter()
         .filter_map(|(name, study)| match study {
             StudySummary::Sampling(sampling) => Some((name, sampling)),
-            StudySummary::Surface(_) => None,
+            StudySummary::Surface(_) | StudySummary::Poses(_) => None,
         })
         .flat_map(|(name, sampling)| {
             let measures = sampling.sensitivity.iter().flat_map(|found| &found.notes);

@@ -65,7 +65,7 @@ pub(crate) struct SceneCable {
 }
 
 impl Scene {
-    /// Every pose of the study once, in the order of its samplings and surfaces.
+    /// Every pose of the study once, in the order of its samplings and surfaces; one of a sampling at several.
     ///
     /// # Errors
     /// As [`Study::sampling`].
@@ -76,13 +76,26 @@ impl Scene {
                 Some(known) => known.parts.push(name.to_owned()),
                 None => poses.push(ScenePose::new(&study.robot, name, pose, nominal)),
             };
-        for name in study.file.samplings.keys() {
-            let sampling = study.sampling(name)?;
-            add(name, sampling.pose, &sampling.nominal);
+        for (name, spec) in &study.file.samplings {
+            if spec.pose.is_some() {
+                let sampling = study.sampling(name)?;
+                add(name, sampling.pose, &sampling.nominal);
+                continue;
+            }
+            // Of many poses the first that is held stands for all.
+            let prefix = format!("{name}/");
+            let mut names = study.sampling_names().filter(|name| name.starts_with(&prefix));
+            if let Some(sampling) = names.find_map(|name| study.sampling(&name).ok()) {
+                add(&sampling.name, sampling.pose, &sampling.nominal);
+            }
         }
         for name in study.file.surfaces.keys() {
             let surface = study.surface(name)?;
             add(name, surface.pose, &surface.nominal);
+        }
+        if let (true, Some(name)) = (poses.is_empty(), study.sampling_names().next()) {
+            // The reason why there is nothing to draw.
+            study.sampling(&name)?;
         }
         let exits: Vec<[f64; 3]> = study.robot.cables.iter().map(|cable| cable.exit_point.into()).collect();
         let lowest = exits.iter().map(|exit| exit[2]).fold(f64::INFINITY, f64::min);

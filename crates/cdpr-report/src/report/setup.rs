@@ -2,7 +2,7 @@
 
 use super::{Section, cell, table, text};
 use cdpr_robot::Parameter;
-use cdpr_study::{IndexMap, InputSpec, PoseSpec, Results, StudySummary};
+use cdpr_study::{GridSpec, IndexMap, InputSpec, PoseSpec, PosesSpec, Results, StudySummary};
 use maud::{Markup, html};
 
 pub(crate) fn section(results: &Results) -> Section {
@@ -57,11 +57,24 @@ fn parts(results: &Results) -> Markup {
         let count = found.map_or(sampling.observations, StudySummary::observations);
         let moduli = found.and_then(|found| match found {
             StudySummary::Sampling(sampling) => sampling.operating_moduli_gpa,
-            StudySummary::Surface(_) => None,
+            _ => None,
         });
+        let place = match (&sampling.pose, &sampling.poses) {
+            (Some(one), _) => pose(one),
+            (None, Some(PosesSpec::List(list))) => cell(format!("{} poses", list.len())),
+            (None, Some(PosesSpec::Grid(GridSpec { x, y, z }))) => {
+                let ends = [x, y, z].map(|axis| {
+                    let ends = [axis.min, axis.max].map(|end| text::digits(end, 5));
+                    if axis.points == 1 { ends[0].clone() } else { ends.join(" \u{2026} ") }
+                });
+                let [x, y, z] = [x, y, z].map(|axis| axis.points);
+                html! { "(" (ends.join(", ")) ")" span.detail { "grid of " (x) " \u{d7} " (y) " \u{d7} " (z) } }
+            }
+            (None, None) => cell(""),
+        };
         rows.push(vec![
             html! { (sampling.title) span.detail { (name) } },
-            pose(&sampling.pose),
+            place,
             html! { "error model " code { (sampling.error_model) }
                 @if let Some([least, greatest]) = moduli {
                     span.detail { "E at the operating point " (text::digits(least, 4)) " to " (text::digits(greatest, 4)) " GPa" }

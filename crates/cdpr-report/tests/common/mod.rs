@@ -2,7 +2,7 @@
 
 use cdpr_study::{
     Existing, IndexMap, Results, Session, Study, StudySummary, Summary, SurfaceSummary, Timings, analyse,
-    begin, compare, compute_surface, observe, write_summary, write_surface, write_timings,
+    begin, compute_surface, observe, write_summary, write_surface, write_timings,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -66,16 +66,7 @@ fn run(mut study: Value, robot: &Value) -> Results {
         write_surface(&out, &surface, &result).unwrap();
         studies.insert(name.clone(), StudySummary::Surface(SurfaceSummary::new(&surface, &result)));
     }
-    let mut summary = Summary {
-        study: study.file.name.clone(),
-        robot: study.robot.name.clone(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        payload: study.file.payload,
-        seed: study.file.seed,
-        studies,
-        comparison: Vec::new(),
-    };
-    summary.comparison = compare(&study.file.comparison, &summary);
+    let summary = Summary::new(&study, studies);
     write_summary(&out, &summary).unwrap();
     let seconds = study.file.samplings.keys().map(|name| (name.clone(), 0.25)).collect();
     write_timings(&out, &Timings { threads: 2, seconds, all: 0.8, ..Timings::default() }).unwrap();

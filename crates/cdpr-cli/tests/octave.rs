@@ -1,0 +1,38 @@
+//! The example for MATLAB and Octave runs in Octave, where it is installed.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use std::path::Path;
+use std::process::Command;
+
+#[test]
+fn octave_gets_the_positions_of_a_list_of_cases() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let run = format!("cdpr = '{}'; run('docs/examples/direct.m')", env!("CARGO_BIN_EXE_cdpr"));
+    let octave = Command::new("octave-cli").args(["--quiet", "--eval", &run]).current_dir(&root).output();
+    let Ok(octave) = octave else {
+        println!("octave-cli is not installed: its example is not run");
+        return;
+    };
+    assert!(octave.status.success(), "{}", String::from_utf8_lossy(&octave.stderr));
+    let answers: Vec<Vec<f64>> = String::from_utf8(octave.stdout)
+        .unwrap()
+        .lines()
+        .map(|line| line.trim_end_matches(" m").split(' ').map(|number| number.parse().unwrap()).collect())
+        .collect();
+    let lengths = ["4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44", "4.45,4.55,4.37,4.27,4.27,4.37,4.55,4.45"];
+    assert_eq!(answers.len(), lengths.len());
+    for (answer, lengths) in answers.iter().zip(lengths) {
+        let direct = Command::new(env!("CARGO_BIN_EXE_cdpr"))
+            .args(["direct", "data/robots/caroca.json", "--force=0,0,-100", "--format", "json"])
+            .arg(format!("--lengths={lengths}"))
+            .current_dir(&root)
+            .output()
+            .unwrap();
+        let direct: serde_json::Value = serde_json::from_slice(&direct.stdout).unwrap();
+        for (axis, told) in answer.iter().enumerate() {
+            let position = direct["position"][axis].as_f64().unwrap();
+            assert!((told - position).abs() <= 0.5e-6 * 1.000_001, "{told} {position}");
+        }
+    }
+}

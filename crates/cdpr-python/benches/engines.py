@@ -1,0 +1,80 @@
+"""Seconds of a study on each engine, and whether its files are the same: `python engines.py [observations] [engine ...]`, at the root of the repository.
+
+The mechanical sampling of CAROCA alone, without replicates, surfaces and table. Engines: sequential, rayon, processes, dask, ray.
+"""
+
+import concurrent.futures
+import contextlib
+import hashlib
+import json
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import cdpr
+
+ENGINES = ["sequential", "rayon", "processes", "dask", "ray"]
+
+
+def study_file(folder):
+    file = json.loads(Path("data/studies/caroca.json").read_text())
+    file["samplings"] = {"mechanical": file["samplings"]["mechanical"]}
+    file.update(robot=os.path.abspath("data/robots/caroca.json"), replicates=0, surfaces={}, comparison=[])
+    path = Path(folder) / "mechanical.json"
+    path.write_text(json.dumps(file))
+    return path
+
+
+@contextlib.contextmanager
+def engine(name):
+    """The arguments of `run`, with whatever has to be started before the clock."""
+    if name == "sequential":
+        yield {"threads": 1}
+    elif name == "rayon":
+        yield {"threads": 2}
+    elif name == "processes":
+        with concurrent.futures.ProcessPoolExecutor(2) as executor:
+            list(executor.map(abs, range(2)))
+            yield {"executor": executor}
+    elif name == "dask":
+        import distributed
+
+        with distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster, distributed.Client(cluster) as client:
+            yield {"executor": client}
+    elif name == "ray":
+        import ray
+        from ray.util.multiprocessing import Pool
+
+        ray.init(num_cpus=2, include_dashboard=False, logging_level="ERROR")
+        with Pool(2) as pool:
+            pool.map(abs, range(2))
+            yield {"executor": pool}
+        ray.shutdown()
+
+
+def digest(folder):
+    told = ("timings.json", "report.html")
+    whole = hashlib.sha256()
+    for path in sorted(path for path in Path(folder).rglob("*") if path.is_file() and path.name not in told):
+        whole.update(str(path.relative_to(folder)).encode() + path.read_bytes())
+    return whole.hexdigest()[:12]
+
+
+def main():
+    observations = int(float(sys.argv[1])) if len(sys.argv) > 1 else 1_000_000
+    with tempfile.TemporaryDirectory() as folder:
+        study = study_file(folder)
+        for name in sys.argv[2:] or ENGINES:
+            with engine(name) as arguments:
+                out = Path(folder) / name
+                clock = time.perf_counter()
+                cdpr.study.run(study, out, observations=observations, table="none", **arguments)
+                print(f"{name:12} {time.perf_counter() - clock:6.2f} s, files {digest(out)}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,62 @@
+"""Elasto-statics of cable-driven parallel robots: platforms held by sagging, elastic cables.
+
+All units are SI; the base frame has z up. A pose is x, y, z [m] or x, y, z, qw, qx, qy, qz. Every call takes one case, or arrays with a first
+axis of m cases, which are computed on all cores: the answer then has that axis, too, with NaN where there is no answer and the reasons beside
+it. A single case without an answer raises.
+
+>>> import cdpr
+>>> robot = cdpr.Robot.from_file("data/robots/caroca.json")
+>>> given = robot.deflection([0, 0, 1.75], payload=50)
+>>> print(f"{1e3 * given.rms:.4f} mm")
+1.3312 mm
+"""
+
+from . import errors, sensitivity
+from ._core import (
+    VERSION as __version__,
+    Catenary,
+    Deflection,
+    Derivatives,
+    DirectSolution,
+    InverseSolution,
+    Observations,
+    Robot,
+    Stiffness,
+    Workspace,
+    catenary,
+)
+from .errors import CdprError, FileError, InputError, NoSolutionError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from . import study
+
+__all__ = [
+    "Catenary",
+    "CdprError",
+    "Deflection",
+    "Derivatives",
+    "DirectSolution",
+    "FileError",
+    "InputError",
+    "InverseSolution",
+    "NoSolutionError",
+    "Observations",
+    "Robot",
+    "Stiffness",
+    "Workspace",
+    "__version__",
+    "catenary",
+    "errors",
+    "sensitivity",
+    "study",
+]
+
+
+def __getattr__(name: str) -> object:
+    # `cdpr.study` is loaded by whoever uses it: the modules that it needs take longer than all the rest.
+    if name == "study":
+        import importlib
+
+        return importlib.import_module("cdpr.study")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,0 +1,29 @@
+"""What the package raises. Messages are those of the command line: field, value, and what would be right."""
+
+from __future__ import annotations
+
+
+class CdprError(Exception):
+    """Everything that the package raises by itself."""
+
+
+class InputError(CdprError, ValueError):
+    """A value that cannot be; the message names the field, the value, and what would be right."""
+
+
+class FileError(CdprError, OSError):
+    """A file or folder that cannot be read, written or used."""
+
+
+class NoSolutionError(CdprError):
+    """A question without an answer, such as a pose that no tensions hold.
+
+    ``kind`` names the kind of failure as tables of studies do: ``infeasible_tension``, ``cable_overstrained``, ...
+    """
+
+    def __init__(self, message: str, kind: str = "") -> None:
+        super().__init__(message, kind)
+        self.kind = kind
+
+    def __str__(self) -> str:
+        return str(self.args[0])

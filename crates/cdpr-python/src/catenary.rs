@@ -1,0 +1,130 @@
+//! One cable between two points.
+
+use crate::arrays::{Cases, Columns, Numbers, Rows, reasons};
+use crate::error::{Answer, Raised};
+use crate::threads::each;
+use cdpr_cable::{Cable, CableError, Solution, Vector2, end_force, length_for_tension};
+use pyo3::prelude::*;
+
+/// Cables in equilibrium, in their vertical planes: exit point at the origin, anchor point at (x, z), z up. One cable, or m: then every
+/// field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+#[pyclass(frozen, get_all, module = "cdpr")]
+pub(crate) struct Catenary {
+    /// Force (fx, fz) on the cable at the anchor point [N], (2,).
+    force: Py<PyAny>,
+    /// Tension at the anchor point [N].
+    anchor_tension: Py<PyAny>,
+    /// Tension at the exit point [N].
+    exit_tension: Py<PyAny>,
+    /// Greatest height of the chord above the cable [m].
+    sag: Py<PyAny>,
+    /// Elastic energy plus work done against gravity [J].
+    energy: Py<PyAny>,
+    /// Unstrained length [m].
+    unstrained_length: Py<PyAny>,
+    /// Position (x, z) of the anchor point [m], (2,).
+    end: Py<PyAny>,
+    /// Distance that stays open at the end [m].
+    residual: Py<PyAny>,
+    /// Points (x, z) of the cable from exit to anchor point, at equal unstrained distances [m], (points, 2).
+    shape: Py<PyAny>,
+    /// Why there is no answer, None where there is one; None for one cable.
+    reasons: Option<Vec<Option<String>>>,
+}
+
+/// An elastic cable from any two of its unstrained length, end, force and tension: `length` and `end`, `length` and `force`, or `end` and
+/// `tension`. Arguments are of one cable, or have a first axis of m cables.
+///
+/// weight: weight per unstrained length [N/m]; 0 makes the cable a straight spring.
+/// stiffness: axial stiffness EA [N].
+/// length: unstrained length [m].
+/// end: position (x, z) of the anchor point [m], (2,); x >= 0, z up.
+/// force: force (fx, fz) on the cable at the anchor point [N], (2,).
+/// tension: tension at the anchor point [N].
+/// points: points of `shape`, 2 at least.
+///
+/// Raises InputError; for one cable NoSolutionError.
+#[pyfunction]
+#[pyo3(signature = (weight, stiffness, *, length=None, end=None, force=None, tension=None, points=51))]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn catenary(
+    py: Python,
+    weight: Numbers,
+    stiffness: Numbers,
+    length: Option<Numbers>,
+    end: Option<Numbers>,
+    force: Option<Numbers>,
+    tension: Option<Numbers>,
+    points: usize,
+) -> Answer<Catenary> {
+    if points < 2 {
+        return Err(Raised::Input(format!("points is {points}: expected 2 or more")));
+    }
+    let weight = Rows::scalars("weight", &weight)?;
+    let stiffness = Rows::scalars("stiffness", &stiffness)?;
+    let scalars = |name, array: Option<Numbers>| array.map(|array| Rows::scalars(name, &array)).transpose();
+    let vectors = |name, array: Option<Numbers>| {
+        array.map(|array| Rows::components::<2>(name, Some(&array))).transpose()
+    };
+    let (length, tension) = (scalars("length", length)?, scalars("tension", tension)?);
+    let (end, force) = (vectors("end", end)?, vectors("force", force)?);
+    let cable = |case| Cable::linear(weight.scalar(case), stiffness.scalar(case));
+    let place = |rows: &Rows, case| Vector2::from(rows.vector::<2>(case));
+    let (cases, outcomes) = match (&length, &end, &force, &tension) {
+        (Some(length), Some(end), None, None) => {
+            let cases = Cases::of(&[&weight, &stiffness, length, end])?;
+            let one = |i| end_force(&cable(i), length.scalar(i), place(end, i)).map(|s| (s, end.vector(i)));
+            (cases, each(py, cases.count, one)?)
+        }
+        (None, Some(end), None, Some(tension)) => {
+            let cases = Cases::of(&[&weight, &stiffness, end, tension])?;
+            let one = |i| {
+                length_for_tension(&cable(i), place(end, i), tension.scalar(i)).map(|s| (s, end.vector(i)))
+            };
+            (cases, each(py, cases.count, one)?)
+        }
+        (Some(length), None, Some(force), None) => {
+            let cases = Cases::of(&[&weight, &stiffness, length, force])?;
+            let one = |i| {
+                let catenary = cdpr_cable::Catenary::new(cable(i), length.scalar(i), place(force, i))?;
+                let end: [f64; 2] = catenary.end_position().into();
+                Ok((Solution { catenary, iterations: 0, residual: 0.0 }, end))
+            };
+            (cases, each(py, cases.count, one)?)
+        }
+        _ => {
+            return Err(Raised::Input(
+                "expected two of what is known: length and end, length and force, or end and tension"
+                    .to_owned(),
+            ));
+        }
+    };
+    Catenary::new(py, cases, &outcomes, points)
+}
+
+impl Catenary {
+    fn new(
+        py: Python,
+        cases: Cases,
+        outcomes: &[Result<(Solution<'static>, [f64; 2]), CableError>],
+        points: usize,
+    ) -> Answer<Self> {
+        let all = Columns::new(py, cases, outcomes)?;
+        Ok(Self {
+            force: all.vector(|(solution, _)| solution.catenary.force.into())?,
+            anchor_tension: all.number(|(solution, _)| solution.catenary.anchor_tension())?,
+            exit_tension: all.number(|(solution, _)| solution.catenary.exit_tension())?,
+            sag: all.number(|(solution, _)| solution.catenary.vertical_sag())?,
+            energy: all.number(|(solution, _)| solution.catenary.potential_energy())?,
+            unstrained_length: all.number(|(solution, _)| solution.catenary.unstrained_length)?,
+            end: all.vector(|(_, end)| *end)?,
+            residual: all.number(|(solution, _)| solution.residual)?,
+            shape: all.numbers(&[points, 2], |(solution, _), out| {
+                for (out, point) in out.chunks_exact_mut(2).zip(solution.catenary.profile(points)) {
+                    out.copy_from_slice(point.as_slice());
+                }
+            })?,
+            reasons: reasons(cases, outcomes),
+        })
+    }
+}

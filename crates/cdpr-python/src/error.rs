@@ -1,0 +1,141 @@
+//! Exceptions: those of `cdpr.errors`, with the texts of the command line.
+
+use cdpr_cable::CableError;
+use cdpr_robot::RobotError;
+use cdpr_sensitivity::SensitivityError;
+use cdpr_statics::StaticsError;
+use cdpr_study::StudyError;
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+
+/// What becomes an exception.
+pub(crate) enum Raised {
+    /// `InputError`: a value that cannot be.
+    Input(String),
+    /// `FileError`: a file or folder that cannot be read, written or used.
+    File(String),
+    /// `NoSolutionError`: a question without an answer.
+    NoSolution {
+        /// As in tables of failures: `infeasible_tension`, ...
+        kind: &'static str,
+        message: String,
+    },
+    /// An exception of Python itself.
+    Python(PyErr),
+}
+
+pub(crate) type Answer<T> = Result<T, Raised>;
+
+impl From<Raised> for PyErr {
+    fn from(raised: Raised) -> Self {
+        Python::attach(|py| {
+            let made = match raised {
+                Raised::Input(message) => {
+                    class(py, "InputError").map(|class| Self::from_type(class, message))
+                }
+                Raised::File(message) => class(py, "FileError").map(|class| Self::from_type(class, message)),
+                Raised::NoSolution { kind, message } => {
+                    class(py, "NoSolutionError").map(|class| Self::from_type(class, (message, kind)))
+                }
+                Raised::Python(error) => Ok(error),
+            };
+            made.unwrap_or_else(|error| error)
+        })
+    }
+}
+
+/// A class of `cdpr.errors`.
+fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyType>> {
+    Ok(py.import("cdpr.errors")?.getattr(name)?.cast_into()?)
+}
+
+impl From<PyErr> for Raised {
+    fn from(error: PyErr) -> Self {
+        Self::Python(error)
+    }
+}
+
+impl From<RobotError> for Raised {
+    fn from(error: RobotError) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+impl From<&CableError> for Raised {
+    fn from(error: &CableError) -> Self {
+        let message = error.to_string();
+        match error {
+            CableError::InvalidInput { .. } => Self::Input(message),
+            CableError::TensionTooSmall { .. } => Self::NoSolution { kind: "tension_too_small", message },
+            CableError::NotConverged { .. } => Self::NoSolution { kind: "cable", message },
+        }
+    }
+}
+
+impl From<StaticsError> for Raised {
+    fn from(error: StaticsError) -> Self {
+        Self::from(&error)
+    }
+}
+
+impl From<&StaticsError> for Raised {
+    fn from(error: &StaticsError) -> Self {
+        let message = error.to_string();
+        match error {
+            StaticsError::Robot(_)
+            | StaticsError::Invalid { .. }
+            | StaticsError::Cable { source: CableError::InvalidInput { .. }, .. } => Self::Input(message),
+            _ => Self::NoSolution { kind: error.kind(), message },
+        }
+    }
+}
+
+impl From<SensitivityError> for Raised {
+    fn from(error: SensitivityError) -> Self {
+        let message = error.to_string();
+        match error {
+            SensitivityError::NotConverged { .. } => Self::NoSolution { kind: "not_converged", message },
+            _ => Self::Input(message),
+        }
+    }
+}
+
+impl From<StudyError> for Raised {
+    fn from(error: StudyError) -> Self {
+        let message = error.to_string();
+        match kind(&error) {
+            Some(kind) => Self::NoSolution { kind, message },
+            None if is_of_files(&error) => Self::File(message),
+            None => Self::Input(message),
+        }
+    }
+}
+
+/// The kind of failure of an error that is a question without an answer.
+fn kind(error: &StudyError) -> Option<&'static str> {
+    match error {
+        StudyError::At { source, .. } => kind(source),
+        StudyError::Nominal { source, .. } => match Raised::from(source.as_ref()) {
+            Raised::NoSolution { kind, .. } => Some(kind),
+            _ => None,
+        },
+        StudyError::Unreachable { .. } => Some("unreachable"),
+        StudyError::Unobservable { .. } => Some("unobservable"),
+        StudyError::TooFewPoses { .. } => Some("too_few_poses"),
+        _ => None,
+    }
+}
+
+fn is_of_files(error: &StudyError) -> bool {
+    matches!(
+        error,
+        StudyError::Read { .. }
+            | StudyError::Write { .. }
+            | StudyError::FolderInUse { .. }
+            | StudyError::ForeignFolder { .. }
+            | StudyError::ForeignBlock { .. }
+            | StudyError::DamagedBlock { .. }
+            | StudyError::MissingBlocks { .. }
+            | StudyError::NoResults { .. }
+    )
+}

@@ -1,0 +1,200 @@
+//! The robot: from a file, a JSON text or arrays; its parameters.
+
+use crate::arrays::Numbers;
+use crate::error::{Answer, Raised};
+use cdpr_robot::{CableProperties, Parameter, Platform, RobotCable, TensionLimits, Vector3};
+use cdpr_study::open_robot;
+use numpy::{PyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple, PyType};
+use std::path::PathBuf;
+
+/// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables. It does not change: `with_parameters` makes another one.
+///
+/// SI units; base frame with z up; poses are x, y, z [m] or x, y, z, qw, qx, qy, qz.
+///
+/// anchor_points: (n, 3), points A_i in the platform frame [m].
+/// exit_points: (n, 3), points B_i in the base frame [m].
+/// mass: mass of the platform [kg].
+/// section: section of a cable that carries its tension [m²]; one number, or one for each cable, as the following two.
+/// linear_density: mass per unstrained length [kg/m].
+/// youngs_modulus: Young's modulus [Pa].
+/// tension_limits: least and greatest tension of a cable at the platform [N].
+/// center_of_mass: centre of mass in the platform frame [m].
+/// gravity: acceleration due to gravity [m/s²].
+///
+/// Raises InputError naming the field, its value and what would be right.
+#[pyclass(frozen, module = "cdpr")]
+pub(crate) struct Robot {
+    pub(crate) robot: cdpr_robot::Robot,
+}
+
+#[pymethods]
+impl Robot {
+    #[new]
+    #[pyo3(signature = (anchor_points, exit_points, *, mass, section, linear_density, youngs_modulus, tension_limits,
+        center_of_mass = [0.0; 3], gravity = 9.81, name = "robot".to_owned()))]
+    #[allow(clippy::too_many_arguments)]
+    fn new(
+        anchor_points: Numbers,
+        exit_points: Numbers,
+        mass: f64,
+        section: Numbers,
+        linear_density: Numbers,
+        youngs_modulus: Numbers,
+        tension_limits: [f64; 2],
+        center_of_mass: [f64; 3],
+        gravity: f64,
+        name: String,
+    ) -> Answer<Self> {
+        let (anchors, exits) =
+            (points("anchor_points", &anchor_points)?, points("exit_points", &exit_points)?);
+        if anchors.len() != exits.len() {
+            let (value, expected) = (exits.len(), anchors.len());
+            return Err(Raised::Input(format!(
+                "exit_points has {value} rows: expected {expected}, as anchor_points"
+            )));
+        }
+        let sections = of_cables("section", &section, anchors.len())?;
+        let densities = of_cables("linear_density", &linear_density, anchors.len())?;
+        let moduli = of_cables("youngs_modulus", &youngs_modulus, anchors.len())?;
+        let cables = (0..anchors.len())
+            .map(|i| RobotCable {
+                exit_point: exits[i],
+                anchor_point: anchors[i],
+                properties: CableProperties {
+                    section: sections[i],
+                    linear_density: densities[i],
+                    youngs_modulus: moduli[i],
+                    diameter: None,
+                    breaking_force: None,
+                    law: None,
+                },
+            })
+            .collect();
+        let [min, max] = tension_limits;
+        let robot = cdpr_robot::Robot {
+            name,
+            source: None,
+            gravity,
+            platform: Platform { mass, center_of_mass: center_of_mass.into() },
+            tension_limits: TensionLimits { min, max },
+            cables,
+        };
+        robot.validate()?;
+        Ok(Self { robot })
+    }
+
+    /// Reads a robot file (`cdpr-robot/1`). Raises FileError, and InputError with line, column, field and what would be right.
+    #[staticmethod]
+    fn from_file(path: PathBuf) -> Answer<Self> {
+        Ok(Self { robot: open_robot(&path)? })
+    }
+
+    /// The same from the text of such a file.
+    #[staticmethod]
+    fn from_json(text: &str) -> Answer<Self> {
+        Ok(Self { robot: cdpr_robot::Robot::from_json(text)? })
+    }
+
+    /// The same from what `json.loads` makes of such a file.
+    #[staticmethod]
+    fn from_dict(content: &Bound<PyDict>) -> Answer<Self> {
+        let text: String = content.py().import("json")?.call_method1("dumps", (content,))?.extract()?;
+        Self::from_json(&text)
+    }
+
+    /// The robot file as text.
+    fn to_json(&self) -> String {
+        self.robot.to_json()
+    }
+
+    /// The robot file as a dictionary.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("json")?.call_method1("loads", (self.to_json(),))
+    }
+
+    /// Name of the robot.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.robot.name
+    }
+
+    /// Number of cables n.
+    #[getter]
+    fn cables(&self) -> usize {
+        self.robot.cables.len()
+    }
+
+    /// Points A_i in the platform frame [m], (n, 3).
+    #[getter]
+    fn anchor_points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows: Vec<Vec<f64>> =
+            self.robot.cables.iter().map(|cable| cable.anchor_point.iter().copied().collect()).collect();
+        PyArray2::from_vec2(py, &rows).map_err(|error| Raised::Input(error.to_string()).into())
+    }
+
+    /// Points B_i in the base frame [m], (n, 3).
+    #[getter]
+    fn exit_points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows: Vec<Vec<f64>> =
+            self.robot.cables.iter().map(|cable| cable.exit_point.iter().copied().collect()).collect();
+        PyArray2::from_vec2(py, &rows).map_err(|error| Raised::Input(error.to_string()).into())
+    }
+
+    /// All parameters that studies know, by name, with their values in SI units: mass, linear_density, youngs_modulus, a1.x ..., b1.x ...,
+    /// cog.x ..., dt1 ... (offsets of tension set-points, zero).
+    #[getter]
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let values = PyDict::new(py);
+        for parameter in Parameter::all(self.robot.cables.len()) {
+            values.set_item(parameter.to_string(), parameter.nominal(&self.robot))?;
+        }
+        Ok(values)
+    }
+
+    /// The robot with other values of some of its parameters, by their names in `parameters` [SI units]: `{"mass": 185.0, "a1.x": 0.25}`.
+    ///
+    /// Raises InputError for a name or value that no such robot has.
+    fn with_parameters(&self, values: &Bound<PyDict>) -> Answer<Self> {
+        let values: Vec<(String, f64)> = values
+            .iter()
+            .map(|(name, value)| Ok((name.extract()?, value.extract()?)))
+            .collect::<PyResult<_>>()?;
+        let named: Vec<(&str, f64)> = values.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        Ok(Self { robot: self.robot.with_values(&named)? })
+    }
+
+    /// For `pickle`: a robot goes to other processes as its file.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let class: Bound<PyType> = py.get_type::<Self>();
+        Ok((class.getattr("from_json")?, PyTuple::new(py, [self.to_json()])?))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<cdpr.Robot {}, {} cables>", self.robot.name, self.robot.cables.len())
+    }
+}
+
+fn points(name: &str, array: &Numbers) -> Answer<Vec<Vector3<f64>>> {
+    let shape = array.shape();
+    if !matches!(shape, [_, 3]) {
+        return Err(Raised::Input(format!(
+            "{name} has the shape {shape:?}: expected (n, 3), a point a cable"
+        )));
+    }
+    let values: Vec<f64> = array.as_array().iter().copied().collect();
+    Ok(values.chunks_exact(3).map(Vector3::from_column_slice).collect())
+}
+
+/// A number for each cable.
+fn of_cables(name: &str, array: &Numbers, cables: usize) -> Answer<Vec<f64>> {
+    let values: Vec<f64> = array.as_array().iter().copied().collect();
+    match array.shape() {
+        [] => Ok(vec![values[0]; cables]),
+        [count] if *count == cables => Ok(values),
+        shape => Err(Raised::Input(format!(
+            "{name} has the shape {shape:?}: expected a number, or one for each of the {cables} cables"
+        ))),
+    }
+}

@@ -1,0 +1,241 @@
+"""The models give the numbers of the command line, bit for bit, for one case and for arrays."""
+
+import pickle
+
+import numpy
+import pytest
+from conftest import answer, refusal
+
+import cdpr
+
+POSE = [0.0, 0.0, 1.75]
+TURNED = [0.4, -0.3, 1.6, 0.99, 0.02, -0.03, 0.05]
+LENGTHS = [4.44, 4.54, 4.36, 4.26, 4.26, 4.36, 4.54, 4.44]
+
+
+def words(numbers):
+    return ",".join(repr(float(number)) for number in numbers)
+
+
+def same(array, expected):
+    numpy.testing.assert_array_equal(array, numpy.array(expected))
+
+
+def test_a_cable_is_that_of_the_command_line():
+    for given in (
+        {"length": 4.3, "end": [4.1, -1.7]},
+        {"length": 4.3, "force": [30.0, -12.0]},
+        {"end": [4.1, -1.7], "tension": 55.0},
+    ):
+        flags = [f"--{name}={words(numpy.atleast_1d(value))}" for name, value in given.items()]
+        told = answer("catenary", "--weight", 0.9957, "--stiffness", 1.28e6, *flags)
+        cable = cdpr.catenary(0.9957, 1.28e6, **given)
+        same(cable.force, told["force"])
+        same(cable.end, told["end"])
+        assert cable.anchor_tension == told["tension"]["anchor"]
+        assert cable.exit_tension == told["tension"]["exit"]
+        assert (cable.sag, cable.energy) == (told["sag"], told["energy"])
+        assert (cable.unstrained_length, cable.residual) == (told["unstrained_length"], told["residual"])
+        same(cable.shape[0], [0.0, 0.0])
+        numpy.testing.assert_allclose(cable.shape[-1], told["end"], atol=1e-12)
+
+
+@pytest.mark.parametrize("pose", [POSE, TURNED])
+def test_the_inverse_model_is_that_of_the_command_line(caroca, caroca_file, pose):
+    told = answer("inverse", caroca_file, f"--pose={words(pose)}", "--payload=12.5", "--force=5,-3,2")
+    found = caroca.inverse(pose, payload=12.5, force=[5, -3, 2])
+    same(found.lengths, told["lengths"])
+    same(found.tensions, told["tensions"])
+    same(found.cable_forces, told["cable_forces"])
+    same(found.residual, [told["report"]["residual"][name] for name in ("closure", "force", "moment")])
+    assert found.turns == told["report"]["turns"]
+
+
+def check_direct(found, told):
+    for name in ("position", "rotation", "cable_forces", "tensions"):
+        same(getattr(found, name), told[name])
+    assert found.stable == told["stable"]
+    assert found.least_stiffness == told["report"]["least_stiffness"]
+    assert (found.method, found.iterations) == (told["report"]["method"], told["report"]["iterations"])
+    assert [i + 1 for i in numpy.flatnonzero(found.slack)] == told["report"]["slack_cables"]
+    same(found.residual, [told["residual"][name] for name in ("closure", "force", "moment")])
+
+
+def test_the_direct_model_is_that_of_the_command_line(caroca, caroca_file):
+    flags = (f"--lengths={words(LENGTHS)}", "--force=20,0,-30", "--moment=1,2,3")
+    given = {"force": [20, 0, -30], "moment": [1, 2, 3]}
+    check_direct(caroca.direct(LENGTHS, **given), answer("direct", caroca_file, *flags))
+    start = (f"--start={words(TURNED)}",)
+    check_direct(caroca.direct(LENGTHS, start=TURNED, **given), answer("direct", caroca_file, *flags, *start))
+    heavier = caroca.with_parameters({"mass": 200.0})
+    told = answer("direct", caroca_file, f"--lengths={words(LENGTHS)}", "--mass=200")
+    check_direct(heavier.direct(LENGTHS), told)
+
+
+def test_the_deflection_is_that_of_the_command_line(caroca, caroca_file):
+    told = answer("deflection", caroca_file, f"--pose={words(TURNED)}", "--payload=50", "--moment=3,0,-2")
+    given = caroca.deflection(TURNED, payload=50, moment=[3, 0, -2])
+    same(1e3 * given.displacement, told["deflection_mm"])
+    assert 1e3 * given.rms == told["rms_mm"]
+    # The command line has degrees.
+    numpy.testing.assert_allclose(numpy.degrees(given.turn), told["rotation_deg"], rtol=1e-15)
+    same(given.lengths, told["lengths"])
+    check_direct(given.unloaded, told["unloaded"])
+    check_direct(given.loaded, told["loaded"])
+
+
+def test_the_stiffness_is_that_of_the_command_line(caroca, caroca_file):
+    told = answer("stiffness", caroca_file, f"--pose={words(TURNED)}", "--payload=50")
+    found = caroca.stiffness(TURNED, payload=50)
+    same(found.matrix, told["stiffness"])
+    same(found.eigenvalues, [mode["stiffness"] for mode in told["eigenvalues"]])
+    same(found.translations, [mode["translation"] for mode in told["eigenvalues"]])
+    same(found.rotations, [mode["rotation"] for mode in told["eigenvalues"]])
+    assert (found.least_stiffness, found.stable) == (told["least_stiffness"], told["stable"])
+    assert found.arm == told["arm"]
+
+
+def test_the_derivatives_are_those_of_the_command_line(caroca, caroca_file):
+    told = answer("derivatives", caroca_file, f"--pose={words(TURNED)}", "--payload=50")
+    found = caroca.derivatives(TURNED, payload=50)
+    count = len(told["parameters"])
+    assert found.inputs[:count] == told["parameters"]
+    assert found.inputs[count:] == ["payload", "x", "y", "z", "rx", "ry", "rz"]
+    same(1e3 * found.rms[:count], told["rms_mm"])
+    same(1e3 * found.displacement[:, :count].T, told["deflection_mm"])
+    same(found.lengths[:, :count].T, told["unstrained_lengths"])
+
+
+def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
+    told = answer("workspace", caroca_file, "--box=-3:3:7,-1:1:3,1.75:1.75:1", "--payload=50",
+                  "--uncertainty=a=0.002,b=0.002", "--out", tmp_path)
+    found = caroca.workspace(x=(-3, 3, 7), y=(-1, 1, 3), z=1.75, payload=50,
+                             uncertainty={"a": 0.002, "b": 0.002})
+    assert found.shape == (7, 3, 1)
+    assert found.status == [row["status"] for row in told["rows"]]
+    assert found.reasons == [row["reason"] for row in told["rows"]]
+    assert found.dominant == [row["dominant"] for row in told["rows"]]
+    for name in ("least_tension", "greatest_tension", "least_stiffness", "dominant_share"):
+        same(getattr(found, name), [numpy.nan if row[name] is None else row[name] for row in told["rows"]])
+    plane = caroca.workspace(plane=("z", 1.75), grid=(3, 2))
+    assert plane.shape == (3, 2, 1)
+    same(plane.positions[0], [-3.5, -2.0, 1.75])
+
+
+def test_a_row_of_an_array_is_what_the_case_is_alone(caroca):
+    generator = numpy.random.default_rng(1)
+    poses = numpy.array(POSE) + generator.uniform(-0.5, 0.5, (40, 3))
+    loads = generator.uniform(-30, 30, (40, 3))
+    wanted = caroca.inverse(poses)
+    direct = caroca.direct(wanted.lengths, force=loads, start=POSE)
+    deflection = caroca.deflection(poses, force=loads, payload=10.0)
+    payloads = numpy.linspace(0, 50, 40)
+    stiffness = caroca.stiffness(poses, payload=payloads)
+    derivatives = caroca.derivatives(poses[:5], payload=50)
+    for i, (pose, load) in enumerate(zip(poses, loads)):
+        lengths = caroca.inverse(pose).lengths
+        same(wanted.lengths[i], lengths)
+        alone = caroca.direct(lengths, force=load, start=POSE)
+        same(direct.pose[i], alone.pose)
+        same(direct.slack[i], alone.slack)
+        assert direct.method[i] == alone.method
+        assert deflection.rms[i] == caroca.deflection(pose, force=load, payload=10.0).rms
+        same(stiffness.matrix[i], caroca.stiffness(pose, payload=payloads[i]).matrix)
+        if i < 5:
+            same(derivatives.lengths[i], caroca.derivatives(pose, payload=50).lengths)
+    assert wanted.reasons == [None] * 40
+    assert wanted.active.dtype == numpy.int8 and direct.stable.dtype == bool
+
+
+def test_robots_that_deviate_are_observed_as_they_are_alone(caroca):
+    generator = numpy.random.default_rng(2)
+    names = list(caroca.parameters)
+    sizes = numpy.array([{"mass": 5.0, "linear_density": 1e-3, "youngs_modulus": 5e9}.get(name, 2e-3) for name in names])
+    deviations = sizes * generator.uniform(-1, 1, (600, len(names)))
+    deviations[7, 0] = -1e4
+    found = caroca.observe(POSE, deviations, payload=50)
+    assert found.reasons[7].startswith("platform.mass is -") and numpy.isnan(found.rms[7])
+    same(found.displacement[300:], caroca.observe(POSE, deviations[300:], payload=50).displacement)
+    for row in (0, 100, 599):
+        values = dict(zip(names, numpy.array(list(caroca.parameters.values())) + deviations[row]))
+        offsets = [values.pop(f"dt{i + 1}") for i in range(8)]
+        alone = caroca.with_parameters(values).deflection(POSE, payload=50, tension_offsets=offsets)
+        numpy.testing.assert_allclose(found.displacement[row], alone.displacement, atol=1e-12)
+        assert abs(caroca.observe(POSE, deviations[row], payload=50).rms - alone.rms) < 1e-12
+
+
+def test_no_case_is_an_empty_answer(caroca):
+    found = caroca.direct(numpy.empty((0, 8)))
+    assert found.position.shape == (0, 3) and found.reasons == [] and found.method == []
+
+
+def test_a_case_without_an_answer_is_nan_in_an_array_and_raises_alone(caroca, caroca_file):
+    far = [9.0, 0.0, 1.75]
+    poses = numpy.array([POSE, far, POSE])
+    found = caroca.deflection(poses, payload=50)
+    assert numpy.isnan(found.rms).tolist() == [False, True, False]
+    assert numpy.isnan(found.loaded.tensions[1]).all()
+    text = refusal("deflection", caroca_file, "--pose=9,0,1.75", "--payload=50")
+    assert found.reasons == [None, text, None]
+    with pytest.raises(cdpr.NoSolutionError) as raised:
+        caroca.deflection(far, payload=50)
+    assert str(raised.value) == text
+    assert raised.value.kind == "infeasible_tension"
+
+
+def test_bad_input_is_refused_with_field_value_and_what_would_be_right(caroca, caroca_file, tmp_path):
+    for call, start in (
+        (lambda: caroca.direct([1.0, 2.0]), "lengths is a list of 2: expected one value for each of the 8 cables"),
+        (lambda: caroca.direct([-1.0] * 8), "lengths[0] is -1: expected a finite, positive unstrained length"),
+        (lambda: caroca.inverse([0, 0]), "pose has 2 numbers a row: expected x,y,z [m] or"),
+        (lambda: caroca.inverse([0, 0, 1, 0, 0, 0, 0]), "pose is [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0]: expected"),
+        (lambda: caroca.inverse([0, 0, numpy.nan]), "pose is [0.0, 0.0, NaN]: expected finite numbers"),
+        (lambda: caroca.inverse([[[0]]]), "pose has the shape [1, 1, 1]: expected"),
+        (lambda: caroca.inverse(POSE, force=[1, 2]), "force has 2 numbers a row: expected 3"),
+        (lambda: caroca.inverse([POSE] * 3, payload=[1, 2]), "pose has 3 rows: expected one for all cases, or 2"),
+        (lambda: caroca.inverse(POSE, payload=-1), "payload is -1: expected a mass, zero or more"),
+        (lambda: caroca.observe(POSE, [0.0] * 61), "deviations has 61 numbers a row: expected 62"),
+        (lambda: caroca.observe([POSE, POSE], [0.0] * 62), "pose or load has a row for each case"),
+        (lambda: cdpr.catenary(1, 1e6, length=4, end=[3, 0], points=1), "points is 1: expected 2 or more"),
+        (lambda: caroca.with_parameters({"a9.x": 1.0}), "no parameter is named `a9.x`"),
+        (lambda: caroca.with_parameters({"mass": -1.0}), "platform.mass is -1: expected a finite, positive mass"),
+        (lambda: caroca.workspace(x=0, y=0, z=0, uncertainty={"q": 1}), "uncertainty of q is 1: expected"),
+        (lambda: cdpr.catenary(1, 1e6, length=4), "expected two of what is known"),
+        (lambda: cdpr.Robot.from_json("{}"), "line 1, column 2: "),
+    ):
+        with pytest.raises(cdpr.InputError) as raised:
+            call()
+        assert str(raised.value).startswith(start), str(raised.value)
+        assert isinstance(raised.value, (cdpr.CdprError, ValueError))
+    broken = tmp_path / "broken.json"
+    broken.write_text(open(caroca_file).read().replace('"mass"', '"masse"'))
+    with pytest.raises(cdpr.InputError) as raised:
+        cdpr.Robot.from_file(broken)
+    assert str(raised.value) == refusal("check", broken)
+    with pytest.raises(cdpr.FileError) as raised:
+        cdpr.Robot.from_file(tmp_path / "none.json")
+    assert str(raised.value) == refusal("check", tmp_path / "none.json")
+
+
+def test_a_robot_is_made_of_arrays_and_read_back_to_the_last_bit(caroca):
+    content = caroca.to_dict()
+    cable = content["cable"]
+    made = cdpr.Robot(
+        caroca.anchor_points,
+        caroca.exit_points,
+        mass=content["platform"]["mass"],
+        center_of_mass=content["platform"]["center_of_mass"],
+        section=cable["section"] if "section" in cable else numpy.pi * cable["diameter"] ** 2 / 4,
+        linear_density=cable["linear_density"],
+        youngs_modulus=numpy.full(8, cable["youngs_modulus"]),
+        tension_limits=(content["tension_limits"]["min"], content["tension_limits"]["max"]),
+        gravity=content["gravity"],
+    )
+    assert made.parameters == caroca.parameters
+    assert len(made.parameters) == 62
+    for copy in (cdpr.Robot.from_dict(content), pickle.loads(pickle.dumps(caroca))):
+        same(copy.inverse(TURNED).lengths, caroca.inverse(TURNED).lengths)
+    assert f"{1e3 * made.deflection(POSE, payload=50).rms:.4f}" == "1.3312"
+    stiffer = caroca.with_parameters({"youngs_modulus": 2e11, "a1.x": 0.25})
+    assert stiffer.parameters["youngs_modulus"] == 2e11 and stiffer.anchor_points[0, 0] == 0.25
+    assert caroca.parameters["youngs_modulus"] != 2e11

@@ -1,0 +1,83 @@
+"""The package itself: documentation, examples, import, threads."""
+
+import re
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import ROOT
+
+import cdpr
+
+HERE = Path(__file__).resolve().parents[1]
+
+
+def python(code, folder=ROOT):
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=folder, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_the_example_of_the_readme_prints_what_the_paper_robot_does():
+    code = re.search(r"```python\n(.*?)```", (HERE / "README.md").read_text(), re.DOTALL).group(1)
+    assert len([line for line in code.splitlines() if line]) <= 10
+    assert python(code).startswith("1.3312 mm under 50 kg\n")
+
+
+def test_the_code_of_the_book_runs(tmp_path):
+    text = (ROOT / "docs" / "python.md").read_text()
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    assert len(blocks) >= 3
+    (tmp_path / "data").symlink_to(ROOT / "data")
+    python("\n".join(blocks), tmp_path)
+
+
+@pytest.mark.parametrize("name", ["cables", "deflection_map"])
+def test_an_example_draws_a_figure(name, tmp_path, monkeypatch, caroca_file):
+    matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+    matplotlib.use("svg")
+    figure = tmp_path / "figure.svg"
+    arguments = [name, caroca_file, str(figure)] if name == "deflection_map" else [name, str(figure)]
+    monkeypatch.setattr(sys, "argv", arguments)
+    runpy.run_path(str(HERE / "examples" / f"{name}.py"), run_name="__main__")
+    assert figure.stat().st_size > 5_000
+
+
+def test_everything_public_is_documented():
+    for module in (cdpr, cdpr.sensitivity, cdpr.study, cdpr.errors):
+        for name in getattr(module, "__all__", dir(cdpr.errors)):
+            if not name.startswith("_") and name not in ("annotations", "Law"):
+                assert getattr(module, name).__doc__, name
+    for name in dir(cdpr.Robot):
+        if not name.startswith("_"):
+            assert getattr(cdpr.Robot, name).__doc__, name
+    assert "[m], (3,)" in cdpr.DirectSolution.position.__doc__
+
+
+def test_the_import_leaves_numpy_to_whoever_uses_it():
+    assert python("import sys, cdpr; print('numpy' in sys.modules, 'pandas' in sys.modules)") == "False False\n"
+
+
+def test_numbers_do_not_depend_on_the_threads(caroca_file):
+    code = f"""
+import cdpr, numpy
+robot = cdpr.Robot.from_file({caroca_file!r})
+poses = numpy.random.default_rng(1).uniform(-0.5, 0.5, (500, 3)) + [0, 0, 1.75]
+print(robot.deflection(poses, payload=50).rms.tobytes().hex())
+"""
+    one, many = (python(f"import os; os.environ['RAYON_NUM_THREADS'] = '{n}'\n{code}") for n in (1, 4))
+    assert one == many
+
+
+def test_a_forked_process_computes_after_its_parent_did(caroca):
+    import multiprocessing
+
+    caroca.inverse([[0, 0, 1.75]] * 10)
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        assert pool.apply_async(_least_tension, (caroca,)).get(timeout=60) > 0
+
+
+def _least_tension(robot):
+    return robot.inverse([[0, 0, 1.75]] * 10).tensions.min()

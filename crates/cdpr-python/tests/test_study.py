@@ -1,0 +1,177 @@
+"""Studies give the files of `cdpr study run`, byte for byte, whoever makes their blocks and whatever dies on the way."""
+
+import concurrent.futures
+import json
+import multiprocessing
+import os
+import signal
+import threading
+import time
+from pathlib import Path
+
+import numpy
+import pytest
+from conftest import command
+
+import cdpr
+
+#: Three blocks a design: two whole ones and a short one.
+OBSERVATIONS = 33_000
+
+
+@pytest.fixture(scope="session")
+def study(data, tmp_path_factory):
+    """The mechanical sampling of CAROCA alone, without replicates."""
+    file = json.loads((data / "studies" / "caroca.json").read_text())
+    file.update(robot=str(data / "robots" / "caroca.json"), replicates=2, bootstrap_resamples=20)
+    file["samplings"] = {"mechanical": file["samplings"]["mechanical"]}
+    file.update(surfaces={}, comparison=[])
+    path = tmp_path_factory.mktemp("study") / "mechanical.json"
+    path.write_text(json.dumps(file))
+    return str(path)
+
+
+def files(folder):
+    """All results by name but those that tell how long it took."""
+    told = ("timings.json", "report.html")
+    paths = [path for path in Path(folder).rglob("*") if path.is_file() and path.name not in told]
+    return {str(path.relative_to(folder)): path.read_bytes() for path in paths}
+
+
+@pytest.fixture(scope="session")
+def expected(study, tmp_path_factory):
+    """What the command line writes."""
+    out = tmp_path_factory.mktemp("expected") / "out"
+    done = command("study", "run", study, "--out", out, "--observations", OBSERVATIONS)
+    assert done.returncode == 0, done.stderr
+    written = files(out)
+    assert sum(name.endswith(".block") for name in written) == 9 and "mechanical.svg" in written
+    return written
+
+
+def check(results, expected):
+    found = files(results.folder)
+    assert sorted(found) == sorted(expected)
+    assert [name for name in expected if found[name] != expected[name]] == []
+    assert (results.folder / "report.html").stat().st_size > 1_000_000
+
+
+def test_a_run_writes_what_the_command_line_writes(study, expected, tmp_path):
+    told = []
+    results = cdpr.study.run(study, tmp_path / "out", observations=OBSERVATIONS, threads=1,
+                             progress=lambda done, total: told.append((done, total)))
+    check(results, expected)
+    assert told == sorted(told) and told[-1] == (3 * OBSERVATIONS, 3 * OBSERVATIONS)
+    assert results.timings["threads"] == 1
+    assert results.notes == []
+    table = results.observations("mechanical")
+    lines = (results.folder / "mechanical.csv").read_text().splitlines()
+    assert len(lines) == OBSERVATIONS + 1 and lines[0].split(",") == [*table.dtype.names, "reason"]
+    for row in (0, 1, 20_000, OBSERVATIONS - 1):
+        written = lines[row + 1].split(",")
+        assert written[-2] == table["status"][row]
+        assert [float(number) for number in written[:-2]] == list(table[row])[:-1]
+    mean = results.summary["studies"]["mechanical"]["rms_mm"]["mean"]
+    assert abs(numpy.nanmean(table["rms_mm"]) - mean) < 1e-12
+    pandas = pytest.importorskip("pandas")
+    frame = results.frame("mechanical")
+    assert isinstance(frame, pandas.DataFrame) and len(frame) == OBSERVATIONS
+
+
+def test_a_process_pool_writes_the_same(study, expected, tmp_path):
+    told = []
+    # Forked on purpose, after this process has used its own threads.
+    cdpr.catenary([1.0, 2.0], 1e6, length=5.0, end=[4.0, 1.0])
+    with concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context("fork")) as executor:
+        results = cdpr.study.run(study, tmp_path / "out", observations=OBSERVATIONS, executor=executor,
+                                 progress=lambda *done: told.append(done))
+    check(results, expected)
+    assert len(told) == 10 and told[-1] == (3 * OBSERVATIONS, 3 * OBSERVATIONS)
+
+
+def test_a_pool_of_multiprocessing_writes_the_same_in_fewer_tasks(study, expected, tmp_path):
+    with multiprocessing.get_context("spawn").Pool(2) as pool:
+        results = cdpr.study.run(study, tmp_path / "out", observations=OBSERVATIONS, executor=pool, tasks=4)
+    check(results, expected)
+
+
+def test_after_a_killed_worker_a_resumed_run_ends_with_the_same_bytes(study, expected, tmp_path):
+    out = tmp_path / "out"
+    with concurrent.futures.ProcessPoolExecutor(1) as executor:
+
+        def kill(done, total):
+            if done < total:
+                for process in executor._processes.values():
+                    os.kill(process.pid, signal.SIGKILL)
+
+        with pytest.raises(concurrent.futures.process.BrokenProcessPool):
+            cdpr.study.run(study, out, observations=OBSERVATIONS, executor=executor, progress=kill)
+    kept = [name for name in files(out) if name.endswith(".block")]
+    assert 1 <= len(kept) < 9
+    check(cdpr.study.run(study, out, observations=OBSERVATIONS, resume=True), expected)
+
+
+def test_what_a_callback_raises_ends_a_run_which_then_goes_on(study, expected, tmp_path):
+    out = tmp_path / "out"
+
+    def refuse(done, total):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        cdpr.study.run(study, out, observations=OBSERVATIONS, threads=1, progress=refuse)
+    assert not (out / "summary.json").exists()
+    with pytest.raises(cdpr.FileError, match="resume"):
+        cdpr.study.run(study, out, observations=OBSERVATIONS)
+    check(cdpr.study.run(study, out, observations=OBSERVATIONS, resume=True), expected)
+
+
+def test_ctrl_c_ends_a_run(study, tmp_path):
+    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        cdpr.study.run(study, tmp_path / "out", observations=5_000_000, table="none")
+    assert time.monotonic() - begun < 30
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_dask_writes_the_same_though_a_worker_is_killed(study, expected, tmp_path):
+    distributed = pytest.importorskip("distributed", reason="Dask is not installed")
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True,
+                                  dashboard_address=None) as cluster, distributed.Client(cluster) as client:
+        killed = []
+
+        def kill_one(done, total):
+            if not killed:
+                killed.append(cluster.workers[0].pid)
+                os.kill(killed[0], signal.SIGKILL)
+
+        results = cdpr.study.run(study, tmp_path / "out", observations=OBSERVATIONS, executor=client,
+                                 progress=kill_one)
+    assert killed
+    check(results, expected)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_ray_writes_the_same(study, expected, tmp_path):
+    ray = pytest.importorskip("ray", reason="Ray is not installed")
+    pools = pytest.importorskip("ray.util.multiprocessing")
+    ray.init(num_cpus=2, include_dashboard=False, logging_level="ERROR")
+    try:
+        with pools.Pool(2) as pool:
+            results = cdpr.study.run(study, tmp_path / "out", observations=OBSERVATIONS, executor=pool)
+    finally:
+        ray.shutdown()
+    check(results, expected)
+
+
+def test_settings_that_are_none_are_refused(study, tmp_path):
+    for arguments, error, start in (
+        ({"table": "xlsx"}, cdpr.InputError, "table is xlsx: expected csv or none"),
+        ({"threads": 0}, cdpr.InputError, "threads is 0: expected one or more"),
+        ({"resume": True, "overwrite": True}, cdpr.InputError, "resume and overwrite are both True"),
+        ({"executor": 3}, TypeError, "executor is 3: expected one with"),
+        ({"observations": 2}, cdpr.InputError, f"{study}: samplings.mechanical.observations"),
+    ):
+        with pytest.raises(error) as raised:
+            cdpr.study.run(study, tmp_path / "out", **{"overwrite": True, **arguments})
+        assert str(raised.value).startswith(start), str(raised.value)
