@@ -103,7 +103,7 @@ fn an_operating_point_that_is_none_is_named() {
         ),
         (
             message(&|file| {
-                modulus(file)["operating_point"]["unloading"]["segments"][1]["modulus"] = json!(0)
+                modulus(file)["operating_point"]["unloading"]["segments"][1]["modulus"] = json!(0);
             }),
             "operating_point.unloading.segments[1].modulus is 0: expected a finite, positive modulus",
         ),
