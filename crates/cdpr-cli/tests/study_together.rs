@@ -28,21 +28,19 @@ fn bench(observations: usize) -> Bench {
     })
 }
 
-/// A command whose `PATH` begins with programs of the test: `cdpr` itself, and scripts in place of a scheduler's.
-fn with_programs(bench: &Bench, script: &str, programs: &[(&str, &str)]) -> Command {
+/// Puts programs of the test into a folder: `cdpr` itself, and a script in place of a scheduler's.
+fn put_programs(bench: &Bench, name: &str, text: &str) {
     let folder = bench.path("bin");
-    std::fs::create_dir_all(&folder).unwrap();
-    for (name, text) in programs {
-        let path = folder.join(name);
-        std::fs::write(&path, text).unwrap();
-        std::fs::set_permissions(&path, PermissionsExt::from_mode(0o755)).unwrap();
-    }
-    let cdpr = folder.join("cdpr");
-    if !cdpr.exists() {
-        std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_cdpr"), cdpr).unwrap();
-    }
-    let mut command = bench.command(data(script).to_str().unwrap());
-    command.env("PATH", format!("{}:{}", folder.display(), std::env::var("PATH").unwrap()));
+    std::fs::create_dir(&folder).unwrap();
+    std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_cdpr"), folder.join("cdpr")).unwrap();
+    std::fs::write(folder.join(name), text).unwrap();
+    std::fs::set_permissions(folder.join(name), PermissionsExt::from_mode(0o755)).unwrap();
+}
+
+/// A script of `data`, for which these programs come first.
+fn script(bench: &Bench, file: &str) -> Command {
+    let mut command = bench.command(data(file).to_str().unwrap());
+    command.env("PATH", format!("{}:{}", bench.path("bin").display(), std::env::var("PATH").unwrap()));
     command
 }
 
@@ -50,8 +48,9 @@ fn with_programs(bench: &Bench, script: &str, programs: &[(&str, &str)]) -> Comm
 fn seven_tasks_of_a_slurm_array_make_what_one_run_makes() {
     let bench = bench(20_000);
     bench.run("whole", &["--table", "none"]);
+    put_programs(&bench, "srun", "#!/bin/sh\nexec \"$@\"\n");
     let task = |id: usize| {
-        let mut command = with_programs(&bench, "cluster/slurm.sh", &[("srun", "#!/bin/sh\nexec \"$@\"\n")]);
+        let mut command = script(&bench, "cluster/slurm.sh");
         command.args(["study.json", "shared", "--observations", "20000"]).env("SLURM_CPUS_PER_TASK", "1");
         // An array that does not begin at 1, as `--array=3-9` has it.
         for (end, value) in [("ID", id), ("MIN", 3), ("MAX", 9), ("COUNT", 7)] {
@@ -79,14 +78,14 @@ exit "${failed:-0}"
 "#;
     let bench = bench(20_000);
     bench.run("whole", &["--table", "none"]);
-    let script = |study: &str| {
-        let mut command = with_programs(&bench, "cluster/hyperqueue.sh", &[("hq", HQ)]);
-        command.args(["7", "1", study, "shared"]).output().unwrap()
+    put_programs(&bench, "hq", HQ);
+    let submitted = |study: &str| {
+        script(&bench, "cluster/hyperqueue.sh").args(["7", "1", study, "shared"]).output().unwrap()
     };
-    let failed = script("nowhere.json");
+    let failed = submitted("nowhere.json");
     assert_eq!(failed.status.code(), Some(1));
     assert!(!bench.path("shared").exists());
-    let output = script("study.json");
+    let output = submitted("study.json");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     bench.assert_same("whole", "shared");
 }
