@@ -78,12 +78,14 @@ impl Piece {
 }
 
 /// Position (x, z) of A [m].
+#[cold]
 pub(crate) fn end_position(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
     let ends = pieces(catenary, law).into_iter();
     ends.map(|piece| piece.of(|terms| Vector2::from(terms.end_position()))).sum()
 }
 
 /// How the end answers to forces.
+#[cold]
 pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64> {
     let Catenary { unstrained_length: length, force, cable } = *catenary;
     let (tension, exit) = (catenary.anchor_tension(), catenary.exit_tension());
@@ -127,6 +129,7 @@ pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64>
 }
 
 /// d(x, z)/dw at constant force at A [m²/N].
+#[cold]
 pub(crate) fn end_per_weight(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
     let all = pieces(catenary, law).into_iter();
     all.map(|piece| {
@@ -141,6 +144,7 @@ pub(crate) fn end_per_weight(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2
 }
 
 /// d(x, z)/dEA at constant force at A [m/N]: the strain of each element is inverse to EA.
+#[cold]
 pub(crate) fn end_per_stiffness(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
     let strained: Vector2<f64> = pieces(catenary, law)
         .into_iter()
@@ -155,12 +159,14 @@ pub(crate) fn end_per_stiffness(catenary: &Catenary, law: &PiecewiseLaw) -> Vect
 }
 
 /// Complementary energy [J].
+#[cold]
 pub(crate) fn complementary_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f64 {
     let all = pieces(catenary, law).into_iter();
     all.map(|piece| piece.of(Terms::complementary_energy) + piece.length * piece.stretch.energy).sum()
 }
 
 /// Potential energy [J]: `f·r - U*` by pieces; each lifts what hangs beyond it.
+#[cold]
 pub(crate) fn potential_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f64 {
     let w = catenary.cable.weight_per_length;
     let all = pieces(catenary, law).into_iter();

@@ -148,7 +148,7 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
         let at_rounding = next_open.x.abs() <= rounding.x && next_open.y.abs() <= rounding.y;
         // A full step so small: the next one is below rounding, unless the step met a kink.
         let last = fraction == 1.0
-            && now.cable.law == ElasticLaw::Linear
+            && matches!(now.cable.law, ElasticLaw::Linear)
             && moved.x.abs() <= LAST_STEP * next.force.x
             && moved.y.abs() <= LAST_STEP * next.anchor_tension().min(next.exit_tension());
         (now, compliance, open) = (next, next_compliance, next_open);

@@ -2,11 +2,13 @@
 
 mod carry_out;
 mod print;
+#[cfg(feature = "mpi")]
+mod ranks;
 mod status;
 mod template;
 
 use crate::{report, throughput};
-use cdpr_study::{Existing, Shard, Study, StudyError, TableFormat};
+use cdpr_study::{Blocks, Existing, Shard, Study, StudyError, TableFormat};
 use clap::{Args, Subcommand, ValueEnum};
 use comfy_table::{Table, presets};
 use std::path::PathBuf;
@@ -19,7 +21,8 @@ pub(crate) enum Command {
     /// Run a study file and write observations, figures and a summary; what is done is kept block by block.
     #[command(after_help = "Example: cdpr study run data/studies/caroca.json --out results\n\n\
                       Interrupted or killed, it goes on with --resume and gives the same results to the last bit.\n\
-                      On several machines with a shared folder: --shard 1/4 ... --shard 4/4, then `cdpr study merge`.")]
+                      On several machines with a shared folder: --shard 1/4 ... --shard 4/4, then `cdpr study merge`; or, built with the\n\
+                      feature `mpi`: mpirun -n 4 cdpr study run ....")]
     Run(RunSettings),
     /// Analyse a study whose blocks are all in a folder: those of all shards, say.
     #[command(after_help = "Example: cdpr study merge results")]
@@ -125,6 +128,17 @@ pub(crate) enum RunError {
     Report(#[from] report::WriteError),
     #[error("cannot start {threads} threads: {source}")]
     Threads { threads: u16, source: rayon::ThreadPoolBuildError },
+    #[cfg(not(feature = "mpi"))]
+    #[error(
+        "{processes} processes run this study together: expected one, several with --shard, or a program built with the feature `mpi` \
+         (cargo install --path crates/cdpr-cli --features mpi)"
+    )]
+    WithoutMpi { processes: usize },
+    #[cfg(feature = "mpi")]
+    #[error(
+        "the launcher has started {expected} processes and MPI knows of {found}: expected a launcher of the MPI that the program was built with"
+    )]
+    Ranks { expected: usize, found: usize },
     #[error("cannot wait for Ctrl-C: {0}")]
     Signals(#[from] ctrlc::Error),
     #[error("cannot write JSON: {0}")]
@@ -134,31 +148,16 @@ pub(crate) enum RunError {
 pub(crate) fn run(command: Command) -> Result<(), RunError> {
     match command {
         Command::New(settings) => template::run(&settings),
-        Command::Run(settings) => {
-            let RunSettings { out, resume, overwrite, .. } = &settings;
-            start_threads(settings.common.threads)?;
-            let mut study = Study::open(&settings.study)?;
-            if let Some(observations) = settings.observations {
-                study.set_observations(observations)?;
-            }
-            let shard = settings.shard.as_ref();
-            let shard = shard.map(|text| Shard::parse(text, |name| std::env::var(name).ok())).transpose()?;
-            let existing = match (resume | shard.is_some(), overwrite) {
-                (true, _) => Existing::GoOn,
-                (false, true) => Existing::Overwrite,
-                (false, false) => Existing::Refuse,
-            };
-            let blocks = cdpr_study::begin(out, &study, existing)?;
-            match shard {
-                Some(shard) => carry_out::shard(&study, out, &blocks, shard),
-                None => carry_out::whole(&study, out, &blocks, settings.common.table.map(TableFormat::from)),
-            }
-        }
+        Command::Run(settings) => match processes(|name| std::env::var(name).ok()) {
+            // Shards are told apart by their numbers, however they are launched.
+            Some(processes) if settings.shard.is_none() => together(&settings, processes),
+            _ => alone(&settings),
+        },
         Command::Merge(FolderSettings { folder, common }) => {
             start_threads(common.threads)?;
             let (study, blocks) = cdpr_study::open_results(&folder)?;
             cdpr_study::check_complete(&folder, &study, &blocks)?;
-            carry_out::whole(&study, &folder, &blocks, common.table.map(TableFormat::from))
+            carry_out::whole(&study, &folder, &blocks, common.table.map(TableFormat::from), |_| Ok(()))
         }
         Command::Status(settings) => status::run(&settings),
         Command::Extend { folder: FolderSettings { folder, common }, observations } => {
@@ -166,11 +165,62 @@ pub(crate) fn run(command: Command) -> Result<(), RunError> {
             let (mut study, _) = cdpr_study::open_results(&folder)?;
             study.extend(observations)?;
             let blocks = cdpr_study::begin(&folder, &study, Existing::GoOn)?;
-            carry_out::whole(&study, &folder, &blocks, common.table.map(TableFormat::from))
+            carry_out::whole(&study, &folder, &blocks, common.table.map(TableFormat::from), |_| Ok(()))
         }
         Command::Throughput { study, sampling, observations, threads } => {
             throughput::run(&study, &sampling, observations, threads)
         }
+    }
+}
+
+/// A run in this process alone.
+fn alone(settings: &RunSettings) -> Result<(), RunError> {
+    let (study, blocks) = begun(settings)?;
+    match settings.shard()? {
+        Some(shard) => carry_out::shard(&study, &settings.out, &blocks, shard),
+        None => {
+            let format = settings.common.table.map(TableFormat::from);
+            carry_out::whole(&study, &settings.out, &blocks, format, |_| Ok(()))
+        }
+    }
+}
+
+/// A run in so many processes that `mpirun` or `srun` has started.
+#[cfg(feature = "mpi")]
+fn together(settings: &RunSettings, processes: usize) -> Result<(), RunError> {
+    ranks::share_out(settings, processes)
+}
+
+#[cfg(not(feature = "mpi"))]
+fn together(_: &RunSettings, processes: usize) -> Result<(), RunError> {
+    Err(RunError::WithoutMpi { processes })
+}
+
+/// How many processes were started together with this one, by what Open MPI, other MPIs and Slurm tell each of them; none for one alone.
+fn processes(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
+    let told = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"].into_iter().find_map(variable);
+    told.and_then(|count| count.parse().ok()).filter(|count| *count > 1)
+}
+
+/// The study to run and the folder for its results.
+fn begun(settings: &RunSettings) -> Result<(Study, Blocks), RunError> {
+    start_threads(settings.common.threads)?;
+    let mut study = Study::open(&settings.study)?;
+    if let Some(observations) = settings.observations {
+        study.set_observations(observations)?;
+    }
+    let existing = match (settings.resume | settings.shard()?.is_some(), settings.overwrite) {
+        (true, _) => Existing::GoOn,
+        (false, true) => Existing::Overwrite,
+        (false, false) => Existing::Refuse,
+    };
+    let blocks = cdpr_study::begin(&settings.out, &study, existing)?;
+    Ok((study, blocks))
+}
+
+impl RunSettings {
+    fn shard(&self) -> Result<Option<Shard>, StudyError> {
+        self.shard.as_ref().map(|text| Shard::parse(text, |name| std::env::var(name).ok())).transpose()
     }
 }
 
@@ -185,4 +235,22 @@ pub(crate) fn table(header: &[&str]) -> Table {
     let mut table = Table::new();
     table.load_style(presets::UTF8_FULL_CONDENSED).set_header(header);
     table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::processes;
+
+    #[test]
+    fn a_process_knows_whether_others_were_started_with_it() {
+        let told = |variable: &'static str, value: &'static str| {
+            processes(|name| (name == variable).then(|| value.to_owned()))
+        };
+        assert_eq!(told("OMPI_COMM_WORLD_SIZE", "4"), Some(4));
+        assert_eq!(told("PMI_SIZE", "2"), Some(2));
+        assert_eq!(told("SLURM_STEP_NUM_TASKS", "3"), Some(3));
+        // One task of a job array, and no launcher at all.
+        assert_eq!(told("SLURM_STEP_NUM_TASKS", "1"), None);
+        assert_eq!(told("SLURM_NTASKS", "8"), None);
+    }
 }

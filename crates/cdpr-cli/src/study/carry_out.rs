@@ -29,12 +29,13 @@ pub(super) fn shard(study: &Study, out: &Path, blocks: &Blocks, shard: Shard) ->
     Ok(())
 }
 
-/// Makes what is missing and analyses the whole. Without a format, samplings at one pose have tables as CSV.
+/// Makes what `first` leaves missing and analyses the whole. Without a format, samplings at one pose have tables as CSV.
 pub(super) fn whole(
     study: &Study,
     out: &Path,
     blocks: &Blocks,
     format: Option<TableFormat>,
+    first: impl FnOnce(&Session) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
     let progress = progress(study)?;
     let folder = out.display();
@@ -47,6 +48,9 @@ pub(super) fn whole(
         note: &|note| progress.suspend(|| eprintln!("note: {note}")),
         stop: &|| false,
     };
+    let Watcher { tick, warn, stop, .. } = watcher;
+    first(&Session { blocks: Some(blocks), tick, warn, stop })?;
+    progress.reset();
     let (summary, timings) = cdpr_report::run(study, out, blocks, format, watcher)?;
     progress.finish_and_clear();
     print::print_results(&summary);
