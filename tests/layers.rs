@@ -67,6 +67,7 @@ fn each_numerical_library_is_named_by_one_module_of_a_crate() {
     for (library, modules) in [
         ("clarabel", &["cdpr-tension/src/quadratic_program.rs"][..]),
         ("faer", &["cdpr-sensitivity/src/least_squares.rs", "cdpr-statics/src/equations.rs"]),
+        ("mpi", &["cdpr-cli/src/study/ranks.rs"]),
         ("pulp", &["cdpr-statics/src/lanes.rs"]),
     ] {
         let mut users = Vec::new();

@@ -1,16 +1,19 @@
 #!/usr/bin/env bash
-# Tests the Python package as a user has it: a fresh environment, a wheel, pytest. Further packages to test with, such as dask and ray, are arguments:
+# Tests the Python package as a user has it: a fresh environment, a wheel, pytest, and the type stubs. Arguments are further packages to test
+# with, engines for instance:
 #   crates/cdpr-python/test.sh distributed ray
-# Without them, the tests of these engines are left out, and pytest says so.
+# Without them the tests of these engines are left out, and pytest says so.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-environment=$(mktemp -d)
+target=${CARGO_TARGET_DIR:-$PWD/target}
+# Always in the same place: PyO3 is built again for every other path of an interpreter.
+environment=$target/python-tests
 trap 'rm -rf "$environment"' EXIT
 
 cargo build --release --quiet --package cdpr-cli
-python3 -m venv "$environment"
+python3 -m venv --clear "$environment"
 "$environment/bin/pip" install --quiet ./crates/cdpr-python pytest pandas matplotlib mypy "$@"
 cd crates/cdpr-python
-CDPR="${CARGO_TARGET_DIR:-../../target}/release/cdpr" "$environment/bin/python" -m pytest -q -rs -p no:cacheprovider tests
-"$environment/bin/python" -m mypy.stubtest cdpr
+CDPR=$target/release/cdpr "$environment/bin/python" -m pytest -q -rs -p no:cacheprovider tests
+"$environment/bin/python" -m mypy.stubtest cdpr --mypy-config-file pyproject.toml

@@ -3,7 +3,7 @@
 use crate::arguments::{self, Format, Named};
 use crate::output::Usage;
 use crate::study::{start_threads, table};
-use cdpr_report::{MapQuantity, heat_map};
+use cdpr_report::{MapQuantity, heat_map, tolerance_map};
 use cdpr_robot::{Axis, Robot};
 use cdpr_study::{
     ErrorModel, Extremes, Grid, Study, Workspace, WorkspaceSummary, check_folder, compute_workspace,
@@ -102,10 +102,15 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     let summary = WorkspaceSummary::new(&workspace, &poses);
     write_workspace(&settings.out, &summary)?;
     if grid.normal().is_some() {
-        for quantity in MapQuantity::ALL {
-            match heat_map(&robot, &summary, quantity) {
-                Ok(svg) => write_figure(&settings.out, quantity.name(), &svg).map(|_| ())?,
-                Err(error) => eprintln!("note: no figure {}: {error}", quantity.name()),
+        let mut maps: Vec<_> =
+            MapQuantity::ALL.map(|quantity| (quantity.name(), heat_map(&robot, &summary, quantity))).into();
+        if tolerances.is_some() {
+            maps.push(("dominant_tolerance", tolerance_map(&robot, &summary)));
+        }
+        for (name, map) in maps {
+            match map {
+                Ok(svg) => write_figure(&settings.out, name, &svg).map(|_| ())?,
+                Err(error) => eprintln!("note: no figure {name}: {error}"),
             }
         }
     }

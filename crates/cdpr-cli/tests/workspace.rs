@@ -57,12 +57,19 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
     let names: Vec<_> = written.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
         names,
-        ["deflection.svg", "greatest_tension.svg", "least_stiffness.svg", "workspace.csv", "workspace.json"]
+        [
+            "deflection.svg",
+            "dominant_tolerance.svg",
+            "greatest_tension.svg",
+            "least_stiffness.svg",
+            "workspace.csv",
+            "workspace.json"
+        ]
     );
     assert!(String::from_utf8(text).unwrap().contains("63 positions, payload 50 kg"));
 
     let summary: Value = serde_json::from_slice(&json.stdout).unwrap();
-    assert_eq!(summary, serde_json::from_slice::<Value>(&written[4].1).unwrap());
+    assert_eq!(summary, serde_json::from_slice::<Value>(&written[5].1).unwrap());
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 25);
     let robot = Robot::from_json(&std::fs::read_to_string(data("robots/caroca.json")).unwrap()).unwrap();
     let center = &summary["rows"][31];

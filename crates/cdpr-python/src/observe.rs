@@ -5,7 +5,7 @@ use crate::error::{Answer, Raised};
 use crate::robot::Robot;
 use crate::threads::watched;
 use cdpr_robot::Parameter;
-use cdpr_statics::Observer;
+use cdpr_statics::{Observation, Observer};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
@@ -76,7 +76,7 @@ impl Robot {
         let all = Columns::new(py, cases, &outcomes)?;
         Ok(Observations {
             displacement: all.vector(|found| found.displacement.into())?,
-            rms: all.number(|found| found.rms())?,
+            rms: all.number(Observation::rms)?,
             reasons: reasons(cases, &outcomes),
         })
     }

@@ -78,16 +78,17 @@ pub(crate) fn make_shard(
 pub(crate) fn carry_out(
     py: Python,
     out: PathBuf,
-    table: &str,
+    table: Option<&str>,
     threads: Option<usize>,
     complete: bool,
     progress: Option<Py<PyAny>>,
 ) -> Answer<Vec<String>> {
     let (study, blocks) = open_results(&out)?;
     let format = match table {
-        "csv" => TableFormat::Csv,
-        "none" => TableFormat::None,
-        _ => return Err(Raised::Input(format!("table is {table}: expected csv or none"))),
+        None => None,
+        Some("csv") => Some(TableFormat::Csv),
+        Some("none") => Some(TableFormat::None),
+        Some(table) => return Err(Raised::Input(format!("table is {table}: expected csv or none"))),
     };
     if complete {
         check_complete(&out, &study, &blocks)?;
@@ -114,7 +115,7 @@ pub(crate) fn carry_out(
             note: &note,
             stop: &|| stop.load(Ordering::Relaxed),
         };
-        cdpr_report::run(&study, &out, &blocks, Some(format), watcher).map(|_| ())
+        cdpr_report::run(&study, &out, &blocks, format, watcher).map(|_| ())
     })??;
     tell(py)?;
     let page = report(&Results::read(&out)?);

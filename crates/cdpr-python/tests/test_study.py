@@ -133,6 +133,22 @@ def test_ctrl_c_ends_a_run(study, tmp_path):
     assert time.monotonic() - begun < 30
 
 
+def test_a_study_over_a_grid_of_poses_is_that_of_the_command_line(data, tmp_path):
+    file = json.loads((data / "studies" / "caroca-poses.json").read_text())
+    file["robot"] = str(data / "robots" / "caroca.json")
+    for axis, points in (("x", 5), ("y", 3)):
+        file["samplings"]["plane"]["poses"]["grid"][axis]["points"] = points
+    study = tmp_path / "plane.json"
+    study.write_text(json.dumps(file))
+    done = command("study", "run", study, "--out", tmp_path / "expected")
+    assert done.returncode == 0, done.stderr
+    with concurrent.futures.ProcessPoolExecutor(2) as executor:
+        results = cdpr.study.run(study, tmp_path / "out", executor=executor, tasks=4)
+    check(results, files(tmp_path / "expected"))
+    held = next(name for name in sorted(files(tmp_path / "out")) if name.endswith(".block")).split("/")
+    assert len(results.observations("/".join(held[1:3]))) == 500
+
+
 @pytest.mark.filterwarnings("ignore")
 def test_dask_writes_the_same_though_a_worker_is_killed(study, expected, tmp_path):
     distributed = pytest.importorskip("distributed", reason="Dask is not installed")

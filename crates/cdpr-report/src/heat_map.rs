@@ -2,6 +2,7 @@
 
 use crate::color_map::ColorMap;
 use crate::error::ReportError;
+use crate::name_map::name_map;
 use crate::plane::{self, Paint, Plane};
 use crate::style::{Heading, number};
 use cdpr_robot::Robot;
@@ -60,10 +61,7 @@ pub fn heat_map(
     summary: &WorkspaceSummary,
     quantity: MapQuantity,
 ) -> Result<String, ReportError> {
-    let planes = Plane::of(&summary.grid);
-    let [plane] = &planes[..] else {
-        return Err(ReportError::invalid("grid", &summary.rows.len(), "one place along one axis: a plane"));
-    };
+    let plane = plane_of(summary)?;
     let (words, label, unit) = quantity.words();
     let values = summary.rows.iter().map(|row| quantity.value(row)).collect();
     let map = ColorMap::new(plane.cells()?, values, quantity.name(), &format!("{label} [{unit}]"))?;
@@ -80,4 +78,33 @@ pub fn heat_map(
         key: &plane::key(),
     };
     plane.figure(robot, &heading, &Paint::Values(map), hatched)
+}
+
+/// Map of the tolerance that contributes most to the variance of |dp| over a plane. Hatched is where the platform is not held.
+///
+/// # Errors
+/// As [`heat_map`]; [`ReportError::Empty`] also for a workspace without tolerances.
+pub fn tolerance_map(robot: &Robot, summary: &WorkspaceSummary) -> Result<String, ReportError> {
+    let plane = plane_of(summary)?;
+    let names: Vec<_> = summary.rows.iter().map(|row| row.dominant.as_deref()).collect();
+    let shown = names.iter().flatten().count();
+    if shown == 0 {
+        return Err(ReportError::Empty { what: "no tolerance at any position" });
+    }
+    let title = format!(
+        "{}: tolerance with the largest share of the variance of |dp| at {}, payload {} kg",
+        summary.robot,
+        plane.words(),
+        summary.payload
+    );
+    let line = format!("{shown} of {} positions, the others are hatched", names.len());
+    name_map(&plane, robot, &title, line, &names)
+}
+
+fn plane_of(summary: &WorkspaceSummary) -> Result<Plane, ReportError> {
+    let mut planes = Plane::of(&summary.grid);
+    match (planes.pop(), planes.is_empty()) {
+        (Some(plane), true) => Ok(plane),
+        _ => Err(ReportError::invalid("grid", &summary.rows.len(), "one place along one axis: a plane")),
+    }
 }

@@ -10,6 +10,7 @@
 //! | none: signed effects with their intervals | [`signed_effects`] |
 //! | none: shares of the variance by all measures | [`shares`] |
 //! | none: deflection, stiffness, tension over a plane of the workspace | [`heat_map`] |
+//! | none: the dominant tolerance over it | [`tolerance_map`] |
 //! | none: what a sampling at many poses says over the workspace | [`pose_maps`] |
 //! | none: answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
@@ -36,6 +37,7 @@ mod effects;
 mod error;
 mod heat_map;
 mod histogram;
+mod name_map;
 mod plane;
 mod points;
 mod pose_map;
@@ -49,7 +51,7 @@ mod surface;
 pub use cycle::{Cycle, cycle};
 pub use effects::signed_effects;
 pub use error::ReportError;
-pub use heat_map::{MapQuantity, heat_map};
+pub use heat_map::{MapQuantity, heat_map, tolerance_map};
 pub use histogram::histogram;
 pub use points::{Points, point_effects};
 pub use pose_map::{PoseMap, pose_maps};

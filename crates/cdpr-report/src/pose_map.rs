@@ -3,17 +3,11 @@
 
 use crate::color_map::ColorMap;
 use crate::error::ReportError;
+use crate::name_map::name_map;
 use crate::plane::{self, Paint, Plane};
-use crate::style::{BLUE, GREEN, Heading, Pen, number};
+use crate::style::{Heading, number};
 use cdpr_robot::Robot;
 use cdpr_study::{PoseRow, PosesSummary};
-use plotters::style::RGBColor;
-use std::cmp::Reverse;
-
-/// Parameters with a colour of their own, and that of all others; those of the frame and of what is not held are left out.
-const COLORS: [RGBColor; 5] =
-    [BLUE, RGBColor(0x56, 0xB4, 0xE9), GREEN, RGBColor(0xF0, 0xE4, 0x42), RGBColor(0xCC, 0x79, 0xA7)];
-const OTHERS: RGBColor = RGBColor(0x50, 0x50, 0x50);
 
 /// A map by its name, `mean`, `std` or `dominant`, with `_z00`, ... for the layers of a box; or why it cannot be drawn.
 pub type PoseMap = (String, Result<String, ReportError>);
@@ -72,31 +66,9 @@ fn numbers(
 }
 
 fn dominant(plane: &Plane, robot: &Robot, title: &str, rows: &[&PoseRow]) -> Result<String, ReportError> {
-    let mut names: Vec<(&str, usize)> = Vec::new();
-    for name in rows.iter().filter_map(|row| row.dominant.as_deref()) {
-        match names.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, count)) => *count += 1,
-            None => names.push((name, 1)),
-        }
-    }
-    names.sort_by_key(|(name, count)| (Reverse(*count), *name));
-    let color = |name: &str| {
-        names.iter().zip(COLORS).find(|((known, _), _)| *known == name).map_or(OTHERS, |(_, color)| color)
-    };
-    let colors = rows.iter().map(|row| row.dominant.as_deref().map(color)).collect();
-    let mut key: Vec<_> = plane::key().into();
-    key.extend(names.iter().zip(COLORS).map(|((name, _), color)| ((*name).to_owned(), Pen::bar(color))));
-    if names.len() > COLORS.len() {
-        key.push((format!("{} others", names.len() - COLORS.len()), Pen::bar(OTHERS)));
-    }
-    let heading = Heading {
-        title: &format!("{title}: parameter with the largest t-Student index at {}", plane.words()),
-        lines: &[counted(rows, |row| row.dominant.is_some())],
-        key: &key,
-    };
-    plane.figure(robot, &heading, &Paint::Colors(plane.cells()?, colors), |place| {
-        rows[place].dominant.is_none()
-    })
+    let title = format!("{title}: parameter with the largest t-Student index at {}", plane.words());
+    let names: Vec<_> = rows.iter().map(|row| row.dominant.as_deref()).collect();
+    name_map(plane, robot, &title, counted(rows, |row| row.dominant.is_some()), &names)
 }
 
 fn counted(rows: &[&PoseRow], shown: impl Fn(&PoseRow) -> bool) -> String {

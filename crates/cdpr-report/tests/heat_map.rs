@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
-use cdpr_report::{MapQuantity, ReportError, heat_map};
+use cdpr_report::{MapQuantity, ReportError, heat_map, tolerance_map};
 use cdpr_robot::{Axis, Robot};
-use cdpr_study::{Grid, GridAxis, Workspace, WorkspaceSummary, compute_workspace};
+use cdpr_study::{Grid, GridAxis, Workspace, WorkspaceRow, WorkspaceSummary, compute_workspace};
 
 fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
@@ -38,6 +38,24 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
         }
         assert_eq!(svg, heat_map(&robot, &summary, quantity).unwrap());
     }
+}
+
+#[test]
+fn each_position_has_the_colour_of_its_dominant_tolerance() {
+    let robot = caroca();
+    let mut summary = summary(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap());
+    assert!(matches!(tolerance_map(&robot, &summary), Err(ReportError::Empty { .. })));
+    let held = |row: &&mut WorkspaceRow| row.status == "held";
+    for (k, row) in summary.rows.iter_mut().filter(held).enumerate() {
+        row.dominant = Some(if k < 2 { "a1.x" } else { "youngs_modulus" }.to_owned());
+    }
+    let svg = tolerance_map(&robot, &summary).unwrap();
+    let held = summary.rows.iter().filter(|row| row.status == "held").count();
+    // Cells; the key has a bar of each name.
+    assert_eq!(count(&svg, "<rect"), 1 + 63);
+    let blue = count(&svg, "fill=\"#0072B2\"");
+    assert_eq!((blue, count(&svg, "fill=\"#56B4E9\"")), (held - 2, 2));
+    assert!(svg.contains("youngs_modulus") && svg.contains("a1.x") && svg.contains("of 63 positions"));
 }
 
 #[test]

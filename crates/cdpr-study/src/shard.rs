@@ -2,7 +2,7 @@
 
 use crate::error::StudyError;
 
-/// Every `count`-th block of a study.
+/// One of every `count` blocks of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     index: usize,
@@ -40,8 +40,18 @@ impl Shard {
 
     /// Whether a block is in it, by its number in the whole study from 0 on.
     pub(crate) fn has(self, block: usize) -> bool {
-        block % self.count == self.index - 1
+        let (round, place) = (block / self.count, block % self.count);
+        (place + mixed(round as u64) as usize % self.count) % self.count == self.index - 1
     }
+}
+
+/// A number without any pattern (splitmix64). Each round of blocks begins with another shard: else one of ten would have the top layer of all
+/// poses of a box with ten layers, of which perhaps none is held.
+fn mixed(number: u64) -> u64 {
+    let z = number.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
 }
 
 fn from_scheduler(
@@ -111,6 +121,18 @@ mod tests {
         let shards: Vec<Shard> = (1..=3).map(|index| Shard { index, count: 3 }).collect();
         for block in 0..10 {
             assert_eq!(shards.iter().filter(|shard| shard.has(block)).count(), 1);
+        }
+    }
+
+    #[test]
+    fn a_layer_of_a_box_is_shared_by_all_shards_even_if_there_are_as_many_shards_as_layers() {
+        for layers in [10, 20, 100] {
+            let of_shard = |index| {
+                let shard = Shard { index, count: 10 };
+                (0..1000).filter(|column| shard.has(layers * column + layers - 1)).count()
+            };
+            let blocks: Vec<usize> = (1..=10).map(of_shard).collect();
+            assert!(blocks.iter().all(|count| (60..140).contains(count)), "{layers} layers: {blocks:?}");
         }
     }
 

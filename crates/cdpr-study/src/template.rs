@@ -16,7 +16,8 @@ The study runs as it is. Replace by what you know of your robot:
     a, b, cog, dt        anchor points, exit points, centre of mass [m], tension set-points [N]; a3.x alone goes before its group
     law                  uniform {min, max}, normal {mean, std}, truncated_normal, triangular {min, mode, max}, beta
     steps                left out: {nearest: {step: 0.001}} rounds values to steps of 1 mm
-  samplings              all of them at once: pose (position [m]; quaternion [w, x, y, z]), error model, number of observations
+  samplings              all of them at once: pose (position [m]; quaternion [w, x, y, z]) or poses (a list or a grid), error model, number of
+                         observations
   surfaces               two parameters over a grid, all others as in the robot file
   replicates             scrambled samplings behind the intervals of signed effects
   sensitivity            measures of sensitivity beside each other; without it the study is faster

@@ -6,20 +6,45 @@ from typing import Any, Callable, TypeAlias, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__all__ = [
+    "Catenary",
+    "Deflection",
+    "Derivatives",
+    "DirectSolution",
+    "Effects",
+    "Expansion",
+    "InverseSolution",
+    "MorrisDesign",
+    "MorrisEffects",
+    "Observations",
+    "Robot",
+    "SaltelliDesign",
+    "SobolDesign",
+    "SobolIndices",
+    "Stiffness",
+    "VERSION",
+    "Workspace",
+    "begin",
+    "carry_out",
+    "catenary",
+    "make_shard",
+    "observations",
+]
+
 VERSION: str
 
-Floats: TypeAlias = NDArray[np.float64]
+_Floats: TypeAlias = NDArray[np.float64]
 #: A number for one case, an array (m,) for m.
-Float: TypeAlias = Any
-Bool: TypeAlias = Any
-Int: TypeAlias = Any
+_Float: TypeAlias = Any
+_Bool: TypeAlias = Any
+_Int: TypeAlias = Any
 #: A word for one case, a list for m.
-Word: TypeAlias = Any
-Reasons: TypeAlias = list[str | None] | None
-Path: TypeAlias = str | PathLike[str]
-Law: TypeAlias = dict[str, dict[str, float]]
+_Word: TypeAlias = Any
+_Reasons: TypeAlias = list[str | None] | None
+_Path: TypeAlias = str | PathLike[str]
+_Law: TypeAlias = dict[str, dict[str, float]]
 #: A place [m], or from, to and how many.
-Places: TypeAlias = float | tuple[float, float, int]
+_Places: TypeAlias = float | tuple[float, float, int]
 
 @final
 class Robot:
@@ -38,7 +63,7 @@ class Robot:
         name: str = ...,
     ) -> Robot: ...
     @staticmethod
-    def from_file(path: Path) -> Robot: ...
+    def from_file(path: _Path) -> Robot: ...
     @staticmethod
     def from_json(text: str) -> Robot: ...
     @staticmethod
@@ -50,9 +75,9 @@ class Robot:
     @property
     def cables(self) -> int: ...
     @property
-    def anchor_points(self) -> Floats: ...
+    def anchor_points(self) -> _Floats: ...
     @property
-    def exit_points(self) -> Floats: ...
+    def exit_points(self) -> _Floats: ...
     @property
     def parameters(self) -> dict[str, float]: ...
     def with_parameters(self, values: dict[str, float]) -> Robot: ...
@@ -111,9 +136,9 @@ class Robot:
     def workspace(
         self,
         *,
-        x: Places | None = None,
-        y: Places | None = None,
-        z: Places | None = None,
+        x: _Places | None = None,
+        y: _Places | None = None,
+        z: _Places | None = None,
         plane: tuple[str, float] | None = None,
         grid: tuple[int, int] = ...,
         payload: float = 50.0,
@@ -122,95 +147,95 @@ class Robot:
 
 @final
 class Catenary:
-    force: Floats
-    anchor_tension: Float
-    exit_tension: Float
-    sag: Float
-    energy: Float
-    unstrained_length: Float
-    end: Floats
-    residual: Float
-    shape: Floats
-    reasons: Reasons
+    force: _Floats
+    anchor_tension: _Float
+    exit_tension: _Float
+    sag: _Float
+    energy: _Float
+    unstrained_length: _Float
+    end: _Floats
+    residual: _Float
+    shape: _Floats
+    reasons: _Reasons
 
 @final
 class InverseSolution:
-    lengths: Floats
-    tensions: Floats
-    cable_forces: Floats
+    lengths: _Floats
+    tensions: _Floats
+    cable_forces: _Floats
     active: NDArray[np.int8]
-    residual: Floats
-    turns: Int
-    reasons: Reasons
+    residual: _Floats
+    turns: _Int
+    reasons: _Reasons
 
 @final
 class DirectSolution:
-    position: Floats
-    quaternion: Floats
-    rotation: Floats
-    pose: Floats
-    cable_forces: Floats
-    tensions: Floats
-    stable: Bool
-    least_stiffness: Float
+    position: _Floats
+    quaternion: _Floats
+    rotation: _Floats
+    pose: _Floats
+    cable_forces: _Floats
+    tensions: _Floats
+    stable: _Bool
+    least_stiffness: _Float
     slack: NDArray[np.bool_]
-    residual: Floats
-    method: Word
-    iterations: Int
-    reasons: Reasons
+    residual: _Floats
+    method: _Word
+    iterations: _Int
+    reasons: _Reasons
 
 @final
 class Deflection:
-    displacement: Floats
-    rms: Float
-    turn: Floats
-    lengths: Floats
+    displacement: _Floats
+    rms: _Float
+    turn: _Floats
+    lengths: _Floats
     unloaded: DirectSolution
     loaded: DirectSolution
-    reasons: Reasons
+    reasons: _Reasons
 
 @final
 class Stiffness:
-    matrix: Floats
-    eigenvalues: Floats
-    translations: Floats
-    rotations: Floats
-    least_stiffness: Float
-    stable: Bool
-    arm: Float
-    reasons: Reasons
+    matrix: _Floats
+    eigenvalues: _Floats
+    translations: _Floats
+    rotations: _Floats
+    least_stiffness: _Float
+    stable: _Bool
+    arm: _Float
+    reasons: _Reasons
 
 @final
 class Derivatives:
     inputs: list[str]
-    rms: Floats
-    displacement: Floats
-    lengths: Floats
-    set_points: Floats
-    tensions: Floats
+    rms: _Floats
+    displacement: _Floats
+    lengths: _Floats
+    set_points: _Floats
+    tensions: _Floats
     deflection: Deflection
-    reasons: Reasons
+    reasons: _Reasons
 
 @final
 class Observations:
-    displacement: Floats
-    rms: Float
-    reasons: Reasons
+    displacement: _Floats
+    rms: _Float
+    reasons: _Reasons
 
 @final
 class Workspace:
     shape: tuple[int, int, int]
-    positions: Floats
+    positions: _Floats
     status: list[str]
     reasons: list[str | None]
-    least_tension: Floats
-    greatest_tension: Floats
-    displacement: Floats
-    rms: Floats
-    least_stiffness: Floats
+    least_tension: _Floats
+    greatest_tension: _Floats
+    displacement: _Floats
+    rms: _Floats
+    least_stiffness: _Floats
     dominant: list[str | None]
-    dominant_share: Floats
-    std: Floats
+    dominant_share: _Floats
+    std: _Floats
 
 def catenary(
     weight: ArrayLike,
@@ -226,9 +251,9 @@ def catenary(
 @final
 class SobolDesign:
     def __new__(
-        cls, inputs: dict[str, Law], points: int, *, first_index: int = 0, seed: int | None = None
+        cls, inputs: dict[str, _Law], points: int, *, first_index: int = 0, seed: int | None = None
     ) -> SobolDesign: ...
-    def rows(self) -> Floats: ...
+    def rows(self) -> _Floats: ...
     def effects(self, outputs: ArrayLike) -> Effects: ...
     def expansion(
         self, outputs: ArrayLike, *, max_degree: int = 5, norm: float = 1.0, interactions: int = 2
@@ -238,29 +263,29 @@ class SobolDesign:
 class SaltelliDesign:
     def __new__(
         cls,
-        inputs: dict[str, Law],
+        inputs: dict[str, _Law],
         blocks: int,
         *,
         seed: int | None = None,
         pairs: bool = False,
         first_index: int = 0,
     ) -> SaltelliDesign: ...
-    def rows(self) -> Floats: ...
+    def rows(self) -> _Floats: ...
     def indices(
         self, outputs: ArrayLike, *, level: float = 0.95, resamples: int = 1000, seed: int = 0
     ) -> SobolIndices: ...
 
 @final
 class MorrisDesign:
-    def __new__(cls, inputs: dict[str, Law], blocks: int, *, seed: int) -> MorrisDesign: ...
-    def rows(self) -> Floats: ...
+    def __new__(cls, inputs: dict[str, _Law], blocks: int, *, seed: int) -> MorrisDesign: ...
+    def rows(self) -> _Floats: ...
     def effects(self, outputs: ArrayLike, *, level: float = 0.95) -> MorrisEffects: ...
 
 @final
 class Effects:
     inputs: list[str]
-    effect: Floats
-    student: Floats
+    effect: _Floats
+    student: _Floats
     mean: float
     std: float
     failed: int
@@ -268,13 +293,13 @@ class Effects:
 @final
 class SobolIndices:
     inputs: list[str]
-    first: Floats
-    first_interval: Floats
-    total: Floats
-    total_interval: Floats
+    first: _Floats
+    first_interval: _Floats
+    total: _Floats
+    total_interval: _Floats
     pairs: list[tuple[str, str]]
-    second: Floats
-    second_interval: Floats
+    second: _Floats
+    second_interval: _Floats
     variance: float
     blocks: int
     failed_blocks: int
@@ -282,10 +307,10 @@ class SobolIndices:
 @final
 class MorrisEffects:
     inputs: list[str]
-    mean: Floats
-    mean_absolute: Floats
-    mean_absolute_interval: Floats
-    std: Floats
+    mean: _Floats
+    mean_absolute: _Floats
+    mean_absolute_interval: _Floats
+    std: _Floats
 
 @final
 class Expansion:
@@ -300,20 +325,20 @@ class Expansion:
     @property
     def leave_one_out(self) -> float: ...
     @property
-    def first(self) -> Floats: ...
+    def first(self) -> _Floats: ...
     @property
-    def total(self) -> Floats: ...
-    def predict(self, rows: ArrayLike) -> Floats: ...
+    def total(self) -> _Floats: ...
+    def predict(self, rows: ArrayLike) -> _Floats: ...
 
 def begin(
-    study: Path, out: Path, observations: int | None, resume: bool, overwrite: bool
+    study: _Path, out: _Path, observations: int | None, resume: bool, overwrite: bool
 ) -> tuple[int, int]: ...
-def make_shard(out: Path, index: int, count: int, threads: int) -> int: ...
+def make_shard(out: _Path, index: int, count: int, threads: int) -> int: ...
 def carry_out(
-    out: Path,
-    table: str,
+    out: _Path,
+    table: str | None,
     threads: int | None,
     complete: bool,
     progress: Callable[[int, int], object] | None,
 ) -> list[str]: ...
-def observations(out: Path, sampling: str) -> tuple[list[str], Floats, Floats, list[str | None]]: ...
+def observations(out: _Path, sampling: str) -> tuple[list[str], _Floats, _Floats, list[str | None]]: ...

@@ -18,7 +18,6 @@ from . import _core
 
 if TYPE_CHECKING:
     import numpy
-    import pandas
 
 __all__ = ["Results", "open_results", "run"]
 
@@ -47,7 +46,8 @@ class Results:
 
     def observations(self, sampling: str) -> "numpy.ndarray[Any, Any]":
         """The observations of a sampling as a structured array, with the columns of its table but for `reason`: `index`, `d_mass`, ... [SI units],
-        `dx_mm`, `dy_mm`, `dz_mm`, `rms_mm` (NaN where it failed), `status` (`ok` or the kind of failure)."""
+        `dx_mm`, `dy_mm`, `dz_mm`, `rms_mm` (NaN where it failed), `status` (`ok` or the kind of failure). Of a sampling at several poses
+        those at one of them, by its name: `plane/0003`."""
         import numpy
 
         names, rows, deflections, failures = _core.observations(self.folder, sampling)
@@ -62,8 +62,8 @@ class Results:
         table["status"] = status
         return table
 
-    def frame(self, sampling: str) -> "pandas.DataFrame":
-        """The same as a pandas frame, with the index as its index."""
+    def frame(self, sampling: str) -> Any:
+        """The same as a `pandas.DataFrame`, with the index as its index."""
         import pandas
 
         return pandas.DataFrame(self.observations(sampling)).set_index("index")
@@ -84,7 +84,7 @@ def run(
     observations: Optional[int] = None,
     resume: bool = False,
     overwrite: bool = False,
-    table: str = "csv",
+    table: Optional[str] = None,
     threads: Optional[int] = None,
     progress: Optional[Progress] = None,
     executor: Any = None,
@@ -94,7 +94,7 @@ def run(
 
     observations: of each sampling, in place of the file's.
     resume: go on with what the folder holds of this study; overwrite: begin anew. Else a folder that holds blocks is refused.
-    table: "csv", or "none" for no tables of observations.
+    table: "csv", or "none" for no tables of observations; csv if left out, but none of samplings at several poses.
     threads: of this process; all cores if left out. The numbers do not depend on it.
     progress: told (done, all) observations from time to time, in the thread that called; what it raises ends the run, as Ctrl-C does.
     executor: who makes the blocks of observations, in place of this process: an executor of `concurrent.futures`, Dask's client, or a pool with

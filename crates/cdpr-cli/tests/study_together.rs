@@ -1,0 +1,181 @@
+//! A study shared by processes, through the scripts for clusters and through MPI: the files are those of one run.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+#![cfg(unix)]
+
+mod common;
+
+use common::{Bench, data};
+use serde_json::json;
+use std::os::unix::fs::PermissionsExt;
+use std::process::Command;
+
+/// Two samplings of blocks enough for seven, one of them at several poses.
+fn bench(observations: usize) -> Bench {
+    Bench::new("caroca-poses.json", |study| {
+        // Few inputs: rows of many would take longer than the mechanics.
+        let model = study["error_models"]["table_4"].as_object_mut().unwrap();
+        model.retain(|name, _| ["mass", "youngs_modulus"].contains(&name.as_str()));
+        let sampling = &mut study["samplings"]["plane"];
+        sampling["observations"] = json!(observations);
+        sampling["poses"]["grid"]["x"]["points"] = json!(5);
+        sampling["poses"]["grid"]["y"]["points"] = json!(3);
+        let mut alone = sampling.clone();
+        alone.as_object_mut().unwrap().remove("poses");
+        alone["pose"] = json!({"position": [0.0, 0.0, 1.75]});
+        study["samplings"]["alone"] = alone;
+        study["replicates"] = json!(2);
+    })
+}
+
+/// Puts programs of the test into a folder: `cdpr` itself, and a script in place of a scheduler's.
+fn put_programs(bench: &Bench, name: &str, text: &str) {
+    let folder = bench.path("bin");
+    std::fs::create_dir(&folder).unwrap();
+    std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_cdpr"), folder.join("cdpr")).unwrap();
+    std::fs::write(folder.join(name), text).unwrap();
+    std::fs::set_permissions(folder.join(name), PermissionsExt::from_mode(0o755)).unwrap();
+}
+
+/// A script of `data`, for which these programs come first.
+fn script(bench: &Bench, file: &str) -> Command {
+    let mut command = bench.command(data(file).to_str().unwrap());
+    command.env("PATH", format!("{}:{}", bench.path("bin").display(), std::env::var("PATH").unwrap()));
+    command
+}
+
+#[test]
+fn seven_tasks_of_a_slurm_array_make_what_one_run_makes() {
+    let bench = bench(20_000);
+    bench.run("whole", &["--table", "none"]);
+    put_programs(&bench, "srun", "#!/bin/sh\nexec \"$@\"\n");
+    let task = |id: usize| {
+        let mut command = script(&bench, "cluster/slurm.sh");
+        command.args(["study.json", "shared", "--observations", "20000"]).env("SLURM_CPUS_PER_TASK", "1");
+        // An array that does not begin at 1, as `--array=3-9` has it.
+        for (end, value) in [("ID", id), ("MIN", 3), ("MAX", 9), ("COUNT", 7)] {
+            command.env(format!("SLURM_ARRAY_TASK_{end}"), value.to_string());
+        }
+        command.stdout(std::process::Stdio::null()).spawn().unwrap()
+    };
+    let tasks: Vec<_> = (3..=9).rev().map(task).collect();
+    for mut task in tasks {
+        assert!(task.wait().unwrap().success());
+    }
+    bench.done(&["merge", "shared", "--table", "none"]);
+    bench.assert_same("whole", "shared");
+}
+
+#[test]
+fn seven_tasks_of_hyperqueue_make_what_one_run_makes_and_a_failed_one_ends_the_script() {
+    // What `hq submit --array 1-n ... -- COMMAND` does, all tasks at once.
+    const HQ: &str = r#"#!/bin/bash
+while [ "$1" != -- ]; do [ "$1" = --array ] && last=${2#1-}; shift; done
+shift
+for id in $(seq "$last"); do HQ_TASK_ID=$id "$@" > /dev/null & pids+=($!); done
+for pid in "${pids[@]}"; do wait "$pid" || failed=1; done
+exit "${failed:-0}"
+"#;
+    let bench = bench(20_000);
+    bench.run("whole", &["--table", "none"]);
+    put_programs(&bench, "hq", HQ);
+    let submitted = |study: &str| {
+        script(&bench, "cluster/hyperqueue.sh").args(["7", "1", study, "shared"]).output().unwrap()
+    };
+    let failed = submitted("nowhere.json");
+    assert_eq!(failed.status.code(), Some(1));
+    assert!(!bench.path("shared").exists());
+    let output = submitted("study.json");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    bench.assert_same("whole", "shared");
+}
+
+#[cfg(not(feature = "mpi"))]
+#[test]
+fn processes_of_a_launcher_without_mpi_or_shards_are_refused() {
+    let bench = bench(100);
+    let mut command = bench.command(env!("CARGO_BIN_EXE_cdpr"));
+    let output =
+        command.env("OMPI_COMM_WORLD_SIZE", "4").args(["study", "run", "study.json"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        text.starts_with("error: 4 processes run this study together: expected one, several with --shard"),
+        "{text}"
+    );
+    assert!(!bench.path("results").exists());
+}
+
+#[cfg(feature = "mpi")]
+mod mpi {
+    use super::*;
+    use std::path::Path;
+    use std::process::Stdio;
+    use std::time::{Duration, Instant};
+
+    /// `mpirun -n 2 cdpr study run ...`; none, with a word of it, where there is no MPI.
+    fn ranks(bench: &Bench, arguments: &[&str]) -> Option<Command> {
+        let mut command = bench.command("mpirun");
+        // Open MPI refuses root and more ranks than cores unless it is told otherwise.
+        for variable in ["ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_rmaps_base_oversubscribe"] {
+            command.env(format!("OMPI_{variable}"), "1");
+        }
+        if Command::new("mpirun").arg("--version").output().is_err() {
+            println!("skipped: mpirun is not installed");
+            return None;
+        }
+        command.args(["-n", "2", env!("CARGO_BIN_EXE_cdpr"), "study", "run"]).args(arguments);
+        command.args(["--threads", "1", "--table", "none"]);
+        Some(command)
+    }
+
+    /// Blocks below a folder that is being written to.
+    fn count_blocks(folder: &Path) -> usize {
+        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        let count = |path: std::path::PathBuf| {
+            let is_block = path.extension().is_some_and(|extension| extension == "block");
+            if path.is_dir() { count_blocks(&path) } else { usize::from(is_block) }
+        };
+        entries.map(count).sum()
+    }
+
+    #[test]
+    fn two_ranks_make_what_one_process_makes() {
+        let bench = bench(20_000);
+        let Some(mut command) = ranks(&bench, &["study.json", "--out", "ranks"]) else { return };
+        let output = command.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        bench.run("whole", &["--table", "none"]);
+        bench.assert_same("whole", "ranks");
+        let output = ranks(&bench, &["study.json", "--out", "ranks"]).unwrap().output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(text.contains("--resume goes on with them"), "{text}");
+        assert_eq!(text.matches("error: ").count(), 1, "said once: {text}");
+    }
+
+    #[test]
+    fn a_killed_rank_leaves_its_blocks_and_the_resumed_run_ends_with_the_same_bytes() {
+        let bench = bench(200_000);
+        let Some(mut command) = ranks(&bench, &["study.json", "--out", "ranks"]) else { return };
+        let mut launcher = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let clock = Instant::now();
+        let blocks = || count_blocks(&bench.path("ranks/blocks"));
+        while blocks() < 3 && clock.elapsed() < Duration::from_secs(120) {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let children = format!("/proc/{0}/task/{0}/children", launcher.id());
+        let children = std::fs::read_to_string(children).unwrap();
+        let rank = children.split_whitespace().last().unwrap();
+        assert!(Command::new("kill").args(["-KILL", rank]).status().unwrap().success());
+        assert!(!launcher.wait().unwrap().success());
+        let (left, all) = (blocks(), 3 * 13 + 3 * 13);
+        assert!((3..all).contains(&left), "{left} of {all} blocks");
+        assert!(!bench.path("ranks/summary.json").exists());
+        let mut resumed = ranks(&bench, &["study.json", "--out", "ranks", "--resume"]).unwrap();
+        let output = resumed.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        bench.run("whole", &["--table", "none"]);
+        bench.assert_same("whole", "ranks");
+    }
+}
