@@ -150,8 +150,8 @@ const CASES: [(&str, &str); 70] = [
         "hysteresis robot.json --record noisy.csv --length 1 --pose 0,0,1.75 --payload 50",
     ),
     (
-        "record in other units",
-        "hysteresis robot.json --record micrometres.csv --length 1 --pose 0,0,1.75 --payload 50",
+        "length in other units",
+        "hysteresis robot.json --record record.csv --length 0.001 --pose 0,0,1.75 --payload 50",
     ),
     (
         "record without phase",
