@@ -1,10 +1,11 @@
-% Where CAROCA stands for two sets of cable lengths: the command line from MATLAB or Octave. Run it at the root of the repository.
+% Where CAROCA stands for two sets of cable lengths: the command line from MATLAB or Octave.
 if ~exist('cdpr', 'var'), cdpr = 'cdpr'; end % the program; its path where the shell does not find it
+robot = fullfile(fileparts(mfilename('fullpath')), '..', '..', 'data', 'robots', 'caroca.json');
 lengths = [4.44 4.54 4.36 4.26 4.26 4.36 4.54 4.44; 4.45 4.55 4.37 4.27 4.27 4.37 4.55 4.45]; % [m], a case a row
 cases = arrayfun(@(row) struct('lengths', lengths(row, :), 'force', [0 0 -100]), 1:size(lengths, 1));
 file = [tempname '.json'];
 id = fopen(file, 'w'); fprintf(id, '%s', jsonencode(cases)); fclose(id);
-[status, text] = system([cdpr ' direct data/robots/caroca.json --format json --from ' file]);
+[status, text] = system([cdpr ' direct ' robot ' --format json --from ' file]);
 answers = jsondecode(text);
 positions = [answers.position]; % [m], a case a column
 fprintf('%.6f %.6f %.6f m\n', positions);
