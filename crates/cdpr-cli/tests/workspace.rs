@@ -82,7 +82,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
         (&"infeasible_tension".into(), &Value::Null)
     );
 
-    let table = String::from_utf8(written[3].1.clone()).unwrap();
+    let table = String::from_utf8(written[4].1.clone()).unwrap();
     let lines: Vec<_> = table.lines().collect();
     assert_eq!(lines.len(), 64);
     assert!(lines[0].starts_with("x,y,z,status,least_tension,greatest_tension,dx_mm"));
@@ -114,7 +114,7 @@ fn a_box_has_no_maps_and_a_study_may_give_the_tolerances() {
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 62);
     // A uniform law of half width 18 kg.
     assert!((summary["uncertainties"]["mass"].as_f64().unwrap() - 18.0 / 3f64.sqrt()).abs() < 1e-12);
-    assert_eq!(files(&folder.path().join("out")).len(), 5, "the box is a plane: y has one place");
+    assert_eq!(files(&folder.path().join("out")).len(), 6, "the box is a plane: y has one place");
     run(folder.path(), &["--box=-1:1:2,0:1:2,1:2:2", "--out", "box"]);
     assert_eq!(files(&folder.path().join("box")).len(), 2);
 }
