@@ -14,6 +14,8 @@
 //! With S the sum of L_k/EA_k and N that of α_k times the inextensible flexibilities, the flexibility is `S 1 + N` and its determinant
 //! `S² + S tr N + det N`. The complementary energy is the integral over the cable of a convex function of a convex one: the force at
 //! the end stays unique.
+//!
+//! What is called from outside is marked cold: most cables are linear, and their code is shorter when it is laid out for them.
 
 use crate::catenary::Catenary;
 use crate::law::{PiecewiseLaw, Stretch};
