@@ -101,6 +101,13 @@ pub(crate) fn run(mut rest: Vec<String>) -> ExitCode {
     };
     let save = take("--save-baseline");
     let times = if take("--strict") { Times::Strict } else { Times::Told };
+    if save && !rest.is_empty() {
+        eprintln!(
+            "error: --save-baseline with `{}`: expected no further arguments, a baseline is of all benchmarks",
+            rest.join(" ")
+        );
+        return ExitCode::FAILURE;
+    }
     let outcome = measure(&rest).and_then(|now| {
         let code = compare(&now, times)?;
         if save { write_baseline(&now).map(|()| ExitCode::SUCCESS) } else { Ok(code) }

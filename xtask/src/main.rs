@@ -38,6 +38,10 @@ fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
     let task = arguments.next();
     let rest: Vec<String> = arguments.collect();
+    if rest.iter().any(|argument| argument == "--help" || argument == "-h") {
+        eprintln!("{HELP}");
+        return ExitCode::SUCCESS;
+    }
     match task.as_deref() {
         Some("caroca-study") => caroca_study(rest),
         Some("robustness") => robustness(rest),
@@ -47,7 +51,7 @@ fn main() -> ExitCode {
         Some("bench-peers") => peers::bench(),
         Some("fuzz") => fuzz::run(&rest),
         Some("schemas") => schemas(),
-        Some("help") => {
+        Some("help" | "--help" | "-h") => {
             eprintln!("{HELP}");
             ExitCode::SUCCESS
         }

@@ -24,6 +24,7 @@ impl Cable<'_> {
     }
 
     /// Strain at a tension [N].
+    #[inline]
     pub fn strain(&self, tension: f64) -> f64 {
         match self.law {
             ElasticLaw::Linear => tension / self.axial_stiffness,
@@ -132,6 +133,7 @@ impl<'a> Catenary<'a> {
     }
 
     /// How the end answers to forces, as [`crate::response`] gives it for a linear cable.
+    #[inline]
     pub fn response(&self) -> Response<f64> {
         match self.cable.law {
             ElasticLaw::Linear => self.terms().response(),
@@ -140,6 +142,7 @@ impl<'a> Catenary<'a> {
     }
 
     /// End position, in-plane flexibility and lateral stiffness at once.
+    #[inline]
     pub fn compliance(&self) -> Compliance {
         self.response().into()
     }
@@ -163,22 +166,26 @@ impl<'a> Catenary<'a> {
     }
 
     /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], the inverse of the flexibility. Zero for a slack cable without weight.
+    #[inline]
     pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
         if self.is_limp() { Matrix2::zeros() } else { self.compliance().in_plane_stiffness() }
     }
 
     /// Stiffness `dF/dr` [N/m] of the end force in three dimensions, `z` up. `azimuth` is the horizontal unit vector
     /// from B towards A (any unit vector if A is right above or below B).
+    #[inline]
     pub fn stiffness(&self, azimuth: Vector2<f64>) -> Matrix3<f64> {
         if self.is_limp() { Matrix3::zeros() } else { self.compliance().stiffness(azimuth) }
     }
 
     /// Tension at the anchor point A [N].
+    #[inline]
     pub fn anchor_tension(&self) -> f64 {
         self.force.norm()
     }
 
     /// Tension at the exit point B [N].
+    #[inline]
     pub fn exit_tension(&self) -> f64 {
         Vector2::new(self.force.x, self.exit_vertical_force()).norm()
     }
@@ -189,6 +196,7 @@ impl<'a> Catenary<'a> {
     }
 
     /// Weight of the whole cable w L [N].
+    #[inline]
     pub fn weight(&self) -> f64 {
         self.cable.weight_per_length * self.unstrained_length
     }
@@ -212,6 +220,7 @@ impl<'a> Catenary<'a> {
 
     /// Whether this is a slack cable without weight: it carries nothing, resists nothing and has no shape, so that end
     /// position and flexibility mean nothing.
+    #[inline]
     pub fn is_limp(&self) -> bool {
         self.force == Vector2::zeros() && self.cable.is_weightless(self.unstrained_length)
     }
@@ -223,17 +232,20 @@ impl<'a> Catenary<'a> {
 
 impl Compliance {
     /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m].
+    #[inline]
     pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
         let c = &self.flexibility;
         Matrix2::new(c.m22, -c.m12, -c.m21, c.m11) / self.determinant
     }
 
     /// Derivative of the force at A with respect to the unstrained length with both ends held [N/m].
+    #[inline]
     pub fn force_per_length(&self) -> Vector2<f64> {
         -self.in_plane_stiffness() * self.end_per_length
     }
 
     /// Stiffness `dF/dr` [N/m] in three dimensions, see [`Catenary::stiffness`].
+    #[inline]
     pub fn stiffness(&self, azimuth: Vector2<f64>) -> Matrix3<f64> {
         let k = self.in_plane_stiffness();
         let lateral = self.lateral_stiffness;

@@ -20,20 +20,17 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, Box<dyn Error>> {
     let robot = open_robot(&settings.robot)?;
     let findings = inspect(&robot);
     let warnings = findings.iter().filter(|finding| finding.severity == Severity::Warning).count();
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&findings)?),
-        Format::Text => {
-            for Finding { severity, field, value, why, remedy } in &findings {
-                println!("{severity}: {field} is {value}: {why}");
-                println!("    remedy: {remedy}");
-            }
-            println!(
-                "{}: {} cables, {warnings} warnings, {} notes",
-                robot.name,
-                robot.cables.len(),
-                findings.len() - warnings
-            );
+    settings.format.print(&findings, |findings| {
+        for Finding { severity, field, value, why, remedy } in findings {
+            println!("{severity}: {field} is {value}: {why}");
+            println!("    remedy: {remedy}");
         }
-    }
+        println!(
+            "{}: {} cables, {warnings} warnings, {} notes",
+            robot.name,
+            robot.cables.len(),
+            findings.len() - warnings
+        );
+    })?;
     Ok(if warnings > 0 { Ending::SomethingWrong } else { Ending::Well })
 }

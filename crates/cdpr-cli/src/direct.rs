@@ -65,24 +65,18 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, Box<dyn Error>> {
     match cases {
         Cases::One(case) => {
             let answer = solve(&robot, &case, settings.certify)?;
-            match settings.format {
-                Format::Json => println!("{}", serde_json::to_string(&answer)?),
-                Format::Text => answer.print(&case.lengths),
-            }
+            settings.format.print(&answer, |answer| answer.print(&case.lengths))?;
             Ok(answer.ending())
         }
         Cases::List(cases) => {
             let answers: Vec<Entry> =
                 cases.iter().map(|case| solve(&robot, case, settings.certify).into()).collect();
-            match settings.format {
-                Format::Json => println!("{}", serde_json::to_string(&answers)?),
-                Format::Text => {
-                    for (i, (entry, case)) in answers.iter().zip(&cases).enumerate() {
-                        println!("case {}", i + 1);
-                        entry.print(&case.lengths);
-                    }
+            settings.format.print(&answers, |answers| {
+                for (i, (entry, case)) in answers.iter().zip(&cases).enumerate() {
+                    println!("case {}", i + 1);
+                    entry.print(&case.lengths);
                 }
-            }
+            })?;
             let well = answers.iter().all(|entry| entry.ending() == Ending::Well);
             Ok(if well { Ending::Well } else { Ending::SomethingWrong })
         }

@@ -81,10 +81,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     let laws = laws(&robot, settings)?;
     let cycle = load_cycle(&robot, &laws, &settings.pose, settings.payload, settings.steps)?;
     let found = Found::new(&robot, &laws, &cycle);
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&found)?),
-        Format::Text => print(&found),
-    }
+    settings.format.print(&found, print)?;
     if found.cables.iter().any(|cable| cable.dissipated_j < 0.0) {
         eprintln!(
             "warning: the loop of a cable runs the wrong way round and gives energy: in its range of tension the record's unloading \

@@ -38,9 +38,6 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
         Measured { value: settings.length, error: settings.length_error },
     )?;
     let found = Found { linear_density: found.value, error: found.error, unit: "kg/m" };
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&found)?),
-        Format::Text => println!("{:.6} kg/m +- {:.6} kg/m", found.linear_density, found.error),
-    }
-    Ok(())
+    let text = |found: &Found| println!("{:.6} kg/m +- {:.6} kg/m", found.linear_density, found.error);
+    Ok(settings.format.print(&found, text)?)
 }

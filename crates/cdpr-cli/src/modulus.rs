@@ -127,15 +127,12 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
         published: None,
     };
     found.published = published.as_ref().map(|table| table.beside(&found));
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&found)?),
-        Format::Text => {
-            print(&found);
-            if let (Some(table), Some(entries)) = (&published, &found.published) {
-                published::print(table, entries);
-            }
+    settings.format.print(&found, |found| {
+        print(found);
+        if let (Some(table), Some(entries)) = (&published, &found.published) {
+            published::print(table, entries);
         }
-    }
+    })?;
     if let Some(path) = &settings.law {
         write_law(&record, &specimen, settings, path)?;
     }

@@ -114,14 +114,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
             }
         }
     }
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string(&summary)?),
-        Format::Text => {
-            print(&summary);
-            println!("{} poses in {seconds:.2} s; results in {}", poses.len(), settings.out.display());
-        }
-    }
-    Ok(())
+    Ok(settings.format.print(&summary, |summary| {
+        print(summary);
+        println!("{} poses in {seconds:.2} s; results in {}", poses.len(), settings.out.display());
+    })?)
 }
 
 impl Settings {

@@ -34,11 +34,13 @@ impl Pose {
 
     /// The pose moved by `translation` [m] and turned by the rotation vector `rotation` [rad], both in the base frame:
     /// `p + dp`, `exp(dphi) R`.
+    #[inline]
     pub fn moved(&self, translation: Vector3<f64>, rotation: Vector3<f64>) -> Self {
         Self { position: self.position + translation, rotation: Rotation3::new(rotation) * self.rotation }
     }
 
     /// The motion (dp, dphi) [m, rad] from this pose to another, in the base frame: the inverse of [`Pose::moved`].
+    #[inline]
     pub fn motion_to(&self, other: &Self) -> Vector6<f64> {
         let translation = other.position - self.position;
         // Through the quaternion: the angle of a matrix comes from its trace, which knows nothing of small turns.
@@ -48,6 +50,7 @@ impl Pose {
     }
 
     /// Whether all components are finite.
+    #[inline]
     pub fn is_finite(&self) -> bool {
         self.position.iter().chain(self.rotation.matrix().iter()).all(|c| c.is_finite())
     }
@@ -64,6 +67,7 @@ pub struct Wrench {
 
 impl Wrench {
     /// No force, no moment.
+    #[inline]
     pub fn zero() -> Self {
         Self { force: Vector3::zeros(), moment: Vector3::zeros() }
     }

@@ -75,6 +75,7 @@ pub struct CableProperties {
 
 impl CableProperties {
     /// Axial stiffness EA = E S [N].
+    #[inline]
     pub fn axial_stiffness(&self) -> f64 {
         self.youngs_modulus * self.section
     }
@@ -82,6 +83,7 @@ impl CableProperties {
 
 impl Robot {
     /// The mechanics of cable `i`: weight per length w = rho g, axial stiffness E S, and its law.
+    #[inline]
     pub fn cable(&self, i: usize) -> Cable<'_> {
         let properties = &self.cables[i].properties;
         Cable {
@@ -92,6 +94,7 @@ impl Robot {
     }
 
     /// Whether all cables are linear.
+    #[inline]
     pub fn is_linear(&self) -> bool {
         self.cables.iter().all(|cable| cable.properties.law.is_none())
     }
@@ -102,16 +105,19 @@ impl Robot {
     }
 
     /// s_i = R a_i: from P to anchor point i, in the base frame [m].
+    #[inline]
     pub fn anchor_arm(&self, pose: &Pose, i: usize) -> Vector3<f64> {
         pose.rotation * self.cables[i].anchor_point
     }
 
     /// r_i = p + R a_i - b_i: from exit point i to anchor point i, in the base frame [m] (Eq. (1)).
+    #[inline]
     pub fn span(&self, pose: &Pose, i: usize) -> Vector3<f64> {
         pose.position + self.anchor_arm(pose, i) - self.cables[i].exit_point
     }
 
     /// Weight of the platform and of an additional `payload` [kg] at its centre of mass, as a wrench about P.
+    #[inline]
     pub fn weight(&self, pose: &Pose, payload: f64) -> Wrench {
         let force = Vector3::new(0.0, 0.0, -(self.platform.mass + payload) * self.gravity);
         let arm = pose.rotation * self.platform.center_of_mass;
@@ -132,6 +138,7 @@ impl Robot {
 
     /// Root mean square distance of the anchor points from P [m]: the length that makes rotations comparable with
     /// translations.
+    #[inline]
     pub fn platform_size(&self) -> f64 {
         let sum: f64 = self.cables.iter().map(|cable| cable.anchor_point.norm_squared()).sum();
         (sum / self.cables.len() as f64).sqrt()

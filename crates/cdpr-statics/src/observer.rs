@@ -252,6 +252,7 @@ fn rotate<S: Simd>(pose: &Pose, v: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
     three(|k| v[0] * r[(k, 0)] + v[1] * r[(k, 1)] + v[2] * r[(k, 2)])
 }
 
+#[inline(always)]
 fn residuals<S: Simd>(open: &Open<S>) -> [Residual; MAX_LANES] {
     let closure = open.closure.to_array();
     let [force, moment] = open.norms();

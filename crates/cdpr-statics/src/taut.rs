@@ -37,6 +37,7 @@ pub(crate) struct Robots<S: Simd> {
 
 impl<S: Simd> Open<S> {
     /// Norms of force [N] and moment [N m], one a lane.
+    #[inline(always)]
     pub(crate) fn norms(&self) -> [[f64; MAX_LANES]; 2] {
         let (force, moment) = halves(&self.wrench);
         [dot(&force, &force).sqrt().to_array(), dot(&moment, &moment).sqrt().to_array()]

@@ -186,6 +186,7 @@ fn back<S: Simd>(v: &[Lanes<S>; 3]) -> Vector3<f64> {
 }
 
 /// A rotation from a matrix that is one but for rounding: Newton's step `R (3 - Rᵀ R)/2` to the nearest one.
+#[inline(always)]
 fn nearest_rotation(matrix: &Matrix3<f64>) -> Rotation3<f64> {
     let excess = matrix.transpose() * matrix;
     Rotation3::from_matrix_unchecked(matrix * (Matrix3::from_diagonal_element(1.5) - excess * 0.5))
