@@ -1,9 +1,10 @@
 //! The native half of the Python package `cdpr`: the models on NumPy arrays, studies, designs of experiments. Each module has one class or
 //! one function of the package, with the documentation that Python shows; the other half is in `python/cdpr`.
 //!
-//! Arguments and answers are of one case or have a first axis of cases (`arrays`), which are computed in parallel without
+//! Arguments and answers are of one case or have a first axis of cases (`arrays`, `answer`), which are computed in parallel without
 //! Python's lock (`threads`). What a model refuses is an exception (`error`).
 
+mod answer;
 mod arrays;
 mod catenary;
 mod deflection;
@@ -45,7 +46,7 @@ mod _core {
     #[pymodule_export]
     use crate::stiffness::Stiffness;
     #[pymodule_export]
-    use crate::study::{begin, carry_out, make_shard, observations};
+    use crate::study::{begin, carry_out, make_shard, observations, open_results, status};
     #[pymodule_export]
     use crate::workspace::Workspace;
     #[pymodule_export]

@@ -12,7 +12,7 @@ fn caroca() -> Robot {
 
 fn summary(robot: &Robot, grid: Grid) -> WorkspaceSummary {
     let workspace = Workspace { robot, grid, payload: 50.0, tolerances: None };
-    WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| ()).unwrap())
+    WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap())
 }
 
 fn count(svg: &str, what: &str) -> usize {

@@ -24,7 +24,7 @@ fn every_position_is_what_the_models_say_of_it() {
     deviations[5] = 0.003;
     let model = ErrorModel::normal(&deviations);
     let workspace = Workspace { robot: &robot, grid: grid(), payload: 50.0, tolerances: Some(&model) };
-    let poses = compute_workspace(&workspace, &|| ()).unwrap();
+    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
     assert_eq!(poses.len(), 12);
     for (found, pose) in poses.iter().zip(grid().poses()) {
         assert_eq!(found.pose, pose);
@@ -66,7 +66,8 @@ fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
     let place = |place| GridAxis { min: place, max: place, points: 1 };
     let grid = Grid::new([place(0.0), place(0.0), GridAxis { min: 1.75, max: 9.0, points: 2 }]).unwrap();
     let workspace = Workspace { robot: &robot, grid, payload: 50.0, tolerances: None };
-    let summary = WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| ()).unwrap());
+    let summary =
+        WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap());
     assert_eq!(summary.rows[0].status, "beyond_limits");
     assert!(summary.rows[0].greatest_tension.unwrap() > 650.0 && summary.rows[0].reason.is_none());
     assert_eq!(summary.rows[1].status, "infeasible_tension");
@@ -81,9 +82,9 @@ fn tolerances_of_another_robot_are_refused() {
     let robot = caroca();
     let model = ErrorModel::normal(&[1.0; 55]);
     let workspace = Workspace { robot: &robot, grid: grid(), payload: 50.0, tolerances: Some(&model) };
-    let message = compute_workspace(&workspace, &|| ()).unwrap_err().to_string();
+    let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
     assert_eq!(message, "error model is for 55 parameters: expected one for the 62 parameters of CAROCA");
     let workspace = Workspace { payload: f64::NAN, tolerances: None, ..workspace };
-    let message = compute_workspace(&workspace, &|| ()).unwrap_err().to_string();
+    let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
     assert_eq!(message, "payload is NaN: expected a finite mass, zero or more [kg]");
 }
