@@ -12,6 +12,7 @@ mod derivatives;
 mod designs;
 mod direct;
 mod error;
+mod estimates;
 mod inverse;
 mod observe;
 mod robot;
@@ -32,11 +33,11 @@ mod _core {
     #[pymodule_export]
     use crate::derivatives::Derivatives;
     #[pymodule_export]
-    use crate::designs::{
-        Effects, Expansion, MorrisDesign, MorrisEffects, SaltelliDesign, SobolDesign, SobolIndices,
-    };
+    use crate::designs::{MorrisDesign, SaltelliDesign, SobolDesign};
     #[pymodule_export]
     use crate::direct::DirectSolution;
+    #[pymodule_export]
+    use crate::estimates::{Effects, Expansion, MorrisEffects, SobolIndices};
     #[pymodule_export]
     use crate::inverse::InverseSolution;
     #[pymodule_export]

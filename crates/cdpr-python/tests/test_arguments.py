@@ -14,7 +14,7 @@ LENGTHS = [4.44, 4.54, 4.36, 4.26, 4.26, 4.36, 4.54, 4.44]
 
 def layouts(values):
     """The same numbers in other layouts of memory, by name."""
-    packed = numpy.zeros(len(values), [("id", "i4"), ("value", "f8", values.shape[1:]), ("word", "U5")])
+    packed = numpy.zeros(len(values), [("id", "i4"), ("value", "f8", values.shape[1:])])
     packed["value"] = values
     yield "packed records", packed["value"]
     yield "unaligned", numpy.frombuffer(b"\0" + values.tobytes(), dtype="f8", offset=1).reshape(values.shape)

@@ -111,7 +111,7 @@ def test_other_threads_run_while_indices_are_estimated():
     thread = threading.Thread(target=tick)
     thread.start()
     begun = time.monotonic()
-    design.indices(outputs, resamples=20_000)
+    design.indices(outputs, resamples=500_000)
     ended = time.monotonic()
     done.set()
     thread.join()

@@ -123,7 +123,8 @@ def run(
     threads: of this process; all cores if left out. The numbers do not depend on it.
     progress: told (done, all) observations from time to time, in the thread that called; what it raises ends the run, as Ctrl-C does.
     executor: who makes the blocks of observations, in place of this process: an executor of `concurrent.futures`, Dask's client, or a pool with
-        `imap_unordered`, such as those of `multiprocessing` and `ray.util.multiprocessing`. Its workers need this package and the same folder.
+        `imap_unordered`, such as those of `multiprocessing` and `ray.util.multiprocessing`. Its workers need this package and the same folder. A pool of
+        `multiprocessing` does not notice that a worker was killed, and the run waits for ever.
     tasks: in how many tasks, one or more; one for each block of 16 384 observations, but 256 at most, if left out. Each uses one thread.
 
     Blocks are whole or not there: a run that ended in any way goes on with `resume=True`, to the same bytes.
