@@ -41,6 +41,7 @@ pub fn run(
     watcher: Watcher,
 ) -> Result<(Summary, Timings), StudyError> {
     let clock = Instant::now();
+    blocks.remove_summary()?;
     let mut run = Run { out, blocks, format, watcher, studies: IndexMap::new(), timings: Timings::default() };
     for (name, spec) in &study.file.samplings {
         if spec.poses.is_some() { run.poses(study, name)? } else { run.sampling(study, name)? }

@@ -162,6 +162,7 @@ impl Study {
         if let Some(name) = file.surfaces.keys().find(|name| file.samplings.contains_key(*name)) {
             return Err(self.invalid(&format!("surfaces.{name}"), name, "a name that no sampling has"));
         }
+        self.check_names()?;
         for (name, model) in &file.error_models {
             self.error_model(name, model, &[])?;
         }
