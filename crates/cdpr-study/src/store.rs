@@ -210,18 +210,36 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
 mod tests {
     use super::*;
     use crate::atomic::AtomicFile;
+    use cdpr_robot::Vector3;
     use std::io::Write;
+
+    fn blocks(results: &Path) -> Blocks {
+        Blocks {
+            results: results.to_owned(),
+            folder: results.join(BLOCKS_NAME),
+            study: "a hash".to_owned(),
+            tables: vec![results.join("plane")],
+        }
+    }
+
+    #[test]
+    fn a_summary_goes_with_a_block_that_it_does_not_know_and_with_no_other() {
+        let results = tempfile::tempdir().unwrap();
+        let (blocks, summary) = (blocks(results.path()), results.path().join(SUMMARY_NAME));
+        let place = Place { sampling: "mechanical", design: "sampling", number: 0 };
+        for (observations, stays) in [(2, false), (2, true), (1, true), (3, false)] {
+            fs::write(&summary, "of all blocks").unwrap();
+            blocks.write(&place, &vec![Ok(Vector3::zeros()); observations]).unwrap();
+            assert_eq!(summary.exists(), stays, "{observations} observations");
+            assert!(blocks.read(&place).unwrap().len() >= observations);
+        }
+    }
 
     #[test]
     fn what_is_being_written_stays_and_what_was_left_goes() {
         let folder = tempfile::tempdir().unwrap();
         let results = folder.path().to_owned();
-        let blocks = Blocks {
-            folder: results.join(BLOCKS_NAME),
-            study: String::new(),
-            tables: vec![results.join("plane")],
-            results: results.clone(),
-        };
+        let blocks = blocks(&results);
         let design = blocks.folder.join("mechanical/sampling");
         let folders = [results.clone(), results.join("plane"), design];
         let mut written = Vec::new();

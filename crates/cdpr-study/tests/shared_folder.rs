@@ -46,6 +46,34 @@ fn any_number_of_processes_may_begin_in_a_new_folder_at_once() {
 }
 
 #[test]
+fn a_folder_is_gone_on_with_whatever_another_process_has_put_there_so_far_or_is_seen_of_it() {
+    let study = study();
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("results");
+    begin(&out, &study, Existing::GoOn).unwrap();
+    // A network disk may show what is there late.
+    for hidden in [&["blocks"][..], &["study.json"], &["study.json", "robot.json"], &["blocks", "study.json"]]
+    {
+        for name in hidden {
+            let path = out.join(name);
+            if path.is_dir() {
+                std::fs::remove_dir(path).unwrap()
+            } else {
+                std::fs::remove_file(path).unwrap()
+            }
+        }
+        begin(&out, &study, Existing::GoOn).unwrap();
+        assert!(["blocks", "study.json", "robot.json"].iter().all(|name| out.join(name).exists()));
+    }
+    // What tells it from a user's own comes first: here the rest does not come at all.
+    let unwritten = folder.path().join("unwritten");
+    std::fs::create_dir(&unwritten).unwrap();
+    std::fs::write(unwritten.join("blocks"), "in the way").unwrap();
+    begin(&unwritten, &study, Existing::GoOn).unwrap_err();
+    assert!(unwritten.join("cdpr-results.txt").exists() && !unwritten.join("robot.json").exists());
+}
+
+#[test]
 fn the_observations_of_a_shard_are_those_that_it_ticks() {
     let study = study();
     let plan = Plan::new(&study).unwrap();
