@@ -38,7 +38,7 @@ impl Shard {
             let expected = format!("i/{count} where neither {} is set", TASK.join(" nor "));
             return Err(StudyError::setting("--shard", text, expected));
         };
-        let expected = || format!("a task from 1 to {count}, of which --shard {text} makes shards");
+        let expected = || format!("a task from 1 to {count}, as --shard is {text}");
         shard(&task).ok_or_else(|| StudyError::setting(name, format!("`{task}`"), expected()))
     }
 

@@ -56,11 +56,8 @@ fn a_folder_is_gone_on_with_whatever_another_process_has_put_there_so_far_or_is_
     {
         for name in hidden {
             let path = out.join(name);
-            if path.is_dir() {
-                std::fs::remove_dir(path).unwrap()
-            } else {
-                std::fs::remove_file(path).unwrap()
-            }
+            let removed = if path.is_dir() { std::fs::remove_dir(path) } else { std::fs::remove_file(path) };
+            removed.unwrap();
         }
         begin(&out, &study, Existing::GoOn).unwrap();
         assert!(["blocks", "study.json", "robot.json"].iter().all(|name| out.join(name).exists()));
