@@ -10,7 +10,6 @@ mod template;
 use crate::{report, throughput};
 use cdpr_study::{Blocks, Existing, Shard, Study, StudyError, TableFormat};
 use clap::{Args, Subcommand, ValueEnum};
-use comfy_table::{Table, presets};
 use std::path::PathBuf;
 
 #[derive(Subcommand)]
@@ -226,12 +225,6 @@ pub(crate) fn start_threads(threads: Option<u16>) -> Result<(), RunError> {
     let Some(threads) = threads else { return Ok(()) };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     pool.map_err(|source| RunError::Threads { threads, source })
-}
-
-pub(crate) fn table(header: &[&str]) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::UTF8_FULL_CONDENSED).set_header(header);
-    table
 }
 
 #[cfg(test)]

@@ -279,8 +279,9 @@ fn names_whose_files_would_be_those_of_another_part_are_refused() {
         ("alone_effects", "samplings.alone"),
         ("plane_mean", "samplings.plane"),
         ("plane_dominant_z01", "samplings.plane"),
-        ("anchor_points", "all samplings"),
-        ("exit_points", "all samplings"),
+        ("robot", "the study as a whole"),
+        ("anchor_points", "the study as a whole"),
+        ("exit_points", "the study as a whole"),
     ] {
         for kind in ["samplings", "surfaces"] {
             let bench = plane(|study| {

@@ -3,7 +3,8 @@
 use crate::error::{Answer, Raised};
 use crate::robot::Robot;
 use crate::threads::watched;
-use cdpr_robot::{Axis, Parameter};
+use cdpr_robot::{Axis, Parameter, Rotation3};
+use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, Grid, GridAxis, WorkspaceRow, compute_workspace};
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -76,8 +77,13 @@ impl Robot {
             _ => return Err(Raised::Input("expected x, y and z, or plane".to_owned())),
         };
         let tolerances = uncertainty.map(|named| tolerances(&self.robot, named)).transpose()?;
-        let workspace =
-            cdpr_study::Workspace { robot: &self.robot, grid, payload, tolerances: tolerances.as_ref() };
+        let workspace = cdpr_study::Workspace {
+            robot: &self.robot,
+            grid,
+            rotation: Rotation3::identity(),
+            load: Load::payload(payload),
+            tolerances: tolerances.as_ref(),
+        };
         let poses = watched(py, None, |_| Ok(()), |_| compute_workspace(&workspace, &|| ()))??;
         let rows: Vec<WorkspaceRow> = poses.iter().map(|pose| WorkspaceRow::new(&workspace, pose)).collect();
         let column = |value: &dyn Fn(usize) -> Option<f64>| -> Py<PyAny> {

@@ -3,7 +3,7 @@
 
 use crate::error::ReportError;
 use crate::points::{Points, point_effects};
-use crate::{histogram, pose_maps, shares, signed_effects, surface};
+use crate::{histogram, pose_maps, robot_view, shares, signed_effects, surface};
 use cdpr_study::{
     Blocks, IndexMap, ObservationTable, Sampling, Session, Study, StudyError, StudySummary, Summary,
     SurfaceSummary, TableFormat, Tally, Timings, analyse, compute_surface, observe_into, observe_poses,
@@ -50,6 +50,7 @@ pub fn run(
         run.surface(study, name)?;
     }
     run.point_effects(study)?;
+    run.figure("robot", robot_view(study))?;
     let summary = Summary::new(study, run.studies);
     write_summary(out, &summary)?;
     blocks.remove_unfinished()?;

@@ -217,6 +217,11 @@ fn because(source: Option<&StaticsError>) -> String {
 }
 
 impl StudyError {
+    /// Whether what was asked for is wrong, and no file.
+    pub fn is_argument(&self) -> bool {
+        matches!(self, Self::Setting { .. })
+    }
+
     /// With the place of the field in the study file's text, where it has one.
     pub(crate) fn placed(self, text: &str) -> Self {
         let place = match &self {

@@ -6,8 +6,8 @@ use crate::output::remove_stale;
 use crate::study::Study;
 use std::path::Path;
 
-/// Figures of all samplings together.
-const OF_ALL: [&str; 2] = ["anchor_points", "exit_points"];
+/// Figures of the study as a whole.
+const OF_ALL: [&str; 3] = ["robot", "anchor_points", "exit_points"];
 
 impl SamplingSpec {
     /// Whether a table or figure has the sampling's name with this behind it.
@@ -28,7 +28,7 @@ impl StudyFile {
     /// Who writes a table or figure of this name, without its ending, though itself called otherwise.
     fn other_writer(&self, name: &str) -> Option<String> {
         if OF_ALL.contains(&name) {
-            return Some("all samplings".to_owned());
+            return Some("the study as a whole".to_owned());
         }
         let mut samplings = self.samplings.iter();
         let further = |(sampling, spec): &(&String, &SamplingSpec)| {
