@@ -1,16 +1,17 @@
 #!/bin/bash
-# A study shared by the tasks of a Slurm job array: each makes the blocks of its shard. To submit it and, when all
-# tasks are done, its analysis (options of `cdpr study run` may follow; those of sbatch, such as --array=1-100, go before the script):
+# A study shared by the tasks of a Slurm job array: each makes the blocks of its shard. To submit 32 tasks and, when all are done, the
+# analysis (options of `cdpr study run` may follow; those of sbatch, such as --time=04:00:00, go before the script):
 #
-#   job=$(sbatch --parsable data/cluster/slurm.sh my-study.json results --observations 100000000)
+#   job=$(sbatch --parsable --array=1-32 data/cluster/slurm.sh 32 my-study.json results --observations 100000000)
 #   sbatch --dependency=afterok:"$job" --wrap 'cdpr study merge results --table none'
 #
-# A task that ran out of time is submitted again as it was: it goes on.
+# The number of tasks stays when some of them are repeated, which go on with what is there: sbatch --array=7,9 data/cluster/slurm.sh 32 ...
 #SBATCH --job-name=cdpr
-#SBATCH --array=1-32
 #SBATCH --cpus-per-task=16
 #SBATCH --time=01:00:00
 set -euo pipefail
-study=${1:?usage: slurm.sh STUDY FOLDER [OPTIONS]}
-folder=${2:?usage: slurm.sh STUDY FOLDER [OPTIONS]}
-srun cdpr study run "$study" --out "$folder" --shard auto --threads "$SLURM_CPUS_PER_TASK" "${@:3}"
+usage='usage: sbatch --array=1-TASKS slurm.sh TASKS STUDY FOLDER [OPTIONS]'
+tasks=${1:?$usage}
+study=${2:?$usage}
+folder=${3:?$usage}
+srun cdpr study run "$study" --out "$folder" --shard "auto/$tasks" --threads "$SLURM_CPUS_PER_TASK" "${@:4}"

@@ -1,6 +1,6 @@
 //! Results that several commands print, as they stand in JSON (SI units; cables are numbered from 1, as in `a1.x`) and as tables.
 
-use crate::study::table;
+use crate::output::table;
 use cdpr_robot::Pose;
 use cdpr_statics::{DirectSolution, Equilibrium, Method, Residual};
 use serde::Serialize;

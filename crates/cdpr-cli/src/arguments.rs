@@ -2,7 +2,7 @@
 //! reports.
 
 use crate::output::Usage;
-use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3, Wrench};
+use cdpr_robot::{Pose, Robot, Rotation3, UnitQuaternion, Vector3, Wrench};
 use cdpr_statics::Load;
 use cdpr_study::{Grid, GridAxis};
 use serde::Serialize;
@@ -82,6 +82,12 @@ pub(crate) fn mass(text: &str) -> Result<f64, String> {
     if mass >= 0.0 { Ok(mass) } else { Err("expected a mass, zero or more [kg]".to_owned()) }
 }
 
+/// A mass whose effect is observed: more than none [kg].
+pub(crate) fn payload(text: &str) -> Result<f64, String> {
+    let mass = number(text)?;
+    if mass > 0.0 { Ok(mass) } else { Err("expected a mass above zero [kg]".to_owned()) }
+}
+
 /// `x,y,z` [m], followed by the quaternion `qw,qx,qy,qz` where the platform is rotated.
 pub(crate) fn pose(text: &str) -> Result<Pose, String> {
     let numbers = numbers(text).map_err(|error| format!("{error}: {POSE}"))?;
@@ -90,12 +96,20 @@ pub(crate) fn pose(text: &str) -> Result<Pose, String> {
 
 const POSE: &str = "expected x,y,z [m] or x,y,z,qw,qx,qy,qz";
 
+/// `qw,qx,qy,qz`.
+pub(crate) fn rotation(text: &str) -> Result<Rotation3<f64>, String> {
+    let pose = Pose::with_quaternion(Vector3::zeros(), components(text)?);
+    pose.map(|pose| pose.rotation).ok_or_else(|| NO_ROTATION.to_owned())
+}
+
+const NO_ROTATION: &str = "the quaternion is zero: expected one that can be normalised";
+
 /// The pose of three or seven finite numbers.
 pub(crate) fn pose_of(numbers: &[f64]) -> Result<Pose, String> {
     match *numbers {
         [x, y, z] => Ok(Pose::at(x, y, z)),
         [x, y, z, qw, qx, qy, qz] => Pose::with_quaternion(Vector3::new(x, y, z), [qw, qx, qy, qz])
-            .ok_or_else(|| "the quaternion is zero: expected one that can be normalised".to_owned()),
+            .ok_or_else(|| NO_ROTATION.to_owned()),
         _ => Err(format!("{} numbers: {POSE}", numbers.len())),
     }
 }
@@ -119,13 +133,16 @@ impl LoadArguments {
         let wrench = Wrench { force: self.force.into(), moment: self.moment.into() };
         Load { payload: self.payload, wrench }
     }
-}
 
-/// `x,y,z` [m].
-pub(crate) fn position(text: &str) -> Result<[f64; 3], String> {
-    numbers(text)?
-        .try_into()
-        .map_err(|numbers: Vec<f64>| format!("{} numbers: expected x,y,z [m]", numbers.len()))
+    /// A load that displaces the platform.
+    pub(crate) fn some_load(&self) -> Result<Load, Usage> {
+        match self.load() {
+            load if load == Load::none() => Err(Usage(
+                "nothing displaces the platform: expected --payload, --force or --moment".to_owned(),
+            )),
+            load => Ok(load),
+        }
+    }
 }
 
 /// Position and quaternion (w, x, y, z), as [`pose`] reads them.
@@ -166,11 +183,17 @@ pub(crate) struct Named(pub(crate) Vec<(String, f64)>);
 
 /// `name=number`, separated by commas.
 pub(crate) fn named(text: &str) -> Result<Named, String> {
-    let one = |text: &str| {
+    let one = |text: &str| -> Result<(String, f64), String> {
         let (name, value) = text.split_once('=').ok_or_else(|| format!("`{text}`: expected name=number"))?;
         Ok((name.trim().to_owned(), number(value)?))
     };
-    text.split(',').map(one).collect::<Result<_, _>>().map(Named)
+    let named: Vec<(String, f64)> = text.split(',').map(one).collect::<Result<_, _>>()?;
+    let again =
+        |(i, (name, _)): &(usize, &(String, f64))| named[..*i].iter().any(|(before, _)| before == name);
+    match named.iter().enumerate().find(again) {
+        Some((_, (name, _))) => Err(format!("`{name}` is given twice: expected each name once")),
+        None => Ok(Named(named)),
+    }
 }
 
 /// The standard deviation of each parameter of `--uncertainty`.
@@ -210,7 +233,9 @@ mod tests {
         }
         let Named(named) = named("a=0.1, mass=2").unwrap();
         assert_eq!(named, [("a".to_owned(), 0.1), ("mass".to_owned(), 2.0)]);
-        assert!(super::named("a").is_err() && super::named("a=b").is_err());
+        assert!(
+            super::named("a").is_err() && super::named("a=b").is_err() && super::named("a=1,a=1").is_err()
+        );
     }
 
     #[test]

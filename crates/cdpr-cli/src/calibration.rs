@@ -1,14 +1,14 @@
 //! `cdpr calibration`: which combinations of parameters measurements at given poses tell, and which poses tell most.
 
 use crate::arguments::{self, Format, Named};
-use crate::output::Usage;
-use crate::study::table;
+use crate::output::{Usage, table};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement};
 use cdpr_study::{Grid, open_robot};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::error::Error;
+use std::fmt;
 use std::path::PathBuf;
 
 /// What was asked for.
@@ -31,7 +31,7 @@ pub(crate) struct Settings {
     #[arg(long, value_parser = arguments::named)]
     noise: Named,
     /// Known mass added at the platform's centre of mass [kg].
-    #[arg(long, value_parser = arguments::number, default_value = "0", allow_hyphen_values = true)]
+    #[arg(long, value_parser = arguments::mass, default_value = "0", allow_hyphen_values = true)]
     payload: f64,
     /// Number of poses to choose.
     #[arg(long, default_value_t = 10)]
@@ -48,6 +48,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
         (None, Some(path)) => arguments::pose_file(path)?,
         (None, None) => Vec::new(),
     };
+    if candidates.is_empty() {
+        return Err(Box::new(Usage("--poses: the file is empty, expected a pose on each line".to_owned())));
+    }
     let measurements = measurements(&settings.noise)?;
     let mut calibration =
         Calibration::new(&robot, &arguments::uncertainties(&robot, &settings.uncertainty)?)?;
@@ -60,9 +63,22 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
             Err(error) => *refused.entry(error.kind()).or_insert(0) += 1,
         }
     }
+    if poses.is_empty() {
+        return Err(format!("the robot holds none of the candidate poses: {}", Refused(&refused)).into());
+    }
     let told = calibration.identify(0..poses.len());
     let output = Output::new(poses, refused, &told, &calibration, settings.choose);
     Ok(settings.format.print(&output, |output| print(&robot, output))?)
+}
+
+/// Counts of poses by the reason why they are not held.
+struct Refused<'a>(&'a BTreeMap<&'static str, usize>);
+
+impl fmt::Display for Refused<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let counts = self.0.iter().map(|(kind, count)| format!("{count} {kind}"));
+        f.write_str(&counts.collect::<Vec<_>>().join(", "))
+    }
 }
 
 fn measurements(Named(named): &Named) -> Result<Vec<Measurement>, Usage> {

@@ -2,8 +2,7 @@
 
 use crate::answer::{Found, vector};
 use crate::arguments::{LoadArguments, RobotAtPose};
-use crate::output::Usage;
-use cdpr_statics::{Deflection, Load, deflection};
+use cdpr_statics::{Deflection, deflection};
 use cdpr_study::open_robot;
 use serde::Serialize;
 use std::error::Error;
@@ -19,12 +18,7 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     let at = &settings.at;
-    let load = settings.load.load();
-    if load == Load::none() {
-        return Err(Box::new(Usage(
-            "nothing displaces the platform: expected --payload, --force or --moment".to_owned(),
-        )));
-    }
+    let load = settings.load.some_load()?;
     let robot = open_robot(&at.robot)?;
     let found = deflection(&robot, &at.pose, &vec![0.0; robot.cables.len()], &load)?;
     let answer = Answer::new(&found);

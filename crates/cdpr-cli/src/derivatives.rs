@@ -1,36 +1,30 @@
 //! `cdpr derivatives`: what a small change of each parameter does to lengths and deflection.
 
-use crate::arguments::{self, Format};
-use crate::study::table;
-use cdpr_robot::{Parameter, Pose, Robot};
-use cdpr_statics::{Derivatives, Load, derivatives};
+use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::output::table;
+use cdpr_robot::Parameter;
+use cdpr_statics::{Derivatives, derivatives};
 use cdpr_study::open_robot;
 use serde::Serialize;
 use std::error::Error;
-use std::path::PathBuf;
 
 /// What was asked for.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
-    /// Wanted pose: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
-    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
-    pose: Pose,
-    /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
-    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
-    payload: f64,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    at: RobotAtPose,
+    #[command(flatten)]
+    load: LoadArguments,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
-    let robot = open_robot(&settings.robot)?;
+    let at = &settings.at;
+    let load = settings.load.some_load()?;
+    let robot = open_robot(&at.robot)?;
     let offsets = vec![0.0; robot.cables.len()];
-    let found = derivatives(&robot, &settings.pose, &offsets, &Load::payload(settings.payload))?;
+    let found = derivatives(&robot, &at.pose, &offsets, &load)?;
     let slopes = Slopes::new(&found)?;
-    Ok(settings.format.print(&slopes, |slopes| print(&robot, settings, &found, slopes))?)
+    Ok(at.format.print(&slopes, |slopes| print(&at.heading(&robot), &found, slopes))?)
 }
 
 /// Derivatives with respect to each parameter; the outer lists are in the order of the parameters.
@@ -82,14 +76,8 @@ fn handy_unit(parameter: &Parameter) -> (&'static str, f64) {
     }
 }
 
-fn print(robot: &Robot, settings: &Settings, found: &Derivatives, slopes: &Slopes) {
-    let [x, y, z] = settings.pose.position.into();
-    println!(
-        "{}: |dp| = {:.5} mm under {} kg at ({x}, {y}, {z}) m",
-        robot.name,
-        1e3 * found.deflection.rms(),
-        settings.payload
-    );
+fn print(heading: &str, found: &Derivatives, slopes: &Slopes) {
+    println!("{heading}: |dp| = {:.5} mm under the load", 1e3 * found.deflection.rms());
     let header = [
         "parameter",
         "d|dp| [\u{b5}m]",

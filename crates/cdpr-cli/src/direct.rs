@@ -64,7 +64,10 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, Box<dyn Error>> {
     };
     match cases {
         Cases::One(case) => {
-            let answer = solve(&robot, &case, settings.certify)?;
+            let answer = solve(&robot, &case, settings.certify).map_err(|error| match &settings.from {
+                Some(path) => format!("{}: {error}", path.display()).into(),
+                None => Box::<dyn Error>::from(error),
+            })?;
             settings.format.print(&answer, |answer| answer.print(&case.lengths))?;
             Ok(answer.ending())
         }
@@ -155,13 +158,20 @@ fn solve(robot: &Robot, case: &Case, prove: bool) -> Result<Answer, StaticsError
     let vector = |components: Option<[f64; 3]>| components.map_or_else(Vector3::zeros, Vector3::from);
     let load = Load::wrench(Wrench { force: vector(case.force), moment: vector(case.moment) });
     let start = match &case.start {
-        Some(numbers) => arguments::pose_of(numbers).map_err(|expected| StaticsError::Invalid {
+        Some(numbers) => arguments::pose_of(numbers).map_err(|_| StaticsError::Invalid {
             field: "start".to_owned(),
             value: format!("{numbers:?}"),
-            expected,
+            expected: "x,y,z [m] or x,y,z,qw,qx,qy,qz, with a quaternion other than zero".to_owned(),
         })?,
         None => rough_pose(&robot, &case.lengths),
     };
+    if !start.is_finite() {
+        return Err(StaticsError::Invalid {
+            field: "lengths".to_owned(),
+            value: format!("{:?}", case.lengths),
+            expected: "lengths within reach of the robot's frame [m]".to_owned(),
+        });
+    }
     let solution = direct(&robot, &case.lengths, &load, Start::Pose(&start))?;
     let certificate =
         (prove || case.certify).then(|| certify(&robot, &case.lengths, &load, &solution).into());

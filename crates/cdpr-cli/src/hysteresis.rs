@@ -1,11 +1,11 @@
 //! `cdpr hysteresis`: a payload comes and goes.
 
-use crate::arguments::{self, Format, number};
-use crate::study::table;
+use crate::arguments::{self, Format, number, payload};
+use crate::output::table;
 use cdpr_report::{Cycle, cycle};
 use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable};
 use cdpr_statics::{DirectSolution, HysteresisLaw, LoadCycle, Unloading, load_cycle};
-use cdpr_study::{CableLaw, open_law, open_record, open_robot};
+use cdpr_study::{CableLaw, open_law, open_record, open_robot, write_text};
 use serde::Serialize;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub(crate) struct Settings {
     #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
     pose: Pose,
     /// Mass put on the platform's centre of mass and taken off again [kg].
-    #[arg(long, value_parser = number, allow_hyphen_values = true)]
+    #[arg(long, value_parser = payload, allow_hyphen_values = true)]
     payload: f64,
     /// Which part of the unloading curve a cable follows.
     #[arg(long, value_enum, default_value_t = Branch::TurningPoint)]
@@ -203,5 +203,5 @@ fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<()
         y: "payload [kg]",
         branches: &branches,
     })?;
-    std::fs::write(path, figure).map_err(|error| format!("cannot write {}: {error}", path.display()).into())
+    Ok(write_text(path, &figure)?)
 }

@@ -29,7 +29,6 @@ mod workspace;
 use clap::{CommandFactory, Parser, Subcommand};
 use output::Ending;
 use std::error::Error;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
@@ -119,23 +118,7 @@ enum Command {
     #[command(
         after_help = "Example: cdpr robustness --robot data/robots/cogiro.json --poses 1000 --out robustness"
     )]
-    Robustness {
-        /// Robot file (JSON, `cdpr-robot/1`); the protocols are made for CoGiRo.
-        #[arg(long)]
-        robot: PathBuf,
-        /// Poses of the protocol of Mahnke and Caverly.
-        #[arg(long, default_value_t = 10_000)]
-        poses: usize,
-        /// Its Young's modulus of all cables [Pa]; the thirty poses keep the robot's.
-        #[arg(long, default_value_t = 35e9, allow_negative_numbers = true)]
-        modulus: f64,
-        /// Seed of poses and starts. The same seed gives the same numbers, but for the times.
-        #[arg(long, default_value_t = 2017)]
-        seed: u64,
-        /// Folder for the results; made if missing.
-        #[arg(long, default_value = "robustness")]
-        out: PathBuf,
-    },
+    Robustness(robustness::Settings),
 }
 
 fn main() -> ExitCode {
@@ -160,9 +143,7 @@ fn run(command: Command) -> Result<Ending, Box<dyn Error>> {
         Command::Modulus(settings) => modulus::run(&settings)?,
         Command::Tolerances(settings) => tolerances::run(&settings)?,
         Command::Report(settings) => report::run(&settings)?,
-        Command::Robustness { robot, poses, modulus, seed, out } => {
-            robustness::run(&robustness::Settings { robot, poses, modulus, seed, out })?;
-        }
+        Command::Robustness(settings) => robustness::run(&settings)?,
     }
     Ok(Ending::Well)
 }

@@ -3,10 +3,10 @@
 mod published;
 
 use crate::arguments::{Format, number};
-use crate::study::table;
+use crate::output::table;
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, cycle};
-use cdpr_study::{CableLaw, law_json, open_record};
+use cdpr_study::{CableLaw, law_json, open_record, write_text};
 use published::{Entry, Published};
 use serde::Serialize;
 use std::error::Error;
@@ -174,7 +174,7 @@ fn write_law(
     let source =
         format!("load-elongation record {}, specimen of {} m", settings.record.display(), specimen.length);
     let text = law_json(Some(source), law)? + "\n";
-    std::fs::write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()).into())
+    Ok(write_text(path, &text)?)
 }
 
 fn draw(record: &Record, found: &Found, path: &Path) -> Result<(), Box<dyn Error>> {
@@ -189,5 +189,5 @@ fn draw(record: &Record, found: &Found, path: &Path) -> Result<(), Box<dyn Error
         y: "force [N]",
         branches: &branches,
     })?;
-    std::fs::write(path, figure).map_err(|error| format!("cannot write {}: {error}", path.display()).into())
+    Ok(write_text(path, &figure)?)
 }

@@ -1,17 +1,24 @@
 //! What leaves the program: lines on the standard output, one line on the standard error for what went wrong, the exit code.
 
+use crate::study::RunError;
+use cdpr_report::ReportError;
+use cdpr_study::{StudyError, write_figure};
+use comfy_table::{Table, presets};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use std::error::Error;
 use std::fmt;
 use std::io::{self, ErrorKind, Write};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::OnceLock;
 
 /// Exit codes, as `cdpr --help` and docs/COMMANDS.md state them.
 pub(crate) const EXIT_CODES: &str = "Exit codes:
-  0  all that was asked for is done
-  1  it cannot be done: a wrong or unreadable file, no answer, a place that cannot be written; the standard error says why
-  2  wrong arguments; the standard error says why
-  3  done, but something is wrong: `check` warns, a case of `direct --from` has no answer, `--certify` proves nothing";
+  0    all that was asked for is done
+  1    it cannot be done: a wrong or unreadable file, no answer, a place that cannot be written; the standard error says why
+  2    wrong arguments; the standard error says why
+  3    done, but something is wrong: `check` warns, a case of `direct --from` has no answer, `--certify` proves nothing
+  130  a study was interrupted (Ctrl-C, the end of a job): what is done is kept, and the standard error says how to go on";
 
 /// How a command ended that did all it could.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +51,15 @@ macro_rules! println {
     ($($text:tt)*) => { $crate::output::print_line(format_args!($($text)*)) };
 }
 
+/// The same on the standard error. Where it cannot be written nothing is left to tell it.
+macro_rules! eprintln {
+    ($($text:tt)*) => { $crate::output::tell_line(format_args!($($text)*)) };
+}
+
+pub(crate) fn tell_line(line: fmt::Arguments) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
 pub(crate) fn print_line(line: fmt::Arguments) {
     if UNPRINTED.get().is_none()
         && let Err(error) = writeln!(io::stdout().lock(), "{line}")
@@ -57,15 +73,57 @@ pub(crate) fn print_line(line: fmt::Arguments) {
 pub(crate) fn exit_code(result: Result<Ending, Box<dyn Error>>) -> ExitCode {
     let unprinted = UNPRINTED.get().filter(|error| error.kind() != ErrorKind::BrokenPipe);
     let (code, message) = match (result, unprinted) {
-        (Err(error), _) if error.is::<Usage>() => (2, Some(error.to_string())),
+        (Err(error), _) if is_usage(&*error) => (2, Some(error.to_string())),
         (Err(error), _) => (1, Some(error.to_string())),
         (Ok(_), Some(error)) => (1, Some(format!("cannot write to the standard output: {error}"))),
         (Ok(Ending::SomethingWrong), None) => (3, None),
         (Ok(Ending::Well), None) => (0, None),
     };
     if let Some(message) = message {
-        // Nothing is left to tell where this cannot be written either.
-        let _ = writeln!(io::stderr(), "error: {message}");
+        eprintln!("error: {message}");
     }
     ExitCode::from(code)
+}
+
+/// Whether the arguments are what is wrong.
+fn is_usage(error: &(dyn Error + 'static)) -> bool {
+    let of_study = match error.downcast_ref() {
+        Some(RunError::Study(error)) => Some(error),
+        _ => error.downcast_ref(),
+    };
+    error.is::<Usage>() || of_study.is_some_and(StudyError::is_argument)
+}
+
+/// An empty table.
+pub(crate) fn table(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::UTF8_FULL_CONDENSED).set_header(header);
+    table
+}
+
+/// A bar over `steps`, with rate and time left; silent when not on a terminal.
+pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
+    let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
+        // Nothing to be done about a terminal that takes no text.
+        let _ = write!(out, "{:.0}/s", state.per_sec());
+    };
+    let bar = ProgressBar::new(steps as u64);
+    let template = format!("{{msg:16}} {{bar:30}} {{pos}}/{{len}} {unit}, {{rate}}, {{eta}} left");
+    match ProgressStyle::with_template(&template) {
+        Ok(style) => bar.with_style(style.with_key("rate", rate)),
+        Err(_) => bar,
+    }
+}
+
+/// Writes a figure, or notes why there is none: results that cannot be drawn are results nevertheless.
+pub(crate) fn write_drawn(
+    folder: &Path,
+    name: &str,
+    svg: Result<String, ReportError>,
+) -> Result<(), StudyError> {
+    match svg {
+        Ok(svg) => write_figure(folder, name, &svg).map(|_| ())?,
+        Err(error) => eprintln!("note: no figure {name}: {error}"),
+    }
+    Ok(())
 }

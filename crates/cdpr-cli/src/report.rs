@@ -1,7 +1,9 @@
 //! `cdpr report`: the report of a study from its results.
 
+use crate::arguments::Format;
 use cdpr_report::{ReportError, report};
 use cdpr_study::{Results, StudyError, write_text};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// What was asked for.
@@ -12,6 +14,14 @@ pub(crate) struct Settings {
     /// File for the report; `report.html` in the folder if left out.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// How the place of the report is printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Serialize)]
+struct Written {
+    report: PathBuf,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -20,14 +30,16 @@ pub(crate) enum WriteError {
     Study(#[from] StudyError),
     #[error(transparent)]
     Report(#[from] ReportError),
+    #[error("cannot write JSON: {0}")]
+    Json(#[from] serde_json::Error),
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), WriteError> {
-    let Settings { folder, out } = settings;
+    let Settings { folder, out, format } = settings;
     let path = out.clone().unwrap_or_else(|| folder.join("report.html"));
     write(folder, &path)?;
-    println!("report in {}", path.display());
-    Ok(())
+    let text = |written: &Written| println!("report in {}", written.report.display());
+    Ok(format.print(&Written { report: path }, text)?)
 }
 
 /// Writes the report of the results in `folder`.

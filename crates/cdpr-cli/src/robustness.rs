@@ -1,25 +1,39 @@
 //! `cdpr robustness`: how often the direct model finds the true pose from a wrong start.
 
-use crate::study::table;
-use cdpr_report::ReportError;
+use crate::arguments::Format;
+use crate::output::{progress, table, write_drawn};
 use cdpr_study::{
-    Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, StudyError, check_folder,
-    open_robot, run_robustness, write_figure, write_refused, write_robustness, write_solves,
+    Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, check_folder, open_robot,
+    run_robustness, write_refused, write_robustness, write_solves,
 };
-use indicatif::{ProgressBar, ProgressStyle};
+use std::error::Error;
 use std::path::PathBuf;
 use std::time::Instant;
 
 /// What was asked for.
+#[derive(clap::Args)]
 pub(crate) struct Settings {
-    pub(crate) robot: PathBuf,
-    pub(crate) poses: usize,
-    pub(crate) modulus: f64,
-    pub(crate) seed: u64,
-    pub(crate) out: PathBuf,
+    /// Robot file (JSON, `cdpr-robot/1`); the protocols are made for CoGiRo.
+    #[arg(long)]
+    robot: PathBuf,
+    /// Poses of the protocol of Mahnke and Caverly.
+    #[arg(long, default_value_t = 10_000)]
+    poses: usize,
+    /// Its Young's modulus of all cables [Pa]; the thirty poses keep the robot's.
+    #[arg(long, default_value_t = 35e9, allow_negative_numbers = true)]
+    modulus: f64,
+    /// Seed of poses and starts. The same seed gives the same numbers, but for the times.
+    #[arg(long, default_value_t = 2017)]
+    seed: u64,
+    /// Folder for the results; made if missing.
+    #[arg(long, default_value = "robustness")]
+    out: PathBuf,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), StudyError> {
+pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     let clock = Instant::now();
     let mut first = Protocol::mahnke_caverly(settings.poses, settings.seed);
     first.youngs_modulus = Some(settings.modulus);
@@ -30,7 +44,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), StudyError> {
     let robot = open_robot(&settings.robot)?;
     check_folder(&settings.out)?;
 
-    let progress = progress(&protocols);
+    let steps = protocols.iter().map(|protocol| protocol.poses + protocol.solves()).sum();
+    let progress = progress(steps, "poses and solves");
     let mut results = Vec::new();
     for protocol in &protocols {
         progress.set_message(protocol.name);
@@ -45,30 +60,12 @@ pub(crate) fn run(settings: &Settings) -> Result<(), StudyError> {
     write_solves(&settings.out, &results)?;
     write_refused(&settings.out, &results)?;
     write_robustness(&settings.out, &summary)?;
-    figure(settings, "found_poses", cdpr_report::found_poses(&results[0]))?;
-    figure(settings, "success_share", cdpr_report::success_share(&summary.protocols[0]))?;
-    print_results(&summary);
-    println!("{:.1} s; results in {}", clock.elapsed().as_secs_f64(), settings.out.display());
-    Ok(())
-}
-
-/// Writes a figure, or notes why there is none: results that cannot be drawn are results nevertheless.
-fn figure(settings: &Settings, name: &str, svg: Result<String, ReportError>) -> Result<(), StudyError> {
-    match svg {
-        Ok(svg) => write_figure(&settings.out, name, &svg).map(|_| ())?,
-        Err(error) => eprintln!("note: no figure {name}: {error}"),
-    }
-    Ok(())
-}
-
-/// A bar over all poses collected and all solves; silent when not on a terminal.
-fn progress(protocols: &[Protocol]) -> ProgressBar {
-    let steps: usize = protocols.iter().map(|protocol| protocol.poses + protocol.solves()).sum();
-    let bar = ProgressBar::new(steps as u64);
-    match ProgressStyle::with_template("{msg:16} {bar:30} {pos}/{len} poses and solves, {eta} left") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
+    write_drawn(&settings.out, "found_poses", cdpr_report::found_poses(&results[0]))?;
+    write_drawn(&settings.out, "success_share", cdpr_report::success_share(&summary.protocols[0]))?;
+    Ok(settings.format.print(&summary, |summary| {
+        print_results(summary);
+        println!("{:.1} s; results in {}", clock.elapsed().as_secs_f64(), settings.out.display());
+    })?)
 }
 
 fn print_results(summary: &RobustnessSummary) {

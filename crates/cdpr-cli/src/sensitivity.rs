@@ -1,6 +1,6 @@
 //! The measures of sensitivity of a sampling on the terminal: inputs and groups of them, methods, what they agree on.
 
-use crate::study::table;
+use crate::output::table;
 use cdpr_study::{InputMeasures, SensitivitySummary};
 
 /// Inputs in the table, the leading ones.

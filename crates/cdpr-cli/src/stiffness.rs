@@ -1,9 +1,9 @@
 //! `cdpr stiffness`: the Cartesian stiffness at a pose, its eigenvalues and the motions that belong to them.
 
 use crate::answer::{self, decimal};
-use crate::arguments::{self, RobotAtPose};
-use crate::study::table;
-use cdpr_statics::{Load, Stability, Start, Tangent, direct_any, inverse};
+use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::output::table;
+use cdpr_statics::{Stability, Start, Tangent, direct_any, inverse};
 use cdpr_study::open_robot;
 use serde::Serialize;
 use std::error::Error;
@@ -13,15 +13,14 @@ use std::error::Error;
 pub(crate) struct Settings {
     #[command(flatten)]
     at: RobotAtPose,
-    /// Mass that the platform carries there, at its centre of mass [kg].
-    #[arg(long, value_parser = arguments::mass, default_value = "0", allow_hyphen_values = true)]
-    payload: f64,
+    #[command(flatten)]
+    load: LoadArguments,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     let at = &settings.at;
     let robot = open_robot(&at.robot)?;
-    let load = Load::payload(settings.payload);
+    let load = settings.load.load();
     let wanted = inverse(&robot, &at.pose, &load, None)?;
     // The equilibrium at the pose itself, be it stable or not.
     let held = direct_any(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium))?;

@@ -10,7 +10,6 @@ mod template;
 use crate::{report, throughput};
 use cdpr_study::{Blocks, Existing, Shard, Study, StudyError, TableFormat};
 use clap::{Args, Subcommand, ValueEnum};
-use comfy_table::{Table, presets};
 use std::path::PathBuf;
 
 #[derive(Subcommand)]
@@ -71,11 +70,11 @@ pub(crate) struct RunSettings {
     /// Go on with what the folder holds of this study.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
-    /// Begin anew: remove the blocks that the folder holds, of whatever study they are.
+    /// Begin anew: remove blocks, tables and figures of the study that the folder holds, whatever study that is.
     #[arg(long)]
     overwrite: bool,
-    /// Make every n-th block only, beginning with the i-th, into a folder shared with the other shards; `auto` takes i and n from
-    /// Slurm's job array, `auto/n` takes i from HyperQueue's or Slurm's. Goes on with what is there; analyses nothing.
+    /// Make one of n shares of the blocks only, into a folder shared with the other shards; `auto/n` takes i from the task of a job array of
+    /// Slurm or HyperQueue, numbered from 1 to n. Goes on with what is there; analyses nothing.
     #[arg(long, value_name = "i/n", conflicts_with = "overwrite")]
     shard: Option<String>,
     #[command(flatten)]
@@ -157,7 +156,7 @@ pub(crate) fn run(command: Command) -> Result<(), RunError> {
             start_threads(common.threads)?;
             let (study, blocks) = cdpr_study::open_results(&folder)?;
             cdpr_study::check_complete(&folder, &study, &blocks)?;
-            carry_out::whole(&study, &folder, &blocks, common.table.map(TableFormat::from), |_| Ok(()))
+            carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
         }
         Command::Status(settings) => status::run(&settings),
         Command::Extend { folder: FolderSettings { folder, common }, observations } => {
@@ -165,7 +164,7 @@ pub(crate) fn run(command: Command) -> Result<(), RunError> {
             let (mut study, _) = cdpr_study::open_results(&folder)?;
             study.extend(observations)?;
             let blocks = cdpr_study::begin(&folder, &study, Existing::GoOn)?;
-            carry_out::whole(&study, &folder, &blocks, common.table.map(TableFormat::from), |_| Ok(()))
+            carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
         }
         Command::Throughput { study, sampling, observations, threads } => {
             throughput::run(&study, &sampling, observations, threads)
@@ -178,10 +177,7 @@ fn alone(settings: &RunSettings) -> Result<(), RunError> {
     let (study, blocks) = begun(settings)?;
     match settings.shard()? {
         Some(shard) => carry_out::shard(&study, &settings.out, &blocks, shard),
-        None => {
-            let format = settings.common.table.map(TableFormat::from);
-            carry_out::whole(&study, &settings.out, &blocks, format, |_| Ok(()))
-        }
+        None => carry_out::whole(&study, &settings.out, &blocks, &settings.common, |_| Ok(())),
     }
 }
 
@@ -229,12 +225,6 @@ pub(crate) fn start_threads(threads: Option<u16>) -> Result<(), RunError> {
     let Some(threads) = threads else { return Ok(()) };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     pool.map_err(|source| RunError::Threads { threads, source })
-}
-
-pub(crate) fn table(header: &[&str]) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::UTF8_FULL_CONDENSED).set_header(header);
-    table
 }
 
 #[cfg(test)]

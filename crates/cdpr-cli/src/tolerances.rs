@@ -1,7 +1,8 @@
 //! `cdpr tolerances`: which tolerances to tighten for a limit.
 
 use crate::arguments::{self, Format, Named};
-use crate::study::{start_threads, table};
+use crate::output::table;
+use crate::study::start_threads;
 use cdpr_study::{Estimate, Limit, Limited, Reached, Study, ToleranceBudget, tolerance_budget};
 use std::error::Error;
 use std::path::PathBuf;

@@ -1,17 +1,15 @@
 //! `cdpr workspace`: where the platform is held and how it gives, over a plane or a box.
 
-use crate::arguments::{self, Format, Named};
-use crate::output::Usage;
-use crate::study::{start_threads, table};
-use cdpr_report::{MapQuantity, heat_map, tolerance_map};
-use cdpr_robot::{Axis, Robot};
+use crate::arguments::{self, Format, LoadArguments, Named};
+use crate::output::{Usage, progress, table, write_drawn};
+use crate::study::start_threads;
+use cdpr_report::workspace_maps;
+use cdpr_robot::{Axis, Robot, Rotation3};
 use cdpr_study::{
     ErrorModel, Extremes, Grid, Study, Workspace, WorkspaceSummary, check_folder, compute_workspace,
-    open_robot, write_figure, write_workspace,
+    open_robot, write_workspace,
 };
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use std::error::Error;
-use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -30,9 +28,11 @@ pub(crate) struct Settings {
     /// Box, or a part of a plane: min:max:points of x, y and z [m], such as -2:2:9,-1:1:5,1.75:1.75:1.
     #[arg(long = "box", id = "box", value_name = "BOX", value_parser = arguments::grid, allow_hyphen_values = true)]
     within: Option<Grid>,
-    /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
-    #[arg(long, value_parser = arguments::mass, default_value = "50", allow_hyphen_values = true)]
-    payload: f64,
+    /// Orientation of the platform at all positions, a quaternion: qw,qx,qy,qz; level if left out.
+    #[arg(long, value_parser = arguments::rotation, allow_hyphen_values = true, default_value = "1,0,0,0")]
+    rotation: Rotation3<f64>,
+    #[command(flatten)]
+    load: LoadArguments,
     /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5.
     #[arg(long, value_parser = arguments::named)]
     uncertainty: Option<Named>,
@@ -92,27 +92,22 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     };
     let tolerances = settings.tolerances(&robot)?;
     check_folder(&settings.out)?;
-    let workspace =
-        Workspace { robot: &robot, grid, payload: settings.payload, tolerances: tolerances.as_ref() };
-    let progress = progress(grid.poses().len());
+    let workspace = Workspace {
+        robot: &robot,
+        grid,
+        rotation: settings.rotation,
+        load: settings.load.load(),
+        tolerances: tolerances.as_ref(),
+    };
+    let progress = progress(grid.poses().len(), "poses");
     let clock = Instant::now();
     let poses = compute_workspace(&workspace, &|| progress.inc(1), &|| false)?;
     let seconds = clock.elapsed().as_secs_f64();
     progress.finish_and_clear();
     let summary = WorkspaceSummary::new(&workspace, &poses);
     write_workspace(&settings.out, &summary)?;
-    if grid.normal().is_some() {
-        let mut maps: Vec<_> =
-            MapQuantity::ALL.map(|quantity| (quantity.name(), heat_map(&robot, &summary, quantity))).into();
-        if tolerances.is_some() {
-            maps.push(("dominant_tolerance", tolerance_map(&robot, &summary)));
-        }
-        for (name, map) in maps {
-            match map {
-                Ok(svg) => write_figure(&settings.out, name, &svg).map(|_| ())?,
-                Err(error) => eprintln!("note: no figure {name}: {error}"),
-            }
-        }
+    for (name, map) in workspace_maps(&robot, &summary) {
+        write_drawn(&settings.out, &name, map)?;
     }
     Ok(settings.format.print(&summary, |summary| {
         print(summary);
@@ -131,21 +126,8 @@ impl Settings {
     }
 }
 
-/// A bar with rate and time left; silent when not on a terminal.
-fn progress(poses: usize) -> ProgressBar {
-    let rate = |state: &ProgressState, out: &mut dyn Write| {
-        // Nothing to be done about a terminal that takes no text.
-        let _ = write!(out, "{:.0}/s", state.per_sec());
-    };
-    let bar = ProgressBar::new(poses as u64);
-    match ProgressStyle::with_template("{bar:30} {pos}/{len} poses, {rate}, {eta} left") {
-        Ok(style) => bar.with_style(style.with_key("rate", rate)),
-        Err(_) => bar,
-    }
-}
-
 fn print(summary: &WorkspaceSummary) {
-    println!("{}: {} positions, payload {} kg", summary.robot, summary.rows.len(), summary.payload);
+    println!("{}: {} positions, {}", summary.robot, summary.rows.len(), summary.conditions());
     for (status, count) in &summary.status {
         println!("{count:8} {status}");
     }

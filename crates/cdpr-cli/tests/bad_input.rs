@@ -26,8 +26,10 @@ const ROBOTS: [(&str, &str, &str); 14] = [
     ("cut.json", r#""tension_limits""#, "\u{0}"),
     ("weak.json", r#""max": 10290.0"#, r#""max": 100"#),
 ];
-const STUDIES: [(&str, &str, &str); 5] = [
+const STUDIES: [(&str, &str, &str); 7] = [
     ("study_payload.json", r#""payload": 50"#, r#""payload": -50"#),
+    ("study_no_payload.json", r#""payload": 50"#, r#""payload": 0"#),
+    ("study_replicates.json", r#""replicates": "#, r#""replicates": 1000000"#),
     ("study_robot.json", "../robots/caroca.json", "nowhere.json"),
     ("study_law.json", r#""law": "#, r#""low": "#),
     ("study_model.json", r#""error_model": ""#, r#""error_model": "x"#),
@@ -83,7 +85,7 @@ fn prepare(folder: &Path) {
 const LENGTHS: &str = "4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44";
 
 /// What is wrong, and the arguments, separated by spaces.
-const CASES: [(&str, &str); 70] = [
+const CASES: [(&str, &str); 78] = [
     ("unknown command", "invert robot.json"),
     ("missing argument", "inverse robot.json"),
     ("unknown argument", "inverse robot.json --pose 0,0,1.75 --speed 3"),
@@ -137,6 +139,20 @@ const CASES: [(&str, &str); 70] = [
     ("uncertainty of no parameter", "workspace robot.json --plane z=1.75 --uncertainty spring=1"),
     ("folder that cannot be made", "workspace robot.json --plane z=1.75 --out robot.json/out"),
     ("negative payload in a study", "study run study_payload.json"),
+    ("no payload in a study", "study run study_no_payload.json"),
+    ("more replicates than memory holds", "study run study_replicates.json"),
+    ("too few observations", "study run study.json --observations 2"),
+    ("a tolerance without a load", "workspace robot.json --plane z=1.75 --uncertainty a=0.001"),
+    ("a name given twice", "workspace robot.json --plane z=1.75 --uncertainty a=0.001,a=0.002"),
+    ("a rotation that is none", "workspace robot.json --plane z=1.75 --rotation 0,0,0,0"),
+    (
+        "lengths beyond any frame",
+        "direct robot.json --lengths 1e308,1e308,1e308,1e308,1e308,1e308,1e308,1e308",
+    ),
+    (
+        "candidate poses of which none is held",
+        "calibration robot.json --grid=0:0:1,0:0:1,9:9:1 --uncertainty a=0.001 --noise lengths=0.001",
+    ),
     ("robot of a study not there", "study run study_robot.json"),
     ("unknown field deep in a study", "study run study_law.json"),
     ("unknown error model", "study run study_model.json"),

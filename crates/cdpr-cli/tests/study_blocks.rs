@@ -222,11 +222,19 @@ fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there()
     };
     assert_eq!((count("blocks_done"), count("blocks_missing")), (12, 6));
     // The last third, as a job array of Slurm has it.
-    let mut command = bench.command(&["run", "my-study.json", "--out", "shards", "--shard", "auto"]);
-    for (end, value) in [("ID", "2"), ("MIN", "1"), ("MAX", "3"), ("COUNT", "3")] {
-        command.env(format!("SLURM_ARRAY_TASK_{end}"), value);
+    let mut command = bench.command(&["run", "my-study.json", "--out", "shards", "--shard", "auto/3"]);
+    assert!(command.env("SLURM_ARRAY_TASK_ID", "2").output().unwrap().status.success());
+    bench.done(&merge);
+    bench.assert_same("whole", "shards");
+    // A task that a scheduler runs again leaves what has been analysed as it is.
+    bench.run("shards", &["--shard", "2/3"]);
+    bench.assert_same("whole", "shards");
+    // One that makes a block does not: the summary may be of another.
+    std::fs::remove_file(&bench.blocks("shards")[0]).unwrap();
+    for shard in ["1/3", "2/3", "3/3"] {
+        bench.run("shards", &["--shard", shard]);
     }
-    assert!(command.output().unwrap().status.success());
+    assert!(!bench.path("shards/summary.json").exists());
     bench.done(&merge);
     bench.assert_same("whole", "shards");
 }
@@ -344,9 +352,49 @@ fn a_folder_in_use_is_refused_and_nothing_of_it_touched() {
 }
 
 #[test]
+fn files_that_no_run_has_written_stay_whatever_folder_they_are_in() {
+    let bench = Bench::new(300);
+    let mine = |out: &str| {
+        std::fs::create_dir_all(bench.path(out).join("blocks/mechanical")).unwrap();
+        ["blocks/data.txt", "blocks/mechanical/data.txt"].map(|file| {
+            let path = bench.path(out).join(file);
+            std::fs::write(&path, "mine").unwrap();
+            path
+        })
+    };
+    let files = mine("out");
+    for options in [&["--overwrite"][..], &["--overwrite"], &["--resume"]] {
+        bench.run("out", options);
+        assert!(files.iter().all(|file| std::fs::read(file).unwrap() == b"mine"), "{options:?}");
+    }
+    // A folder called `blocks` makes no results of a study that stands beside it.
+    mine("other");
+    std::fs::copy(bench.path("my-study.json"), bench.path("other/study.json")).unwrap();
+    std::fs::copy(bench.path("caroca.json"), bench.path("other/caroca.json")).unwrap();
+    let before = bench.results("other");
+    for options in [&[][..], &["--overwrite"], &["--resume"], &["--shard", "1/1"]] {
+        let message = bench.refused(&[&["run", "other/study.json", "--out", "other"], options].concat());
+        assert!(message.contains("other/study.json was not written by a run"), "{message}");
+    }
+    assert_eq!(bench.results("other"), before);
+}
+
+#[test]
+fn a_folder_whose_blocks_are_gone_is_known_and_run_again() {
+    let bench = Bench::new(300);
+    bench.run("whole", &[]);
+    bench.run("out", &[]);
+    for option in ["--resume", "--overwrite"] {
+        std::fs::remove_dir_all(bench.path("out/blocks")).unwrap();
+        bench.run("out", &[option]);
+        bench.assert_same("whole", "out");
+    }
+}
+
+#[test]
 fn shards_that_are_none_and_folders_without_a_study_are_refused() {
     let bench = Bench::new(300);
-    for shard in ["0/4", "5/4", "x"] {
+    for shard in ["0/4", "5/4", "x", "auto"] {
         let message = bench.refused(&["run", "my-study.json", "--shard", shard]);
         assert!(message.starts_with(&format!("error: --shard is {shard}: expected i/n")), "{message}");
     }
@@ -385,18 +433,24 @@ mod unix {
     #[test]
     fn an_interrupted_run_says_how_to_go_on_and_exits_with_130() {
         let bench = Bench::new(400_000);
-        let arguments = ["run", "my-study.json", "--out", "out"];
+        let out = "my results";
+        let arguments = ["run", "my-study.json", "--out", out, "--table", "none", "--threads", "2"];
         let child = bench.command(&arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
         let clock = Instant::now();
-        while bench.blocks("out").is_empty() && clock.elapsed() < Duration::from_secs(60) {
+        while bench.blocks(out).is_empty() && clock.elapsed() < Duration::from_secs(60) {
             std::thread::sleep(Duration::from_millis(5));
         }
         assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130));
         let text = String::from_utf8(output.stderr).unwrap();
-        assert!(text.contains("interrupted: what is done is in out; go on with: cdpr study run out/study.json --out out --resume"), "{text}");
-        assert!(!bench.blocks("out").is_empty());
+        let (_, command) =
+            text.split_once("interrupted: what is done is in my results; go on with: cdpr ").unwrap();
+        let expected =
+            [&["run", "my results/study.json"][..], &arguments[2..4], &["--resume"], &arguments[4..]];
+        let words = ["study"].into_iter().chain(expected.into_iter().flatten().copied());
+        assert_eq!(shlex::split(command).unwrap(), words.collect::<Vec<_>>(), "{text}");
+        assert!(!bench.blocks(out).is_empty());
     }
 
     #[test]

@@ -221,6 +221,91 @@ fn poses_that_are_none_are_refused_with_their_place() {
 }
 
 #[test]
+fn a_study_of_other_names_overwrites_every_file_of_a_run_and_nothing_else() {
+    let box_of_layers = json!({"grid": {
+        "x": {"min": -1.0, "max": 1.0, "points": 2}, "y": {"min": -0.5, "max": 0.5, "points": 2},
+        "z": {"min": 1.5, "max": 2.0, "points": 2}
+    }});
+    let bench = plane(|study| {
+        let mut layered = study["samplings"]["plane"].clone();
+        layered["poses"] = box_of_layers;
+        study["samplings"]["box"] = layered;
+        let mut alone = study["samplings"]["plane"].clone();
+        alone.as_object_mut().unwrap().remove("poses");
+        alone["pose"] = json!({"position": [0.0, 0.0, 1.75]});
+        study["samplings"]["alone"] = alone;
+        study["replicates"] = json!(2);
+        study["sensitivity"] = json!({
+            "observations": 40, "saltelli_blocks": 16, "morris_blocks": 4, "derivative_points": 4,
+            "expansion": {"max_degree": 1, "norm": 1.0, "interactions": 1}
+        });
+        let axis =
+            |parameter: &str, max: f64| json!({"parameter": parameter, "min": -max, "max": max, "points": 2});
+        let (x, y) = (axis("mass", 18.0), axis("youngs_modulus", 2e9));
+        study["surfaces"] =
+            json!({"sheet": {"title": "Sheet", "pose": {"position": [0.0, 0.0, 1.75]}, "x": x, "y": y}});
+    });
+    bench.run("out", &["--table", "csv"]);
+    let written = bench.files("out");
+    for name in [
+        "alone_sensitivity.csv",
+        "alone_effects.svg",
+        "anchor_points.svg",
+        "box_std_z01.svg",
+        "plane/0007.csv",
+        "sheet.svg",
+    ] {
+        assert!(written.contains_key(name), "{name} is not in {:?}", written.keys());
+    }
+    std::fs::write(bench.path("out/plane/notes.csv"), "mine").unwrap();
+    std::fs::write(bench.path("out/alone_notes.svg"), "mine").unwrap();
+    let mut study = bench.json("study.json");
+    study["samplings"] = json!({"other": study["samplings"]["alone"]});
+    study["surfaces"] = json!({});
+    std::fs::write(bench.path("study.json"), study.to_string()).unwrap();
+    bench.run("out", &["--overwrite"]);
+    for file in ["out/plane/notes.csv", "out/alone_notes.svg"] {
+        assert_eq!(std::fs::read(bench.path(file)).unwrap(), b"mine", "{file}");
+        std::fs::remove_file(bench.path(file)).unwrap();
+    }
+    bench.run("fresh", &[]);
+    bench.assert_same("fresh", "out");
+}
+
+#[test]
+fn names_whose_files_would_be_those_of_another_part_are_refused() {
+    for (taken, writer) in [
+        ("alone_sensitivity", "samplings.alone"),
+        ("alone_effects", "samplings.alone"),
+        ("plane_mean", "samplings.plane"),
+        ("plane_dominant_z01", "samplings.plane"),
+        ("robot", "the study as a whole"),
+        ("anchor_points", "the study as a whole"),
+        ("exit_points", "the study as a whole"),
+    ] {
+        for kind in ["samplings", "surfaces"] {
+            let bench = plane(|study| {
+                let mut alone = study["samplings"]["plane"].clone();
+                alone.as_object_mut().unwrap().remove("poses");
+                alone["pose"] = json!({"position": [0.0, 0.0, 1.75]});
+                let axis = json!({"parameter": "mass", "min": -1.0, "max": 1.0, "points": 2});
+                let sheet = json!({"title": "Sheet", "pose": alone["pose"], "x": axis, "y": axis});
+                study["samplings"]["alone"] = alone.clone();
+                study["surfaces"] = json!({});
+                study[kind][taken] = if kind == "samplings" { alone } else { sheet };
+            });
+            let message = bench.refused(&["run", "study.json"]);
+            let expected =
+                format!("error: study.json: {kind}.{taken} is {taken}: expected another name: {writer} ");
+            assert!(message.starts_with(&expected) && message.contains("(line "), "{message}");
+            assert!(!bench.path("results").exists());
+        }
+    }
+    // Nothing else is called as maps of a sampling at one pose, or effects of one at several.
+    plane(|study| study["samplings"]["plane_effects"] = study["samplings"]["plane"].clone()).run("out", &[]);
+}
+
+#[test]
 fn where_one_pose_is_wanted_several_are_refused_with_their_names() {
     let bench = plane(|study| {
         study["comparison"] = json!([{

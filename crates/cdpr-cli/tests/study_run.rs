@@ -216,10 +216,10 @@ fn bad_robots_are_refused_with_file_field_value_and_remedy() {
 #[test]
 fn bad_studies_are_refused_with_file_field_value_and_remedy() {
     let file = "error: study.json: ";
-    refused(|_, s| s["payload"] = json!(-5), &[file, "payload is -5", "zero or more [kg]"]);
+    refused(|_, s| s["payload"] = json!(-5), &[file, "payload is -5", "above zero [kg]"]);
     refused(|_, s| s["samplngs"] = json!({}), &[file, "unknown field `samplngs`", "expected one of"]);
     refused(|_, s| s["format"] = json!("cdpr-study/7"), &[file, "format is cdpr-study/7", "cdpr-study/1"]);
-    refused(|_, s| s["replicates"] = json!(1), &[file, "replicates is 1", "at least 2"]);
+    refused(|_, s| s["replicates"] = json!(1), &[file, "replicates is 1", "2 to 10000"]);
     refused(|_, s| s["confidence"] = json!(95), &[file, "confidence is 95", "between 0 and 1"]);
     refused(
         |_, s| s["samplings"]["mechanical"]["error_model"] = json!("table_5"),

@@ -45,23 +45,32 @@ fn script(bench: &Bench, file: &str) -> Command {
 }
 
 #[test]
-fn seven_tasks_of_a_slurm_array_make_what_one_run_makes() {
+fn seven_tasks_of_a_slurm_array_of_which_one_is_repeated_make_what_one_run_makes() {
     let bench = bench(20_000);
     bench.run("whole", &["--table", "none"]);
     put_programs(&bench, "srun", "#!/bin/sh\nexec \"$@\"\n");
-    let task = |id: usize| {
+    // Task `id` of `--array=FIRST-LAST`.
+    let task = |id: usize, [first, last]: [usize; 2]| {
         let mut command = script(&bench, "cluster/slurm.sh");
-        command.args(["study.json", "shared", "--observations", "20000"]).env("SLURM_CPUS_PER_TASK", "1");
-        // An array that does not begin at 1, as `--array=3-9` has it.
-        for (end, value) in [("ID", id), ("MIN", 3), ("MAX", 9), ("COUNT", 7)] {
+        command.args(["7", "study.json", "shared", "--observations", "20000"]);
+        command.env("SLURM_CPUS_PER_TASK", "1");
+        for (end, value) in [("ID", id), ("MIN", first), ("MAX", last), ("COUNT", last - first + 1)] {
             command.env(format!("SLURM_ARRAY_TASK_{end}"), value.to_string());
         }
-        command.stdout(std::process::Stdio::null()).spawn().unwrap()
+        command.output().unwrap()
     };
-    let tasks: Vec<_> = (3..=9).rev().map(task).collect();
-    for mut task in tasks {
-        assert!(task.wait().unwrap().success());
-    }
+    std::thread::scope(|scope| {
+        let tasks = [7, 6, 5, 4, 2, 1].map(|id| scope.spawn(move || task(id, [1, 7])));
+        for task in tasks {
+            assert!(task.join().unwrap().status.success());
+        }
+    });
+    assert!(bench.refused(&["merge", "shared"]).contains("shared lacks"));
+    assert!(task(3, [3, 3]).status.success());
+    let beyond = task(8, [8, 8]);
+    assert_eq!(beyond.status.code(), Some(1));
+    let text = String::from_utf8(beyond.stderr).unwrap();
+    assert!(text.starts_with("error: SLURM_ARRAY_TASK_ID is `8`: expected a task from 1 to 7"), "{text}");
     bench.done(&["merge", "shared", "--table", "none"]);
     bench.assert_same("whole", "shared");
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::{Pose, Robot, Vector3, Wrench};
 use cdpr_statics::{Load, deflection};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -95,7 +95,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
 }
 
 #[test]
-fn a_box_has_no_maps_and_a_study_may_give_the_tolerances() {
+fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
     let folder = TempDir::new().unwrap();
     let study = data("studies/caroca.json");
     let arguments = [
@@ -104,6 +104,8 @@ fn a_box_has_no_maps_and_a_study_may_give_the_tolerances() {
         study.to_str().unwrap(),
         "--error-model",
         "table_3",
+        "--payload",
+        "50",
         "--out",
         "out",
     ];
@@ -115,6 +117,34 @@ fn a_box_has_no_maps_and_a_study_may_give_the_tolerances() {
     // A uniform law of half width 18 kg.
     assert!((summary["uncertainties"]["mass"].as_f64().unwrap() - 18.0 / 3f64.sqrt()).abs() < 1e-12);
     assert_eq!(files(&folder.path().join("out")).len(), 6, "the box is a plane: y has one place");
-    run(folder.path(), &["--box=-1:1:2,0:1:2,1:2:2", "--out", "box"]);
-    assert_eq!(files(&folder.path().join("box")).len(), 2);
+    run(folder.path(), &["--box=-1:1:2,0:1:2,1:2:2", "--payload", "50", "--out", "box"]);
+    let names: Vec<_> = files(&folder.path().join("box")).into_iter().map(|(name, _)| name).collect();
+    let layers = ["deflection", "greatest_tension", "least_stiffness"]
+        .map(|name| [format!("{name}_z00.svg"), format!("{name}_z01.svg")]);
+    assert_eq!(names[..6], layers.concat());
+    assert_eq!(names[6..], ["workspace.csv", "workspace.json"]);
+}
+
+#[test]
+fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_displaced() {
+    let folder = TempDir::new().unwrap();
+    let place = "--box=-0.5:0.5:3,-0.5:0.5:3,1.75:1.75:1";
+    let summary = |arguments: &[&str]| {
+        let arguments = [&[place, "--format", "json", "--out", "out"], arguments].concat();
+        serde_json::from_slice::<Value>(&run(folder.path(), &arguments).stdout).unwrap()
+    };
+    let turned = summary(&["--rotation", "1,0,0,0.05", "--force", "0,200,0", "--moment", "0,0,10"]);
+    let robot = Robot::from_json(&std::fs::read_to_string(data("robots/caroca.json")).unwrap()).unwrap();
+    let pose = Pose::with_quaternion(Vector3::new(0.0, 0.0, 1.75), [1.0, 0.0, 0.0, 0.05]).unwrap();
+    let wrench = Wrench { force: Vector3::new(0.0, 200.0, 0.0), moment: Vector3::new(0.0, 0.0, 10.0) };
+    let exact = deflection(&robot, &pose, &[0.0; 8], &Load::wrench(wrench)).unwrap();
+    assert_eq!(turned["rows"][4]["rms_mm"].as_f64(), Some((1e3 * exact.displacement()).norm()));
+    let map = std::fs::read_to_string(folder.path().join("out/deflection.svg")).unwrap();
+    assert!(map.contains("force (0, 200, 0) N, moment (0, 0, 10) N m, quaternion (0.9988, "), "{map}");
+
+    std::fs::remove_dir_all(folder.path().join("out")).unwrap();
+    let unloaded = summary(&[]);
+    assert_eq!((&unloaded["rms_mm"], &unloaded["rows"][4]["rms_mm"]), (&Value::Null, &Value::Null));
+    assert!(unloaded["least_stiffness"]["min"].as_f64().unwrap() > 0.0);
+    assert!(!folder.path().join("out/deflection.svg").exists());
 }

@@ -5,7 +5,8 @@ use crate::arrays::{Array, Numbers};
 use crate::error::{Answer, Raised};
 use crate::robot::Robot;
 use crate::threads::run;
-use cdpr_robot::Axis;
+use cdpr_robot::{Axis, Rotation3};
+use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, Grid, GridAxis, WorkspaceRow, compute_workspace, uncertainties};
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -53,7 +54,7 @@ impl Robot {
     /// x, y, z: places along each axis [m]: a number, or (from, to, points).
     /// plane: in place of these, a plane over the frame of the exit points, ("z", 1.75).
     /// grid: points of the plane along its two axes; (41, 41) if left out.
-    /// payload: mass added at the platform's centre of mass, whose effect is the deflection [kg].
+    /// payload: mass added at the platform's centre of mass, whose effect is the deflection [kg]; with 0 there is none.
     /// uncertainty: standard deviations of parameters or groups of them [SI units]: {"a": 0.002, "mass": 0.5}.
     ///
     /// Raises InputError. A position that is not held is no error.
@@ -80,8 +81,13 @@ impl Robot {
             _ => return Err(Raised::Input("expected x, y and z, or plane with its grid".to_owned())),
         };
         let tolerances = uncertainty.map(|named| tolerances(&self.robot, named)).transpose()?;
-        let workspace =
-            cdpr_study::Workspace { robot: &self.robot, grid, payload, tolerances: tolerances.as_ref() };
+        let workspace = cdpr_study::Workspace {
+            robot: &self.robot,
+            grid,
+            rotation: Rotation3::identity(),
+            load: Load::payload(payload),
+            tolerances: tolerances.as_ref(),
+        };
         let poses = run(py, |stop| compute_workspace(&workspace, &|| (), &|| stop.load(Ordering::Relaxed)))??;
         let rows: Vec<WorkspaceRow> = poses.iter().map(|pose| WorkspaceRow::new(&workspace, pose)).collect();
         let column = |value: &dyn Fn(usize) -> Option<f64>| -> Py<PyAny> {
@@ -93,6 +99,7 @@ impl Robot {
             Ok(PyArray1::<f64>::from_vec(py, values).reshape(IxDyn(&[rows.len(), 3]))?.into_any().unbind())
         };
         let held = |row: usize| poses[row].outcome.as_ref().ok();
+        let loaded = |row: usize| held(row).filter(|_| workspace.load != Load::none());
         Ok(Workspace {
             shape: [Axis::X, Axis::Y, Axis::Z].map(|axis| grid.axis(axis).points).into(),
             positions: vectors(&|row| Some(poses[row].pose.position.into()))?,
@@ -100,8 +107,8 @@ impl Robot {
             reasons: rows.iter().map(|row| row.reason.clone()).collect(),
             least_tension: column(&|row| Some(held(row)?.least_tension)),
             greatest_tension: column(&|row| Some(held(row)?.greatest_tension)),
-            displacement: vectors(&|row| Some(held(row)?.displacement.into()))?,
-            rms: column(&|row| Some(held(row)?.displacement.norm())),
+            displacement: vectors(&|row| Some(loaded(row)?.displacement.into()))?,
+            rms: column(&|row| Some(loaded(row)?.displacement.norm())),
             least_stiffness: column(&|row| Some(held(row)?.least_stiffness)),
             dominant: rows.iter().map(|row| row.dominant.clone()).collect(),
             dominant_share: column(&|row| Some(held(row)?.dominant?.share)),

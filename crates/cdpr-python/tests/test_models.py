@@ -121,6 +121,8 @@ def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
     assert found.dominant == [row["dominant"] for row in told["rows"]]
     for name in ("least_tension", "greatest_tension", "least_stiffness", "dominant_share"):
         same(getattr(found, name), [numpy.nan if row[name] is None else row[name] for row in told["rows"]])
+    bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
+    assert numpy.isnan(bare.rms).all() and not numpy.isnan(bare.least_stiffness).any()
     plane = caroca.workspace(plane=("z", 1.75), grid=(3, 2), payload=50)
     assert plane.shape == (3, 2, 1)
     same(plane.positions[0], [-3.5, -2.0, 1.75])

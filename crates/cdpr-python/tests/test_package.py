@@ -112,6 +112,8 @@ def _indices(seed):
 
 
 def test_ctrl_c_ends_a_workspace(caroca):
+    # A shell's background process ignores it, and so do its children.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
     begun = time.monotonic()
     with pytest.raises(KeyboardInterrupt):

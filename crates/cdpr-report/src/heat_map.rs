@@ -4,6 +4,7 @@ use crate::color_map::ColorMap;
 use crate::error::ReportError;
 use crate::name_map::name_map;
 use crate::plane::{self, Paint, Plane};
+use crate::pose_map::NamedMap;
 use crate::style::{Heading, number};
 use cdpr_robot::Robot;
 use cdpr_study::{WorkspaceRow, WorkspaceSummary};
@@ -61,19 +62,28 @@ pub fn heat_map(
     summary: &WorkspaceSummary,
     quantity: MapQuantity,
 ) -> Result<String, ReportError> {
-    let plane = plane_of(summary)?;
+    values(&plane_of(summary)?, robot, summary, quantity)
+}
+
+fn values(
+    plane: &Plane,
+    robot: &Robot,
+    summary: &WorkspaceSummary,
+    quantity: MapQuantity,
+) -> Result<String, ReportError> {
     let (words, label, unit) = quantity.words();
-    let values = summary.rows.iter().map(|row| quantity.value(row)).collect();
+    let rows: Vec<_> = plane.positions.iter().map(|position| &summary.rows[*position]).collect();
+    let values = rows.iter().map(|row| quantity.value(row)).collect();
     let map = ColorMap::new(plane.cells()?, values, quantity.name(), &format!("{label} [{unit}]"))?;
-    let hatched = |place: usize| summary.rows[place].status != "held";
-    let held = (0..summary.rows.len()).filter(|place| !hatched(*place)).count();
+    let hatched = |place: usize| rows[place].status != "held";
+    let held = (0..rows.len()).filter(|place| !hatched(*place)).count();
     let heading = Heading {
-        title: &format!("{}: {words} at {}, payload {} kg", summary.robot, plane.words(), summary.payload),
+        title: &format!("{}: {words} at {}, {}", summary.robot, plane.words(), summary.conditions()),
         lines: &[format!(
             "{} {unit} to {} {unit}; {held} of {} positions held with all tensions within limits, the others are hatched",
             number(map.least, 3),
             number(map.greatest, 3),
-            summary.rows.len()
+            rows.len()
         )],
         key: &plane::key(),
     };
@@ -85,20 +95,40 @@ pub fn heat_map(
 /// # Errors
 /// As [`heat_map`]; [`ReportError::Empty`] also for a workspace without tolerances.
 pub fn tolerance_map(robot: &Robot, summary: &WorkspaceSummary) -> Result<String, ReportError> {
-    let plane = plane_of(summary)?;
-    let names: Vec<_> = summary.rows.iter().map(|row| row.dominant.as_deref()).collect();
+    names(&plane_of(summary)?, robot, summary)
+}
+
+fn names(plane: &Plane, robot: &Robot, summary: &WorkspaceSummary) -> Result<String, ReportError> {
+    let rows = plane.positions.iter().map(|position| &summary.rows[*position]);
+    let names: Vec<_> = rows.map(|row| row.dominant.as_deref()).collect();
     let shown = names.iter().flatten().count();
     if shown == 0 {
         return Err(ReportError::Empty { what: "no tolerance at any position" });
     }
     let title = format!(
-        "{}: tolerance with the largest share of the variance of |dp| at {}, payload {} kg",
+        "{}: tolerance with the largest share of the variance of |dp| at {}, {}",
         summary.robot,
         plane.words(),
-        summary.payload
+        summary.conditions()
     );
     let line = format!("{shown} of {} positions, the others are hatched", names.len());
-    name_map(&plane, robot, &title, line, &names)
+    name_map(plane, robot, &title, line, &names)
+}
+
+/// All maps of a workspace that is a plane, or of each layer of a box: by the names of their files, with `_z00`, ... for layers.
+pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary) -> Vec<NamedMap> {
+    let mut maps = Vec::new();
+    for plane in Plane::of(&summary.grid) {
+        let name = |quantity: &str| format!("{quantity}{}", plane.suffix());
+        // Without a load nothing is displaced.
+        let deflection = summary.rows.iter().any(|row| row.rms_mm.is_some());
+        let shown = MapQuantity::ALL.into_iter().filter(|of| deflection || *of != MapQuantity::Deflection);
+        maps.extend(shown.map(|of| (name(of.name()), values(&plane, robot, summary, of))));
+        if !summary.uncertainties.is_empty() {
+            maps.push((name("dominant_tolerance"), names(&plane, robot, summary)));
+        }
+    }
+    maps
 }
 
 fn plane_of(summary: &WorkspaceSummary) -> Result<Plane, ReportError> {

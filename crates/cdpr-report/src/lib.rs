@@ -3,6 +3,7 @@
 //!
 //! | figure of the paper | function |
 //! |---|---|
+//! | none: the robot at the poses of a study | [`robot_view`] |
 //! | 3: load over elongation, and other cycles | [`cycle`] |
 //! | 4a, 5a: distribution of the RMS with its fitted laws | [`histogram`] |
 //! | 4b, 4c: RMS over two parameters | [`surface`] |
@@ -11,6 +12,7 @@
 //! | none: shares of the variance by all measures | [`shares`] |
 //! | none: deflection, stiffness, tension over a plane of the workspace | [`heat_map`] |
 //! | none: the dominant tolerance over it | [`tolerance_map`] |
+//! | none: all maps of a plane or of the layers of a box | [`workspace_maps`] |
 //! | none: what a sampling at many poses says over the workspace | [`pose_maps`] |
 //! | none: answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
@@ -42,6 +44,7 @@ mod plane;
 mod points;
 mod pose_map;
 mod report;
+mod robot_view;
 mod robustness;
 mod run;
 mod shares;
@@ -51,11 +54,12 @@ mod surface;
 pub use cycle::{Cycle, cycle};
 pub use effects::signed_effects;
 pub use error::ReportError;
-pub use heat_map::{MapQuantity, heat_map, tolerance_map};
+pub use heat_map::{MapQuantity, heat_map, tolerance_map, workspace_maps};
 pub use histogram::histogram;
 pub use points::{Points, point_effects};
-pub use pose_map::{PoseMap, pose_maps};
+pub use pose_map::{NamedMap, pose_maps};
 pub use report::report;
+pub use robot_view::robot_view;
 pub use robustness::{found_poses, success_share};
 pub use run::{Watcher, run};
 pub use shares::shares;

@@ -79,6 +79,11 @@ impl Plane {
         grid.axis(normal).places().into_iter().enumerate().map(layer).collect()
     }
 
+    /// What tells its file from those of the other layers of a box: `_z00`.
+    pub(crate) fn suffix(&self) -> String {
+        self.layer.map(|layer| format!("_z{layer:02}")).unwrap_or_default()
+    }
+
     /// `z = 1.75 m`.
     pub(crate) fn words(&self) -> String {
         format!("{} = {} m", letter(self.normal), self.place)

@@ -10,14 +10,14 @@ use cdpr_robot::Robot;
 use cdpr_study::{PoseRow, PosesSummary};
 
 /// A map by its name, `mean`, `std` or `dominant`, with `_z00`, ... for the layers of a box; or why it cannot be drawn.
-pub type PoseMap = (String, Result<String, ReportError>);
+pub type NamedMap = (String, Result<String, ReportError>);
 
 /// All maps of a sampling at the poses of a grid. Grey and hatched is where there is nothing to show: the nominal robot does not hold the
 /// pose, or hardly any observation has succeeded. A list of poses, or a line, has no map.
-pub fn pose_maps(robot: &Robot, summary: &PosesSummary, rows: &[PoseRow]) -> Vec<PoseMap> {
+pub fn pose_maps(robot: &Robot, summary: &PosesSummary, rows: &[PoseRow]) -> Vec<NamedMap> {
     let planes = summary.grid.as_ref().map(Plane::of).unwrap_or_default();
     let maps = planes.iter().flat_map(|plane| {
-        let layer = plane.layer.map(|layer| format!("_z{layer:02}")).unwrap_or_default();
+        let layer = plane.suffix();
         let rows: Option<Vec<&PoseRow>> = plane.positions.iter().map(|place| rows.get(*place)).collect();
         let drawn = |draw: fn(&Plane, &Robot, &str, &[&PoseRow]) -> Result<String, ReportError>| {
             let rows = rows.as_ref().ok_or(ReportError::Empty { what: "a pose of the grid has no row" })?;

@@ -11,7 +11,7 @@ mod glance;
 mod poses;
 mod robot;
 mod run;
-mod scene;
+pub(crate) mod scene;
 mod setup;
 mod text;
 

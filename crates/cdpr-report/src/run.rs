@@ -3,7 +3,7 @@
 
 use crate::error::ReportError;
 use crate::points::{Points, point_effects};
-use crate::{histogram, pose_maps, shares, signed_effects, surface};
+use crate::{histogram, pose_maps, robot_view, shares, signed_effects, surface};
 use cdpr_study::{
     Blocks, IndexMap, ObservationTable, Sampling, Session, Study, StudyError, StudySummary, Summary,
     SurfaceSummary, TableFormat, Tally, Timings, analyse, compute_surface, observe_into, observe_poses,
@@ -41,6 +41,7 @@ pub fn run(
     watcher: Watcher,
 ) -> Result<(Summary, Timings), StudyError> {
     let clock = Instant::now();
+    blocks.remove_summary()?;
     let mut run = Run { out, blocks, format, watcher, studies: IndexMap::new(), timings: Timings::default() };
     for (name, spec) in &study.file.samplings {
         if spec.poses.is_some() { run.poses(study, name)? } else { run.sampling(study, name)? }
@@ -49,6 +50,7 @@ pub fn run(
         run.surface(study, name)?;
     }
     run.point_effects(study)?;
+    run.figure("robot", robot_view(study))?;
     let summary = Summary::new(study, run.studies);
     write_summary(out, &summary)?;
     blocks.remove_unfinished()?;

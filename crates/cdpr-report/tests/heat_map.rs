@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use cdpr_report::{MapQuantity, ReportError, heat_map, tolerance_map};
-use cdpr_robot::{Axis, Robot};
+use cdpr_robot::{Axis, Robot, Rotation3};
+use cdpr_statics::Load;
 use cdpr_study::{Grid, GridAxis, Workspace, WorkspaceRow, WorkspaceSummary, compute_workspace};
 
 fn caroca() -> Robot {
@@ -11,7 +12,13 @@ fn caroca() -> Robot {
 }
 
 fn summary(robot: &Robot, grid: Grid) -> WorkspaceSummary {
-    let workspace = Workspace { robot, grid, payload: 50.0, tolerances: None };
+    let workspace = Workspace {
+        robot,
+        grid,
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: None,
+    };
     WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap())
 }
 

@@ -1,15 +1,18 @@
 //! Files that are whole or not there: written beside their place under a name of their own, then renamed.
 
 use crate::error::StudyError;
+use crate::output::remove_stale;
 use serde::Serialize;
+use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
 /// How the names of files begin that are being written.
-pub(crate) const UNFINISHED: &str = ".cdpr-";
+const UNFINISHED: &str = ".cdpr-";
 
-/// A file that takes its name when it is finished; one that is not leaves nothing behind, unless the process is killed.
+/// A file that takes its name when it is finished; one that is not leaves nothing behind, unless the process is killed. It is locked
+/// meanwhile, by which other processes tell what is being written from what was left.
 pub(crate) struct AtomicFile {
     path: PathBuf,
     file: BufWriter<NamedTempFile>,
@@ -27,7 +30,11 @@ impl AtomicFile {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         match builder.tempfile_in(folder_of(&path)) {
-            Ok(file) => Ok(Self { path, file: BufWriter::new(file) }),
+            Ok(file) => {
+                // Where the file system has no locks, [`remove_unfinished`] gets none either.
+                let _ = file.as_file().try_lock();
+                Ok(Self { path, file: BufWriter::new(file) })
+            }
             Err(source) => Err(StudyError::Write { path, source }),
         }
     }
@@ -65,7 +72,7 @@ impl AtomicFile {
         let path = self.finish()?;
         // The name is part of the folder.
         #[cfg(unix)]
-        if let Err(source) = std::fs::File::open(folder_of(&path)).and_then(|folder| folder.sync_all()) {
+        if let Err(source) = File::open(folder_of(&path)).and_then(|folder| folder.sync_all()) {
             return Err(StudyError::Write { path, source });
         }
         Ok(path)
@@ -84,6 +91,24 @@ impl Write for AtomicFile {
 
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Whether a file is one that is being written, or was when its process was killed.
+pub(crate) fn is_unfinished(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(UNFINISHED))
+}
+
+/// Removes an unfinished file, unless a process writes it.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub(crate) fn remove_unfinished(path: PathBuf) -> Result<(), StudyError> {
+    // One that cannot be opened may be somebody else's.
+    let Ok(file) = File::options().write(true).open(&path) else { return Ok(()) };
+    if file.try_lock().is_err() {
+        return Ok(());
+    }
+    remove_stale(path)
 }
 
 /// Writes a file that is whole and on the disk when this returns.

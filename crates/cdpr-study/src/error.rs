@@ -1,5 +1,6 @@
 //! What can go wrong with a study.
 
+use crate::folder::MARK_NAME;
 use cdpr_cable::RecordError;
 use cdpr_robot::{JsonError, RobotError, place_of};
 use cdpr_sensitivity::SensitivityError;
@@ -130,7 +131,8 @@ pub enum StudyError {
     },
     /// A file that no run has written stands where one would write.
     #[error(
-        "{path} was not written by a run, which would write over it: choose another folder for the results"
+        "{path} was not written by a run, which would write over it: choose another folder (one of results has a file {})",
+        MARK_NAME
     )]
     NoResults {
         /// The file.
@@ -215,6 +217,11 @@ fn because(source: Option<&StaticsError>) -> String {
 }
 
 impl StudyError {
+    /// Whether what was asked for is wrong, and no file.
+    pub fn is_argument(&self) -> bool {
+        matches!(self, Self::Setting { .. })
+    }
+
     /// With the place of the field in the study file's text, where it has one.
     pub(crate) fn placed(self, text: &str) -> Self {
         let place = match &self {

@@ -1,13 +1,15 @@
 //! The folder of a study's results, complete by itself: beside tables, figures and `summary.json` it holds the study as it was run
 //! (`study.json`), the robot (`robot.json`), what was observed (`blocks`), and how long it took (`timings.json`, apart from the
-//! summary, which is the same from run to run).
+//! summary, which is the same from run to run). A file of its own tells it from a folder in which somebody keeps a study.
 
 use crate::atomic::{write_atomic, write_json};
 use crate::error::StudyError;
-use crate::output::{check_folder, remove_stale};
+use crate::file::StudyFile;
+use crate::names::remove_files;
+use crate::output::{SUMMARY_NAME, check_folder, remove_stale};
 use crate::store::Blocks;
-use crate::study::Study;
-use cdpr_robot::Robot;
+use crate::study::{Study, read};
+use cdpr_robot::{Robot, from_json};
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -21,6 +23,19 @@ pub const ROBOT_NAME: &str = "robot.json";
 /// Name of the folder of blocks in a folder of results.
 pub(crate) const BLOCKS_NAME: &str = "blocks";
 
+/// Name of the times in a folder of results.
+pub(crate) const TIMINGS_NAME: &str = "timings.json";
+
+/// Name of the report in a folder of results.
+pub const REPORT_NAME: &str = "report.html";
+
+/// Name of the file by which a folder of results is known: what is called `study.json` elsewhere is a user's own.
+pub(crate) const MARK_NAME: &str = "cdpr-results.txt";
+
+const MARK: &str = "Results of a study, written by cdpr, which knows this folder by this file.
+`cdpr study run --overwrite` removes the blocks, tables and figures of the study in study.json, and nothing else.
+";
+
 /// What becomes of blocks that a folder holds already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
@@ -28,7 +43,7 @@ pub enum Existing {
     Refuse,
     /// Those of the same study are kept and the rest is made.
     GoOn,
-    /// All are removed, of whatever study they are.
+    /// All are removed, of whatever study they are, with its tables and figures.
     Overwrite,
 }
 
@@ -72,35 +87,36 @@ impl Study {
     }
 }
 
-/// Makes the folder for the results of a study, or goes on with one: before anything is computed.
+/// Makes the folder for the results of a study, or goes on with one: before anything is computed. Several processes may do so at once.
 ///
 /// # Errors
 /// [`StudyError::Write`]; [`StudyError::FolderInUse`] and [`StudyError::ForeignFolder`] for blocks of this study and of others,
 /// [`StudyError::NoResults`] for a study or robot file that stands there and is not of a run.
 pub fn begin(folder: &Path, study: &Study, existing: Existing) -> Result<Blocks, StudyError> {
     check_folder(folder)?;
-    let path = folder.join(BLOCKS_NAME);
     let blocks = Blocks::new(folder, study)?;
-    if path.is_dir() {
-        let unwritten = |source| StudyError::Write { path: path.clone(), source };
-        match existing {
-            Existing::Overwrite => std::fs::remove_dir_all(&path).map_err(unwritten)?,
-            Existing::Refuse => {
-                check_study(folder, study)?;
-                let blocks = blocks.count()?;
-                if blocks > 0 {
-                    return Err(StudyError::FolderInUse { folder: folder.to_owned(), blocks });
-                }
-            }
-            Existing::GoOn => check_study(folder, study)?,
-        }
-    } else if let Some(name) = [STUDY_NAME, ROBOT_NAME].iter().find(|name| folder.join(name).exists()) {
+    // Looked for before the mark, which another process that begins at the same moment writes first.
+    let found = [STUDY_NAME, ROBOT_NAME].map(|name| folder.join(name)).into_iter().find(|path| path.exists());
+    let mark = folder.join(MARK_NAME);
+    match (found, mark.exists(), existing) {
         // Somebody's own file, perhaps the very study that is to run.
-        return Err(StudyError::NoResults { path: folder.join(name) });
+        (Some(path), false, _) => return Err(StudyError::NoResults { path }),
+        (_, true, Existing::Overwrite) => remove_results(folder, &blocks)?,
+        (_, true, _) => check_study(folder, study)?,
+        (None, false, _) => (),
     }
-    remove_stale(folder.join("summary.json"))?;
+    if existing == Existing::Refuse {
+        let blocks = blocks.count()?;
+        if blocks > 0 {
+            return Err(StudyError::FolderInUse { folder: folder.to_owned(), blocks });
+        }
+    }
+    if !mark.exists() {
+        write_atomic(mark, MARK.as_bytes())?;
+    }
+    let path = folder.join(BLOCKS_NAME);
     std::fs::create_dir_all(&path).map_err(|source| StudyError::Write { path, source })?;
-    write_study(folder, study)?;
+    write_study(folder, study, &blocks)?;
     Ok(blocks)
 }
 
@@ -130,13 +146,40 @@ fn check_study(folder: &Path, study: &Study) -> Result<(), StudyError> {
     Err(StudyError::ForeignFolder { folder: folder.to_owned(), found, expected, version })
 }
 
-/// Writes the study and its robot into a folder of results: [`Study::open`] reads them there.
-fn write_study(folder: &Path, study: &Study) -> Result<(), StudyError> {
-    write_atomic(folder.join(ROBOT_NAME), (study.robot.to_json() + "\n").as_bytes())?;
-    let mut file = study.file.clone();
-    file.robot = ROBOT_NAME.to_owned();
-    write_json(folder.join(STUDY_NAME), &file)?;
+/// Writes the study and its robot into a folder of results: [`Study::open`] reads them there. A summary is of the study beside it: it goes
+/// when that changes, and only then.
+fn write_study(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(), StudyError> {
+    let file = StudyFile { robot: ROBOT_NAME.to_owned(), ..study.file.clone() };
+    for (name, text) in
+        [(ROBOT_NAME, Ok(study.robot.to_json())), (STUDY_NAME, serde_json::to_string_pretty(&file))]
+    {
+        let path = folder.join(name);
+        let text = match text {
+            Ok(text) => text + "\n",
+            Err(error) => return Err(StudyError::Write { path, source: error.into() }),
+        };
+        if std::fs::read(&path).is_ok_and(|found| found == text.as_bytes()) {
+            continue;
+        }
+        blocks.remove_summary()?;
+        write_atomic(path, text.as_bytes())?;
+    }
     Ok(())
+}
+
+/// Removes what runs have written into a folder of results, but for the study, which another one takes the place of. Not what else is there.
+fn remove_results(folder: &Path, blocks: &Blocks) -> Result<(), StudyError> {
+    let path = folder.join(STUDY_NAME);
+    // Without a study file it was begun only.
+    if path.exists() {
+        let study: StudyFile =
+            from_json(&read(&path)?).map_err(|source| StudyError::Format { path, source })?;
+        remove_files(folder, &study)?;
+    }
+    for name in [SUMMARY_NAME, TIMINGS_NAME, REPORT_NAME] {
+        remove_stale(folder.join(name))?;
+    }
+    blocks.remove()
 }
 
 /// Writes `timings.json`.
@@ -144,5 +187,5 @@ fn write_study(folder: &Path, study: &Study) -> Result<(), StudyError> {
 /// # Errors
 /// [`StudyError::Write`].
 pub fn write_timings(folder: &Path, timings: &Timings) -> Result<PathBuf, StudyError> {
-    write_json(folder.join("timings.json"), timings)
+    write_json(folder.join(TIMINGS_NAME), timings)
 }

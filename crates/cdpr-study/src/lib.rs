@@ -45,6 +45,7 @@ mod file;
 mod folder;
 mod grid;
 mod inspection;
+mod names;
 mod observation;
 mod operating_point;
 mod output;
@@ -78,7 +79,9 @@ pub use file::{
     AxisSpec, ComparisonSpec, GridSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec,
     SensitivitySpec, Statistic, StudyFile, SurfaceSpec, json_schema,
 };
-pub use folder::{Existing, ROBOT_NAME, STUDY_NAME, Timings, begin, open_results, write_timings};
+pub use folder::{
+    Existing, REPORT_NAME, ROBOT_NAME, STUDY_NAME, Timings, begin, open_results, write_timings,
+};
 pub use grid::{Grid, GridAxis, frame, letter};
 pub use indexmap::IndexMap;
 pub use inspection::{Finding, Severity, inspect};

@@ -16,6 +16,9 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+/// Name of the summary in a folder of results.
+pub(crate) const SUMMARY_NAME: &str = "summary.json";
+
 /// Everything a study found; `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
@@ -167,7 +170,7 @@ pub fn write_poses(folder: &Path, name: &str, rows: &[PoseRow]) -> Result<PathBu
 /// # Errors
 /// [`StudyError::Write`].
 pub fn write_summary(folder: &Path, summary: &Summary) -> Result<PathBuf, StudyError> {
-    write_json(folder.join("summary.json"), summary)
+    write_json(folder.join(SUMMARY_NAME), summary)
 }
 
 /// Writes `robustness.json`.

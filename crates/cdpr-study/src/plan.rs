@@ -65,6 +65,16 @@ impl<'a> Plan<'a> {
         self.blocks
     }
 
+    /// Observations of a shard: those of its blocks.
+    pub fn observations(&self, shard: Shard) -> usize {
+        self.of_shard(shard).filter_map(|block| self.block(block)).map(|block| block.range.len()).sum()
+    }
+
+    /// Numbers of the blocks of a shard.
+    fn of_shard(&self, shard: Shard) -> impl Iterator<Item = usize> {
+        (0..self.blocks).filter(move |block| shard.has(*block))
+    }
+
     /// The block of a number.
     pub(crate) fn block(&self, block: usize) -> Option<Planned<'a>> {
         let part = self.parts.iter().rfind(|part| part.first <= block)?;
@@ -148,5 +158,5 @@ impl<'a> BlockMaker<'a> {
 pub fn observe_shard(study: &Study, shard: Shard, session: &Session) -> Result<(), StudyError> {
     let plan = Plan::new(study)?;
     let mut maker = BlockMaker::new(&plan, *session);
-    (0..plan.blocks()).filter(|block| shard.has(*block)).try_for_each(|block| maker.make(block))
+    plan.of_shard(shard).try_for_each(|block| maker.make(block))
 }

@@ -1,8 +1,8 @@
 //! A folder of results read back, for what is made of it afterwards.
 
 use crate::error::StudyError;
-use crate::folder::{STUDY_NAME, Timings};
-use crate::output::{StudySummary, Summary};
+use crate::folder::{STUDY_NAME, TIMINGS_NAME, Timings};
+use crate::output::{SUMMARY_NAME, StudySummary, Summary};
 use crate::poses::{PoseRow, PosesSummary};
 use crate::study::{Study, read};
 use crate::surface::{SurfaceResult, SurfaceSummary};
@@ -40,7 +40,7 @@ impl Results {
         let study_json = read(&path)?;
         let study = Study::from_json(&study_json, &path)?;
         let robot_json = read(&folder.join(&study.file.robot))?;
-        let summary: Summary = read_json(&folder.join("summary.json"))?;
+        let summary: Summary = read_json(&folder.join(SUMMARY_NAME))?;
         let (mut surfaces, mut poses) = (IndexMap::new(), IndexMap::new());
         for (name, found) in &summary.studies {
             let path = folder.join(format!("{name}.csv"));
@@ -54,7 +54,7 @@ impl Results {
                 StudySummary::Sampling(_) => (),
             }
         }
-        let timings = match read_json(&folder.join("timings.json")) {
+        let timings = match read_json(&folder.join(TIMINGS_NAME)) {
             Err(StudyError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => None,
             timings => Some(timings?),
         };

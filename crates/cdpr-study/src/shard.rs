@@ -9,33 +9,37 @@ pub struct Shard {
     count: usize,
 }
 
-const EXPECTED: &str = "i/n with i from 1 to n, auto, or auto/n";
+const EXPECTED: &str = "i/n with i from 1 to n, or auto/n in task i of an array of n";
+
+/// Where schedulers tell a task its number. HyperQueue's tasks run within jobs of Slurm.
+const TASK: [&str; 2] = ["HQ_TASK_ID", "SLURM_ARRAY_TASK_ID"];
 
 impl Shard {
-    /// `i/n`, the `i`-th of `n` shards, from 1 on; or `auto` or `auto/n`, as the scheduler says in variables of the environment:
+    /// `i/n`, the `i`-th of `n` shards, from 1 on; or `auto/n`, of which a variable of the environment says `i`: `HQ_TASK_ID` of HyperQueue's
+    /// task arrays or `SLURM_ARRAY_TASK_ID` of Slurm's job arrays, with tasks from 1 to `n`.
     ///
-    /// - Slurm's job arrays: `SLURM_ARRAY_TASK_ID`, `_MIN`, `_MAX` and `_COUNT`, consecutive;
-    /// - HyperQueue's task arrays: `HQ_TASK_ID`. It tells no number of tasks: `auto/n` does, with tasks from 1 to n.
-    ///
-    /// A variable alone makes no shard: a run within a job is a whole run unless it is told otherwise.
+    /// How many there are is always said: an array of the tasks that have to be repeated knows of those alone. A variable alone makes no
+    /// shard: a run within a job is a whole run unless it is told otherwise.
     ///
     /// # Errors
-    /// [`StudyError::Setting`] for anything else.
+    /// [`StudyError::Setting`] for anything else, of the variable for a task that is none of `n`.
     pub fn parse(text: &str, variable: impl Fn(&str) -> Option<String>) -> Result<Self, StudyError> {
-        let invalid = || StudyError::setting("--shard", text, EXPECTED);
-        let (index, count) = match text.split_once('/') {
-            Some((index, count)) => (index, Some(count.parse().map_err(|_| invalid())?)),
-            None => (text, None),
+        let refused = || StudyError::setting("--shard", text, EXPECTED);
+        let (place, count) = text.split_once('/').ok_or_else(refused)?;
+        let count: usize = count.parse().ok().filter(|count| *count > 0).ok_or_else(refused)?;
+        let shard = |index: &str| {
+            let index = index.parse().ok().filter(|index| (1..=count).contains(index))?;
+            Some(Self { index, count })
         };
-        let (index, count) = match (index, count) {
-            ("auto", count) => from_scheduler(count, variable)?,
-            (index, Some(count)) => (index.parse().map_err(|_| invalid())?, count),
-            _ => return Err(invalid()),
-        };
-        if index == 0 || index > count {
-            return Err(StudyError::setting("--shard", format!("{index}/{count}"), EXPECTED));
+        if place != "auto" {
+            return shard(place).ok_or_else(refused);
         }
-        Ok(Self { index, count })
+        let Some((name, task)) = TASK.iter().find_map(|name| Some((*name, variable(name)?))) else {
+            let expected = format!("i/{count} where neither {} is set", TASK.join(" nor "));
+            return Err(StudyError::setting("--shard", text, expected));
+        };
+        let expected = || format!("a task from 1 to {count}, as --shard is {text}");
+        shard(&task).ok_or_else(|| StudyError::setting(name, format!("`{task}`"), expected()))
     }
 
     /// Whether a block is in it, by its number in the whole study from 0 on.
@@ -54,46 +58,6 @@ fn mixed(number: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-fn from_scheduler(
-    count: Option<usize>,
-    variable: impl Fn(&str) -> Option<String>,
-) -> Result<(usize, usize), StudyError> {
-    let number = |name: &str| -> Result<usize, StudyError> {
-        let value = variable(name).unwrap_or_default();
-        value.parse().map_err(|_| StudyError::setting(name, format!("`{value}`"), "a whole number"))
-    };
-    // HyperQueue's tasks run within jobs of Slurm.
-    match (variable("HQ_TASK_ID").is_some(), variable("SLURM_ARRAY_TASK_ID").is_some()) {
-        (true, _) => {
-            let expected = "auto/n under HyperQueue, which does not tell the number n of its tasks";
-            let count = count.ok_or_else(|| StudyError::setting("--shard", "auto", expected))?;
-            Ok((number("HQ_TASK_ID")?, count))
-        }
-        (false, true) => {
-            let id = number("SLURM_ARRAY_TASK_ID")?;
-            if let Some(count) = count {
-                return Ok((id, count));
-            }
-            let [min, max, tasks] =
-                ["MIN", "MAX", "COUNT"].map(|end| number(&format!("SLURM_ARRAY_TASK_{end}")));
-            let (min, max, tasks) = (min?, max?, tasks?);
-            if max.checked_sub(min) != tasks.checked_sub(1) || !(min..=max).contains(&id) {
-                let value = format!("auto, for task {id} of {tasks} from {min} to {max}");
-                return Err(StudyError::setting(
-                    "--shard",
-                    value,
-                    "consecutive tasks (--array=1-n), or auto/n",
-                ));
-            }
-            Ok((id - min + 1, tasks))
-        }
-        (false, false) => {
-            let expected = "i/n where neither SLURM_ARRAY_TASK_ID nor HQ_TASK_ID is set";
-            Err(StudyError::setting("--shard", "auto", expected))
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,15 +69,6 @@ mod tests {
         Shard::parse(text, variable)
             .map(|shard| (shard.index, shard.count))
             .map_err(|error| error.to_string())
-    }
-
-    fn slurm<'a>(id: &'a str, min: &'a str, max: &'a str, count: &'a str) -> [(&'a str, &'a str); 4] {
-        [
-            ("SLURM_ARRAY_TASK_ID", id),
-            ("SLURM_ARRAY_TASK_MIN", min),
-            ("SLURM_ARRAY_TASK_MAX", max),
-            ("SLURM_ARRAY_TASK_COUNT", count),
-        ]
     }
 
     #[test]
@@ -138,28 +93,33 @@ mod tests {
 
     #[test]
     fn a_shard_is_given_by_numbers_or_by_the_scheduler() {
-        assert_eq!(parse("2/4", &slurm("1", "1", "9", "9")), Ok((2, 4)));
-        assert_eq!(parse("auto", &slurm("1", "1", "4", "4")), Ok((1, 4)));
-        assert_eq!(parse("auto", &slurm("3", "0", "3", "4")), Ok((4, 4)));
-        assert_eq!(parse("auto/8", &slurm("3", "3", "3", "1")), Ok((3, 8)));
-        assert_eq!(parse("auto/8", &[("HQ_TASK_ID", "5")]), Ok((5, 8)));
+        assert_eq!(parse("2/4", &[("SLURM_ARRAY_TASK_ID", "1")]), Ok((2, 4)));
+        assert_eq!(parse("auto/8", &[("SLURM_ARRAY_TASK_ID", "3")]), Ok((3, 8)));
+        assert_eq!(parse("auto/8", &[("HQ_TASK_ID", "5"), ("SLURM_ARRAY_TASK_ID", "3")]), Ok((5, 8)));
     }
 
     #[test]
     fn shards_that_are_none_are_refused_with_the_value() {
-        for text in ["0/4", "5/4", "x", "1", "1/0", "1/4/2", "-1/4", "", "auto/x"] {
-            let error = parse(text, &[]).unwrap_err();
-            assert!(error.starts_with(&format!("--shard is {text}: expected ")), "{error}");
+        for text in
+            ["0/4", "5/4", "x", "1", "1/0", "1/4/2", "-1/4", "", "auto", "auto/x", "auto/0", "auto/-1"]
+        {
+            let error = parse(text, &[("SLURM_ARRAY_TASK_ID", "1")]).unwrap_err();
+            assert_eq!(error, format!("--shard is {text}: expected {EXPECTED}"));
         }
-        let error = parse("auto", &[]).unwrap_err();
-        assert!(error.contains("neither SLURM_ARRAY_TASK_ID nor HQ_TASK_ID is set"), "{error}");
-        let error = parse("auto", &[("HQ_TASK_ID", "5")]).unwrap_err();
-        assert!(error.contains("auto/n under HyperQueue"), "{error}");
-        let error = parse("auto", &slurm("5", "1", "7", "3")).unwrap_err();
-        assert!(error.contains("consecutive tasks"), "{error}");
-        let error = parse("auto/4", &[("HQ_TASK_ID", "0")]).unwrap_err();
-        assert!(error.contains("--shard is 0/4"), "{error}");
-        let error = parse("auto", &slurm("five", "1", "7", "3")).unwrap_err();
-        assert!(error.contains("SLURM_ARRAY_TASK_ID is `five`: expected a whole number"), "{error}");
+        let error = parse("auto/4", &[]).unwrap_err();
+        assert!(error.contains("neither HQ_TASK_ID nor SLURM_ARRAY_TASK_ID is set"), "{error}");
+    }
+
+    #[test]
+    fn tasks_that_are_not_numbered_from_one_are_refused_with_the_variable() {
+        for name in TASK {
+            for task in ["0", "5", "five", ""] {
+                let error = parse("auto/4", &[(name, task)]).unwrap_err();
+                assert!(
+                    error.starts_with(&format!("{name} is `{task}`: expected a task from 1 to 4")),
+                    "{error}"
+                );
+            }
+        }
     }
 }

@@ -1,18 +1,22 @@
 //! The blocks of a study on disk: `blocks/SAMPLING/DESIGN/NUMBER.block`, each written atomically.
 
-use crate::atomic::{UNFINISHED, write_atomic};
+use crate::atomic::{is_unfinished, remove_unfinished, write_atomic};
 use crate::block::{BLOCK, BlockHeader, decode, encode};
 use crate::error::StudyError;
 use crate::folder::BLOCKS_NAME;
 use crate::observation::{Observed, count_failed, failures};
+use crate::output::{SUMMARY_NAME, remove_stale};
 use crate::study::Study;
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// Where the blocks of a study are.
 #[derive(Clone, Debug)]
 pub struct Blocks {
+    /// Folder of the results.
+    results: PathBuf,
+    /// Folder of the blocks in it.
     folder: PathBuf,
     study: String,
     /// Folders of tables of several poses, beside.
@@ -35,7 +39,8 @@ impl Blocks {
     pub(crate) fn new(results: &Path, study: &Study) -> Result<Self, StudyError> {
         let at_several = study.file.samplings.iter().filter(|(_, spec)| spec.poses.is_some());
         let tables = at_several.map(|(name, _)| results.join(name)).collect();
-        Ok(Self { folder: results.join(BLOCKS_NAME), study: study.hash()?, tables })
+        let (results, folder) = (results.to_owned(), results.join(BLOCKS_NAME));
+        Ok(Self { results, folder, study: study.hash()?, tables })
     }
 
     pub(crate) fn path(&self, place: &Place) -> PathBuf {
@@ -99,48 +104,60 @@ impl Blocks {
         Ok(outcomes)
     }
 
-    /// Writes a block in place of what is known of it.
+    /// Writes a block in place of what is known of it, unless another process has meanwhile. A summary that knows of less goes first.
     ///
     /// # Errors
     /// [`StudyError::Write`].
     pub(crate) fn write(&self, place: &Place, outcomes: &[Observed]) -> Result<(), StudyError> {
+        if self.read(place).is_ok_and(|found| found.len() >= outcomes.len()) {
+            return Ok(());
+        }
         let path = self.path(place);
         let file = encode(&self.header(place, outcomes), outcomes)
             .map_err(|error| StudyError::Write { path: path.clone(), source: error.into() })?;
         let folder = self.folder.join(place.sampling).join(place.design);
         fs::create_dir_all(&folder).map_err(|source| StudyError::Write { path: folder, source })?;
+        self.remove_summary()?;
         write_atomic(path, &file)?;
         Ok(())
     }
 
     /// Number of blocks on disk, whatever they are of.
     pub(crate) fn count(&self) -> Result<usize, StudyError> {
-        let is_block = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "block");
         Ok(files(&self.folder)?.iter().filter(|path| is_block(path)).count())
     }
 
-    /// Removes what killed runs have left unfinished, of blocks and beside them. Only where no other process writes any more.
+    /// Removes all blocks, whatever they are of, and folders that are empty then. What else is there stays.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub(crate) fn remove(&self) -> Result<(), StudyError> {
+        let removed = if self.folder.is_dir() { remove_blocks(&self.folder) } else { Ok(()) };
+        removed.map_err(|source| StudyError::Write { path: self.folder.clone(), source })
+    }
+
+    /// Removes the summary of an analysis that what is to come does not belong to.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub fn remove_summary(&self) -> Result<(), StudyError> {
+        remove_stale(self.results.join(SUMMARY_NAME))
+    }
+
+    /// Removes what killed processes have left unfinished, of blocks and beside them.
     ///
     /// # Errors
     /// [`StudyError::Read`], [`StudyError::Write`].
     pub fn remove_unfinished(&self) -> Result<(), StudyError> {
-        let results = self.folder.parent().unwrap_or(&self.folder);
-        let unfinished = |path: &&PathBuf| {
-            path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(UNFINISHED))
-        };
-        // Beside the blocks, not below: the folder of results may be one that holds much else.
-        let read = |source| StudyError::Read { path: results.to_owned(), source };
         let mut all = files(&self.folder)?;
-        let tables = self.tables.iter().map(PathBuf::as_path).filter(|folder| folder.is_dir());
-        for folder in [results].into_iter().chain(tables) {
+        // Beside the blocks, not below: the folder of results may be one that holds much else.
+        for folder in [&self.results].into_iter().chain(&self.tables).filter(|folder| folder.is_dir()) {
+            let read = |source| StudyError::Read { path: folder.clone(), source };
             for entry in fs::read_dir(folder).map_err(read)? {
                 all.push(entry.map_err(read)?.path());
             }
         }
-        for path in all.iter().filter(unfinished) {
-            fs::remove_file(path).map_err(|source| StudyError::Write { path: path.clone(), source })?;
-        }
-        Ok(())
+        all.into_iter().filter(|path| is_unfinished(path)).try_for_each(remove_unfinished)
     }
 
     fn header(&self, place: &Place, outcomes: &[Observed]) -> BlockHeader {
@@ -156,9 +173,28 @@ impl Blocks {
     }
 }
 
-/// All files below a folder.
+fn is_block(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "block")
+}
+
+fn remove_blocks(folder: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let path = entry.path();
+        if entry.file_type()?.is_dir() {
+            remove_blocks(&path)?;
+            // One that still holds something stays.
+            let _ = fs::remove_dir(&path);
+        } else if is_block(&path) || is_unfinished(&path) {
+            fs::remove_file(&path)?;
+        }
+    }
+    Ok(())
+}
+
+/// All files below a folder; none where there is none.
 fn files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
-    let mut folders = vec![folder.to_owned()];
+    let mut folders: Vec<_> = [folder.to_owned()].into_iter().filter(|folder| folder.is_dir()).collect();
     let mut files = Vec::new();
     while let Some(folder) = folders.pop() {
         let read = |source| StudyError::Read { path: folder.clone(), source };
@@ -168,4 +204,57 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
         }
     }
     Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::atomic::AtomicFile;
+    use cdpr_robot::Vector3;
+    use std::io::Write;
+
+    fn blocks(results: &Path) -> Blocks {
+        Blocks {
+            results: results.to_owned(),
+            folder: results.join(BLOCKS_NAME),
+            study: "a hash".to_owned(),
+            tables: vec![results.join("plane")],
+        }
+    }
+
+    #[test]
+    fn a_summary_goes_with_a_block_that_it_does_not_know_and_with_no_other() {
+        let results = tempfile::tempdir().unwrap();
+        let (blocks, summary) = (blocks(results.path()), results.path().join(SUMMARY_NAME));
+        let place = Place { sampling: "mechanical", design: "sampling", number: 0 };
+        for (observations, stays) in [(2, false), (2, true), (1, true), (3, false)] {
+            fs::write(&summary, "of all blocks").unwrap();
+            blocks.write(&place, &vec![Ok(Vector3::zeros()); observations]).unwrap();
+            assert_eq!(summary.exists(), stays, "{observations} observations");
+            assert!(blocks.read(&place).unwrap().len() >= observations);
+        }
+    }
+
+    #[test]
+    fn what_is_being_written_stays_and_what_was_left_goes() {
+        let folder = tempfile::tempdir().unwrap();
+        let results = folder.path().to_owned();
+        let blocks = blocks(&results);
+        let design = blocks.folder.join("mechanical/sampling");
+        let folders = [results.clone(), results.join("plane"), design];
+        let mut written = Vec::new();
+        for folder in &folders {
+            fs::create_dir_all(folder).unwrap();
+            // As a killed process leaves it: locked by nobody.
+            fs::write(folder.join(".cdpr-left.tmp"), "half").unwrap();
+            let mut file = AtomicFile::new(folder.join("written")).unwrap();
+            file.write_all(b"whole").unwrap();
+            written.push(file);
+        }
+        blocks.remove_unfinished().unwrap();
+        for (folder, file) in folders.iter().zip(written) {
+            assert!(!folder.join(".cdpr-left.tmp").exists());
+            assert_eq!(fs::read(file.finish().unwrap()).unwrap(), b"whole");
+        }
+    }
 }

@@ -77,6 +77,15 @@ pub struct Surface<'a> {
 /// Points of one axis of a surface, which is held in memory as a whole.
 const MOST_POINTS: usize = 10_000;
 
+/// Observations of a sampling, for laws to be fitted.
+const FEWEST_OBSERVATIONS: usize = 3;
+
+/// Designs of a sampling besides the first: intervals of a quantile need no more.
+const MOST_REPLICATES: usize = 10_000;
+
+/// Resamples of a bootstrap: the quantiles of intervals need no more.
+const MOST_RESAMPLES: usize = 1_000_000;
+
 impl Study {
     /// Reads and checks a study file and its robot file. Every surface and sampling at one pose is prepared once, so that what is wrong
     /// with the last one is said before the first one runs.
@@ -104,8 +113,12 @@ impl Study {
     /// Gives every sampling this number of observations.
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for fewer than 3.
+    /// [`StudyError::Setting`] for fewer than 3.
     pub fn set_observations(&mut self, observations: usize) -> Result<(), StudyError> {
+        if observations < FEWEST_OBSERVATIONS {
+            let expected = format!("at least {FEWEST_OBSERVATIONS}");
+            return Err(StudyError::setting("--observations", observations, expected));
+        }
         self.file.samplings.values_mut().for_each(|sampling| sampling.observations = observations);
         self.validate()
     }
@@ -131,17 +144,19 @@ impl Study {
         if file.format != STUDY_FORMAT {
             return Err(self.invalid("format", &file.format, STUDY_FORMAT));
         }
-        if !(file.payload.is_finite() && file.payload >= 0.0) {
-            return Err(self.invalid("payload", file.payload, "a finite mass, zero or more [kg]"));
+        if !(file.payload.is_finite() && file.payload > 0.0) {
+            return Err(self.invalid("payload", file.payload, "a finite mass above zero [kg]"));
         }
-        if file.replicates == 1 {
-            return Err(self.invalid("replicates", 1, "none (0), or at least 2 for an interval"));
+        if file.replicates == 1 || file.replicates > MOST_REPLICATES {
+            let expected = format!("none (0), or 2 to {MOST_REPLICATES} for an interval");
+            return Err(self.invalid("replicates", file.replicates, &expected));
         }
         if !(file.confidence > 0.0 && file.confidence < 1.0) {
             return Err(self.invalid("confidence", file.confidence, "a number between 0 and 1"));
         }
-        if file.bootstrap_resamples == 0 {
-            return Err(self.invalid("bootstrap_resamples", 0, "at least 1"));
+        if !(1..=MOST_RESAMPLES).contains(&file.bootstrap_resamples) {
+            let expected = format!("1 to {MOST_RESAMPLES}");
+            return Err(self.invalid("bootstrap_resamples", file.bootstrap_resamples, &expected));
         }
         if let Some((field, value, expected)) = file.sensitivity.as_ref().and_then(SensitivitySpec::invalid) {
             return Err(self.invalid(&format!("sensitivity.{field}"), value, &expected));
@@ -162,6 +177,7 @@ impl Study {
         if let Some(name) = file.surfaces.keys().find(|name| file.samplings.contains_key(*name)) {
             return Err(self.invalid(&format!("surfaces.{name}"), name, "a name that no sampling has"));
         }
+        self.check_names()?;
         for (name, model) in &file.error_models {
             self.error_model(name, model, &[])?;
         }
@@ -253,7 +269,7 @@ impl Study {
             return Err(self.invalid(&format!("{field}.error_model"), &spec.error_model, &expected));
         };
         let (errors, moduli) = self.error_model(&spec.error_model, model, at)?;
-        if spec.observations < 3 {
+        if spec.observations < FEWEST_OBSERVATIONS {
             return Err(self.invalid(
                 &format!("{field}.observations"),
                 spec.observations,

@@ -3,7 +3,7 @@
 use crate::error::StudyError;
 use crate::error_model::ErrorModel;
 use crate::grid::Grid;
-use cdpr_robot::{Parameter, Pose, Robot, Vector3};
+use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{Deflection, Derivatives, Load, StaticsError, deflection, derivatives};
 use indexmap::IndexMap;
 use rayon::prelude::*;
@@ -15,10 +15,12 @@ use std::collections::BTreeMap;
 pub struct Workspace<'a> {
     /// The robot.
     pub robot: &'a Robot,
-    /// The positions; the platform is level.
+    /// The positions.
     pub grid: Grid,
-    /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
-    pub payload: f64,
+    /// The orientation at all of them.
+    pub rotation: Rotation3<f64>,
+    /// The load whose effect is the deflection; without one, tensions and stiffness alone are told.
+    pub load: Load,
     /// What is uncertain; none where no tolerance is asked for.
     pub tolerances: Option<&'a ErrorModel>,
 }
@@ -69,15 +71,29 @@ const ROUNDING: f64 = 1e-9;
 /// in the order of the grid.
 ///
 /// # Errors
-/// [`StudyError::Setting`] for a payload or error model that is none; [`StudyError::Stopped`]. A pose that is not held is no error.
+/// [`StudyError::Setting`] for a load or error model that is none, and for an error model without a load; [`StudyError::Stopped`]. A pose that is not held
+/// is no error.
 pub fn compute_workspace(
     workspace: &Workspace,
     tick: &(dyn Fn() + Sync),
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<WorkspacePose>, StudyError> {
-    let Workspace { robot, payload, tolerances, .. } = *workspace;
-    if !(payload.is_finite() && payload >= 0.0) {
-        return Err(StudyError::setting("payload", payload, "a finite mass, zero or more [kg]"));
+    let Workspace { robot, rotation, load, tolerances, .. } = *workspace;
+    if !(load.payload.is_finite() && load.payload >= 0.0) {
+        return Err(StudyError::setting("payload", load.payload, "a finite mass, zero or more [kg]"));
+    }
+    for (field, vector) in [("force", load.wrench.force), ("moment", load.wrench.moment)] {
+        if vector.iter().any(|component| !component.is_finite()) {
+            let value = format!("{:?}", vector.as_slice());
+            return Err(StudyError::setting(field, value, "finite components [N, N m]"));
+        }
+    }
+    if tolerances.is_some() && load == Load::none() {
+        return Err(StudyError::setting(
+            "load",
+            "none",
+            "one that displaces the platform: tolerances act on its deflection",
+        ));
     }
     let parameters = Parameter::all(robot.cables.len()).len();
     if let Some(model) = tolerances.filter(|model| model.parameters() != parameters) {
@@ -88,11 +104,12 @@ pub fn compute_workspace(
             expected,
         ));
     }
-    let one = |pose: Pose| {
+    let one = |level: Pose| {
         if stop() {
             return Err(StudyError::Stopped);
         }
-        let outcome = held(robot, &pose, &Load::payload(payload), tolerances);
+        let pose = Pose { rotation, ..level };
+        let outcome = held(robot, &pose, &load, tolerances);
         tick();
         Ok(WorkspacePose { pose, outcome })
     };
@@ -187,7 +204,8 @@ impl WorkspaceRow {
     pub fn new(workspace: &Workspace, pose: &WorkspacePose) -> Self {
         let [x, y, z] = pose.pose.position.into();
         let held = pose.outcome.as_ref().ok();
-        let displacement = held.map(|held| 1e3 * held.displacement);
+        let loaded = held.filter(|_| workspace.load != Load::none());
+        let displacement = loaded.map(|held| 1e3 * held.displacement);
         let dominant = held.and_then(|held| held.dominant);
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {
@@ -223,8 +241,14 @@ pub struct WorkspaceSummary {
     pub robot: String,
     /// Version of the program.
     pub version: String,
-    /// Mass added [kg].
+    /// Mass added at the platform's centre of mass [kg].
     pub payload: f64,
+    /// Force of the load at P [N].
+    pub force: [f64; 3],
+    /// Moment of the load about P [N m].
+    pub moment: [f64; 3],
+    /// Orientation of the platform: w, x, y, z.
+    pub quaternion: [f64; 4],
     /// The positions [m].
     pub grid: Grid,
     /// Standard deviation of every cause, in SI units.
@@ -259,6 +283,22 @@ pub struct Extremes {
 }
 
 impl WorkspaceSummary {
+    /// Load and orientation, as in `payload 50 kg, force (0, 100, 0) N`.
+    pub fn conditions(&self) -> String {
+        let mut words = vec![format!("payload {} kg", self.payload)];
+        for (name, vector, unit) in [("force", self.force, "N"), ("moment", self.moment, "N m")] {
+            let [x, y, z] = vector;
+            if vector != [0.0; 3] {
+                words.push(format!("{name} ({x}, {y}, {z}) {unit}"));
+            }
+        }
+        let [qw, qx, qy, qz] = self.quaternion;
+        if [qx, qy, qz] != [0.0; 3] {
+            words.push(format!("quaternion ({qw:.4}, {qx:.4}, {qy:.4}, {qz:.4})"));
+        }
+        words.join(", ")
+    }
+
     /// Summarises the poses of a workspace.
     pub fn new(workspace: &Workspace, poses: &[WorkspacePose]) -> Self {
         let rows: Vec<_> = poses.iter().map(|pose| WorkspaceRow::new(workspace, pose)).collect();
@@ -273,7 +313,10 @@ impl WorkspaceSummary {
         Self {
             robot: workspace.robot.name.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            payload: workspace.payload,
+            payload: workspace.load.payload,
+            force: workspace.load.wrench.force.into(),
+            moment: workspace.load.wrench.moment.into(),
+            quaternion: Pose { position: Vector3::zeros(), rotation: workspace.rotation }.quaternion(),
             grid: workspace.grid,
             uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.law.std())).collect(),
             status,

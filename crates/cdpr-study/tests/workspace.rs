@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
-use cdpr_robot::{Parameter, Robot};
+use cdpr_robot::{Parameter, Robot, Rotation3};
 use cdpr_statics::{Load, derivatives};
 use cdpr_study::{
     ErrorModel, Grid, GridAxis, StudyError, Workspace, WorkspaceSummary, compute_workspace, uncertainties,
@@ -26,7 +26,13 @@ fn every_position_is_what_the_models_say_of_it() {
     deviations[2] = 5e9;
     deviations[5] = 0.003;
     let model = ErrorModel::normal(&deviations);
-    let workspace = Workspace { robot: &robot, grid: grid(), payload: 50.0, tolerances: Some(&model) };
+    let workspace = Workspace {
+        robot: &robot,
+        grid: grid(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: Some(&model),
+    };
     let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
     assert_eq!(poses.len(), 12);
     for (found, pose) in poses.iter().zip(grid().poses()) {
@@ -68,7 +74,13 @@ fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
     robot.tension_limits.max = 650.0;
     let place = |place| GridAxis { min: place, max: place, points: 1 };
     let grid = Grid::new([place(0.0), place(0.0), GridAxis { min: 1.75, max: 9.0, points: 2 }]).unwrap();
-    let workspace = Workspace { robot: &robot, grid, payload: 50.0, tolerances: None };
+    let workspace = Workspace {
+        robot: &robot,
+        grid,
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: None,
+    };
     let summary =
         WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap());
     assert_eq!(summary.rows[0].status, "beyond_limits");
@@ -84,10 +96,16 @@ fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
 fn tolerances_of_another_robot_are_refused() {
     let robot = caroca();
     let model = ErrorModel::normal(&[1.0; 55]);
-    let workspace = Workspace { robot: &robot, grid: grid(), payload: 50.0, tolerances: Some(&model) };
+    let workspace = Workspace {
+        robot: &robot,
+        grid: grid(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: Some(&model),
+    };
     let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
     assert_eq!(message, "error model is for 55 parameters: expected one for the 62 parameters of CAROCA");
-    let workspace = Workspace { payload: f64::NAN, tolerances: None, ..workspace };
+    let workspace = Workspace { load: Load::payload(f64::NAN), tolerances: None, ..workspace };
     let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
     assert_eq!(message, "payload is NaN: expected a finite mass, zero or more [kg]");
 }
@@ -95,7 +113,13 @@ fn tolerances_of_another_robot_are_refused() {
 #[test]
 fn a_workspace_ends_where_it_is_told_to() {
     let robot = caroca();
-    let workspace = Workspace { robot: &robot, grid: grid(), payload: 50.0, tolerances: None };
+    let workspace = Workspace {
+        robot: &robot,
+        grid: grid(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: None,
+    };
     let done = AtomicUsize::new(0);
     let tick = || {
         done.fetch_add(1, Ordering::Relaxed);

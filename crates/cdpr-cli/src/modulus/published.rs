@@ -1,8 +1,9 @@
 //! A published table of moduli, and what of it follows from a record.
 
 use super::{Found, percent};
-use crate::study::table;
+use crate::output::table;
 use cdpr_robot::from_json;
+use cdpr_study::StudyError;
 use serde::{Deserialize, Serialize};
 use serde_json::Number;
 use std::error::Error;
@@ -44,7 +45,8 @@ const ROUNDING: f64 = 1e-6;
 impl Published {
     pub(super) fn open(path: &Path) -> Result<Self, Box<dyn Error>> {
         let place = |error: &dyn Error| format!("{}: {error}", path.display());
-        let text = std::fs::read_to_string(path).map_err(|error| place(&error))?;
+        let source = |source| StudyError::Read { path: path.to_owned(), source };
+        let text = std::fs::read_to_string(path).map_err(source)?;
         let found: Self = from_json(&text).map_err(|error| place(&error))?;
         for (field, moduli) in [("loading_gpa", &found.loading_gpa), ("unloading_gpa", &found.unloading_gpa)]
         {

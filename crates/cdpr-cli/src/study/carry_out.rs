@@ -1,12 +1,15 @@
 //! `cdpr study run`, `merge` and `extend`. A process that ends at any moment loses the block under way and no more: Ctrl-C need do nothing else.
 
-use super::{RunError, print};
+use super::{Common, RunError, print};
 use crate::{report, sensitivity};
 use cdpr_report::Watcher;
 use cdpr_study::{
-    Blocks, STUDY_NAME, Session, Shard, Study, StudyError, StudySummary, TableFormat, observe_shard,
+    Blocks, Plan, REPORT_NAME, STUDY_NAME, Session, Shard, Study, StudyError, StudySummary, TableFormat,
+    observe_shard,
 };
+use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -15,7 +18,7 @@ const INTERRUPTED: i32 = 130;
 
 /// Makes the blocks of one shard.
 pub(super) fn shard(study: &Study, out: &Path, blocks: &Blocks, shard: Shard) -> Result<(), RunError> {
-    let progress = progress(study)?;
+    let progress = progress(Plan::new(study)?.observations(shard));
     leave_when_interrupted(&progress, out, "the same command goes on".to_owned())?;
     let tick = |done: usize| progress.inc(done as u64);
     let warn = warn(&progress);
@@ -29,18 +32,16 @@ pub(super) fn shard(study: &Study, out: &Path, blocks: &Blocks, shard: Shard) ->
     Ok(())
 }
 
-/// Makes what `first` leaves missing and analyses the whole. Without a format, samplings at one pose have tables as CSV.
+/// Makes what `first` leaves missing and analyses the whole.
 pub(super) fn whole(
     study: &Study,
     out: &Path,
     blocks: &Blocks,
-    format: Option<TableFormat>,
+    common: &Common,
     first: impl FnOnce(&Session) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
-    let progress = progress(study)?;
-    let folder = out.display();
-    let remedy = format!("go on with: cdpr study run {folder}/{STUDY_NAME} --out {folder} --resume");
-    leave_when_interrupted(&progress, out, remedy)?;
+    let progress = progress(observations(study)?);
+    leave_when_interrupted(&progress, out, format!("go on with: {}", resumed(out, common)))?;
     let watcher = Watcher {
         begin: &|name| progress.set_message(name.to_owned()),
         tick: &|done| progress.inc(done as u64),
@@ -51,6 +52,7 @@ pub(super) fn whole(
     let Watcher { tick, warn, stop, .. } = watcher;
     first(&Session { blocks: Some(blocks), tick, warn, stop })?;
     progress.reset();
+    let format = common.table.map(TableFormat::from);
     let (summary, timings) = cdpr_report::run(study, out, blocks, format, watcher)?;
     progress.finish_and_clear();
     print::print_results(&summary);
@@ -67,7 +69,7 @@ pub(super) fn whole(
     }
     println!("{:24} {:6.2} s", "all", timings.all);
     println!("\nresults in {}", out.display());
-    let path = out.join("report.html");
+    let path = out.join(REPORT_NAME);
     report::write(out, &path)?;
     println!("report in {}", path.display());
     Ok(())
@@ -84,23 +86,46 @@ fn leave_when_interrupted(progress: &ProgressBar, out: &Path, remedy: String) ->
     Ok(())
 }
 
+/// The command that goes on with a run, as a shell takes it.
+fn resumed(out: &Path, common: &Common) -> String {
+    let quoted = |path: &Path| {
+        let text = path.display().to_string();
+        // No path holds the one character that cannot be quoted.
+        shlex::try_quote(&text).map_or_else(|_| text.clone(), Cow::into_owned)
+    };
+    let mut command =
+        format!("cdpr study run {} --out {} --resume", quoted(&out.join(STUDY_NAME)), quoted(out));
+    if let Some(table) = common.table.and_then(|table| table.to_possible_value()) {
+        command += &format!(" --table {}", table.get_name());
+    }
+    if let Some(threads) = common.threads {
+        command += &format!(" --threads {threads}");
+    }
+    command
+}
+
 fn warn(progress: &ProgressBar) -> impl Fn(&StudyError) + Sync {
     |damage| progress.suspend(|| eprintln!("warning: {damage}; it is made again"))
 }
 
-/// A bar with rate and time left over all observations and grid points; silent when not on a terminal.
-fn progress(study: &Study) -> Result<ProgressBar, StudyError> {
+/// Observations and grid points of a whole run.
+fn observations(study: &Study) -> Result<usize, StudyError> {
     let file = &study.file;
     let samplings = file.samplings.keys().map(|name| study.observations(name)).sum::<Result<usize, _>>()?;
     let surfaces = file.surfaces.values().map(|s| s.x.points * s.y.points).sum::<usize>();
+    Ok(samplings + surfaces)
+}
+
+/// A bar with rate and time left; silent when not on a terminal.
+fn progress(observations: usize) -> ProgressBar {
     let template = "{msg:24} {bar:30} {pos}/{len} observations, {rate}, {eta} left";
     let rate = |state: &ProgressState, out: &mut dyn Write| {
         // Nothing to be done about a terminal that takes no text.
         let _ = write!(out, "{:.0}/s", state.per_sec());
     };
-    let bar = ProgressBar::new((samplings + surfaces) as u64);
-    Ok(match ProgressStyle::with_template(template) {
+    let bar = ProgressBar::new(observations as u64);
+    match ProgressStyle::with_template(template) {
         Ok(style) => bar.with_style(style.with_key("rate", rate)),
         Err(_) => bar,
-    })
+    }
 }

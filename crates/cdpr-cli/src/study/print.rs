@@ -1,6 +1,6 @@
 //! The results of a study on the terminal.
 
-use super::table;
+use crate::output::table;
 use cdpr_study::{Extremes, PosesSummary, StudySummary, Summary};
 
 pub(crate) fn print_results(summary: &Summary) {

@@ -42,8 +42,7 @@ fn lead(world: &SimpleCommunicator, settings: &RunSettings) -> Result<(), RunErr
     let (study, blocks) = begun(settings)?;
     // The folder is there: from now on the others read the study in it.
     world.barrier();
-    let format = settings.common.table.map(Into::into);
-    whole(&study, &settings.out, &blocks, format, |session| hand_out(world, &study, session))
+    whole(&study, &settings.out, &blocks, &settings.common, |session| hand_out(world, &study, session))
 }
 
 /// Hands out all blocks, of which another thread makes some.

@@ -1,7 +1,8 @@
 //! `cdpr study status`.
 
-use super::{RunError, table};
+use super::RunError;
 use crate::arguments::Format;
+use crate::output::table;
 use cdpr_study::{Provisional, Status, open_results, status};
 use clap::Args;
 use std::path::PathBuf;
@@ -18,11 +19,7 @@ pub(crate) struct Settings {
 pub(super) fn run(settings: &Settings) -> Result<(), RunError> {
     let (study, blocks) = open_results(&settings.folder)?;
     let found = status(&study, &blocks)?;
-    match settings.format {
-        Format::Json => println!("{}", serde_json::to_string_pretty(&found)?),
-        Format::Text => print(&found),
-    }
-    Ok(())
+    Ok(settings.format.print(&found, print)?)
 }
 
 fn print(status: &Status) {

@@ -15,10 +15,10 @@ pub(crate) struct Settings {
     #[arg(long)]
     out: Option<PathBuf>,
     /// Position of the platform: x,y,z [m]; in the middle of the exit points if left out.
-    #[arg(long, value_parser = arguments::position, allow_hyphen_values = true)]
+    #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
     position: Option<[f64; 3]>,
     /// Mass added, whose effect is the deflection [kg]; a tenth of the platform's if left out.
-    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
+    #[arg(long, value_parser = arguments::payload, allow_hyphen_values = true)]
     payload: Option<f64>,
 }
 

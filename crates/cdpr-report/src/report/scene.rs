@@ -14,11 +14,11 @@ const POINTS: usize = 49;
 #[derive(Serialize)]
 pub(crate) struct Scene {
     /// Exit points [m].
-    exits: Vec<[f64; 3]>,
+    pub(crate) exits: Vec<[f64; 3]>,
     /// The exit points' numbers around their middle, seen from above.
-    ring: Vec<usize>,
+    pub(crate) ring: Vec<usize>,
     /// Height of the floor [m].
-    floor: f64,
+    pub(crate) floor: f64,
     pub poses: Vec<ScenePose>,
 }
 
@@ -49,7 +49,7 @@ pub(crate) struct State {
     position: [f64; 3],
     center_of_mass: [f64; 3],
     /// Anchor points [m].
-    anchors: Vec<[f64; 3]>,
+    pub(crate) anchors: Vec<[f64; 3]>,
     pub cables: Vec<SceneCable>,
 }
 
@@ -57,7 +57,7 @@ pub(crate) struct State {
 #[derive(Serialize)]
 pub(crate) struct SceneCable {
     /// From exit point to anchor point [m].
-    points: Vec<[f64; 3]>,
+    pub(crate) points: Vec<[f64; 3]>,
     /// At the platform [N].
     pub tension: f64,
     /// Greatest distance from the chord [mm].
