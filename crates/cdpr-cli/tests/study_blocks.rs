@@ -443,7 +443,8 @@ mod unix {
     fn an_interrupted_run_says_how_to_go_on_and_exits_with_130() {
         let bench = Bench::new(400_000);
         let out = "my results";
-        let arguments = ["run", "my-study.json", "--out", out, "--table", "none", "--threads", "2"];
+        let arguments =
+            ["run", "my-study.json", "--out", out, "--table", "none", "--threads", "2", "--format", "json"];
         let child = bench.command(&arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
         let clock = Instant::now();
         while bench.blocks(out).is_empty() && clock.elapsed() < Duration::from_secs(60) {

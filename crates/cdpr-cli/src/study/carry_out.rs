@@ -118,6 +118,9 @@ fn resumed(out: &Path, common: &Common) -> String {
     if let Some(threads) = common.threads {
         command += &format!(" --threads {threads}");
     }
+    if common.format == Format::Json {
+        command += " --format json";
+    }
     command
 }
 
