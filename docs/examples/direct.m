@@ -6,6 +6,7 @@ cases = arrayfun(@(row) struct('lengths', lengths(row, :), 'force', [0 0 -100]),
 file = [tempname '.json'];
 id = fopen(file, 'w'); fprintf(id, '%s', jsonencode(cases)); fclose(id);
 [status, text] = system([cdpr ' direct ' robot ' --format json --from ' file]);
+if status ~= 0, error('cdpr ended with %d: a case without an answer (3), or what it said above', status); end
 answers = jsondecode(text);
 positions = [answers.position]; % [m], a case a column
 fprintf('%.6f %.6f %.6f m\n', positions);

@@ -2,7 +2,7 @@
 //! reports.
 
 use crate::output::Usage;
-use cdpr_robot::{Parameter, Pose, Robot, Rotation3, UnitQuaternion, Vector3, Wrench};
+use cdpr_robot::{Pose, Robot, Rotation3, UnitQuaternion, Vector3, Wrench};
 use cdpr_statics::Load;
 use cdpr_study::{Grid, GridAxis};
 use serde::Serialize;
@@ -196,18 +196,9 @@ pub(crate) fn named(text: &str) -> Result<Named, String> {
     }
 }
 
-/// The standard deviation of each parameter: its own, else that of its group, else none.
+/// The standard deviation of each parameter of `--uncertainty`.
 pub(crate) fn uncertainties(robot: &Robot, Named(named): &Named) -> Result<Vec<f64>, Usage> {
-    let parameters = Parameter::all(robot.cables.len());
-    let known = |name: &str| parameters.iter().any(|p| p.group() == name || p.to_string() == name);
-    if let Some((name, value)) = named.iter().find(|(name, value)| !known(name) || *value <= 0.0) {
-        return Err(Usage(format!(
-            "--uncertainty {name}={value}: expected a positive standard deviation of mass, linear_density, youngs_modulus, a, b, cog, dt \
-             or one of their parameters, such as a1.x"
-        )));
-    }
-    let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, value)| *value);
-    Ok(parameters.iter().map(|p| of(&p.to_string()).or_else(|| of(p.group())).unwrap_or(0.0)).collect())
+    cdpr_study::uncertainties(robot, named).map_err(|error| Usage(error.to_string()))
 }
 
 #[cfg(test)]

@@ -101,7 +101,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     };
     let progress = progress(grid.poses().len(), "poses");
     let clock = Instant::now();
-    let poses = compute_workspace(&workspace, &|| progress.inc(1))?;
+    let poses = compute_workspace(&workspace, &|| progress.inc(1), &|| false)?;
     let seconds = clock.elapsed().as_secs_f64();
     progress.finish_and_clear();
     let summary = WorkspaceSummary::new(&workspace, &poses);

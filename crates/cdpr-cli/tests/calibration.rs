@@ -72,7 +72,7 @@ fn bad_input_is_named_with_what_would_be_right() {
         ),
         (
             vec![grid, NOISE[0], NOISE[1], "--uncertainty", "c=1"],
-            "--uncertainty c=1: expected a positive standard deviation of mass",
+            "uncertainty of c is 1: expected a positive standard deviation of mass",
         ),
         (vec![grid, NOISE[0], NOISE[1], "--uncertainty", "a"], "`a`: expected name=number"),
         (

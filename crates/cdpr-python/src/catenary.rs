@@ -1,35 +1,40 @@
 //! One cable between two points.
 
-use crate::arrays::{Cases, Columns, Numbers, Rows, reasons};
+use crate::answer::answer;
+use crate::arrays::{Cases, Columns, Numbers, Rows};
 use crate::error::{Answer, Raised};
 use crate::threads::each;
 use cdpr_cable::{Cable, CableError, Solution, Vector2, end_force, length_for_tension};
 use pyo3::prelude::*;
 
-/// Cables in equilibrium, in their vertical planes: exit point at the origin, anchor point at (x, z), z up. One cable, or m: then every
-/// field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
-#[pyclass(frozen, get_all, module = "cdpr")]
-pub(crate) struct Catenary {
-    /// Force (fx, fz) on the cable at the anchor point [N], (2,).
-    force: Py<PyAny>,
-    /// Tension at the anchor point [N].
-    anchor_tension: Py<PyAny>,
-    /// Tension at the exit point [N].
-    exit_tension: Py<PyAny>,
-    /// Greatest height of the chord above the cable [m].
-    sag: Py<PyAny>,
-    /// Elastic energy plus work done against gravity [J].
-    energy: Py<PyAny>,
-    /// Unstrained length [m].
-    unstrained_length: Py<PyAny>,
-    /// Position (x, z) of the anchor point [m], (2,).
-    end: Py<PyAny>,
-    /// Distance that stays open at the end [m].
-    residual: Py<PyAny>,
-    /// Points (x, z) of the cable from exit to anchor point, at equal unstrained distances [m], (points, 2).
-    shape: Py<PyAny>,
-    /// Why there is no answer, None where there is one; None for one cable.
-    reasons: Option<Vec<Option<String>>>,
+answer! {
+    /// Cables in equilibrium, in their vertical planes: exit point at the origin, anchor point at (x, z), z up. One cable, or m: then every
+    /// field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Catenary {
+        /// Force (fx, fz) on the cable at the anchor point [N], (2,).
+        force: Py<PyAny>,
+        /// Tension at the anchor point [N].
+        anchor_tension: Py<PyAny>,
+        /// Tension at the exit point [N].
+        exit_tension: Py<PyAny>,
+        /// Greatest height of the chord above the cable [m].
+        sag: Py<PyAny>,
+        /// Elastic energy plus work done against gravity [J].
+        energy: Py<PyAny>,
+        /// Unstrained length [m].
+        unstrained_length: Py<PyAny>,
+        /// Position (x, z) of the anchor point [m], (2,).
+        end: Py<PyAny>,
+        /// Distance that stays open at the end [m].
+        residual: Py<PyAny>,
+        /// Points (x, z) of the cable from exit to anchor point, at equal unstrained distances [m], (points, 2).
+        shape: Py<PyAny>,
+        /// Why there is no answer, None where there is one; None for one cable.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
 }
 
 /// An elastic cable from any two of its unstrained length, end, force and tension: `length` and `end`, `length` and `force`, or `end` and
@@ -124,7 +129,8 @@ impl Catenary {
                     out.copy_from_slice(point.as_slice());
                 }
             })?,
-            reasons: reasons(cases, outcomes),
+            reasons: all.reasons(),
+            kinds: all.kinds(),
         })
     }
 }

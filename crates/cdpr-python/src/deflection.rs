@@ -1,6 +1,7 @@
 //! How far the platform gives under a load.
 
-use crate::arrays::{Cases, Columns, Loads, Numbers, Rows, reasons};
+use crate::answer::answer;
+use crate::arrays::{Cases, Columns, Loads, Numbers, Rows};
 use crate::direct::{DirectSolution, Found};
 use crate::error::Answer;
 use crate::robot::Robot;
@@ -9,23 +10,27 @@ use cdpr_robot::Vector6;
 use cdpr_statics::{StaticsError, deflection};
 use pyo3::prelude::*;
 
-/// Static deflections. One, or m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
-#[pyclass(frozen, get_all, module = "cdpr")]
-pub(crate) struct Deflection {
-    /// dp, the position with the load minus that without [m], (3,).
-    displacement: Py<PyAny>,
-    /// |dp|, the paper's RMS [m].
-    rms: Py<PyAny>,
-    /// Rotation vector from the unloaded to the loaded platform, in the base frame [rad], (3,).
-    turn: Py<PyAny>,
-    /// Unstrained lengths of the cables [m], (n,).
-    lengths: Py<PyAny>,
-    /// The platform under its own weight.
-    unloaded: Py<DirectSolution>,
-    /// The platform with the load added.
-    loaded: Py<DirectSolution>,
-    /// Why there is no answer, None where there is one; None for one case.
-    reasons: Option<Vec<Option<String>>>,
+answer! {
+    /// Static deflections. One, or m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Deflection {
+        /// dp, the position with the load minus that without [m], (3,).
+        displacement: Py<PyAny>,
+        /// |dp|, the paper's RMS [m].
+        rms: Py<PyAny>,
+        /// Rotation vector from the unloaded to the loaded platform, in the base frame [rad], (3,).
+        turn: Py<PyAny>,
+        /// Unstrained lengths of the cables [m], (n,).
+        lengths: Py<PyAny>,
+        /// The platform under its own weight.
+        unloaded: Py<DirectSolution>,
+        /// The platform with the load added.
+        loaded: Py<DirectSolution>,
+        /// Why there is no answer, None where there is one; None for one case.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
 }
 
 /// A deflection with what takes time to compute.
@@ -72,32 +77,29 @@ impl Robot {
         moment: Option<Numbers>,
         tension_offsets: Option<Numbers>,
     ) -> Answer<Deflection> {
+        let cables = self.robot.cables.len();
         let poses = Rows::poses("pose", &pose)?;
-        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
-        let offsets =
-            tension_offsets.map(|offsets| Rows::vectors("tension_offsets", &offsets)).transpose()?;
+        let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let offsets = tension_offsets
+            .map(|offsets| Rows::of_cables("tension_offsets", &offsets, cables))
+            .transpose()?;
         let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&poses]).chain(&offsets).collect();
         let cases = Cases::of(&arguments)?;
         let robot = &self.robot;
-        let none = vec![0.0; robot.cables.len()];
+        let none = vec![0.0; cables];
         let outcomes: Vec<Result<Given, StaticsError>> = each(py, cases.count, |case| {
             let offsets = offsets.as_ref().map_or(none.as_slice(), |offsets| offsets.row(case));
-            deflection(robot, &poses.pose(case)?, offsets, &loads.load(case)).map(Given::from)
+            deflection(robot, &poses.pose(case)?, offsets, &loads.load(case)?).map(Given::from)
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
-        Ok(Deflection::new(py, &all, robot.cables.len(), reasons(cases, &outcomes))?)
+        Deflection::new(py, &all, cables)
     }
 }
 
 impl Deflection {
-    pub(crate) fn new(
-        py: Python,
-        all: &Columns<Given>,
-        cables: usize,
-        reasons: Option<Vec<Option<String>>>,
-    ) -> PyResult<Self> {
-        let unloaded = DirectSolution::new(&all.part(|given| &given.unloaded), cables, reasons.clone())?;
-        let loaded = DirectSolution::new(&all.part(|given| &given.loaded), cables, reasons.clone())?;
+    pub(crate) fn new(py: Python, all: &Columns<Given>, cables: usize) -> Answer<Self> {
+        let unloaded = DirectSolution::new(&all.part(|given| &given.unloaded), cables)?;
+        let loaded = DirectSolution::new(&all.part(|given| &given.loaded), cables)?;
         Ok(Self {
             displacement: all.vector(|given| given.displacement)?,
             rms: all.number(|given| given.rms)?,
@@ -105,7 +107,8 @@ impl Deflection {
             lengths: all.numbers(&[cables], |given, out| out.copy_from_slice(&given.lengths))?,
             unloaded: Py::new(py, unloaded)?,
             loaded: Py::new(py, loaded)?,
-            reasons,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
         })
     }
 }

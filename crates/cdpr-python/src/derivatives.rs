@@ -1,6 +1,7 @@
 //! What a small change of each parameter does to lengths and deflection.
 
-use crate::arrays::{Cases, Columns, Loads, Numbers, Rows, reasons};
+use crate::answer::answer;
+use crate::arrays::{Cases, Columns, Loads, Numbers, Rows};
 use crate::deflection::{Deflection, Given};
 use crate::error::Answer;
 use crate::robot::Robot;
@@ -9,26 +10,30 @@ use cdpr_robot::Parameter;
 use cdpr_statics::{StaticsError, derivatives};
 use pyo3::prelude::*;
 
-/// A deflection with its exact derivatives. One, or m: then every field has a first axis of m, with NaN where there is no answer, and `reasons`
-/// says why. Derivatives are per SI unit of the k inputs.
-#[pyclass(frozen, get_all, module = "cdpr")]
-pub(crate) struct Derivatives {
-    /// Names of the k inputs: the parameters of the robot, `payload`, and the wanted pose: `x`, `y`, `z` [m] and `rx`, `ry`, `rz` [rad].
-    inputs: Vec<String>,
-    /// Of |dp| [m per unit], (k,).
-    rms: Py<PyAny>,
-    /// Of dp [m per unit], (3, k).
-    displacement: Py<PyAny>,
-    /// Of the unstrained lengths [m per unit], (n, k).
-    lengths: Py<PyAny>,
-    /// Of the tension set-points [N per unit], (n, k).
-    set_points: Py<PyAny>,
-    /// Of the tensions with the load [N per unit], (n, k).
-    tensions: Py<PyAny>,
-    /// The deflection itself.
-    deflection: Py<Deflection>,
-    /// Why there is no answer, None where there is one; None for one case.
-    reasons: Option<Vec<Option<String>>>,
+answer! {
+    /// A deflection with its exact derivatives. One, or m: then every field has a first axis of m, with NaN where there is no answer, and `reasons`
+    /// says why. Derivatives are per SI unit of the k inputs.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Derivatives {
+        /// Names of the k inputs: the parameters of the robot, `payload`, and the wanted pose: `x`, `y`, `z` [m] and `rx`, `ry`, `rz` [rad].
+        inputs: Vec<String>,
+        /// Of |dp| [m per unit], (k,).
+        rms: Py<PyAny>,
+        /// Of dp [m per unit], (3, k).
+        displacement: Py<PyAny>,
+        /// Of the unstrained lengths [m per unit], (n, k).
+        lengths: Py<PyAny>,
+        /// Of the tension set-points [N per unit], (n, k).
+        set_points: Py<PyAny>,
+        /// Of the tensions with the load [N per unit], (n, k).
+        tensions: Py<PyAny>,
+        /// The deflection itself.
+        deflection: Py<Deflection>,
+        /// Why there is no answer, None where there is one; None for one case.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
 }
 
 /// Rows of matrices, one after the other.
@@ -67,7 +72,7 @@ impl Robot {
         let cables = robot.cables.len();
         let no_offsets = vec![0.0; cables];
         let outcomes: Vec<Result<Slopes, StaticsError>> = each(py, cases.count, |case| {
-            let found = derivatives(robot, &poses.pose(case)?, &no_offsets, &loads.load(case))?;
+            let found = derivatives(robot, &poses.pose(case)?, &no_offsets, &loads.load(case)?)?;
             // Storage is column by column.
             Ok(Slopes {
                 rms: found.rms()?,
@@ -86,8 +91,7 @@ impl Robot {
         let matrix = |rows: usize, matrix: fn(&Slopes) -> &[f64]| {
             all.numbers(&[rows, count], |slopes: &Slopes, out| out.copy_from_slice(matrix(slopes)))
         };
-        let deflection =
-            Deflection::new(py, &all.part(|slopes| &slopes.given), cables, reasons(cases, &outcomes))?;
+        let deflection = Deflection::new(py, &all.part(|slopes| &slopes.given), cables)?;
         Ok(Derivatives {
             rms: all.numbers(&[count], |slopes, out| out.copy_from_slice(&slopes.rms))?,
             displacement: matrix(3, |slopes| &slopes.displacement)?,
@@ -95,7 +99,8 @@ impl Robot {
             set_points: matrix(cables, |slopes| &slopes.set_points)?,
             tensions: matrix(cables, |slopes| &slopes.tensions)?,
             deflection: Py::new(py, deflection)?,
-            reasons: reasons(cases, &outcomes),
+            reasons: all.reasons(),
+            kinds: all.kinds(),
             inputs,
         })
     }

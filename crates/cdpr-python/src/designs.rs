@@ -1,15 +1,20 @@
-//! Designs of experiments for any model, and what is estimated from its outputs at their rows.
+//! Designs of experiments for any model.
 
-use crate::arrays::Numbers;
+use crate::arrays::{Array, Numbers, filled, whole};
 use crate::error::{Answer, Raised};
+use crate::estimates::{Effects, Expansion, MorrisEffects, SobolIndices, intervals, to_json, vector};
+use crate::robot::json_text;
+use crate::threads::run;
 use cdpr_robot::from_json;
 use cdpr_sensitivity::{
     Bootstrap, Estimate, Input, Order, SampleDesign, Truncation, expansion, morris_effects, sobol_indices,
     student_effects,
 };
-use numpy::{IxDyn, PyArray1, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rayon::prelude::*;
+use std::sync::atomic::Ordering;
 
 /// Consecutive points of Sobol's sequence in the laws of k inputs, plain or, with a seed, under Owen's scrambling. Sizes of 2^m, from
 /// index 0, keep its balance.
@@ -44,87 +49,36 @@ pub(crate) struct MorrisDesign {
     design: cdpr_sensitivity::MorrisDesign,
 }
 
-/// Effects of k inputs by halves of their domains.
-#[pyclass(frozen, get_all, module = "cdpr.sensitivity")]
-pub(crate) struct Effects {
-    /// Names of the inputs.
-    inputs: Vec<String>,
-    /// Mean output in the upper half minus that in the lower half, (k,).
-    effect: Py<PyAny>,
-    /// The paper's t-Student index, (k,). On Sobol points its significance levels do not hold.
-    student: Py<PyAny>,
-    /// Mean of the outputs.
-    mean: f64,
-    /// Their standard deviation, with n - 1.
-    std: f64,
-    /// Observations without an output.
-    failed: usize,
-}
-
-/// Sobol' indices of k inputs with intervals.
-#[pyclass(frozen, get_all, module = "cdpr.sensitivity")]
-pub(crate) struct SobolIndices {
-    /// Names of the inputs.
-    inputs: Vec<String>,
-    /// Share of the variance that each causes alone, (k,).
-    first: Py<PyAny>,
-    /// Its interval, (k, 2).
-    first_interval: Py<PyAny>,
-    /// Share of the variance that each takes part in, (k,).
-    total: Py<PyAny>,
-    /// Its interval, (k, 2).
-    total_interval: Py<PyAny>,
-    /// Names of the pairs of inputs; none unless they are asked for.
-    pairs: Vec<(String, String)>,
-    /// Share of the variance that each pair causes together beyond what each causes alone, (pairs,).
-    second: Py<PyAny>,
-    /// Its interval, (pairs, 2).
-    second_interval: Py<PyAny>,
-    /// Variance of the output.
-    variance: f64,
-    /// Blocks that the indices rest on.
-    blocks: usize,
-    /// Blocks left out for an output that failed.
-    failed_blocks: usize,
-}
-
-/// Morris's elementary effects of k inputs, in the unit of the output.
-#[pyclass(frozen, get_all, module = "cdpr.sensitivity")]
-pub(crate) struct MorrisEffects {
-    /// Names of the inputs.
-    inputs: Vec<String>,
-    /// mu: mean, (k,).
-    mean: Py<PyAny>,
-    /// mu*: mean of absolute values, (k,).
-    mean_absolute: Py<PyAny>,
-    /// Its interval, (k, 2).
-    mean_absolute_interval: Py<PyAny>,
-    /// sigma: standard deviation, (k,).
-    std: Py<PyAny>,
-}
-
-/// A sparse polynomial chaos expansion of the output in k inputs.
-#[pyclass(frozen, module = "cdpr.sensitivity")]
-pub(crate) struct Expansion {
-    expansion: cdpr_sensitivity::Expansion,
-}
-
 #[pymethods]
 impl SobolDesign {
     #[new]
     #[pyo3(signature = (inputs, points, *, first_index=0, seed=None))]
-    fn new(inputs: &Bound<PyDict>, points: usize, first_index: u32, seed: Option<u64>) -> Answer<Self> {
-        let inputs = laws(inputs)?;
-        let design = match (seed, first_index) {
-            (None, first) => cdpr_sensitivity::SobolDesign::new(inputs, first, points)?,
-            (Some(seed), 0) => cdpr_sensitivity::SobolDesign::scrambled(inputs, points, seed)?,
-            (Some(_), first) => {
-                return Err(Raised::Input(format!(
-                    "first_index is {first}: expected 0 for a scrambled sequence"
-                )));
-            }
-        };
-        Ok(Self { design })
+    fn new(
+        py: Python,
+        inputs: &Bound<PyDict>,
+        points: Bound<PyAny>,
+        first_index: u32,
+        seed: Option<Bound<PyAny>>,
+    ) -> Answer<Self> {
+        let (inputs, points, seed) =
+            (laws(inputs)?, whole("points", &points)?, scrambling(seed, first_index)?);
+        let design = run(py, |_| match seed {
+            None => cdpr_sensitivity::SobolDesign::new(inputs, first_index, points),
+            Some(seed) => cdpr_sensitivity::SobolDesign::scrambled(inputs, points, seed),
+        })?;
+        Ok(Self { design: design? })
+    }
+
+    /// For `pickle`.
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> Answer<Made<'py>> {
+        let settings = PyDict::new(py);
+        settings.set_item("first_index", self.design.first_index())?;
+        settings.set_item("seed", self.design.seed())?;
+        made(py, &self.design, self.design.points(), settings)
+    }
+
+    fn __repr__(&self) -> String {
+        summary("SobolDesign", &self.design)
     }
 
     /// Values of the inputs, (points, k).
@@ -134,7 +88,8 @@ impl SobolDesign {
 
     /// Effect of each input from one output a row, NaN where the model failed, (points,).
     fn effects(&self, py: Python, outputs: Numbers) -> Answer<Effects> {
-        let found = student_effects(&self.design, &values(&outputs)?)?;
+        let outputs = values(&outputs)?;
+        let found = run(py, |_| student_effects(&self.design, &outputs))??;
         Ok(Effects {
             inputs: names(&self.design),
             effect: vector(py, found.effects.iter().map(|effect| effect.effect)),
@@ -153,13 +108,14 @@ impl SobolDesign {
     #[pyo3(signature = (outputs, *, max_degree=5, norm=1.0, interactions=2))]
     fn expansion(
         &self,
+        py: Python,
         outputs: Numbers,
         max_degree: usize,
         norm: f64,
         interactions: usize,
     ) -> Answer<Expansion> {
-        let truncation = Truncation { max_degree, norm, interactions };
-        Ok(Expansion { expansion: expansion(&self.design, &values(&outputs)?, truncation)? })
+        let (outputs, truncation) = (values(&outputs)?, Truncation { max_degree, norm, interactions });
+        Ok(Expansion { expansion: run(py, |_| expansion(&self.design, &outputs, truncation))?? })
     }
 }
 
@@ -168,24 +124,34 @@ impl SaltelliDesign {
     #[new]
     #[pyo3(signature = (inputs, blocks, *, seed=None, pairs=false, first_index=0))]
     fn new(
+        py: Python,
         inputs: &Bound<PyDict>,
-        blocks: usize,
-        seed: Option<u64>,
+        blocks: Bound<PyAny>,
+        seed: Option<Bound<PyAny>>,
         pairs: bool,
         first_index: u32,
     ) -> Answer<Self> {
-        let inputs = laws(inputs)?;
+        let (inputs, blocks, seed) =
+            (laws(inputs)?, whole("blocks", &blocks)?, scrambling(seed, first_index)?);
         let order = if pairs { Order::Second } else { Order::First };
-        let design = match (seed, first_index) {
-            (None, first) => cdpr_sensitivity::SaltelliDesign::new(inputs, first, blocks, order)?,
-            (Some(seed), 0) => cdpr_sensitivity::SaltelliDesign::scrambled(inputs, blocks, order, seed)?,
-            (Some(_), first) => {
-                return Err(Raised::Input(format!(
-                    "first_index is {first}: expected 0 for scrambled sequences"
-                )));
-            }
-        };
-        Ok(Self { design })
+        let design = run(py, |_| match seed {
+            None => cdpr_sensitivity::SaltelliDesign::new(inputs, first_index, blocks, order),
+            Some(seed) => cdpr_sensitivity::SaltelliDesign::scrambled(inputs, blocks, order, seed),
+        })?;
+        Ok(Self { design: design? })
+    }
+
+    /// For `pickle`.
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> Answer<Made<'py>> {
+        let settings = PyDict::new(py);
+        settings.set_item("first_index", self.design.first_index())?;
+        settings.set_item("seed", self.design.seed())?;
+        settings.set_item("pairs", matches!(self.design.order(), Order::Second))?;
+        made(py, &self.design, self.design.blocks(), settings)
+    }
+
+    fn __repr__(&self) -> String {
+        summary("SaltelliDesign", &self.design)
     }
 
     /// Values of the inputs, (points, k).
@@ -194,16 +160,22 @@ impl SaltelliDesign {
     }
 
     /// Sobol' indices from one output a row, NaN where the model failed, (points,), with bootstrap intervals.
-    #[pyo3(signature = (outputs, *, level=0.95, resamples=1000, seed=0))]
+    ///
+    /// level: confidence of the intervals.
+    /// resamples: of the bootstrap.
+    /// seed: of the bootstrap; 0 if left out, so that the same outputs have the same intervals.
+    #[pyo3(signature = (outputs, *, level=0.95, resamples=1000, seed=None))]
     fn indices(
         &self,
         py: Python,
         outputs: Numbers,
         level: f64,
         resamples: usize,
-        seed: u64,
+        seed: Option<Bound<PyAny>>,
     ) -> Answer<SobolIndices> {
-        let found = sobol_indices(&self.design, &values(&outputs)?, Bootstrap { resamples, seed }, level)?;
+        let seed = seed.map_or(Ok(0), |seed| whole("seed", &seed))?;
+        let (outputs, bootstrap) = (values(&outputs)?, Bootstrap { resamples, seed });
+        let found = run(py, |_| sobol_indices(&self.design, &outputs, bootstrap, level))??;
         let first: Vec<Estimate> = found.inputs.iter().map(|index| index.first).collect();
         let total: Vec<Estimate> = found.inputs.iter().map(|index| index.total).collect();
         let second: Vec<Estimate> = found.pairs.iter().map(|index| index.second).collect();
@@ -227,8 +199,21 @@ impl SaltelliDesign {
 impl MorrisDesign {
     #[new]
     #[pyo3(signature = (inputs, blocks, *, seed))]
-    fn new(inputs: &Bound<PyDict>, blocks: usize, seed: u64) -> Answer<Self> {
-        Ok(Self { design: cdpr_sensitivity::MorrisDesign::radial(laws(inputs)?, blocks, seed)? })
+    fn new(py: Python, inputs: &Bound<PyDict>, blocks: Bound<PyAny>, seed: Bound<PyAny>) -> Answer<Self> {
+        let (inputs, blocks, seed) = (laws(inputs)?, whole("blocks", &blocks)?, whole("seed", &seed)?);
+        let design = run(py, |_| cdpr_sensitivity::MorrisDesign::radial(inputs, blocks, seed))?;
+        Ok(Self { design: design? })
+    }
+
+    /// For `pickle`.
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> Answer<Made<'py>> {
+        let settings = PyDict::new(py);
+        settings.set_item("seed", self.design.seed())?;
+        made(py, &self.design, self.design.blocks(), settings)
+    }
+
+    fn __repr__(&self) -> String {
+        summary("MorrisDesign", &self.design)
     }
 
     /// Values of the inputs, (points, k).
@@ -239,7 +224,8 @@ impl MorrisDesign {
     /// Elementary effects from one output a row, NaN where the model failed, (points,).
     #[pyo3(signature = (outputs, *, level=0.95))]
     fn effects(&self, py: Python, outputs: Numbers, level: f64) -> Answer<MorrisEffects> {
-        let found = morris_effects(&self.design, &values(&outputs)?, level)?;
+        let outputs = values(&outputs)?;
+        let found = run(py, |_| morris_effects(&self.design, &outputs, level))??;
         let absolute: Vec<Estimate> = found.iter().map(|effect| effect.mean_absolute).collect();
         Ok(MorrisEffects {
             inputs: names(&self.design),
@@ -251,79 +237,49 @@ impl MorrisDesign {
     }
 }
 
-#[pymethods]
-impl Expansion {
-    /// Names of the inputs.
-    #[getter]
-    fn inputs(&self) -> Vec<String> {
-        self.expansion.inputs.iter().map(|input| input.name.clone()).collect()
-    }
-
-    /// Mean of the output.
-    #[getter]
-    fn mean(&self) -> f64 {
-        self.expansion.mean
-    }
-
-    /// Variance of the output.
-    #[getter]
-    fn variance(&self) -> f64 {
-        self.expansion.variance()
-    }
-
-    /// Degree chosen.
-    #[getter]
-    fn degree(&self) -> usize {
-        self.expansion.degree
-    }
-
-    /// Leave-one-out error, as a share of the variance of the outputs.
-    #[getter]
-    fn leave_one_out(&self) -> f64 {
-        self.expansion.leave_one_out
-    }
-
-    /// Share of the variance that each input causes alone, (k,).
-    #[getter]
-    fn first(&self, py: Python) -> Py<PyAny> {
-        vector(py, self.expansion.indices().iter().map(|shares| shares.closed))
-    }
-
-    /// Share of the variance that each input takes part in, (k,).
-    #[getter]
-    fn total(&self, py: Python) -> Py<PyAny> {
-        vector(py, self.expansion.indices().iter().map(|shares| shares.total))
-    }
-
-    /// The expansion at rows of values of the inputs, (m, k): m outputs.
-    fn predict(&self, py: Python, rows: Numbers) -> Answer<Py<PyAny>> {
-        let shape = rows.shape();
-        let [_, width] = *shape else {
-            return Err(Raised::Input(format!(
-                "rows has the shape {shape:?}: expected (m, {})",
-                self.inputs().len()
-            )));
-        };
-        let values: Vec<f64> = rows.as_array().iter().copied().collect();
-        let outputs: Vec<f64> = values
-            .chunks_exact(width.max(1))
-            .map(|row| self.expansion.predict(row))
-            .collect::<Result<_, _>>()?;
-        Ok(vector(py, outputs.into_iter()))
-    }
-}
+/// Rows that a thread makes at a time.
+const PART: usize = 1024;
 
 /// Inputs from their laws, as they stand in study files: `{"uniform": {"min": .., "max": ..}}`.
 fn laws(inputs: &Bound<PyDict>) -> Answer<Vec<Input>> {
-    let dumps = inputs.py().import("json")?.getattr("dumps")?;
     let input = |(name, law): (Bound<PyAny>, Bound<PyAny>)| -> Answer<Input> {
         let name: String = name.extract()?;
-        let text: String = dumps.call1((law,))?.extract()?;
+        let text = json_text(&format!("law of input `{name}`"), &law)?;
         let law =
             from_json(&text).map_err(|error| Raised::Input(format!("law of input `{name}`: {error}")))?;
         Ok(Input::continuous(name, law))
     };
     inputs.iter().map(input).collect()
+}
+
+/// What a design is made again of: its arguments by place and by name.
+type Made<'py> = ((Bound<'py, PyDict>, usize), Bound<'py, PyDict>);
+
+fn made<'py>(
+    py: Python<'py>,
+    design: &impl SampleDesign,
+    size: usize,
+    settings: Bound<'py, PyDict>,
+) -> Answer<Made<'py>> {
+    let (laws, loads) = (PyDict::new(py), py.import("json")?.getattr("loads")?);
+    for input in design.inputs() {
+        laws.set_item(&input.name, loads.call1((to_json(&input.law)?,))?)?;
+    }
+    Ok(((laws, size), settings))
+}
+
+fn summary(class: &str, design: &impl SampleDesign) -> String {
+    format!("<cdpr.sensitivity.{class} of {} inputs, {} rows>", design.inputs().len(), design.points())
+}
+
+/// The seed of a scrambled sequence, which begins at index 0.
+fn scrambling(seed: Option<Bound<PyAny>>, first_index: u32) -> Answer<Option<u64>> {
+    match seed.map(|seed| whole("seed", &seed)).transpose()? {
+        Some(_) if first_index > 0 => {
+            Err(Raised::Input(format!("first_index is {first_index}: expected 0 where there is a seed")))
+        }
+        seed => Ok(seed),
+    }
 }
 
 fn names(design: &impl SampleDesign) -> Vec<String> {
@@ -332,24 +288,22 @@ fn names(design: &impl SampleDesign) -> Vec<String> {
 
 fn rows(py: Python, design: &impl SampleDesign) -> Answer<Py<PyAny>> {
     let (points, inputs) = (design.points(), design.inputs().len());
-    let mut values = vec![0.0; points * inputs];
-    py.detach(|| design.rows(0, &mut values))?;
+    let values = run(py, |stop| -> Answer<Vec<f64>> {
+        let mut values = filled(&[points, inputs], 0.0)?;
+        let part = |(part, rows): (usize, &mut [f64])| {
+            if stop.load(Ordering::Relaxed) { Ok(()) } else { design.rows(part * PART, rows) }
+        };
+        values.par_chunks_mut(PART * inputs).enumerate().try_for_each(part)?;
+        Ok(values)
+    })??;
     Ok(PyArray1::from_vec(py, values).reshape(IxDyn(&[points, inputs]))?.into_any().unbind())
 }
 
 /// One output a row, `None` for NaN.
 fn values(outputs: &Numbers) -> Answer<Vec<Option<f64>>> {
-    match outputs.shape() {
-        [_] => Ok(outputs.as_array().iter().map(|value| (!value.is_nan()).then_some(*value)).collect()),
-        shape => Err(Raised::Input(format!("outputs has the shape {shape:?}: expected one output a row"))),
+    let Array { shape, values } = Array::new("outputs", outputs)?;
+    match shape[..] {
+        [_] => Ok(values.into_iter().map(|value| (!value.is_nan()).then_some(value)).collect()),
+        _ => Err(Raised::Input(format!("outputs has the shape {shape:?}: expected one output a row"))),
     }
-}
-
-fn vector(py: Python, values: impl Iterator<Item = f64>) -> Py<PyAny> {
-    PyArray1::from_vec(py, values.collect()).into_any().unbind()
-}
-
-fn intervals(py: Python, estimates: &[Estimate]) -> PyResult<Py<PyAny>> {
-    let ends = estimates.iter().flat_map(|estimate| [estimate.low, estimate.high]).collect::<Vec<f64>>();
-    Ok(PyArray1::from_vec(py, ends).reshape(IxDyn(&[estimates.len(), 2]))?.into_any().unbind())
 }

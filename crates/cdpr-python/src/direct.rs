@@ -1,42 +1,47 @@
 //! Where the platform stands for given unstrained lengths.
 
-use crate::arrays::{Cases, Columns, Loads, Numbers, Rows, reasons};
+use crate::answer::answer;
+use crate::arrays::{Cases, Columns, Loads, Numbers, Rows};
 use crate::error::Answer;
 use crate::robot::Robot;
 use crate::threads::each;
 use cdpr_statics::{Method, Start, StaticsError, direct, rough_pose};
 use pyo3::prelude::*;
 
-/// Stable equilibria of the platform. One, or m: then every field has a first axis of m, with NaN (or False, None) where there is no answer, and
-/// `reasons` says why.
-#[pyclass(frozen, get_all, module = "cdpr")]
-pub(crate) struct DirectSolution {
-    /// Position of P in the base frame [m], (3,).
-    position: Py<PyAny>,
-    /// Rotation from the platform to the base frame as a unit quaternion (w, x, y, z), w >= 0, (4,).
-    quaternion: Py<PyAny>,
-    /// The same as a matrix, (3, 3).
-    rotation: Py<PyAny>,
-    /// Position and quaternion: a pose that other calls take, (7,).
-    pose: Py<PyAny>,
-    /// Force (fx, fz) on each cable at its anchor point, in its vertical plane [N], (n, 2).
-    cable_forces: Py<PyAny>,
-    /// Tension of each cable at the platform [N], (n,).
-    tensions: Py<PyAny>,
-    /// Whether every small displacement is pulled back.
-    stable: Py<PyAny>,
-    /// Stiffness of the softest motion [N/m].
-    least_stiffness: Py<PyAny>,
-    /// Which cables are longer than the distance of their points, (n,).
-    slack: Py<PyAny>,
-    /// What stays open in the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,).
-    residual: Py<PyAny>,
-    /// How it was found: newton, trust_region or continuation.
-    method: Py<PyAny>,
-    /// Iterations of that method; 0 where there is no answer.
-    iterations: Py<PyAny>,
-    /// Why there is no answer, None where there is one; None for one case.
-    reasons: Option<Vec<Option<String>>>,
+answer! {
+    /// Stable equilibria of the platform. One, or m: then every field has a first axis of m, with NaN (or False, None) where there is no answer, and
+    /// `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct DirectSolution {
+        /// Position of P in the base frame [m], (3,).
+        position: Py<PyAny>,
+        /// Rotation from the platform to the base frame as a unit quaternion (w, x, y, z), w >= 0, (4,).
+        quaternion: Py<PyAny>,
+        /// The same as a matrix, (3, 3).
+        rotation: Py<PyAny>,
+        /// Position and quaternion: a pose that other calls take, (7,).
+        pose: Py<PyAny>,
+        /// Force (fx, fz) on each cable at its anchor point, in its vertical plane [N], (n, 2).
+        cable_forces: Py<PyAny>,
+        /// Tension of each cable at the platform [N], (n,).
+        tensions: Py<PyAny>,
+        /// Whether every small displacement is pulled back.
+        stable: Py<PyAny>,
+        /// Stiffness of the softest motion [N/m].
+        least_stiffness: Py<PyAny>,
+        /// Which cables are longer than the distance of their points, (n,).
+        slack: Py<PyAny>,
+        /// What stays open in the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,).
+        residual: Py<PyAny>,
+        /// How it was found: newton, trust_region or continuation.
+        method: Py<PyAny>,
+        /// Iterations of that method; 0 where there is no answer.
+        iterations: Py<PyAny>,
+        /// Why there is no answer, None where there is one; None for one case.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
 }
 
 /// An equilibrium with what takes time to compute, which is done in parallel.
@@ -71,7 +76,7 @@ impl Robot {
         payload: Option<Numbers>,
         start: Option<Numbers>,
     ) -> Answer<DirectSolution> {
-        let lengths = Rows::vectors("lengths", &lengths)?;
+        let lengths = Rows::of_cables("lengths", &lengths, self.robot.cables.len())?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         let start = start.map(|start| Rows::poses("start", &start)).transpose()?;
         let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&lengths]).chain(&start).collect();
@@ -83,20 +88,16 @@ impl Robot {
                 Some(start) => start.pose(case)?,
                 None => rough_pose(robot, lengths),
             };
-            direct(robot, lengths, &loads.load(case), Start::Pose(&start)).map(Found::from)
+            direct(robot, lengths, &loads.load(case)?, Start::Pose(&start)).map(Found::from)
         };
         let outcomes = each(py, cases.count, one)?;
         let found = Columns::new(py, cases, &outcomes)?;
-        Ok(DirectSolution::new(&found, robot.cables.len(), reasons(cases, &outcomes))?)
+        DirectSolution::new(&found, robot.cables.len())
     }
 }
 
 impl DirectSolution {
-    pub(crate) fn new(
-        all: &Columns<Found>,
-        cables: usize,
-        reasons: Option<Vec<Option<String>>>,
-    ) -> PyResult<Self> {
+    pub(crate) fn new(all: &Columns<Found>, cables: usize) -> Answer<Self> {
         Ok(Self {
             position: all.vector(|found| found.solution.equilibrium.pose.position.into())?,
             quaternion: all.vector(|found| found.solution.equilibrium.pose.quaternion())?,
@@ -110,11 +111,7 @@ impl DirectSolution {
                 out[..3].copy_from_slice(pose.position.as_slice());
                 out[3..].copy_from_slice(&pose.quaternion());
             })?,
-            cable_forces: all.numbers(&[cables, 2], |found, out| {
-                for (out, force) in out.chunks_exact_mut(2).zip(&found.solution.equilibrium.cable_forces) {
-                    out.copy_from_slice(force.as_slice());
-                }
-            })?,
+            cable_forces: all.pairs(cables, |found| &found.solution.equilibrium.cable_forces)?,
             tensions: all.numbers(&[cables], |found, out| {
                 out.copy_from_slice(&found.solution.equilibrium.tensions());
             })?,
@@ -135,7 +132,8 @@ impl DirectSolution {
             iterations: all.array(0, &[], |found, out: &mut [i64]| {
                 out[0] = found.solution.report.iterations as i64;
             })?,
-            reasons,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
         })
     }
 }

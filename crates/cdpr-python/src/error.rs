@@ -61,13 +61,34 @@ impl From<RobotError> for Raised {
     }
 }
 
+/// Why a case has no answer.
+pub(crate) trait Failure: ToString {
+    /// Its kind, as in tables of studies.
+    fn kind(&self) -> &'static str;
+}
+
+impl Failure for CableError {
+    fn kind(&self) -> &'static str {
+        match self {
+            Self::InvalidInput { .. } => "invalid_input",
+            Self::TensionTooSmall { .. } => "tension_too_small",
+            Self::NotConverged { .. } => "cable",
+        }
+    }
+}
+
+impl Failure for StaticsError {
+    fn kind(&self) -> &'static str {
+        self.kind()
+    }
+}
+
 impl From<&CableError> for Raised {
     fn from(error: &CableError) -> Self {
         let message = error.to_string();
         match error {
             CableError::InvalidInput { .. } => Self::Input(message),
-            CableError::TensionTooSmall { .. } => Self::NoSolution { kind: "tension_too_small", message },
-            CableError::NotConverged { .. } => Self::NoSolution { kind: "cable", message },
+            _ => Self::NoSolution { kind: error.kind(), message },
         }
     }
 }

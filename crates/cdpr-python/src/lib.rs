@@ -1,9 +1,10 @@
 //! The native half of the Python package `cdpr`: the models on NumPy arrays, studies, designs of experiments. Each module has one class or
 //! one function of the package, with the documentation that Python shows; the other half is in `python/cdpr`.
 //!
-//! Arguments and answers are of one case or have a first axis of cases (`arrays`), which are computed in parallel without
+//! Arguments and answers are of one case or have a first axis of cases (`arrays`, `answer`), which are computed in parallel without
 //! Python's lock (`threads`). What a model refuses is an exception (`error`).
 
+mod answer;
 mod arrays;
 mod catenary;
 mod deflection;
@@ -11,6 +12,7 @@ mod derivatives;
 mod designs;
 mod direct;
 mod error;
+mod estimates;
 mod inverse;
 mod observe;
 mod robot;
@@ -31,11 +33,11 @@ mod _core {
     #[pymodule_export]
     use crate::derivatives::Derivatives;
     #[pymodule_export]
-    use crate::designs::{
-        Effects, Expansion, MorrisDesign, MorrisEffects, SaltelliDesign, SobolDesign, SobolIndices,
-    };
+    use crate::designs::{MorrisDesign, SaltelliDesign, SobolDesign};
     #[pymodule_export]
     use crate::direct::DirectSolution;
+    #[pymodule_export]
+    use crate::estimates::{Effects, Expansion, MorrisEffects, SobolIndices};
     #[pymodule_export]
     use crate::inverse::InverseSolution;
     #[pymodule_export]
@@ -45,7 +47,7 @@ mod _core {
     #[pymodule_export]
     use crate::stiffness::Stiffness;
     #[pymodule_export]
-    use crate::study::{begin, carry_out, make_shard, observations};
+    use crate::study::{begin, carry_out, make_shard, observations, open_results, status};
     #[pymodule_export]
     use crate::workspace::Workspace;
     #[pymodule_export]

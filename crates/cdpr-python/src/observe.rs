@@ -1,24 +1,29 @@
 //! Deflections of robots that deviate from the nominal one: the model behind every study.
 
-use crate::arrays::{Cases, Columns, Loads, Numbers, Rows, reasons};
+use crate::answer::answer;
+use crate::arrays::{Cases, Columns, Loads, Numbers, Rows};
 use crate::error::{Answer, Raised};
 use crate::robot::Robot;
-use crate::threads::watched;
+use crate::threads::run;
 use cdpr_robot::Parameter;
 use cdpr_statics::{Observation, Observer};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
 
-/// Deflections of m robots, or of one; NaN where there is none, and `reasons` says why.
-#[pyclass(frozen, get_all, module = "cdpr")]
-pub(crate) struct Observations {
-    /// dp [m], (3,).
-    displacement: Py<PyAny>,
-    /// |dp| [m].
-    rms: Py<PyAny>,
-    /// Why there is no answer, None where there is one; None for one robot.
-    reasons: Option<Vec<Option<String>>>,
+answer! {
+    /// Deflections of m robots, or of one; NaN where there is none, and `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Observations {
+        /// dp [m], (3,).
+        displacement: Py<PyAny>,
+        /// |dp| [m].
+        rms: Py<PyAny>,
+        /// Why there is no answer, None where there is one; None for one robot.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
 }
 
 /// Robots that a thread takes at a time.
@@ -46,7 +51,7 @@ impl Robot {
         moment: Option<Numbers>,
     ) -> Answer<Observations> {
         let pose = Rows::poses("pose", &pose)?;
-        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         if !Cases::of(&[&pose, &loads.force, &loads.moment, &loads.payload])?.single {
             return Err(Raised::Input(
                 "pose or load has a row for each case: expected one of each for all robots".to_owned(),
@@ -61,23 +66,19 @@ impl Robot {
             )));
         }
         let cases = Cases::of(&[&rows])?;
-        let observer = Observer::new(&self.robot, &pose.pose(0)?, &loads.load(0))?;
-        let outcomes = watched(
-            py,
-            None,
-            |_| Ok(()),
-            |stop| {
-                let part = |part: &[f64]| {
-                    if stop.load(Ordering::Relaxed) { Vec::new() } else { observer.observe_all(part) }
-                };
-                rows.all().par_chunks(PART * parameters).flat_map_iter(part).collect::<Vec<_>>()
-            },
-        )?;
+        let observer = Observer::new(&self.robot, &pose.pose(0)?, &loads.load(0)?)?;
+        let outcomes = run(py, |stop| {
+            let part = |part: &[f64]| {
+                if stop.load(Ordering::Relaxed) { Vec::new() } else { observer.observe_all(part) }
+            };
+            rows.all().par_chunks(PART * parameters).flat_map_iter(part).collect::<Vec<_>>()
+        })?;
         let all = Columns::new(py, cases, &outcomes)?;
         Ok(Observations {
             displacement: all.vector(|found| found.displacement.into())?,
             rms: all.number(Observation::rms)?,
-            reasons: reasons(cases, &outcomes),
+            reasons: all.reasons(),
+            kinds: all.kinds(),
         })
     }
 }

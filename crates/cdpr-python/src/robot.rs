@@ -1,12 +1,13 @@
 //! The robot: from a file, a JSON text or arrays; its parameters.
 
-use crate::arrays::Numbers;
+use crate::arrays::{Array, Numbers, components};
 use crate::error::{Answer, Raised};
 use cdpr_robot::{CableProperties, Parameter, Platform, RobotCable, TensionLimits, Vector3};
 use cdpr_study::open_robot;
-use numpy::{PyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 
 /// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables. It does not change: `with_parameters` makes another one.
@@ -20,7 +21,7 @@ use std::path::PathBuf;
 /// linear_density: mass per unstrained length [kg/m].
 /// youngs_modulus: Young's modulus [Pa].
 /// tension_limits: least and greatest tension of a cable at the platform [N].
-/// center_of_mass: centre of mass in the platform frame [m].
+/// center_of_mass: centre of mass in the platform frame [m]; P if left out.
 /// gravity: acceleration due to gravity [m/s²].
 ///
 /// Raises InputError naming the field, its value and what would be right.
@@ -33,7 +34,7 @@ pub(crate) struct Robot {
 impl Robot {
     #[new]
     #[pyo3(signature = (anchor_points, exit_points, *, mass, section, linear_density, youngs_modulus, tension_limits,
-        center_of_mass = [0.0; 3], gravity = 9.81, name = "robot".to_owned()))]
+        center_of_mass = None, gravity = 9.81, name = "robot".to_owned()))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         anchor_points: Numbers,
@@ -42,8 +43,8 @@ impl Robot {
         section: Numbers,
         linear_density: Numbers,
         youngs_modulus: Numbers,
-        tension_limits: [f64; 2],
-        center_of_mass: [f64; 3],
+        tension_limits: Numbers,
+        center_of_mass: Option<Numbers>,
         gravity: f64,
         name: String,
     ) -> Answer<Self> {
@@ -72,12 +73,16 @@ impl Robot {
                 },
             })
             .collect();
-        let [min, max] = tension_limits;
+        let [min, max] = components("tension_limits", &tension_limits)?;
+        let center_of_mass = match center_of_mass {
+            Some(point) => components("center_of_mass", &point)?.into(),
+            None => Vector3::zeros(),
+        };
         let robot = cdpr_robot::Robot {
             name,
             source: None,
             gravity,
-            platform: Platform { mass, center_of_mass: center_of_mass.into() },
+            platform: Platform { mass, center_of_mass },
             tension_limits: TensionLimits { min, max },
             cables,
         };
@@ -97,11 +102,10 @@ impl Robot {
         Ok(Self { robot: cdpr_robot::Robot::from_json(text)? })
     }
 
-    /// The same from what `json.loads` makes of such a file.
+    /// The same from what `json.loads` makes of such a file; numbers of NumPy and arrays will do.
     #[staticmethod]
     fn from_dict(content: &Bound<PyDict>) -> Answer<Self> {
-        let text: String = content.py().import("json")?.call_method1("dumps", (content,))?.extract()?;
-        Self::from_json(&text)
+        Self::from_json(&json_text("content", content)?)
     }
 
     /// The robot file as text.
@@ -129,21 +133,60 @@ impl Robot {
     /// Points A_i in the platform frame [m], (n, 3).
     #[getter]
     fn anchor_points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<Vec<f64>> =
-            self.robot.cables.iter().map(|cable| cable.anchor_point.iter().copied().collect()).collect();
-        PyArray2::from_vec2(py, &rows).map_err(|error| Raised::Input(error.to_string()).into())
+        self.points(py, |cable| &cable.anchor_point)
     }
 
     /// Points B_i in the base frame [m], (n, 3).
     #[getter]
     fn exit_points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<Vec<f64>> =
-            self.robot.cables.iter().map(|cable| cable.exit_point.iter().copied().collect()).collect();
-        PyArray2::from_vec2(py, &rows).map_err(|error| Raised::Input(error.to_string()).into())
+        self.points(py, |cable| &cable.exit_point)
+    }
+
+    /// Mass of the platform [kg].
+    #[getter]
+    fn mass(&self) -> f64 {
+        self.robot.platform.mass
+    }
+
+    /// Centre of mass in the platform frame [m], (3,).
+    #[getter]
+    fn center_of_mass<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.robot.platform.center_of_mass.as_slice())
+    }
+
+    /// Section of each cable that carries its tension [m²], (n,).
+    #[getter]
+    fn section<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.properties(py, |cable| cable.section)
+    }
+
+    /// Mass of each cable per unstrained length [kg/m], (n,).
+    #[getter]
+    fn linear_density<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.properties(py, |cable| cable.linear_density)
+    }
+
+    /// Young's modulus of each cable [Pa], (n,).
+    #[getter]
+    fn youngs_modulus<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.properties(py, |cable| cable.youngs_modulus)
+    }
+
+    /// Least and greatest tension of a cable at the platform [N].
+    #[getter]
+    fn tension_limits(&self) -> (f64, f64) {
+        (self.robot.tension_limits.min, self.robot.tension_limits.max)
+    }
+
+    /// Acceleration due to gravity [m/s²].
+    #[getter]
+    fn gravity(&self) -> f64 {
+        self.robot.gravity
     }
 
     /// All parameters that studies know, by name, with their values in SI units: mass, linear_density, youngs_modulus, a1.x ..., b1.x ...,
-    /// cog.x ..., dt1 ... (offsets of tension set-points, zero).
+    /// cog.x ..., dt1 ... (offsets of tension set-points, zero). All cables share one linear density and one modulus here: the value is the
+    /// first cable's.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let values = PyDict::new(py);
@@ -154,6 +197,8 @@ impl Robot {
     }
 
     /// The robot with other values of some of its parameters, by their names in `parameters` [SI units]: `{"mass": 185.0, "a1.x": 0.25}`.
+    /// `linear_density` and `youngs_modulus` are set for all cables. Offsets dt are of a set-point, not of a robot: they can be zero only, and
+    /// others are given as `tension_offsets` where the cables are wound.
     ///
     /// Raises InputError for a name or value that no such robot has.
     fn with_parameters(&self, values: &Bound<PyDict>) -> Answer<Self> {
@@ -161,7 +206,16 @@ impl Robot {
             .iter()
             .map(|(name, value)| Ok((name.extract()?, value.extract()?)))
             .collect::<PyResult<_>>()?;
-        let named: Vec<(&str, f64)> = values.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        let offsets: Vec<String> = (1..=self.robot.cables.len()).map(|cable| format!("dt{cable}")).collect();
+        let (offsets, named): (Vec<_>, Vec<_>) = values
+            .iter()
+            .map(|(name, value)| (name.as_str(), *value))
+            .partition(|(name, _)| offsets.iter().any(|offset| offset == name));
+        if let Some((name, value)) = offsets.iter().find(|(_, value)| *value != 0.0) {
+            return Err(Raised::Input(format!(
+                "{name} is {value}: expected 0, as offsets belong to no robot; give them as tension_offsets"
+            )));
+        }
         Ok(Self { robot: self.robot.with_values(&named)? })
     }
 
@@ -171,29 +225,71 @@ impl Robot {
         Ok((class.getattr("from_json")?, PyTuple::new(py, [self.to_json()])?))
     }
 
+    /// Whether all that a robot file says is the same.
+    fn __eq__(&self, other: &Self) -> bool {
+        self.robot == other.robot
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.robot.name.hash(&mut hasher);
+        hasher.finish()
+    }
+
     fn __repr__(&self) -> String {
         format!("<cdpr.Robot {}, {} cables>", self.robot.name, self.robot.cables.len())
     }
 }
 
+impl Robot {
+    fn points<'py>(
+        &self,
+        py: Python<'py>,
+        point: impl Fn(&RobotCable) -> &Vector3<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows: Vec<Vec<f64>> =
+            self.robot.cables.iter().map(|cable| point(cable).iter().copied().collect()).collect();
+        Ok(PyArray2::from_vec2(py, &rows)?)
+    }
+
+    fn properties<'py>(
+        &self,
+        py: Python<'py>,
+        property: impl Fn(&CableProperties) -> f64,
+    ) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_iter(py, self.robot.cables.iter().map(|cable| property(&cable.properties)))
+    }
+}
+
+/// JSON of a dictionary, in which numbers of NumPy and arrays are numbers and lists.
+pub(crate) fn json_text(name: &str, content: &Bound<PyAny>) -> Answer<String> {
+    let py = content.py();
+    let settings = PyDict::new(py);
+    settings.set_item("default", py.import("operator")?.call_method1("methodcaller", ("tolist",))?)?;
+    let text = py.import("json")?.call_method("dumps", (content,), Some(&settings));
+    let text = text.map_err(|error| {
+        Raised::Input(format!("{name} is no JSON ({}): expected what `json.loads` makes", error.value(py)))
+    });
+    Ok(text?.extract()?)
+}
+
 fn points(name: &str, array: &Numbers) -> Answer<Vec<Vector3<f64>>> {
-    let shape = array.shape();
-    if !matches!(shape, [_, 3]) {
+    let Array { shape, values } = Array::new(name, array)?;
+    if !matches!(shape[..], [_, 3]) {
         return Err(Raised::Input(format!(
             "{name} has the shape {shape:?}: expected (n, 3), a point a cable"
         )));
     }
-    let values: Vec<f64> = array.as_array().iter().copied().collect();
     Ok(values.chunks_exact(3).map(Vector3::from_column_slice).collect())
 }
 
 /// A number for each cable.
 fn of_cables(name: &str, array: &Numbers, cables: usize) -> Answer<Vec<f64>> {
-    let values: Vec<f64> = array.as_array().iter().copied().collect();
-    match array.shape() {
+    let Array { shape, values } = Array::new(name, array)?;
+    match shape[..] {
         [] => Ok(vec![values[0]; cables]),
-        [count] if *count == cables => Ok(values),
-        shape => Err(Raised::Input(format!(
+        [count] if count == cables => Ok(values),
+        _ => Err(Raised::Input(format!(
             "{name} has the shape {shape:?}: expected a number, or one for each of the {cables} cables"
         ))),
     }

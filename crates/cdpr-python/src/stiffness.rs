@@ -1,6 +1,7 @@
 //! The Cartesian stiffness at a pose.
 
-use crate::arrays::{Cases, Columns, Loads, Numbers, Rows, reasons};
+use crate::answer::answer;
+use crate::arrays::{Cases, Columns, Loads, Numbers, Rows};
 use crate::error::Answer;
 use crate::robot::Robot;
 use crate::threads::each;
@@ -8,25 +9,29 @@ use cdpr_robot::{Pose, Vector3};
 use cdpr_statics::{Load, Mode, Start, StaticsError, Tangent, direct_any, inverse};
 use pyo3::prelude::*;
 
-/// Cartesian stiffness. At one pose, or at m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
-#[pyclass(frozen, get_all, module = "cdpr")]
-pub(crate) struct Stiffness {
-    /// K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
-    matrix: Py<PyAny>,
-    /// Eigenvalues of the stiffness in (dp, arm dphi), from the softest motion [N/m], (6,).
-    eigenvalues: Py<PyAny>,
-    /// Translation of P in each of these motions [m/m], (6, 3).
-    translations: Py<PyAny>,
-    /// Rotation in each of these motions [rad/m], (6, 3).
-    rotations: Py<PyAny>,
-    /// Stiffness of the softest motion [N/m].
-    least_stiffness: Py<PyAny>,
-    /// Whether every small displacement is pulled back.
-    stable: Py<PyAny>,
-    /// The length that makes rotations comparable with translations [m].
-    arm: Py<PyAny>,
-    /// Why there is no answer, None where there is one; None for one pose.
-    reasons: Option<Vec<Option<String>>>,
+answer! {
+    /// Cartesian stiffness. At one pose, or at m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Stiffness {
+        /// K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
+        matrix: Py<PyAny>,
+        /// Eigenvalues of the stiffness in (dp, arm dphi), from the softest motion [N/m], (6,).
+        eigenvalues: Py<PyAny>,
+        /// Translation of P in each of these motions [m/m], (6, 3).
+        translations: Py<PyAny>,
+        /// Rotation in each of these motions [rad/m], (6, 3).
+        rotations: Py<PyAny>,
+        /// Stiffness of the softest motion [N/m].
+        least_stiffness: Py<PyAny>,
+        /// Whether every small displacement is pulled back.
+        stable: Py<PyAny>,
+        /// The length that makes rotations comparable with translations [m].
+        arm: Py<PyAny>,
+        /// Why there is no answer, None where there is one; None for one pose.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
 }
 
 /// What is asked of a pose.
@@ -61,7 +66,7 @@ impl Robot {
         let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&poses]).collect();
         let cases = Cases::of(&arguments)?;
         let outcomes =
-            each(py, cases.count, |case| Found::at(&self.robot, &poses.pose(case)?, &loads.load(case)))?;
+            each(py, cases.count, |case| Found::at(&self.robot, &poses.pose(case)?, &loads.load(case)?))?;
         let all = Columns::new(py, cases, &outcomes)?;
         let vectors = |vector: fn(&Mode) -> Vector3<f64>| {
             all.numbers(&[6, 3], |found: &Found, out| {
@@ -78,7 +83,8 @@ impl Robot {
             least_stiffness: all.number(|found| found.least_stiffness)?,
             stable: all.array(false, &[], |found, out| out[0] = found.stable)?,
             arm: all.number(|found| found.arm)?,
-            reasons: reasons(cases, &outcomes),
+            reasons: all.reasons(),
+            kinds: all.kinds(),
         })
     }
 }

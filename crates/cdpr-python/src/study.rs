@@ -1,13 +1,14 @@
 //! Studies: the same functions as `cdpr study`, on folders of results. `study.py` puts them together.
 
+use crate::arrays::whole;
 use crate::error::{Answer, Raised};
-use crate::threads::watched;
+use crate::threads::{run, watched};
 use cdpr_report::{Watcher, report};
 use cdpr_robot::Vector3;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
     Existing, Part, Plan, Results, Session, Shard, Study, StudyError, TableFormat, check_complete,
-    observe_into, observe_shard, open_results, write_text,
+    check_observed, observe_into, observe_shard, write_text,
 };
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -15,19 +16,20 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Makes the folder of a study, or goes on with it; says how many blocks and observations the study has.
+/// Makes the folder of a study, or goes on with it; says how many blocks and observations the study has. All settings of the run are looked at
+/// before anything is removed.
 #[pyfunction]
+#[allow(clippy::too_many_arguments)]
 pub(crate) fn begin(
+    py: Python,
     study: PathBuf,
     out: PathBuf,
-    observations: Option<usize>,
+    observations: Option<Bound<PyAny>>,
     resume: bool,
     overwrite: bool,
+    table: Option<&str>,
+    threads: Option<usize>,
 ) -> Answer<(usize, usize)> {
-    let mut study = Study::open(&study)?;
-    if let Some(observations) = observations {
-        study.set_observations(observations)?;
-    }
     let existing = match (resume, overwrite) {
         (true, true) => {
             return Err(Raised::Input("resume and overwrite are both True: expected one of them".to_owned()));
@@ -36,8 +38,18 @@ pub(crate) fn begin(
         (false, true) => Existing::Overwrite,
         (false, false) => Existing::Refuse,
     };
-    cdpr_study::begin(&out, &study, existing)?;
-    Ok((Plan::new(&study)?.blocks(), observations_of(&study)?))
+    format_of(table)?;
+    let observations = observations.map(|number| whole("observations", &number)).transpose()?;
+    let begun = |_: &_| -> Result<_, StudyError> {
+        let mut study = Study::open(&study)?;
+        if let Some(observations) = observations {
+            study.set_observations(observations)?;
+        }
+        let size = (Plan::new(&study)?.blocks(), observations_of(&study)?);
+        cdpr_study::begin(&out, &study, existing)?;
+        Ok(size)
+    };
+    Ok(watched(py, threads, |_| Ok(()), begun)??)
 }
 
 /// Makes the blocks of the `index`-th of `count` shards that are not in the folder; says how many observations they are.
@@ -49,8 +61,6 @@ pub(crate) fn make_shard(
     count: usize,
     threads: usize,
 ) -> Answer<usize> {
-    let (study, blocks) = open_results(&out)?;
-    let shard = Shard::parse(&format!("{index}/{count}"), |_| None)?;
     let made = AtomicUsize::new(0);
     let tick = |more| {
         made.fetch_add(more, Ordering::Relaxed);
@@ -60,6 +70,8 @@ pub(crate) fn make_shard(
         Some(threads),
         |_| Ok(()),
         |stop| {
+            let (study, blocks) = cdpr_study::open_results(&out)?;
+            let shard = Shard::parse(&format!("{index}/{count}"), |_| None)?;
             let session = Session {
                 blocks: Some(&blocks),
                 tick: &tick,
@@ -73,27 +85,21 @@ pub(crate) fn make_shard(
     Ok(made.into_inner())
 }
 
-/// Makes what is missing in the folder, unless it has to be complete, and analyses the whole; writes all results and the report.
+/// Makes what is missing in the folder, unless it has to be complete, and analyses the whole; writes all results and the report. Progress is
+/// told as observations of `all`.
 #[pyfunction]
+#[allow(clippy::too_many_arguments)]
 pub(crate) fn carry_out(
     py: Python,
     out: PathBuf,
     table: Option<&str>,
     threads: Option<usize>,
     complete: bool,
+    all: usize,
     progress: Option<Py<PyAny>>,
 ) -> Answer<Vec<String>> {
-    let (study, blocks) = open_results(&out)?;
-    let format = match table {
-        None => None,
-        Some("csv") => Some(TableFormat::Csv),
-        Some("none") => Some(TableFormat::None),
-        Some(table) => return Err(Raised::Input(format!("table is {table}: expected csv or none"))),
-    };
-    if complete {
-        check_complete(&out, &study, &blocks)?;
-    }
-    let (all, done) = (observations_of(&study)?, AtomicUsize::new(0));
+    let format = format_of(table)?;
+    let done = AtomicUsize::new(0);
     let notes = Mutex::new(Vec::new());
     let note = |note: &str| notes.lock().unwrap_or_else(PoisonError::into_inner).push(note.to_owned());
     let mut told = 0;
@@ -105,7 +111,11 @@ pub(crate) fn carry_out(
         }
         Ok(())
     };
-    watched(py, threads, &mut tell, |stop| -> Result<(), StudyError> {
+    watched(py, threads, &mut tell, |stop| -> Answer<()> {
+        let (study, blocks) = cdpr_study::open_results(&out)?;
+        if complete {
+            check_complete(&out, &study, &blocks)?;
+        }
         let watcher = Watcher {
             begin: &|_| (),
             tick: &|more| {
@@ -115,12 +125,30 @@ pub(crate) fn carry_out(
             note: &note,
             stop: &|| stop.load(Ordering::Relaxed),
         };
-        cdpr_report::run(&study, &out, &blocks, format, watcher).map(|_| ())
+        cdpr_report::run(&study, &out, &blocks, format, watcher)?;
+        let page = report(&Results::read(&out)?).map_err(|error| Raised::Input(error.to_string()))?;
+        write_text(&out.join("report.html"), &page)?;
+        Ok(())
     })??;
     tell(py)?;
-    let page = report(&Results::read(&out)?);
-    write_text(&out.join("report.html"), &page.map_err(|error| Raised::Input(error.to_string()))?)?;
     Ok(notes.into_inner().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// Sees to it that a folder is one of results.
+#[pyfunction]
+pub(crate) fn open_results(py: Python, out: PathBuf) -> Answer<()> {
+    run(py, |_| cdpr_study::open_results(&out))??;
+    Ok(())
+}
+
+/// How far the study in a folder is, as `cdpr study status --format json` says it.
+#[pyfunction]
+pub(crate) fn status(py: Python, out: PathBuf) -> Answer<String> {
+    let found = run(py, |_| {
+        let (study, blocks) = cdpr_study::open_results(&out)?;
+        cdpr_study::status(&study, &blocks)
+    })??;
+    serde_json::to_string(&found).map_err(|error| Raised::Input(error.to_string()))
 }
 
 /// Names of the inputs, deviations (m, k), dx, dy, dz and |dp| [mm] (m, 4) and kinds of failure of the observations of a sampling in a folder.
@@ -131,35 +159,29 @@ pub(crate) fn observations(
     out: PathBuf,
     sampling: &str,
 ) -> Answer<(Vec<String>, Py<PyAny>, Py<PyAny>, Vec<Option<String>>)> {
-    let (study, blocks) = open_results(&out)?;
-    check_complete(&out, &study, &blocks)?;
-    let sampling = study.sampling(sampling)?;
     let (mut rows, mut deflections, mut failures) = (Vec::new(), Vec::new(), Vec::new());
-    watched(
-        py,
-        None,
-        |_| Ok(()),
-        |stop| {
-            let session = Session {
-                blocks: Some(&blocks),
-                tick: &|_| (),
-                warn: &|_| (),
-                stop: &|| stop.load(Ordering::Relaxed),
-            };
-            observe_into(&sampling, &session, Part::clone, |part| {
-                rows.extend(part.rows);
-                for outcome in part.outcomes {
-                    let displacement =
-                        outcome.as_ref().copied().unwrap_or_else(|_| Vector3::repeat(f64::NAN));
-                    let [dx, dy, dz] = displacement.into();
-                    deflections.extend([dx, dy, dz, displacement.norm()].map(|metres| 1e3 * metres));
-                    failures.push(outcome.err().map(|failure| failure.kind));
-                }
-                Ok(())
-            })
-        },
-    )??;
-    let names: Vec<String> = sampling.design.inputs().iter().map(|input| input.name.clone()).collect();
+    let names: Vec<String> = run(py, |stop| -> Result<_, StudyError> {
+        let (study, blocks) = cdpr_study::open_results(&out)?;
+        let sampling = study.sampling(sampling)?;
+        check_observed(&out, &study, &blocks, &sampling.name)?;
+        let session = Session {
+            blocks: Some(&blocks),
+            tick: &|_| (),
+            warn: &|_| (),
+            stop: &|| stop.load(Ordering::Relaxed),
+        };
+        observe_into(&sampling, &session, Part::clone, |part| {
+            rows.extend(part.rows);
+            for outcome in part.outcomes {
+                let displacement = outcome.as_ref().copied().unwrap_or_else(|_| Vector3::repeat(f64::NAN));
+                let [dx, dy, dz] = displacement.into();
+                deflections.extend([dx, dy, dz, displacement.norm()].map(|metres| 1e3 * metres));
+                failures.push(outcome.err().map(|failure| failure.kind));
+            }
+            Ok(())
+        })?;
+        Ok(sampling.design.inputs().iter().map(|input| input.name.clone()).collect())
+    })??;
     let array = |values: Vec<f64>, width: usize| -> PyResult<Py<PyAny>> {
         let array = PyArray1::from_vec(py, values).reshape(IxDyn(&[failures.len(), width]))?;
         Ok(array.into_any().unbind())
@@ -168,8 +190,18 @@ pub(crate) fn observations(
     Ok((names, rows, deflections, failures))
 }
 
+/// What the observations are written as; by default as `cdpr_report::run` has it.
+fn format_of(table: Option<&str>) -> Answer<Option<TableFormat>> {
+    match table {
+        None => Ok(None),
+        Some("csv") => Ok(Some(TableFormat::Csv)),
+        Some("none") => Ok(Some(TableFormat::None)),
+        Some(table) => Err(Raised::Input(format!("table is {table}: expected csv or none"))),
+    }
+}
+
 /// Observations and points of a whole run, replicates and measures of sensitivity included.
-fn observations_of(study: &Study) -> Answer<usize> {
+fn observations_of(study: &Study) -> Result<usize, StudyError> {
     let of_sampling = |name: &String| study.observations(name);
     let samplings: usize = study.file.samplings.keys().map(of_sampling).sum::<Result<_, _>>()?;
     let surfaces: usize =

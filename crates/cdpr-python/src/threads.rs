@@ -81,20 +81,20 @@ pub(crate) fn watched<T: Send>(
     }
 }
 
+/// The same on the pool of this process, with nothing to poll.
+pub(crate) fn run<T: Send>(py: Python, work: impl FnOnce(&AtomicBool) -> T + Send) -> Answer<T> {
+    watched(py, None, |_| Ok(()), work)
+}
+
 /// `one` of each case, in parallel and in their order.
 pub(crate) fn each<T: Send>(py: Python, cases: usize, one: impl Fn(usize) -> T + Sync) -> Answer<Vec<T>> {
     if cases == 1 {
         return Ok(vec![py.detach(|| one(0))]);
     }
-    let all = watched(
-        py,
-        None,
-        |_| Ok(()),
-        |stop| {
-            let one = |case| (!stop.load(Ordering::Relaxed)).then(|| one(case));
-            (0..cases).into_par_iter().map(one).collect::<Option<Vec<T>>>()
-        },
-    )?;
+    let all = run(py, |stop| {
+        let one = |case| (!stop.load(Ordering::Relaxed)).then(|| one(case));
+        (0..cases).into_par_iter().map(one).collect::<Option<Vec<T>>>()
+    })?;
     // Nothing stops the work but what has been raised above.
     Ok(all.unwrap_or_default())
 }

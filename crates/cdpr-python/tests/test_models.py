@@ -1,5 +1,8 @@
 """The models give the numbers of the command line, bit for bit, for one case and for arrays."""
 
+import concurrent.futures
+import copy
+import multiprocessing
 import pickle
 
 import numpy
@@ -7,6 +10,7 @@ import pytest
 from conftest import answer, refusal
 
 import cdpr
+from cdpr.sensitivity import MorrisDesign, SaltelliDesign, SobolDesign, normal, uniform
 
 POSE = [0.0, 0.0, 1.75]
 TURNED = [0.4, -0.3, 1.6, 0.99, 0.02, -0.03, 0.05]
@@ -117,7 +121,9 @@ def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
     assert found.dominant == [row["dominant"] for row in told["rows"]]
     for name in ("least_tension", "greatest_tension", "least_stiffness", "dominant_share"):
         same(getattr(found, name), [numpy.nan if row[name] is None else row[name] for row in told["rows"]])
-    plane = caroca.workspace(plane=("z", 1.75), grid=(3, 2))
+    bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
+    assert numpy.isnan(bare.rms).all() and not numpy.isnan(bare.least_stiffness).any()
+    plane = caroca.workspace(plane=("z", 1.75), grid=(3, 2), payload=50)
     assert plane.shape == (3, 2, 1)
     same(plane.positions[0], [-3.5, -2.0, 1.75])
 
@@ -194,12 +200,14 @@ def test_bad_input_is_refused_with_field_value_and_what_would_be_right(caroca, c
         (lambda: caroca.inverse(POSE, force=[1, 2]), "force has 2 numbers a row: expected 3"),
         (lambda: caroca.inverse([POSE] * 3, payload=[1, 2]), "pose has 3 rows: expected one for all cases, or 2"),
         (lambda: caroca.inverse(POSE, payload=-1), "payload is -1: expected a mass, zero or more"),
-        (lambda: caroca.observe(POSE, [0.0] * 61), "deviations has 61 numbers a row: expected 62"),
-        (lambda: caroca.observe([POSE, POSE], [0.0] * 62), "pose or load has a row for each case"),
+        (lambda: caroca.observe(POSE, [0.0] * 61, payload=50), "deviations has 61 numbers a row: expected 62"),
+        (lambda: caroca.observe([POSE, POSE], [0.0] * 62, payload=50), "pose or load has a row for each case"),
         (lambda: cdpr.catenary(1, 1e6, length=4, end=[3, 0], points=1), "points is 1: expected 2 or more"),
         (lambda: caroca.with_parameters({"a9.x": 1.0}), "no parameter is named `a9.x`"),
         (lambda: caroca.with_parameters({"mass": -1.0}), "platform.mass is -1: expected a finite, positive mass"),
-        (lambda: caroca.workspace(x=0, y=0, z=0, uncertainty={"q": 1}), "uncertainty of q is 1: expected"),
+        (lambda: caroca.workspace(x=0, y=0, z=0, payload=50, uncertainty={"q": 1}), "uncertainty of q is 1: expected"),
+        (lambda: caroca.workspace(x=0, y=0, z=0, payload=50, uncertainty={"mass": numpy.inf}), "uncertainty of mass is inf"),
+        (lambda: caroca.with_parameters({"dt1": 5.0}), "dt1 is 5: expected 0, as offsets belong to no robot"),
         (lambda: cdpr.catenary(1, 1e6, length=4), "expected two of what is known"),
         (lambda: cdpr.Robot.from_json("{}"), "line 1, column 2: "),
     ):
@@ -215,6 +223,89 @@ def test_bad_input_is_refused_with_field_value_and_what_would_be_right(caroca, c
     with pytest.raises(cdpr.FileError) as raised:
         cdpr.Robot.from_file(tmp_path / "none.json")
     assert str(raised.value) == refusal("check", tmp_path / "none.json")
+
+
+def test_a_robot_with_its_own_parameters_is_itself(caroca):
+    assert caroca.with_parameters(caroca.parameters) == caroca
+    assert caroca.with_parameters({"mass": 200.0}) != caroca and caroca != 3
+    again = cdpr.Robot.from_dict(caroca.to_dict())
+    assert again == caroca and hash(again) == hash(caroca)
+
+
+def test_a_robot_tells_what_it_was_made_of(caroca):
+    content = caroca.to_dict()
+    assert (caroca.mass, caroca.gravity) == (content["platform"]["mass"], content["gravity"])
+    assert caroca.tension_limits == (content["tension_limits"]["min"], content["tension_limits"]["max"])
+    same(caroca.center_of_mass, content["platform"]["center_of_mass"])
+    softer = caroca.with_parameters({"youngs_modulus": 8e10})
+    same(softer.youngs_modulus, [8e10] * 8)
+    same(caroca.linear_density, [content["cable"]["linear_density"]] * 8)
+    made = cdpr.Robot(caroca.anchor_points, caroca.exit_points, mass=caroca.mass, section=caroca.section,
+                      linear_density=caroca.linear_density, youngs_modulus=caroca.youngs_modulus,
+                      tension_limits=caroca.tension_limits, center_of_mass=caroca.center_of_mass,
+                      gravity=caroca.gravity, name=caroca.name)
+    assert made.parameters == caroca.parameters
+    same(made.section, caroca.section)
+
+
+def answers(robot):
+    """One of every class of answers, of one case and of two."""
+    yield cdpr.catenary(1.0, 1e6, length=5.0, end=[4.0, 1.0])
+    far = [POSE, [9.0, 0.0, 1.75]]
+    for poses in (POSE, far):
+        yield robot.inverse(poses)
+        yield robot.deflection(poses, payload=50)
+        yield robot.stiffness(poses, payload=50)
+        yield robot.derivatives(poses, payload=50)
+    yield robot.direct([LENGTHS, LENGTHS], force=[20, 0, -30])
+    yield robot.observe(POSE, numpy.zeros((2, 62)), payload=50)
+    yield robot.workspace(x=(-9, 0, 2), y=0, z=1.75, payload=50, uncertainty={"a": 0.002})
+    laws = {"x": uniform(0, 1), "y": normal(2, 1)}
+    design = SobolDesign(laws, 64, seed=3)
+    yield design.effects(design.rows()[:, 0])
+    blocks = SaltelliDesign(laws, 16, seed=3, pairs=True)
+    yield blocks.indices(blocks.rows()[:, 0])
+    radial = MorrisDesign(laws, 4, seed=3)
+    yield radial.effects(radial.rows()[:, 0])
+
+
+def fields(answer):
+    return {name: getattr(answer, name) for name in dir(answer) if not name.startswith("_")}
+
+
+def check_same(one, other):
+    assert type(one) is type(other)
+    for name, value in fields(one).items():
+        if type(value).__module__.startswith("cdpr"):
+            check_same(value, getattr(other, name))
+        else:
+            numpy.testing.assert_array_equal(value, getattr(other, name), name)
+
+
+def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
+    classes = set()
+    for answer in answers(caroca):
+        classes.add(type(answer).__name__)
+        check_same(answer, pickle.loads(pickle.dumps(answer)))
+        check_same(answer, copy.deepcopy(answer))
+        assert repr(answer).startswith(f"<{type(answer).__module__}.{type(answer).__name__} ")
+        assert len(repr(answer)) < 400
+    assert classes == {"Catenary", "InverseSolution", "Deflection", "Stiffness", "Derivatives", "DirectSolution",
+                       "Observations", "Workspace", "Effects", "SobolIndices", "MorrisEffects"}
+    found = caroca.deflection([POSE, POSE], payload=50)
+    assert repr(found) == (
+        "<cdpr.Deflection displacement (2, 3), rms (2,), turn (2, 3), lengths (2, 8), unloaded DirectSolution, "
+        "loaded DirectSolution, reasons [2], kinds [2]>"
+    )
+    with pytest.raises(TypeError, match="missing"):
+        cdpr.Deflection(1, 2)
+
+
+def test_answers_come_back_from_a_process_pool(caroca):
+    poses = [POSE, TURNED]
+    with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as executor:
+        for pose, found in zip(poses, executor.map(caroca.stiffness, poses)):
+            check_same(found, caroca.stiffness(pose))
 
 
 def test_a_robot_is_made_of_arrays_and_read_back_to_the_last_bit(caroca):
@@ -233,8 +324,8 @@ def test_a_robot_is_made_of_arrays_and_read_back_to_the_last_bit(caroca):
     )
     assert made.parameters == caroca.parameters
     assert len(made.parameters) == 62
-    for copy in (cdpr.Robot.from_dict(content), pickle.loads(pickle.dumps(caroca))):
-        same(copy.inverse(TURNED).lengths, caroca.inverse(TURNED).lengths)
+    for again in (cdpr.Robot.from_dict(content), pickle.loads(pickle.dumps(caroca))):
+        same(again.inverse(TURNED).lengths, caroca.inverse(TURNED).lengths)
     assert f"{1e3 * made.deflection(POSE, payload=50).rms:.4f}" == "1.3312"
     stiffer = caroca.with_parameters({"youngs_modulus": 2e11, "a1.x": 0.25})
     assert stiffer.parameters["youngs_modulus"] == 2e11 and stiffer.anchor_points[0, 0] == 0.25

@@ -1,9 +1,13 @@
 """The package itself: documentation, examples, import, threads."""
 
+import os
 import re
 import runpy
+import signal
 import subprocess
 import sys
+import threading
+import time
 from pathlib import Path
 
 import pytest
@@ -32,6 +36,12 @@ def test_the_code_of_the_book_runs(tmp_path):
     assert len(blocks) >= 3
     (tmp_path / "data").symlink_to(ROOT / "data")
     python("\n".join(blocks), tmp_path)
+
+
+def test_the_octave_code_of_the_book_is_the_file_that_octave_runs():
+    text = (ROOT / "docs" / "python.md").read_text()
+    code = re.search(r"```matlab\n(.*?)```", text, re.DOTALL).group(1)
+    assert code == (ROOT / "docs" / "examples" / "direct.m").read_text()
 
 
 @pytest.mark.parametrize("name", ["cables", "deflection_map"])
@@ -77,6 +87,38 @@ def test_a_forked_process_computes_after_its_parent_did(caroca):
     caroca.inverse([[0, 0, 1.75]] * 10)
     with multiprocessing.get_context("fork").Pool(1) as pool:
         assert pool.apply_async(_least_tension, (caroca,)).get(timeout=60) > 0
+
+
+def test_a_forked_process_estimates_after_its_parent_did():
+    import multiprocessing
+
+    expected = _indices(1)
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        assert pool.apply_async(_indices, (1,)).get(timeout=60) == expected
+
+
+def _indices(seed):
+    from cdpr.sensitivity import SaltelliDesign, SobolDesign, uniform
+
+    laws = {"x": uniform(0, 1), "y": uniform(0, 2)}
+    design = SaltelliDesign(laws, 256, seed=seed)
+    sample = SobolDesign(laws, 256, seed=seed)
+    outputs = sample.rows().sum(axis=1)
+    return [
+        *design.indices(design.rows().sum(axis=1)).first,
+        *sample.effects(outputs).effect,
+        *sample.expansion(outputs).first,
+    ]
+
+
+def test_ctrl_c_ends_a_workspace(caroca):
+    # A shell's background process ignores it, and so do its children.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        caroca.workspace(plane=("z", 1.75), grid=(1000, 1000), payload=50)
+    assert time.monotonic() - begun < 20
 
 
 def _least_tension(robot):

@@ -1,5 +1,9 @@
 """Designs and estimators on models of Python, against what is known of these."""
 
+import pickle
+import threading
+import time
+
 import numpy
 import pytest
 
@@ -77,6 +81,41 @@ def test_the_same_seed_gives_the_same_rows_and_none_the_plain_sequence():
     numpy.testing.assert_array_equal(
         SobolDesign({"x": uniform(0, 1)}, 4).rows()[:, 0], [0.0, 0.5, 0.75, 0.25]
     )
+
+
+def test_a_design_or_expansion_goes_to_another_process():
+    laws = {"x": normal(0.1, 1 / 3), "y": uniform(0, 4)}
+    designs = [SobolDesign(laws, 32, seed=7), SobolDesign(laws, 32, first_index=3), SaltelliDesign(laws, 16, seed=7),
+               SaltelliDesign(laws, 16, first_index=1, pairs=True), MorrisDesign(laws, 4, seed=7)]
+    for design in designs:
+        copy = pickle.loads(pickle.dumps(design))
+        assert repr(copy) == repr(design)
+        numpy.testing.assert_array_equal(copy.rows(), design.rows())
+    assert repr(designs[2]) == "<cdpr.sensitivity.SaltelliDesign of 2 inputs, 64 rows>"
+    rows = designs[0].rows()
+    expansion = designs[0].expansion(rows[:, 0] * rows[:, 1])
+    copy = pickle.loads(pickle.dumps(expansion))
+    numpy.testing.assert_array_equal(copy.predict(rows), expansion.predict(rows))
+    assert repr(copy) == f"<cdpr.sensitivity.Expansion in 2 inputs, degree {expansion.degree}>"
+
+
+def test_other_threads_run_while_indices_are_estimated():
+    design = SaltelliDesign(ISHIGAMI, 4096, seed=3)
+    outputs = ishigami(design.rows())
+    done, ticks = threading.Event(), []
+
+    def tick():
+        while not done.wait(0.01):
+            ticks.append(time.monotonic())
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    begun = time.monotonic()
+    design.indices(outputs, resamples=500_000)
+    ended = time.monotonic()
+    done.set()
+    thread.join()
+    assert sum(begun < moment < ended for moment in ticks) >= 5, ended - begun
 
 
 def test_a_law_or_number_that_is_none_is_refused():

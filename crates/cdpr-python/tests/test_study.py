@@ -65,6 +65,7 @@ def test_a_run_writes_what_the_command_line_writes(study, expected, tmp_path):
     assert results.timings["threads"] == 1
     assert results.notes == []
     table = results.observations("mechanical")
+    assert table.dtype.isalignedstruct
     lines = (results.folder / "mechanical.csv").read_text().splitlines()
     assert len(lines) == OBSERVATIONS + 1 and lines[0].split(",") == [*table.dtype.names, "reason"]
     for row in (0, 1, 20_000, OBSERVATIONS - 1):
@@ -147,6 +148,11 @@ def test_a_study_over_a_grid_of_poses_is_that_of_the_command_line(data, tmp_path
     with concurrent.futures.ProcessPoolExecutor(2) as executor:
         results = cdpr.study.run(study, tmp_path / "out", executor=executor, tasks=4)
     check(results, files(tmp_path / "expected"))
+    poses = results.table("plane")
+    assert poses.shape == (15,) and poses["sampling"][3] == "plane/0003"
+    held = poses["status"] == "held"
+    assert numpy.isnan(poses["mean_mm"]).tolist() == (~held).tolist() and 0 < held.sum() < 15
+    assert all(poses["reason"][~held]) and not any(poses["reason"][held])
     held = next(name for name in sorted(files(tmp_path / "out")) if name.endswith(".block")).split("/")
     assert len(results.observations("/".join(held[1:3]))) == 500
 
@@ -182,14 +188,65 @@ def test_ray_writes_the_same(study, expected, tmp_path):
     check(results, expected)
 
 
-def test_settings_that_are_none_are_refused(study, tmp_path):
+def test_settings_that_are_none_are_refused_before_anything_is_removed(study, tmp_path):
+    out = tmp_path / "out"
+    cdpr.study.run(study, out, observations=100)
+    before = files(out)
     for arguments, error, start in (
         ({"table": "xlsx"}, cdpr.InputError, "table is xlsx: expected csv or none"),
         ({"threads": 0}, cdpr.InputError, "threads is 0: expected one or more"),
         ({"resume": True, "overwrite": True}, cdpr.InputError, "resume and overwrite are both True"),
         ({"executor": 3}, TypeError, "executor is 3: expected one with"),
-        ({"observations": 2}, cdpr.InputError, f"{study}: samplings.mechanical.observations"),
+        ({"threads": -1}, cdpr.InputError, "threads is -1: expected one or more"),
+        ({"tasks": 0}, cdpr.InputError, "tasks is 0: expected one or more"),
+        ({"progress": 3}, TypeError, "progress is 3: expected a function"),
+        ({"observations": 2}, cdpr.InputError, "--observations is 2: expected at least 3"),
+        ({"observations": -2}, cdpr.InputError, "observations is -2: expected a whole number from 0"),
     ):
         with pytest.raises(error) as raised:
-            cdpr.study.run(study, tmp_path / "out", **{"overwrite": True, **arguments})
+            cdpr.study.run(study, out, **{"overwrite": True, **arguments})
         assert str(raised.value).startswith(start), str(raised.value)
+        assert files(out) == before, arguments
+
+
+def test_a_folder_that_holds_no_results_is_refused(study, tmp_path):
+    with pytest.raises(cdpr.FileError, match="cannot read .*nowhere"):
+        cdpr.study.open_results(tmp_path / "nowhere")
+
+    def refuse(done, total):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError):
+        cdpr.study.run(study, tmp_path / "begun", observations=OBSERVATIONS, threads=1, progress=refuse)
+    begun = cdpr.study.open_results(tmp_path / "begun")
+    assert not begun.status()["complete"]
+    for read in (lambda: begun.summary, lambda: begun.timings, lambda: begun.table("mechanical")):
+        with pytest.raises(cdpr.FileError, match="expected the results of a run that has ended"):
+            read()
+
+
+def test_observations_need_the_blocks_of_their_sampling_alone(study, tmp_path):
+    results = cdpr.study.run(study, tmp_path / "out", observations=100)
+    assert results.status()["complete"]
+    expected = results.observations("mechanical")
+    blocks = tmp_path / "out" / "blocks" / "mechanical"
+    for block in blocks.glob("replicate*/*.block"):
+        block.unlink()
+    assert not results.status()["complete"]
+    numpy.testing.assert_array_equal(results.observations("mechanical"), expected)
+    next(blocks.glob("sampling/*.block")).unlink()
+    with pytest.raises(cdpr.FileError, match="lacks 1 of 1 blocks"):
+        results.observations("mechanical")
+
+
+def test_the_table_of_a_surface_has_a_row_a_point(data, tmp_path):
+    file = json.loads((data / "studies" / "caroca.json").read_text())
+    name, surface = next(iter(file["surfaces"].items()))
+    surface["x"]["points"], surface["y"]["points"] = 4, 3
+    file.update(robot=str(data / "robots" / "caroca.json"), samplings={}, surfaces={name: surface}, comparison=[])
+    study = tmp_path / "surface.json"
+    study.write_text(json.dumps(file))
+    table = cdpr.study.run(study, tmp_path / "out").table(name)
+    assert table.dtype.names[2:] == ("rms_mm", "status") and table.shape == (12,)
+    assert set(table["status"]) == {"ok"} and numpy.all(table["rms_mm"] > 0)
+    assert len(set(table[table.dtype.names[0]])) == 4

@@ -19,7 +19,7 @@ fn summary(robot: &Robot, grid: Grid) -> WorkspaceSummary {
         load: Load::payload(50.0),
         tolerances: None,
     };
-    WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| ()).unwrap())
+    WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap())
 }
 
 fn count(svg: &str, what: &str) -> usize {

@@ -35,6 +35,14 @@ pub enum SensitivityError {
         /// Largest value allowed.
         maximum: u64,
     },
+    /// What a count asks for does not fit in memory.
+    #[error("{field} = {value}: expected fewer, whose points fit in memory")]
+    OutOfMemory {
+        /// Name of the count.
+        field: &'static str,
+        /// Value found.
+        value: u64,
+    },
     /// Two lengths do not agree.
     #[error("{field}: length {value}, expected {expected}")]
     LengthMismatch {

@@ -59,6 +59,7 @@ impl SaltelliDesign {
     /// - [`SensitivityError::InvalidInput`] for an input that is not valid;
     /// - [`SensitivityError::OutOfRange`] for no input or more than half of [`MAX_DIMENSIONS`], no block, or points of
     ///   the sequence beyond 2^32;
+    /// - [`SensitivityError::OutOfMemory`] for more points than fit in memory;
     /// - [`SensitivityError::UnboundedAtZero`] if point 0 is among them and the law of an input has no lower end.
     pub fn new(
         inputs: Vec<Input>,
@@ -94,19 +95,27 @@ impl SaltelliDesign {
         check_points(first_index, blocks)?;
         let plain = radial_sequence(inputs.len())?;
         let sequences = seed.map_or_else(|| vec![plain.clone()], |seed| scramblings(&plain, seed));
-        let points = extended(&[], &sequences, first_index, blocks);
+        let points = extended(room(blocks, 2 * inputs.len())?, &sequences, first_index, blocks);
         Ok(Self { inputs, sequences, first_index, points, order, seed })
     }
 
     /// This design with another number of blocks: those that both have are the same.
     ///
     /// # Errors
-    /// [`SensitivityError::OutOfRange`] for no block, or points of the sequence beyond 2^32.
+    /// [`SensitivityError::OutOfRange`] for no block, or points of the sequence beyond 2^32; [`SensitivityError::OutOfMemory`].
     pub fn resized(&self, blocks: usize) -> Result<Self, SensitivityError> {
         check_points(self.first_index, blocks)?;
         let known = &self.points[..self.points.len().min(2 * self.inputs.len() * blocks)];
-        let points = extended(known, &self.sequences, self.first_index, blocks);
+        let mut points = room(blocks, 2 * self.inputs.len())?;
+        points.extend_from_slice(known);
+        let points = extended(points, &self.sequences, self.first_index, blocks);
         Ok(Self { points, ..self.clone() })
+    }
+
+    /// Index in the sequence of the first point; 0 of scrambled ones.
+    #[must_use]
+    pub fn first_index(&self) -> u32 {
+        self.first_index
     }
 
     /// Number of sequences that the blocks are taken from by turns.
@@ -152,7 +161,7 @@ impl SampleDesign for SaltelliDesign {
 
     fn replicate(&self, seed: u64) -> Self {
         let sequences = scramblings(&self.sequences[0], seed);
-        let points = extended(&[], &sequences, self.first_index, self.blocks());
+        let points = extended(Vec::new(), &sequences, self.first_index, self.blocks());
         Self { sequences, points, seed: Some(seed), ..self.clone() }
     }
 
@@ -186,13 +195,23 @@ fn scramblings(sequence: &Sobol, seed: u64) -> Vec<Sobol> {
     (0..REPLICATES as u64).map(|turn| sequence.rescrambled(stream(seed, turn).next_u64())).collect()
 }
 
+/// Room for the points of so many blocks.
+fn room(blocks: usize, size: usize) -> Result<Vec<f64>, SensitivityError> {
+    let mut points = Vec::new();
+    let fits = blocks.checked_mul(size).is_some_and(|values| points.try_reserve_exact(values).is_ok());
+    if fits {
+        Ok(points)
+    } else {
+        Err(SensitivityError::OutOfMemory { field: "blocks", value: blocks as u64 })
+    }
+}
+
 /// The points (a, b) of all blocks, of which the first ones are known.
-fn extended(known: &[f64], sequences: &[Sobol], first_index: u32, blocks: usize) -> Vec<f64> {
-    let (size, turns) = (sequences[0].dimensions(), sequences.len());
-    let first = known.len() / size;
-    let mut points = known.to_vec();
+fn extended(mut points: Vec<f64>, sequences: &[Sobol], first_index: u32, blocks: usize) -> Vec<f64> {
+    let (size, turns, known) = (sequences[0].dimensions(), sequences.len(), points.len());
+    let first = known / size;
     points.resize(blocks * size, 0.0);
-    points[known.len()..].par_chunks_mut(size).enumerate().for_each(|(place, point)| {
+    points[known..].par_chunks_mut(size).enumerate().for_each(|(place, point)| {
         let block = first + place;
         // Below 2^32: `check_points` has seen to it.
         let written = sequences[block % turns].point(first_index + (block / turns) as u32, point);

@@ -152,8 +152,8 @@ pub enum StudyError {
         /// The first that is not there.
         first: PathBuf,
     },
-    /// The session was asked to end.
-    #[error("stopped: blocks that are done are kept, and a run that resumes goes on with them")]
+    /// It was asked to end.
+    #[error("stopped: blocks of a study that are done are kept, and a run that resumes goes on with them")]
     Stopped,
     /// A law, its steps or a design that is none.
     #[error("{path}: {field}: {source}")]

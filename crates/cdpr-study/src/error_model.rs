@@ -11,8 +11,9 @@
 //! correlated by `var_block / (var_block + var_own)`, while the causes stay independent: every measure of sensitivity holds for them, and names what an
 //! engineer can change.
 
+use crate::error::StudyError;
 use crate::file::InputSpec;
-use cdpr_robot::Parameter;
+use cdpr_robot::{Parameter, Robot};
 use cdpr_sensitivity::{Input, Law, SensitivityError};
 use indexmap::IndexMap;
 
@@ -51,6 +52,24 @@ pub(crate) enum Wrong {
 
 const PARAMETERS: &str =
     "a parameter (mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...)";
+
+/// The standard deviation of each parameter of a robot [SI units], in the order of [`Parameter::all`], from those that have names: its own,
+/// else that of its group, else none.
+///
+/// # Errors
+/// [`StudyError::Setting`] for a name that is neither a parameter nor a group, and a number that is not positive and finite.
+pub fn uncertainties(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<f64>, StudyError> {
+    let parameters = Parameter::all(robot.cables.len());
+    let known = |name: &str| parameters.iter().any(|p| p.group() == name || p.to_string() == name);
+    let wrong = |(name, std): &&(String, f64)| !(known(name) && *std > 0.0 && std.is_finite());
+    if let Some((name, std)) = named.iter().find(wrong) {
+        let expected = "a positive standard deviation of mass, linear_density, youngs_modulus, a, b, cog, dt or one of their parameters, \
+                        such as a1.x";
+        return Err(StudyError::setting(format!("uncertainty of {name}"), std, expected));
+    }
+    let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, std)| *std);
+    Ok(parameters.iter().map(|p| of(&p.to_string()).or_else(|| of(p.group())).unwrap_or(0.0)).collect())
+}
 
 impl ErrorModel {
     pub(crate) fn new(model: &IndexMap<String, InputSpec>, cables: usize) -> Result<Self, Wrong> {

@@ -74,7 +74,7 @@ pub use cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law
 pub use cdpr_sensitivity::{Estimate, Family, Truncation};
 pub use comparison::{ComparisonRow, Value, Verdict};
 pub use error::StudyError;
-pub use error_model::{ErrorModel, Term};
+pub use error_model::{ErrorModel, Term, uncertainties};
 pub use file::{
     AxisSpec, ComparisonSpec, GridSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec,
     SensitivitySpec, Statistic, StudyFile, SurfaceSpec, json_schema,
@@ -104,7 +104,7 @@ pub use sensitivity::{
     Agreement, InputMeasures, Measure, MethodSummary, RANKED, SHARES, SensitivitySummary, measure,
 };
 pub use shard::Shard;
-pub use status::{DesignStatus, Provisional, SamplingStatus, Status, check_complete, status};
+pub use status::{DesignStatus, Provisional, SamplingStatus, Status, check_complete, check_observed, status};
 pub use store::Blocks;
 pub use study::{Sampling, Study, Surface, open_robot};
 pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};

@@ -76,31 +76,36 @@ pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
         samplings.insert(name.clone(), SamplingStatus { designs, poses_not_held, provisional_rms_mm: None });
     }
     let mut moments: IndexMap<String, Moments> = IndexMap::new();
-    visit(study, blocks, |Seen { block, path, outcomes }| {
-        let Some(sampling) = samplings.get_mut(block.entry) else { return };
-        let Some(found) = sampling.designs.get_mut(&block.design.name()) else { return };
-        let Some(outcomes) = outcomes else {
-            if let (Some(not_held), 0) = (&mut sampling.poses_not_held, block.number) {
-                *not_held += 1;
+    visit(
+        study,
+        blocks,
+        |_| true,
+        |Seen { block, path, outcomes }| {
+            let Some(sampling) = samplings.get_mut(block.entry) else { return };
+            let Some(found) = sampling.designs.get_mut(&block.design.name()) else { return };
+            let Some(outcomes) = outcomes else {
+                if let (Some(not_held), 0) = (&mut sampling.poses_not_held, block.number) {
+                    *not_held += 1;
+                }
+                return;
+            };
+            found.observations += block.range.len();
+            let Ok(outcomes) = outcomes else {
+                found.blocks_missing += 1;
+                return found.damaged.push(path);
+            };
+            let whole = outcomes.len() == block.range.len();
+            *(if whole { &mut found.blocks_done } else { &mut found.blocks_missing }) += 1;
+            found.observed += outcomes.len();
+            for kind in failures(&outcomes) {
+                *found.failed.entry(kind.to_owned()).or_default() += 1;
             }
-            return;
-        };
-        found.observations += block.range.len();
-        let Ok(outcomes) = outcomes else {
-            found.blocks_missing += 1;
-            return found.damaged.push(path);
-        };
-        let whole = outcomes.len() == block.range.len();
-        *(if whole { &mut found.blocks_done } else { &mut found.blocks_missing }) += 1;
-        found.observed += outcomes.len();
-        for kind in failures(&outcomes) {
-            *found.failed.entry(kind.to_owned()).or_default() += 1;
-        }
-        if block.design == Design::Own && sampling.poses_not_held.is_none() {
-            let moments = moments.entry(block.entry.to_owned()).or_default();
-            outcomes.iter().for_each(|outcome| moments.add(outcome_rms_mm(outcome)));
-        }
-    })?;
+            if block.design == Design::Own && sampling.poses_not_held.is_none() {
+                let moments = moments.entry(block.entry.to_owned()).or_default();
+                outcomes.iter().for_each(|outcome| moments.add(outcome_rms_mm(outcome)));
+            }
+        },
+    )?;
     for (name, sampling) in &mut samplings {
         let rms = moments.get(name).and_then(|moments| moments.summary().ok());
         sampling.provisional_rms_mm = rms.map(|rms| Provisional { mean: rms.mean, std: rms.std });
@@ -115,8 +120,30 @@ pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
 /// # Errors
 /// [`StudyError::MissingBlocks`], damaged ones counted; as [`status`].
 pub fn check_complete(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(), StudyError> {
+    check(folder, study, blocks, |_| true)
+}
+
+/// The same of the observations of one sampling, at one pose: neither others nor replicates and measures of sensitivity are looked at.
+///
+/// # Errors
+/// As [`check_complete`].
+pub fn check_observed(
+    folder: &Path,
+    study: &Study,
+    blocks: &Blocks,
+    sampling: &str,
+) -> Result<(), StudyError> {
+    check(folder, study, blocks, |block| block.design == Design::Own && block.sampling == sampling)
+}
+
+fn check(
+    folder: &Path,
+    study: &Study,
+    blocks: &Blocks,
+    wanted: impl Fn(&Planned) -> bool,
+) -> Result<(), StudyError> {
     let (mut all, mut missing) = (0, Vec::new());
-    visit(study, blocks, |Seen { block, path, outcomes }| {
+    visit(study, blocks, wanted, |Seen { block, path, outcomes }| {
         let Some(outcomes) = outcomes else { return };
         all += 1;
         if !outcomes.is_ok_and(|outcomes| outcomes.len() == block.range.len()) {
@@ -140,8 +167,13 @@ struct Seen<'a> {
     outcomes: Option<Result<Vec<Observed>, StudyError>>,
 }
 
-/// Shows each block of a study.
-fn visit(study: &Study, blocks: &Blocks, mut see: impl FnMut(Seen)) -> Result<(), StudyError> {
+/// Shows each block of a study that is wanted.
+fn visit(
+    study: &Study,
+    blocks: &Blocks,
+    wanted: impl Fn(&Planned) -> bool,
+    mut see: impl FnMut(Seen),
+) -> Result<(), StudyError> {
     let plan = Plan::new(study)?;
     // Of a pose that nothing holds no block is missing: looked at once a pose, and only where one is not there.
     let mut held = (String::new(), true);
@@ -151,7 +183,7 @@ fn visit(study: &Study, blocks: &Blocks, mut see: impl FnMut(Seen)) -> Result<()
         }
         Ok::<_, StudyError>(held.1)
     };
-    for block in (0..plan.blocks()).filter_map(|number| plan.block(number)) {
+    for block in (0..plan.blocks()).filter_map(|number| plan.block(number)).filter(wanted) {
         let design = block.design.name();
         let place = Place { sampling: &block.sampling, design: &design, number: block.number };
         let outcomes = match blocks.read(&place) {

@@ -67,13 +67,16 @@ pub struct Dominant {
 /// Rounding of a tension that rests on its limit.
 const ROUNDING: f64 = 1e-9;
 
-/// Runs in parallel; `tick` is told of every position that is done. Positions come back in the order of the grid.
+/// Runs in parallel; `tick` is told of every position that is done, `stop` is asked before each whether to end there. Positions come back
+/// in the order of the grid.
 ///
 /// # Errors
-/// [`StudyError::Setting`] for a load or error model that is none, and for an error model without a load. A pose that is not held is no error.
+/// [`StudyError::Setting`] for a load or error model that is none, and for an error model without a load; [`StudyError::Stopped`]. A pose that is not held
+/// is no error.
 pub fn compute_workspace(
     workspace: &Workspace,
     tick: &(dyn Fn() + Sync),
+    stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<WorkspacePose>, StudyError> {
     let Workspace { robot, rotation, load, tolerances, .. } = *workspace;
     if !(load.payload.is_finite() && load.payload >= 0.0) {
@@ -102,12 +105,15 @@ pub fn compute_workspace(
         ));
     }
     let one = |level: Pose| {
+        if stop() {
+            return Err(StudyError::Stopped);
+        }
         let pose = Pose { rotation, ..level };
         let outcome = held(robot, &pose, &load, tolerances);
         tick();
-        WorkspacePose { pose, outcome }
+        Ok(WorkspacePose { pose, outcome })
     };
-    Ok(workspace.grid.poses().into_par_iter().map(one).collect())
+    workspace.grid.poses().into_par_iter().map(one).collect()
 }
 
 fn held(

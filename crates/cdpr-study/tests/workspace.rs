@@ -4,7 +4,10 @@
 
 use cdpr_robot::{Parameter, Robot, Rotation3};
 use cdpr_statics::{Load, derivatives};
-use cdpr_study::{ErrorModel, Grid, GridAxis, Workspace, WorkspaceSummary, compute_workspace};
+use cdpr_study::{
+    ErrorModel, Grid, GridAxis, StudyError, Workspace, WorkspaceSummary, compute_workspace, uncertainties,
+};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
@@ -30,7 +33,7 @@ fn every_position_is_what_the_models_say_of_it() {
         load: Load::payload(50.0),
         tolerances: Some(&model),
     };
-    let poses = compute_workspace(&workspace, &|| ()).unwrap();
+    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
     assert_eq!(poses.len(), 12);
     for (found, pose) in poses.iter().zip(grid().poses()) {
         assert_eq!(found.pose, pose);
@@ -78,7 +81,8 @@ fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
         load: Load::payload(50.0),
         tolerances: None,
     };
-    let summary = WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| ()).unwrap());
+    let summary =
+        WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap());
     assert_eq!(summary.rows[0].status, "beyond_limits");
     assert!(summary.rows[0].greatest_tension.unwrap() > 650.0 && summary.rows[0].reason.is_none());
     assert_eq!(summary.rows[1].status, "infeasible_tension");
@@ -99,9 +103,47 @@ fn tolerances_of_another_robot_are_refused() {
         load: Load::payload(50.0),
         tolerances: Some(&model),
     };
-    let message = compute_workspace(&workspace, &|| ()).unwrap_err().to_string();
+    let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
     assert_eq!(message, "error model is for 55 parameters: expected one for the 62 parameters of CAROCA");
     let workspace = Workspace { load: Load::payload(f64::NAN), tolerances: None, ..workspace };
-    let message = compute_workspace(&workspace, &|| ()).unwrap_err().to_string();
+    let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
     assert_eq!(message, "payload is NaN: expected a finite mass, zero or more [kg]");
+}
+
+#[test]
+fn a_workspace_ends_where_it_is_told_to() {
+    let robot = caroca();
+    let workspace = Workspace {
+        robot: &robot,
+        grid: grid(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: None,
+    };
+    let done = AtomicUsize::new(0);
+    let tick = || {
+        done.fetch_add(1, Ordering::Relaxed);
+    };
+    let found = compute_workspace(&workspace, &tick, &|| done.load(Ordering::Relaxed) > 0);
+    assert!(matches!(found, Err(StudyError::Stopped)));
+    // Each thread may have begun one before it was told.
+    assert!((1..=rayon::current_num_threads()).contains(&done.into_inner()));
+}
+
+#[test]
+fn uncertainties_are_of_a_parameter_or_its_group_positive_and_finite() {
+    let robot = caroca();
+    let of = |name: &str, std: f64| uncertainties(&robot, &[(name.to_owned(), std)]);
+    let named = [("a".to_owned(), 0.002), ("a1.x".to_owned(), 0.001)];
+    let found = uncertainties(&robot, &named).unwrap();
+    assert_eq!((found[0], found[3], found[4], found[27]), (0.0, 0.001, 0.002, 0.0));
+    for (name, std, start) in [
+        ("spring", 1.0, "uncertainty of spring is 1: expected a positive standard deviation"),
+        ("mass", 0.0, "uncertainty of mass is 0: expected"),
+        ("mass", f64::INFINITY, "uncertainty of mass is inf: expected"),
+        ("mass", f64::NAN, "uncertainty of mass is NaN: expected"),
+    ] {
+        let message = of(name, std).unwrap_err().to_string();
+        assert!(message.starts_with(start), "{message}");
+    }
 }

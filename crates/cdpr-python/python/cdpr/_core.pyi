@@ -29,22 +29,24 @@ __all__ = [
     "catenary",
     "make_shard",
     "observations",
+    "open_results",
+    "status",
 ]
 
 VERSION: str
 
 _Floats: TypeAlias = NDArray[np.float64]
-#: A number for one case, an array (m,) for m.
+#: A number for one case, an array (m,) for m: Any, as a union would refuse what only one of them can do.
 _Float: TypeAlias = Any
 _Bool: TypeAlias = Any
 _Int: TypeAlias = Any
 #: A word for one case, a list for m.
 _Word: TypeAlias = Any
-_Reasons: TypeAlias = list[str | None] | None
+_Words: TypeAlias = list[str | None] | None
 _Path: TypeAlias = str | PathLike[str]
 _Law: TypeAlias = dict[str, dict[str, float]]
 #: A place [m], or from, to and how many.
-_Places: TypeAlias = float | tuple[float, float, int]
+_Places: TypeAlias = float | tuple[float, float, int] | NDArray[Any]
 
 @final
 class Robot:
@@ -57,8 +59,8 @@ class Robot:
         section: ArrayLike,
         linear_density: ArrayLike,
         youngs_modulus: ArrayLike,
-        tension_limits: tuple[float, float] | list[float],
-        center_of_mass: tuple[float, float, float] | list[float] = ...,
+        tension_limits: ArrayLike,
+        center_of_mass: ArrayLike | None = None,
         gravity: float = 9.81,
         name: str = ...,
     ) -> Robot: ...
@@ -79,8 +81,24 @@ class Robot:
     @property
     def exit_points(self) -> _Floats: ...
     @property
+    def mass(self) -> float: ...
+    @property
+    def center_of_mass(self) -> _Floats: ...
+    @property
+    def section(self) -> _Floats: ...
+    @property
+    def linear_density(self) -> _Floats: ...
+    @property
+    def youngs_modulus(self) -> _Floats: ...
+    @property
+    def tension_limits(self) -> tuple[float, float]: ...
+    @property
+    def gravity(self) -> float: ...
+    @property
     def parameters(self) -> dict[str, float]: ...
     def with_parameters(self, values: dict[str, float]) -> Robot: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __hash__(self) -> int: ...
     def inverse(
         self,
         pose: ArrayLike,
@@ -140,102 +158,192 @@ class Robot:
         y: _Places | None = None,
         z: _Places | None = None,
         plane: tuple[str, float] | None = None,
-        grid: tuple[int, int] = ...,
-        payload: float = 50.0,
+        grid: tuple[int, int] | None = None,
+        payload: float,
         uncertainty: dict[str, float] | None = None,
     ) -> Workspace: ...
 
 @final
 class Catenary:
-    force: _Floats
-    anchor_tension: _Float
-    exit_tension: _Float
-    sag: _Float
-    energy: _Float
-    unstrained_length: _Float
-    end: _Floats
-    residual: _Float
-    shape: _Floats
-    reasons: _Reasons
+    def __new__(cls, *fields: Any) -> Catenary: ...
+    @property
+    def force(self) -> _Floats: ...
+    @property
+    def anchor_tension(self) -> _Float: ...
+    @property
+    def exit_tension(self) -> _Float: ...
+    @property
+    def sag(self) -> _Float: ...
+    @property
+    def energy(self) -> _Float: ...
+    @property
+    def unstrained_length(self) -> _Float: ...
+    @property
+    def end(self) -> _Floats: ...
+    @property
+    def residual(self) -> _Float: ...
+    @property
+    def shape(self) -> _Floats: ...
+    @property
+    def reasons(self) -> _Words: ...
+    @property
+    def kinds(self) -> _Words: ...
 
 @final
 class InverseSolution:
-    lengths: _Floats
-    tensions: _Floats
-    cable_forces: _Floats
-    active: NDArray[np.int8]
-    residual: _Floats
-    turns: _Int
-    reasons: _Reasons
+    def __new__(cls, *fields: Any) -> InverseSolution: ...
+    @property
+    def lengths(self) -> _Floats: ...
+    @property
+    def tensions(self) -> _Floats: ...
+    @property
+    def cable_forces(self) -> _Floats: ...
+    @property
+    def active(self) -> NDArray[np.int8]: ...
+    @property
+    def residual(self) -> _Floats: ...
+    @property
+    def turns(self) -> _Int: ...
+    @property
+    def reasons(self) -> _Words: ...
+    @property
+    def kinds(self) -> _Words: ...
 
 @final
 class DirectSolution:
-    position: _Floats
-    quaternion: _Floats
-    rotation: _Floats
-    pose: _Floats
-    cable_forces: _Floats
-    tensions: _Floats
-    stable: _Bool
-    least_stiffness: _Float
-    slack: NDArray[np.bool_]
-    residual: _Floats
-    method: _Word
-    iterations: _Int
-    reasons: _Reasons
+    def __new__(cls, *fields: Any) -> DirectSolution: ...
+    @property
+    def position(self) -> _Floats: ...
+    @property
+    def quaternion(self) -> _Floats: ...
+    @property
+    def rotation(self) -> _Floats: ...
+    @property
+    def pose(self) -> _Floats: ...
+    @property
+    def cable_forces(self) -> _Floats: ...
+    @property
+    def tensions(self) -> _Floats: ...
+    @property
+    def stable(self) -> _Bool: ...
+    @property
+    def least_stiffness(self) -> _Float: ...
+    @property
+    def slack(self) -> NDArray[np.bool_]: ...
+    @property
+    def residual(self) -> _Floats: ...
+    @property
+    def method(self) -> _Word: ...
+    @property
+    def iterations(self) -> _Int: ...
+    @property
+    def reasons(self) -> _Words: ...
+    @property
+    def kinds(self) -> _Words: ...
 
 @final
 class Deflection:
-    displacement: _Floats
-    rms: _Float
-    turn: _Floats
-    lengths: _Floats
-    unloaded: DirectSolution
-    loaded: DirectSolution
-    reasons: _Reasons
+    def __new__(cls, *fields: Any) -> Deflection: ...
+    @property
+    def displacement(self) -> _Floats: ...
+    @property
+    def rms(self) -> _Float: ...
+    @property
+    def turn(self) -> _Floats: ...
+    @property
+    def lengths(self) -> _Floats: ...
+    @property
+    def unloaded(self) -> DirectSolution: ...
+    @property
+    def loaded(self) -> DirectSolution: ...
+    @property
+    def reasons(self) -> _Words: ...
+    @property
+    def kinds(self) -> _Words: ...
 
 @final
 class Stiffness:
-    matrix: _Floats
-    eigenvalues: _Floats
-    translations: _Floats
-    rotations: _Floats
-    least_stiffness: _Float
-    stable: _Bool
-    arm: _Float
-    reasons: _Reasons
+    def __new__(cls, *fields: Any) -> Stiffness: ...
+    @property
+    def matrix(self) -> _Floats: ...
+    @property
+    def eigenvalues(self) -> _Floats: ...
+    @property
+    def translations(self) -> _Floats: ...
+    @property
+    def rotations(self) -> _Floats: ...
+    @property
+    def least_stiffness(self) -> _Float: ...
+    @property
+    def stable(self) -> _Bool: ...
+    @property
+    def arm(self) -> _Float: ...
+    @property
+    def reasons(self) -> _Words: ...
+    @property
+    def kinds(self) -> _Words: ...
 
 @final
 class Derivatives:
-    inputs: list[str]
-    rms: _Floats
-    displacement: _Floats
-    lengths: _Floats
-    set_points: _Floats
-    tensions: _Floats
-    deflection: Deflection
-    reasons: _Reasons
+    def __new__(cls, *fields: Any) -> Derivatives: ...
+    @property
+    def inputs(self) -> list[str]: ...
+    @property
+    def rms(self) -> _Floats: ...
+    @property
+    def displacement(self) -> _Floats: ...
+    @property
+    def lengths(self) -> _Floats: ...
+    @property
+    def set_points(self) -> _Floats: ...
+    @property
+    def tensions(self) -> _Floats: ...
+    @property
+    def deflection(self) -> Deflection: ...
+    @property
+    def reasons(self) -> _Words: ...
+    @property
+    def kinds(self) -> _Words: ...
 
 @final
 class Observations:
-    displacement: _Floats
-    rms: _Float
-    reasons: _Reasons
+    def __new__(cls, *fields: Any) -> Observations: ...
+    @property
+    def displacement(self) -> _Floats: ...
+    @property
+    def rms(self) -> _Float: ...
+    @property
+    def reasons(self) -> _Words: ...
+    @property
+    def kinds(self) -> _Words: ...
 
 @final
 class Workspace:
-    shape: tuple[int, int, int]
-    positions: _Floats
-    status: list[str]
-    reasons: list[str | None]
-    least_tension: _Floats
-    greatest_tension: _Floats
-    displacement: _Floats
-    rms: _Floats
-    least_stiffness: _Floats
-    dominant: list[str | None]
-    dominant_share: _Floats
-    std: _Floats
+    def __new__(cls, *fields: Any) -> Workspace: ...
+    @property
+    def shape(self) -> tuple[int, int, int]: ...
+    @property
+    def positions(self) -> _Floats: ...
+    @property
+    def status(self) -> list[str]: ...
+    @property
+    def reasons(self) -> list[str | None]: ...
+    @property
+    def least_tension(self) -> _Floats: ...
+    @property
+    def greatest_tension(self) -> _Floats: ...
+    @property
+    def displacement(self) -> _Floats: ...
+    @property
+    def rms(self) -> _Floats: ...
+    @property
+    def least_stiffness(self) -> _Floats: ...
+    @property
+    def dominant(self) -> list[str | None]: ...
+    @property
+    def dominant_share(self) -> _Floats: ...
+    @property
+    def std(self) -> _Floats: ...
 
 def catenary(
     weight: ArrayLike,
@@ -272,7 +380,7 @@ class SaltelliDesign:
     ) -> SaltelliDesign: ...
     def rows(self) -> _Floats: ...
     def indices(
-        self, outputs: ArrayLike, *, level: float = 0.95, resamples: int = 1000, seed: int = 0
+        self, outputs: ArrayLike, *, level: float = 0.95, resamples: int = 1000, seed: int | None = None
     ) -> SobolIndices: ...
 
 @final
@@ -283,34 +391,59 @@ class MorrisDesign:
 
 @final
 class Effects:
-    inputs: list[str]
-    effect: _Floats
-    student: _Floats
-    mean: float
-    std: float
-    failed: int
+    def __new__(cls, *fields: Any) -> Effects: ...
+    @property
+    def inputs(self) -> list[str]: ...
+    @property
+    def effect(self) -> _Floats: ...
+    @property
+    def student(self) -> _Floats: ...
+    @property
+    def mean(self) -> float: ...
+    @property
+    def std(self) -> float: ...
+    @property
+    def failed(self) -> int: ...
 
 @final
 class SobolIndices:
-    inputs: list[str]
-    first: _Floats
-    first_interval: _Floats
-    total: _Floats
-    total_interval: _Floats
-    pairs: list[tuple[str, str]]
-    second: _Floats
-    second_interval: _Floats
-    variance: float
-    blocks: int
-    failed_blocks: int
+    def __new__(cls, *fields: Any) -> SobolIndices: ...
+    @property
+    def inputs(self) -> list[str]: ...
+    @property
+    def first(self) -> _Floats: ...
+    @property
+    def first_interval(self) -> _Floats: ...
+    @property
+    def total(self) -> _Floats: ...
+    @property
+    def total_interval(self) -> _Floats: ...
+    @property
+    def pairs(self) -> list[tuple[str, str]]: ...
+    @property
+    def second(self) -> _Floats: ...
+    @property
+    def second_interval(self) -> _Floats: ...
+    @property
+    def variance(self) -> float: ...
+    @property
+    def blocks(self) -> int: ...
+    @property
+    def failed_blocks(self) -> int: ...
 
 @final
 class MorrisEffects:
-    inputs: list[str]
-    mean: _Floats
-    mean_absolute: _Floats
-    mean_absolute_interval: _Floats
-    std: _Floats
+    def __new__(cls, *fields: Any) -> MorrisEffects: ...
+    @property
+    def inputs(self) -> list[str]: ...
+    @property
+    def mean(self) -> _Floats: ...
+    @property
+    def mean_absolute(self) -> _Floats: ...
+    @property
+    def mean_absolute_interval(self) -> _Floats: ...
+    @property
+    def std(self) -> _Floats: ...
 
 @final
 class Expansion:
@@ -331,7 +464,13 @@ class Expansion:
     def predict(self, rows: ArrayLike) -> _Floats: ...
 
 def begin(
-    study: _Path, out: _Path, observations: int | None, resume: bool, overwrite: bool
+    study: _Path,
+    out: _Path,
+    observations: int | None,
+    resume: bool,
+    overwrite: bool,
+    table: str | None,
+    threads: int | None,
 ) -> tuple[int, int]: ...
 def make_shard(out: _Path, index: int, count: int, threads: int) -> int: ...
 def carry_out(
@@ -339,6 +478,9 @@ def carry_out(
     table: str | None,
     threads: int | None,
     complete: bool,
+    all: int,
     progress: Callable[[int, int], object] | None,
 ) -> list[str]: ...
 def observations(out: _Path, sampling: str) -> tuple[list[str], _Floats, _Floats, list[str | None]]: ...
+def open_results(out: _Path) -> None: ...
+def status(out: _Path) -> str: ...

@@ -9,17 +9,22 @@
 from __future__ import annotations
 
 import concurrent.futures
+import csv
 import json
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Iterator, Optional, Union
 
 from . import _core
+from .errors import FileError, InputError
 
 if TYPE_CHECKING:
     import numpy
 
 __all__ = ["Results", "open_results", "run"]
+
+#: Columns of tables that are no numbers.
+_TEXTS = ("sampling", "status", "dominant", "reason")
 
 #: Told how many observations of how many are there.
 Progress = Callable[[int, int], object]
@@ -37,12 +42,29 @@ class Results:
     @property
     def summary(self) -> dict[str, Any]:
         """`summary.json`: moments, fitted laws, effects and measures of sensitivity of each sampling, and the comparison with the paper."""
-        return json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+        return json.loads(self._text("summary.json"))
 
     @property
     def timings(self) -> dict[str, Any]:
         """`timings.json`: threads and seconds."""
-        return json.loads((self.folder / "timings.json").read_text(encoding="utf-8"))
+        return json.loads(self._text("timings.json"))
+
+    def status(self) -> dict[str, Any]:
+        """How far the study is, as `cdpr study status --format json` says it: blocks, observations and failures of each design. Reads all
+        blocks."""
+        return json.loads(_core.status(self.folder))
+
+    def table(self, name: str) -> "numpy.ndarray[Any, Any]":
+        """The table `NAME.csv` as a structured array, NaN and "" where a cell is empty: of a sampling at several poses a row a pose, of a surface a
+        row a point."""
+        import numpy
+
+        header, *rows = csv.reader(self._text(f"{name}.csv").splitlines(keepends=True))
+        columns = [
+            numpy.array(column, dtype=str) if head in _TEXTS else numpy.array([cell or "nan" for cell in column], dtype="f8")
+            for head, column in zip(header, zip(*rows))
+        ]
+        return _records(dict(zip(header, columns)))
 
     def observations(self, sampling: str) -> "numpy.ndarray[Any, Any]":
         """The observations of a sampling as a structured array, with the columns of its table but for `reason`: `index`, `d_mass`, ... [SI units],
@@ -51,16 +73,11 @@ class Results:
         import numpy
 
         names, rows, deflections, failures = _core.observations(self.folder, sampling)
-        status = numpy.array([failure or "ok" for failure in failures])
-        columns = {f"d_{name}": column for name, column in zip(names, rows.T)}
+        columns = {"index": numpy.arange(len(rows), dtype="i8")}
+        columns.update((f"d_{name}", column) for name, column in zip(names, rows.T))
         columns.update(zip(("dx_mm", "dy_mm", "dz_mm", "rms_mm"), deflections.T))
-        fields = [("index", "i8"), *((name, "f8") for name in columns), ("status", status.dtype)]
-        table = numpy.empty(len(rows), dtype=fields)
-        table["index"] = numpy.arange(len(rows))
-        for name, column in columns.items():
-            table[name] = column
-        table["status"] = status
-        return table
+        columns["status"] = numpy.array([failure or "ok" for failure in failures])
+        return _records(columns)
 
     def frame(self, sampling: str) -> Any:
         """The same as a `pandas.DataFrame`, with the index as its index."""
@@ -68,12 +85,20 @@ class Results:
 
         return pandas.DataFrame(self.observations(sampling)).set_index("index")
 
+    def _text(self, name: str) -> str:
+        path = self.folder / name
+        try:
+            return path.read_text(encoding="utf-8")
+        except OSError as error:
+            raise FileError(f"cannot read {path}: {error.strerror}: expected the results of a run that has ended") from error
+
     def __repr__(self) -> str:
         return f"<cdpr.study.Results {self.folder}>"
 
 
 def open_results(folder: Union[str, "PathLike[str]"]) -> Results:
-    """The results in a folder that `run` or `cdpr study run` has written."""
+    """The results in a folder that `run` or `cdpr study run` has written. Raises FileError for a folder that holds none."""
+    _core.open_results(folder)
     return Results(folder)
 
 
@@ -98,15 +123,24 @@ def run(
     threads: of this process; all cores if left out. The numbers do not depend on it.
     progress: told (done, all) observations from time to time, in the thread that called; what it raises ends the run, as Ctrl-C does.
     executor: who makes the blocks of observations, in place of this process: an executor of `concurrent.futures`, Dask's client, or a pool with
-        `imap_unordered`, such as those of `multiprocessing` and `ray.util.multiprocessing`. Its workers need this package and the same folder.
-    tasks: in how many tasks; one for each block of 16 384 observations, but 256 at most, if left out. Each uses one thread.
+        `imap_unordered`, such as those of `multiprocessing` and `ray.util.multiprocessing`. Its workers need this package and the same folder. A pool of
+        `multiprocessing` does not notice that a worker was killed, and the run waits for ever.
+    tasks: in how many tasks, one or more; one for each block of 16 384 observations, but 256 at most, if left out. Each uses one thread.
 
     Blocks are whole or not there: a run that ended in any way goes on with `resume=True`, to the same bytes.
 
     Raises InputError, FileError, NoSolutionError where the nominal robot cannot hold a pose, and what the executor raises.
     """
+    # Everything is looked at before anything is removed or made.
+    for name, number in (("threads", threads), ("tasks", tasks)):
+        if number is not None and number < 1:
+            raise InputError(f"{name} is {number}: expected one or more")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress is {progress!r}: expected a function of two numbers")
+    if not (executor is None or hasattr(executor, "submit") or hasattr(executor, "imap_unordered")):
+        raise TypeError(f"executor is {executor!r}: expected one with `submit` or `imap_unordered`")
     out = fspath(out)
-    blocks, total = _core.begin(study, out, observations, resume, overwrite)
+    blocks, total = _core.begin(study, out, observations, resume, overwrite, table, threads)
     if executor is not None:
         done = 0
         count = max(1, min(blocks, 256) if tasks is None else tasks)
@@ -118,10 +152,21 @@ def run(
                 progress(done, total)
     results = Results(out)
     told = progress if executor is None else None
-    results.notes = _core.carry_out(out, table, threads, executor is not None, told)
+    results.notes = _core.carry_out(out, table, threads, executor is not None, total, told)
     if executor is not None and progress is not None:
         progress(total, total)
     return results
+
+
+def _records(columns: "dict[str, numpy.ndarray[Any, Any]]") -> "numpy.ndarray[Any, Any]":
+    """A structured array of columns, its fields aligned."""
+    import numpy
+
+    dtype = numpy.dtype([(name, column.dtype) for name, column in columns.items()], align=True)
+    table = numpy.empty(len(next(iter(columns.values()))), dtype)
+    for name, column in columns.items():
+        table[name] = column
+    return table
 
 
 def _make_shard(shard: tuple[str, int, int]) -> int:
@@ -143,7 +188,5 @@ def _completed(executor: Any, shards: list[tuple[str, int, int]]) -> Iterator[in
         finally:
             for future in futures:
                 future.cancel()
-    elif hasattr(executor, "imap_unordered"):
-        yield from executor.imap_unordered(_make_shard, shards)
     else:
-        raise TypeError(f"executor is {executor!r}: expected one with `submit` or `imap_unordered`")
+        yield from executor.imap_unordered(_make_shard, shards)

@@ -237,3 +237,14 @@ fn halves_quarters_and_eighths_of_a_study_are_studies_of_their_own() {
     let error = convergence(&odd, &outputs(&odd, &function), BOOTSTRAP, 0.95).unwrap_err();
     assert!(matches!(error, SensitivityError::InvalidParameter { field: "blocks", .. }));
 }
+
+#[test]
+fn blocks_that_do_not_fit_in_memory_are_refused() {
+    let inputs: Vec<Input> =
+        (0..1000).map(|k| Input::continuous(format!("x{k}"), Law::Uniform { min: 0.0, max: 1.0 })).collect();
+    // 64 TB.
+    let refused = SaltelliDesign::new(inputs.clone(), 0, 1 << 32, Order::First).unwrap_err();
+    assert_eq!(refused, SensitivityError::OutOfMemory { field: "blocks", value: 1 << 32 });
+    let small = SaltelliDesign::new(inputs, 0, 1, Order::First).unwrap();
+    assert!(matches!(small.resized(1 << 32), Err(SensitivityError::OutOfMemory { .. })));
+}
