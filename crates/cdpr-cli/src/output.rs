@@ -108,7 +108,7 @@ pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
         let _ = write!(out, "{:.0}/s", state.per_sec());
     };
     let bar = ProgressBar::new(steps as u64);
-    let template = format!("{{msg:16}} {{bar:30}} {{pos}}/{{len}} {unit}, {{rate}}, {{eta}} left");
+    let template = format!("{{msg:24}} {{bar:30}} {{pos}}/{{len}} {unit}, {{rate}}, {{eta}} left");
     match ProgressStyle::with_template(&template) {
         Ok(style) => bar.with_style(style.with_key("rate", rate)),
         Err(_) => bar,

@@ -7,6 +7,7 @@ mod ranks;
 mod status;
 mod template;
 
+use crate::arguments::Format;
 use crate::{report, throughput};
 use cdpr_study::{Blocks, Existing, Shard, Study, StudyError, TableFormat};
 use clap::{Args, Subcommand, ValueEnum};
@@ -98,6 +99,9 @@ struct Common {
     /// not those of samplings at several poses. The blocks keep them in any case.
     #[arg(long, value_enum)]
     table: Option<TableName>,
+    /// How the results of the whole are printed; as JSON they are one line, that of `summary.json`.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -176,7 +180,7 @@ pub(crate) fn run(command: Command) -> Result<(), RunError> {
 fn alone(settings: &RunSettings) -> Result<(), RunError> {
     let (study, blocks) = begun(settings)?;
     match settings.shard()? {
-        Some(shard) => carry_out::shard(&study, &settings.out, &blocks, shard),
+        Some(shard) => carry_out::shard(&study, &settings.out, &blocks, shard, settings.common.format),
         None => carry_out::whole(&study, &settings.out, &blocks, &settings.common, |_| Ok(())),
     }
 }

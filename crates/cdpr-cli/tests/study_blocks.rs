@@ -96,9 +96,18 @@ impl Bench {
 
     /// Message of a command that must fail with code 1, without panicking.
     fn refused(&self, arguments: &[&str]) -> String {
+        self.failed(1, arguments)
+    }
+
+    /// The same with code 2: the arguments are wrong.
+    fn misused(&self, arguments: &[&str]) -> String {
+        self.failed(2, arguments)
+    }
+
+    fn failed(&self, code: i32, arguments: &[&str]) -> String {
         let output = self.cdpr(arguments);
         let text = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {text}");
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {text}");
         text
     }
 
@@ -250,7 +259,7 @@ fn a_study_extended_twice_equals_one_run_of_its_last_size_and_keeps_its_blocks()
     assert_eq!(std::fs::metadata(&first).unwrap().modified().unwrap(), written, "a full block is left alone");
     bench.run("whole", &["--observations", "17000"]);
     bench.assert_same("whole", "extended");
-    let message = bench.refused(&["extend", "extended", "--observations", "16999"]);
+    let message = bench.misused(&["extend", "extended", "--observations", "16999"]);
     assert!(message.contains("--observations is 16999: expected at least 17000"), "{message}");
 }
 
@@ -395,7 +404,7 @@ fn a_folder_whose_blocks_are_gone_is_known_and_run_again() {
 fn shards_that_are_none_and_folders_without_a_study_are_refused() {
     let bench = Bench::new(300);
     for shard in ["0/4", "5/4", "x", "auto"] {
-        let message = bench.refused(&["run", "my-study.json", "--shard", shard]);
+        let message = bench.misused(&["run", "my-study.json", "--shard", shard]);
         assert!(message.starts_with(&format!("error: --shard is {shard}: expected i/n")), "{message}");
     }
     assert!(!bench.path("results").exists());
@@ -421,7 +430,7 @@ fn a_new_study_of_ones_own_robot_runs_as_it_is() {
     assert!(bench.path("out/all_sensitivity.svg").exists());
     let message = bench.refused(&new);
     assert!(message.starts_with("error: cannot write mine/study-1.json: File exists"), "{message}");
-    let message = bench.refused(&["new", "--robot", "mine/robot-1.json", "--position", "0,0,99"]);
+    let message = bench.misused(&["new", "--robot", "mine/robot-1.json", "--position", "0,0,99"]);
     assert!(message.starts_with("error: --position is [0.0, 0.0, 99.0]: expected a position"), "{message}");
 }
 
@@ -434,7 +443,8 @@ mod unix {
     fn an_interrupted_run_says_how_to_go_on_and_exits_with_130() {
         let bench = Bench::new(400_000);
         let out = "my results";
-        let arguments = ["run", "my-study.json", "--out", out, "--table", "none", "--threads", "2"];
+        let arguments =
+            ["run", "my-study.json", "--out", out, "--table", "none", "--threads", "2", "--format", "json"];
         let child = bench.command(&arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
         let clock = Instant::now();
         while bench.blocks(out).is_empty() && clock.elapsed() < Duration::from_secs(60) {

@@ -100,12 +100,20 @@ fn a_study_writes_tables_figures_and_a_summary() {
     assert_eq!((header[1], header[62], header[66], header[67]), ("d_mass", "d_dt8", "rms_mm", "status"));
     assert_eq!(lines.count(), 64);
     assert_eq!(std::fs::read_to_string(bench.path("out/surface_E_rho.csv")).unwrap().lines().count(), 1 + 20);
-    for figure in
-        ["mechanical", "geometrical", "surface_E_rho", "surface_rho_m", "anchor_points", "exit_points"]
-    {
+    for figure in [
+        "robot",
+        "mechanical",
+        "geometrical",
+        "surface_E_rho",
+        "surface_rho_m",
+        "anchor_points",
+        "exit_points",
+    ] {
         let svg = std::fs::read_to_string(bench.path(&format!("out/{figure}.svg"))).unwrap();
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"), "{figure}");
     }
+    let printed = bench.run(&["--resume", "--format", "json"]).stdout;
+    assert_eq!(serde_json::from_slice::<Value>(&printed).unwrap(), summary);
 }
 
 #[test]

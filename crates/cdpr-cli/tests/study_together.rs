@@ -68,7 +68,7 @@ fn seven_tasks_of_a_slurm_array_of_which_one_is_repeated_make_what_one_run_makes
     assert!(bench.refused(&["merge", "shared"]).contains("shared lacks"));
     assert!(task(3, [3, 3]).status.success());
     let beyond = task(8, [8, 8]);
-    assert_eq!(beyond.status.code(), Some(1));
+    assert_eq!(beyond.status.code(), Some(2));
     let text = String::from_utf8(beyond.stderr).unwrap();
     assert!(text.starts_with("error: SLURM_ARRAY_TASK_ID is `8`: expected a task from 1 to 7"), "{text}");
     bench.done(&["merge", "shared", "--table", "none"]);

@@ -73,8 +73,9 @@ impl Projection {
     /// The whole scene fits.
     fn of(scene: &Scene) -> Self {
         let feet = scene.exits.iter().map(|exit| [exit[0], exit[1], scene.floor]);
-        let anchors = scene.poses.iter().flat_map(|pose| pose.loaded.anchors.iter().copied());
-        let all: Vec<_> = scene.exits.iter().copied().chain(feet).chain(anchors).map(seen).collect();
+        let cables = scene.poses.iter().flat_map(|pose| &pose.loaded.cables);
+        let cables = cables.flat_map(|cable| cable.points.iter().copied());
+        let all: Vec<_> = scene.exits.iter().copied().chain(feet).chain(cables).map(seen).collect();
         let range = |of: fn(&(f64, f64)) -> f64| {
             let values = all.iter().map(of);
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))

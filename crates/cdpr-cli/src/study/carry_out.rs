@@ -1,24 +1,31 @@
 //! `cdpr study run`, `merge` and `extend`. A process that ends at any moment loses the block under way and no more: Ctrl-C need do nothing else.
 
 use super::{Common, RunError, print};
+use crate::arguments::Format;
+use crate::output::progress;
 use crate::{report, sensitivity};
 use cdpr_report::Watcher;
 use cdpr_study::{
-    Blocks, Plan, REPORT_NAME, STUDY_NAME, Session, Shard, Study, StudyError, StudySummary, TableFormat,
-    observe_shard,
+    Blocks, Plan, REPORT_NAME, STUDY_NAME, Session, Shard, Study, StudyError, StudySummary, Summary,
+    TableFormat, Timings, observe_shard,
 };
 use clap::ValueEnum;
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use indicatif::ProgressBar;
 use std::borrow::Cow;
-use std::fmt::Write;
 use std::path::Path;
 
 /// Exit code of a run that was interrupted, as shells have it.
 const INTERRUPTED: i32 = 130;
 
 /// Makes the blocks of one shard.
-pub(super) fn shard(study: &Study, out: &Path, blocks: &Blocks, shard: Shard) -> Result<(), RunError> {
-    let progress = progress(Plan::new(study)?.observations(shard));
+pub(super) fn shard(
+    study: &Study,
+    out: &Path,
+    blocks: &Blocks,
+    shard: Shard,
+    format: Format,
+) -> Result<(), RunError> {
+    let progress = progress(Plan::new(study)?.observations(shard), "observations");
     leave_when_interrupted(&progress, out, "the same command goes on".to_owned())?;
     let tick = |done: usize| progress.inc(done as u64);
     let warn = warn(&progress);
@@ -28,8 +35,13 @@ pub(super) fn shard(study: &Study, out: &Path, blocks: &Blocks, shard: Shard) ->
         &Session { blocks: Some(blocks), tick: &tick, warn: &warn, stop: &|| false },
     )?;
     progress.finish_and_clear();
-    println!("all blocks of the shard are in {}: cdpr study status, then cdpr study merge", out.display());
-    Ok(())
+    let text = |_: &_| {
+        println!(
+            "all blocks of the shard are in {}: cdpr study status, then cdpr study merge",
+            out.display()
+        );
+    };
+    Ok(format.print(&serde_json::json!({ "folder": out, "shard": "done" }), text)?)
 }
 
 /// Makes what `first` leaves missing and analyses the whole.
@@ -40,7 +52,7 @@ pub(super) fn whole(
     common: &Common,
     first: impl FnOnce(&Session) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
-    let progress = progress(observations(study)?);
+    let progress = progress(observations(study)?, "observations");
     leave_when_interrupted(&progress, out, format!("go on with: {}", resumed(out, common)))?;
     let watcher = Watcher {
         begin: &|name| progress.set_message(name.to_owned()),
@@ -55,7 +67,17 @@ pub(super) fn whole(
     let format = common.table.map(TableFormat::from);
     let (summary, timings) = cdpr_report::run(study, out, blocks, format, watcher)?;
     progress.finish_and_clear();
-    print::print_results(&summary);
+    common.format.print(&summary, |summary| print(summary, &timings))?;
+    let path = out.join(REPORT_NAME);
+    report::write(out, &path)?;
+    if common.format == Format::Text {
+        println!("\nresults in {}\nreport in {}", out.display(), path.display());
+    }
+    Ok(())
+}
+
+fn print(summary: &Summary, timings: &Timings) {
+    print::print_results(summary);
     for (name, study) in &summary.studies {
         if let StudySummary::Sampling(sampling) = study
             && let Some(found) = &sampling.sensitivity
@@ -63,16 +85,11 @@ pub(super) fn whole(
             sensitivity::print(&format!("{name}: {}", sampling.title), found);
         }
     }
-    print::print_comparison(&summary);
+    print::print_comparison(summary);
     for (name, seconds) in &timings.seconds {
         println!("{name:24} {seconds:6.2} s");
     }
     println!("{:24} {:6.2} s", "all", timings.all);
-    println!("\nresults in {}", out.display());
-    let path = out.join(REPORT_NAME);
-    report::write(out, &path)?;
-    println!("report in {}", path.display());
-    Ok(())
 }
 
 /// Blocks are whole or not there: on Ctrl-C (or an end of time on a cluster) the process says how to go on, and leaves.
@@ -101,6 +118,9 @@ fn resumed(out: &Path, common: &Common) -> String {
     if let Some(threads) = common.threads {
         command += &format!(" --threads {threads}");
     }
+    if common.format == Format::Json {
+        command += " --format json";
+    }
     command
 }
 
@@ -114,18 +134,4 @@ fn observations(study: &Study) -> Result<usize, StudyError> {
     let samplings = file.samplings.keys().map(|name| study.observations(name)).sum::<Result<usize, _>>()?;
     let surfaces = file.surfaces.values().map(|s| s.x.points * s.y.points).sum::<usize>();
     Ok(samplings + surfaces)
-}
-
-/// A bar with rate and time left; silent when not on a terminal.
-fn progress(observations: usize) -> ProgressBar {
-    let template = "{msg:24} {bar:30} {pos}/{len} observations, {rate}, {eta} left";
-    let rate = |state: &ProgressState, out: &mut dyn Write| {
-        // Nothing to be done about a terminal that takes no text.
-        let _ = write!(out, "{:.0}/s", state.per_sec());
-    };
-    let bar = ProgressBar::new(observations as u64);
-    match ProgressStyle::with_template(template) {
-        Ok(style) => bar.with_style(style.with_key("rate", rate)),
-        Err(_) => bar,
-    }
 }
