@@ -244,6 +244,11 @@ fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there()
         bench.run("shards", &["--shard", shard]);
     }
     assert!(!bench.path("shards/summary.json").exists());
+    let report =
+        Command::new(env!("CARGO_BIN_EXE_cdpr")).arg("report").arg(bench.path("shards")).output().unwrap();
+    assert_eq!(report.status.code(), Some(1));
+    let message = String::from_utf8(report.stderr).unwrap();
+    assert!(message.contains("has no summary.json: analyse it with cdpr study merge"), "{message}");
     bench.done(&merge);
     bench.assert_same("whole", "shards");
 }

@@ -158,5 +158,6 @@ fn is_of_files(error: &StudyError) -> bool {
             | StudyError::DamagedBlock { .. }
             | StudyError::MissingBlocks { .. }
             | StudyError::NoResults { .. }
+            | StudyError::NotAnalysed { .. }
     )
 }

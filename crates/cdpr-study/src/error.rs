@@ -152,6 +152,14 @@ pub enum StudyError {
         /// The first that is not there.
         first: PathBuf,
     },
+    /// The results of a study that nothing has analysed yet.
+    #[error(
+        "{folder} has no summary.json: analyse it with cdpr study merge, or cdpr study run --resume where blocks are missing"
+    )]
+    NotAnalysed {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// It was asked to end.
     #[error("stopped: blocks of a study that are done are kept, and a run that resumes goes on with them")]
     Stopped,

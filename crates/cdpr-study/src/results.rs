@@ -40,7 +40,11 @@ impl Results {
         let study_json = read(&path)?;
         let study = Study::from_json(&study_json, &path)?;
         let robot_json = read(&folder.join(&study.file.robot))?;
-        let summary: Summary = read_json(&folder.join(SUMMARY_NAME))?;
+        let path = folder.join(SUMMARY_NAME);
+        if !path.exists() {
+            return Err(StudyError::NotAnalysed { folder: folder.to_owned() });
+        }
+        let summary: Summary = read_json(&path)?;
         let (mut surfaces, mut poses) = (IndexMap::new(), IndexMap::new());
         for (name, found) in &summary.studies {
             let path = folder.join(format!("{name}.csv"));
