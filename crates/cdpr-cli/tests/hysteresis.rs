@@ -123,7 +123,7 @@ fn a_payload_or_length_that_is_none_is_refused() {
     assert!(
         String::from_utf8(refused.stderr)
             .unwrap()
-            .contains("payload is -1: expected a finite, positive mass")
+            .contains("'-1' for '--payload <PAYLOAD>': expected a mass above zero [kg]")
     );
     let refused = hysteresis(&["--payload", "50", "--length", "0"]);
     assert!(!refused.status.success());

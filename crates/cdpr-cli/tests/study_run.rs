@@ -368,5 +368,5 @@ fn a_run_writes_a_report_and_so_does_its_folder_alone() {
     std::fs::write(moved.join("summary.json"), "{\"study\": 1}").unwrap();
     refusal("summary.json: line 1, column 11: study: invalid type");
     std::fs::remove_file(moved.join("summary.json")).unwrap();
-    refusal("cannot read moved/summary.json");
+    refusal("has no summary.json: analyse it with cdpr study merge");
 }
