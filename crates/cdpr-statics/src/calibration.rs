@@ -25,9 +25,9 @@
 //! Nemhauser, Wolsey, Fisher 1978: the information is submodular).
 
 use crate::derivatives::{EquilibriumDerivatives, derivatives};
+use crate::equations::Inputs;
 use crate::error::StaticsError;
-use crate::model::Load;
-use crate::partials::Inputs;
+use crate::state::Load;
 use cdpr_robot::{Parameter, Pose, Robot};
 use nalgebra::{DMatrix, DVector};
 

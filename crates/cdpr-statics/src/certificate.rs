@@ -24,13 +24,16 @@
 //! the inverse factor of the middle of H, `|M H Mᵀ - I| <= η < 1` over the box makes H positive definite, its eigenvalues no less
 //! than `(1 - η)/λ_max(MᵀM)`.
 
+mod interval;
+
 use crate::direct::DirectSolution;
 use crate::equations::{Factored, NEAR_VERTICAL, State, Strung, cross, jacobian, residual};
 use crate::error::StaticsError;
-use crate::interval::Interval;
-use crate::model::{Load, Model};
+use crate::model::Model;
+use crate::state::Load;
 use cdpr_cable::{Field, Real};
 use cdpr_robot::{Matrix3, Robot, Vector3};
+use interval::Interval;
 use nalgebra::{DMatrix, DVector, Matrix6, UnitQuaternion, Vector2};
 
 /// A proved statement: the `6 + 2n` equations have exactly one solution in a box around the computed one, and it is no farther

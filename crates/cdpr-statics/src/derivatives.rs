@@ -1,7 +1,7 @@
 //! Exact derivatives of a deflection and of all that leads to it: the implicit function theorem on the equations of
 //! [`crate::inverse`], of the set-points, and of both equilibria.
 //!
-//! Cables answer to their inputs by (1)-(4) of `partials.rs`.
+//! Cables answer to their inputs by (1)-(4) of `equations/partials.rs`.
 //!
 //! **Inverse model.** With `[u; s x u]` for minus the unit wrench `w_i` and a twist `λ = (λ_p, λ_r)` that moves anchor point A_i by
 //! `μ_i = λ_p + λ_r x s_i`, tensions without active bound and the balance of the platform are
@@ -38,11 +38,12 @@
 //!
 //! Nothing larger than 6 x 6 is factored: the cables are eliminated, as in Newton's method of the direct model.
 
-use crate::deflection::{Deflection, Wound, deflection_from, wind};
+use crate::equations::{Inputs, LinearCable, Partials, Reading, Span, solve, tensions, wrench};
 use crate::error::StaticsError;
 use crate::inverse::{ABOVE_LEAST, InverseSolution};
-use crate::model::{Equilibrium, Load, Model, Span};
-use crate::partials::{Inputs, LinearCable, Partials, Reading, solve, tensions, wrench};
+use crate::loading::{Deflection, Wound, deflection_from, wind};
+use crate::model::Model;
+use crate::state::{Equilibrium, Load};
 use cdpr_cable::least_tension;
 use cdpr_robot::{Matrix6xX, Pose, Robot, Vector3};
 use cdpr_tension::Bound;

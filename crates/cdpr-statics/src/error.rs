@@ -1,6 +1,6 @@
 //! What can go wrong on the way to an equilibrium.
 
-use crate::direct::Residual;
+use crate::state::Residual;
 use cdpr_cable::CableError;
 use cdpr_robot::{Pose, RobotError};
 use cdpr_tension::TensionError;

@@ -20,9 +20,10 @@
 //!
 //! The least tension of a cable is the robot's, or what its own weight demands over its span where that is more.
 
-use crate::direct::Residual;
+use crate::equations::Span;
 use crate::error::StaticsError;
-use crate::model::{Equilibrium, Load, Model, Span};
+use crate::model::Model;
+use crate::state::{Equilibrium, Load, Residual};
 use cdpr_cable::{CableError, Catenary, length_for_tension, length_for_tension_near};
 use cdpr_robot::{Pose, Robot, TensionLimits, Vector3, Vector6};
 use cdpr_tension::{Bound, Distribution, Problem, distribute};

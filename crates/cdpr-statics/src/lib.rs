@@ -40,45 +40,31 @@
 
 mod calibration;
 mod certificate;
-mod chain;
-mod continuation;
-mod deflection;
 mod derivatives;
 mod direct;
 mod equations;
 mod error;
-mod hysteresis;
-mod interval;
 mod inverse;
-mod lane_algebra;
 mod lanes;
-mod many;
+mod loading;
 mod model;
-mod newton;
-mod observer;
-mod partials;
-mod stability;
-mod tangent;
-mod taut;
-mod taut_cable;
-mod tracker;
-mod trust_region;
+mod state;
 
 pub use calibration::{Calibration, ChosenPose, Combination, Identifiability, Measurement};
 pub use certificate::{Certificate, certify};
-pub use continuation::{Loss, LossKind, Path, PathStep, Setting, follow};
-pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections, wound_lengths};
 pub use derivatives::{Derivatives, EquilibriumDerivatives, VarianceBudget, derivatives};
-pub use direct::{DirectSolution, Method, Report, Residual, Start, direct, direct_any, rough_pose};
+pub use direct::{
+    DirectSolution, Equilibria, Found, Loss, LossKind, Method, Mode, Path, PathStep, Report, Setting,
+    Stability, Start, Starts, direct, direct_all, direct_any, rough_pose,
+};
+pub use equations::{Inputs, Tangent};
 pub use error::StaticsError;
-pub use hysteresis::{HysteresisLaw, LoadCycle, Unloading, load_cycle};
 pub use inverse::{InverseSolution, inverse, lengths_for_tensions};
-pub use many::{Equilibria, Found, Starts, direct_all};
-pub use model::{Equilibrium, Load};
-pub use observer::{Observation, Observer};
-pub use partials::Inputs;
-pub use stability::{Mode, Stability};
-pub use tangent::Tangent;
-pub use tracker::Tracker;
+pub use lanes::{Observation, Observer, Tracker};
+pub use loading::{
+    Deflection, HysteresisLaw, LoadCycle, PoseDeflections, Unloading, deflection, deflection_from,
+    deflections, follow, load_cycle, wound_lengths,
+};
+pub use state::{Equilibrium, Load, Residual};
 
 pub use cdpr_tension::Bound;

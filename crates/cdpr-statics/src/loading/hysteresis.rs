@@ -15,10 +15,11 @@
 //! closed by a straight line from C to A, over which all tensions do the work of a payload that is none. Both are the same but for the weight of the
 //! cables, whose tension varies along them.
 
-use crate::deflection::wind;
 use crate::direct::{DirectSolution, Start, direct};
 use crate::error::StaticsError;
-use crate::model::{Equilibrium, Load, Model};
+use crate::loading::deflection::wind;
+use crate::model::Model;
+use crate::state::{Equilibrium, Load};
 use cdpr_cable::{CableError, PiecewiseLaw};
 use cdpr_robot::{Pose, Robot, Vector3};
 

@@ -1,7 +1,7 @@
 //! The chain of an observation for robots with taut cables, one robot a lane: inverse model, offset set-points, direct model without
 //! and with the load.
 //!
-//! The equations are those of [`crate::inverse`] and [`crate::newton`], with one difference: the shape of a cable is not solved for but
+//! The equations are those of [`crate::inverse`] and `direct/newton.rs`, with one difference: the shape of a cable is not solved for but
 //! takes part in the iteration. With û the direction of its end force, n̂ the normal to it, C the flexibility, `e = d(x, z)/dL` and c its
 //! miss at force and length,
 //!
@@ -20,10 +20,10 @@
 //!
 //! A lane stops by its own steps alone: the others of a batch change none of its digits.
 
-use crate::lane_algebra::{Factored, Space, Wrench, cross, dot, six, three};
-use crate::lanes::{Lanes, Mask, Simd};
-use crate::taut::{Load, MAX_ITERATIONS, Open, Robots, Scale, Tangent};
-use crate::taut_cable::{Cable, Linear, Plane, Span};
+use crate::lanes::algebra::{Factored, Space, Wrench, cross, dot, six, three};
+use crate::lanes::cable::{Cable, Linear, Plane, Span};
+use crate::lanes::newton::{Load, MAX_ITERATIONS, Open, Robots, Scale, Tangent};
+use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::{Field, Response, TAUT};
 
 /// Robots at their wanted pose, with starts of lengths and forces.

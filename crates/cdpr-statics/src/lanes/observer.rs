@@ -1,18 +1,19 @@
 //! Deflections of a robot with deviations of its parameters, many at a time.
 //!
-//! Robots with taut cables, stable and within their limits, are observed in the lanes of the vector unit (module `taut`), each from
+//! Robots with taut cables, stable and within their limits, are observed in the lanes of the vector unit (`lanes/newton.rs`), each from
 //! the nominal robot's tensions. Whatever else a robot is, it is observed by [`deflection`], which has the last word on every failure.
 
-use crate::chain::{Beginning, Settings, observe};
-use crate::deflection::deflection;
-use crate::direct::{Residual, rounding_of_closure};
+use crate::equations::Span;
 use crate::error::StaticsError;
 use crate::inverse::inverse;
-use crate::lane_algebra::{six, three};
-use crate::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
-use crate::model::{Equilibrium, Load, Model, Span};
-use crate::taut::{Layout, Open, Robots, Scale};
-use crate::taut_cable::Cable;
+use crate::lanes::algebra::{six, three};
+use crate::lanes::cable::Cable;
+use crate::lanes::chain::{Beginning, Settings, observe};
+use crate::lanes::newton::{Layout, Open, Robots, Scale};
+use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
+use crate::loading::deflection;
+use crate::model::Model;
+use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
 use cdpr_cable::Field;
 use cdpr_robot::{Parameter, Pose, Robot, Vector3, Vector6};
 use nalgebra::DVector;
@@ -262,11 +263,11 @@ fn residuals<S: Simd>(open: &Open<S>) -> [Residual; MAX_LANES] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::Scalar;
+    use crate::lanes::simd::Scalar;
 
     #[test]
     fn the_vector_unit_changes_no_bit() {
-        let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
+        let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap();
         for pose in [Pose::at(0.0, 0.0, 1.75), Pose::at(3.2, 1.7, 3.0)] {
             let observer = &Observer::new(&robot, &pose, &Load::payload(50.0)).unwrap();
             // A sawtooth through the ranges of the paper's Table 3.

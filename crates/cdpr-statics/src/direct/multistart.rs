@@ -1,8 +1,10 @@
 //! Equilibria from many starts.
 
-use crate::direct::{DirectSolution, Start, direct, direct_any};
+use crate::direct::search::{Start, direct, direct_any};
+use crate::direct::solution::DirectSolution;
 use crate::error::StaticsError;
-use crate::model::{Load, Model};
+use crate::model::Model;
+use crate::state::Load;
 use cdpr_robot::{Pose, Robot, Vector3};
 
 /// Starts around a pose: the pose itself, then points of a sequence that fills the box of displacements evenly (Roberts 2018, the

@@ -1,12 +1,12 @@
-//! The direct model of robots with taut cables: Newton's method of [`crate::newton`] with its cables eliminated. Lanes hold a robot each, or
+//! The direct model of robots with taut cables: Newton's method of `direct/newton.rs` with its cables eliminated. Lanes hold a robot each, or
 //! a cable each of one robot.
 //!
 //! A lane stops by its own steps alone: the others of a batch change none of its digits.
 
 use crate::direct::MAX_STRAIN;
-use crate::lane_algebra::{Matrix, Space, Symmetric, Wrench, add, cross, dot, halves, six, three};
-use crate::lanes::{Lanes, MAX_LANES, Mask, Simd};
-use crate::taut_cable::{Cable, Linear, Span};
+use crate::lanes::algebra::{Matrix, Space, Symmetric, Wrench, add, cross, dot, halves, six, three};
+use crate::lanes::cable::{Cable, Linear, Span};
+use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_cable::{Field, TAUT, TautEnd};
 use smallvec::{SmallVec, smallvec};
 

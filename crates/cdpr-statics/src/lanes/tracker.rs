@@ -1,11 +1,12 @@
 //! Direct solves one after the other, each from the equilibrium before: the case of a control loop or a simulation.
 
-use crate::direct::{Residual, Start, direct, rounding_of_closure};
+use crate::direct::{Start, direct};
 use crate::error::StaticsError;
-use crate::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
-use crate::model::{Equilibrium, Load, Model};
-use crate::taut::{self, Layout, Robots, Scale, Tangent};
-use crate::taut_cable::Cable;
+use crate::lanes::cable::Cable;
+use crate::lanes::newton::{self as taut, Layout, Robots, Scale, Tangent};
+use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
+use crate::model::Model;
+use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
 use cdpr_robot::{Matrix3, Robot, Rotation3, Vector3};
 use smallvec::SmallVec;
 
@@ -15,7 +16,7 @@ use smallvec::SmallVec;
 /// use cdpr_robot::{Pose, Robot};
 /// use cdpr_statics::{Load, Tracker, inverse};
 ///
-/// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+/// let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json"))?;
 /// let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None)?;
 /// let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium)?;
 /// let mut lengths = wanted.lengths.clone();

@@ -1,6 +1,6 @@
 //! Vectors and systems of six equations in lanes.
 
-use crate::lanes::{Lanes, Mask, Simd};
+use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::Field;
 
 /// A point or a vector in the base frame.

@@ -6,10 +6,11 @@
 //! geometrically, and where h is below 1e-9 the equilibrium is lost, unless the one downhill a millionth later is the same (Allgower and Georg, *Introduction to Numerical Continuation
 //! Methods*, 2003, chapter 2). So a jump of the platform is reported, not stepped over.
 
-use crate::direct::{DirectSolution, Method, Start, descend, direct, solution};
+use crate::direct::newton::{Converged, newton};
+use crate::direct::solution::{DirectSolution, Method, descend, solution};
 use crate::error::StaticsError;
-use crate::model::{Equilibrium, Load, Model};
-use crate::newton::{Converged, newton};
+use crate::model::Model;
+use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Robot, Vector6, Wrench};
 
 /// What is set from outside: unstrained lengths and load.
@@ -75,16 +76,6 @@ const SAME: f64 = 1e-5;
 
 /// What the iteration may add to its prediction, relative to it.
 const MAX_CORRECTION: f64 = 0.2;
-
-/// Follows the stable equilibrium near `start` from one setting to another.
-///
-/// # Errors
-/// Those of [`direct`] at the first setting. That the equilibrium is lost on the way is an answer, not an error.
-pub fn follow(robot: &Robot, from: &Setting, to: &Setting, start: Start) -> Result<Path, StaticsError> {
-    Model::new(robot, &to.lengths, &to.load)?;
-    let first = direct(robot, &from.lengths, &from.load, start)?;
-    follow_from(robot, from, to, first)
-}
 
 pub(crate) fn follow_from(
     robot: &Robot,

@@ -16,10 +16,11 @@
 //!
 //! A moment of constant components has no potential; the work it does over each step stands in for one.
 
-use crate::direct::Residual;
+use crate::direct::newton::{Converged, newton};
+use crate::equations::Balance;
 use crate::error::StaticsError;
-use crate::model::{Equilibrium, Model};
-use crate::newton::{Balance, Converged, newton};
+use crate::model::Model;
+use crate::state::{Equilibrium, Residual};
 use cdpr_cable::{end_force, end_force_near};
 use cdpr_robot::{Pose, Vector2, Vector6};
 use nalgebra::{Matrix6, SymmetricEigen, UnitQuaternion};

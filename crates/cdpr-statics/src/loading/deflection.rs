@@ -5,10 +5,10 @@
 //! `dp = p_loaded - p_unloaded`.
 
 use crate::direct::{DirectSolution, Start, direct};
+use crate::equations::Tangent;
 use crate::error::StaticsError;
 use crate::inverse::{InverseSolution, inverse, lengths_for_tensions};
-use crate::model::{Equilibrium, Load};
-use crate::tangent::Tangent;
+use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_tension::offset;
 

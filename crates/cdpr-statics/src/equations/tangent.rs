@@ -5,10 +5,11 @@
 //! deflection of a robot with sagging cables; both are here to be compared.
 
 use crate::direct::DirectSolution;
-use crate::equations::{Factored, State, jacobian};
+use crate::equations::assembled::{Factored, State, jacobian};
+use crate::equations::balance::Balance;
 use crate::error::StaticsError;
-use crate::model::{Equilibrium, Load, Model};
-use crate::newton::Balance;
+use crate::model::Model;
+use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Matrix6xX, Robot, Vector2, Vector6, Wrench};
 use nalgebra::{DMatrix, Matrix6};
 

@@ -1,7 +1,7 @@
 //! One taut cable in lanes: where it runs, how it answers, and what it is linearised.
 
-use crate::lane_algebra::{Space, three};
-use crate::lanes::{Lanes, Mask, Simd};
+use crate::lanes::algebra::{Space, three};
+use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::{Field, Response, TautEnd, taut_end, taut_response};
 
 /// A vector in a cable's vertical plane: along the azimuth, upwards.
@@ -58,7 +58,7 @@ impl<S: Simd> Span<S> {
     }
 }
 
-/// A cable linearised about a force that need not fit its ends: `df = K (c + d(h, z))`, as in [`crate::newton`].
+/// A cable linearised about a force that need not fit its ends: `df = K (c + d(h, z))`, as in `direct/newton.rs`.
 #[derive(Clone, Copy)]
 pub(crate) struct Linear<S: Simd> {
     pub(crate) azimuth: Plane<S>,

@@ -22,8 +22,10 @@
 //! w_ex = [ F_w; R c x F_w ] + load,   F_w = -(m + payload) g e_z
 //! ```
 
+use crate::equations::span::Span;
 use crate::error::StaticsError;
-use crate::model::{Load, Model, Span};
+use crate::model::Model;
+use crate::state::Load;
 use cdpr_cable::Catenary;
 use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, Vector3, Vector6};
 use nalgebra::{DMatrix, Matrix6};

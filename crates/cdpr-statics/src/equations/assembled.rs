@@ -1,0 +1,293 @@
+//! The `6 + 2n` equations of an equilibrium, assembled, with their Jacobian. No other module names faer.
+//!
+//! Unknowns: the motion (dp, dφ) of the platform, then (fx, fz) of every cable at A. Equations, in this order:
+//!
+//! ```text
+//! sum F_i - F = 0                        force balance of the platform [N]               (3)
+//! sum s_i x F_i - M = 0                  moment balance about P [N m]                    (3)
+//! (h_i, z_i) - (x, z)(f_i, L_i) = 0      each cable spans its two points [m]         (1), (2)
+//! ```
+//!
+//! with `F_i = fx e_h + fz e_z`, `e_h` the horizontal direction of `r_i`, and (F, M) weight and load. Their derivatives:
+//!
+//! ```text
+//! dF_i = e_h dfx + e_z dfz + (fx/h) e_l e_lᵀ dr_i,    dr_i = dp - [s_i] dφ,    e_l = e_z x e_h
+//! d(s_i x F_i) = [s_i] dF_i + [F_i][s_i] dφ,          dM = [F_w][R c] dφ
+//! d(h_i, z_i) = (e_hᵀ, e_zᵀ) dr_i,                    d(x, z) = C_i df_i
+//! ```
+
+use crate::model::Model;
+use crate::state::Equilibrium;
+use cdpr_cable::{Real, Response, response};
+use cdpr_robot::{Matrix3, Vector3};
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, DVector, Scalar, Vector2};
+use num_traits::{One, Zero};
+
+/// Numbers that the equations can be evaluated with: doubles, intervals.
+pub(crate) trait Number:
+    Real + Scalar + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign
+{
+}
+
+impl<T: Real + Scalar + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign> Number for T {}
+
+/// The unknowns: pose and cable forces.
+pub(crate) struct State<T> {
+    pub(crate) position: Vector3<T>,
+    pub(crate) rotation: Matrix3<T>,
+    pub(crate) forces: Vec<Vector2<T>>,
+}
+
+impl From<&Equilibrium> for State<f64> {
+    fn from(equilibrium: &Equilibrium) -> Self {
+        Self {
+            position: equilibrium.pose.position,
+            rotation: *equilibrium.pose.rotation.matrix(),
+            forces: equilibrium.cable_forces.clone(),
+        }
+    }
+}
+
+/// Cross-product matrix [v].
+pub(crate) fn cross<T: Number>(v: &Vector3<T>) -> Matrix3<T> {
+    let o = T::zero();
+    Matrix3::new(o, -v.z, v.y, v.z, o, -v.x, -v.y, v.x, o)
+}
+
+/// Cable i at a state.
+pub(crate) struct Strung<T> {
+    /// s_i = R a_i.
+    arm: Vector3<T>,
+    /// Horizontal direction e_h from B towards A.
+    azimuth: Vector2<T>,
+    /// (h, z).
+    pub(crate) end: Vector2<T>,
+    /// F_i.
+    force: Vector3<T>,
+    /// `None` for a slack cable without weight.
+    pub(crate) response: Option<Response<T>>,
+}
+
+/// Nearer to the vertical than this, `fx/h` of a cable that need not fit its points means nothing, and its limit stands in.
+pub(crate) const NEAR_VERTICAL: f64 = 1e-9;
+
+impl<T: Number> Strung<T> {
+    pub(crate) fn new(model: &Model, state: &State<T>, i: usize) -> Self {
+        let cable = &model.robot.cables[i];
+        let arm = state.rotation * cable.anchor_point.map(T::of);
+        let r = state.position + arm - cable.exit_point.map(T::of);
+        let h = (r.x * r.x + r.y * r.y).sqrt();
+        let azimuth =
+            if h.value() == 0.0 { Vector2::new(T::one(), T::zero()) } else { Vector2::new(r.x / h, r.y / h) };
+        let f = state.forces[i];
+        let p = &cable.properties;
+        let w = T::of(p.linear_density) * T::of(model.robot.gravity);
+        let catenary = model.catenary(i, Vector2::new(f.x.value(), f.y.value()));
+        let response = || match p.law {
+            None => {
+                let ea = T::of(p.youngs_modulus) * T::of(p.section);
+                response(w, ea.recip(), T::of(model.lengths[i]), [f.x, f.y])
+            }
+            // Doubles: certificates are refused for such a cable.
+            Some(_) => catenary.response().map(T::of),
+        };
+        Self {
+            arm,
+            azimuth,
+            end: Vector2::new(h, r.z),
+            force: Vector3::new(f.x * azimuth.x, f.x * azimuth.y, f.y),
+            response: (!catenary.is_limp()).then(response),
+        }
+    }
+
+    fn lift(&self, x: T, z: T) -> Vector3<T> {
+        Vector3::new(x * self.azimuth.x, x * self.azimuth.y, z)
+    }
+}
+
+/// Weight of platform and payload [N], and the arm of its centre of mass [m].
+fn weight<T: Number>(model: &Model, state: &State<T>) -> (Vector3<T>, Vector3<T>) {
+    let platform = &model.robot.platform;
+    let mass = T::of(platform.mass) + T::of(model.load.payload);
+    let weight = Vector3::new(T::zero(), T::zero(), -(mass * T::of(model.robot.gravity)));
+    (weight, state.rotation * platform.center_of_mass.map(T::of))
+}
+
+/// Left-hand sides of all equations.
+pub(crate) fn residual<T: Number>(model: &Model, state: &State<T>) -> DVector<T> {
+    let mut residual = DVector::from_element(6 + 2 * model.cables(), T::zero());
+    let (weight, center) = weight(model, state);
+    let load = &model.load.wrench;
+    let mut force = -(weight + load.force.map(T::of));
+    let mut moment = -(center.cross(&weight) + load.moment.map(T::of));
+    for i in 0..model.cables() {
+        let cable = Strung::new(model, state, i);
+        force += cable.force;
+        moment += cable.arm.cross(&cable.force);
+        let open = match cable.response {
+            Some(Response { end: [x, z], .. }) => cable.end - Vector2::new(x, z),
+            // A slack cable without weight has no shape; it is open by what it is too short.
+            None => {
+                let chord = (cable.end.x * cable.end.x + cable.end.y * cable.end.y).sqrt();
+                let length = T::of(model.lengths[i]);
+                let short = chord.value() > length.value();
+                if short { cable.end * (T::one() - length / chord) } else { Vector2::from_element(T::zero()) }
+            }
+        };
+        residual.fixed_rows_mut::<2>(6 + 2 * i).copy_from(&open);
+    }
+    residual.fixed_rows_mut::<3>(0).copy_from(&force);
+    residual.fixed_rows_mut::<3>(3).copy_from(&moment);
+    residual
+}
+
+/// Derivatives of [`residual`] with respect to (dp, dφ, fx_1, fz_1, ..., fx_n, fz_n).
+pub(crate) fn jacobian<T: Number>(model: &Model, state: &State<T>) -> DMatrix<T> {
+    let size = 6 + 2 * model.cables();
+    let mut jacobian = DMatrix::from_element(size, size, T::zero());
+    let (weight, center) = weight(model, state);
+    let mut rotation_of_moment = -(cross(&weight) * cross(&center));
+    for i in 0..model.cables() {
+        let cable = Strung::new(model, state, i);
+        let place = 6 + 2 * i;
+        let Some(Response { flexibility: [xx, xz, zz], lateral, .. }) = cable.response else {
+            // Its force stays zero.
+            jacobian.fixed_view_mut::<2, 2>(place, place).fill_with_identity();
+            continue;
+        };
+        let s = cross(&cable.arm);
+        let sideways = Vector3::new(-cable.azimuth.y, cable.azimuth.x, T::zero());
+        let (h, z) = (cable.end.x, cable.end.y);
+        let near_vertical = Real::value(h) <= NEAR_VERTICAL * Real::value(z).abs();
+        let lateral = if near_vertical { T::one() / lateral } else { state.forces[i].x / h };
+        let swing = sideways * sideways.transpose() * lateral;
+        let mut add = |row: usize, column: usize, block: Matrix3<T>| {
+            let mut view = jacobian.fixed_view_mut::<3, 3>(row, column);
+            view += block;
+        };
+        add(0, 0, swing);
+        add(0, 3, -(swing * s));
+        add(3, 0, s * swing);
+        rotation_of_moment += cross(&cable.force) * s - s * swing * s;
+        for (j, axis) in
+            [cable.lift(T::one(), T::zero()), cable.lift(T::zero(), T::one())].into_iter().enumerate()
+        {
+            let turned = s * axis;
+            jacobian.fixed_view_mut::<3, 1>(0, place + j).copy_from(&axis);
+            jacobian.fixed_view_mut::<3, 1>(3, place + j).copy_from(&turned);
+            jacobian.fixed_view_mut::<1, 3>(place + j, 0).copy_from(&axis.transpose());
+            jacobian.fixed_view_mut::<1, 3>(place + j, 3).copy_from(&turned.transpose());
+        }
+        let flexibility = nalgebra::Matrix2::new(-xx, -xz, -xz, -zz);
+        jacobian.fixed_view_mut::<2, 2>(place, place).copy_from(&flexibility);
+    }
+    jacobian.fixed_view_mut::<3, 3>(3, 3).copy_from(&rotation_of_moment);
+    jacobian
+}
+
+/// The assembled Jacobian at an equilibrium, factored once for any number of right-hand sides.
+pub(crate) struct Factored {
+    lu: PartialPivLu<f64>,
+    size: usize,
+}
+
+impl Factored {
+    pub(crate) fn new(jacobian: &DMatrix<f64>) -> Self {
+        let size = jacobian.nrows();
+        let matrix = faer::Mat::from_fn(size, size, |i, j| jacobian[(i, j)]);
+        Self { lu: matrix.partial_piv_lu(), size }
+    }
+
+    /// `J⁻¹`.
+    pub(crate) fn inverse(&self) -> DMatrix<f64> {
+        self.solve(&DMatrix::identity(self.size, self.size))
+    }
+
+    /// `J⁻¹ right`, column by column.
+    pub(crate) fn solve(&self, right: &DMatrix<f64>) -> DMatrix<f64> {
+        let right = faer::Mat::from_fn(self.size, right.ncols(), |i, j| right[(i, j)]);
+        let solution = self.lu.solve(&right);
+        DMatrix::from_fn(self.size, solution.ncols(), |i, j| solution[(i, j)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::direct::{cables_at, newton_step};
+    use crate::state::Load;
+    use cdpr_robot::{Pose, Robot, Vector2, Wrench};
+    use proptest::prelude::*;
+
+    fn moved(equilibrium: &Equilibrium, step: &DVector<f64>) -> Equilibrium {
+        let cable_forces = equilibrium.cable_forces.iter().enumerate();
+        Equilibrium {
+            pose: equilibrium.pose.moved(step.fixed_rows::<3>(0).into(), step.fixed_rows::<3>(3).into()),
+            cable_forces: cable_forces
+                .map(|(i, force)| force + Vector2::new(step[6 + 2 * i], step[7 + 2 * i]))
+                .collect(),
+        }
+    }
+
+    /// CAROCA or CoGiRo somewhere, with cables from taut to slack and a wrench.
+    fn any_state() -> impl Strategy<Value = (Robot, Vec<f64>, Load, Pose)> {
+        let slack = prop::collection::vec(prop_oneof![-1e-3..1e-3f64, 1e-3..0.2f64], 8);
+        (any::<bool>(), prop::array::uniform6(-1.0..1.0f64), prop::array::uniform6(-1.0..1.0f64), slack)
+            .prop_map(|(caroca, m, w, slack)| {
+                let (text, height) = if caroca {
+                    (include_str!("../../../../data/robots/caroca.json"), 1.75)
+                } else {
+                    (include_str!("../../../../data/robots/cogiro.json"), 2.5)
+                };
+                let robot = Robot::from_json(text).unwrap();
+                let pose = Pose::at(2.0 * m[0], m[1], height + m[2])
+                    .moved(Vector3::zeros(), 0.3 * Vector3::new(m[3], m[4], m[5]));
+                let lengths = (0..8).map(|i| robot.span(&pose, i).norm() * (1.0 + slack[i])).collect();
+                let wrench = Wrench {
+                    force: 100.0 * Vector3::new(w[0], w[1], w[2]),
+                    moment: 20.0 * Vector3::new(w[3], w[4], w[5]),
+                };
+                (robot, lengths, Load { payload: 20.0, wrench }, pose)
+            })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn the_jacobian_is_the_derivative_of_the_equations(
+            (robot, lengths, load, pose) in any_state(), misfit in prop_oneof![Just(1.0), 0.5..2.0f64],
+        ) {
+            let model = Model::new(&robot, &lengths, &load).unwrap();
+            let mut state = cables_at(&model, &pose).unwrap();
+            // Forces that need not fit the pose, too.
+            state.cable_forces.iter_mut().for_each(|force| *force *= misfit);
+            let jacobian = jacobian(&model, &State::from(&state));
+            for column in 0..jacobian.ncols() {
+                let force = state.cable_forces.get(column.wrapping_sub(6) / 2);
+                let h = if column < 6 { 1e-4 } else { force.map_or(1.0, |f| 2e-4 * f.x.max(1e-3 * f.norm())) };
+                let at = |h: f64| {
+                    let mut step = DVector::zeros(jacobian.nrows());
+                    step[column] = h;
+                    residual(&model, &State::from(&moved(&state, &step)))
+                };
+                let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+                let error = (&slope - jacobian.column(column)).norm();
+                let rounding = 1e-15 * (at(0.0).norm() + 1e4) / h;
+                prop_assert!(error < 1e-6 * jacobian.column(column).norm() + rounding, "column {column}: {error:e}");
+            }
+        }
+
+        #[test]
+        fn eliminating_the_cables_is_newtons_step_of_the_assembled_equations((robot, lengths, load, pose) in any_state()) {
+            let model = Model::new(&robot, &lengths, &load).unwrap();
+            let state = cables_at(&model, &pose).unwrap();
+            let right = -residual(&model, &State::from(&state));
+            let assembled = Factored::new(&jacobian(&model, &State::from(&state))).solve(&DMatrix::from_column_slice(right.len(), 1, right.as_slice()));
+            let reduced = newton_step(&model, &state).unwrap();
+            let expected = assembled.fixed_view::<6, 1>(0, 0);
+            prop_assert!((reduced - expected).norm() < 1e-6 * expected.norm(), "{reduced} {expected}");
+        }
+    }
+}

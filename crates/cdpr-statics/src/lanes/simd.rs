@@ -1,0 +1,218 @@
+//! Several numbers at a time: the lanes of the processor's vector unit. No other module names pulp.
+//!
+//! A formula written for [`Lanes`] is evaluated for as many problems as the unit has lanes (8 with AVX-512, 4 with AVX2, 1 without either;
+//! found out when the program runs). Only `+ - * /`, square roots and comparisons are used, which IEEE 754 defines to the bit, and nothing
+//! is fused: a problem has the same answer in any lane of any unit. Lanes cannot branch; where one differs, a [`Mask`] selects.
+
+use cdpr_cable::Field;
+use pulp::Arch;
+#[cfg(test)]
+pub(crate) use pulp::Scalar;
+pub(crate) use pulp::{Simd, WithSimd};
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
+
+/// As many lanes as any vector unit has.
+pub(crate) const MAX_LANES: usize = 8;
+
+/// Runs `task` on the widest vector unit there is.
+pub(crate) fn dispatch<T: WithSimd>(task: T) -> T::Output {
+    Arch::new().dispatch(task)
+}
+
+/// One number a lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lanes<S: Simd> {
+    simd: S,
+    values: S::f64s,
+}
+
+/// One choice a lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mask<S: Simd> {
+    simd: S,
+    values: S::m64s,
+}
+
+impl<S: Simd> Lanes<S> {
+    /// Number of lanes.
+    pub(crate) const COUNT: usize = S::F64_LANES;
+
+    /// The same number in all lanes.
+    #[inline(always)]
+    pub(crate) fn splat(simd: S, value: f64) -> Self {
+        Self { simd, values: simd.splat_f64s(value) }
+    }
+
+    /// One value a lane.
+    #[inline(always)]
+    pub(crate) fn from_fn(simd: S, value: impl Fn(usize) -> f64) -> Self {
+        let mut values = [0.0; MAX_LANES];
+        for (lane, place) in values[..Self::COUNT].iter_mut().enumerate() {
+            *place = value(lane);
+        }
+        Self::from_array(simd, &values)
+    }
+
+    /// The first values of an array, one a lane.
+    #[inline(always)]
+    pub(crate) fn from_array(simd: S, values: &[f64; MAX_LANES]) -> Self {
+        // A whole vector: pulp's load of a part is a call.
+        let (vectors, _) = S::as_simd_f64s(&values[..Self::COUNT]);
+        Self { simd, values: vectors[0] }
+    }
+
+    /// The same number in all lanes, on the unit of this one.
+    #[inline(always)]
+    pub(crate) fn all(self, value: f64) -> Self {
+        Self::splat(self.simd, value)
+    }
+
+    /// The value of each lane; zeros beyond the last one.
+    #[inline(always)]
+    pub(crate) fn to_array(self) -> [f64; MAX_LANES] {
+        let mut values = [0.0; MAX_LANES];
+        let (vectors, _) = S::as_mut_simd_f64s(&mut values[..Self::COUNT]);
+        vectors[0] = self.values;
+        values
+    }
+
+    /// The value of the first lane.
+    #[inline(always)]
+    pub(crate) fn first(self) -> f64 {
+        self.to_array()[0]
+    }
+
+    #[inline(always)]
+    pub(crate) fn abs(self) -> Self {
+        Self { values: self.simd.abs_f64s(self.values), ..self }
+    }
+
+    /// The larger one; `other` where one of them is no number.
+    #[inline(always)]
+    pub(crate) fn max(self, other: Self) -> Self {
+        other.less_or_equal(self).select(self, other)
+    }
+
+    /// False where one of them is no number.
+    #[inline(always)]
+    pub(crate) fn less_or_equal(self, other: Self) -> Mask<S> {
+        Mask { simd: self.simd, values: self.simd.less_than_or_equal_f64s(self.values, other.values) }
+    }
+}
+
+impl<S: Simd> Mask<S> {
+    /// One choice of two numbers a lane.
+    #[inline(always)]
+    pub(crate) fn select(self, chosen: Lanes<S>, otherwise: Lanes<S>) -> Lanes<S> {
+        Lanes { simd: self.simd, values: self.simd.select_f64s(self.values, chosen.values, otherwise.values) }
+    }
+
+    #[inline(always)]
+    pub(crate) fn to_array(self) -> [bool; MAX_LANES] {
+        let one = Lanes::splat(self.simd, 1.0);
+        self.select(one, one.all(0.0)).to_array().map(|value| value == 1.0)
+    }
+
+    #[inline(always)]
+    pub(crate) fn any(self) -> bool {
+        self.simd.first_true_m64s(self.values) < Lanes::<S>::COUNT
+    }
+}
+
+impl<S: Simd> BitAnd for Mask<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self { values: self.simd.and_m64s(self.values, other.values), ..self }
+    }
+}
+
+impl<S: Simd> BitOr for Mask<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self { values: self.simd.or_m64s(self.values, other.values), ..self }
+    }
+}
+
+impl<S: Simd> Not for Mask<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self { values: self.simd.not_m64s(self.values), ..self }
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $function:ident, $simd:ident) => {
+        impl<S: Simd> $trait for Lanes<S> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self { values: self.simd.$simd(self.values, other.values), ..self }
+            }
+        }
+    };
+}
+
+operator!(Add, add, add_f64s);
+operator!(Sub, sub, sub_f64s);
+operator!(Mul, mul, mul_f64s);
+operator!(Div, div, div_f64s);
+
+impl<S: Simd> Neg for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { values: self.simd.neg_f64s(self.values), ..self }
+    }
+}
+
+impl<S: Simd> Add<f64> for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: f64) -> Self {
+        self + self.all(other)
+    }
+}
+
+impl<S: Simd> Mul<f64> for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: f64) -> Self {
+        self * self.all(other)
+    }
+}
+
+impl<S: Simd> AddAssign for Lanes<S> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<S: Simd> SubAssign for Lanes<S> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl<S: Simd> Field for Lanes<S> {
+    #[inline(always)]
+    fn recip(self) -> Self {
+        self.all(1.0) / self
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self { values: self.simd.sqrt_f64s(self.values), ..self }
+    }
+}

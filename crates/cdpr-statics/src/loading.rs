@@ -1,0 +1,10 @@
+//! Equilibria while the load or the lengths change.
+
+mod deflection;
+mod follow;
+mod hysteresis;
+
+pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections, wound_lengths};
+pub(crate) use deflection::{Wound, wind};
+pub use follow::follow;
+pub use hysteresis::{HysteresisLaw, LoadCycle, Unloading, load_cycle};

@@ -1,0 +1,16 @@
+//! Following an equilibrium while lengths or load change.
+
+use crate::direct::{Path, Setting, Start, direct, follow_from};
+use crate::error::StaticsError;
+use crate::model::Model;
+use cdpr_robot::Robot;
+
+/// Follows the stable equilibrium near `start` from one setting to another.
+///
+/// # Errors
+/// Those of [`direct`] at the first setting. That the equilibrium is lost on the way is an answer, not an error.
+pub fn follow(robot: &Robot, from: &Setting, to: &Setting, start: Start) -> Result<Path, StaticsError> {
+    Model::new(robot, &to.lengths, &to.load)?;
+    let first = direct(robot, &from.lengths, &from.load, start)?;
+    follow_from(robot, from, to, first)
+}

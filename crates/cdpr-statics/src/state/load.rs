@@ -1,0 +1,34 @@
+//! Loads on the platform.
+
+use cdpr_robot::{Pose, Robot, Wrench};
+
+/// What acts on the platform besides its own weight and the cables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Mass added at the platform's centre of mass [kg].
+    pub payload: f64,
+    /// Wrench of constant components in the base frame, about P [N, N m].
+    pub wrench: Wrench,
+}
+
+impl Load {
+    /// Nothing but the platform's own weight.
+    pub fn none() -> Self {
+        Self { payload: 0.0, wrench: Wrench::zero() }
+    }
+
+    /// A mass [kg] added at the platform's centre of mass.
+    pub fn payload(mass: f64) -> Self {
+        Self { payload: mass, ..Self::none() }
+    }
+
+    /// Force and moment [N, N m].
+    pub fn wrench(wrench: Wrench) -> Self {
+        Self { wrench, ..Self::none() }
+    }
+
+    /// All that acts on the platform but the cables: weight and load, about P [N, N m].
+    pub(crate) fn total(&self, robot: &Robot, pose: &Pose) -> Wrench {
+        robot.weight(pose, self.payload) + self.wrench
+    }
+}
