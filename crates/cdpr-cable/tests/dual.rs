@@ -2,7 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
-use cdpr_cable::{Cable, Catenary, Field, Real, Vector2, least_tension, length_for_tension, response};
+use cdpr_cable::kernel::{Field, Real, response};
+use cdpr_cable::{Cable, Catenary, Vector2, least_tension, length_for_tension};
 use proptest::prelude::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
