@@ -2,18 +2,24 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
-use cdpr_robot::{PiecewiseLaw, Pose, Robot};
+use cdpr_robot::{PiecewiseLaw, Pose, Robot, Segment};
 use cdpr_statics::{HysteresisLaw, Load, StaticsError, Unloading, deflection, load_cycle};
 
 fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
 }
 
+/// A law from the tension at which each of its segments begins and its stiffness over the cable's.
+fn law(segments: &[(f64, f64)]) -> PiecewiseLaw {
+    let segment = |&(tension, ratio): &(f64, f64)| Segment { tension, ratio };
+    PiecewiseLaw::new(0.0, &segments.iter().map(segment).collect::<Vec<_>>()).unwrap()
+}
+
 /// One law for all eight cables.
 fn curves(loading: &[(f64, f64)], unloading: &[(f64, f64)]) -> Vec<HysteresisLaw> {
     let law = HysteresisLaw {
-        loading: PiecewiseLaw::new(0.0, loading).unwrap(),
-        unloading: PiecewiseLaw::new(0.0, unloading).unwrap(),
+        loading: law(loading),
+        unloading: law(unloading),
         turning_tension: 3087.0,
         unloading_from: Unloading::SameTension,
     };
