@@ -2,7 +2,8 @@
 
 use crate::arguments::Format;
 use crate::output::Ending;
-use cdpr_study::{Finding, Severity, inspect, open_robot};
+use cdpr_assess::{Finding, Severity, inspect};
+use cdpr_study::open_robot;
 use std::error::Error;
 use std::path::PathBuf;
 

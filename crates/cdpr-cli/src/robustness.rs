@@ -2,10 +2,11 @@
 
 use crate::arguments::Format;
 use crate::output::{progress, table, write_drawn};
-use cdpr_study::{
-    Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, check_folder, open_robot,
-    run_robustness, write_refused, write_robustness, write_solves,
+use cdpr_assess::{
+    Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, run_robustness, write_refused,
+    write_robustness, write_solves,
 };
+use cdpr_study::{check_folder, open_robot};
 use std::error::Error;
 use std::path::PathBuf;
 use std::time::Instant;

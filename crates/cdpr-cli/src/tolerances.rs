@@ -3,7 +3,8 @@
 use crate::arguments::{self, Format, Named};
 use crate::output::table;
 use crate::study::start_threads;
-use cdpr_study::{Estimate, Limit, Limited, Reached, Study, ToleranceBudget, tolerance_budget};
+use cdpr_assess::{Limit, Limited, Reached, ToleranceBudget, tolerance_budget};
+use cdpr_study::{Estimate, Study};
 use std::error::Error;
 use std::path::PathBuf;
 

@@ -3,12 +3,10 @@
 use crate::arguments::{self, Format, LoadArguments, Named};
 use crate::output::{Usage, progress, table, write_drawn};
 use crate::study::start_threads;
+use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace, write_workspace};
 use cdpr_report::workspace_maps;
 use cdpr_robot::{Axis, Robot, Rotation3};
-use cdpr_study::{
-    ErrorModel, Extremes, Grid, Study, Workspace, WorkspaceSummary, check_folder, compute_workspace,
-    open_robot, write_workspace,
-};
+use cdpr_study::{ErrorModel, Extremes, Grid, Study, check_folder, open_robot};
 use std::error::Error;
 use std::path::PathBuf;
 use std::time::Instant;

@@ -5,9 +5,10 @@ use crate::arrays::{Array, Numbers};
 use crate::error::{Answer, Raised};
 use crate::robot::Robot;
 use crate::threads::run;
+use cdpr_assess::{WorkspaceRow, compute_workspace};
 use cdpr_robot::{Axis, Rotation3};
 use cdpr_statics::Load;
-use cdpr_study::{ErrorModel, Grid, GridAxis, WorkspaceRow, compute_workspace, uncertainties};
+use cdpr_study::{ErrorModel, Grid, GridAxis, uncertainties};
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -81,7 +82,7 @@ impl Robot {
             _ => return Err(Raised::Input("expected x, y and z, or plane with its grid".to_owned())),
         };
         let tolerances = uncertainty.map(|named| tolerances(&self.robot, named)).transpose()?;
-        let workspace = cdpr_study::Workspace {
+        let workspace = cdpr_assess::Workspace {
             robot: &self.robot,
             grid,
             rotation: Rotation3::identity(),

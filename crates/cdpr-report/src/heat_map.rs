@@ -6,8 +6,8 @@ use crate::name_map::name_map;
 use crate::plane::{self, Paint, Plane};
 use crate::pose_map::NamedMap;
 use crate::style::{Heading, number};
+use cdpr_assess::{WorkspaceRow, WorkspaceSummary};
 use cdpr_robot::Robot;
-use cdpr_study::{WorkspaceRow, WorkspaceSummary};
 
 /// What is drawn over the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use crate::error::ReportError;
 use crate::style::{
     self, Axis, BLUE, GREY, Grid, HEIGHT, Heading, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, number, px,
 };
-use cdpr_study::{Outcome, ProtocolSummary, RobustnessResult, RobustnessRow};
+use cdpr_assess::{Outcome, ProtocolSummary, RobustnessResult, RobustnessRow};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use cdpr_assess::{Answer, Protocol, ProtocolSummary, RobustnessResult, Solve};
 use cdpr_report::{
     Points, ReportError, found_poses, histogram, point_effects, shares, signed_effects, success_share,
     surface,
@@ -10,9 +11,8 @@ use cdpr_robot::{Pose, Robot};
 use cdpr_sensitivity::{Family, Histogram, Law};
 use cdpr_statics::{Method, Residual, StaticsError};
 use cdpr_study::{
-    Agreement, Answer, FitSummary, IndexMap, InputMeasures, NominalSummary, Protocol, ProtocolSummary,
-    RmsSummary, RobustnessResult, SamplingSummary, SensitivitySummary, SignedEffect, Solve, Study,
-    SurfaceResult, SurfaceSummary,
+    Agreement, FitSummary, IndexMap, InputMeasures, NominalSummary, RmsSummary, SamplingSummary,
+    SensitivitySummary, SignedEffect, Study, SurfaceResult, SurfaceSummary,
 };
 
 fn robot() -> Robot {

@@ -2,10 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+use cdpr_assess::{Workspace, WorkspaceRow, WorkspaceSummary, compute_workspace};
 use cdpr_report::{MapQuantity, ReportError, heat_map, tolerance_map};
 use cdpr_robot::{Axis, Robot, Rotation3};
 use cdpr_statics::Load;
-use cdpr_study::{Grid, GridAxis, Workspace, WorkspaceRow, WorkspaceSummary, compute_workspace};
+use cdpr_study::{Grid, GridAxis};
 
 fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()

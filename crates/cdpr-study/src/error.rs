@@ -1,6 +1,6 @@
 //! What can go wrong with a study.
 
-use crate::folder::MARK_NAME;
+use crate::names::MARK_NAME;
 use cdpr_cable::RecordError;
 use cdpr_robot::{JsonError, RobotError, place_of};
 use cdpr_sensitivity::SensitivityError;
@@ -244,11 +244,8 @@ impl StudyError {
         }
     }
 
-    pub(crate) fn setting(
-        field: impl Into<String>,
-        value: impl ToString,
-        expected: impl Into<String>,
-    ) -> Self {
+    /// A setting that no run or test can have: its name, its value and what would be right.
+    pub fn setting(field: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Self {
         Self::Setting { field: field.into(), value: value.to_string(), expected: expected.into() }
     }
 }

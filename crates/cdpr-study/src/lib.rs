@@ -14,12 +14,6 @@
 //!
 //! A sampling may be at many poses, [`observe_poses`]: its results are a row a pose. Poses that the nominal robot does not hold are data, too.
 //!
-//! [`compute_workspace`] tells where the robot can work and how it gives there, [`inspect`] what is odd about it.
-//!
-//! [`tolerance_budget`] says which tolerances to tighten for a limit on deflection or position.
-//!
-//! [`run_robustness`] asks another question: how often the direct model finds the true pose from a wrong start.
-//!
 //! ```no_run
 //! use cdpr_study::{Session, Study, analyse, observe};
 //!
@@ -34,83 +28,59 @@
 //! # Ok::<(), cdpr_study::StudyError>(())
 //! ```
 
-mod atomic;
-mod block;
-mod cable_law;
-mod comparison;
-mod designs;
+mod analysis;
 mod error;
-mod error_model;
 mod file;
-mod folder;
-mod grid;
-mod inspection;
+mod fs;
+mod model;
 mod names;
-mod observation;
-mod operating_point;
-mod output;
-#[cfg(feature = "parquet")]
-mod parquet;
-mod plan;
-mod pose_set;
-mod poses;
-mod record;
+mod observe;
 mod results;
-mod robustness;
-mod sampling;
-mod sensitivity;
-mod shard;
-mod status;
 mod store;
-mod study;
-mod surface;
-mod table;
-mod template;
-mod tolerance;
-mod workspace;
 
-pub use block::BLOCK;
-pub use cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema, open_law};
-pub use cdpr_sensitivity::{Estimate, Family, Truncation};
-pub use comparison::{ComparisonRow, Value, Verdict};
-pub use error::StudyError;
-pub use error_model::{ErrorModel, Term, uncertainties};
-pub use file::{
-    AxisSpec, ComparisonSpec, GridSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec,
-    SensitivitySpec, Statistic, StudyFile, SurfaceSpec, json_schema,
+pub use analysis::comparison::{ComparisonRow, Verdict};
+pub use analysis::extremes::Extremes;
+pub use analysis::part::StudySummary;
+pub use analysis::poses::{HELD, PoseRow, PosesSummary, observe_poses};
+pub use analysis::sampling::{
+    FitSummary, NominalSummary, RmsSummary, SamplingSummary, SignedEffect, analyse,
 };
-pub use folder::{
-    Existing, REPORT_NAME, ROBOT_NAME, STUDY_NAME, Timings, begin, open_results, write_timings,
-};
-pub use grid::{Grid, GridAxis, frame, letter};
-pub use indexmap::IndexMap;
-pub use inspection::{Finding, Severity, inspect};
-pub use observation::{FITTED, Failure, KEPT, Observed, Part, Session, Tally, observe, observe_into};
-pub use output::{
-    StudySummary, Summary, check_folder, write_figure, write_poses, write_refused, write_robustness,
-    write_sensitivity, write_solves, write_summary, write_surface, write_text, write_workspace,
-};
-pub use plan::{BlockMaker, Plan, observe_shard};
-pub use poses::{HELD, PoseRow, PosesSummary, observe_poses};
-pub use record::{open_record, read_record};
-pub use results::Results;
-pub use robustness::{
-    Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
-    Published, Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread,
-    StartOffset, anchor_distance, run_robustness,
-};
-pub use sampling::{FitSummary, NominalSummary, RmsSummary, SamplingSummary, SignedEffect, analyse};
-pub use sensitivity::{
+pub use analysis::sensitivity::{
     Agreement, InputMeasures, Measure, MethodSummary, RANKED, SHARES, SensitivitySummary, measure,
 };
-pub use shard::Shard;
-pub use status::{DesignStatus, Provisional, SamplingStatus, Status, check_complete, check_observed, status};
-pub use store::Blocks;
-pub use study::{Sampling, Study, Surface, open_robot};
-pub use surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
-pub use table::{ObservationTable, Rows, TableFormat};
-pub use template::{TEMPLATE_NOTES, template, write_template};
-pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
-pub use workspace::{
-    Dominant, Extremes, Held, Workspace, WorkspacePose, WorkspaceRow, WorkspaceSummary, compute_workspace,
+pub use analysis::summary::Summary;
+pub use analysis::surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
+pub use cdpr_sensitivity::{Estimate, Family, Truncation};
+pub use error::StudyError;
+pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema};
+pub use file::grid::{GridAxis, GridSpec};
+pub use file::record::{open_record, read_record};
+pub use file::study_file::{
+    AxisSpec, ComparisonSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec,
+    Statistic, StudyFile, SurfaceSpec, json_schema,
 };
+pub use file::template::{TEMPLATE_NOTES, template, write_template};
+pub use file::value::Value;
+pub use fs::atomic::write_json;
+pub use fs::files::{check_folder, open_robot, write_csv, write_rows, write_text};
+pub use indexmap::IndexMap;
+pub use model::cable_law::open_law;
+pub use model::error_model::{ErrorModel, Term, uncertainties};
+pub use model::grid::{Grid, frame, letter};
+pub use model::observed::{Failure, Observed};
+pub use model::study::{Sampling, Study, Surface};
+pub use names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME};
+pub use observe::observation::{FITTED, KEPT, Part, Session, Tally, observe, observe_into, observe_rows};
+pub use observe::plan::{BlockMaker, Plan, observe_shard};
+pub use observe::shard::Shard;
+pub use observe::status::{
+    DesignStatus, Provisional, SamplingStatus, Status, check_complete, check_observed, status,
+};
+pub use results::read::Results;
+pub use results::table::{ObservationTable, Rows, TableFormat};
+pub use results::write::{
+    Timings, write_figure, write_poses, write_sensitivity, write_summary, write_surface, write_timings,
+};
+pub use store::block::BLOCK;
+pub use store::blocks::Blocks;
+pub use store::folder::{Existing, begin, open_results};

@@ -1,99 +1,22 @@
-//! Names of tables and figures in a folder of results: which are of a study, and that no two parts of it write the same.
+//! Names of the files in a folder of results.
 
-use crate::error::StudyError;
-use crate::file::{SamplingSpec, StudyFile};
-use crate::output::remove_stale;
-use crate::study::Study;
-use std::path::Path;
+/// Name of the study file in a folder of results.
+pub const STUDY_NAME: &str = "study.json";
 
-/// Figures of the study as a whole.
-const OF_ALL: [&str; 3] = ["robot", "anchor_points", "exit_points"];
+/// Name of the robot file in a folder of results.
+pub const ROBOT_NAME: &str = "robot.json";
 
-impl SamplingSpec {
-    /// Whether a table or figure has the sampling's name with this behind it.
-    fn has_further(&self, rest: &str) -> bool {
-        if self.poses.is_none() {
-            return ["_effects", "_sensitivity"].contains(&rest);
-        }
-        // Each layer of a box has maps of its own.
-        let map = match rest.rsplit_once("_z") {
-            Some((map, layer)) if is_number(layer) => map,
-            _ => rest,
-        };
-        ["_mean", "_std", "_dominant"].contains(&map)
-    }
-}
+/// Name of the folder of blocks in a folder of results.
+pub(crate) const BLOCKS_NAME: &str = "blocks";
 
-impl StudyFile {
-    /// Who writes a table or figure of this name, without its ending, though itself called otherwise.
-    fn other_writer(&self, name: &str) -> Option<String> {
-        if OF_ALL.contains(&name) {
-            return Some("the study as a whole".to_owned());
-        }
-        let mut samplings = self.samplings.iter();
-        let further = |(sampling, spec): &(&String, &SamplingSpec)| {
-            name.strip_prefix(sampling.as_str()).is_some_and(|rest| spec.has_further(rest))
-        };
-        samplings.find(further).map(|(sampling, _)| format!("samplings.{sampling}"))
-    }
+/// Name of the summary in a folder of results.
+pub(crate) const SUMMARY_NAME: &str = "summary.json";
 
-    fn writes(&self, name: &str) -> bool {
-        self.samplings.contains_key(name)
-            || self.surfaces.contains_key(name)
-            || self.other_writer(name).is_some()
-    }
-}
+/// Name of the times in a folder of results.
+pub(crate) const TIMINGS_NAME: &str = "timings.json";
 
-impl Study {
-    /// No part of the study is called as tables or figures of another one, or of all.
-    pub(crate) fn check_names(&self) -> Result<(), StudyError> {
-        let samplings = self.file.samplings.keys().map(|name| ("samplings", name));
-        let surfaces = self.file.surfaces.keys().map(|name| ("surfaces", name));
-        for (kind, name) in samplings.chain(surfaces) {
-            if let Some(writer) = self.file.other_writer(name) {
-                let expected = format!("another name: {writer} would write over its files");
-                return Err(self.invalid(&format!("{kind}.{name}"), name, &expected));
-            }
-        }
-        Ok(())
-    }
-}
+/// Name of the report in a folder of results.
+pub const REPORT_NAME: &str = "report.html";
 
-/// Removes the tables and figures of a study from a folder of results.
-///
-/// # Errors
-/// [`StudyError::Read`], [`StudyError::Write`].
-pub(crate) fn remove_files(folder: &Path, study: &StudyFile) -> Result<(), StudyError> {
-    remove_where(folder, &["csv", "parquet", "svg"], |name| study.writes(name))?;
-    for (name, _) in study.samplings.iter().filter(|(_, spec)| spec.poses.is_some()) {
-        // Tables of the observations at each pose.
-        let tables = folder.join(name);
-        if tables.is_dir() {
-            remove_where(&tables, &["csv", "parquet"], is_number)?;
-            // One that still holds something stays.
-            let _ = std::fs::remove_dir(&tables);
-        }
-    }
-    Ok(())
-}
-
-/// Removes the files right in a folder with one of these endings whose names without it are meant.
-fn remove_where(folder: &Path, endings: &[&str], meant: impl Fn(&str) -> bool) -> Result<(), StudyError> {
-    let read = |source| StudyError::Read { path: folder.to_owned(), source };
-    for entry in std::fs::read_dir(folder).map_err(read)? {
-        let path = entry.map_err(read)?.path();
-        let (name, ending) = (path.file_stem(), path.extension());
-        let [Some(name), Some(ending)] = [name, ending].map(|part| part.and_then(|part| part.to_str()))
-        else {
-            continue;
-        };
-        if endings.contains(&ending) && meant(name) {
-            remove_stale(path)?;
-        }
-    }
-    Ok(())
-}
-
-fn is_number(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|digit| digit.is_ascii_digit())
-}
+/// Name of the file by which a folder of results is known: what is called `study.json` elsewhere is a user's own.
+pub(crate) const MARK_NAME: &str = "cdpr-results.txt";

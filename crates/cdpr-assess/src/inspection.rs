@@ -1,0 +1,326 @@
+//! What is odd about a robot that is none the less a robot: units that look wrong, limits without sense, points in one place, poses that
+//! cannot be held.
+
+mod pose;
+
+use cdpr_robot::{CableProperties, Robot, Vector3};
+use cdpr_study::frame;
+use serde::Serialize;
+use std::f64::consts::PI;
+use std::fmt;
+
+/// How odd a finding is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// Probably wrong.
+    Warning,
+    /// Worth knowing; robots are built so.
+    Note,
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Warning => "warning",
+            Self::Note => "note",
+        })
+    }
+}
+
+/// Something odd.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Finding {
+    /// How odd it is.
+    pub severity: Severity,
+    /// Path of the field in the robot file, such as `cables[2].exit_point`.
+    pub field: String,
+    /// Its value, or what was computed, with its unit.
+    pub value: String,
+    /// Why it is odd.
+    pub why: String,
+    /// What would be right, or what to look at.
+    pub remedy: String,
+}
+
+/// Everything odd about a robot, in the order of its file; what follows from several fields at a pose comes last.
+pub fn inspect(robot: &Robot) -> Vec<Finding> {
+    let mut findings = Findings { robot, list: Vec::new() };
+    findings.loads();
+    findings.all_properties();
+    findings.limits();
+    findings.points();
+    match pose::held(robot) {
+        Some((pose, solution)) => findings.at_pose(&pose, &solution),
+        None => findings.add(
+            Severity::Warning,
+            "cables",
+            "no pose held".to_owned(),
+            "the platform, level, is held nowhere on the vertical through the middle of the exit points",
+            "check points, mass and tension_limits; `cdpr workspace` shows what is held elsewhere",
+        ),
+    }
+    findings.list
+}
+
+/// Gravity on Earth [m/s²].
+const EARTH: std::ops::Range<f64> = 9.76..9.84;
+/// Masses of platforms [kg].
+const MASS: std::ops::Range<f64> = 0.01..1e5;
+/// From rubber to carbon fibre [Pa].
+const MODULUS: std::ops::Range<f64> = 1e8..1e12;
+/// From loose fibre to tungsten, mass per length over section [kg/m³].
+const DENSITY: std::ops::Range<f64> = 500.0..20_000.0;
+/// Breaking force over section, from weak to the strongest fibre [Pa].
+const STRENGTH: std::ops::Range<f64> = 2e7..1e10;
+/// Metallic section over that of the full circle.
+const FILL: std::ops::Range<f64> = 0.3..1.001;
+/// Sizes of robots, from the desk to the stadium [m].
+const FRAME: std::ops::Range<f64> = 0.05..1000.0;
+/// Strain beyond which the models refuse a cable.
+const STRAIN: f64 = 0.1;
+
+struct Findings<'a> {
+    robot: &'a Robot,
+    list: Vec<Finding>,
+}
+
+impl Findings<'_> {
+    fn add(&mut self, severity: Severity, field: impl Into<String>, value: String, why: &str, remedy: &str) {
+        self.list.push(Finding {
+            severity,
+            field: field.into(),
+            value,
+            why: why.to_owned(),
+            remedy: remedy.to_owned(),
+        });
+    }
+
+    fn loads(&mut self) {
+        let Robot { gravity, platform, .. } = self.robot;
+        if !EARTH.contains(gravity) {
+            let value = format!("{gravity} m/s\u{b2}");
+            self.add(
+                Severity::Note,
+                "gravity",
+                value,
+                "not that of the Earth's surface",
+                "9.81, unless the robot works elsewhere",
+            );
+        }
+        if !MASS.contains(&platform.mass) {
+            let value = format!("{} kg", platform.mass);
+            self.add(
+                Severity::Warning,
+                "platform.mass",
+                value,
+                "hardly the mass of a platform",
+                "a mass in kg, not in g or t",
+            );
+        }
+        let reach = self.robot.cables.iter().map(|cable| cable.anchor_point.norm()).fold(0.0, f64::max);
+        let center = platform.center_of_mass.norm();
+        if center > 2.0 * reach {
+            self.add(
+                Severity::Warning,
+                "platform.center_of_mass",
+                format!("{center} m from P"),
+                "more than twice as far from P as the farthest anchor point",
+                "coordinates in the platform frame, in m",
+            );
+        }
+    }
+
+    /// Properties of every cable, once where they are the same.
+    fn all_properties(&mut self) {
+        let cables = &self.robot.cables;
+        let shared = cables.windows(2).all(|pair| pair[0].properties == pair[1].properties);
+        for (i, cable) in cables.iter().enumerate().take(if shared { 1 } else { cables.len() }) {
+            let path = if shared { "cable".to_owned() } else { format!("cables[{i}].cable") };
+            self.properties(&path, &cable.properties);
+        }
+    }
+
+    fn properties(&mut self, path: &str, properties: &CableProperties) {
+        let CableProperties { section, linear_density, youngs_modulus, diameter, breaking_force, .. } =
+            *properties;
+        if !MODULUS.contains(&youngs_modulus) {
+            self.add(
+                Severity::Warning,
+                format!("{path}.youngs_modulus"),
+                format!("{youngs_modulus} Pa"),
+                "between rubber (0.1 GPa) and carbon fibre (1000 GPa) lie all cables",
+                "a modulus in Pa, not in MPa or GPa: 100 GPa is 1e11",
+            );
+        }
+        let density = linear_density / section;
+        if linear_density > 0.0 && !DENSITY.contains(&density) {
+            self.add(
+                Severity::Warning,
+                format!("{path}.linear_density"),
+                format!("{linear_density} kg/m on {section} m\u{b2}"),
+                &format!("makes a density of {density:.3e} kg/m\u{b3}; steel has 7850, fibre 970 to 1600"),
+                "linear_density in kg/m, not in g/m; section in m\u{b2}, not in mm\u{b2}",
+            );
+        }
+        if let Some(diameter) = diameter {
+            let fill = section / (0.25 * PI * diameter * diameter);
+            if !FILL.contains(&fill) {
+                self.add(
+                    Severity::Warning,
+                    format!("{path}.section"),
+                    format!("{section} m\u{b2} at a diameter of {diameter} m"),
+                    &format!("{:.1} % of the full circle", 100.0 * fill),
+                    "section in m\u{b2} and diameter in m; leave the section out for the full circle",
+                );
+            }
+        }
+        let Some(force) = breaking_force else { return };
+        if !STRENGTH.contains(&(force / section)) {
+            self.add(
+                Severity::Warning,
+                format!("{path}.breaking_force"),
+                format!("{force} N on {section} m\u{b2}"),
+                &format!("makes a strength of {:.3e} Pa; steel wire has 1e9 to 2e9", force / section),
+                "a force in N, not in kN or kg",
+            );
+        }
+        let max = self.robot.tension_limits.max;
+        if max > force {
+            self.add(
+                Severity::Warning,
+                "tension_limits.max",
+                format!("{max} N"),
+                &format!("above {path}.breaking_force, {force} N"),
+                "a limit that leaves the cable whole, with a margin",
+            );
+        } else if max > 0.5 * force {
+            self.add(
+                Severity::Note,
+                "tension_limits.max",
+                format!("{max} N"),
+                &format!("{:.0} % of {path}.breaking_force: a safety factor below 2", 100.0 * max / force),
+                "a limit of half the breaking force or less, where people are near",
+            );
+        }
+    }
+
+    fn limits(&mut self) {
+        let Robot { cables, platform, gravity, tension_limits: limits, .. } = self.robot;
+        let softest =
+            cables.iter().map(|cable| cable.properties.axial_stiffness()).fold(f64::INFINITY, f64::min);
+        if limits.max > STRAIN * softest {
+            self.add(
+                Severity::Warning,
+                "tension_limits.max",
+                format!("{} N", limits.max),
+                &format!(
+                    "strains a cable of EA = {softest:.3e} N by {:.1} %, where the models end at 10 %",
+                    100.0 * limits.max / softest
+                ),
+                "check youngs_modulus, section and the limit",
+            );
+        }
+        let weight = platform.mass * gravity;
+        let most = limits.max * cables.len() as f64;
+        if weight > most {
+            self.add(
+                Severity::Warning,
+                "platform.mass",
+                format!("{} kg, {weight:.1} N", platform.mass),
+                &format!("all cables at tension_limits.max, drawn straight up, hold {most:.1} N"),
+                "a smaller mass or a greater limit",
+            );
+        }
+    }
+
+    fn points(&mut self) {
+        let cables = &self.robot.cables;
+        let [exits, anchors]: [Vec<Vector3<f64>>; 2] = [
+            cables.iter().map(|cable| cable.exit_point).collect(),
+            cables.iter().map(|cable| cable.anchor_point).collect(),
+        ];
+        for (name, points) in [("exit_point", &exits), ("anchor_point", &anchors)] {
+            for (j, point) in points.iter().enumerate() {
+                if let Some(i) = points[..j].iter().position(|other| (other - point).norm() < 1e-9) {
+                    self.add(
+                        Severity::Note,
+                        format!("cables[{j}].{name}"),
+                        format!("{:?} m", point.as_slice()),
+                        &format!("the same place as cables[{i}].{name}"),
+                        "nothing, if two cables meet there; else the point as measured",
+                    );
+                }
+            }
+        }
+        let size = frame(self.robot).iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+        let platform = self.robot.platform_size();
+        if !FRAME.contains(&size) {
+            self.add(
+                Severity::Warning,
+                "cables[*].exit_point",
+                format!("a frame of {size} m"),
+                "hardly the size of a robot",
+                "coordinates in m, not in mm",
+            );
+        } else if platform > size {
+            self.add(
+                Severity::Warning,
+                "cables[*].anchor_point",
+                format!("on average {platform:.3} m from P"),
+                &format!("a platform larger than its frame of {size:.3} m"),
+                "anchor_point on the platform, exit_point on the base, both in m",
+            );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn robot() -> Robot {
+        Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap()
+    }
+
+    fn warned(change: impl Fn(&mut Robot)) -> Vec<String> {
+        let mut robot = robot();
+        change(&mut robot);
+        robot.validate().unwrap();
+        let warnings = inspect(&robot).into_iter().filter(|finding| finding.severity == Severity::Warning);
+        warnings.map(|finding| finding.field).collect()
+    }
+
+    fn cables(change: impl Fn(&mut CableProperties)) -> Vec<String> {
+        warned(|robot| robot.cables.iter_mut().for_each(|cable| change(&mut cable.properties)))
+    }
+
+    #[test]
+    fn nothing_is_odd_about_cogiro() {
+        assert_eq!(inspect(&robot()), []);
+    }
+
+    #[test]
+    fn other_units_are_seen() {
+        assert_eq!(cables(|p| p.youngs_modulus = 100.0)[0], "cable.youngs_modulus");
+        assert_eq!(cables(|p| p.linear_density = 64.0)[0], "cable.linear_density");
+        assert_eq!(cables(|p| p.section = 8.2)[..2], ["cable.linear_density", "cable.section"]);
+        assert_eq!(cables(|p| p.breaking_force = Some(10.0))[0], "cable.breaking_force");
+        assert_eq!(warned(|robot| robot.platform.mass = 3e5)[0], "platform.mass");
+        let millimetres = warned(|robot| {
+            for cable in &mut robot.cables {
+                cable.exit_point *= 1e3;
+                cable.anchor_point *= 1e3;
+            }
+        });
+        assert!(millimetres.contains(&"cables[*].exit_point".to_owned()), "{millimetres:?}");
+    }
+
+    #[test]
+    fn points_given_for_one_another_are_seen() {
+        let swapped = warned(|robot| {
+            robot.cables.iter_mut().for_each(|c| std::mem::swap(&mut c.exit_point, &mut c.anchor_point));
+        });
+        assert!(swapped.contains(&"cables[*].anchor_point".to_owned()), "{swapped:?}");
+    }
+}

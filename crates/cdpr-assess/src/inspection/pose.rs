@@ -1,0 +1,134 @@
+//! What is odd about a robot at a pose: cables that cross, wrenches hardly resisted, equilibria that are not stable.
+
+use super::{Findings, Severity};
+use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_statics::{InverseSolution, Load, Start, direct_any, inverse};
+use cdpr_study::frame;
+
+/// Share of the platform's weight beyond which that of the cables shapes the robot.
+const CABLE_WEIGHT: f64 = 0.5;
+/// Ratio of the extreme singular values of the wrench matrix beyond which it hardly resists some wrench.
+const CONDITION: f64 = 100.0;
+
+impl Findings<'_> {
+    /// What follows at a pose that is held.
+    pub(super) fn at_pose(&mut self, pose: &Pose, solution: &InverseSolution) {
+        let robot = self.robot;
+        let [x, y, z] = pose.position.into();
+        let at = format!("at ({x:.3}, {y:.3}, {z:.3}) m");
+        let cables = 0..robot.cables.len();
+        let weight: f64 =
+            cables.clone().map(|i| robot.cable(i).weight_per_length * solution.lengths[i]).sum();
+        let share = weight / (robot.platform.mass * robot.gravity);
+        if share > CABLE_WEIGHT {
+            self.add(
+                Severity::Note,
+                "cable.linear_density",
+                format!("cables of {weight:.1} N {at}"),
+                &format!("{:.0} % of the platform's weight: they sag much", 100.0 * share),
+                "nothing, if they are so heavy; else linear_density in kg/m",
+            );
+        }
+        let spans: Vec<_> = cables.clone().map(|i| robot.span(pose, i)).collect();
+        let arm = robot.platform_size();
+        let mut matrix =
+            robot.wrench_matrix(pose, &spans.iter().map(|span| -span.normalize()).collect::<Vec<_>>());
+        matrix.rows_mut(3, 3).unscale_mut(arm);
+        let values = matrix.singular_values();
+        let condition = values.max() / values.min();
+        if condition.is_nan() || condition > CONDITION {
+            self.add(
+                Severity::Warning,
+                "cables",
+                format!("condition {condition:.3e} {at}"),
+                "the wrench matrix, its moments over the platform's size, is nearly singular: some wrench is hardly resisted",
+                "anchor and exit points that let the cables pull in all directions",
+            );
+        }
+        let held = direct_any(robot, &solution.lengths, &Load::none(), Start::Near(&solution.equilibrium));
+        if held.is_ok_and(|held| !held.stability.is_stable()) {
+            self.add(
+                Severity::Warning,
+                "platform.center_of_mass",
+                format!("unstable {at}"),
+                "the platform is held there but would turn over",
+                "check the centre of mass and the heights of the anchor points",
+            );
+        }
+        for j in cables {
+            for i in 0..j {
+                self.crossing(pose, (i, j), (&spans[i], &spans[j]), &at);
+            }
+        }
+    }
+
+    /// Whether two cables, drawn straight, touch away from their ends.
+    fn crossing(
+        &mut self,
+        pose: &Pose,
+        (i, j): (usize, usize),
+        spans: (&Vector3<f64>, &Vector3<f64>),
+        at: &str,
+    ) {
+        let cables = &self.robot.cables;
+        let between = cables[j].exit_point - cables[i].exit_point;
+        let anchors = self.robot.anchor_arm(pose, j) - self.robot.anchor_arm(pose, i);
+        let width = |k: usize| cables[k].properties.diameter.unwrap_or(0.0);
+        let touch = 0.5 * (width(i) + width(j));
+        if between.norm() < 1e-9 || anchors.norm() < 1e-9 {
+            return;
+        }
+        if let Some(distance) = line_distance(spans, &between).filter(|distance| *distance <= touch.max(1e-9))
+        {
+            self.add(
+                Severity::Warning,
+                format!("cables[{j}]"),
+                format!("{:.1} mm from cables[{i}] {at}", 1e3 * distance),
+                "the two cables, drawn straight, touch",
+                "check the order of the points: each exit_point beside the anchor_point of the same cable",
+            );
+        }
+    }
+}
+
+/// Distance of two lines between their exit and anchor points, the second's exit point `between` from the first's; none where they are
+/// closest outside of these ends, or parallel.
+fn line_distance((first, second): (&Vector3<f64>, &Vector3<f64>), between: &Vector3<f64>) -> Option<f64> {
+    let normal = first.cross(second);
+    let square = normal.norm_squared();
+    if square < 1e-12 * first.norm_squared() * second.norm_squared() {
+        return None;
+    }
+    let on_first = between.cross(second).dot(&normal) / square;
+    let on_second = between.cross(first).dot(&normal) / square;
+    let inside = |place: f64| place > 0.0 && place < 1.0;
+    (inside(on_first) && inside(on_second)).then(|| between.dot(&normal).abs() / square.sqrt())
+}
+
+/// A level pose that is held, on the vertical through the middle of the exit points: as near as possible to half of the frame's size below
+/// them where they are at one height, to the middle of their heights else.
+pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
+    let [[x_low, x_high], [y_low, y_high], [z_low, z_high]] = frame(robot);
+    let size = (x_high - x_low).max(y_high - y_low).max(z_high - z_low);
+    let middle = if z_high - z_low > 0.1 * size { 0.5 * (z_low + z_high) } else { z_low - 0.5 * size };
+    (0..=20).find_map(|k| {
+        let offset = 0.05 * size * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };
+        let pose = Pose::at(0.5 * (x_low + x_high), 0.5 * (y_low + y_high), middle + offset);
+        inverse(robot, &pose, &Load::none(), None).ok().map(|solution| (pose, solution))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_lines_that_meet_have_no_distance() {
+        let (first, second) = (Vector3::new(2.0, 2.0, 0.0), Vector3::new(2.0, -2.0, 0.0));
+        let distance = |between| line_distance((&first, &second), &between);
+        assert_eq!(distance(Vector3::new(0.0, 2.0, 0.0)), Some(0.0));
+        assert_eq!(distance(Vector3::new(0.0, 2.0, 0.5)), Some(0.5));
+        assert_eq!(distance(Vector3::new(5.0, 2.0, 0.0)), None);
+        assert_eq!(line_distance((&first, &first), &Vector3::x()), None);
+    }
+}

@@ -1,0 +1,26 @@
+//! Assessments of a robot: where it can work, which tolerances matter, how surely its pose is found, and what is odd about it.
+//!
+//! | question | function |
+//! |---|---|
+//! | Where is the platform held, how far does it give under a load, how stiff is it? | [`compute_workspace`] |
+//! | Which tolerances have to be tightened for a limit on deflection or position? | [`tolerance_budget`] |
+//! | How often does the direct model find the true pose from a wrong start? | [`run_robustness`] |
+//! | Which values of a robot file look wrong? | [`inspect`] |
+
+mod inspection;
+mod robustness;
+mod tolerance;
+mod workspace;
+mod write;
+
+pub use inspection::{Finding, Severity, inspect};
+pub use robustness::{
+    Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
+    Published, Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread,
+    StartOffset, anchor_distance, run_robustness,
+};
+pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
+pub use workspace::{
+    Dominant, Held, Workspace, WorkspacePose, WorkspaceRow, WorkspaceSummary, compute_workspace,
+};
+pub use write::{write_refused, write_robustness, write_solves, write_workspace};

@@ -1,0 +1,193 @@
+//! Settings of a test of robustness, and the two protocols that other programs are known by.
+
+use cdpr_robot::Robot;
+use cdpr_sensitivity::{Input, Law, RandomDesign};
+use cdpr_study::StudyError;
+use serde::Serialize;
+use std::f64::consts::PI;
+
+/// Where poses are drawn from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoseRegion {
+    /// Least coordinates of P [m].
+    pub low: [f64; 3],
+    /// Greatest coordinates of P [m].
+    pub high: [f64; 3],
+    /// Greatest angle of the rotation [rad]; its axis has any direction, and any smaller angle is as likely.
+    pub max_angle: f64,
+}
+
+/// How far a start is from the true pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartOffset {
+    /// Distance of P [m].
+    pub distance: f64,
+    /// Angle of rotation [rad].
+    pub angle: f64,
+    /// What another program finds from starts as far away.
+    pub published: Option<Published>,
+}
+
+/// Poses found by another program, of so many of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Published {
+    /// Name of the program.
+    pub program: &'static str,
+    /// Poses found.
+    pub found: usize,
+    /// Poses looked for.
+    pub of: usize,
+}
+
+/// Which poses are looked for from which start offsets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Assignment {
+    /// Each pose from one of them, in turn.
+    InTurn,
+    /// Each pose from all of them, in the same direction.
+    Each,
+}
+
+/// Settings of a protocol.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Protocol {
+    /// Name, for files and tables.
+    pub name: &'static str,
+    /// Title, for tables and figures.
+    pub title: &'static str,
+    /// Young's modulus of all cables [Pa] in place of the robot's.
+    pub youngs_modulus: Option<f64>,
+    /// Where poses are drawn from.
+    pub region: PoseRegion,
+    /// Poses that are looked for: so many stable ones are collected.
+    pub poses: usize,
+    /// Start offsets.
+    pub starts: Vec<StartOffset>,
+    /// Which poses are looked for from which of them.
+    pub assignment: Assignment,
+    /// Seed of poses and directions.
+    pub seed: u64,
+}
+
+const MOST_POSES: usize = 10_000_000;
+/// Draws made for each pose wanted before the test is given up.
+const DRAWS_PER_POSE: usize = 100;
+
+impl Protocol {
+    /// The test of Mahnke and Caverly for the forward kinematics of CoGiRo with sagging cables: E = 35 GPa, poses all over the
+    /// room with rotations up to 30 degrees, starts up to 1 m and 40 degrees away.
+    pub fn mahnke_caverly(poses: usize, seed: u64) -> Self {
+        let distances = [0.0, 0.25, 0.5, 0.75, 1.0];
+        let start = |distance| {
+            [2.0_f64, 10.0, 20.0, 30.0, 40.0].map(|degrees| StartOffset {
+                distance,
+                angle: degrees.to_radians(),
+                published: None,
+            })
+        };
+        Self {
+            name: "mahnke_caverly",
+            title: "Protocol of Mahnke and Caverly: starts up to 1 m and 40 degrees away",
+            youngs_modulus: Some(35e9),
+            region: PoseRegion::cogiro(),
+            poses,
+            starts: distances.into_iter().flat_map(start).collect(),
+            assignment: Assignment::InTurn,
+            seed,
+        }
+    }
+
+    /// Thirty poses of CoGiRo with its own modulus, each from 0.5 m and 0.25 rad, and from 0.2 m and 0.1 rad away.
+    pub fn thirty_poses(seed: u64) -> Self {
+        let start = |distance, angle, found| {
+            let published = Some(Published { program: "WireX", found, of: 30 });
+            StartOffset { distance, angle, published }
+        };
+        Self {
+            name: "thirty_poses",
+            title: "Thirty poses: starts 0.5 m and 0.25 rad, 0.2 m and 0.1 rad away",
+            youngs_modulus: None,
+            region: PoseRegion::cogiro(),
+            poses: 30,
+            starts: vec![start(0.5, 0.25, 22), start(0.2, 0.1, 25)],
+            assignment: Assignment::Each,
+            seed,
+        }
+    }
+
+    /// Solves that the test makes.
+    pub fn solves(&self) -> usize {
+        match self.assignment {
+            Assignment::InTurn => self.poses,
+            Assignment::Each => self.poses.saturating_mul(self.starts.len()),
+        }
+    }
+
+    /// Checks all settings.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] naming the field, its value and what would be right.
+    pub fn validate(&self) -> Result<(), StudyError> {
+        if !(1..=MOST_POSES).contains(&self.poses) {
+            return Err(StudyError::setting("poses", self.poses, format!("1 to {MOST_POSES}")));
+        }
+        if let Some(modulus) = self.youngs_modulus
+            && !(modulus.is_finite() && modulus > 0.0)
+        {
+            return Err(StudyError::setting("youngs_modulus", modulus, "a finite, positive modulus [Pa]"));
+        }
+        if self.starts.is_empty() {
+            return Err(StudyError::setting("starts", "empty", "at least one start offset"));
+        }
+        for (i, StartOffset { distance, angle, .. }) in self.starts.iter().enumerate() {
+            for (name, value) in [("distance", *distance), ("angle", *angle)] {
+                if !(value.is_finite() && value >= 0.0) {
+                    let field = format!("starts[{i}].{name}");
+                    return Err(StudyError::setting(field, value, "a finite number, zero or more [m, rad]"));
+                }
+            }
+        }
+        self.design().map(|_| ())
+    }
+
+    /// The robot with the test's modulus.
+    pub(super) fn robot(&self, robot: &Robot) -> Robot {
+        let mut robot = robot.clone();
+        if let Some(modulus) = self.youngs_modulus {
+            robot.cables.iter_mut().for_each(|cable| cable.properties.youngs_modulus = modulus);
+        }
+        robot
+    }
+
+    /// Ten numbers a draw: position, rotation, and the directions of both start offsets.
+    pub(super) fn design(&self) -> Result<RandomDesign, StudyError> {
+        let PoseRegion { low, high, max_angle } = self.region;
+        let input = |name: &str, min, max| Input::continuous(name, Law::Uniform { min, max });
+        let mut inputs: Vec<Input> = ["x", "y", "z"]
+            .iter()
+            .zip(low.iter().zip(high))
+            .map(|(name, (a, b))| input(name, *a, b))
+            .collect();
+        inputs.push(input("angle", 0.0, max_angle));
+        for name in ["axis", "start direction", "start axis"] {
+            // The height on the unit sphere and the azimuth: each area is as likely as any other of its size.
+            inputs.push(input(name, -1.0, 1.0));
+            inputs.push(input(name, -PI, PI));
+        }
+        RandomDesign::new(inputs, self.most_draws(), self.seed).map_err(|source| {
+            StudyError::setting("region", format!("{:?}", self.region), format!("finite ranges ({source})"))
+        })
+    }
+
+    fn most_draws(&self) -> usize {
+        self.poses.saturating_mul(DRAWS_PER_POSE).max(1000)
+    }
+}
+
+impl PoseRegion {
+    /// Nearly all of the room inside of CoGiRo's frame, with rotations up to 30 degrees.
+    pub fn cogiro() -> Self {
+        Self { low: [-6.75, -4.75, 0.0], high: [6.75, 4.75, 4.75], max_angle: PI / 6.0 }
+    }
+}

@@ -1,0 +1,384 @@
+//! Tolerance budgets: which tolerances to tighten so that a quantile of an error stays below a limit, and by how much.
+//!
+//! A *tolerance* is an entry of a sampling's error model: one for all exit points if the model has one law for them. Tightened to the
+//! share s, deviations keep their law about its mean at s times the distance. With y the error, `y0` that of the robot whose
+//! deviations are the means, and J its exact derivatives there,
+//!
+//! ```text
+//! v_j = sum over the inputs i of tolerance j:  |J_i|² var_i                             (1)
+//! quantile(s) = y0 + κ √(sum v_j s_j²)                                                  (2)
+//! ```
+//!
+//! defines κ, which is constant for a linear model and hardly changes otherwise. From a sample at the current s follows κ, from κ the
+//! variance that the limit leaves room for, from that the cheapest s ([`allocate`]); a few rounds settle. What the budget reaches is then
+//! found with independent draws that took no part in this.
+
+use cdpr_robot::Perturbed;
+use cdpr_sensitivity::{Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate};
+use cdpr_statics::{
+    EquilibriumDerivatives, Load, Start, StaticsError, Tangent, derivatives, direct, wound_lengths,
+};
+use cdpr_study::{Sampling, StudyError, observe_rows};
+use indexmap::IndexMap;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// The error that is limited [mm].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Limited {
+    /// |dp| of the static deflection under the study's load.
+    Deflection,
+    /// Distance of P from the wanted pose where the deviating robot gets the nominal robot's lengths, without the load. Offsets of tension
+    /// set-points are in these lengths.
+    Position,
+}
+
+/// What is asked of a budget.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// The error.
+    pub of: Limited,
+    /// Its limit [mm].
+    pub limit_mm: f64,
+    /// Share of the robots that are to keep it, between 0 and 1.
+    pub quantile: f64,
+    /// Cost of each tolerance by the name of its entry, as it is now; halved it costs twice as much. 1 for those left out.
+    pub costs: IndexMap<String, f64>,
+    /// Independent robots that the budget is verified with.
+    pub verified_with: usize,
+}
+
+/// Which tolerances to tighten for a limit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ToleranceBudget {
+    /// The error.
+    pub of: Limited,
+    /// Its limit [mm].
+    pub limit_mm: f64,
+    /// Share of the robots that are to keep it.
+    pub quantile: f64,
+    /// The error without any deviation from the means [mm]: no tolerance goes below it.
+    pub least_mm: f64,
+    /// All tolerances, those to tighten most first.
+    pub tolerances: Vec<Tolerance>,
+    /// What the tolerances reach as they are.
+    pub now: Reached,
+    /// What they reach tightened.
+    pub tightened: Reached,
+    /// Sum of the costs now and tightened.
+    pub cost: [f64; 2],
+    /// Rounds of sampling until the factors settled.
+    pub rounds: usize,
+}
+
+/// One tolerance of a budget.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Tolerance {
+    /// Entry of the error model.
+    pub name: String,
+    /// Standard deviation now, in the unit of the deviation.
+    pub std: f64,
+    /// Share of the variance that it causes, to first order.
+    pub share: f64,
+    /// Predicted quantile [mm] if it alone is halved.
+    pub halved_mm: f64,
+    /// What it is to be multiplied by: above 0, 1 if it may stay.
+    pub factor: f64,
+    /// Cost now; tightened, it is divided by the factor.
+    pub cost: f64,
+}
+
+/// What independent draws of the deviations reach, with intervals at the study's confidence.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reached {
+    /// The quantile [mm], robots that hold no pose counted beyond it.
+    pub quantile_mm: Estimate,
+    /// Share of the robots within the limit.
+    pub within: Estimate,
+    /// Robots drawn.
+    pub robots: usize,
+    /// Those that hold no pose; they count as beyond the limit.
+    pub failed: usize,
+}
+
+/// Robots of a round of sampling.
+const ROUND: usize = 1 << 12;
+/// Rounds at most.
+const ROUNDS: usize = 40;
+/// The quantile meets the limit within this share of what the tolerances may add to the least error.
+const SETTLED: f64 = 1e-3;
+/// Most robots to verify with: one number each is kept.
+const MOST_ROBOTS: usize = 1 << 24;
+
+/// Finds the cheapest tightening of a sampling's tolerances by which `limit` is kept.
+///
+/// # Errors
+/// [`StudyError::Setting`] for a limit, quantile, cost or count that is none; [`StudyError::Unreachable`] for a limit that no tightening
+/// reaches; [`StudyError::Unobservable`] where the robot without deviations, or too many robots of a sample, hold no pose.
+pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceBudget, StudyError> {
+    let model = Model::new(sampling, limit)?;
+    let unmoved = vec![1.0; model.names.len()];
+    let mut factors = unmoved.clone();
+    let mut predicted = model.rounded_quantile(&factors)?;
+    let room = limit.limit_mm - model.least_mm;
+    let (first, mut rounds) = (predicted, 1);
+    let inflation = |quantile: f64, factors: &[f64]| {
+        (quantile - model.least_mm).max(0.0).powi(2) / left(&model.variances, factors)
+    };
+    while predicted > limit.limit_mm || (factors != unmoved && predicted < limit.limit_mm - SETTLED * room) {
+        if rounds == ROUNDS {
+            return Err(model.unreachable("the quantile does not settle", predicted));
+        }
+        // Half of what is allowed below the limit is aimed at.
+        let aim = (room * (1.0 - 0.5 * SETTLED)).powi(2) / inflation(predicted, &factors);
+        factors = allocate(&model.variances, &model.costs, aim).map_err(|_| {
+            model.unreachable("no tolerance has an effect on the error, to first order", predicted)
+        })?;
+        predicted = model.rounded_quantile(&factors)?;
+        rounds += 1;
+    }
+    let total: f64 = model.variances.iter().sum();
+    let halved = |part: f64| model.least_mm + (inflation(first, &unmoved) * (total - 0.75 * part)).sqrt();
+    let mut tolerances: Vec<Tolerance> = (0..factors.len())
+        .map(|j| Tolerance {
+            name: model.names[j].clone(),
+            std: model.stds[j],
+            share: model.variances[j] / total,
+            halved_mm: halved(model.variances[j]),
+            factor: factors[j],
+            cost: model.costs[j],
+        })
+        .collect();
+    tolerances
+        .sort_by(|one, other| one.factor.total_cmp(&other.factor).then(other.share.total_cmp(&one.share)));
+    let cost = |factors: &[f64]| model.costs.iter().zip(factors).map(|(cost, factor)| cost / factor).sum();
+    Ok(ToleranceBudget {
+        of: limit.of,
+        limit_mm: limit.limit_mm,
+        quantile: limit.quantile,
+        least_mm: model.least_mm,
+        tolerances,
+        now: model.verify(&unmoved, 1)?,
+        tightened: model.verify(&factors, 2)?,
+        cost: [cost(&unmoved), cost(&factors)],
+        rounds,
+    })
+}
+
+/// Variance after tightening.
+fn left(variances: &[f64], factors: &[f64]) -> f64 {
+    variances.iter().zip(factors).map(|(variance, factor)| variance * factor * factor).sum()
+}
+
+/// A sampling's tolerances and their error.
+struct Model<'a> {
+    sampling: &'a Sampling<'a>,
+    limit: &'a Limit,
+    /// Whether tension set-points deviate.
+    offsets: bool,
+    names: Vec<String>,
+    costs: Vec<f64>,
+    /// Largest standard deviation of the inputs of a tolerance.
+    stds: Vec<f64>,
+    /// Equation (1) [mm²].
+    variances: Vec<f64>,
+    /// Tolerance of each input, and the mean of its law.
+    inputs: Vec<(usize, f64)>,
+    least_mm: f64,
+}
+
+impl<'a> Model<'a> {
+    fn new(sampling: &'a Sampling<'a>, limit: &'a Limit) -> Result<Self, StudyError> {
+        check(limit)?;
+        let errors = &sampling.errors;
+        let mut names: Vec<String> = Vec::new();
+        let mut inputs = Vec::new();
+        for (entry, input) in errors.entries.iter().zip(&errors.inputs) {
+            let known = names.iter().position(|name| name == entry).unwrap_or(names.len());
+            if known == names.len() {
+                names.push(entry.clone());
+            }
+            inputs.push((known, input.law.mean()));
+        }
+        if let Some((name, _)) = limit.costs.iter().find(|(name, _)| !names.contains(name)) {
+            let expected = format!("one of the tolerances {}", names.join(", "));
+            return Err(StudyError::setting("costs", name, expected));
+        }
+        let mut model = Self {
+            sampling,
+            limit,
+            offsets: (0..errors.inputs.len()).any(|input| errors.group(input) == "dt"),
+            costs: names.iter().map(|name| limit.costs.get(name).copied().unwrap_or(1.0)).collect(),
+            stds: vec![0.0; names.len()],
+            variances: vec![0.0; names.len()],
+            names,
+            inputs,
+            least_mm: 0.0,
+        };
+        let unobservable = |source| StudyError::Unobservable {
+            what: "the robot whose deviations are the means of their laws".to_owned(),
+            source: Some(Box::new(source)),
+        };
+        let (least, parts) = model.linear().map_err(unobservable)?;
+        model.least_mm = least;
+        for ((tolerance, _), (input, part)) in model.inputs.iter().zip(errors.inputs.iter().zip(parts)) {
+            let std = input.law.std();
+            model.variances[*tolerance] += part * std * std;
+            model.stds[*tolerance] = model.stds[*tolerance].max(std);
+        }
+        if limit.limit_mm <= least {
+            return Err(model.unreachable("it is not above the error without any deviation", least));
+        }
+        Ok(model)
+    }
+
+    /// The error of the mean robot [mm], and |J|² of each input [mm² per squared unit].
+    fn linear(&self) -> Result<(f64, Vec<f64>), StaticsError> {
+        let Sampling { robot, pose, load, errors, .. } = self.sampling;
+        let means: Vec<f64> = self.inputs.iter().map(|(_, mean)| *mean).collect();
+        let perturbed = robot.perturbed(&errors.deviations(&means))?;
+        let squares = |rows: &[Vec<f64>]| -> Vec<f64> {
+            let gradients = rows.iter().map(|row| errors.gradient(row));
+            let add = |sum: Vec<f64>, gradient: Vec<f64>| {
+                sum.iter().zip(gradient).map(|(sum, slope)| sum + 1e6 * slope * slope).collect()
+            };
+            gradients.fold(vec![0.0; errors.inputs.len()], add)
+        };
+        match self.limit.of {
+            Limited::Deflection => {
+                let found = derivatives(&perturbed.robot, pose, &perturbed.tension_offsets, load)?;
+                Ok((1e3 * found.deflection.rms(), squares(&[found.rms()?])))
+            }
+            Limited::Position => {
+                let (none, lengths) = (Load::none(), self.lengths(&perturbed)?);
+                let found = direct(&perturbed.robot, &lengths, &none, Start::Pose(pose))?.equilibrium;
+                let mut slopes = EquilibriumDerivatives::at(&perturbed.robot, &lengths, &none, &found)?.pose;
+                if self.offsets {
+                    // Offsets act through the lengths alone, which are those of the nominal robot.
+                    let wound = derivatives(robot, pose, &perturbed.tension_offsets, load)?.lengths;
+                    let moved =
+                        Tangent::new(&perturbed.robot, &lengths, &none, &found)?.pose_per_length() * wound;
+                    let n = robot.cables.len();
+                    let first = errors.parameters() - n;
+                    slopes.columns_mut(first, n).copy_from(&moved.columns(first, n));
+                }
+                let row = |axis| slopes.row(axis).iter().copied().collect();
+                let away = (found.pose.position - pose.position).norm();
+                Ok((1e3 * away, squares(&[0, 1, 2].map(row))))
+            }
+        }
+    }
+
+    /// Errors [mm] of the robots of a design under tightened tolerances in ascending order, those of robots that hold no pose infinite.
+    fn errors(&self, design: &impl SampleDesign, factors: &[f64]) -> Vec<f64> {
+        let inputs = self.inputs.len();
+        let errors_of = |rows: &mut [f64]| -> Vec<f64> {
+            for row in rows.chunks_exact_mut(inputs) {
+                for (value, (tolerance, mean)) in row.iter_mut().zip(&self.inputs) {
+                    *value = mean + factors[*tolerance] * (*value - mean);
+                }
+            }
+            let deviations = self.sampling.errors.deviations(rows);
+            let errors: Vec<Option<f64>> = match self.limit.of {
+                Limited::Deflection => {
+                    let outcomes = self.sampling.observer.observe_all(&deviations).into_iter();
+                    outcomes.map(|outcome| outcome.ok().map(|found| found.rms())).collect()
+                }
+                Limited::Position => deviations
+                    .chunks_exact(self.sampling.errors.parameters())
+                    .map(|row| self.away(row))
+                    .collect(),
+            };
+            errors.into_iter().map(|error| error.map_or(f64::INFINITY, |metres| 1e3 * metres)).collect()
+        };
+        let mut errors = observe_rows(design, errors_of);
+        errors.par_sort_by(f64::total_cmp);
+        errors
+    }
+
+    /// Distance of P from the wanted pose [m].
+    fn away(&self, deviations: &[f64]) -> Option<f64> {
+        let Sampling { robot, pose, .. } = self.sampling;
+        let perturbed = robot.perturbed(deviations).ok()?;
+        let lengths = self.lengths(&perturbed).ok()?;
+        let found = direct(&perturbed.robot, &lengths, &Load::none(), Start::Pose(pose)).ok()?;
+        Some((found.equilibrium.pose.position - pose.position).norm())
+    }
+
+    /// Lengths of the nominal robot for the wanted pose, with the offsets of a deviating one.
+    fn lengths(&self, deviating: &Perturbed) -> Result<Cow<'_, [f64]>, StaticsError> {
+        let Sampling { robot, pose, nominal, .. } = self.sampling;
+        if self.offsets {
+            wound_lengths(robot, pose, &deviating.tension_offsets).map(Cow::Owned)
+        } else {
+            Ok(Cow::Borrowed(&nominal.lengths))
+        }
+    }
+
+    /// The quantile [mm] of a round: of the same points whatever the factors, so that it changes with them alone.
+    fn rounded_quantile(&self, factors: &[f64]) -> Result<f64, StudyError> {
+        let (study, errors) = (self.sampling.study, &self.sampling.errors);
+        let design = SobolDesign::scrambled(errors.inputs.clone(), ROUND, study.file.seed);
+        let ascending = self.errors(&design.map_err(|source| self.wrong(source))?, factors);
+        self.estimate(&ascending).map(|quantile| quantile.value)
+    }
+
+    /// Equation (2) with independent draws.
+    fn verify(&self, factors: &[f64], draw: u64) -> Result<Reached, StudyError> {
+        let file = &self.sampling.study.file;
+        let (inputs, robots) = (self.sampling.errors.inputs.clone(), self.limit.verified_with);
+        let design = RandomDesign::new(inputs, robots, file.seed.wrapping_add(draw));
+        let ascending = self.errors(&design.map_err(|source| self.wrong(source))?, factors);
+        let within = ascending.partition_point(|error| *error <= self.limit.limit_mm);
+        Ok(Reached {
+            quantile_mm: self.estimate(&ascending)?,
+            within: Estimate::of_share(within, robots, file.confidence)
+                .map_err(|source| self.wrong(source))?,
+            robots,
+            failed: ascending.iter().filter(|error| error.is_infinite()).count(),
+        })
+    }
+
+    fn estimate(&self, ascending: &[f64]) -> Result<Estimate, StudyError> {
+        let (quantile, confidence) = (self.limit.quantile, self.sampling.study.file.confidence);
+        let found =
+            Estimate::of_quantile(ascending, quantile, confidence).map_err(|source| self.wrong(source))?;
+        if found.value.is_infinite() {
+            let failed = ascending.iter().filter(|error| error.is_infinite()).count();
+            let what = format!("{failed} of {} robots with these tolerances", ascending.len());
+            return Err(StudyError::Unobservable { what, source: None });
+        }
+        Ok(found)
+    }
+
+    fn unreachable(&self, reason: &'static str, reached_mm: f64) -> StudyError {
+        StudyError::Unreachable { limit_mm: self.limit.limit_mm, reason, reached_mm }
+    }
+
+    fn wrong(&self, source: SensitivityError) -> StudyError {
+        let field = format!("samplings.{}", self.sampling.name);
+        StudyError::Statistics { path: self.sampling.study.path.clone(), field, source }
+    }
+}
+
+fn check(limit: &Limit) -> Result<(), StudyError> {
+    let Limit { limit_mm, quantile, verified_with, costs, .. } = limit;
+    if !(limit_mm.is_finite() && *limit_mm > 0.0) {
+        return Err(StudyError::setting("limit", limit_mm, "a positive finite number of millimetres"));
+    }
+    if !(*quantile > 0.0 && *quantile < 1.0) {
+        return Err(StudyError::setting("quantile", quantile, "a share of the robots between 0 and 1"));
+    }
+    if !(1..=MOST_ROBOTS).contains(verified_with) {
+        let expected = format!("1 to {MOST_ROBOTS} robots to verify the budget with");
+        return Err(StudyError::setting("observations", verified_with, expected));
+    }
+    match costs.iter().find(|(_, cost)| !(cost.is_finite() && **cost > 0.0)) {
+        Some((name, cost)) => {
+            Err(StudyError::setting(format!("costs.{name}"), cost, "a positive finite number"))
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,321 @@
+//! Where a robot can work, and how well: tensions, deflection, stiffness and the tolerance that matters most, pose by pose.
+
+use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
+use cdpr_statics::{Deflection, Derivatives, Load, StaticsError, deflection, derivatives};
+use cdpr_study::{ErrorModel, Extremes, Grid, StudyError};
+use indexmap::IndexMap;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// What is asked of every position of a grid.
+#[derive(Clone, Copy, Debug)]
+pub struct Workspace<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// The positions.
+    pub grid: Grid,
+    /// The orientation at all of them.
+    pub rotation: Rotation3<f64>,
+    /// The load whose effect is the deflection; without one, tensions and stiffness alone are told.
+    pub load: Load,
+    /// What is uncertain; none where no tolerance is asked for.
+    pub tolerances: Option<&'a ErrorModel>,
+}
+
+/// A position and what was found there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorkspacePose {
+    /// The wanted pose.
+    pub pose: Pose,
+    /// What holds the platform there; the reason if nothing does, or if what does cannot bear the load.
+    pub outcome: Result<Held, StaticsError>,
+}
+
+/// A pose that is held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Held {
+    /// Least tension at the platform, without and with the load [N].
+    pub least_tension: f64,
+    /// Greatest tension at the platform, without and with the load [N].
+    pub greatest_tension: f64,
+    /// Whether the load leaves all tensions within the robot's limits; without it they always are.
+    pub within_limits: bool,
+    /// dp, Eq. (4) [m].
+    pub displacement: Vector3<f64>,
+    /// Stiffness of the softest motion with the load [N/m], see [`cdpr_statics::Stability`].
+    pub least_stiffness: f64,
+    /// Cables (from 0) that are slack with the load.
+    pub slack: Vec<usize>,
+    /// The tolerance that matters most; none where none was asked for, nothing is uncertain, or |dp| has no derivative.
+    pub dominant: Option<Dominant>,
+}
+
+/// The cause behind the largest share of the variance of |dp|, to first order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dominant {
+    /// Number of the error model's input.
+    pub input: usize,
+    /// Its share, 0 to 1.
+    pub share: f64,
+    /// Standard deviation of |dp| from all of them [m].
+    pub std: f64,
+}
+
+/// Rounding of a tension that rests on its limit.
+const ROUNDING: f64 = 1e-9;
+
+/// Runs in parallel; `tick` is told of every position that is done, `stop` is asked before each whether to end there. Positions come back
+/// in the order of the grid.
+///
+/// # Errors
+/// [`StudyError::Setting`] for a load or error model that is none, and for an error model without a load; [`StudyError::Stopped`]. A pose that is not held
+/// is no error.
+pub fn compute_workspace(
+    workspace: &Workspace,
+    tick: &(dyn Fn() + Sync),
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<WorkspacePose>, StudyError> {
+    let Workspace { robot, rotation, load, tolerances, .. } = *workspace;
+    if !(load.payload.is_finite() && load.payload >= 0.0) {
+        return Err(StudyError::setting("payload", load.payload, "a finite mass, zero or more [kg]"));
+    }
+    for (field, vector) in [("force", load.wrench.force), ("moment", load.wrench.moment)] {
+        if vector.iter().any(|component| !component.is_finite()) {
+            let value = format!("{:?}", vector.as_slice());
+            return Err(StudyError::setting(field, value, "finite components [N, N m]"));
+        }
+    }
+    if tolerances.is_some() && load == Load::none() {
+        return Err(StudyError::setting(
+            "load",
+            "none",
+            "one that displaces the platform: tolerances act on its deflection",
+        ));
+    }
+    let parameters = Parameter::all(robot.cables.len()).len();
+    if let Some(model) = tolerances.filter(|model| model.parameters() != parameters) {
+        let expected = format!("one for the {parameters} parameters of {}", robot.name);
+        return Err(StudyError::setting(
+            "error model",
+            format!("for {} parameters", model.parameters()),
+            expected,
+        ));
+    }
+    let one = |level: Pose| {
+        if stop() {
+            return Err(StudyError::Stopped);
+        }
+        let pose = Pose { rotation, ..level };
+        let outcome = held(robot, &pose, &load, tolerances);
+        tick();
+        Ok(WorkspacePose { pose, outcome })
+    };
+    workspace.grid.poses().into_par_iter().map(one).collect()
+}
+
+fn held(
+    robot: &Robot,
+    pose: &Pose,
+    load: &Load,
+    tolerances: Option<&ErrorModel>,
+) -> Result<Held, StaticsError> {
+    let offsets = vec![0.0; robot.cables.len()];
+    let Some(model) = tolerances else {
+        return Ok(Held::new(robot, &deflection(robot, pose, &offsets, load)?, None));
+    };
+    match derivatives(robot, pose, &offsets, load) {
+        Ok(found) => Ok(Held::new(robot, &found.deflection, Dominant::of(&found, model))),
+        // The border of what has a derivative is held nevertheless.
+        Err(StaticsError::NoDerivative { .. }) => {
+            Ok(Held::new(robot, &deflection(robot, pose, &offsets, load)?, None))
+        }
+        Err(error) => Err(error),
+    }
+}
+
+impl Held {
+    fn new(robot: &Robot, deflection: &Deflection, dominant: Option<Dominant>) -> Self {
+        let Deflection { unloaded, loaded, .. } = deflection;
+        let extremes = |tensions: Vec<f64>| {
+            let least = tensions.iter().copied().fold(f64::INFINITY, f64::min);
+            (least, tensions.iter().copied().fold(0.0, f64::max))
+        };
+        let (least_before, greatest_before) = extremes(unloaded.equilibrium.tensions());
+        let (least, greatest) = extremes(loaded.equilibrium.tensions());
+        let limits = robot.tension_limits;
+        Self {
+            least_tension: least.min(least_before),
+            greatest_tension: greatest.max(greatest_before),
+            within_limits: least >= limits.min * (1.0 - ROUNDING)
+                && greatest <= limits.max * (1.0 + ROUNDING),
+            displacement: deflection.displacement(),
+            least_stiffness: loaded.stability.least_stiffness(),
+            slack: loaded.report.slack.clone(),
+            dominant,
+        }
+    }
+}
+
+impl Dominant {
+    fn of(found: &Derivatives, model: &ErrorModel) -> Option<Self> {
+        let slopes = model.gradient(&found.rms().ok()?);
+        let parts = slopes.iter().zip(&model.inputs).map(|(slope, input)| (slope * input.law.std()).powi(2));
+        let parts: Vec<f64> = parts.collect();
+        let variance: f64 = parts.iter().sum();
+        let (input, part) = parts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+        (variance > 0.0).then(|| Self { input, share: part / variance, std: variance.sqrt() })
+    }
+}
+
+/// A position as it stands in `workspace.csv` and `workspace.json`: positions [m], deflection [mm], tensions [N], stiffness [N/m]. What
+/// does not exist is empty.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct WorkspaceRow {
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
+    /// `held`; `beyond_limits` where the load takes a tension out of the limits; else the kind of failure.
+    pub status: &'static str,
+    pub least_tension: Option<f64>,
+    pub greatest_tension: Option<f64>,
+    pub dx_mm: Option<f64>,
+    pub dy_mm: Option<f64>,
+    pub dz_mm: Option<f64>,
+    /// |dp|.
+    pub rms_mm: Option<f64>,
+    pub least_stiffness: Option<f64>,
+    /// Their numbers, from 1, with spaces between.
+    pub slack_cables: Option<String>,
+    /// The cause with the largest share of the variance of |dp|.
+    pub dominant: Option<String>,
+    pub dominant_share: Option<f64>,
+    /// Standard deviation of |dp| from all tolerances.
+    pub std_mm: Option<f64>,
+    /// Why the pose is not held.
+    pub reason: Option<String>,
+}
+
+impl WorkspaceRow {
+    /// Of a pose of a workspace and what was found there.
+    pub fn new(workspace: &Workspace, pose: &WorkspacePose) -> Self {
+        let [x, y, z] = pose.pose.position.into();
+        let held = pose.outcome.as_ref().ok();
+        let loaded = held.filter(|_| workspace.load != Load::none());
+        let displacement = loaded.map(|held| 1e3 * held.displacement);
+        let dominant = held.and_then(|held| held.dominant);
+        let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
+        Self {
+            x,
+            y,
+            z,
+            status: match &pose.outcome {
+                Ok(held) if held.within_limits => "held",
+                Ok(_) => "beyond_limits",
+                Err(error) => error.kind(),
+            },
+            least_tension: held.map(|held| held.least_tension),
+            greatest_tension: held.map(|held| held.greatest_tension),
+            dx_mm: displacement.map(|dp| dp.x),
+            dy_mm: displacement.map(|dp| dp.y),
+            dz_mm: displacement.map(|dp| dp.z),
+            rms_mm: displacement.map(|dp| dp.norm()),
+            least_stiffness: held.map(|held| held.least_stiffness),
+            slack_cables: held
+                .map(|held| held.slack.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")),
+            dominant: dominant.and_then(name),
+            dominant_share: dominant.map(|dominant| dominant.share),
+            std_mm: dominant.map(|dominant| 1e3 * dominant.std),
+            reason: pose.outcome.as_ref().err().map(ToString::to_string),
+        }
+    }
+}
+
+/// A workspace with its settings; `workspace.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WorkspaceSummary {
+    /// Name of the robot.
+    pub robot: String,
+    /// Version of the program.
+    pub version: String,
+    /// Mass added at the platform's centre of mass [kg].
+    pub payload: f64,
+    /// Force of the load at P [N].
+    pub force: [f64; 3],
+    /// Moment of the load about P [N m].
+    pub moment: [f64; 3],
+    /// Orientation of the platform: w, x, y, z.
+    pub quaternion: [f64; 4],
+    /// The positions [m].
+    pub grid: Grid,
+    /// Standard deviation of every cause, in SI units.
+    pub uncertainties: IndexMap<String, f64>,
+    /// Number of positions by status.
+    pub status: BTreeMap<&'static str, usize>,
+    /// Number of positions at which each cause dominates.
+    pub dominant: BTreeMap<String, usize>,
+    /// |dp| [mm] over the positions with status `held`; this and the following are absent where there is none.
+    pub rms_mm: Option<Extremes>,
+    /// Stiffness of the softest motion [N/m].
+    pub least_stiffness: Option<Extremes>,
+    /// Greatest tension [N].
+    pub greatest_tension: Option<Extremes>,
+    /// Least tension [N].
+    pub least_tension: Option<Extremes>,
+    /// Every position, in the order of the grid.
+    pub rows: Vec<WorkspaceRow>,
+}
+
+impl WorkspaceSummary {
+    /// Load and orientation, as in `payload 50 kg, force (0, 100, 0) N`.
+    pub fn conditions(&self) -> String {
+        let mut words = vec![format!("payload {} kg", self.payload)];
+        for (name, vector, unit) in [("force", self.force, "N"), ("moment", self.moment, "N m")] {
+            let [x, y, z] = vector;
+            if vector != [0.0; 3] {
+                words.push(format!("{name} ({x}, {y}, {z}) {unit}"));
+            }
+        }
+        let [qw, qx, qy, qz] = self.quaternion;
+        if [qx, qy, qz] != [0.0; 3] {
+            words.push(format!("quaternion ({qw:.4}, {qx:.4}, {qy:.4}, {qz:.4})"));
+        }
+        words.join(", ")
+    }
+
+    /// Summarises the poses of a workspace.
+    pub fn new(workspace: &Workspace, poses: &[WorkspacePose]) -> Self {
+        let rows: Vec<_> = poses.iter().map(|pose| WorkspaceRow::new(workspace, pose)).collect();
+        let (mut status, mut dominant) = (BTreeMap::new(), BTreeMap::new());
+        for row in &rows {
+            *status.entry(row.status).or_insert(0) += 1;
+            if let Some(name) = &row.dominant {
+                *dominant.entry(name.clone()).or_insert(0) += 1;
+            }
+        }
+        let causes = workspace.tolerances.map(|model| model.inputs.as_slice()).unwrap_or_default();
+        Self {
+            robot: workspace.robot.name.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            payload: workspace.load.payload,
+            force: workspace.load.wrench.force.into(),
+            moment: workspace.load.wrench.moment.into(),
+            quaternion: Pose { position: Vector3::zeros(), rotation: workspace.rotation }.quaternion(),
+            grid: workspace.grid,
+            uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.law.std())).collect(),
+            status,
+            dominant,
+            rms_mm: extremes(&rows, |row| row.rms_mm),
+            least_stiffness: extremes(&rows, |row| row.least_stiffness),
+            greatest_tension: extremes(&rows, |row| row.greatest_tension),
+            least_tension: extremes(&rows, |row| row.least_tension),
+            rows,
+        }
+    }
+}
+
+fn extremes(rows: &[WorkspaceRow], value: impl Fn(&WorkspaceRow) -> Option<f64>) -> Option<Extremes> {
+    let held = rows.iter().filter(|row| row.status == "held");
+    Extremes::of(held.filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
+}

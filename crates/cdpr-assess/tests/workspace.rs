@@ -1,0 +1,148 @@
+//! Workspaces: every position is what the models say of it alone.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace};
+use cdpr_robot::{Parameter, Robot, Rotation3};
+use cdpr_statics::{Load, derivatives};
+use cdpr_study::{ErrorModel, Grid, GridAxis, StudyError, uncertainties};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+fn caroca() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+fn grid() -> Grid {
+    let axis = |min, max, points| GridAxis { min, max, points };
+    Grid::new([axis(-1.0, 1.0, 3), axis(-0.5, 0.5, 2), axis(1.0, 9.0, 2)]).unwrap()
+}
+
+#[test]
+fn every_position_is_what_the_models_say_of_it() {
+    let robot = caroca();
+    let mut deviations = vec![0.0; 62];
+    deviations[0] = 2.0;
+    deviations[2] = 5e9;
+    deviations[5] = 0.003;
+    let model = ErrorModel::normal(&deviations);
+    let workspace = Workspace {
+        robot: &robot,
+        grid: grid(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: Some(&model),
+    };
+    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
+    assert_eq!(poses.len(), 12);
+    for (found, pose) in poses.iter().zip(grid().poses()) {
+        assert_eq!(found.pose, pose);
+        let exact = derivatives(&robot, &pose, &[0.0; 8], &Load::payload(50.0));
+        let (held, exact) = match (&found.outcome, exact) {
+            (Ok(held), Ok(exact)) => (held, exact),
+            (Err(found), Err(exact)) => {
+                assert_eq!((found, pose.position.z), (&exact, 9.0));
+                continue;
+            }
+            (found, exact) => panic!("{found:?} for {exact:?}"),
+        };
+        assert_eq!(held.displacement, exact.deflection.displacement());
+        let both = [&exact.deflection.unloaded, &exact.deflection.loaded];
+        let tensions: Vec<f64> = both.iter().flat_map(|solution| solution.equilibrium.tensions()).collect();
+        assert!(tensions.iter().all(|t| (held.least_tension..=held.greatest_tension).contains(t)));
+        assert!(tensions.contains(&held.least_tension) && tensions.contains(&held.greatest_tension));
+        assert_eq!(held.least_stiffness, exact.deflection.loaded.stability.least_stiffness());
+        assert!(held.within_limits);
+
+        let variances: Vec<f64> = deviations.iter().map(|std| std * std).collect();
+        let budget = exact.variance_budget(&variances).unwrap();
+        let dominant = held.dominant.unwrap();
+        let place = Parameter::all(8)
+            .iter()
+            .position(|p| p.to_string() == model.inputs[dominant.input].name)
+            .unwrap();
+        assert!((budget.shares[place] - dominant.share).abs() < 1e-12);
+        assert!(budget.shares.iter().all(|share| *share <= dominant.share + 1e-12));
+        assert!((budget.std - dominant.std).abs() < 1e-12 * budget.std);
+    }
+}
+
+#[test]
+fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
+    let mut robot = caroca();
+    // At the middle of the frame the platform alone asks for 577 N, with 50 kg for 739 N.
+    robot.tension_limits.max = 650.0;
+    let place = |place| GridAxis { min: place, max: place, points: 1 };
+    let grid = Grid::new([place(0.0), place(0.0), GridAxis { min: 1.75, max: 9.0, points: 2 }]).unwrap();
+    let workspace = Workspace {
+        robot: &robot,
+        grid,
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: None,
+    };
+    let summary =
+        WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap());
+    assert_eq!(summary.rows[0].status, "beyond_limits");
+    assert!(summary.rows[0].greatest_tension.unwrap() > 650.0 && summary.rows[0].reason.is_none());
+    assert_eq!(summary.rows[1].status, "infeasible_tension");
+    assert_eq!(
+        (summary.rms_mm, summary.rows[1].rms_mm, summary.rows[0].dominant.clone()),
+        (None, None, None)
+    );
+}
+
+#[test]
+fn tolerances_of_another_robot_are_refused() {
+    let robot = caroca();
+    let model = ErrorModel::normal(&[1.0; 55]);
+    let workspace = Workspace {
+        robot: &robot,
+        grid: grid(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: Some(&model),
+    };
+    let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
+    assert_eq!(message, "error model is for 55 parameters: expected one for the 62 parameters of CAROCA");
+    let workspace = Workspace { load: Load::payload(f64::NAN), tolerances: None, ..workspace };
+    let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
+    assert_eq!(message, "payload is NaN: expected a finite mass, zero or more [kg]");
+}
+
+#[test]
+fn a_workspace_ends_where_it_is_told_to() {
+    let robot = caroca();
+    let workspace = Workspace {
+        robot: &robot,
+        grid: grid(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: None,
+    };
+    let done = AtomicUsize::new(0);
+    let tick = || {
+        done.fetch_add(1, Ordering::Relaxed);
+    };
+    let found = compute_workspace(&workspace, &tick, &|| done.load(Ordering::Relaxed) > 0);
+    assert!(matches!(found, Err(StudyError::Stopped)));
+    // Each thread may have begun one before it was told.
+    assert!((1..=rayon::current_num_threads()).contains(&done.into_inner()));
+}
+
+#[test]
+fn uncertainties_are_of_a_parameter_or_its_group_positive_and_finite() {
+    let robot = caroca();
+    let of = |name: &str, std: f64| uncertainties(&robot, &[(name.to_owned(), std)]);
+    let named = [("a".to_owned(), 0.002), ("a1.x".to_owned(), 0.001)];
+    let found = uncertainties(&robot, &named).unwrap();
+    assert_eq!((found[0], found[3], found[4], found[27]), (0.0, 0.001, 0.002, 0.0));
+    for (name, std, start) in [
+        ("spring", 1.0, "uncertainty of spring is 1: expected a positive standard deviation"),
+        ("mass", 0.0, "uncertainty of mass is 0: expected"),
+        ("mass", f64::INFINITY, "uncertainty of mass is inf: expected"),
+        ("mass", f64::NAN, "uncertainty of mass is NaN: expected"),
+    ] {
+        let message = of(name, std).unwrap_err().to_string();
+        assert!(message.starts_with(start), "{message}");
+    }
+}

@@ -1,0 +1,10 @@
+//! What observations say.
+
+pub(crate) mod comparison;
+pub(crate) mod extremes;
+pub(crate) mod part;
+pub(crate) mod poses;
+pub(crate) mod sampling;
+pub(crate) mod sensitivity;
+pub(crate) mod summary;
+pub(crate) mod surface;

@@ -1,0 +1,220 @@
+//! What a sampling at several poses says: a row a pose, and what they say together. Laws, replicates and measures of sensitivity, which a
+//! sampling at one pose has, would take longer than the observations and are not made.
+
+use crate::analysis::extremes::Extremes;
+use crate::error::StudyError;
+use crate::model::grid::Grid;
+use crate::model::observed::rms_mm;
+use crate::model::pose_set::PoseSet;
+use crate::model::study::{Sampling, Study};
+use crate::observe::observation::{Session, Tally};
+use cdpr_robot::Pose;
+use cdpr_sensitivity::SampleDesign;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// [`PoseRow::status`] of a pose that the nominal robot holds.
+pub const HELD: &str = "held";
+
+/// A pose as it stands in `NAME.csv`: position [m], rotation as a unit quaternion, RMS [mm]. What does not exist is empty.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs)]
+pub struct PoseRow {
+    /// Name of the sampling at this pose, of its blocks and of its table.
+    pub sampling: String,
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
+    pub qw: f64,
+    pub qx: f64,
+    pub qy: f64,
+    pub qz: f64,
+    /// [`HELD`], or the kind of failure of the nominal robot.
+    pub status: String,
+    /// Observations, failed ones included; none of a pose that is not held.
+    pub observations: usize,
+    pub failed: usize,
+    /// Of the nominal robot.
+    pub nominal_mm: Option<f64>,
+    /// Over the observations; this and the following are empty where fewer than two have succeeded.
+    pub mean_mm: Option<f64>,
+    /// Standard deviation, with n - 1.
+    pub std_mm: Option<f64>,
+    pub min_mm: Option<f64>,
+    pub max_mm: Option<f64>,
+    /// The parameter with the largest t-Student index.
+    pub dominant: Option<String>,
+    /// That index.
+    pub dominant_t: Option<f64>,
+    /// Mean RMS in the upper half of its range minus that in the lower half [mm].
+    pub dominant_effect_mm: Option<f64>,
+    /// Why the pose is not held.
+    pub reason: Option<String>,
+}
+
+/// What all poses of a sampling say; serialised into `summary.json`, beside which `NAME.csv` has a row a pose.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PosesSummary {
+    /// Title.
+    pub title: String,
+    /// Number of poses.
+    pub poses: usize,
+    /// The grid they are on, if it is one.
+    pub grid: Option<Grid>,
+    /// Number of poses by status.
+    pub status: BTreeMap<String, usize>,
+    /// Observations of all poses that are held, failed ones included.
+    pub observations: usize,
+    /// Failed observations by kind.
+    pub failed: BTreeMap<String, usize>,
+    /// Mean of the RMS [mm]; this and the next are absent where no pose has one.
+    pub mean_mm: Option<Extremes>,
+    /// Its standard deviation [mm].
+    pub std_mm: Option<Extremes>,
+    /// Number of poses at which each parameter has the largest t-Student index.
+    pub dominant: BTreeMap<String, usize>,
+}
+
+/// Poses that are under way at a time: more than there are threads, for poses of few observations; few enough to be held in memory.
+const AT_A_TIME: usize = 64;
+
+/// Makes what is missing of a sampling at several poses and summarises it; rows are in the order of the poses. `observe` makes the
+/// observations of one of them: [`crate::observe`], say. A pose that the nominal robot does not hold is a row with the reason.
+///
+/// # Errors
+/// Those of `observe`; [`StudyError::Invalid`] for a sampling that has not several poses.
+pub fn observe_poses(
+    study: &Study,
+    name: &str,
+    session: &Session,
+    observe: impl Fn(&Sampling) -> Result<Tally, StudyError> + Sync,
+) -> Result<(PosesSummary, Vec<PoseRow>), StudyError> {
+    let (_, spec) = study.entry(name)?;
+    let poses = study.poses(name, spec)?;
+    let Some(count) = poses.several() else {
+        return Err(study.invalid("samplings", name, "the name of a sampling at several poses"));
+    };
+    let mut summary = PosesSummary {
+        title: spec.title.clone(),
+        poses: count,
+        grid: match poses {
+            PoseSet::Grid(grid) => Some(grid),
+            _ => None,
+        },
+        status: BTreeMap::new(),
+        observations: 0,
+        failed: BTreeMap::new(),
+        mean_mm: None,
+        std_mm: None,
+        dominant: BTreeMap::new(),
+    };
+    let one = |number: usize| {
+        let name = poses.name(name, number);
+        match study.sampling(&name) {
+            Ok(sampling) => {
+                let tally = observe(&sampling)?;
+                Ok((PoseRow::held(&sampling, &tally), tally.failed))
+            }
+            Err(StudyError::Nominal { source, .. }) => {
+                (session.tick)(spec.observations);
+                let pose = study.located(&name)?.pose;
+                let row = PoseRow {
+                    status: source.kind().to_owned(),
+                    reason: Some(source.to_string()),
+                    ..PoseRow::at(name, &pose)
+                };
+                Ok((row, BTreeMap::new()))
+            }
+            Err(error) => Err(error),
+        }
+    };
+    let mut rows = Vec::with_capacity(count);
+    for first in (0..count).step_by(AT_A_TIME) {
+        let made: Vec<_> = (first..count.min(first + AT_A_TIME))
+            .into_par_iter()
+            .map(one)
+            .collect::<Result<_, StudyError>>()?;
+        for (row, failed) in made {
+            summary.add(&row, failed);
+            rows.push(row);
+        }
+    }
+    let over = |value: fn(&PoseRow) -> Option<f64>| {
+        Extremes::of(rows.iter().filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
+    };
+    (summary.mean_mm, summary.std_mm) = (over(|row| row.mean_mm), over(|row| row.std_mm));
+    Ok((summary, rows))
+}
+
+impl PosesSummary {
+    fn add(&mut self, row: &PoseRow, failed: BTreeMap<String, usize>) {
+        *self.status.entry(row.status.clone()).or_default() += 1;
+        self.observations += row.observations;
+        for (kind, count) in failed {
+            *self.failed.entry(kind).or_default() += count;
+        }
+        if let Some(name) = &row.dominant {
+            *self.dominant.entry(name.clone()).or_default() += 1;
+        }
+    }
+
+    /// Poses that the nominal robot holds.
+    pub fn held(&self) -> usize {
+        self.status.get(HELD).copied().unwrap_or(0)
+    }
+}
+
+impl PoseRow {
+    /// A pose without any result.
+    fn at(sampling: String, pose: &Pose) -> Self {
+        let ([x, y, z], [qw, qx, qy, qz]) = (pose.position.into(), pose.quaternion());
+        Self {
+            sampling,
+            x,
+            y,
+            z,
+            qw,
+            qx,
+            qy,
+            qz,
+            status: String::new(),
+            observations: 0,
+            failed: 0,
+            nominal_mm: None,
+            mean_mm: None,
+            std_mm: None,
+            min_mm: None,
+            max_mm: None,
+            dominant: None,
+            dominant_t: None,
+            dominant_effect_mm: None,
+            reason: None,
+        }
+    }
+
+    fn held(sampling: &Sampling, tally: &Tally) -> Self {
+        let rms = tally.sums.outputs().summary().ok();
+        // An index needs observations in both halves of every range.
+        let effects = tally.sums.effects(sampling.design.inputs()).ok();
+        let effects = effects.into_iter().flat_map(|effects| effects.effects);
+        let dominant = effects
+            .filter(|effect| effect.student > 0.0)
+            .reduce(|largest, effect| if effect.student > largest.student { effect } else { largest });
+        Self {
+            status: HELD.to_owned(),
+            observations: sampling.design.points(),
+            failed: tally.failed.values().sum(),
+            nominal_mm: Some(rms_mm(sampling.nominal.rms())),
+            mean_mm: rms.map(|rms| rms.mean),
+            std_mm: rms.map(|rms| rms.std),
+            min_mm: rms.map(|rms| rms.min),
+            max_mm: rms.map(|rms| rms.max),
+            dominant: dominant.as_ref().map(|effect| effect.input.clone()),
+            dominant_t: dominant.as_ref().map(|effect| effect.student),
+            dominant_effect_mm: dominant.as_ref().map(|effect| effect.effect),
+            ..Self::at(sampling.name.clone(), &sampling.pose)
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! What a sampling says: summary, fitted laws, effects.
+
+use crate::analysis::sensitivity::{SensitivitySummary, measure};
+use crate::error::StudyError;
+use crate::model::designs::replicate_name;
+use crate::model::study::Sampling;
+use crate::observe::observation::{FITTED, KEPT, Session, Tally, observe_tally};
+use cdpr_robot::Robot;
+use cdpr_sensitivity::{
+    Bootstrap, Effects, Family, Fit, Histogram, Law, Sample, SampleDesign, SensitivityError, SobolDesign,
+    Summary, best, fit_all, intervals_of_effects,
+};
+use cdpr_statics::Deflection;
+use indexmap::IndexMap;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Results of one sampling; serialised into `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SamplingSummary {
+    /// Title.
+    pub title: String,
+    /// Position of the wanted pose [m].
+    pub pose: [f64; 3],
+    /// Its rotation as a unit quaternion (w, x, y, z), w >= 0.
+    pub quaternion: [f64; 4],
+    /// Number of observations, failed ones included.
+    pub observations: usize,
+    /// Failed observations by kind.
+    pub failed: BTreeMap<String, usize>,
+    /// Summary of the RMS; absent if fewer than two observations succeeded.
+    pub rms_mm: Option<RmsSummary>,
+    /// The nominal robot at this pose.
+    pub nominal: NominalSummary,
+    /// Least and greatest modulus of the cables' law at the tensions of pose and load [GPa], where the error model asks for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub operating_moduli_gpa: Option<[f64; 2]>,
+    /// Fitted laws by ascending AIC; none where they cannot be fitted.
+    pub fits: Vec<FitSummary>,
+    /// Family preferred by AIC: the least, or the most common of those that the sample supports alike (within 2).
+    pub best_fit: Option<Family>,
+    /// Histogram of the RMS [mm].
+    pub histogram: Option<Histogram>,
+    /// The paper's t-Student index by parameter (section 5.2). On Sobol points its significance levels do not hold.
+    pub t_student: IndexMap<String, f64>,
+    /// Signed effect by parameter: mean RMS in the upper half of its range minus that in the lower half, with an interval
+    /// from scrambled replicates.
+    pub signed_effects_mm: IndexMap<String, SignedEffect>,
+    /// Scrambled replicates behind those intervals.
+    pub replicates: usize,
+    /// Their confidence.
+    pub confidence: f64,
+    /// Measures of sensitivity beside each other; absent unless the study asks for them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sensitivity: Option<SensitivitySummary>,
+    /// What could not be computed, and why.
+    pub notes: Vec<String>,
+}
+
+/// Summary of the RMS of the static deflection [mm].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RmsSummary {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation, with n - 1.
+    pub std: f64,
+    /// Least value.
+    pub min: f64,
+    /// Greatest value.
+    pub max: f64,
+    /// Of the nominal robot.
+    pub nominal: f64,
+    /// 1 % quantile (Hyndman and Fan's type 7, as the others).
+    pub q01: f64,
+    /// Lower quartile.
+    pub q25: f64,
+    /// Median.
+    pub median: f64,
+    /// Upper quartile.
+    pub q75: f64,
+    /// 99 % quantile.
+    pub q99: f64,
+}
+
+/// The nominal robot under the study's load.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NominalSummary {
+    /// dp [mm].
+    pub displacement_mm: [f64; 3],
+    /// |dp| that the stiffness at the unloaded pose predicts [mm]; section 3.3 of the paper says why it differs.
+    pub small_displacement_rms_mm: Option<f64>,
+    /// Tension of every cable under the platform's own weight [N].
+    pub unloaded_tensions: Vec<f64>,
+    /// Tension of every cable with the payload [N].
+    pub loaded_tensions: Vec<f64>,
+}
+
+/// A law fitted to the RMS [mm].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FitSummary {
+    /// Family.
+    pub law: Family,
+    /// The law of largest likelihood, in mm.
+    pub parameters: Law,
+    /// Natural logarithm of its likelihood.
+    pub log_likelihood: f64,
+    /// Akaike's criterion.
+    pub aic: f64,
+    /// Schwarz's criterion.
+    pub bic: f64,
+    /// Kolmogorov-Smirnov distance.
+    pub ks: f64,
+    /// p-value of that distance for fitted parameters, by parametric bootstrap: at least 1/(resamples + 1), and for
+    /// independent observations; on Sobol points it is an indication.
+    pub p_value: f64,
+}
+
+/// Signed effect of a parameter [mm] and its confidence interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SignedEffect {
+    /// Mean over the replicates.
+    pub effect: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end of the interval.
+    pub high: f64,
+}
+
+impl NominalSummary {
+    pub(crate) fn new(robot: &Robot, nominal: &Deflection, load: &cdpr_statics::Load) -> Self {
+        let small = nominal.small_displacement(robot, load).map(|dp| 1e3 * dp.norm()).ok();
+        Self {
+            displacement_mm: (1e3 * nominal.displacement()).into(),
+            small_displacement_rms_mm: small,
+            unloaded_tensions: nominal.unloaded.equilibrium.tensions(),
+            loaded_tensions: nominal.loaded.equilibrium.tensions(),
+        }
+    }
+}
+
+impl From<Fit> for FitSummary {
+    fn from(fit: Fit) -> Self {
+        let Fit { family, law, log_likelihood, aic, bic, ks_distance, p_value } = fit;
+        Self { law: family, parameters: law, log_likelihood, aic, bic, ks: ks_distance, p_value }
+    }
+}
+
+/// Analyses the observations of a sampling. The replicates behind the intervals of signed effects and the measures of
+/// sensitivity are run here, in the same session. What cannot be computed from too few observations is left out and named in
+/// [`SamplingSummary::notes`]; so is how many observations quantiles, histogram and laws rest on, where these are not all.
+///
+/// # Errors
+/// Those of the session's blocks; none of a session in memory.
+pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<SamplingSummary, StudyError> {
+    let settings = &sampling.study.file;
+    let mut notes = Vec::new();
+    for (what, used) in [("quantiles, histogram", KEPT), ("fitted laws", FITTED)] {
+        if sampling.design.points() > used {
+            notes.push(format!("{what}: of the first {used} observations"));
+        }
+    }
+    let mut note = |what: &str, error: SensitivityError| notes.push(format!("{what}: {error}"));
+    let moments = tally.sums.outputs().summary().map_err(|error| note("rms_mm", error)).ok();
+    let sample = moments.and_then(|_| Sample::new(&tally.first_rms_mm).ok());
+    let bootstrap = Bootstrap { resamples: settings.bootstrap_resamples, seed: settings.seed };
+    let fitted = &tally.first_rms_mm[..tally.first_rms_mm.len().min(FITTED)];
+    let fits = match moments.and_then(|_| Sample::new(fitted).ok()).map(|sample| fit_all(&sample, bootstrap))
+    {
+        Some(Ok(fits)) => fits,
+        Some(Err(error)) => {
+            note("fits", error);
+            Vec::new()
+        }
+        None => Vec::new(),
+    };
+    let best_fit = best(&fits).map(|fit| fit.family);
+    let t_student = tally
+        .sums
+        .effects(sampling.design.inputs())
+        .map(|effects| effects.effects.into_iter().map(|effect| (effect.input, effect.student)).collect());
+    let signed = signed_effects(sampling, session)?;
+    let sensitivity = settings.sensitivity.as_ref().map(|spec| measure(sampling, spec, tally, session));
+    Ok(SamplingSummary {
+        title: sampling.title.to_owned(),
+        pose: sampling.pose.position.into(),
+        quaternion: sampling.pose.quaternion(),
+        observations: sampling.design.points(),
+        failed: tally.failed.clone(),
+        rms_mm: moments
+            .zip(sample.as_ref())
+            .and_then(|(all, sample)| RmsSummary::new(&all, sample, 1e3 * sampling.nominal.rms()).ok()),
+        nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
+        operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
+        fits: fits.into_iter().map(FitSummary::from).collect(),
+        best_fit,
+        histogram: sample.and_then(|sample| sample.histogram(cdpr_sensitivity::Bins::FreedmanDiaconis).ok()),
+        t_student: t_student.unwrap_or_else(|error| {
+            note("t_student", error);
+            IndexMap::new()
+        }),
+        signed_effects_mm: signed.unwrap_or_else(|error| {
+            note("signed_effects_mm", error);
+            IndexMap::new()
+        }),
+        replicates: settings.replicates,
+        confidence: settings.confidence,
+        sensitivity: sensitivity.transpose()?,
+        notes,
+    })
+}
+
+impl RmsSummary {
+    fn new(summary: &Summary, sample: &Sample, nominal: f64) -> Result<Self, SensitivityError> {
+        Ok(Self {
+            mean: summary.mean,
+            std: summary.std,
+            min: summary.min,
+            max: summary.max,
+            nominal,
+            q01: sample.quantile(0.01)?,
+            q25: sample.quantile(0.25)?,
+            median: sample.quantile(0.5)?,
+            q75: sample.quantile(0.75)?,
+            q99: sample.quantile(0.99)?,
+        })
+    }
+}
+
+/// Signed effects, or why there are none: an error of the statistics is a note, one of the session ends the run.
+fn signed_effects(
+    sampling: &Sampling,
+    session: &Session,
+) -> Result<Result<IndexMap<String, SignedEffect>, SensitivityError>, StudyError> {
+    let settings = &sampling.study.file;
+    let numbers = 1..=settings.replicates;
+    let designs: Vec<SobolDesign> = numbers.clone().map(|number| sampling.replicate(number)).collect();
+    if designs.is_empty() {
+        return Ok(Ok(IndexMap::new()));
+    }
+    let tallies: Vec<Tally> = numbers
+        .zip(&designs)
+        .map(|(number, design)| observe_tally(sampling, (&replicate_name(number), design), session))
+        .collect::<Result<_, _>>()?;
+    let intervals = || {
+        let effects: Vec<Effects> = designs
+            .iter()
+            .zip(&tallies)
+            .map(|(design, tally)| tally.sums.effects(design.inputs()))
+            .collect::<Result<_, _>>()?;
+        let designs: Vec<&SobolDesign> = designs.iter().collect();
+        let intervals = intervals_of_effects(&designs, &effects, settings.confidence)?;
+        let named = intervals
+            .into_iter()
+            .map(|e| (e.input, SignedEffect { effect: e.effect, low: e.low, high: e.high }));
+        Ok(named.collect())
+    };
+    Ok(intervals())
+}

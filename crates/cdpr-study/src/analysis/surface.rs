@@ -1,0 +1,99 @@
+//! Surfaces: the deflection over a grid of two parameters.
+
+use crate::model::observed::{count_failed, rms_mm};
+use crate::model::study::Surface;
+use cdpr_robot::Parameter;
+use cdpr_statics::StaticsError;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The deflection over a grid. `E` says why a point has none: the error itself, or its kind as read back from a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceResult<E = StaticsError> {
+    /// Values of the first parameter (nominal value plus deviation), in its SI unit.
+    pub x: Vec<f64>,
+    /// Values of the second parameter.
+    pub y: Vec<f64>,
+    /// RMS [mm] at `x[i], y[j]`, in place `i * y.len() + j`; or why there is none.
+    pub rms_mm: Vec<Result<f64, E>>,
+}
+
+/// Results of one surface; serialised into `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceSummary {
+    /// Title.
+    pub title: String,
+    /// Position of the wanted pose [m].
+    pub pose: [f64; 3],
+    /// Its rotation as a unit quaternion (w, x, y, z), w >= 0.
+    pub quaternion: [f64; 4],
+    /// Points of the grid.
+    pub observations: usize,
+    /// Failed points by kind.
+    pub failed: BTreeMap<String, usize>,
+    /// Parameters of the two axes.
+    pub parameters: [String; 2],
+    /// Extremes of the RMS and its nominal value [mm].
+    pub rms_mm: SurfaceRms,
+}
+
+/// Extremes of the RMS over a surface [mm]; absent where no point succeeded.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceRms {
+    /// Least value.
+    pub min: Option<f64>,
+    /// Greatest value.
+    pub max: Option<f64>,
+    /// Of the nominal robot.
+    pub nominal: f64,
+}
+
+/// Runs a surface in parallel; `tick` is told how many more points are done.
+pub fn compute_surface(surface: &Surface, tick: &(dyn Fn(usize) + Sync)) -> SurfaceResult {
+    let parameters = Parameter::all(surface.robot.cables.len()).len();
+    let (x, x_place, x_deviations) = &surface.x;
+    let (y, y_place, y_deviations) = &surface.y;
+    let columns = y_deviations.len();
+    let rms_mm = (0..x_deviations.len() * columns)
+        .into_par_iter()
+        .fold_chunks(columns, Vec::new, |mut rows, k| {
+            let first = rows.len();
+            rows.resize(first + parameters, 0.0);
+            rows[first + *x_place] += x_deviations[k / columns];
+            rows[first + *y_place] += y_deviations[k % columns];
+            rows
+        })
+        .flat_map_iter(|rows| {
+            tick(columns);
+            let outcomes = surface.observer.observe_all(&rows).into_iter();
+            outcomes.map(|outcome| outcome.map(|observation| rms_mm(observation.rms())))
+        })
+        .collect();
+    let values = |parameter: &Parameter, deviations: &[f64]| {
+        deviations.iter().map(|deviation| parameter.nominal(surface.robot) + deviation).collect()
+    };
+    SurfaceResult { x: values(x, x_deviations), y: values(y, y_deviations), rms_mm }
+}
+
+impl SurfaceSummary {
+    /// Summarises a surface.
+    pub fn new(surface: &Surface, result: &SurfaceResult) -> Self {
+        let succeeded = || result.rms_mm.iter().filter_map(|rms| rms.as_ref().ok().copied());
+        let failed =
+            count_failed(result.rms_mm.iter().filter_map(|rms| rms.as_ref().err()).map(StaticsError::kind));
+        Self {
+            title: surface.title.to_owned(),
+            pose: surface.pose.position.into(),
+            quaternion: surface.pose.quaternion(),
+            observations: result.rms_mm.len(),
+            failed,
+            parameters: [surface.x.0.to_string(), surface.y.0.to_string()],
+            rms_mm: SurfaceRms {
+                min: succeeded().reduce(f64::min),
+                max: succeeded().reduce(f64::max),
+                nominal: 1e3 * surface.nominal.rms(),
+            },
+        }
+    }
+}

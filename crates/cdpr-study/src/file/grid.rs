@@ -1,0 +1,45 @@
+//! A grid of positions as it stands in a study file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Places along one axis, equally spaced from `min` to `max`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GridAxis {
+    /// First place [m].
+    pub min: f64,
+    /// Last place [m].
+    pub max: f64,
+    /// Number of places; 1 where `min` is `max`.
+    pub points: usize,
+}
+
+impl GridAxis {
+    pub(crate) fn is_sound(&self) -> bool {
+        let Self { min, max, points } = *self;
+        let many = points > 1 && min < max;
+        min.is_finite() && max.is_finite() && (many || (points == 1 && min == max))
+    }
+
+    /// The places [m].
+    pub fn places(&self) -> Vec<f64> {
+        (0..self.points).map(|k| self.place(k)).collect()
+    }
+
+    pub(crate) fn place(&self, k: usize) -> f64 {
+        let last = (self.points.max(2) - 1) as f64;
+        // Weighted ends: the last place is `max` itself.
+        self.min * ((last - k as f64) / last) + self.max * (k as f64 / last)
+    }
+}
+
+/// Positions on a grid of the base frame: a plane where one axis has one point.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)]
+pub struct GridSpec {
+    pub x: GridAxis,
+    pub y: GridAxis,
+    pub z: GridAxis,
+}

@@ -1,0 +1,265 @@
+//! The study file, `cdpr-study/1`: JSON, SI units unless a name says otherwise. Described by [`json_schema`].
+
+use crate::file::cable_law::CableLaw;
+use crate::file::grid::GridSpec;
+use crate::file::value::Value;
+use cdpr_sensitivity::pce::MAX_DEGREE;
+use cdpr_sensitivity::sobol_indices::MIN_BLOCKS;
+use cdpr_sensitivity::{Law, Steps, Truncation};
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Name and version of the format.
+pub const STUDY_FORMAT: &str = "cdpr-study/1";
+
+/// A set of samplings and surfaces of one robot's static deflection. SI units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "cdpr-study/1")]
+pub struct StudyFile {
+    /// Always "cdpr-study/1".
+    pub format: String,
+    /// Name of the study.
+    pub name: String,
+    /// Where its values come from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
+    /// Robot file, relative to this file.
+    pub robot: String,
+    /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
+    pub payload: f64,
+    /// Seed of everything random (replicates, bootstrap): same seed, same numbers.
+    pub seed: u64,
+    /// Scrambled replicates of each sampling, from which the intervals of signed effects come; 0 or at least 2.
+    pub replicates: usize,
+    /// Confidence of those intervals, between 0 and 1.
+    pub confidence: f64,
+    /// Samples of the parametric bootstrap behind the p-value of each fitted law.
+    pub bootstrap_resamples: usize,
+    /// Error models by name: the deviation of each uncertain parameter. Keys are parameters (`mass`, `b3.z`) or groups of them
+    /// (`a`, `b`, `cog`, `dt`), a parameter's own entry before its group's; or names of causes that act on several parameters.
+    pub error_models: IndexMap<String, IndexMap<String, InputSpec>>,
+    /// Samplings by name: all uncertain parameters at once, at points of Sobol's sequence.
+    #[serde(default)]
+    pub samplings: IndexMap<String, SamplingSpec>,
+    /// Measures of sensitivity beside each other, of every sampling; none if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sensitivity: Option<SensitivitySpec>,
+    /// Surfaces by name: two parameters over a grid, all others nominal.
+    #[serde(default)]
+    pub surfaces: IndexMap<String, SurfaceSpec>,
+    /// Published figures to stand beside the computed ones.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub comparison: Vec<ComparisonSpec>,
+}
+
+/// Law and steps of a parameter's deviation from its nominal value, in the parameter's SI unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InputSpec {
+    /// Law of the deviation.
+    pub law: Law,
+    /// Steps it is rounded to; continuous if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<Steps>,
+    /// Parameters that this deviation is added to, each times a factor, beside deviations of their own: what ties them together, such
+    /// as both exit points of one pulley block, `{"b1.z": 1, "b2.z": 1}`. The entry's key is then a name of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parameters: Option<IndexMap<String, f64>>,
+    /// Of `youngs_modulus`: law of the cables from which the modulus between their tensions without and with the payload is taken. The
+    /// deviation, which has to be uniform, is then from that modulus, or from the range of those of all cables, loaded and unloaded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub operating_point: Option<CableLaw>,
+}
+
+/// Wanted pose of the platform.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PoseSpec {
+    /// Position of P in the base frame [m].
+    pub position: [f64; 3],
+    /// Unit quaternion (w, x, y, z); no rotation if left out.
+    #[serde(default = "no_rotation")]
+    pub quaternion: [f64; 4],
+}
+
+fn no_rotation() -> [f64; 4] {
+    [1.0, 0.0, 0.0, 0.0]
+}
+
+/// Wanted poses of the platform.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PosesSpec {
+    /// One by one.
+    List(Vec<PoseSpec>),
+    /// Level poses over a plane or a box, x slowest and z fastest.
+    Grid(GridSpec),
+}
+
+/// A sampling of all uncertain parameters, at one pose or at each of several.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SamplingSpec {
+    /// Title for tables and figures.
+    pub title: String,
+    /// Wanted pose; left out where there are `poses`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pose: Option<PoseSpec>,
+    /// Wanted poses in place of one, each with all the observations: what the deflection is over the workspace, without replicates and
+    /// measures of sensitivity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poses: Option<PosesSpec>,
+    /// Name of the error model.
+    pub error_model: String,
+    /// Number of observations at each pose.
+    pub observations: usize,
+    /// Index in Sobol's sequence of the first one.
+    #[serde(default)]
+    pub first_index: u32,
+}
+
+/// What the measures of sensitivity rest on, for k inputs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SensitivitySpec {
+    /// First observations of the sampling, behind t-Student, regressions and expansion: 3 to 65536, but no more than it has.
+    pub observations: usize,
+    /// Saltelli's blocks behind Sobol' indices, of k + 2 observations: 16 to 1048576.
+    pub saltelli_blocks: usize,
+    /// Bootstrap resamples behind the intervals of Sobol' indices: 2 to 1048576.
+    pub bootstrap_resamples: usize,
+    /// Blocks behind Morris's elementary effects, of k + 1 observations: 2 to 1048576.
+    pub morris_blocks: usize,
+    /// Points at which exact derivatives are taken: 2 to 1048576.
+    pub derivative_points: usize,
+    /// Products of polynomials that the chaos expansion chooses from.
+    pub expansion: Truncation,
+}
+
+impl Default for SensitivitySpec {
+    fn default() -> Self {
+        Self {
+            observations: 2000,
+            saltelli_blocks: 4096,
+            bootstrap_resamples: 1000,
+            morris_blocks: 128,
+            derivative_points: 256,
+            expansion: Truncation { max_degree: 3, norm: 0.75, interactions: 2 },
+        }
+    }
+}
+
+impl SensitivitySpec {
+    /// The first setting that is none: field, value, and what would be right.
+    pub(crate) fn invalid(&self) -> Option<(&'static str, String, String)> {
+        const MOST: usize = 1 << 20;
+        let Truncation { max_degree, norm, interactions } = self.expansion;
+        let counts = [
+            ("observations", self.observations, 3..=1 << 16),
+            ("saltelli_blocks", self.saltelli_blocks, MIN_BLOCKS..=MOST),
+            ("bootstrap_resamples", self.bootstrap_resamples, 2..=MOST),
+            ("morris_blocks", self.morris_blocks, 2..=MOST),
+            ("derivative_points", self.derivative_points, 2..=MOST),
+            ("expansion.max_degree", max_degree, 1..=MAX_DEGREE),
+            ("expansion.interactions", interactions, 1..=MOST),
+        ];
+        let count = counts.into_iter().find(|(_, value, range)| !range.contains(value));
+        let of_count = |(field, value, range): (_, usize, std::ops::RangeInclusive<usize>)| {
+            (field, value.to_string(), format!("{} to {}", range.start(), range.end()))
+        };
+        let sound_norm = norm > 0.0 && norm <= 1.0;
+        let of_norm = || ("expansion.norm", norm.to_string(), "a number above 0, at most 1".to_owned());
+        count.map(of_count).or_else(|| (!sound_norm).then(of_norm))
+    }
+}
+
+/// A surface of the deflection over two parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceSpec {
+    /// Title for tables and figures.
+    pub title: String,
+    /// Wanted pose.
+    pub pose: PoseSpec,
+    /// First axis.
+    pub x: AxisSpec,
+    /// Second axis.
+    pub y: AxisSpec,
+}
+
+/// One axis of a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AxisSpec {
+    /// Name of the parameter.
+    pub parameter: String,
+    /// Least deviation from its nominal value, in its SI unit.
+    pub min: f64,
+    /// Greatest deviation.
+    pub max: f64,
+    /// Points of the grid, 2 to 10000.
+    pub points: usize,
+}
+
+/// A published figure: a number or a word, and which of ours to compare it with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ComparisonSpec {
+    /// Where it is published, such as `4a`.
+    pub figure: String,
+    /// What it is, in words.
+    pub quantity: String,
+    /// Name of the sampling or surface.
+    pub study: String,
+    /// The statistic of ours.
+    pub statistic: Statistic,
+    /// What is published.
+    pub paper: Value,
+    /// Unit; empty for a word.
+    pub unit: String,
+    /// Last printed digit of a published number, such as 0.01; 0 for a word.
+    #[serde(default)]
+    pub last_digit: f64,
+    /// What is known of it, such as why it cannot be reproduced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+}
+
+/// A number or word of ours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Statistic {
+    /// Mean of the RMS [mm].
+    Mean,
+    /// Its standard deviation [mm].
+    Std,
+    /// Its least value [mm].
+    Min,
+    /// Its greatest value [mm].
+    Max,
+    /// Greatest minus least value [mm].
+    Spread,
+    /// Greatest minus least value over the mean [%].
+    RelativeSpread,
+    /// The fitted law preferred by AIC.
+    BestFit,
+    /// The two anchor points with the largest t (largest of their coordinates).
+    DominantAnchorPoints,
+    /// The two exit points with the largest t.
+    DominantExitPoints,
+    /// Whether the largest t of an anchor point is at most 1.5 times the smallest: `nearly equal` or `unequal`.
+    AnchorPointEquality,
+    /// The same of the exit points.
+    ExitPointEquality,
+    /// Largest tension of the nominal robot under its own weight [N].
+    UnloadedTension,
+    /// Largest tension of the nominal robot with the payload [N].
+    LoadedTension,
+}
+
+/// The JSON Schema of the study file, as pretty-printed text.
+pub fn json_schema() -> String {
+    format!("{:#}\n", schemars::schema_for!(StudyFile).as_value())
+}

@@ -1,0 +1,201 @@
+//! A study of one's own robot to begin with: a file that runs as it is, whose numbers are for the user to replace.
+
+use crate::error::StudyError;
+use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_statics::{Load, deflection};
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+/// What the fields of a study file mean, for people; the format itself has no comments.
+pub const TEMPLATE_NOTES: &str = "\
+The study runs as it is. Replace by what you know of your robot:
+  payload                mass added to the platform, whose effect is the deflection [kg]
+  error_models           law of each parameter's deviation from the robot file, in SI units: how well is it known?
+    mass, linear_density, youngs_modulus     platform [kg], all cables [kg/m], [Pa]
+    a, b, cog, dt        anchor points, exit points, centre of mass [m], tension set-points [N]; a3.x alone goes before its group
+    law                  uniform {min, max}, normal {mean, std}, truncated_normal, triangular {min, mode, max}, beta
+    steps                left out: {nearest: {step: 0.001}} rounds values to steps of 1 mm
+  samplings              all of them at once: pose (position [m]; quaternion [w, x, y, z]) or poses (a list or a grid), error model, number of
+                         observations
+  surfaces               two parameters over a grid, all others as in the robot file
+  replicates             scrambled samplings behind the intervals of signed effects
+  sensitivity            measures of sensitivity beside each other; without it the study is faster
+  seed                   same seed, same numbers
+All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE --out results";
+
+/// A study file for `robot`, which its text calls `robot_path`. Without a position, one above the middle of the exit points that the
+/// robot holds; without a payload, a tenth of its mass [kg].
+///
+/// # Errors
+/// [`StudyError::Setting`] for a position that the robot does not hold with the payload, or if none was found.
+pub fn template(
+    robot: &Robot,
+    robot_path: &str,
+    position: Option<[f64; 3]>,
+    payload: Option<f64>,
+) -> Result<String, StudyError> {
+    let payload = payload.unwrap_or_else(|| rounded(0.1 * robot.platform.mass));
+    let held = |position: &[f64; 3]| tension(robot, *position, payload);
+    let (position, tension) = match position {
+        Some(position) => match held(&position) {
+            Ok(tension) => (position, tension),
+            Err(error) => {
+                let expected = format!("a position that the robot holds with {payload} kg: {error}");
+                return Err(StudyError::setting("--position", format!("{position:?}"), expected));
+            }
+        },
+        None => candidates(robot)
+            .into_iter()
+            .find_map(|position| Some((position, held(&position).ok()?)))
+            .ok_or_else(|| {
+                let expected =
+                    "x,y,z [m], for the robot holds none of those tried in the middle of its exit points";
+                StudyError::setting("--position", "missing", expected)
+            })?,
+    };
+    let cable = &robot.cables[0].properties;
+    let [mass, density] = [robot.platform.mass, cable.linear_density].map(|value| rounded(0.05 * value));
+    let modulus = rounded(0.1 * cable.youngs_modulus);
+    let uniform =
+        |half: f64| format!(r#"{{ "law": {{ "uniform": {{ "min": -{half:?}, "max": {half:?} }} }} }}"#);
+    let quoted = |text: &str| serde_json::Value::from(text).to_string();
+    let [name, robot_path] =
+        [format!("Static deflection of {}", robot.name), robot_path.to_owned()].map(|text| quoted(&text));
+    Ok(format!(
+        r#"{{
+  "format": "cdpr-study/1",
+  "name": {name},
+  "source": "Template of cdpr study new: every tolerance is an assumption, to be replaced by what is known.",
+  "robot": {robot_path},
+  "payload": {payload:?},
+  "seed": 1,
+  "replicates": 4,
+  "confidence": 0.95,
+  "bootstrap_resamples": 200,
+  "error_models": {{
+    "tolerances": {{
+      "mass": {mass},
+      "linear_density": {density},
+      "youngs_modulus": {modulus},
+      "a": {anchors},
+      "b": {exits},
+      "cog": {center},
+      "dt": {offsets}
+    }}
+  }},
+  "samplings": {{
+    "all": {{
+      "title": "All parameters",
+      "pose": {{ "position": {position:?} }},
+      "error_model": "tolerances",
+      "observations": 2048
+    }}
+  }},
+  "sensitivity": {{}},
+  "surfaces": {{
+    "modulus_mass": {{
+      "title": "E and m alone",
+      "pose": {{ "position": {position:?} }},
+      "x": {{ "parameter": "youngs_modulus", "min": -{modulus_half:?}, "max": {modulus_half:?}, "points": 21 }},
+      "y": {{ "parameter": "mass", "min": -{mass_half:?}, "max": {mass_half:?}, "points": 21 }}
+    }}
+  }}
+}}
+"#,
+        mass = uniform(mass),
+        density = uniform(density),
+        modulus = uniform(modulus),
+        anchors = uniform(0.002),
+        exits = uniform(0.005),
+        center = uniform(0.01),
+        offsets = uniform(rounded(0.01 * tension)),
+        modulus_half = modulus,
+        mass_half = mass,
+    ))
+}
+
+/// Writes text of [`template`] to a new file; `text` is told how the file has to call the robot's.
+///
+/// # Errors
+/// [`StudyError::Write`], of a file that is there among others; [`StudyError::Read`] of the robot's; those of `text`.
+pub fn write_template(
+    path: &Path,
+    robot: &Path,
+    text: impl FnOnce(&str) -> Result<String, StudyError>,
+) -> Result<(), StudyError> {
+    let whole = |path: &Path| {
+        std::fs::canonicalize(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })
+    };
+    let robot = whole(robot)?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let from_here = robot.strip_prefix(whole(folder)?).unwrap_or(&robot);
+    let text = text(&from_here.display().to_string())?;
+    let write = || File::create_new(path)?.write_all(text.as_bytes());
+    write().map_err(|source| StudyError::Write { path: path.to_owned(), source })
+}
+
+/// Positions above each other in the middle of the exit points: between the lowest and the highest of them, or below where all are
+/// as high. Halves first, the ends never.
+fn candidates(robot: &Robot) -> Vec<[f64; 3]> {
+    let exits = || robot.cables.iter().map(|cable| cable.exit_point);
+    let middle = exits().sum::<Vector3<f64>>() / robot.cables.len() as f64;
+    let extent = |axis: usize| {
+        let values = || exits().map(move |point| point[axis]);
+        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+    };
+    let ((x_min, x_max), (mut low, high)) = (extent(0), extent(2));
+    if high - low < 0.2 * (x_max - x_min) {
+        low = high - 0.5 * (x_max - x_min);
+    }
+    let shares = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
+    // To a centimetre: what users see, they change.
+    let centimetres = |value: f64| (value * 100.0).round() / 100.0 + 0.0;
+    shares.map(|share| [middle.x, middle.y, low + share * (high - low)].map(centimetres)).into()
+}
+
+/// Mean tension [N] of the nominal robot at a position, if it holds it with and without the payload [kg].
+fn tension(robot: &Robot, position: [f64; 3], payload: f64) -> Result<f64, cdpr_statics::StaticsError> {
+    let [x, y, z] = position;
+    let offsets = vec![0.0; robot.cables.len()];
+    let found = deflection(robot, &Pose::at(x, y, z), &offsets, &Load::payload(payload))?;
+    let tensions = found.unloaded.equilibrium.tensions();
+    Ok(tensions.iter().sum::<f64>() / tensions.len() as f64)
+}
+
+/// To two digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fs::files::open_robot;
+    use crate::model::study::Study;
+
+    #[test]
+    fn the_template_of_each_robot_is_a_study_that_its_robot_holds() {
+        let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots"));
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let robot = open_robot(&path).unwrap();
+            let text = template(&robot, path.to_str().unwrap(), None, None).unwrap();
+            let study = Study::from_json(&text, &folder.join("my-study.json")).unwrap();
+            assert_eq!(study.robot, robot);
+            assert!(study.file.sensitivity.is_some());
+        }
+    }
+
+    #[test]
+    fn a_position_out_of_reach_is_refused_with_the_reason() {
+        let robot =
+            open_robot(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots/caroca.json")));
+        let error =
+            template(&robot.unwrap(), "caroca.json", Some([0.0, 0.0, 9.0]), None).unwrap_err().to_string();
+        assert!(
+            error.starts_with("--position is [0.0, 0.0, 9.0]: expected a position that the robot holds"),
+            "{error}"
+        );
+    }
+}

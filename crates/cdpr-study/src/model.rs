@@ -1,0 +1,13 @@
+//! A study that has been checked: its parts, ready to be observed.
+
+pub(crate) mod cable_law;
+pub(crate) mod designs;
+pub(crate) mod error_model;
+pub(crate) mod grid;
+pub(crate) mod hash;
+pub(crate) mod observed;
+pub(crate) mod open;
+pub(crate) mod operating_point;
+pub(crate) mod pose_set;
+pub(crate) mod prepare;
+pub(crate) mod study;

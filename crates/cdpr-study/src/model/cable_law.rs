@@ -1,0 +1,100 @@
+//! The elastic law of a cable as a file, `cdpr-law/1` (JSON, SI units): moduli over tension while it is loaded and unloaded.
+
+use crate::error::StudyError;
+use crate::file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve};
+use crate::fs::files::read;
+use cdpr_cable::{CableError, Phase, PiecewiseLaw, Record, RecordError, TangentModulus};
+use cdpr_robot::{CableProperties, LawSegment, from_json};
+use cdpr_statics::{HysteresisLaw, Unloading};
+use std::path::Path;
+
+impl CableLaw {
+    /// The law of a record of a specimen of this length [m] and section [m²].
+    ///
+    /// # Errors
+    /// As [`Record::moduli`].
+    pub fn of_record(record: &Record, length: f64, section: f64) -> Result<Self, RecordError> {
+        let segments = |phase| -> Result<Vec<LawSegment>, RecordError> {
+            let pieces = record.moduli(phase, length, section)?.into_iter();
+            Ok(pieces.map(|TangentModulus { tension, modulus }| LawSegment { tension, modulus }).collect())
+        };
+        let [_, turning_tension] = record.forces(Phase::Loading);
+        let unloading = UnloadingCurve { turning_tension, segments: segments(Phase::Unloading)? };
+        Ok(Self { section, loading: segments(Phase::Loading)?, unloading: Some(unloading) })
+    }
+
+    /// The first value that no law has: field, value, and what would be right.
+    pub(crate) fn invalid(&self) -> Option<(String, String, &'static str)> {
+        let positive = |field: String, value: f64, expected| {
+            let sound = value.is_finite() && value > 0.0;
+            (!sound).then(|| (field, value.to_string(), expected))
+        };
+        let of_curve = |curve: &str, segments: &[LawSegment]| {
+            if segments.is_empty() {
+                return Some((curve.to_owned(), "empty".to_owned(), "one segment at least"));
+            }
+            segments.iter().enumerate().find_map(|(k, LawSegment { tension, modulus })| {
+                let begins = if k == 0 { *tension == 0.0 } else { *tension > segments[k - 1].tension };
+                if !(begins && tension.is_finite()) {
+                    let expected = "tensions that grow from 0 [N], where each segment begins";
+                    return Some((format!("{curve}[{k}].tension"), tension.to_string(), expected));
+                }
+                positive(format!("{curve}[{k}].modulus"), *modulus, "a finite, positive modulus [Pa]")
+            })
+        };
+        positive("section".to_owned(), self.section, "a finite, positive section [m²]")
+            .or_else(|| of_curve("loading", &self.loading))
+            .or_else(|| {
+                let UnloadingCurve { turning_tension, segments } = self.unloading.as_ref()?;
+                let field = "unloading.turning_tension".to_owned();
+                positive(field, *turning_tension, "a finite, positive tension [N]")
+                    .or_else(|| of_curve("unloading.segments", segments))
+            })
+    }
+
+    /// Both curves of a cable, in proportion to its modulus.
+    ///
+    /// # Errors
+    /// [`CableError::InvalidInput`] for tensions or moduli that no law has, or that are out of all proportion to the cable's.
+    pub fn curves(&self, cable: &CableProperties, from: Unloading) -> Result<HysteresisLaw, CableError> {
+        let Self { section, loading, unloading } = self;
+        let scale = cable.section / section;
+        let curve = |segments: &[LawSegment]| {
+            let mut segments = LawSegment::in_proportion(segments, cable.youngs_modulus);
+            segments.iter_mut().for_each(|segment| segment.tension *= scale);
+            PiecewiseLaw::new(0.0, &segments)
+        };
+        let loading = curve(loading)?;
+        Ok(match unloading {
+            None => HysteresisLaw::elastic(loading),
+            Some(UnloadingCurve { turning_tension, segments }) => HysteresisLaw {
+                loading,
+                unloading: curve(segments)?,
+                turning_tension: scale * turning_tension,
+                unloading_from: from,
+            },
+        })
+    }
+}
+
+/// Reads and checks a law file.
+///
+/// # Errors
+/// [`StudyError::Read`], [`StudyError::Format`]; [`StudyError::Invalid`] for a law that no cable can have.
+pub fn open_law(path: &Path) -> Result<CableLaw, StudyError> {
+    let text = read(path)?;
+    let file: LawFile =
+        from_json(&text).map_err(|source| StudyError::Format { path: path.to_owned(), source })?;
+    let wrong = if file.format == LAW_FORMAT {
+        file.law.invalid().map(|(field, value, expected)| (format!("law.{field}"), value, expected))
+    } else {
+        Some(("format".to_owned(), file.format, LAW_FORMAT))
+    };
+    match wrong {
+        None => Ok(file.law),
+        Some((field, value, expected)) => {
+            let expected = expected.to_owned();
+            Err(StudyError::Invalid { path: path.to_owned(), field, value, expected }.placed(&text))
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Error models: which parameters are uncertain, by how much, and which of them together.
+//!
+//! A *cause* is an input whose value x is added to one parameter or, with a factor f, to several:
+//!
+//! ```text
+//! deviation_p = sum over the causes c of p:  f_cp x_c                      (1)
+//! d y / d x_c = sum over the parameters p of c:  f_cp dy/dp                 (2)
+//! ```
+//!
+//! Two exit points on one pulley block share the error of the block, a cause of both, beside the error that each has of its own. Their deviations are
+//! correlated by `var_block / (var_block + var_own)`, while the causes stay independent: every measure of sensitivity holds for them, and names what an
+//! engineer can change.
+
+use crate::error::StudyError;
+use crate::file::study_file::InputSpec;
+use cdpr_robot::{Parameter, Robot};
+use cdpr_sensitivity::{Input, Law, SensitivityError};
+use indexmap::IndexMap;
+
+/// The causes of an error model, for robots with a given number of cables.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ErrorModel {
+    /// One a cause: parameters in the order of the parameter vector, then causes of several parameters in that of the file.
+    pub inputs: Vec<Input>,
+    /// Entry of the error model that each input comes from.
+    pub entries: Vec<String>,
+    /// What the inputs are added to.
+    pub terms: Vec<Term>,
+    /// Length of the parameter vector.
+    parameters: usize,
+}
+
+/// A term of equation (1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Term {
+    /// Number of the input.
+    pub input: usize,
+    /// Place in [`Parameter::all`] of the parameter that it is added to.
+    pub place: usize,
+    /// Its factor.
+    pub factor: f64,
+}
+
+/// What is wrong with an entry of an error model.
+#[derive(Debug)]
+pub(crate) enum Wrong {
+    /// Field below the model, value, what would be right.
+    Field(String, String, &'static str),
+    /// A law or its steps.
+    Law(SensitivityError),
+}
+
+const PARAMETERS: &str =
+    "a parameter (mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...)";
+
+/// The standard deviation of each parameter of a robot [SI units], in the order of [`Parameter::all`], from those that have names: its own,
+/// else that of its group, else none.
+///
+/// # Errors
+/// [`StudyError::Setting`] for a name that is neither a parameter nor a group, and a number that is not positive and finite.
+pub fn uncertainties(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<f64>, StudyError> {
+    let parameters = Parameter::all(robot.cables.len());
+    let known = |name: &str| parameters.iter().any(|p| p.group() == name || p.to_string() == name);
+    let wrong = |(name, std): &&(String, f64)| !(known(name) && *std > 0.0 && std.is_finite());
+    if let Some((name, std)) = named.iter().find(wrong) {
+        let expected = "a positive standard deviation of mass, linear_density, youngs_modulus, a, b, cog, dt or one of their parameters, \
+                        such as a1.x";
+        return Err(StudyError::setting(format!("uncertainty of {name}"), std, expected));
+    }
+    let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, std)| *std);
+    Ok(parameters.iter().map(|p| of(&p.to_string()).or_else(|| of(p.group())).unwrap_or(0.0)).collect())
+}
+
+impl ErrorModel {
+    pub(crate) fn new(model: &IndexMap<String, InputSpec>, cables: usize) -> Result<Self, Wrong> {
+        let parameters = Parameter::all(cables);
+        let names: Vec<String> = parameters.iter().map(ToString::to_string).collect();
+        let known = |key: &String| names.contains(key) || parameters.iter().any(|p| p.group() == key);
+        let mut found =
+            Self { inputs: Vec::new(), entries: Vec::new(), terms: Vec::new(), parameters: names.len() };
+        if let Some((key, _)) = model.iter().find(|(key, spec)| spec.parameters.is_none() && !known(key)) {
+            let expected = "a parameter (mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...), \
+                            a group of them (a, b, cog, dt), or an entry with `parameters`";
+            return Err(Wrong::Field(key.clone(), key.clone(), expected));
+        }
+        for (place, (parameter, own)) in parameters.iter().zip(&names).enumerate() {
+            // A cause of several parameters that bears the name of one is refused below.
+            let entry = model.get_key_value(own).or_else(|| model.get_key_value(parameter.group()));
+            if let Some((entry, spec)) = entry {
+                found.add(entry, own, spec, [(place, 1.0)])?;
+            }
+        }
+        for (key, spec) in model {
+            let Some(shared) = &spec.parameters else { continue };
+            if known(key) || !key.chars().all(|c| c.is_ascii_alphanumeric() || "._-".contains(c)) {
+                let expected = "a name of letters, digits, `.`, `_` and `-` that no parameter or group has";
+                return Err(Wrong::Field(key.clone(), key.clone(), expected));
+            }
+            if shared.is_empty() {
+                return Err(Wrong::Field(format!("{key}.parameters"), "empty".to_owned(), PARAMETERS));
+            }
+            let effect = |(name, factor): (&String, &f64)| {
+                let field = || format!("{key}.parameters");
+                let place = names.iter().position(|known| known == name);
+                let place = place.ok_or_else(|| Wrong::Field(field(), name.clone(), PARAMETERS))?;
+                if !factor.is_finite() || *factor == 0.0 {
+                    let expected = "a finite factor that is not zero";
+                    return Err(Wrong::Field(
+                        format!("{key}.parameters.{name}"),
+                        factor.to_string(),
+                        expected,
+                    ));
+                }
+                Ok((place, *factor))
+            };
+            found.add(key, key, spec, shared.iter().map(effect).collect::<Result<Vec<_>, _>>()?)?;
+        }
+        Ok(found)
+    }
+
+    /// Independent normal deviations with these standard deviations (SI units, in the order of [`Parameter::all`]); a parameter with zero
+    /// is known.
+    pub fn normal(deviations: &[f64]) -> Self {
+        let names: Vec<String> =
+            Parameter::all(deviations.len().saturating_sub(6) / 7).iter().map(ToString::to_string).collect();
+        let uncertain = || names.iter().zip(deviations).enumerate().filter(|(_, (_, std))| **std > 0.0);
+        let inputs: Vec<_> = uncertain()
+            .map(|(_, (name, std))| Input::continuous(name, Law::Normal { mean: 0.0, std: *std }))
+            .collect();
+        Self {
+            entries: inputs.iter().map(|input| input.name.clone()).collect(),
+            inputs,
+            terms: uncertain()
+                .enumerate()
+                .map(|(input, (place, _))| Term { input, place, factor: 1.0 })
+                .collect(),
+            parameters: deviations.len(),
+        }
+    }
+
+    fn add(
+        &mut self,
+        entry: &str,
+        name: &str,
+        spec: &InputSpec,
+        effects: impl IntoIterator<Item = (usize, f64)>,
+    ) -> Result<(), Wrong> {
+        let input = Input { name: name.to_owned(), law: spec.law, steps: spec.steps };
+        input.validate().map_err(Wrong::Law)?;
+        let number = self.inputs.len();
+        self.inputs.push(input);
+        self.entries.push(entry.to_owned());
+        self.terms.extend(effects.into_iter().map(|(place, factor)| Term { input: number, place, factor }));
+        Ok(())
+    }
+
+    /// Length of the parameter vector.
+    pub fn parameters(&self) -> usize {
+        self.parameters
+    }
+
+    /// Equation (1): the deviation of each parameter for each of `rows`, vectors one after the other.
+    pub fn deviations(&self, rows: &[f64]) -> Vec<f64> {
+        let inputs = self.inputs.len();
+        let mut deviations = vec![0.0; rows.len() / inputs * self.parameters];
+        for (deviations, row) in deviations.chunks_exact_mut(self.parameters).zip(rows.chunks_exact(inputs)) {
+            for Term { input, place, factor } in &self.terms {
+                deviations[*place] += factor * row[*input];
+            }
+        }
+        deviations
+    }
+
+    /// Equation (2): derivatives with respect to the inputs from those with respect to the parameters.
+    pub fn gradient(&self, slopes: &[f64]) -> Vec<f64> {
+        let mut gradient = vec![0.0; self.inputs.len()];
+        for Term { input, place, factor } in &self.terms {
+            gradient[*input] += factor * slopes[*place];
+        }
+        gradient
+    }
+
+    /// The group of parameters that an input acts on; `shared` where there are several.
+    pub fn group(&self, input: usize) -> &'static str {
+        let parameters = Parameter::all((self.parameters - 6) / 7);
+        let of_input = self.terms.iter().filter(|term| term.input == input);
+        let mut groups = of_input.map(|term| parameters[term.place].group());
+        let first = groups.next().unwrap_or("shared");
+        if groups.all(|group| group == first) { first } else { "shared" }
+    }
+}

@@ -1,0 +1,194 @@
+//! Grids of positions: a plane or a box of the base frame.
+
+use crate::error::StudyError;
+use crate::file::grid::{GridAxis, GridSpec};
+use cdpr_robot::{Axis, Pose, Robot};
+use serde::{Deserialize, Serialize};
+
+/// Level positions on a grid of the base frame, x slowest and z fastest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Grid {
+    x: GridAxis,
+    y: GridAxis,
+    z: GridAxis,
+}
+
+/// Positions of a grid, whose results are held in memory as a whole.
+const MOST: usize = 4_000_000;
+
+/// Exit points that differ by less than this share of the frame's size along an axis lie in a plane across it.
+const FLAT: f64 = 0.1;
+
+/// What is wrong with the places along an axis, or with all of them: axis, value, what would be right.
+pub(crate) type Wrong = (Option<char>, String, String);
+
+impl Grid {
+    /// From the places along x, y and z.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] for places that are none, and for more positions than fit in memory.
+    pub fn new([x, y, z]: [GridAxis; 3]) -> Result<Self, StudyError> {
+        Self::of(&GridSpec { x, y, z }).map_err(|(axis, value, expected)| {
+            let field = axis.map_or("grid".to_owned(), |axis| format!("grid along {axis}"));
+            StudyError::Setting { field, value, expected }
+        })
+    }
+
+    /// The same of a study file.
+    pub(crate) fn of(&GridSpec { x, y, z }: &GridSpec) -> Result<Self, Wrong> {
+        let axes = [x, y, z];
+        if let Some((axis, name)) = axes.iter().zip(['x', 'y', 'z']).find(|(axis, _)| !axis.is_sound()) {
+            let GridAxis { min, max, points } = axis;
+            let expected =
+                "min:max:points in [m], min below max and two points or more, or one point at min = max";
+            return Err((Some(name), format!("{min}:{max}:{points}"), expected.to_owned()));
+        }
+        let count = axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.points));
+        if count.is_none_or(|count| count > MOST) {
+            let value = axes.map(|axis| axis.points.to_string()).join(" x ");
+            return Err((None, value, format!("at most {MOST} positions")));
+        }
+        Ok(Self { x, y, z })
+    }
+
+    /// The plane in which the coordinate `normal` is `place` [m], over the frame: the ranges of the exit points' other two coordinates,
+    /// with so many points each. Where all exit points are at about one height, heights begin at the floor of the base frame, z = 0.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] where the exit points do not span the plane, and as [`Grid::new`].
+    pub fn over_frame(
+        robot: &Robot,
+        normal: Axis,
+        place: f64,
+        points: [usize; 2],
+    ) -> Result<Self, StudyError> {
+        let frame = frame(robot);
+        let size = frame.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+        let mut points = points.into_iter();
+        let mut axes = [GridAxis { min: place, max: place, points: 1 }; 3];
+        for (axis, [low, high]) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip(frame) {
+            if axis == normal {
+                continue;
+            }
+            let flat = high - low < FLAT * size;
+            let (min, max) = if flat && axis == Axis::Z { (0.0, high) } else { (low, high) };
+            if max - min < FLAT * size {
+                return Err(StudyError::setting(
+                    "plane",
+                    format!("{}={place}", letter(normal)),
+                    format!(
+                        "a plane that the exit points span: along {} they do not; give a box",
+                        letter(axis)
+                    ),
+                ));
+            }
+            axes[axis as usize] = GridAxis { min, max, points: points.next().unwrap_or(1) };
+        }
+        Self::new(axes)
+    }
+
+    /// The places along an axis.
+    pub fn axis(&self, axis: Axis) -> &GridAxis {
+        match axis {
+            Axis::X => &self.x,
+            Axis::Y => &self.y,
+            Axis::Z => &self.z,
+        }
+    }
+
+    /// The axis across, if the grid is a plane: the only one with one place.
+    pub fn normal(&self) -> Option<Axis> {
+        let mut across = [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|axis| self.axis(*axis).points == 1);
+        across.next().filter(|_| across.next().is_none())
+    }
+
+    /// Number of positions.
+    pub fn count(&self) -> usize {
+        self.x.points * self.y.points * self.z.points
+    }
+
+    /// The level pose at a position, by its number from 0 on.
+    pub fn pose(&self, number: usize) -> Pose {
+        let (column, k) = (number / self.z.points, number % self.z.points);
+        Pose::at(self.x.place(column / self.y.points), self.y.place(column % self.y.points), self.z.place(k))
+    }
+
+    /// All positions as level poses.
+    pub fn poses(&self) -> Vec<Pose> {
+        (0..self.count()).map(|number| self.pose(number)).collect()
+    }
+}
+
+/// Least and greatest coordinate of the exit points along x, y and z [m].
+pub fn frame(robot: &Robot) -> [[f64; 2]; 3] {
+    [0, 1, 2].map(|axis| {
+        let places = || robot.cables.iter().map(|cable| cable.exit_point[axis]);
+        [places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max)]
+    })
+}
+
+/// The letter of an axis.
+pub fn letter(axis: Axis) -> char {
+    match axis {
+        Axis::X => 'x',
+        Axis::Y => 'y',
+        Axis::Z => 'z',
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(min: f64, max: f64, points: usize) -> GridAxis {
+        GridAxis { min, max, points }
+    }
+
+    #[test]
+    fn a_grid_runs_from_end_to_end_with_z_fastest() {
+        let grid = Grid::new([axis(-0.3, 0.1, 3), axis(0.0, 0.0, 1), axis(2.0, 3.0, 2)]).unwrap();
+        let poses = grid.poses();
+        assert_eq!(poses.len(), 6);
+        assert_eq!((poses[0], poses[1]), (Pose::at(-0.3, 0.0, 2.0), Pose::at(-0.3, 0.0, 3.0)));
+        assert_eq!(poses[5], Pose::at(0.1, 0.0, 3.0));
+        assert_eq!(grid.normal(), Some(Axis::Y));
+    }
+
+    #[test]
+    fn a_grid_that_is_none_is_refused_with_its_numbers() {
+        let fine = axis(0.0, 1.0, 2);
+        for (bad, value) in [
+            (axis(1.0, 0.0, 2), "1:0:2"),
+            (axis(0.0, 1.0, 1), "0:1:1"),
+            (axis(0.0, 0.0, 0), "0:0:0"),
+            (axis(f64::NAN, 1.0, 2), "NaN:1:2"),
+        ] {
+            let message = Grid::new([fine, bad, fine]).unwrap_err().to_string();
+            assert!(
+                message.starts_with(&format!("grid along y is {value}: expected min:max:points")),
+                "{message}"
+            );
+        }
+        let large = Grid::new([axis(0.0, 1.0, usize::MAX); 3]).unwrap_err().to_string();
+        assert!(large.ends_with("expected at most 4000000 positions"), "{large}");
+    }
+
+    #[test]
+    fn a_plane_covers_the_frame_and_a_suspended_robot_hangs_over_the_floor() {
+        let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap();
+        let level = Grid::over_frame(&robot, Axis::Z, 1.75, [5, 3]).unwrap();
+        assert_eq!(
+            (level.x, level.y, level.z),
+            (axis(-3.5, 3.5, 5), axis(-2.0, 2.0, 3), axis(1.75, 1.75, 1))
+        );
+        let upright = Grid::over_frame(&robot, Axis::X, 0.5, [5, 3]).unwrap();
+        assert_eq!(
+            (upright.x, upright.y, upright.z),
+            (axis(0.5, 0.5, 1), axis(-2.0, 2.0, 5), axis(0.0, 3.5, 3))
+        );
+        let mut sunk = robot.clone();
+        sunk.cables.iter_mut().for_each(|cable| cable.exit_point.z -= 3.5);
+        let message = Grid::over_frame(&sunk, Axis::X, 0.0, [5, 3]).unwrap_err().to_string();
+        assert!(message.starts_with("plane is x=0: expected a plane that the exit points span"), "{message}");
+    }
+}

@@ -1,0 +1,31 @@
+//! What tells one study from another.
+
+use crate::error::StudyError;
+use crate::model::study::Study;
+use cdpr_robot::Robot;
+
+impl Study {
+    /// Hash of everything that decides what is observed: robot, error models, poses, payload, seed, version of the program. Names, titles, the
+    /// numbers of observations and what is made of them leave it as it is.
+    ///
+    /// # Errors
+    /// None that a study which was read can have.
+    pub fn hash(&self) -> Result<String, StudyError> {
+        let mut file = self.file.clone();
+        (file.name, file.source, file.robot) = Default::default();
+        // All of these ask for more or fewer rows of the same designs, or for other statistics of them.
+        (file.replicates, file.confidence, file.bootstrap_resamples, file.sensitivity) = Default::default();
+        for sampling in file.samplings.values_mut() {
+            (sampling.title, sampling.observations) = Default::default();
+        }
+        file.surfaces.clear();
+        file.comparison.clear();
+        let robot = Robot { name: String::new(), source: None, ..self.robot.clone() };
+        let mut hasher = blake3::Hasher::new();
+        let whole = (env!("CARGO_PKG_VERSION"), file, robot.to_json());
+        serde_json::to_writer(&mut hasher, &whole)
+            .map_err(|error| StudyError::Write { path: self.path.clone(), source: error.into() })?;
+        // 128 bits tell studies apart, and can be read out.
+        Ok(hasher.finalize().to_hex()[..32].to_owned())
+    }
+}

@@ -1,0 +1,175 @@
+//! A study read from its file and checked.
+
+use crate::error::StudyError;
+use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic, StudyFile};
+use crate::file::value::Value;
+use crate::fs::files::{open_robot, read};
+use crate::model::prepare::FEWEST_OBSERVATIONS;
+use crate::model::study::Study;
+use crate::names::BLOCKS_NAME;
+use cdpr_robot::from_json;
+use std::path::Path;
+
+/// Designs of a sampling besides the first: intervals of a quantile need no more.
+const MOST_REPLICATES: usize = 10_000;
+
+/// Resamples of a bootstrap: the quantiles of intervals need no more.
+const MOST_RESAMPLES: usize = 1_000_000;
+
+impl Study {
+    /// Reads and checks a study file and its robot file. Every surface and sampling at one pose is prepared once, so that what is wrong
+    /// with the last one is said before the first one runs.
+    ///
+    /// # Errors
+    /// [`StudyError`] naming file, field, value and what would be right.
+    pub fn open(path: &Path) -> Result<Self, StudyError> {
+        Self::from_json(&read(path)?, path)
+    }
+
+    /// The same from text; `path` names the text in errors, and the robot file is looked for beside it.
+    ///
+    /// # Errors
+    /// As [`Study::open`].
+    pub fn from_json(text: &str, path: &Path) -> Result<Self, StudyError> {
+        let file: StudyFile =
+            from_json(text).map_err(|source| StudyError::Format { path: path.to_owned(), source })?;
+        let robot_path = path.parent().unwrap_or(Path::new(".")).join(&file.robot);
+        let robot = open_robot(&robot_path)?;
+        let study = Self { path: path.to_owned(), file, robot };
+        study.validate().map_err(|error| error.placed(text))?;
+        Ok(study)
+    }
+
+    /// Gives every sampling this number of observations.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] for fewer than 3.
+    pub fn set_observations(&mut self, observations: usize) -> Result<(), StudyError> {
+        if observations < FEWEST_OBSERVATIONS {
+            let expected = format!("at least {FEWEST_OBSERVATIONS}");
+            return Err(StudyError::setting("--observations", observations, expected));
+        }
+        self.file.samplings.values_mut().for_each(|sampling| sampling.observations = observations);
+        self.validate()
+    }
+
+    /// Gives every sampling this number of observations, if that is no fewer than it has.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] for fewer.
+    pub fn extend(&mut self, observations: usize) -> Result<(), StudyError> {
+        let most = self.file.samplings.values().map(|sampling| sampling.observations).max();
+        let Some(most) = most else {
+            return Err(self.invalid("samplings", "empty", "a sampling to extend"));
+        };
+        if observations < most {
+            let expected = format!("at least {most}, as many as there are");
+            return Err(StudyError::setting("--observations", observations, expected));
+        }
+        self.set_observations(observations)
+    }
+
+    fn validate(&self) -> Result<(), StudyError> {
+        let file = &self.file;
+        if file.format != STUDY_FORMAT {
+            return Err(self.invalid("format", &file.format, STUDY_FORMAT));
+        }
+        if !(file.payload.is_finite() && file.payload > 0.0) {
+            return Err(self.invalid("payload", file.payload, "a finite mass above zero [kg]"));
+        }
+        if file.replicates == 1 || file.replicates > MOST_REPLICATES {
+            let expected = format!("none (0), or 2 to {MOST_REPLICATES} for an interval");
+            return Err(self.invalid("replicates", file.replicates, &expected));
+        }
+        if !(file.confidence > 0.0 && file.confidence < 1.0) {
+            return Err(self.invalid("confidence", file.confidence, "a number between 0 and 1"));
+        }
+        if !(1..=MOST_RESAMPLES).contains(&file.bootstrap_resamples) {
+            let expected = format!("1 to {MOST_RESAMPLES}");
+            return Err(self.invalid("bootstrap_resamples", file.bootstrap_resamples, &expected));
+        }
+        if let Some((field, value, expected)) = file.sensitivity.as_ref().and_then(SensitivitySpec::invalid) {
+            return Err(self.invalid(&format!("sensitivity.{field}"), value, &expected));
+        }
+        if file.samplings.is_empty() && file.surfaces.is_empty() {
+            return Err(self.invalid("samplings", "empty", "at least one sampling or surface"));
+        }
+        for name in file.samplings.keys().chain(file.surfaces.keys()) {
+            let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+            if name.is_empty() || !name.chars().all(plain) {
+                return Err(self.invalid(
+                    "samplings",
+                    name,
+                    "names of letters, digits, `_` and `-`: they name files",
+                ));
+            }
+        }
+        if let Some(name) = file.surfaces.keys().find(|name| file.samplings.contains_key(*name)) {
+            return Err(self.invalid(&format!("surfaces.{name}"), name, "a name that no sampling has"));
+        }
+        self.check_names()?;
+        for (name, model) in &file.error_models {
+            self.error_model(name, model, &[])?;
+        }
+        for (name, spec) in &file.samplings {
+            self.check_sampling(name, spec)?;
+        }
+        for name in file.surfaces.keys() {
+            self.surface(name)?;
+        }
+        for (i, row) in file.comparison.iter().enumerate() {
+            let at_one_pose = file.samplings.get(&row.study).is_some_and(|spec| spec.pose.is_some());
+            if !at_one_pose && !file.surfaces.contains_key(&row.study) {
+                let field = format!("comparison[{i}].study");
+                let expected = "the name of a sampling at one pose, or of a surface";
+                return Err(self.invalid(&field, &row.study, expected));
+            }
+            let of_surface = matches!(row.statistic, Statistic::Min | Statistic::Max | Statistic::Spread);
+            if file.surfaces.contains_key(&row.study) && !of_surface {
+                let field = format!("comparison[{i}].statistic");
+                return Err(self.invalid(
+                    &field,
+                    format!("{:?}", row.statistic),
+                    "min, max or spread for a surface",
+                ));
+            }
+            if matches!(row.paper, Value::Number(_)) && !(row.last_digit.is_finite() && row.last_digit > 0.0)
+            {
+                let field = format!("comparison[{i}].last_digit");
+                return Err(self.invalid(
+                    &field,
+                    row.last_digit,
+                    "the last printed digit of the number, such as 0.01",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// No part of the study is called as tables or figures of another one, or of all.
+    pub(crate) fn check_names(&self) -> Result<(), StudyError> {
+        let samplings = self.file.samplings.keys().map(|name| ("samplings", name));
+        let surfaces = self.file.surfaces.keys().map(|name| ("surfaces", name));
+        for (kind, name) in samplings.chain(surfaces) {
+            if let Some(writer) = self.file.other_writer(name) {
+                let expected = format!("another name: {writer} would write over its files");
+                return Err(self.invalid(&format!("{kind}.{name}"), name, &expected));
+            }
+        }
+        Ok(())
+    }
+
+    /// A sampling at one pose is prepared; of one at several, that there is an equilibrium is found out where it runs.
+    fn check_sampling(&self, name: &str, spec: &SamplingSpec) -> Result<(), StudyError> {
+        let set = self.poses(name, spec)?;
+        if set.several().is_none() {
+            return self.sampling(name).map(|_| ());
+        }
+        if name == BLOCKS_NAME {
+            let expected = "another name for a sampling at several poses: its tables have a folder of that name, and the blocks, too";
+            return Err(self.invalid("samplings", name, expected));
+        }
+        self.design(name, spec, &[])?;
+        self.check_poses(name, &set)
+    }
+}

@@ -1,0 +1,164 @@
+//! Samplings at several poses. Each pose is a sampling of its own, `NAME/0000`, `NAME/0001`, ..., with blocks and a table of its own; what
+//! they say together is in [`crate::PosesSummary`].
+
+use crate::error::StudyError;
+use crate::file::study_file::{PoseSpec, PosesSpec, SamplingSpec};
+use crate::model::grid::Grid;
+use crate::model::study::{Study, keys};
+use cdpr_robot::{Pose, Vector3};
+
+/// The poses of a sampling.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum PoseSet<'a> {
+    One(&'a PoseSpec),
+    List(&'a [PoseSpec]),
+    Grid(Grid),
+}
+
+impl PoseSet<'_> {
+    /// Number of poses; none of a sampling at one.
+    pub(crate) fn several(&self) -> Option<usize> {
+        match self {
+            Self::One(_) => None,
+            Self::List(list) => Some(list.len()),
+            Self::Grid(grid) => Some(grid.count()),
+        }
+    }
+
+    /// Name of the sampling at a pose.
+    pub(crate) fn name(&self, sampling: &str, number: usize) -> String {
+        match self.several() {
+            None => sampling.to_owned(),
+            Some(poses) => format!("{sampling}/{number:0width$}", width = digits(poses)),
+        }
+    }
+
+    /// The pose of that name: its number, from what follows the name of the sampling.
+    fn number(&self, suffix: Option<&str>) -> Option<usize> {
+        match (self.several(), suffix) {
+            (None, None) => Some(0),
+            (Some(poses), Some(text)) => {
+                let number = text.parse().ok().filter(|number| *number < poses)?;
+                (text.len() == digits(poses) && !text.starts_with('+')).then_some(number)
+            }
+            (_, _) => None,
+        }
+    }
+}
+
+/// Digits of the numbers of poses: four, or as many as the last one has.
+fn digits(poses: usize) -> usize {
+    poses.saturating_sub(1).to_string().len().max(4)
+}
+
+impl Study {
+    /// The names of all samplings at one pose each: `NAME` itself, or `NAME/0000`, `NAME/0001`, ... for one at several poses.
+    pub fn sampling_names(&self) -> impl Iterator<Item = String> {
+        self.file.samplings.iter().flat_map(|(name, spec)| {
+            // Checked when the study was read.
+            let set = self.poses(name, spec).ok();
+            let poses = set.map_or(0, |set| set.several().unwrap_or(1));
+            (0..poses).filter_map(move |number| Some(set?.name(name, number)))
+        })
+    }
+
+    /// The poses of a sampling.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] for none, or no grid.
+    pub(crate) fn poses<'a>(&self, name: &str, spec: &'a SamplingSpec) -> Result<PoseSet<'a>, StudyError> {
+        let field = format!("samplings.{name}");
+        match (&spec.pose, &spec.poses) {
+            (Some(pose), None) => Ok(PoseSet::One(pose)),
+            (None, Some(PosesSpec::List(list))) => {
+                if list.is_empty() {
+                    return Err(self.invalid(&format!("{field}.poses.list"), "empty", "at least one pose"));
+                }
+                Ok(PoseSet::List(list))
+            }
+            (None, Some(PosesSpec::Grid(grid))) => {
+                Grid::of(grid).map(PoseSet::Grid).map_err(|(axis, value, expected)| {
+                    let axis = axis.map(|axis| format!(".{axis}")).unwrap_or_default();
+                    self.invalid(&format!("{field}.poses.grid{axis}"), value, &expected)
+                })
+            }
+            (pose, _) => {
+                let found = if pose.is_some() { "`pose` and `poses`" } else { "missing" };
+                Err(self.invalid(&format!("{field}.pose"), found, "either `pose` or `poses`"))
+            }
+        }
+    }
+
+    /// A sampling of the study file with its name.
+    pub(crate) fn entry(&self, name: &str) -> Result<(&str, &SamplingSpec), StudyError> {
+        match self.file.samplings.get_key_value(name) {
+            Some((name, spec)) => Ok((name, spec)),
+            None => Err(self.invalid(&format!("samplings.{name}"), "missing", &keys(&self.file.samplings))),
+        }
+    }
+
+    /// Looks up what a sampling is called in the study file, what stands there, its pose, and the field of that.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] for a name or pose that is none.
+    pub(crate) fn located(&self, name: &str) -> Result<Located<'_>, StudyError> {
+        let (entry, suffix) = name.split_once('/').map_or((name, None), |(entry, rest)| (entry, Some(rest)));
+        let (entry, spec) = self.entry(entry)?;
+        let set = self.poses(entry, spec)?;
+        let Some(number) = set.number(suffix) else {
+            let last = set.several().map_or(0, |poses| poses - 1);
+            let expected = match set.several() {
+                Some(_) => format!("one pose: {} to {}", set.name(entry, 0), set.name(entry, last)),
+                None => format!("{entry}, which has one pose"),
+            };
+            return Err(self.invalid(&format!("samplings.{entry}"), name, &expected));
+        };
+        let (pose, field) = match set {
+            PoseSet::One(pose) => {
+                (self.pose(&format!("samplings.{entry}.pose"), pose)?, "pose.position".to_owned())
+            }
+            PoseSet::List(list) => {
+                let field = format!("poses.list[{number}]");
+                let pose = self.pose(&format!("samplings.{entry}.{field}"), &list[number])?;
+                (pose, format!("{field}.position"))
+            }
+            PoseSet::Grid(grid) => (grid.pose(number), "poses.grid".to_owned()),
+        };
+        Ok(Located {
+            name: set.name(entry, number),
+            entry,
+            spec,
+            pose,
+            field: format!("samplings.{entry}.{field}"),
+        })
+    }
+
+    /// Each pose is one; that there is an equilibrium is another question.
+    pub(crate) fn check_poses(&self, name: &str, set: &PoseSet) -> Result<(), StudyError> {
+        let PoseSet::List(list) = set else { return Ok(()) };
+        let field = |number| format!("samplings.{name}.poses.list[{number}]");
+        list.iter().enumerate().try_for_each(|(number, pose)| self.pose(&field(number), pose).map(|_| ()))
+    }
+
+    pub(crate) fn pose(&self, field: &str, spec: &PoseSpec) -> Result<Pose, StudyError> {
+        Pose::with_quaternion(Vector3::from(spec.position), spec.quaternion).ok_or_else(|| {
+            self.invalid(
+                field,
+                format!("{spec:?}"),
+                "a finite position [m] and a quaternion that is not zero",
+            )
+        })
+    }
+}
+
+/// A sampling at one pose in the study file.
+pub(crate) struct Located<'a> {
+    /// Its own name.
+    pub(crate) name: String,
+    /// Name of its entry.
+    pub(crate) entry: &'a str,
+    pub(crate) spec: &'a SamplingSpec,
+    pub(crate) pose: Pose,
+    /// Path of the pose.
+    pub(crate) field: String,
+}

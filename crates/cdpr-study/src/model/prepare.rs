@@ -1,0 +1,199 @@
+//! Samplings and surfaces of a study made ready to run.
+
+use crate::error::StudyError;
+use crate::file::study_file::{AxisSpec, InputSpec, SamplingSpec};
+use crate::model::error_model::{ErrorModel, Wrong};
+use crate::model::operating_point::{Moduli, resolved};
+use crate::model::pose_set::Located;
+use crate::model::study::{Sampling, Study, Surface, keys};
+use cdpr_robot::{Parameter, Pose};
+use cdpr_sensitivity::SobolDesign;
+use cdpr_statics::{Deflection, Load, Observer, deflection};
+use indexmap::IndexMap;
+
+/// Points of one axis of a surface, which is held in memory as a whole.
+const MOST_POINTS: usize = 10_000;
+
+/// Observations of a sampling, for laws to be fitted.
+pub(crate) const FEWEST_OBSERVATIONS: usize = 3;
+
+impl Study {
+    /// Prepares the sampling called `name`; at several poses, that at one of them: `NAME/0000`, ....
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] for a name or setting that is none, [`StudyError::Nominal`] where the nominal robot cannot
+    /// hold the pose.
+    pub fn sampling(&self, name: &str) -> Result<Sampling<'_>, StudyError> {
+        let Located { name, entry, spec, pose, field } = self.located(name)?;
+        let load = Load::payload(self.file.payload);
+        let (nominal, observer) = self.nominal(field, &pose, &load)?;
+        let (errors, operating_moduli, design) = self.design(entry, spec, &[&nominal])?;
+        Ok(Sampling {
+            name,
+            title: &spec.title,
+            robot: &self.robot,
+            pose,
+            load,
+            design,
+            errors,
+            operating_moduli,
+            nominal,
+            observer,
+            study: self,
+        })
+    }
+
+    /// [`Study::sampling`]; `None` at one of several poses that nothing holds.
+    pub(crate) fn held(&self, name: &str) -> Result<Option<Sampling<'_>>, StudyError> {
+        match self.sampling(name) {
+            Err(StudyError::Nominal { .. }) if name.contains('/') => Ok(None),
+            sampling => sampling.map(Some),
+        }
+    }
+
+    /// What is uncertain in a sampling at the operating point of these deflections of the nominal robot, and the points at which it is
+    /// observed.
+    pub(crate) fn design(
+        &self,
+        name: &str,
+        spec: &SamplingSpec,
+        at: &[&Deflection],
+    ) -> Result<(ErrorModel, Option<Moduli>, SobolDesign), StudyError> {
+        let field = format!("samplings.{name}");
+        let Some(model) = self.file.error_models.get(&spec.error_model) else {
+            let expected = keys(&self.file.error_models);
+            return Err(self.invalid(&format!("{field}.error_model"), &spec.error_model, &expected));
+        };
+        let (errors, moduli) = self.error_model(&spec.error_model, model, at)?;
+        if spec.observations < FEWEST_OBSERVATIONS {
+            return Err(self.invalid(
+                &format!("{field}.observations"),
+                spec.observations,
+                "at least 3, for laws to be fitted",
+            ));
+        }
+        let design = SobolDesign::new(errors.inputs.clone(), spec.first_index, spec.observations)
+            .map_err(|source| self.statistics(format!("{field}.first_index"), source))?;
+        Ok((errors, moduli, design))
+    }
+
+    /// Prepares the surface called `name`.
+    ///
+    /// # Errors
+    /// As [`Study::sampling`].
+    pub fn surface(&self, name: &str) -> Result<Surface<'_>, StudyError> {
+        let field = format!("surfaces.{name}");
+        let Some((name, spec)) = self.file.surfaces.get_key_value(name) else {
+            return Err(self.invalid(&field, "missing", &keys(&self.file.surfaces)));
+        };
+        let pose = self.pose(&format!("{field}.pose"), &spec.pose)?;
+        let load = Load::payload(self.file.payload);
+        let x = self.axis(&format!("{field}.x"), &spec.x)?;
+        let y = self.axis(&format!("{field}.y"), &spec.y)?;
+        let (nominal, observer) = self.nominal(format!("{field}.pose.position"), &pose, &load)?;
+        Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal, observer })
+    }
+
+    /// The error model called `name`, of deviations from the robot file.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] for a name that is none, and for an operating point: that of a sampling is known from its pose and load.
+    pub fn tolerances(&self, name: &str) -> Result<ErrorModel, StudyError> {
+        let Some(model) = self.file.error_models.get(name) else {
+            return Err(self.invalid("error_models", name, &keys(&self.file.error_models)));
+        };
+        if let Some((key, _)) = model.iter().find(|(_, spec)| spec.operating_point.is_some()) {
+            let field = format!("error_models.{name}.{key}.operating_point");
+            return Err(self.invalid(
+                &field,
+                "given",
+                "an error model without one, as there is no pose and load of a sampling",
+            ));
+        }
+        Ok(self.error_model(name, model, &[])?.0)
+    }
+
+    /// An error model for this robot, at the operating point of these deflections of the nominal one.
+    pub(crate) fn error_model(
+        &self,
+        name: &str,
+        model: &IndexMap<String, InputSpec>,
+        at: &[&Deflection],
+    ) -> Result<(ErrorModel, Option<Moduli>), StudyError> {
+        let field = format!("error_models.{name}");
+        let wrong = |wrong| match wrong {
+            Wrong::Field(below, value, expected) => {
+                self.invalid(&format!("{field}.{below}"), value, expected)
+            }
+            Wrong::Law(source) => self.statistics(field.clone(), source),
+        };
+        let (model, moduli) = resolved(model, &self.robot, at).map_err(wrong)?;
+        let found = ErrorModel::new(&model, self.robot.cables.len()).map_err(wrong)?;
+        if found.inputs.is_empty() {
+            return Err(self.invalid(&field, "empty", "at least one uncertain parameter"));
+        }
+        Ok((found, moduli))
+    }
+
+    fn axis(&self, field: &str, spec: &AxisSpec) -> Result<(Parameter, usize, Vec<f64>), StudyError> {
+        let parameters = Parameter::all(self.robot.cables.len());
+        let known =
+            spec.parameter.parse().ok().and_then(|p| Some((p, parameters.iter().position(|q| *q == p)?)));
+        let Some((parameter, place)) = known else {
+            return Err(self.invalid(
+                &format!("{field}.parameter"),
+                &spec.parameter,
+                "a parameter of the robot",
+            ));
+        };
+        if !(spec.min.is_finite() && spec.max.is_finite() && spec.min < spec.max) {
+            let range = format!("{} to {}", spec.min, spec.max);
+            return Err(self.invalid(field, range, "finite deviations, min below max"));
+        }
+        if !(2..=MOST_POINTS).contains(&spec.points) {
+            let expected = format!("at least 2, at most {MOST_POINTS}");
+            return Err(self.invalid(&format!("{field}.points"), spec.points, &expected));
+        }
+        let last = (spec.points - 1) as f64;
+        // Weighted ends: the distance between them need not be a number, and the last point is `max` itself.
+        let point = |k: usize| spec.min * ((last - k as f64) / last) + spec.max * (k as f64 / last);
+        Ok((parameter, place, (0..spec.points).map(point).collect()))
+    }
+
+    fn nominal(
+        &self,
+        field: String,
+        pose: &Pose,
+        load: &Load,
+    ) -> Result<(Deflection, Observer<'_>), StudyError> {
+        let no_offsets = vec![0.0; self.robot.cables.len()];
+        let nominal = || {
+            let deflection = deflection(&self.robot, pose, &no_offsets, load)?;
+            Ok((deflection, Observer::new(&self.robot, pose, load)?))
+        };
+        nominal().map_err(|source| StudyError::Nominal {
+            path: self.path.clone(),
+            field,
+            value: format!("{:?}", pose.position.as_slice()),
+            source: Box::new(source),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn an_axis_ends_at_its_ends_however_far_apart_they_are() {
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json"));
+        let study = Study::open(path).unwrap();
+        for (min, max) in [(-0.3, 0.1), (f64::MIN, f64::MAX), (-5e-324, 5e-324)] {
+            let spec = AxisSpec { parameter: "mass".to_owned(), min, max, points: 7 };
+            let (_, _, points) = study.axis("x", &spec).unwrap();
+            assert_eq!((points[0], points[6]), (min, max));
+            assert!(points.is_sorted() && points.iter().all(|point| point.is_finite()), "{points:?}");
+        }
+    }
+}

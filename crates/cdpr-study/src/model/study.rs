@@ -1,0 +1,90 @@
+//! A study with its robot, and its parts ready to run.
+
+use crate::error::StudyError;
+use crate::file::study_file::StudyFile;
+use crate::model::error_model::ErrorModel;
+use cdpr_robot::{Parameter, Pose, Robot};
+use cdpr_sensitivity::{SensitivityError, SobolDesign};
+use cdpr_statics::{Deflection, Load, Observer};
+use indexmap::IndexMap;
+use std::path::PathBuf;
+
+/// A study with its robot.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Where it was read from.
+    pub path: PathBuf,
+    /// What the file says.
+    pub file: StudyFile,
+    /// The nominal robot.
+    pub robot: Robot,
+}
+
+/// One sampling of a study, ready to run.
+#[derive(Clone, Debug)]
+pub struct Sampling<'a> {
+    /// Name in the study; `NAME/0000`, ... of one at several poses.
+    pub name: String,
+    /// Title for tables and figures.
+    pub title: &'a str,
+    /// The nominal robot.
+    pub robot: &'a Robot,
+    /// Wanted pose.
+    pub pose: Pose,
+    /// The load whose effect is observed.
+    pub load: Load,
+    /// Uncertain inputs (deviations by name of the cause) at points of Sobol's sequence.
+    pub design: SobolDesign,
+    /// What each input of the design acts on.
+    pub errors: ErrorModel,
+    /// Least and greatest modulus of the cables' law at the tensions of pose and load [Pa], where the error model asks for them.
+    pub operating_moduli: Option<[f64; 2]>,
+    /// The nominal robot's deflection.
+    pub nominal: Deflection,
+    /// Observes the robot with deviations of its parameters.
+    pub observer: Observer<'a>,
+    /// The rest of the study's settings.
+    pub study: &'a Study,
+}
+
+/// One surface of a study, ready to run.
+#[derive(Clone, Debug)]
+pub struct Surface<'a> {
+    /// Name in the study.
+    pub name: &'a str,
+    /// Title for tables and figures.
+    pub title: &'a str,
+    /// The nominal robot.
+    pub robot: &'a Robot,
+    /// Wanted pose.
+    pub pose: Pose,
+    /// The load whose effect is observed.
+    pub load: Load,
+    /// First axis: place in [`Parameter::all`] and deviations.
+    pub x: (Parameter, usize, Vec<f64>),
+    /// Second axis.
+    pub y: (Parameter, usize, Vec<f64>),
+    /// The nominal robot's deflection.
+    pub nominal: Deflection,
+    /// Observes the robot with deviations of its parameters.
+    pub observer: Observer<'a>,
+}
+
+impl Study {
+    pub(crate) fn statistics(&self, field: String, source: SensitivityError) -> StudyError {
+        StudyError::Statistics { path: self.path.clone(), field, source }
+    }
+
+    pub(crate) fn invalid(&self, field: &str, value: impl ToString, expected: &str) -> StudyError {
+        StudyError::Invalid {
+            path: self.path.clone(),
+            field: field.to_owned(),
+            value: value.to_string(),
+            expected: expected.to_owned(),
+        }
+    }
+}
+
+pub(crate) fn keys<T>(map: &IndexMap<String, T>) -> String {
+    format!("one of {}", map.keys().cloned().collect::<Vec<_>>().join(", "))
+}

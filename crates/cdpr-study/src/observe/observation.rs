@@ -1,0 +1,235 @@
+//! Observations: the deflection of perturbed robots.
+//!
+//! One observation perturbs all parameters of the robot; the inverse model runs on the *perturbed* robot at the wanted pose;
+//! its tensions are offset by dt_i and the unstrained lengths computed for the offset tensions; the direct model runs on the
+//! perturbed robot with those lengths, under its own weight and with the payload added; dp is the difference (Eq. (4)).
+//!
+//! Observations are made in blocks of consecutive indices, which a [`Session`] may keep on disk, and these in parts, one a thread. What
+//! is kept of a part in memory are sums, which are merged in the order of the indices: memory does not grow with the observations, and
+//! the numbers depend neither on the threads nor on what was on disk already.
+
+use crate::error::StudyError;
+use crate::model::designs::{OWN, Points};
+use crate::model::observed::{Failure, Observed, count_failed, failures, outcome_rms_mm, rms_mm};
+use crate::model::study::Sampling;
+use crate::store::block::{BLOCK, blocks};
+use crate::store::blocks::{Blocks, Place};
+use cdpr_sensitivity::{EffectSums, SampleDesign};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Observations of a part of a block.
+const PART: usize = 256;
+
+/// Outputs that are kept for quantiles and histogram: the first ones.
+pub const KEPT: usize = 1 << 16;
+
+/// Outputs that laws are fitted to, the first ones: each of the bootstrap's resamples is as long.
+pub const FITTED: usize = 1 << 13;
+
+/// Consecutive observations with their inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Index of the first one.
+    pub first: usize,
+    /// Values of the inputs of each observation, one after the other.
+    pub rows: Vec<f64>,
+    /// For each observation what was observed, or why nothing was.
+    pub outcomes: Vec<Observed>,
+}
+
+/// Where observations are kept, and who is told of them.
+#[derive(Clone, Copy)]
+pub struct Session<'a> {
+    /// Blocks on disk: what is there is not made again, what is made is kept. `None` keeps nothing.
+    pub blocks: Option<&'a Blocks>,
+    /// Told how many more observations are there.
+    pub tick: &'a (dyn Fn(usize) + Sync),
+    /// Told of each damaged block, which is made again.
+    pub warn: &'a (dyn Fn(&StudyError) + Sync),
+    /// Asked before each block whether to end there.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Session<'static> {
+    /// Nothing is kept and nobody told.
+    pub fn in_memory() -> Self {
+        Self { blocks: None, tick: &|_| (), warn: &|_| (), stop: &|| false }
+    }
+}
+
+/// What all observations of a sampling add up to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tally {
+    /// Sums behind moments and effects of the RMS [mm].
+    pub sums: EffectSums,
+    /// Number of failed observations by kind of failure; the usual kinds are always listed.
+    pub failed: BTreeMap<String, usize>,
+    /// RMS [mm] of the first [`KEPT`] observations, `None` where one failed.
+    pub first_rms_mm: Vec<Option<f64>>,
+}
+
+impl Tally {
+    fn new(sampling: &Sampling) -> Self {
+        Self {
+            sums: EffectSums::new(sampling.design.inputs(), rms_mm(sampling.nominal.rms())),
+            failed: count_failed(std::iter::empty()),
+            first_rms_mm: Vec::new(),
+        }
+    }
+
+    fn of_part(sampling: &Sampling, part: &Part) -> Self {
+        let mut tally = Self::new(sampling);
+        let inputs = sampling.design.inputs().len();
+        for (outcome, row) in part.outcomes.iter().zip(part.rows.chunks_exact(inputs)) {
+            let rms = outcome_rms_mm(outcome);
+            tally.sums.add(row, rms);
+            tally.first_rms_mm.push(rms);
+        }
+        tally.failed = count_failed(failures(&part.outcomes));
+        tally
+    }
+
+    /// Adds the observations that follow.
+    fn merge(&mut self, next: &Self) {
+        self.sums.merge(&next.sums);
+        for (kind, count) in &next.failed {
+            *self.failed.entry(kind.clone()).or_default() += count;
+        }
+        let room = KEPT.saturating_sub(self.first_rms_mm.len()).min(next.first_rms_mm.len());
+        self.first_rms_mm.extend_from_slice(&next.first_rms_mm[..room]);
+    }
+}
+
+/// Makes all observations of a sampling in parallel.
+///
+/// # Errors
+/// Those of the session's blocks; [`StudyError::Stopped`]; none of a session in memory.
+pub fn observe(sampling: &Sampling, session: &Session) -> Result<Tally, StudyError> {
+    observe_into(sampling, session, |_| (), |()| Ok(()))
+}
+
+/// The same, and hands what `each` makes of every part, in parallel, to `sink` in the order of the indices. Ends where `sink` fails.
+///
+/// # Errors
+/// As [`observe`], and that of `sink`.
+pub fn observe_into<T: Send>(
+    sampling: &Sampling,
+    session: &Session,
+    each: impl Fn(&Part) -> T + Sync,
+    mut sink: impl FnMut(T) -> Result<(), StudyError>,
+) -> Result<Tally, StudyError> {
+    let mut whole = Tally::new(sampling);
+    observe_design(
+        sampling,
+        (OWN, &sampling.design),
+        session,
+        |part| (Tally::of_part(sampling, part), each(part)),
+        |(tally, made)| {
+            whole.merge(&tally);
+            sink(made)
+        },
+    )?;
+    Ok(whole)
+}
+
+/// [`observe`] for another design over the same inputs, with the name of its blocks.
+pub(crate) fn observe_tally(
+    sampling: &Sampling,
+    design: (&str, &dyn Points),
+    session: &Session,
+) -> Result<Tally, StudyError> {
+    let mut whole = Tally::new(sampling);
+    let each = |part: &Part| Tally::of_part(sampling, part);
+    observe_design(sampling, design, session, each, |tally| {
+        whole.merge(&tally);
+        Ok(())
+    })?;
+    Ok(whole)
+}
+
+/// RMS [mm] of each observation of a design over the inputs of the sampling, `None` where it fails.
+pub(crate) fn observe_rms(
+    sampling: &Sampling,
+    design: (&str, &dyn Points),
+    session: &Session,
+) -> Result<Vec<Option<f64>>, StudyError> {
+    let mut all = Vec::with_capacity(design.1.size());
+    let each = |part: &Part| part.outcomes.iter().map(outcome_rms_mm).collect::<Vec<_>>();
+    observe_design(sampling, design, session, each, |rms| {
+        all.extend(rms);
+        Ok(())
+    })?;
+    Ok(all)
+}
+
+/// What `observed` says of each row of a design, in parallel and in the order of the rows, from some rows at a time that follow one another.
+pub fn observe_rows<T: Send>(design: &impl SampleDesign, observed: impl Fn(&mut [f64]) -> Vec<T> + Sync) -> Vec<T> {
+    let points = design.size();
+    let of_part = |part: usize| observed(&mut draw(design, part * PART..points.min((part + 1) * PART)));
+    (0..points.div_ceil(PART)).into_par_iter().flat_map_iter(of_part).collect()
+}
+
+fn observe_design<T: Send>(
+    sampling: &Sampling,
+    design: (&str, &dyn Points),
+    session: &Session,
+    each: impl Fn(&Part) -> T + Sync,
+    mut sink: impl FnMut(T) -> Result<(), StudyError>,
+) -> Result<(), StudyError> {
+    for (number, range) in blocks(design.1.size()) {
+        let made = observe_block(sampling, design, (number, range), session, &each)?;
+        made.into_iter().try_for_each(&mut sink)?;
+    }
+    Ok(())
+}
+
+/// What `each` makes of the parts of a block. Observations that are on disk are taken from there; if there are others, the block is written.
+pub(crate) fn observe_block<T: Send>(
+    sampling: &Sampling,
+    (name, design): (&str, &dyn Points),
+    (number, range): (usize, Range<usize>),
+    session: &Session,
+    each: &(impl Fn(&Part) -> T + Sync),
+) -> Result<Vec<T>, StudyError> {
+    debug_assert!(range.len() <= BLOCK);
+    if (session.stop)() {
+        return Err(StudyError::Stopped);
+    }
+    let place = Place { sampling: &sampling.name, design: name, number };
+    let known = match session.blocks {
+        Some(blocks) => blocks.known(&place, session.warn)?,
+        None => Vec::new(),
+    };
+    let known = &known[..known.len().min(range.len())];
+    let parts: Vec<usize> = range.clone().step_by(PART).collect();
+    let observed = |first: usize| {
+        let part = first..range.end.min(first + PART);
+        let known = &known[known.len().min(first - range.start)..known.len().min(part.end - range.start)];
+        let part = observe_part(sampling, design, part, known);
+        (session.tick)(part.outcomes.len());
+        (each(&part), part.outcomes)
+    };
+    let (made, outcomes): (Vec<T>, Vec<Vec<Observed>>) = parts.into_par_iter().map(observed).unzip();
+    if let Some(blocks) = session.blocks.filter(|_| known.len() < range.len()) {
+        blocks.write(&place, &outcomes.concat())?;
+    }
+    Ok(made)
+}
+
+/// A part of a design, the first observations of which may be known.
+fn observe_part(sampling: &Sampling, design: &dyn Points, range: Range<usize>, known: &[Observed]) -> Part {
+    let rows = draw(design, range.clone());
+    let unknown = &rows[known.len() * sampling.errors.inputs.len()..];
+    let observed = sampling.observer.observe_all(&sampling.errors.deviations(unknown)).into_iter();
+    let observed = observed.map(|outcome| outcome.map(|found| found.displacement).map_err(Failure::from));
+    let outcomes = known.iter().cloned().chain(observed).collect();
+    Part { first: range.start, rows, outcomes }
+}
+
+fn draw(design: &dyn Points, range: Range<usize>) -> Vec<f64> {
+    let mut rows = vec![0.0; range.len() * design.columns()];
+    design.fill(range.start, &mut rows);
+    rows
+}

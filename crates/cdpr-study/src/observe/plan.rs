@@ -1,0 +1,162 @@
+//! The blocks of a study in their order: what shards and the processes of a parallel run share out.
+
+use crate::error::StudyError;
+use crate::model::designs::{Design, Points};
+use crate::model::pose_set::PoseSet;
+use crate::model::study::{Sampling, Study};
+use crate::observe::observation::{Session, observe_block};
+use crate::observe::shard::Shard;
+use crate::store::block;
+use crate::store::blocks::Place;
+use std::ops::Range;
+
+/// All blocks of a study, numbered from 0 on: of each design of each pose of each sampling in turn. Those of poses that nothing holds are
+/// numbered, too, and empty: that such a pose is one need not be known to share the others out.
+#[derive(Clone, Debug)]
+pub struct Plan<'a> {
+    study: &'a Study,
+    parts: Vec<PlanPart<'a>>,
+    blocks: usize,
+}
+
+/// The blocks of a sampling.
+#[derive(Clone, Debug)]
+struct PlanPart<'a> {
+    name: &'a str,
+    poses: PoseSet<'a>,
+    designs: Vec<(Design, usize)>,
+    /// Number of its first block.
+    first: usize,
+    /// Blocks of each pose.
+    of_pose: usize,
+}
+
+/// A block of a study.
+pub(crate) struct Planned<'a> {
+    /// Name of the sampling in the study file.
+    pub(crate) entry: &'a str,
+    /// Name of the sampling at one pose.
+    pub(crate) sampling: String,
+    pub(crate) design: Design,
+    /// Number in the design.
+    pub(crate) number: usize,
+    /// Indices of its observations.
+    pub(crate) range: Range<usize>,
+}
+
+impl<'a> Plan<'a> {
+    /// The plan of a study.
+    ///
+    /// # Errors
+    /// None that a study which was read can have.
+    pub fn new(study: &'a Study) -> Result<Self, StudyError> {
+        let mut plan = Self { study, parts: Vec::new(), blocks: 0 };
+        for (name, spec) in &study.file.samplings {
+            let (poses, designs) = (study.poses(name, spec)?, study.designs(name, spec)?);
+            let of_pose = designs.iter().map(|(_, points)| block::count(*points)).sum::<usize>();
+            plan.parts.push(PlanPart { name, poses, designs, first: plan.blocks, of_pose });
+            plan.blocks += of_pose * poses.several().unwrap_or(1);
+        }
+        Ok(plan)
+    }
+
+    /// Number of blocks.
+    pub fn blocks(&self) -> usize {
+        self.blocks
+    }
+
+    /// Observations of a shard: those of its blocks.
+    pub fn observations(&self, shard: Shard) -> usize {
+        self.of_shard(shard).filter_map(|block| self.block(block)).map(|block| block.range.len()).sum()
+    }
+
+    /// Numbers of the blocks of a shard.
+    fn of_shard(&self, shard: Shard) -> impl Iterator<Item = usize> {
+        (0..self.blocks).filter(move |block| shard.has(*block))
+    }
+
+    /// The block of a number.
+    pub(crate) fn block(&self, block: usize) -> Option<Planned<'a>> {
+        let part = self.parts.iter().rfind(|part| part.first <= block)?;
+        let (pose, mut rest) = ((block - part.first) / part.of_pose, (block - part.first) % part.of_pose);
+        for (design, points) in &part.designs {
+            let count = block::count(*points);
+            if rest < count {
+                let (entry, sampling) = (part.name, part.poses.name(part.name, pose));
+                let range = block::range(*points, rest);
+                return Some(Planned { entry, sampling, design: *design, number: rest, range });
+            }
+            rest -= count;
+        }
+        None
+    }
+}
+
+/// Makes blocks, in any order; what neighbours have in common is kept from one to the next.
+pub struct BlockMaker<'a> {
+    plan: &'a Plan<'a>,
+    session: Session<'a>,
+    /// None where nothing holds its pose.
+    sampling: Option<(String, Option<Sampling<'a>>)>,
+    design: Option<(Design, Box<dyn Points>)>,
+}
+
+impl<'a> BlockMaker<'a> {
+    /// For the blocks of a plan.
+    pub fn new(plan: &'a Plan<'a>, session: Session<'a>) -> Self {
+        Self { plan, session, sampling: None, design: None }
+    }
+
+    /// Makes a block, by its number in the plan, unless it is on disk. Of a pose that nothing holds there is none.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] for a number that is none, those of the session's blocks; [`StudyError::Statistics`] for a design that cannot
+    /// be made.
+    pub fn make(&mut self, block: usize) -> Result<(), StudyError> {
+        let Some(Planned { sampling: name, design: kind, number, range, .. }) = self.plan.block(block) else {
+            let expected = format!("less than {}, the number of blocks", self.plan.blocks);
+            return Err(StudyError::setting("block", block, expected));
+        };
+        let design_name = kind.name();
+        let place = Place { sampling: &name, design: &design_name, number };
+        if let Some(blocks) = self.session.blocks
+            && blocks.known(&place, self.session.warn)?.len() >= range.len()
+        {
+            (self.session.tick)(range.len());
+            return Ok(());
+        }
+        let study = self.plan.study;
+        if self.sampling.as_ref().is_none_or(|(known, _)| *known != name) {
+            self.design = None;
+            self.sampling = Some((name.clone(), study.held(&name)?));
+        }
+        let Some((_, Some(sampling))) = &self.sampling else {
+            (self.session.tick)(range.len());
+            return Ok(());
+        };
+        // Made when the first block needs it: Saltelli's takes seconds.
+        if self.design.as_ref().is_none_or(|(known, _)| *known != kind) {
+            let design = kind.make(sampling).map_err(|source| StudyError::Statistics {
+                path: study.path.clone(),
+                field: format!("samplings.{name}: design `{design_name}`"),
+                source,
+            })?;
+            self.design = Some((kind, design));
+        }
+        if let Some((_, design)) = &self.design {
+            let design = (design_name.as_str(), design.as_ref());
+            observe_block(sampling, design, (number, range), &self.session, &|_| ())?;
+        }
+        Ok(())
+    }
+}
+
+/// Makes the blocks of a shard that are not on disk; of each design in turn, so that all shards are as long.
+///
+/// # Errors
+/// As [`BlockMaker::make`].
+pub fn observe_shard(study: &Study, shard: Shard, session: &Session) -> Result<(), StudyError> {
+    let plan = Plan::new(study)?;
+    let mut maker = BlockMaker::new(&plan, *session);
+    plan.of_shard(shard).try_for_each(|block| maker.make(block))
+}

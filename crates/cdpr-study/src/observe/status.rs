@@ -1,0 +1,201 @@
+//! How far a study in a folder of results is.
+
+use crate::error::StudyError;
+use crate::model::designs::Design;
+use crate::model::observed::{Observed, failures, outcome_rms_mm};
+use crate::model::study::Study;
+use crate::observe::plan::{Plan, Planned};
+use crate::store::blocks::{Blocks, Place};
+use cdpr_sensitivity::Moments;
+use indexmap::IndexMap;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// How far a study is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Status {
+    /// Name of the study.
+    pub study: String,
+    /// Its hash.
+    pub hash: String,
+    /// Whether all blocks are there, so that it can be merged.
+    pub complete: bool,
+    /// Its samplings by name.
+    pub samplings: IndexMap<String, SamplingStatus>,
+}
+
+/// How far a sampling is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SamplingStatus {
+    /// Its designs by name: its own, `sampling`, and those of replicates and measures. Of all poses, if it has several.
+    pub designs: IndexMap<String, DesignStatus>,
+    /// Poses of several that the nominal robot does not hold: they have no blocks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poses_not_held: Option<usize>,
+    /// What its own observations that are there say of the RMS, wherever they are; none for fewer than two, or several poses.
+    pub provisional_rms_mm: Option<Provisional>,
+}
+
+/// How far a design is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct DesignStatus {
+    /// Blocks that are there and whole.
+    pub blocks_done: usize,
+    /// Blocks that are not, damaged ones among them.
+    pub blocks_missing: usize,
+    /// Damaged blocks: each will be made again.
+    pub damaged: Vec<PathBuf>,
+    /// Observations that are there.
+    pub observed: usize,
+    /// Observations of the whole design.
+    pub observations: usize,
+    /// Failed ones of those that are there, by kind.
+    pub failed: BTreeMap<String, usize>,
+}
+
+/// Moments of the observations so far [mm].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Provisional {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation, with n - 1.
+    pub std: f64,
+}
+
+/// Reads all blocks of a study and says which are there.
+///
+/// # Errors
+/// [`StudyError::Read`]; [`StudyError::ForeignBlock`].
+pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
+    let mut samplings = IndexMap::new();
+    for (name, spec) in &study.file.samplings {
+        let designs = study.designs(name, spec)?.into_iter();
+        let designs = designs.map(|(design, _)| (design.name(), DesignStatus::default())).collect();
+        let poses_not_held = spec.poses.as_ref().map(|_| 0);
+        samplings.insert(name.clone(), SamplingStatus { designs, poses_not_held, provisional_rms_mm: None });
+    }
+    let mut moments: IndexMap<String, Moments> = IndexMap::new();
+    visit(
+        study,
+        blocks,
+        |_| true,
+        |Seen { block, path, outcomes }| {
+            let Some(sampling) = samplings.get_mut(block.entry) else { return };
+            let Some(found) = sampling.designs.get_mut(&block.design.name()) else { return };
+            let Some(outcomes) = outcomes else {
+                if let (Some(not_held), 0) = (&mut sampling.poses_not_held, block.number) {
+                    *not_held += 1;
+                }
+                return;
+            };
+            found.observations += block.range.len();
+            let Ok(outcomes) = outcomes else {
+                found.blocks_missing += 1;
+                return found.damaged.push(path);
+            };
+            let whole = outcomes.len() == block.range.len();
+            *(if whole { &mut found.blocks_done } else { &mut found.blocks_missing }) += 1;
+            found.observed += outcomes.len();
+            for kind in failures(&outcomes) {
+                *found.failed.entry(kind.to_owned()).or_default() += 1;
+            }
+            if block.design == Design::Own && sampling.poses_not_held.is_none() {
+                let moments = moments.entry(block.entry.to_owned()).or_default();
+                outcomes.iter().for_each(|outcome| moments.add(outcome_rms_mm(outcome)));
+            }
+        },
+    )?;
+    for (name, sampling) in &mut samplings {
+        let rms = moments.get(name).and_then(|moments| moments.summary().ok());
+        sampling.provisional_rms_mm = rms.map(|rms| Provisional { mean: rms.mean, std: rms.std });
+    }
+    let mut all = samplings.values().flat_map(|sampling: &SamplingStatus| sampling.designs.values());
+    let complete = all.all(|design| design.blocks_missing == 0);
+    Ok(Status { study: study.file.name.clone(), hash: study.hash()?, complete, samplings })
+}
+
+/// Sees to it that all blocks of the study in `folder` are there.
+///
+/// # Errors
+/// [`StudyError::MissingBlocks`], damaged ones counted; as [`status`].
+pub fn check_complete(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(), StudyError> {
+    check(folder, study, blocks, |_| true)
+}
+
+/// The same of the observations of one sampling, at one pose: neither others nor replicates and measures of sensitivity are looked at.
+///
+/// # Errors
+/// As [`check_complete`].
+pub fn check_observed(
+    folder: &Path,
+    study: &Study,
+    blocks: &Blocks,
+    sampling: &str,
+) -> Result<(), StudyError> {
+    check(folder, study, blocks, |block| block.design == Design::Own && block.sampling == sampling)
+}
+
+fn check(
+    folder: &Path,
+    study: &Study,
+    blocks: &Blocks,
+    wanted: impl Fn(&Planned) -> bool,
+) -> Result<(), StudyError> {
+    let (mut all, mut missing) = (0, Vec::new());
+    visit(study, blocks, wanted, |Seen { block, path, outcomes }| {
+        let Some(outcomes) = outcomes else { return };
+        all += 1;
+        if !outcomes.is_ok_and(|outcomes| outcomes.len() == block.range.len()) {
+            missing.push(path);
+        }
+    })?;
+    match missing.first().cloned() {
+        None => Ok(()),
+        Some(first) => {
+            let (folder, missing) = (folder.to_owned(), missing.len());
+            Err(StudyError::MissingBlocks { folder, missing, blocks: all, first })
+        }
+    }
+}
+
+/// A block of a study and what of it is on disk.
+struct Seen<'a> {
+    block: Planned<'a>,
+    path: PathBuf,
+    /// What is there, or why it is damaged; none where nothing holds the pose, so that nothing is missing.
+    outcomes: Option<Result<Vec<Observed>, StudyError>>,
+}
+
+/// Shows each block of a study that is wanted.
+fn visit(
+    study: &Study,
+    blocks: &Blocks,
+    wanted: impl Fn(&Planned) -> bool,
+    mut see: impl FnMut(Seen),
+) -> Result<(), StudyError> {
+    let plan = Plan::new(study)?;
+    // Of a pose that nothing holds no block is missing: looked at once a pose, and only where one is not there.
+    let mut held = (String::new(), true);
+    let mut is_held = |block: &Planned| {
+        if block.sampling != held.0 {
+            held = (block.sampling.clone(), study.held(&block.sampling)?.is_some());
+        }
+        Ok::<_, StudyError>(held.1)
+    };
+    for block in (0..plan.blocks()).filter_map(|number| plan.block(number)).filter(wanted) {
+        let design = block.design.name();
+        let place = Place { sampling: &block.sampling, design: &design, number: block.number };
+        let outcomes = match blocks.read(&place) {
+            Ok(outcomes) if outcomes.is_empty() && block.sampling != block.entry && !is_held(&block)? => None,
+            Ok(mut outcomes) => {
+                outcomes.truncate(block.range.len());
+                Some(Ok(outcomes))
+            }
+            Err(error @ StudyError::DamagedBlock { .. }) => Some(Err(error)),
+            Err(error) => return Err(error),
+        };
+        see(Seen { path: blocks.path(&place), block, outcomes });
+    }
+    Ok(())
+}

@@ -1,0 +1,132 @@
+//! A folder of results read back, for what is made of it afterwards.
+
+use crate::analysis::part::StudySummary;
+use crate::analysis::poses::{PoseRow, PosesSummary};
+use crate::analysis::summary::Summary;
+use crate::analysis::surface::{SurfaceResult, SurfaceSummary};
+use crate::error::StudyError;
+use crate::fs::files::read;
+use crate::model::study::Study;
+use crate::names::{STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
+use crate::results::write::Timings;
+use cdpr_robot::from_json;
+use indexmap::IndexMap;
+use serde::de::DeserializeOwned;
+use std::path::Path;
+
+/// Everything that a folder of results holds, but the observations.
+#[derive(Clone, Debug)]
+pub struct Results {
+    /// The study with its robot, from `study.json`.
+    pub study: Study,
+    /// The text of `study.json`.
+    pub study_json: String,
+    /// The text of the robot file that it names.
+    pub robot_json: String,
+    /// `summary.json`.
+    pub summary: Summary,
+    /// The tables of the surfaces by name; a point that failed has the kind of its failure.
+    pub surfaces: IndexMap<String, SurfaceResult<String>>,
+    /// The tables of the samplings at several poses by name.
+    pub poses: IndexMap<String, Vec<PoseRow>>,
+    /// `timings.json`, if there is such a file.
+    pub timings: Option<Timings>,
+}
+
+impl Results {
+    /// Reads the folder that a run of a study has written.
+    ///
+    /// # Errors
+    /// [`StudyError`] naming the file that is missing or is none, with field and reason.
+    pub fn read(folder: &Path) -> Result<Self, StudyError> {
+        let path = folder.join(STUDY_NAME);
+        let study_json = read(&path)?;
+        let study = Study::from_json(&study_json, &path)?;
+        let robot_json = read(&folder.join(&study.file.robot))?;
+        let path = folder.join(SUMMARY_NAME);
+        if !path.exists() {
+            return Err(StudyError::NotAnalysed { folder: folder.to_owned() });
+        }
+        let summary: Summary = read_json(&path)?;
+        let (mut surfaces, mut poses) = (IndexMap::new(), IndexMap::new());
+        for (name, found) in &summary.studies {
+            let path = folder.join(format!("{name}.csv"));
+            match found {
+                StudySummary::Surface(surface) => {
+                    surfaces.insert(name.clone(), read_surface(&path, surface)?);
+                }
+                StudySummary::Poses(summary) => {
+                    poses.insert(name.clone(), read_poses(&path, summary)?);
+                }
+                StudySummary::Sampling(_) => (),
+            }
+        }
+        let timings = match read_json(&folder.join(TIMINGS_NAME)) {
+            Err(StudyError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => None,
+            timings => Some(timings?),
+        };
+        Ok(Self { study, study_json, robot_json, summary, surfaces, poses, timings })
+    }
+}
+
+fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, StudyError> {
+    from_json(&read(path)?).map_err(|source| StudyError::Format { path: path.to_owned(), source })
+}
+
+/// Reads the table that `write_poses` has written.
+fn read_poses(path: &Path, summary: &PosesSummary) -> Result<Vec<PoseRow>, StudyError> {
+    let invalid = |field: String, value: String, expected: String| StudyError::Invalid {
+        path: path.to_owned(),
+        field,
+        value,
+        expected,
+    };
+    let text = read(path)?;
+    let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize().enumerate();
+    let row = |(k, row): (usize, Result<PoseRow, csv::Error>)| {
+        row.map_err(|error| {
+            invalid(format!("row {}", k + 1), error.to_string(), "a pose and its results".to_owned())
+        })
+    };
+    let rows: Vec<_> = rows.map(row).collect::<Result<_, _>>()?;
+    if rows.len() != summary.poses {
+        return Err(invalid(
+            "rows".to_owned(),
+            rows.len().to_string(),
+            format!("{}, one a pose", summary.poses),
+        ));
+    }
+    Ok(rows)
+}
+
+/// Reads the table that `write_surface` has written: the second parameter runs faster.
+fn read_surface(path: &Path, summary: &SurfaceSummary) -> Result<SurfaceResult<String>, StudyError> {
+    let invalid = |field: String, value: &str, expected: &str| StudyError::Invalid {
+        path: path.to_owned(),
+        field,
+        value: value.to_owned(),
+        expected: expected.to_owned(),
+    };
+    let text = read(path)?;
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let mut points = Vec::new();
+    for (k, record) in reader.deserialize::<(f64, f64, Option<f64>, String)>().enumerate() {
+        let (x, y, rms, status) = record.map_err(|error| {
+            invalid(format!("row {}", k + 1), &error.to_string(), "two parameters, rms_mm and status")
+        })?;
+        points.push((x, y, rms.ok_or(status)));
+    }
+    let columns = points.iter().take_while(|point| point.0 == points[0].0).count();
+    let whole = columns > 0 && points.len() % columns == 0 && points.len() == summary.observations;
+    let same = |k: usize| points[k].0 == points[k - k % columns].0 && points[k].1 == points[k % columns].1;
+    if !(whole && (0..points.len()).all(same)) {
+        let expected =
+            format!("a grid of {} points, the second parameter running faster", summary.observations);
+        return Err(invalid("rows".to_owned(), &points.len().to_string(), &expected));
+    }
+    Ok(SurfaceResult {
+        x: points.iter().step_by(columns).map(|point| point.0).collect(),
+        y: points[..columns].iter().map(|point| point.1).collect(),
+        rms_mm: points.into_iter().map(|(.., rms)| rms).collect(),
+    })
+}

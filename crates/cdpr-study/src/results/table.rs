@@ -1,0 +1,149 @@
+//! Tables of the observations of a sampling: one row each, with the deviation of every parameter from its nominal value, dp, RMS,
+//! status and reason.
+
+use crate::error::StudyError;
+use crate::fs::atomic::AtomicFile;
+use crate::fs::files::remove_stale;
+use crate::model::observed::{observed_mm, status};
+use crate::model::study::Sampling;
+use crate::observe::observation::Part;
+use cdpr_sensitivity::SampleDesign;
+use std::io::Write;
+use std::path::Path;
+
+/// What a table is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableFormat {
+    /// `NAME.csv`, for people and all programs.
+    Csv,
+    /// `NAME.parquet`, for large studies: typed columns, units and provenance inside.
+    #[cfg(feature = "parquet")]
+    Parquet,
+    /// No table.
+    None,
+}
+
+/// Rows of a table, ready to be written.
+pub struct Rows(Content);
+
+enum Content {
+    Csv(std::io::Result<Vec<u8>>),
+    #[cfg(feature = "parquet")]
+    Parquet(Part),
+    None,
+}
+
+/// A table being written. It takes its name when it is finished.
+pub struct ObservationTable(Table);
+
+enum Table {
+    Csv(Box<AtomicFile>),
+    #[cfg(feature = "parquet")]
+    Parquet(Box<crate::results::parquet::ParquetTable>),
+    None,
+}
+
+impl TableFormat {
+    /// Rows of a part: in parallel, for it takes longer than the mechanics.
+    pub fn rows(self, part: &Part) -> Rows {
+        Rows(match self {
+            Self::Csv => Content::Csv(csv_rows(part)),
+            #[cfg(feature = "parquet")]
+            Self::Parquet => Content::Parquet(part.clone()),
+            Self::None => Content::None,
+        })
+    }
+}
+
+impl ObservationTable {
+    /// Begins the table of a sampling, and removes one of an earlier run: `d_mass`, ... in SI units, `dx_mm`, ..., `rms_mm`, `status` and `reason`.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub fn new(folder: &Path, sampling: &Sampling, format: TableFormat) -> Result<Self, StudyError> {
+        for ending in ["csv", "parquet"] {
+            remove_stale(folder.join(format!("{}.{ending}", sampling.name)))?;
+        }
+        // The tables of several poses have a folder of their own.
+        if let (Some((name, _)), true) = (sampling.name.split_once('/'), format != TableFormat::None) {
+            let path = folder.join(name);
+            std::fs::create_dir_all(&path).map_err(|source| StudyError::Write { path, source })?;
+        }
+        let names = sampling.design.inputs().iter().map(|input| format!("d_{}", input.name));
+        match format {
+            TableFormat::Csv => {
+                let rest = ["dx_mm", "dy_mm", "dz_mm", "rms_mm", "status", "reason"].map(str::to_owned);
+                let header: Vec<String> = ["index".to_owned()].into_iter().chain(names).chain(rest).collect();
+                let mut file = AtomicFile::new(folder.join(format!("{}.csv", sampling.name)))?;
+                match file.write_all((header.join(",") + "\n").as_bytes()) {
+                    Ok(()) => Ok(Self(Table::Csv(Box::new(file)))),
+                    Err(source) => Err(file.unwritten(source)),
+                }
+            }
+            #[cfg(feature = "parquet")]
+            TableFormat::Parquet => crate::results::parquet::ParquetTable::new(folder, sampling)
+                .map(|table| Self(Table::Parquet(Box::new(table)))),
+            TableFormat::None => Ok(Self(Table::None)),
+        }
+    }
+
+    /// Adds rows of the same format.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub fn write(&mut self, rows: Rows) -> Result<(), StudyError> {
+        match (&mut self.0, rows.0) {
+            (Table::Csv(file), Content::Csv(text)) => {
+                let written = text.and_then(|text| file.write_all(&text));
+                written.map_err(|source| file.unwritten(source))
+            }
+            (Table::None, Content::None) => Ok(()),
+            #[cfg(feature = "parquet")]
+            (Table::Parquet(table), Content::Parquet(part)) => table.write(part),
+            (_, _) => {
+                debug_assert!(false, "rows of another format");
+                Ok(())
+            }
+        }
+    }
+
+    /// Ends the table.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub fn finish(self) -> Result<(), StudyError> {
+        match self.0 {
+            Table::Csv(file) => file.finish().map(|_| ()),
+            #[cfg(feature = "parquet")]
+            Table::Parquet(table) => table.finish(),
+            Table::None => Ok(()),
+        }
+    }
+}
+
+/// Lines of text. Numbers need no quotes; what is said of a failure may.
+fn csv_rows(part: &Part) -> std::io::Result<Vec<u8>> {
+    let mut text = Vec::new();
+    let inputs = (part.rows.len() / part.outcomes.len().max(1)).max(1);
+    for (index, (row, outcome)) in (part.first..).zip(part.rows.chunks_exact(inputs).zip(&part.outcomes)) {
+        write!(text, "{index}")?;
+        row.iter().try_for_each(|value| write!(text, ",{value}"))?;
+        for value in observed_mm(outcome) {
+            match value {
+                Some(value) => write!(text, ",{value}")?,
+                None => text.push(b','),
+            }
+        }
+        text.push(b',');
+        match outcome {
+            Ok(_) => text.extend_from_slice(b"ok,\n"),
+            Err(_) => {
+                let (status, reason) = status(outcome);
+                let mut words = csv::Writer::from_writer(&mut text);
+                words.write_record([status, reason])?;
+                words.flush()?;
+            }
+        }
+    }
+    Ok(text)
+}

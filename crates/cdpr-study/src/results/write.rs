@@ -1,0 +1,97 @@
+//! Result files: observations as CSV, the summary as JSON.
+
+use crate::analysis::poses::PoseRow;
+use crate::analysis::sensitivity::SensitivitySummary;
+use crate::analysis::summary::Summary;
+use crate::analysis::surface::SurfaceResult;
+use crate::error::StudyError;
+use crate::fs::atomic::write_json;
+use crate::fs::files::{write_csv, write_rows, write_text};
+use crate::model::study::Surface;
+use crate::names::{SUMMARY_NAME, TIMINGS_NAME};
+use indexmap::IndexMap;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// Writes `NAME.csv`: one row a grid point, with the values of both parameters (in SI units), RMS and status.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_surface(
+    folder: &Path,
+    surface: &Surface,
+    result: &SurfaceResult,
+) -> Result<PathBuf, StudyError> {
+    let header =
+        vec![surface.x.0.to_string(), surface.y.0.to_string(), "rms_mm".to_owned(), "status".to_owned()];
+    let columns = result.y.len();
+    let rows = result.rms_mm.iter().enumerate().map(|(k, rms)| {
+        let (value, status) = match rms {
+            Ok(rms) => (rms.to_string(), "ok"),
+            Err(error) => (String::new(), error.kind()),
+        };
+        vec![result.x[k / columns].to_string(), result.y[k % columns].to_string(), value, status.to_owned()]
+    });
+    write_csv(folder.join(format!("{}.csv", surface.name)), header, rows)
+}
+
+/// Writes `NAME_sensitivity.csv`: one row an input, with what each measure says of it; shares and indices have no unit, a method
+/// that has failed leaves its cells empty.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_sensitivity(
+    folder: &Path,
+    name: &str,
+    sensitivity: &SensitivitySummary,
+) -> Result<PathBuf, StudyError> {
+    write_rows(folder.join(format!("{name}_sensitivity.csv")), &sensitivity.inputs)
+}
+
+/// Writes `NAME.csv` of a sampling at several poses: one row each.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_poses(folder: &Path, name: &str, rows: &[PoseRow]) -> Result<PathBuf, StudyError> {
+    write_rows(folder.join(format!("{name}.csv")), rows)
+}
+
+/// Writes `summary.json`.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_summary(folder: &Path, summary: &Summary) -> Result<PathBuf, StudyError> {
+    write_json(folder.join(SUMMARY_NAME), summary)
+}
+
+/// Writes the figure `NAME.svg`.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_figure(folder: &Path, name: &str, svg: &str) -> Result<PathBuf, StudyError> {
+    let path = folder.join(format!("{name}.svg"));
+    write_text(&path, svg)?;
+    Ok(path)
+}
+
+/// Wall times of a run; `timings.json`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Timings {
+    /// Threads.
+    pub threads: usize,
+    /// Seconds by name of sampling or surface.
+    pub seconds: IndexMap<String, f64>,
+    /// Seconds by sampling and method of its measures of sensitivity.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub sensitivity: IndexMap<String, IndexMap<String, f64>>,
+    /// Seconds of all.
+    pub all: f64,
+}
+
+/// Writes `timings.json`.
+///
+/// # Errors
+/// [`StudyError::Write`].
+pub fn write_timings(folder: &Path, timings: &Timings) -> Result<PathBuf, StudyError> {
+    write_json(folder.join(TIMINGS_NAME), timings)
+}

@@ -1,0 +1,171 @@
+//! The file of a block, `cdpr-block/1`: what was observed at consecutive indices of a design. The inputs are not in it: they follow
+//! from the design.
+//!
+//! ```text
+//! cdpr-block/1 CHECKSUM        BLAKE3, in hexadecimal digits, of all that follows this line
+//! {"version":..., "study":..., "sampling":..., "design":..., "first":..., "observations":..., "failed":{...}}
+//! dx dy dz ...                 displacement [m] of each observation, 64-bit floats, least byte first; NaN where it failed
+//! [[index, kind, reason], ...] failed observations, counted from the first of the block
+//! ```
+
+use crate::model::observed::{Failure, Observed};
+use cdpr_robot::Vector3;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Name and version of the format.
+pub(crate) const BLOCK_FORMAT: &str = "cdpr-block/1";
+
+/// Observations of a block, but for the last one of a design: the unit of work, of checkpoint and of reduction.
+pub const BLOCK: usize = 16_384;
+
+/// Bytes of a displacement.
+const DISPLACEMENT: usize = 24;
+
+/// What a block is of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BlockHeader {
+    /// Version of the program.
+    pub(crate) version: String,
+    /// Hash of the study ([`crate::Study::hash`]).
+    pub(crate) study: String,
+    /// Name of the sampling.
+    pub(crate) sampling: String,
+    /// Name of its design.
+    pub(crate) design: String,
+    /// Index in the design of the first observation.
+    pub(crate) first: usize,
+    /// Number of observations.
+    pub(crate) observations: usize,
+    /// Failed ones by kind.
+    pub(crate) failed: BTreeMap<String, usize>,
+}
+
+/// The blocks of a design of so many points: number and range of indices.
+pub(crate) fn blocks(points: usize) -> impl Iterator<Item = (usize, Range<usize>)> {
+    (0..count(points)).map(move |number| (number, range(points, number)))
+}
+
+/// Number of blocks of a design of so many points.
+pub(crate) fn count(points: usize) -> usize {
+    points.div_ceil(BLOCK)
+}
+
+/// Indices in the block of that number.
+pub(crate) fn range(points: usize, number: usize) -> Range<usize> {
+    number * BLOCK..points.min((number + 1) * BLOCK)
+}
+
+/// The file of a block.
+///
+/// # Errors
+/// Those of `serde_json`, which numbers and texts do not have.
+pub(crate) fn encode(header: &BlockHeader, outcomes: &[Observed]) -> Result<Vec<u8>, serde_json::Error> {
+    let mut body = serde_json::to_vec(header)?;
+    body.push(b'\n');
+    let none = Vector3::repeat(f64::NAN);
+    for displacement in outcomes.iter().map(|outcome| outcome.as_ref().unwrap_or(&none)) {
+        displacement.iter().for_each(|value| body.extend_from_slice(&value.to_le_bytes()));
+    }
+    let failures: Vec<(usize, &str, &str)> = outcomes
+        .iter()
+        .enumerate()
+        .filter_map(|(k, outcome)| {
+            outcome.as_ref().err().map(|failure| (k, failure.kind.as_str(), failure.reason.as_str()))
+        })
+        .collect();
+    serde_json::to_writer(&mut body, &failures)?;
+    let mut file = format!("{BLOCK_FORMAT} {}\n", blake3::hash(&body)).into_bytes();
+    file.append(&mut body);
+    Ok(file)
+}
+
+/// What the file of a block says, or why it is damaged.
+pub(crate) fn decode(file: &[u8]) -> Result<(BlockHeader, Vec<Observed>), String> {
+    let (first, body) = line(file).ok_or("no line in it")?;
+    let checksum = std::str::from_utf8(first)
+        .ok()
+        .and_then(|first| first.strip_prefix(BLOCK_FORMAT)?.strip_prefix(' '))
+        .ok_or_else(|| format!("it does not begin with {BLOCK_FORMAT}"))?;
+    let found = blake3::hash(body).to_string();
+    if found != checksum {
+        return Err(format!("its checksum is {found}, and should be {checksum}"));
+    }
+    let (header, payload) = line(body).ok_or("no header in it")?;
+    let header: BlockHeader = serde_json::from_slice(header).map_err(|error| format!("header: {error}"))?;
+    let bytes = header.observations.checked_mul(DISPLACEMENT).filter(|bytes| *bytes <= payload.len());
+    let (displacements, failures) = payload.split_at(bytes.ok_or("fewer observations than its header says")?);
+    let mut outcomes: Vec<Observed> = displacements
+        .chunks_exact(DISPLACEMENT)
+        .map(|bytes| Ok(Vector3::from_fn(|k, _| float(&bytes[8 * k..8 * (k + 1)]))))
+        .collect();
+    let failures: Vec<(usize, String, String)> =
+        serde_json::from_slice(failures).map_err(|error| format!("failures: {error}"))?;
+    for (k, kind, reason) in failures {
+        let outcome = outcomes.get_mut(k).ok_or_else(|| format!("failure {k} is of no observation"))?;
+        *outcome = Err(Failure { kind, reason });
+    }
+    Ok((header, outcomes))
+}
+
+/// The text before the first end of a line, and all after it.
+fn line(text: &[u8]) -> Option<(&[u8], &[u8])> {
+    let end = text.iter().position(|byte| *byte == b'\n')?;
+    Some((&text[..end], &text[end + 1..]))
+}
+
+fn float(bytes: &[u8]) -> f64 {
+    f64::from_bits(bytes.iter().rev().fold(0, |bits, byte| bits << 8 | u64::from(*byte)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn block() -> (BlockHeader, Vec<Observed>) {
+        let failure = Failure { kind: "infeasible_tension".to_owned(), reason: "1 N\nis \"ρ\"".to_owned() };
+        let header = BlockHeader {
+            version: "1.2.3".to_owned(),
+            study: "abc".to_owned(),
+            sampling: "mechanical".to_owned(),
+            design: "replicate-2".to_owned(),
+            first: BLOCK,
+            observations: 3,
+            failed: [("infeasible_tension".to_owned(), 1)].into(),
+        };
+        let numbers = [Vector3::new(1.5e-3, -0.0, 5e-324), Vector3::new(-1e300, 0.1, 1.0 / 3.0)];
+        (header, vec![Ok(numbers[0]), Err(failure), Ok(numbers[1])])
+    }
+
+    #[test]
+    fn a_block_is_read_as_it_was_written_to_the_last_bit() {
+        let (header, outcomes) = block();
+        let (read_header, read) = decode(&encode(&header, &outcomes).unwrap()).unwrap();
+        assert_eq!(read_header, header);
+        let bits = |outcome: &Observed| {
+            outcome.as_ref().map(|displacement| displacement.map(f64::to_bits)).map_err(Clone::clone)
+        };
+        assert_eq!(read.iter().map(bits).collect::<Vec<_>>(), outcomes.iter().map(bits).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn any_single_damaged_byte_and_any_truncation_is_noticed() {
+        let (header, outcomes) = block();
+        let file = encode(&header, &outcomes).unwrap();
+        for k in 0..file.len() {
+            let mut damaged = file.clone();
+            damaged[k] ^= 0x20;
+            assert!(decode(&damaged).is_err(), "byte {k}");
+            assert!(decode(&file[..k]).is_err(), "{k} bytes");
+        }
+    }
+
+    #[test]
+    fn the_blocks_of_a_design_cover_its_points_once() {
+        let ranges: Vec<_> = blocks(2 * BLOCK + 7).collect();
+        assert_eq!(ranges, [(0, 0..BLOCK), (1, BLOCK..2 * BLOCK), (2, 2 * BLOCK..2 * BLOCK + 7)]);
+        assert_eq!(blocks(BLOCK).count(), 1);
+    }
+}
