@@ -1,7 +1,5 @@
 //! Every derivative of the catenary against dual numbers: the same equations, with a number that carries its derivative.
 
-#![allow(clippy::unwrap_used)]
-
 use cdpr_cable::{Cable, Catenary, Field, Real, Vector2, least_tension, length_for_tension, response};
 use proptest::prelude::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -1,7 +1,5 @@
 //! The test of robustness: what it counts, that its numbers follow from the seed, and which settings it refuses.
 
-#![allow(clippy::unwrap_used)]
-
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_study::{
     Outcome, Protocol, ProtocolSummary, RobustnessResult, StudyError, anchor_distance, run_robustness,
