@@ -3,8 +3,6 @@
 //! The expected values and tolerances are those of an independent program of about 200 lines, run with 200 000 random
 //! observations (docs/VALIDATION.md).
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_study::{
     Part, SamplingSummary, Session, Study, SurfaceSummary, analyse, compute_surface, observe, observe_into,
 };

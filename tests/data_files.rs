@@ -1,7 +1,5 @@
 //! The data files are what they say they are, and the schemas in the docs are those of the code.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{Pose, Robot};
 use cdpr_study::Study;
 use std::path::{Path, PathBuf};

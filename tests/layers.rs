@@ -1,8 +1,12 @@
-//! The layers that docs/ARCHITECTURE.md draws are those that cargo builds.
+//! The layers that docs/ARCHITECTURE.md draws are those that cargo builds, and the modules of a crate are imported in its order.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+mod floors;
+mod modules;
 
+use floors::Floors;
+use modules::{Crate, Module, rust_files};
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 
 const ARCHITECTURE: &str = include_str!("../docs/ARCHITECTURE.md");
 
@@ -46,24 +50,82 @@ fn each_crate_uses_exactly_the_layers_that_are_documented() {
     assert_eq!(documented(), built);
 }
 
-#[test]
-fn no_layer_uses_one_above_it() {
-    let documented = documented();
-    let mut below = BTreeSet::new();
-    while below.len() < documented.len() {
-        let next: Vec<_> = documented
-            .iter()
-            .filter(|(name, uses)| !below.contains(*name) && uses.iter().all(|layer| below.contains(layer)))
-            .map(|(name, _)| name.clone())
-            .collect();
-        assert!(!next.is_empty(), "a cycle among the layers above {below:?}");
-        below.extend(next);
+/// Folders of sources by name of the crate.
+fn sources() -> BTreeMap<String, PathBuf> {
+    let metadata = cargo_metadata::MetadataCommand::new().no_deps().exec().unwrap();
+    let crates = metadata.packages.iter().filter(|package| package.name.as_str() != "cdpr-tests");
+    crates
+        .map(|package| (package.name.to_string(), package.manifest_path.parent().unwrap().join("src").into()))
+        .collect()
+}
+
+/// The floors of each crate: below its name, indented, in the block of modules.
+fn documented_floors() -> BTreeMap<String, String> {
+    let block =
+        ARCHITECTURE.split("\n## Modules\n").nth(1).and_then(|rest| rest.split("```").nth(1)).unwrap();
+    let mut floors: BTreeMap<String, String> = BTreeMap::new();
+    let mut name = "";
+    for line in block.lines().skip(1) {
+        if line.starts_with(' ') {
+            floors.get_mut(name).unwrap().push_str(&format!("{line}\n"));
+        } else {
+            name = line;
+            floors.insert(name.to_owned(), String::new());
+        }
     }
+    floors
+}
+
+#[test]
+fn no_more_than_two_files_of_a_crate_import_from_each_other_in_a_circle() {
+    let circles = |(name, folder): (&String, &PathBuf)| {
+        let circles = floors::circles(&Crate::read(folder).imports());
+        circles.iter().map(|circle| format!("{name} has {circle}\n")).collect::<String>()
+    };
+    let documented = documented_floors();
+    let found: String =
+        sources().iter().filter(|(name, _)| documented.contains_key(*name)).map(circles).collect();
+    assert!(found.is_empty(), "{found}");
+}
+
+#[test]
+fn each_module_imports_from_the_floors_below_it_alone() {
+    let documented = documented_floors();
+    let mut found = String::new();
+    for (name, folder) in sources() {
+        let sources = Crate::read(&folder);
+        let (modules, imports) = (sources.modules(), sources.imports());
+        let breaches = match documented.get(&name) {
+            Some(list) => Floors::parse(list).breaches(&modules, &imports),
+            // Its list is still to come.
+            None => continue,
+        };
+        if !breaches.is_empty() {
+            let today = floors::suggestion(&Module::new(), &modules, &imports).replace('\n', "\n    ");
+            found += &format!(
+                "{name}: {}\nThe imports of today make:\n{name}\n    {today}\n\n",
+                breaches.join("\n  ")
+            );
+        }
+    }
+    assert!(found.is_empty(), "{found}");
+}
+
+#[test]
+fn at_most_sixteen_files_stand_side_by_side() {
+    let mut files: BTreeMap<PathBuf, usize> = BTreeMap::new();
+    let documented = documented_floors();
+    let crates = sources().into_iter().filter(|(name, _)| documented.contains_key(name));
+    for file in crates.flat_map(|(_, folder)| rust_files(&folder)) {
+        *files.entry(file.parent().unwrap().to_owned()).or_default() += 1;
+    }
+    files.retain(|_, count| *count > 16);
+    assert!(files.is_empty(), "{files:?}");
 }
 
 #[test]
 fn each_numerical_library_is_named_by_one_module_of_a_crate() {
-    let crates = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
     for (library, modules) in [
         ("clarabel", &["cdpr-tension/src/quadratic_program.rs"][..]),
         ("faer", &["cdpr-sensitivity/src/least_squares.rs", "cdpr-statics/src/equations/assembled.rs"]),
@@ -71,7 +133,7 @@ fn each_numerical_library_is_named_by_one_module_of_a_crate() {
         ("pulp", &["cdpr-statics/src/lanes/simd.rs"]),
     ] {
         let mut users = Vec::new();
-        for source in rust_files(&crates) {
+        for source in rust_files(&crates).into_iter().filter(|path| path.iter().any(|part| part == "src")) {
             let text = std::fs::read_to_string(&source).unwrap();
             let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
             if code.into_iter().any(|line| line.contains(&format!("{library}::"))) {
@@ -83,30 +145,11 @@ fn each_numerical_library_is_named_by_one_module_of_a_crate() {
     }
 }
 
-/// All Rust files under `src` of the crates in a folder.
-fn rust_files(crates: &std::path::Path) -> Vec<std::path::PathBuf> {
-    let mut folders: Vec<_> =
-        std::fs::read_dir(crates).unwrap().map(|entry| entry.unwrap().path().join("src")).collect();
-    let mut files = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                files.push(path);
-            }
-        }
-    }
-    files
-}
-
 #[test]
 fn the_lower_layers_do_no_input_or_output() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
     for name in ["cdpr-cable", "cdpr-robot", "cdpr-tension", "cdpr-statics", "cdpr-sensitivity"] {
-        let crates = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
-        let folder = crates.join(name);
-        for path in rust_files(&crates).into_iter().filter(|path| path.starts_with(&folder)) {
+        for path in rust_files(&crates.join(name).join("src")) {
             let text = std::fs::read_to_string(&path).unwrap();
             let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
             let text: String = code.collect::<Vec<_>>().join("\n");

@@ -4,7 +4,7 @@
 
 mod measure;
 
-use crate::root;
+use crate::cargo::root;
 use measure::{BenchError, Benchmark, Run, measure, read};
 use std::process::ExitCode;
 

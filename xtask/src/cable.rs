@@ -3,7 +3,7 @@
 
 #![allow(clippy::print_stdout)]
 
-use crate::{cargo_command, cdpr, root};
+use crate::cargo::{cdpr, cdpr_command, root};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
@@ -98,8 +98,7 @@ fn moved(out: &Path) -> Result<String, String> {
 
 /// What the program prints.
 fn output(command: &[&str]) -> Result<String, String> {
-    let run = ["run", "--quiet", "--release", "--package", "cdpr-cli", "--"];
-    let output = cargo_command(&[&run, command].concat()).output().map_err(|error| error.to_string())?;
+    let output = cdpr_command(command).output().map_err(|error| error.to_string())?;
     if output.status.success() {
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     } else {

@@ -1,6 +1,6 @@
 //! `cargo xtask fuzz`: every fuzz target for a while, and how much each has tried.
 
-use crate::root;
+use crate::cargo::root;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, ExitCode, Stdio};
 

@@ -4,12 +4,14 @@
 
 mod bench;
 mod cable;
+mod cargo;
 mod fuzz;
 mod peers;
 mod scaling;
 
+use cargo::{cargo, cdpr, root};
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::ExitCode;
 
 const HELP: &str = "\
 usage: cargo xtask TASK
@@ -143,12 +145,6 @@ fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>)
     (value, rest)
 }
 
-/// Builds and runs the program.
-fn cdpr(command: &[&str], rest: &[String]) -> ExitCode {
-    let run = ["run", "--release", "--package", "cdpr-cli", "--"];
-    cargo(&[&run, command, strs(rest).as_slice()].concat())
-}
-
 fn schemas() -> ExitCode {
     for (package, example) in [("cdpr-robot", "robot_schema"), ("cdpr-study", "study_schema")] {
         let code = cargo(&["run", "--quiet", "--package", package, "--example", example]);
@@ -157,32 +153,4 @@ fn schemas() -> ExitCode {
         }
     }
     ExitCode::SUCCESS
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
-}
-
-fn strs(arguments: &[String]) -> Vec<&str> {
-    arguments.iter().map(String::as_str).collect()
-}
-
-/// Whether cargo succeeds with a subcommand and its arguments.
-fn cargo(arguments: &[&str]) -> ExitCode {
-    match cargo_command(arguments).status() {
-        Ok(status) if status.success() => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("error: cannot start cargo: {error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-/// Cargo with a subcommand and its arguments, in this workspace.
-fn cargo_command(arguments: &[&str]) -> Command {
-    let (subcommand, rest) = arguments.split_at(1);
-    let mut command = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()));
-    command.args(subcommand).arg("--manifest-path").arg(root().join("Cargo.toml")).args(rest);
-    command
 }

@@ -5,7 +5,7 @@
 
 #![allow(clippy::print_stdout)]
 
-use crate::{cargo, root};
+use crate::cargo::{cargo, root};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -142,7 +142,7 @@ fn compare() -> Result<f64, String> {
     let problem = root().join(PROBLEM);
     eprintln!("cdpr: building and running");
     let path = problem.display().to_string();
-    let example = ["run", "--quiet", "--release", "--package", "cdpr-statics", "--example", "peer_problem"];
+    let example = ["run", "--quiet", "--package", "cdpr-statics", "--example", "peer_problem"];
     if cargo(&[&example[..], &["--", &path]].concat()) != ExitCode::SUCCESS {
         return Err("the example peer_problem of cdpr-statics has failed".to_owned());
     }

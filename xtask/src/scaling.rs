@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout)]
 
-use crate::{cargo_command, root};
+use crate::cargo::{cdpr_command, root};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::process::{ExitCode, Stdio};
@@ -112,8 +112,7 @@ fn growth(runs: &[Run]) -> Option<f64> {
 
 fn throughput(observations: u64, threads: u64) -> Result<Run, String> {
     let study = root().join("data/studies/caroca.json").display().to_string();
-    let mut command = cargo_command(&["run", "--quiet", "--release", "--package", "cdpr-cli", "--"]);
-    command.args(["study", "throughput", &study, "--sampling", "mechanical"]);
+    let mut command = cdpr_command(&["study", "throughput", &study, "--sampling", "mechanical"]);
     command.args(["--observations", &observations.to_string(), "--threads", &threads.to_string()]);
     let output =
         command.stderr(Stdio::inherit()).output().map_err(|error| format!("cannot start cargo: {error}"))?;

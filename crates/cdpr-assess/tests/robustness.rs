@@ -1,7 +1,5 @@
 //! The test of robustness: what it counts, that its numbers follow from the seed, and which settings it refuses.
 
-#![allow(clippy::unwrap_used)]
-
 use cdpr_assess::{Outcome, Protocol, ProtocolSummary, RobustnessResult, anchor_distance, run_robustness};
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_study::StudyError;

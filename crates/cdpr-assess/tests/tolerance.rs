@@ -1,7 +1,5 @@
 //! Tolerance budgets: that the limit is kept, at the least cost, and that what cannot be kept is said.
 
-#![allow(clippy::unwrap_used)]
-
 use cdpr_assess::{Limit, Limited, ToleranceBudget, tolerance_budget};
 use cdpr_study::{IndexMap, Study};
 use std::path::Path;

@@ -1,7 +1,5 @@
 //! Workspaces: every position is what the models say of it alone.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace};
 use cdpr_robot::{Parameter, Robot, Rotation3};
 use cdpr_statics::{Load, derivatives};

@@ -1,8 +1,6 @@
 //! Every derivative of the catenary against dual numbers: the same equations, with a number that carries its
 //! derivative.
 
-#![allow(clippy::unwrap_used)]
-
 use cdpr_cable::kernel::{Field, Real, response};
 use cdpr_cable::{Cable, Catenary, Vector2, least_tension, length_for_tension};
 use proptest::prelude::*;

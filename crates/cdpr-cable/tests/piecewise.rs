@@ -1,8 +1,6 @@
 //! Cables with a piecewise linear law: against the linear cable, numerical integration
 //! (`data/reference/piecewise.py`) and differences.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use approx::assert_relative_eq;
 use cdpr_cable::{
     Cable, Catenary, ElasticLaw, Matrix2, PiecewiseLaw, Segment, Vector2, end_force, end_force_near,

@@ -1,7 +1,5 @@
 //! Properties of the cable's inverse problems over many decades of weight, stiffness, length and slack.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_cable::{Cable, CableError, Catenary, Vector2, end_force, length_for_tension};
 use proptest::prelude::*;
 

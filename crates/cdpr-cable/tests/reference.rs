@@ -1,7 +1,5 @@
 //! The catenary against values computed in 40-digit arithmetic (`data/reference/README.md`).
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_cable::{Cable, Catenary, Matrix2, Vector2, end_force, length_for_tension};
 
 /// Error that rounding the inputs to double precision alone causes, times a small count of operations: the

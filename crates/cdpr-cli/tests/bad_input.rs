@@ -2,8 +2,6 @@
 //!
 //! After a change, `INSTA_UPDATE=always cargo test -p cdpr-cli --test bad_input` writes the snapshot anew; read its difference.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;

@@ -1,7 +1,5 @@
 //! The book: its links lead somewhere, and its commands do what they say.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,7 +1,5 @@
 //! `cdpr calibration` as a user meets it.
 
-#![allow(clippy::unwrap_used)]
-
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};

@@ -1,7 +1,5 @@
 //! Every command has an example in docs/COMMANDS.md; `book.rs` runs them.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use std::process::Command;
 
 const DOCUMENT: &str = include_str!("../../../docs/COMMANDS.md");

@@ -1,7 +1,5 @@
 //! `cdpr derivatives` as a user meets it: the numbers of the library, and every kind of bad input.
 
-#![allow(clippy::unwrap_used)]
-
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{Load, derivatives};
 use serde_json::Value;

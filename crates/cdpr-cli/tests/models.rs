@@ -1,8 +1,6 @@
 //! `cdpr catenary`, `inverse`, `direct`, `deflection`, `stiffness`, `check` and `completions` as a user meets them: the numbers of the
 //! library and of the references in 40-digit arithmetic.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{
     CableProperties, Platform, Pose, Robot, RobotCable, TensionLimits, UnitQuaternion, Vector3, Wrench,
 };

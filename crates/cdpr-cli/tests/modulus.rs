@@ -1,7 +1,5 @@
 //! `cdpr modulus` and `cdpr linear-density` as a user meets them.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use serde_json::Value;
 use std::process::{Command, Output};
 

@@ -1,7 +1,5 @@
 //! `cdpr robustness` as a user meets it: results, and every kind of bad input.
 
-#![allow(clippy::unwrap_used)]
-
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};

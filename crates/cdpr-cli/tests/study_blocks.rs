@@ -1,7 +1,5 @@
 //! Studies in blocks on disk: whatever happens to a run, what comes out in the end is what one that nothing happened to writes.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,5 @@
 //! `cdpr study run` as a user meets it: results, and every kind of bad input.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,11 +1,8 @@
 //! A study shared by processes, through the scripts for clusters and through MPI: the files are those of one run.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 #![cfg(unix)]
 
-mod common;
-
-use common::{Bench, data};
+use crate::common::{Bench, data};
 use serde_json::json;
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
@@ -122,20 +119,16 @@ mod mpi {
     use std::process::Stdio;
     use std::time::{Duration, Instant};
 
-    /// `mpirun -n 2 cdpr study run ...`; none, with a word of it, where there is no MPI.
-    fn ranks(bench: &Bench, arguments: &[&str]) -> Option<Command> {
+    /// `mpirun -n 2 cdpr study run ...`
+    fn ranks(bench: &Bench, arguments: &[&str]) -> Command {
         let mut command = bench.command("mpirun");
         // Open MPI refuses root and more ranks than cores unless it is told otherwise.
         for variable in ["ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_rmaps_base_oversubscribe"] {
             command.env(format!("OMPI_{variable}"), "1");
         }
-        if Command::new("mpirun").arg("--version").output().is_err() {
-            println!("skipped: mpirun is not installed");
-            return None;
-        }
         command.args(["-n", "2", env!("CARGO_BIN_EXE_cdpr"), "study", "run"]).args(arguments);
         command.args(["--threads", "1", "--table", "none"]);
-        Some(command)
+        command
     }
 
     /// Blocks below a folder that is being written to.
@@ -151,12 +144,12 @@ mod mpi {
     #[test]
     fn two_ranks_make_what_one_process_makes() {
         let bench = bench(20_000);
-        let Some(mut command) = ranks(&bench, &["study.json", "--out", "ranks"]) else { return };
+        let mut command = ranks(&bench, &["study.json", "--out", "ranks"]);
         let output = command.output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         bench.run("whole", &["--table", "none"]);
         bench.assert_same("whole", "ranks");
-        let output = ranks(&bench, &["study.json", "--out", "ranks"]).unwrap().output().unwrap();
+        let output = ranks(&bench, &["study.json", "--out", "ranks"]).output().unwrap();
         assert_eq!(output.status.code(), Some(1));
         let text = String::from_utf8(output.stderr).unwrap();
         assert!(text.contains("--resume goes on with them"), "{text}");
@@ -166,7 +159,7 @@ mod mpi {
     #[test]
     fn a_killed_rank_leaves_its_blocks_and_the_resumed_run_ends_with_the_same_bytes() {
         let bench = bench(200_000);
-        let Some(mut command) = ranks(&bench, &["study.json", "--out", "ranks"]) else { return };
+        let mut command = ranks(&bench, &["study.json", "--out", "ranks"]);
         let mut launcher = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         let clock = Instant::now();
         let blocks = || count_blocks(&bench.path("ranks/blocks"));
@@ -181,7 +174,7 @@ mod mpi {
         let (left, all) = (blocks(), 3 * 13 + 3 * 13);
         assert!((3..all).contains(&left), "{left} of {all} blocks");
         assert!(!bench.path("ranks/summary.json").exists());
-        let mut resumed = ranks(&bench, &["study.json", "--out", "ranks", "--resume"]).unwrap();
+        let mut resumed = ranks(&bench, &["study.json", "--out", "ranks", "--resume"]);
         let output = resumed.output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         bench.run("whole", &["--table", "none"]);

@@ -1,7 +1,5 @@
 //! `cdpr tolerances` as a user meets it.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use serde_json::Value;
 use std::process::{Command, Output};
 

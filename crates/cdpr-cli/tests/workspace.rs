@@ -1,7 +1,5 @@
 //! `cdpr workspace` as a user meets it: the table, the summary, the maps.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
 use cdpr_statics::{Load, deflection};
 use serde_json::Value;

@@ -1,7 +1,5 @@
 //! The figure of a cycle.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_report::{Cycle, ReportError, cycle};
 
 fn figure(branches: &[(String, Vec<(f64, f64)>)]) -> Result<String, ReportError> {

@@ -1,7 +1,5 @@
 //! What has to be in each figure, and what has no figure.
 
-#![allow(clippy::unwrap_used)]
-
 use cdpr_assess::{Answer, Protocol, ProtocolSummary, RobustnessResult, Solve};
 use cdpr_report::{
     Points, ReportError, found_poses, histogram, point_effects, shares, signed_effects, success_share,

@@ -1,7 +1,5 @@
 //! Maps of a plane: what is in them, and what is no plane.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_assess::{Workspace, WorkspaceRow, WorkspaceSummary, compute_workspace};
 use cdpr_report::{MapQuantity, ReportError, heat_map, tolerance_map};
 use cdpr_robot::{Axis, Robot, Rotation3};

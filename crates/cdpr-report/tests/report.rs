@@ -1,9 +1,5 @@
 //! What the report holds, and that nothing in it breaks out or is loaded.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
-mod common;
-
 use cdpr_report::{Points, histogram, point_effects, report, shares, signed_effects, surface};
 use cdpr_study::{Results, StudySummary};
 use serde_json::json;
@@ -24,7 +20,7 @@ fn attributes<'a>(html: &'a str, name: &str) -> Vec<&'a str> {
 
 #[test]
 fn every_figure_of_the_study_is_in_the_report_with_the_bytes_of_its_file() {
-    let results = common::caroca(|_, _| ());
+    let results = crate::common::caroca(|_, _| ());
     let html = page(&results);
     let mut samplings = Vec::new();
     for (name, study) in &results.summary.studies {
@@ -49,7 +45,8 @@ fn every_figure_of_the_study_is_in_the_report_with_the_bytes_of_its_file() {
 
 #[test]
 fn the_report_says_what_is_reproduced_what_is_not_and_why() {
-    let results = common::caroca(|study, _| study["comparison"][6]["note"] = json!("no load explains it"));
+    let results =
+        crate::common::caroca(|study, _| study["comparison"][6]["note"] = json!("no load explains it"));
     let html = page(&results);
     let not =
         results.summary.comparison.iter().filter(|row| row.verdict.to_string() == "not reproduced").count();
@@ -63,7 +60,7 @@ fn the_report_says_what_is_reproduced_what_is_not_and_why() {
 
 #[test]
 fn nothing_is_loaded_from_outside() {
-    for results in [common::caroca(|_, _| ()), common::cogiro()] {
+    for results in [crate::common::caroca(|_, _| ()), crate::common::cogiro()] {
         let html = page(&results);
         assert!(attributes(&html, "src").is_empty());
         for address in attributes(&html, "href") {
@@ -80,7 +77,7 @@ fn nothing_is_loaded_from_outside() {
 #[test]
 fn hostile_names_stay_text() {
     let hostile = "</script><script>alert('x')</script><img src=x onerror=alert(1)>";
-    let results = common::caroca(|study, robot| {
+    let results = crate::common::caroca(|study, robot| {
         study["name"] = json!(hostile);
         study["source"] = json!(hostile);
         study["samplings"]["mechanical"]["title"] = json!(hostile);
@@ -98,13 +95,13 @@ fn hostile_names_stay_text() {
 
 #[test]
 fn every_robot_and_every_part_of_a_study_has_a_report() {
-    let html = page(&common::cogiro());
+    let html = page(&crate::common::cogiro());
     assert!(html.contains("CoGiRo") && html.contains("id=\"figure-all\""));
     for id in ["surfaces", "comparison", "effects", "measures"] {
         assert!(!html.contains(&format!("<section id=\"{id}\"")), "{id}");
     }
 
-    let nine = common::caroca(|study, robot| {
+    let nine = crate::common::caroca(|study, robot| {
         let cable = json!({"exit_point": [0.0, 2.0, 3.5], "anchor_point": [0.0, 0.15, 0.125]});
         robot["cables"].as_array_mut().unwrap().push(cable);
         study["samplings"].as_object_mut().unwrap().retain(|name, _| name == "geometrical");
@@ -113,7 +110,7 @@ fn every_robot_and_every_part_of_a_study_has_a_report() {
     });
     assert!(page(&nine).contains("A9") && page(&nine).contains("9 cables"));
 
-    let surfaces = page(&common::caroca(|study, _| {
+    let surfaces = page(&crate::common::caroca(|study, _| {
         study["samplings"] = json!({});
         study["comparison"] = json!([]);
     }));
@@ -125,7 +122,7 @@ fn every_robot_and_every_part_of_a_study_has_a_report() {
 
 #[test]
 fn what_cannot_be_drawn_is_said_in_its_place() {
-    let mut results = common::cogiro();
+    let mut results = crate::common::cogiro();
     let Some(StudySummary::Sampling(sampling)) = results.summary.studies.get_mut("all") else {
         panic!("no sampling")
     };

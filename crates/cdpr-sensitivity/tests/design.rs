@@ -1,5 +1,4 @@
 //! Designs: any row from its index, replicates, and what they refuse.
-#![allow(clippy::panic, clippy::unwrap_used)]
 
 use cdpr_sensitivity::{Input, Law, RandomDesign, SampleDesign, SensitivityError, SobolDesign};
 use rayon::prelude::*;

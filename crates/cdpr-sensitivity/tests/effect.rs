@@ -1,5 +1,4 @@
 //! Effects of inputs: exact answers, failed observations, and the trap of significance on Sobol points.
-#![allow(clippy::panic, clippy::unwrap_used)]
 
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{

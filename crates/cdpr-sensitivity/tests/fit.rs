@@ -1,5 +1,4 @@
 //! Fits against `scipy`, and p-values that hold for fitted parameters.
-#![allow(clippy::panic, clippy::unwrap_used)]
 
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{

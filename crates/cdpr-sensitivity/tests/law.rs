@@ -1,5 +1,4 @@
 //! Laws against `scipy`'s, their JSON form, and the steps of an input.
-#![allow(clippy::panic, clippy::unwrap_used)]
 
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{Input, Law, SensitivityError, Steps};

@@ -1,5 +1,4 @@
 //! Sobol's sequence against `scipy`'s points, and what scrambling has to keep.
-#![allow(clippy::panic, clippy::unwrap_used)]
 
 use cdpr_sensitivity::sobol::MAX_DIMENSIONS;
 use cdpr_sensitivity::{SensitivityError, Sobol};

@@ -1,7 +1,5 @@
 //! The direct model over random robots, poses, lengths, loads and starts: an equilibrium to rounding, or an outcome that is true.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{
     CableProperties, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
 };

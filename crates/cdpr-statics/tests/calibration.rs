@@ -1,7 +1,5 @@
 //! What a calibration can tell, against perturbed robots.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
 use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement, Start, direct, inverse};
 

@@ -1,7 +1,5 @@
 //! Every derivative against central differences of the models themselves, and against what mechanics demands.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{
     Parameter, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Vector6, Wrench,
 };

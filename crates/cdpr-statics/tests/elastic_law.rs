@@ -1,7 +1,5 @@
 //! Robots whose cables have a piecewise linear law, by every model.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{Parameter, PiecewiseLaw, Pose, Robot, Segment, UnitQuaternion, Vector3, deviations};
 use cdpr_statics::{
     Load, Observer, Setting, Start, StaticsError, Tangent, Tracker, certify, deflection, derivatives, direct,

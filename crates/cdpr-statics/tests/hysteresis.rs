@@ -1,7 +1,5 @@
 //! A payload that comes and goes, on cables with hysteresis.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{PiecewiseLaw, Pose, Robot, Segment};
 use cdpr_statics::{HysteresisLaw, Load, StaticsError, Unloading, deflection, load_cycle};
 

@@ -1,7 +1,5 @@
 //! Inverse, direct and linearised model against each other and against what mechanics demands.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
     Equilibrium, Load, Method, Start, StaticsError, Tangent, deflection, deflections, direct, inverse,

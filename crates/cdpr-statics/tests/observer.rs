@@ -1,7 +1,5 @@
 //! Observer robots in lanes: the answers of the scalar models, whoever else is in the batch.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{Pose, Robot, RobotError, Vector3};
 use cdpr_statics::{Load, Observer, StaticsError};
 use rand::{RngExt, SeedableRng};

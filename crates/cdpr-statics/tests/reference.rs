@@ -1,7 +1,5 @@
 //! The direct model against equilibria computed in 40-digit arithmetic (`data/reference/README.md`).
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{
     CableProperties, Matrix3, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
 };

@@ -1,7 +1,5 @@
 //! Stability, certificates, many starts and continuation.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{Platform, Pose, Robot, RobotCable, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
     DirectSolution, Load, LossKind, Method, Setting, Start, Starts, StaticsError, certify, direct,

@@ -1,7 +1,5 @@
 //! One solve after the other: the answers of the direct model, without allocation.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::{Pose, Robot, RobotCable, Vector3};
 use cdpr_statics::{Load, Start, StaticsError, Tracker, direct, inverse};
 use std::hint::black_box;

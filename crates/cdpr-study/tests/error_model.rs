@@ -1,7 +1,5 @@
 //! Causes that act on several parameters at once.
 
-#![allow(clippy::unwrap_used)]
-
 use cdpr_robot::deviations;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{SensitivitySpec, Session, Study, StudyError, Truncation, measure, observe};

@@ -1,7 +1,5 @@
 //! The modulus of a study from the law of the cables at the tensions of pose and load.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_robot::Robot;
 use cdpr_sensitivity::Law;
 use cdpr_statics::Unloading;

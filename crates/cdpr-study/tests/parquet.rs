@@ -1,8 +1,6 @@
 //! Tables as Parquet hold what the CSV holds, and say what they are of.
 
 #![cfg(feature = "parquet")]
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_study::{ObservationTable, Session, Study, TableFormat, observe_into};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;

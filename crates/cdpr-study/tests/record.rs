@@ -1,7 +1,5 @@
 //! Table 2 of the paper from the record reconstructed from it.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_cable::{Phase, Record, Specimen};
 use cdpr_study::open_record;
 use std::path::PathBuf;

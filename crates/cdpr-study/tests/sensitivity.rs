@@ -1,7 +1,5 @@
 //! The measures of sensitivity beside each other: that they agree where they should, and what a failed one leaves.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_study::{
     InputMeasures, RANKED, SensitivitySpec, SensitivitySummary, Session, Study, StudyError, Truncation,
     measure, observe,

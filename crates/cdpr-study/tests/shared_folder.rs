@@ -1,7 +1,5 @@
 //! A study shared by processes: they begin in one folder at once, and each knows how much its share is.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
 use cdpr_study::{Existing, Plan, Session, Shard, Study, begin, observe_shard};
 use serde_json::{Value, json};
 use std::path::Path;

@@ -3,7 +3,7 @@
 //! Times depend on what else the machine does. Instruction counts do not: callgrind counts, in criterion's test mode, what a benchmark's
 //! one call of its function `counted` executes. Valgrind knows no AVX-512, so the lanes are counted on AVX2.
 
-use crate::{cargo_command, root};
+use crate::cargo::{cargo_command, root};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

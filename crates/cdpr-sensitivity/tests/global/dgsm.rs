@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::functions;
+use super::functions;
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{
     Input, Law, SampleDesign, SensitivityError, Slopes, SobolDesign, dgsm, poincare_constant,

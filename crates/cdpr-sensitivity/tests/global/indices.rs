@@ -1,6 +1,6 @@
 //! Sobol' indices: exact values, SALib's, and what failures, steps and too few blocks do to them.
 
-use crate::functions::{self, Function, ishigami, uniform};
+use super::functions::{self, Function, ishigami, uniform};
 use approx::assert_abs_diff_eq;
 use cdpr_sensitivity::sobol_indices::MIN_BLOCKS;
 use cdpr_sensitivity::{

@@ -1,6 +1,6 @@
 //! Elementary effects: exact values, SALib's, failures, steps and unbounded inputs.
 
-use crate::functions::{self, uniform};
+use super::functions::{self, uniform};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use cdpr_sensitivity::{
     Input, Law, MorrisDesign, MorrisEffect, SampleDesign, SensitivityError, Steps, morris_effects, observe,

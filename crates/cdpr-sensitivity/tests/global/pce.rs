@@ -1,6 +1,6 @@
 //! Chaos expansions: polynomials that are found again, exact indices, and what they do with noise, steps and failures.
 
-use crate::functions::{self, Function, uniform};
+use super::functions::{self, Function, uniform};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use cdpr_sensitivity::{
     Expansion, Input, LatinHypercube, Law, SampleDesign, SensitivityError, SobolDesign, Steps, Truncation,

@@ -1,6 +1,6 @@
 //! Regression coefficients: NumPy's, exact ones, and of correlated, stepped and collinear inputs.
 
-use crate::functions::{self, uniform};
+use super::functions::{self, uniform};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use cdpr_sensitivity::{
     Correlated, Input, JointSample, LatinHypercube, Law, Regression, SensitivityError, SobolDesign, Steps,

@@ -1,6 +1,6 @@
 //! Latin hypercubes, Halton's sequence and correlated designs.
 
-use crate::functions::uniform;
+use super::functions::uniform;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use cdpr_sensitivity::{
     Correlated, Halton, Input, LatinHypercube, Law, RandomDesign, SampleDesign, SensitivityError,

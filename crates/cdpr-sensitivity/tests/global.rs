@@ -1,5 +1,4 @@
 //! Global sensitivity: designs and estimators on functions whose indices are known.
-#![allow(clippy::panic, clippy::unwrap_used)]
 
 mod dgsm;
 mod functions;

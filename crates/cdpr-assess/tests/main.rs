@@ -1,0 +1,7 @@
+//! Assessments of a robot: workspace, tolerances, robustness of the direct model.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod robustness;
+mod tolerance;
+mod workspace;

@@ -1,0 +1,8 @@
+//! The cable against references, differences and invariants.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod dual;
+mod piecewise;
+mod properties;
+mod reference;

@@ -1,0 +1,20 @@
+//! The program as a user meets it.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod bad_input;
+mod book;
+mod calibration;
+mod commands;
+mod common;
+mod derivatives;
+mod hysteresis;
+mod models;
+mod modulus;
+mod robustness;
+mod study_blocks;
+mod study_poses;
+mod study_run;
+mod study_together;
+mod tolerances;
+mod workspace;

@@ -1,0 +1,9 @@
+//! Figures and reports of small studies.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod common;
+mod cycle;
+mod figures;
+mod heat_map;
+mod report;

@@ -1,0 +1,11 @@
+//! Designs, laws, fits and effects against published and analytic results.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod design;
+mod effect;
+mod fit;
+mod global;
+mod law;
+mod sobol;
+mod summary;

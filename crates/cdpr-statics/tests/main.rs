@@ -1,0 +1,14 @@
+//! The models against references, differences, invariants and each other.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod any_robot;
+mod calibration;
+mod derivatives;
+mod elastic_law;
+mod hysteresis;
+mod models;
+mod observer;
+mod reference;
+mod search;
+mod tracker;

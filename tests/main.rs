@@ -1,0 +1,7 @@
+//! Tests across crates.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod caroca_study;
+mod data_files;
+mod layers;

@@ -1,0 +1,40 @@
+//! Cargo and the program, in this workspace.
+
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+/// The folder of the workspace.
+pub(crate) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
+}
+
+/// Builds and runs the program.
+pub(crate) fn cdpr(command: &[&str], rest: &[String]) -> ExitCode {
+    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+    cargo(&[&["run", "--package", "cdpr-cli", "--"], command, &rest].concat())
+}
+
+/// The same, to be started by the caller, without what cargo says.
+pub(crate) fn cdpr_command(command: &[&str]) -> Command {
+    cargo_command(&[&["run", "--quiet", "--package", "cdpr-cli", "--"], command].concat())
+}
+
+/// Whether cargo succeeds with a subcommand and its arguments.
+pub(crate) fn cargo(arguments: &[&str]) -> ExitCode {
+    match cargo_command(arguments).status() {
+        Ok(status) if status.success() => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("error: cannot start cargo: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Cargo with a subcommand and its arguments, in this workspace.
+pub(crate) fn cargo_command(arguments: &[&str]) -> Command {
+    let (subcommand, rest) = arguments.split_at(1);
+    let mut command = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()));
+    command.args(subcommand).arg("--manifest-path").arg(root().join("Cargo.toml")).args(rest);
+    command
+}
