@@ -12,9 +12,10 @@
 
 use rand::seq::SliceRandom;
 
-use crate::design::{IndependentSample, JointSample, SampleDesign, check_row, stream, uniform};
+use crate::design::input::Input;
+use crate::design::{IndependentSample, JointSample, SampleDesign, check_row};
 use crate::error::{SensitivityError, check_range};
-use crate::input::Input;
+use crate::sample::random::{stream, uniform};
 
 /// A Latin hypercube, Eq. (1).
 #[derive(Debug, Clone)]

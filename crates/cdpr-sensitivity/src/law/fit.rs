@@ -26,46 +26,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::error::SensitivityError;
-use crate::estimate::estimate;
 use crate::law::Law;
-use crate::summary::Sample;
-
-/// A family of laws that can be fitted: the variants of [`Law`] of two parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Family {
-    /// [`Law::Uniform`], whose estimate is [min, max] of the sample.
-    Uniform,
-    /// [`Law::Normal`].
-    Normal,
-    /// [`Law::Logistic`].
-    Logistic,
-    /// [`Law::Laplace`].
-    Laplace,
-    /// [`Law::Gumbel`].
-    Gumbel,
-    /// [`Law::LogNormal`], of positive values only.
-    LogNormal,
-    /// [`Law::Weibull`], of positive values only.
-    Weibull,
-}
+use crate::law::family::Family;
+use crate::law::likelihood::estimate;
+use crate::sample::random::Bootstrap;
+use crate::sample::summary::Sample;
 
 impl Family {
-    /// All families.
-    pub const ALL: [Self; 7] = [
-        Self::Uniform,
-        Self::Normal,
-        Self::Logistic,
-        Self::Laplace,
-        Self::Gumbel,
-        Self::LogNormal,
-        Self::Weibull,
-    ];
-
-    fn positive(self) -> bool {
-        matches!(self, Self::LogNormal | Self::Weibull)
-    }
-
     /// The standard law of this family on the scale, straight or logarithmic, on which it has a location and a scale.
     fn standard(self) -> (Self, Law) {
         let (location, scale) = (0.0, 1.0);
@@ -77,29 +44,6 @@ impl Family {
             Self::Gumbel | Self::Weibull => (Self::Gumbel, Law::Gumbel { location, scale }),
         }
     }
-}
-
-impl std::fmt::Display for Family {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(match self {
-            Self::Uniform => "uniform",
-            Self::Normal => "normal",
-            Self::Logistic => "logistic",
-            Self::Laplace => "Laplace",
-            Self::Gumbel => "Gumbel",
-            Self::LogNormal => "lognormal",
-            Self::Weibull => "Weibull",
-        })
-    }
-}
-
-/// The samples of the bootstrap, Eq. (3).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Bootstrap {
-    /// Number R of samples drawn, at least 1. The smallest p-value possible is 1 / (R + 1).
-    pub resamples: usize,
-    /// Seed: same seed, same p-values, whatever the number of threads.
-    pub seed: u64,
 }
 
 /// A fitted law and how well it fits.

@@ -24,13 +24,15 @@
 //! (4). The hash is the output function of `SplitMix64`: G. L. Steele, D. Lea, C. H. Flood, *Fast splittable
 //! pseudorandom number generators* (2014).
 
-use crate::error::SensitivityError;
+use crate::design::input::Input;
+use crate::design::{IndependentSample, JointSample, SampleDesign, check_origin, check_points, check_row};
+use crate::error::{SensitivityError, check_range};
 
 /// Largest number of dimensions of a [`Sobol`] sequence.
 pub const MAX_DIMENSIONS: usize = 2048;
 
 const BITS: usize = 32;
-const TABLE: &str = include_str!("../data/new-joe-kuo-6.2048");
+const TABLE: &str = include_str!("../../data/new-joe-kuo-6.2048");
 
 /// Sobol's sequence in up to [`MAX_DIMENSIONS`] dimensions, of 2^32 points.
 #[derive(Debug, Clone)]
@@ -155,6 +157,88 @@ impl Sobol {
         }
     }
 }
+
+/// Consecutive points of Sobol's sequence, plain or scrambled. Sizes of 2^k, from index 0, keep its balance.
+#[derive(Debug, Clone)]
+pub struct SobolDesign {
+    inputs: Vec<Input>,
+    sobol: Sobol,
+    first_index: u32,
+    points: usize,
+}
+
+impl SobolDesign {
+    /// Points `first_index` to `first_index + points - 1` of the plain sequence.
+    ///
+    /// # Errors
+    /// - [`SensitivityError::InvalidInput`] for an input that is not valid;
+    /// - [`SensitivityError::OutOfRange`] for no input or too many, no point, or points beyond 2^32;
+    /// - [`SensitivityError::UnboundedAtZero`] if point 0 is among them and the law of an input has no lower end.
+    pub fn new(inputs: Vec<Input>, first_index: u32, points: usize) -> Result<Self, SensitivityError> {
+        check_origin(&inputs, first_index)?;
+        let sobol = Sobol::new(inputs.len())?;
+        Self::over(sobol, inputs, first_index, points)
+    }
+
+    /// The first points of the sequence under Owen's scrambling.
+    ///
+    /// # Errors
+    /// As [`SobolDesign::new`], but point 0 may be among the points: it is not zero.
+    pub fn scrambled(inputs: Vec<Input>, points: usize, seed: u64) -> Result<Self, SensitivityError> {
+        let sobol = Sobol::scrambled(inputs.len(), seed)?;
+        Self::over(sobol, inputs, 0, points)
+    }
+
+    /// Index in the sequence of the first row.
+    #[must_use]
+    pub fn first_index(&self) -> u32 {
+        self.first_index
+    }
+
+    fn over(
+        sobol: Sobol,
+        inputs: Vec<Input>,
+        first_index: u32,
+        points: usize,
+    ) -> Result<Self, SensitivityError> {
+        inputs.iter().try_for_each(Input::validate)?;
+        check_points(first_index, points)?;
+        Ok(Self { inputs, sobol, first_index, points })
+    }
+}
+
+impl SampleDesign for SobolDesign {
+    fn inputs(&self) -> &[Input] {
+        &self.inputs
+    }
+
+    fn points(&self) -> usize {
+        self.points
+    }
+
+    fn seed(&self) -> Option<u64> {
+        self.sobol.seed()
+    }
+
+    fn replicate(&self, seed: u64) -> Self {
+        Self { sobol: self.sobol.rescrambled(seed), ..self.clone() }
+    }
+
+    fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
+        check_row(self, index, point)?;
+        // Below 2^32: `check_points` has seen to it.
+        self.sobol.point(self.first_index + index as u32, point)
+    }
+
+    fn unit_points(&self, first: usize, points: &mut [f64]) -> Result<(), SensitivityError> {
+        let last = (first + points.len() / self.inputs.len()).saturating_sub(1);
+        check_range("index", first.max(last) as u64, 0, self.points as u64 - 1)?;
+        self.sobol.points(self.first_index + first as u32, points)
+    }
+}
+
+impl JointSample for SobolDesign {}
+impl IndependentSample for SobolDesign {}
 
 /// Eq. (1).
 fn gray(index: u32) -> u32 {

@@ -15,12 +15,11 @@
 
 use rand::RngExt;
 
-use crate::design::{
-    IndependentSample, JointSample, SampleDesign, check_origin, check_points, check_row, stream,
-};
+use crate::design::input::Input;
+use crate::design::sobol::MAX_DIMENSIONS;
+use crate::design::{IndependentSample, JointSample, SampleDesign, check_origin, check_points, check_row};
 use crate::error::{SensitivityError, check_range};
-use crate::input::Input;
-use crate::sobol::MAX_DIMENSIONS;
+use crate::sample::random::stream;
 
 /// Consecutive points of Halton's sequence, plain or scrambled.
 #[derive(Debug, Clone)]

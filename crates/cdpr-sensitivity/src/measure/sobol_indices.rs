@@ -15,7 +15,7 @@
 //! (2002). They are those of SALib, to rounding.
 //!
 //! Each index is a quotient of sums over blocks. The bootstrap draws units with replacement, and the interval is Student's
-//! ([`crate::interval`], Eq. (2)). On a scrambled design the units are its independent scramblings: blocks of one sequence
+//! ([`crate::sample::interval`], Eq. (2)). On a scrambled design the units are its independent scramblings: blocks of one sequence
 //! depend on each other, and a bootstrap over them misses what that does. With 1024 blocks of one sequence such intervals of
 //! 95 % held some indices of Morris's 20 inputs in 53 of 100 cases only, and were sixty times too wide for a linear model;
 //! those over scramblings hold all of them in 95 (`tests/global/indices.rs`). On the plain sequence, of which there is only
@@ -31,12 +31,12 @@ use rand::RngExt;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::design::{SampleDesign, stream};
+use crate::design::SampleDesign;
+use crate::design::observation::{check_outputs, check_variance};
+use crate::design::saltelli::{Order, SaltelliDesign};
 use crate::error::{SensitivityError, check_level, check_range};
-use crate::fit::Bootstrap;
-use crate::interval::Estimate;
-use crate::observation::{check_outputs, check_variance};
-use crate::saltelli::{Order, SaltelliDesign};
+use crate::sample::interval::Estimate;
+use crate::sample::random::{Bootstrap, stream};
 
 /// Least number of whole blocks that indices are estimated from.
 pub const MIN_BLOCKS: usize = 16;

@@ -27,9 +27,9 @@ use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::design::IndependentSample;
+use crate::design::input::Input;
 use crate::error::{SensitivityError, require};
-use crate::input::Input;
-use crate::summary::{Moments, Summary, mean_and_squares};
+use crate::sample::summary::{Moments, Summary, mean_and_squares};
 
 /// Effect of one input, and the observations it rests on. An observation whose input lies exactly on the middle of
 /// its domain belongs to neither half.

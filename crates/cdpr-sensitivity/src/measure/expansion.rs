@@ -1,6 +1,6 @@
 //! Sparse polynomial chaos expansion: a polynomial model of the output, and all Sobol' indices from its coefficients.
 //!
-//! With the orthonormal products Ψ of [`crate::polynomial`],
+//! With the orthonormal products Ψ of [`crate::measure::expansion::polynomial`],
 //!
 //! ```text
 //! y = c_0 + Σ_α c_α Ψ_α(x),   V = Σ c_α²                                  (1)
@@ -13,15 +13,18 @@
 //! terms, and up to which degree, the corrected leave-one-out error says (`pursuit`). It is the share of the
 //! variance that the model does not predict; the indices are those of the model, no nearer to the truth than that.
 
+pub mod polynomial;
+mod pursuit;
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::IndependentSample;
+use crate::design::input::Input;
+use crate::design::observation::Observed;
 use crate::error::{SensitivityError, check_length, check_range, require};
-use crate::input::Input;
-use crate::observation::Observed;
-use crate::polynomial::{Power, Truncation, polynomials};
-use crate::pursuit::pursue;
+use crate::measure::expansion::polynomial::{Power, Truncation, polynomials};
+use crate::measure::expansion::pursuit::pursue;
 
 /// Least number of outputs that an expansion is fitted to.
 pub const MIN_OUTPUTS: usize = 10;

@@ -36,10 +36,10 @@
 //! }
 //! ```
 
+use crate::design::input::Input;
 use crate::design::{IndependentSample, JointSample, SampleDesign};
 use crate::error::{SensitivityError, check_length};
-use crate::input::Input;
-use crate::normal::{standard_normal_cdf, standard_normal_quantile};
+use crate::law::normal::{standard_normal_cdf, standard_normal_quantile};
 
 /// The points of a design of independent inputs, correlated by Eq. (2).
 #[derive(Debug, Clone)]

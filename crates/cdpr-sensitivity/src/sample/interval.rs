@@ -25,7 +25,7 @@ use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, StudentsT};
 use statrs::function::beta::inv_beta_reg;
 
 use crate::error::{SensitivityError, check_range, require};
-use crate::summary::mean_and_squares;
+use crate::sample::summary::mean_and_squares;
 
 /// An estimate and its confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -122,8 +122,7 @@ fn student(n: usize, level: f64) -> Result<f64, SensitivityError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::stream;
-    use crate::design::uniform;
+    use crate::sample::random::{stream, uniform};
 
     #[test]
     fn the_interval_of_a_share_is_that_of_clopper_and_pearson() {

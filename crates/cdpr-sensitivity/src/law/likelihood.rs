@@ -20,9 +20,9 @@ use std::f64::consts::PI;
 use statrs::consts::EULER_MASCHERONI;
 
 use crate::error::SensitivityError;
-use crate::fit::Family;
 use crate::law::Law;
-use crate::summary::mean_and_squares;
+use crate::law::family::Family;
+use crate::sample::summary::mean_and_squares;
 
 /// The member of `family` of the largest likelihood. `sorted` holds at least two different finite values, in
 /// ascending order, positive ones for the lognormal and Weibull families.

@@ -24,11 +24,12 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use crate::design::IndependentSample;
+use crate::design::input::Input;
+use crate::design::observation::check_variance;
 use crate::error::{SensitivityError, check_length, check_level, check_range};
-use crate::interval::Estimate;
 use crate::law::Law;
-use crate::observation::check_variance;
-use crate::summary::mean_and_squares;
+use crate::sample::interval::Estimate;
+use crate::sample::summary::mean_and_squares;
 
 /// Output of an observation and its derivatives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -96,7 +97,7 @@ pub fn dgsm<D: IndependentSample>(
     let outputs: Vec<f64> = observed.iter().map(|slopes| slopes.output).collect();
     check_variance(&outputs)?;
     let variance = mean_and_squares(&outputs).1 / (outputs.len() as f64 - 1.0);
-    let measure = |(i, input): (usize, &crate::Input)| {
+    let measure = |(i, input): (usize, &Input)| {
         let squares: Vec<f64> = observed.iter().map(|slopes| slopes.gradient[i].powi(2)).collect();
         let mean_square = Estimate::of_mean(&squares, level)?;
         let total_bound = poincare_constant(&input.law).map(|c| c * mean_square.value / variance);

@@ -21,10 +21,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::design::JointSample;
+use crate::design::input::Input;
+use crate::design::observation::Observed;
 use crate::error::SensitivityError;
-use crate::least_squares::least_squares;
-use crate::observation::Observed;
-use crate::summary::mean_and_squares;
+use crate::measure::least_squares::least_squares;
+use crate::sample::summary::mean_and_squares;
 
 /// Coefficients of one input.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -101,7 +102,7 @@ fn of_observed<D: JointSample>(
     let y = standardised(transform(observed.outputs))
         .ok_or(SensitivityError::ConstantSample { value, count: n })?;
     let fit = least_squares(&columns, &y).map_err(collinear)?;
-    let coefficient = |((input, &beta), gram): ((&crate::Input, &f64), &f64)| {
+    let coefficient = |((input, &beta), gram): ((&Input, &f64), &f64)| {
         let scale = (beta * beta + fit.residual_squares * gram).sqrt();
         Coefficient {
             input: input.name.clone(),

@@ -9,7 +9,7 @@
 //!
 //! A. Saltelli, P. Annoni, I. Azzini, F. Campolongo, M. Ratto, S. Tarantola, *Variance based sensitivity analysis of
 //! model output. Design and estimator for the total sensitivity index*, Comput. Phys. Commun. 181 (2010); the order of
-//! the rows is that of SALib. [`crate::sobol_indices`] is its estimator.
+//! the rows is that of SALib. [`crate::sobol_indices()`] is its estimator.
 //!
 //! A scrambled design takes its blocks by turns from [`REPLICATES`] independent scramblings of the sequence. What differs
 //! between them is the error of the indices, which no single sequence shows; and the first half of the blocks is the first
@@ -21,10 +21,11 @@ use rand::Rng;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::design::{SampleDesign, check_origin, check_points, check_row, stream};
+use crate::design::input::Input;
+use crate::design::sobol::{MAX_DIMENSIONS, Sobol};
+use crate::design::{SampleDesign, check_origin, check_points, check_row};
 use crate::error::{SensitivityError, check_range};
-use crate::input::Input;
-use crate::sobol::{MAX_DIMENSIONS, Sobol};
+use crate::sample::random::stream;
 
 /// Which indices the blocks are for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]

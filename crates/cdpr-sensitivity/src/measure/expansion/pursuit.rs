@@ -22,7 +22,7 @@
 
 use rayon::prelude::*;
 
-use crate::summary::mean_and_squares;
+use crate::sample::summary::mean_and_squares;
 
 /// A sparse least-squares model.
 pub(crate) struct Pursuit {
@@ -180,7 +180,7 @@ fn add(sum: &mut [f64], factor: f64, vector: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::least_squares::{LeastSquares, least_squares};
+    use crate::measure::least_squares::{LeastSquares, least_squares};
 
     #[test]
     fn the_error_is_that_of_fits_without_each_value_and_the_coefficients_are_those_of_householder() {

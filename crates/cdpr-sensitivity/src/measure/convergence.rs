@@ -6,11 +6,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::design::SampleDesign;
+use crate::design::observation::{check_outputs, observe_rows};
+use crate::design::saltelli::SaltelliDesign;
 use crate::error::{SensitivityError, require};
-use crate::fit::Bootstrap;
-use crate::observation::{check_outputs, observe_rows};
-use crate::saltelli::SaltelliDesign;
-use crate::sobol_indices::{SobolIndices, sobol_indices};
+use crate::measure::sobol_indices::{SobolIndices, sobol_indices};
+use crate::sample::random::Bootstrap;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
