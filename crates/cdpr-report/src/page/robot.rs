@@ -1,7 +1,8 @@
 //! The robot in space, and its cables in figures.
 
-use super::scene::{Scene, ScenePose};
-use super::{Section, cell, numeric, table, text};
+use crate::page::elements::{Section, cell, numeric, table};
+use crate::scene::{Scene, ScenePose};
+use crate::text;
 use cdpr_robot::Robot;
 use cdpr_study::StudyError;
 use maud::{Markup, html};

@@ -1,11 +1,12 @@
 //! What a robot does over a plane of its workspace.
 
-use crate::color_map::ColorMap;
+use crate::drawing::color_map::ColorMap;
+use crate::drawing::heading::Heading;
+use crate::drawing::name_map::name_map;
+use crate::drawing::plane::{self, Paint, Plane};
 use crate::error::ReportError;
-use crate::name_map::name_map;
-use crate::plane::{self, Paint, Plane};
-use crate::pose_map::NamedMap;
-use crate::style::{Heading, number};
+use crate::figure::pose_map::NamedMap;
+use crate::text::number;
 use cdpr_robot::Robot;
 use cdpr_study::{WorkspaceRow, WorkspaceSummary};
 

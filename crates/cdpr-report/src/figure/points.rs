@@ -1,9 +1,10 @@
 //! Effects of the points' coordinates, each at its place in the plan of the robot: Fig. 5b and 5c of the paper.
 
+use crate::drawing::axis::Axis;
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, Area, BLUE, DrawingError, GREEN, GREY, MARGIN, ORANGE, Pen, px, text};
 use crate::error::ReportError;
-use crate::style::{
-    self, Area, Axis, BLUE, DrawingError, GREEN, GREY, Heading, MARGIN, ORANGE, Pen, number, px, text,
-};
+use crate::text::number;
 use cdpr_robot::{Axis as Coordinate, Parameter, Pose, Robot, Vector3};
 use cdpr_study::SamplingSummary;
 use plotters::prelude::*;

@@ -1,8 +1,10 @@
 //! What came out: distributions, surfaces, effects, measures of sensitivity.
 
-use super::glance::{samplings, surfaces as all_surfaces};
-use super::{Section, cell, comparison, figure, numeric, table, text};
-use crate::surface::axis_of;
+use crate::page::comparison;
+use crate::page::elements::{Section, cell, figure, numeric, table};
+use crate::page::glance::{samplings, surfaces as all_surfaces};
+use crate::parameters::{self, axis_of};
+use crate::text;
 use crate::{Points, histogram, point_effects, shares, signed_effects, surface};
 use cdpr_study::{InputMeasures, Results, SamplingSummary, SensitivitySummary, Statistic};
 use maud::{Markup, PreEscaped, html};
@@ -105,8 +107,8 @@ pub(crate) fn surfaces(results: &Results) -> Option<Section> {
                         div.drawing.map role="img" tabindex="0"
                             aria-label={ "Heat map of the RMS over " (summary.parameters[0]) " and " (summary.parameters[1]) } { (PreEscaped(svg)) }
                         figcaption {
-                            "RMS of the static deflection [mm] over " (text::symbol(&summary.parameters[0])) " and "
-                            (text::symbol(&summary.parameters[1])) ", all other parameters nominal." (beside(results, name)) " "
+                            "RMS of the static deflection [mm] over " (parameters::symbol(&summary.parameters[0])) " and "
+                            (parameters::symbol(&summary.parameters[1])) ", all other parameters nominal." (beside(results, name)) " "
                             span.file { "File: " (name) ".svg" }
                         }
                     }
@@ -203,10 +205,10 @@ fn side_by_side(found: &SensitivitySummary) -> Markup {
     let head: Vec<&str> = ["Parameter"].into_iter().chain(columns.iter().map(|column| column.0)).collect();
     let row = |input: &InputMeasures| -> Vec<Markup> {
         let values = columns.iter().map(|(_, of)| numeric(of(input), 3));
-        [cell(text::symbol(&input.input))].into_iter().chain(values).collect()
+        [cell(parameters::symbol(&input.input))].into_iter().chain(values).collect()
     };
     let rows: Vec<_> = found.leading().into_iter().take(LEADING).map(row).collect();
-    let agreed: Vec<&str> = found.agreement.inputs.iter().map(|name| text::symbol(name)).collect();
+    let agreed: Vec<&str> = found.agreement.inputs.iter().map(|name| parameters::symbol(name)).collect();
     html! {
         (table("The leading parameters by each measure; without a unit: shares of the variance", &head, &rows))
         @if !agreed.is_empty() {

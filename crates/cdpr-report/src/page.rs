@@ -6,47 +6,33 @@
 //! forbids all others and every connection.
 
 mod comparison;
-mod figures;
+mod elements;
 mod glance;
 mod poses;
+mod results;
 mod robot;
 mod run;
-pub(crate) mod scene;
 mod setup;
-mod text;
 
 use crate::error::ReportError;
+use crate::page::elements::Section;
+use crate::scene::Scene;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use cdpr_study::Results;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use scene::Scene;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-const STYLE: &str = include_str!("report/page.css");
-const SCRIPT: &str = include_str!("report/page.js");
+const STYLE: &str = include_str!("page/page.css");
+const SCRIPT: &str = include_str!("page/page.js");
 const PLOTLY: &str = include_str!("../vendor/plotly/plotly-gl3d.min.js");
-
-/// A part of the report.
-struct Section {
-    /// Anchor in the page.
-    id: &'static str,
-    title: &'static str,
-    body: Markup,
-}
-
-impl Section {
-    fn new(id: &'static str, title: &'static str, body: Markup) -> Self {
-        Self { id, title, body }
-    }
-}
 
 /// What the page's script draws.
 #[derive(Serialize)]
 struct Data<'a> {
     robot: Option<&'a Scene>,
-    surfaces: Vec<figures::SpaceSurface>,
+    surfaces: Vec<results::SpaceSurface>,
 }
 
 /// The report of a study as the text of an HTML file. What cannot be drawn is said in its place.
@@ -55,18 +41,18 @@ struct Data<'a> {
 /// [`ReportError::Drawing`] if the data of the page cannot be written as JSON.
 pub fn report(results: &Results) -> Result<String, ReportError> {
     let scene = Scene::new(&results.study);
-    let data = Data { robot: scene.as_ref().ok(), surfaces: figures::in_space(results) };
+    let data = Data { robot: scene.as_ref().ok(), surfaces: results::in_space(results) };
     let json =
         serde_json::to_string(&data).map_err(|error| ReportError::Drawing { reason: error.to_string() })?;
     let sections: Vec<Section> = [
         Some(robot::section(&results.study.robot, &scene)),
         Some(setup::section(results)),
-        figures::distributions(results),
-        figures::surfaces(results),
+        results::distributions(results),
+        results::surfaces(results),
         poses::section(results),
-        figures::points(results),
-        figures::effects(results),
-        figures::measures(results),
+        results::points(results),
+        results::effects(results),
+        results::measures(results),
         comparison::section(&results.summary),
         Some(run::observations(results)),
         Some(run::again(results)),
@@ -131,51 +117,6 @@ fn policy() -> String {
         hash(PLOTLY),
         hash(SCRIPT)
     )
-}
-
-/// A figure drawn by this crate, or why there is none.
-fn figure(name: &str, alt: &str, svg: Result<String, ReportError>, caption: &Markup) -> Markup {
-    match svg {
-        Ok(svg) => html! {
-            figure id={ "figure-" (name) } {
-                div.drawing role="img" aria-label=(alt) tabindex="0" { (PreEscaped(svg)) }
-                figcaption { (caption) " " span.file { "File: " (name) ".svg" } }
-            }
-        },
-        Err(error) => html! { p.note { "No figure " code { (name) } ": " (error) "." } },
-    }
-}
-
-/// A table that scrolls sideways where it does not fit.
-fn table(caption: &str, head: &[&str], rows: &[Vec<Markup>]) -> Markup {
-    html! {
-        div.table tabindex="0" role="region" aria-label=(caption) {
-            table {
-                caption { (caption) }
-                thead { tr { @for cell in head { th scope="col" { (cell) } } } }
-                tbody {
-                    @for row in rows {
-                        tr {
-                            @for (column, cell) in row.iter().enumerate() {
-                                @if column == 0 { th scope="row" { (cell) } } @else { td { (cell) } }
-                            }
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// A cell of plain text.
-fn cell(text: impl AsRef<str>) -> Markup {
-    html! { (text.as_ref()) }
-}
-
-/// A cell of a number with so many significant digits; a dash where there is none.
-fn numeric(value: impl Into<Option<f64>>, digits: usize) -> Markup {
-    let value = value.into();
-    html! { span.number { @match value { Some(value) => (text::figures(value, digits)), None => "\u{2013}" } } }
 }
 
 #[cfg(test)]

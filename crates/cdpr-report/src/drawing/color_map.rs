@@ -1,7 +1,8 @@
 //! A value over a grid of two quantities: cells, contour lines, colour bar.
 
+use crate::drawing::axis::Axis;
+use crate::drawing::style::{self, Area, DrawingError, GREY, MARGIN, Pen, X_AXIS, px};
 use crate::error::ReportError;
-use crate::style::{self, Area, Axis, DrawingError, GREY, MARGIN, Pen, X_AXIS, px};
 use plotters::prelude::*;
 
 /// Room of the colour bar with its axis [px].

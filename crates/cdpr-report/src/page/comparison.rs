@@ -1,6 +1,7 @@
 //! Published figures beside the computed ones.
 
-use super::{Section, cell, table, text};
+use crate::page::elements::{Section, cell, table};
+use crate::text;
 use cdpr_study::{ComparisonRow, ComparisonSpec, Summary, Value, Verdict};
 use maud::{Markup, html};
 

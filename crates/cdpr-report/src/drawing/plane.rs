@@ -1,10 +1,10 @@
 //! Planes of positions in the robot's frame: what maps of them have in common.
 
-use crate::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
+use crate::drawing::axis::{Axis, Grid as Lines, chart};
+use crate::drawing::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, DrawingError, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
 use crate::error::ReportError;
-use crate::style::{
-    self, Axis, DrawingError, GREY, Grid as Lines, Heading, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px,
-};
 use cdpr_robot::{Axis as Direction, Robot};
 use cdpr_study::{Grid, frame, letter};
 use plotters::prelude::*;
@@ -114,7 +114,7 @@ impl Plane {
         let height = (width * ratio).clamp(HEIGHTS.start, HEIGHTS.end);
         style::figure(heading.height() + 4.0 + height + X_AXIS + MARGIN, |area| {
             let (left, right) = heading.draw(area)?.split_horizontally(px(style::WIDTH - bar));
-            let chart = style::chart(&left, &x, &y, Lines::None)?;
+            let chart = chart(&left, &x, &y, Lines::None)?;
             let plot = chart.plotting_area();
             match paint {
                 Paint::Values(map) => map.draw(plot)?,

@@ -1,11 +1,12 @@
 //! The robot with its sagging cables at the poses of a study, seen from above one corner: a parallel projection, to scale.
 
-use crate::error::ReportError;
-use crate::report::scene::{Scene, State};
-use crate::style::{
-    self, Area, BLUE, DrawingError, GREEN, GREY, HEIGHT, Heading, MARGIN, ORANGE, Pen, VERMILLION, WIDTH,
-    number, px, text,
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{
+    self, Area, BLUE, DrawingError, GREEN, GREY, HEIGHT, MARGIN, ORANGE, Pen, VERMILLION, WIDTH, px, text,
 };
+use crate::error::ReportError;
+use crate::scene::{Scene, State};
+use crate::text::number;
 use cdpr_study::Study;
 use plotters::prelude::*;
 

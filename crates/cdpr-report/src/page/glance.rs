@@ -1,6 +1,8 @@
 //! Title and main figures.
 
-use super::{cell, numeric, table, text};
+use crate::page::elements::{cell, numeric, table};
+use crate::parameters;
+use crate::text;
 use cdpr_study::{PosesSummary, Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict};
 use maud::{Markup, html};
 
@@ -84,7 +86,7 @@ fn cards(summary: &Summary) -> Markup {
                 @let effects = dominant(sampling);
                 @if !effects.is_empty() {
                     (card("Dominant parameters",
-                        &effects.iter().map(|effect| text::symbol(effect.0)).collect::<Vec<_>>().join(", "), "",
+                        &effects.iter().map(|effect| parameters::symbol(effect.0)).collect::<Vec<_>>().join(", "), "",
                         &format!("t = {}", effects.iter().map(|effect| text::figures(effect.1, 3)).collect::<Vec<_>>().join(", "))))
                 }
             }
@@ -117,7 +119,7 @@ fn overview(summary: &Summary) -> Markup {
                 StudySummary::Sampling(sampling) => {
                     let rms = sampling.rms_mm.as_ref();
                     let leading: Vec<_> =
-                        dominant(sampling).iter().map(|effect| text::symbol(effect.0)).collect();
+                        dominant(sampling).iter().map(|effect| parameters::symbol(effect.0)).collect();
                     let law = sampling.best_fit.map_or_else(String::new, |family| family.to_string());
                     let of = |value: fn(&cdpr_study::RmsSummary) -> f64| rms.map(value);
                     (
@@ -132,7 +134,7 @@ fn overview(summary: &Summary) -> Markup {
                 }
                 StudySummary::Surface(surface) => {
                     let rms = surface.rms_mm;
-                    let over = surface.parameters.each_ref().map(|name| text::symbol(name)).join(", ");
+                    let over = surface.parameters.each_ref().map(|name| parameters::symbol(name)).join(", ");
                     (Some(rms.nominal), None, None, rms.min, rms.max, String::new(), format!("over {over}"))
                 }
                 StudySummary::Poses(poses) => {

@@ -1,11 +1,12 @@
 //! What the observations of a sampling say over a plane or the layers of a box: mean and standard deviation of the RMS, and the parameter
 //! that matters most.
 
-use crate::color_map::ColorMap;
+use crate::drawing::color_map::ColorMap;
+use crate::drawing::heading::Heading;
+use crate::drawing::name_map::name_map;
+use crate::drawing::plane::{self, Paint, Plane};
 use crate::error::ReportError;
-use crate::name_map::name_map;
-use crate::plane::{self, Paint, Plane};
-use crate::style::{Heading, number};
+use crate::text::number;
 use cdpr_robot::Robot;
 use cdpr_study::{PoseRow, PosesSummary};
 

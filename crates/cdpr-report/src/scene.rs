@@ -1,6 +1,6 @@
 //! The robot at the poses of a study, as points in space: what the page draws with plotly.js.
 
-use super::text;
+use crate::text;
 use cdpr_cable::Catenary;
 use cdpr_robot::{Matrix3, Pose, Robot, Vector3};
 use cdpr_statics::{Deflection, Equilibrium};

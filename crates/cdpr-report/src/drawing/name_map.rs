@@ -1,8 +1,9 @@
 //! A name at each position of a plane, by its colour.
 
+use crate::drawing::heading::Heading;
+use crate::drawing::plane::{self, Paint, Plane};
+use crate::drawing::style::{BLUE, GREEN, Pen};
 use crate::error::ReportError;
-use crate::plane::{self, Paint, Plane};
-use crate::style::{BLUE, GREEN, Heading, Pen};
 use cdpr_robot::Robot;
 use plotters::style::RGBColor;
 use std::cmp::Reverse;

@@ -1,7 +1,9 @@
 //! A cycle of load as lines: Fig. 3 of the paper, and what such cables do to the platform.
 
+use crate::drawing::axis::{Axis, Grid, chart};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, BLUE, GREEN, HEIGHT, ORANGE, Pen, VERMILLION};
 use crate::error::ReportError;
-use crate::style::{self, Axis, BLUE, GREEN, Grid, HEIGHT, Heading, ORANGE, Pen, VERMILLION};
 use plotters::prelude::*;
 
 const PENS: [Pen; 4] = [
@@ -55,7 +57,7 @@ pub fn cycle(cycle: &Cycle) -> Result<String, ReportError> {
     let key: Vec<_> = cycle.branches.iter().zip(PENS).map(|((name, _), pen)| (name.clone(), pen)).collect();
     let heading = Heading { title: cycle.title, lines: cycle.lines, key: &key };
     style::figure(HEIGHT, |area| {
-        let chart = style::chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
+        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
         let plot = chart.plotting_area();
         for ((_, points), pen) in cycle.branches.iter().zip(PENS) {
             pen.draw(plot, points.clone())?;

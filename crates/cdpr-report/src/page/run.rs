@@ -1,6 +1,7 @@
 //! How the run went, and how to run it again.
 
-use super::{Section, cell, numeric, table, text};
+use crate::page::elements::{Section, cell, numeric, table};
+use crate::text;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use cdpr_study::{Results, StudySummary, Timings};

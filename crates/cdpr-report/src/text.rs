@@ -1,7 +1,5 @@
 //! Numbers and names as a reader wants them.
 
-use crate::style::number;
-use cdpr_robot::{Axis, Parameter};
 use cdpr_sensitivity::{Law, Steps};
 use serde::Serialize;
 use serde_json::Value;
@@ -32,6 +30,16 @@ pub(crate) fn figures(value: f64, digits: usize) -> String {
     number(value, usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0))
 }
 
+/// The number with so many decimals, with a true minus sign.
+pub(crate) fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.contains(|c: char| ('1'..='9').contains(&c)) => format!("\u{2212}{digits}"),
+        Some(zero) => zero.to_owned(),
+        None => text,
+    }
+}
+
 fn superscript(exponent: i32) -> String {
     let raised = |c: char| match c {
         '-' => '\u{207b}',
@@ -47,49 +55,6 @@ fn superscript(exponent: i32) -> String {
 pub(crate) fn point(coordinates: &[f64]) -> String {
     let coordinates: Vec<String> = coordinates.iter().map(|value| digits(*value, 5)).collect();
     format!("({})", coordinates.join(", "))
-}
-
-/// A parameter or group of parameters in words, with its symbol.
-pub(crate) fn parameter(name: &str) -> String {
-    let words = match name {
-        "mass" => "mass of the platform m",
-        "linear_density" => "linear density \u{3c1} of all cables",
-        "youngs_modulus" => "Young's modulus E of all cables",
-        "a" => "anchor points, each coordinate of each",
-        "b" => "exit points, each coordinate of each",
-        "cog" => "centre of mass, each coordinate",
-        "dt" => "tension set-points, each",
-        other => other,
-    };
-    words.to_owned()
-}
-
-/// A parameter as short as can be: `E`, `\u{3c1}`, `m`, or its own name.
-pub(crate) fn symbol(name: &str) -> &str {
-    match name {
-        "mass" => "m",
-        "linear_density" => "\u{3c1}",
-        "youngs_modulus" => "E",
-        other => other,
-    }
-}
-
-/// Unit for reading and how many of it are one SI unit, of a parameter or a group of them.
-pub(crate) fn reading_unit(name: &str) -> (&'static str, f64) {
-    let parameter = match name {
-        "a" => Some(Parameter::AnchorPoint(0, Axis::X)),
-        "b" => Some(Parameter::ExitPoint(0, Axis::X)),
-        "cog" => Some(Parameter::CenterOfMass(Axis::X)),
-        "dt" => Some(Parameter::TensionOffset(0)),
-        name => name.parse().ok(),
-    };
-    match parameter.map(|parameter| parameter.unit()) {
-        Some("Pa") => ("GPa", 1e-9),
-        Some("m") => ("mm", 1e3),
-        Some("kg/m") => ("g/m", 1e3),
-        Some(unit) => (unit, 1.0),
-        None => ("", 1.0),
-    }
 }
 
 /// A law in words, its parameters times `scale`.

@@ -1,7 +1,10 @@
 //! Distribution of the RMS and the laws fitted to it: Fig. 4a and 5a of the paper.
 
+use crate::drawing::axis::{Axis, Grid, chart};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, BLUE, GREEN, HEIGHT, Pen, VERMILLION};
 use crate::error::ReportError;
-use crate::style::{self, Axis, BLUE, GREEN, Grid, HEIGHT, Heading, Pen, VERMILLION, number};
+use crate::text::number;
 use cdpr_sensitivity::Histogram;
 use cdpr_study::{FitSummary, SamplingSummary};
 use plotters::prelude::*;
@@ -80,7 +83,7 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
         key: &key,
     };
     style::figure(HEIGHT, |area| {
-        let chart = style::chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
+        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
         let plot = chart.plotting_area();
         for &(from, to, density) in &bars {
             plot.draw(&Rectangle::new([(from, 0.0), (to, density)], BARS.filled()))?;

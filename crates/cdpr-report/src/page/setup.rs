@@ -1,6 +1,8 @@
 //! What was studied: robot, settings, poses, error models.
 
-use super::{Section, cell, table, text};
+use crate::page::elements::{Section, cell, table};
+use crate::parameters;
+use crate::text;
 use cdpr_robot::Parameter;
 use cdpr_study::{GridSpec, IndexMap, InputSpec, PoseSpec, PosesSpec, Results, StudySummary};
 use maud::{Markup, html};
@@ -83,7 +85,7 @@ fn parts(results: &Results) -> Markup {
         ]);
     }
     for (name, surface) in &file.surfaces {
-        let axes = [&surface.x, &surface.y].map(|axis| text::symbol(&axis.parameter)).join(" and ");
+        let axes = [&surface.x, &surface.y].map(|axis| parameters::symbol(&axis.parameter)).join(" and ");
         rows.push(vec![
             html! { (surface.title) span.detail { (name) } },
             pose(&surface.pose),
@@ -111,12 +113,12 @@ fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec
             let tied = spec.parameters.as_ref().map(tied);
             let measured = spec.parameters.as_ref().and_then(|shared| shared.keys().next()).unwrap_or(key);
             let (unit, scale) = if text::is_scaled(&spec.law) {
-                text::reading_unit(measured)
+                parameters::reading_unit(measured)
             } else {
                 (of.first().map_or("", |parameter| parameter.unit()), 1.0)
             };
             vec![
-                html! { (text::parameter(key)) span.detail { (tied.as_ref().unwrap_or(key)) } },
+                html! { (parameters::parameter(key)) span.detail { (tied.as_ref().unwrap_or(key)) } },
                 cell(if tied.is_some() { 1 } else { of.len() }.to_string()),
                 html! { (text::law(&spec.law, scale))
                     @if spec.operating_point.is_some() { span.detail { "from the modulus at the operating point" } } },

@@ -1,9 +1,10 @@
 //! Robustness of the direct model: how far it ends from the true pose, and from which starts it finds it.
 
+use crate::drawing::axis::{Axis, Grid, chart};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, BLUE, GREY, HEIGHT, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
 use crate::error::ReportError;
-use crate::style::{
-    self, Axis, BLUE, GREY, Grid, HEIGHT, Heading, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, number, px,
-};
+use crate::text::number;
 use cdpr_study::{Outcome, ProtocolSummary, RobustnessResult, RobustnessRow};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -71,7 +72,7 @@ pub fn found_poses(result: &RobustnessResult) -> Result<String, ReportError> {
         .collect();
     let heading = Heading { title: result.protocol.title, lines: &lines, key: &key };
     style::figure(HEIGHT, |area| {
-        let chart = style::chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
+        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
         let plot = chart.plotting_area();
         for (outcome, _, color) in OUTCOMES {
             let step = if outcome == Outcome::TruePose { every } else { 1 };
@@ -131,7 +132,7 @@ pub fn success_share(summary: &ProtocolSummary) -> Result<String, ReportError> {
     let heading = Heading { title: &summary.title, lines: &lines, key: &[] };
     let height = heading.height() + ROW * angles.len() as f64 + X_AXIS + MARGIN + 4.0;
     style::figure(height, |area| {
-        let chart = style::chart(&heading.draw(area)?, &x, &y, Grid::None)?;
+        let chart = chart(&heading.draw(area)?, &x, &y, Grid::None)?;
         let plot = chart.plotting_area();
         for (distance, angle, row) in &cells {
             let place =

@@ -1,7 +1,9 @@
 //! The largest signed effects and their intervals.
 
+use crate::drawing::axis::{Axis, Grid, chart};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, BLUE, GREY, MARGIN, Pen, X_AXIS};
 use crate::error::ReportError;
-use crate::style::{self, Axis, BLUE, GREY, Grid, Heading, MARGIN, Pen, X_AXIS};
 use cdpr_study::{SamplingSummary, SignedEffect};
 use plotters::prelude::*;
 
@@ -60,7 +62,7 @@ pub fn signed_effects(summary: &SamplingSummary, most: usize) -> Result<String, 
     };
     let height = heading.height() + ROW * effects.len() as f64 + X_AXIS + MARGIN + 4.0;
     style::figure(height, |area| {
-        let chart = style::chart(&heading.draw(area)?, &x, &y, Grid::Vertical)?;
+        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Vertical)?;
         let plot = chart.plotting_area();
         for (row, &(_, interval)) in effects.iter().enumerate() {
             let y = (row + 1) as f64;

@@ -1,9 +1,12 @@
 //! The RMS over two parameters: Fig. 4b and 4c of the paper.
 
-use crate::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
+use crate::drawing::axis::{Grid, chart};
+use crate::drawing::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, GREY, HEIGHT, Pen, px};
 use crate::error::ReportError;
-use crate::style::{self, GREY, Grid, HEIGHT, Heading, Pen, number, px};
-use cdpr_robot::Parameter;
+use crate::parameters::axis_of;
+use crate::text::number;
 use cdpr_study::{SurfaceResult, SurfaceSummary};
 
 /// Heat map of the RMS with contour lines at the ticks of its colour bar. A cell that failed is grey and struck through.
@@ -33,7 +36,7 @@ pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result
     style::figure(HEIGHT, |area| {
         let width = px(style::WIDTH - COLOR_BAR);
         let (left, right) = heading.draw(area)?.split_horizontally(width);
-        let chart = style::chart(&left, &x, &y, Grid::None)?;
+        let chart = chart(&left, &x, &y, Grid::None)?;
         map.draw(chart.plotting_area())?;
         map.cells.hatch(chart.plotting_area(), |place| map.values[place].is_none())?;
         map.draw_color_bar(&right)
@@ -44,19 +47,4 @@ pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result
 fn nodes(field: &str, name: &str, values: &[f64]) -> Result<Nodes, ReportError> {
     let (label, scale) = axis_of(name)?;
     Nodes::new(field, label, values.iter().map(|value| scale * value).collect())
-}
-
-/// Label of a parameter's axis, and what turns SI units into the unit that it names.
-pub(crate) fn axis_of(name: &str) -> Result<(String, f64), ReportError> {
-    let parameter: Parameter =
-        name.parse().map_err(|_| ReportError::invalid("parameters", &name, "a parameter of a robot"))?;
-    Ok(match parameter {
-        Parameter::YoungsModulus => ("Young's modulus E [GPa]".to_owned(), 1e-9),
-        Parameter::LinearDensity => ("linear density \u{3c1} [kg/m]".to_owned(), 1.0),
-        Parameter::Mass => ("mass of the platform m [kg]".to_owned(), 1.0),
-        Parameter::AnchorPoint(..) => (format!("anchor point, {name} [m]"), 1.0),
-        Parameter::ExitPoint(..) => (format!("exit point, {name} [m]"), 1.0),
-        Parameter::CenterOfMass(_) => (format!("centre of mass, {name} [m]"), 1.0),
-        Parameter::TensionOffset(_) => (format!("offset of the tension set-point, {name} [N]"), 1.0),
-    })
 }

@@ -1,8 +1,11 @@
 //! Samplings at several poses: maps over the workspace, extremes, which parameters matter where. However many poses there are, there is
 //! a section for all of them; a row each stands in the table beside the report.
 
-use super::{Section, cell, figure, glance, numeric, table, text};
+use crate::page::elements::{Section, cell, figure, numeric, table};
+use crate::page::glance;
+use crate::parameters;
 use crate::pose_maps;
+use crate::text;
 use cdpr_study::{Extremes, HELD, PosesSummary, Results};
 use maud::{Markup, html};
 
@@ -78,7 +81,7 @@ fn dominant(summary: &PosesSummary) -> Markup {
     let row = |(name, count): (&String, &usize)| {
         let share = 100.0 * *count as f64 / summary.held().max(1) as f64;
         vec![
-            cell(text::symbol(name)),
+            cell(parameters::symbol(name)),
             cell(count.to_string()),
             html! { span.number { (text::digits(share, 3)) " %" } },
         ]

@@ -1,9 +1,10 @@
 //! Shares of the variance of the RMS by every measure that has them.
 
+use crate::drawing::axis::{Axis, Grid, chart};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, BLUE, GREEN, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
 use crate::error::ReportError;
-use crate::style::{
-    self, Axis, BLUE, GREEN, GREY, Grid, Heading, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, number, px,
-};
+use crate::text::number;
 use cdpr_study::{InputMeasures, SamplingSummary, SensitivitySummary};
 use plotters::prelude::*;
 
@@ -81,7 +82,7 @@ pub fn shares(summary: &SamplingSummary, most: usize) -> Result<String, ReportEr
         Heading { title: &summary.title, lines: &subtitle(summary, sensitivity, inputs.len()), key: &key };
     let height = heading.height() + ROW * inputs.len() as f64 + X_AXIS + MARGIN + 4.0;
     style::figure(height, |area| {
-        let chart = style::chart(&heading.draw(area)?, &x, &y, Grid::Vertical)?;
+        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Vertical)?;
         let plot = chart.plotting_area();
         for row in 1..inputs.len() {
             let between = row as f64 + 0.5;
