@@ -128,7 +128,10 @@ fn each_numerical_library_is_named_by_one_module_of_a_crate() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
     for (library, modules) in [
         ("clarabel", &["cdpr-tension/src/quadratic_program.rs"][..]),
-        ("faer", &["cdpr-sensitivity/src/least_squares.rs", "cdpr-statics/src/equations/assembled.rs"]),
+        (
+            "faer",
+            &["cdpr-sensitivity/src/measure/least_squares.rs", "cdpr-statics/src/equations/assembled.rs"],
+        ),
         ("mpi", &["cdpr-cli/src/study/ranks.rs"]),
         ("pulp", &["cdpr-statics/src/lanes/simd.rs"]),
     ] {

@@ -33,34 +33,25 @@
 //! # }
 //! ```
 
-mod color_map;
-mod cycle;
-mod effects;
+mod drawing;
 mod error;
-mod heat_map;
-mod histogram;
-mod name_map;
-mod plane;
-mod points;
-mod pose_map;
-mod report;
-mod robot_view;
-mod robustness;
+mod figure;
+mod page;
+mod parameters;
 mod run;
-mod shares;
-mod style;
-mod surface;
+mod scene;
+mod text;
 
-pub use cycle::{Cycle, cycle};
-pub use effects::signed_effects;
 pub use error::ReportError;
-pub use heat_map::{MapQuantity, heat_map, tolerance_map, workspace_maps};
-pub use histogram::histogram;
-pub use points::{Points, point_effects};
-pub use pose_map::{NamedMap, pose_maps};
-pub use report::report;
-pub use robot_view::robot_view;
-pub use robustness::{found_poses, success_share};
+pub use figure::cycle::{Cycle, cycle};
+pub use figure::heat_map::{MapQuantity, heat_map, tolerance_map, workspace_maps};
+pub use figure::histogram::histogram;
+pub use figure::points::{Points, point_effects};
+pub use figure::pose_map::{NamedMap, pose_maps};
+pub use figure::robot_view::robot_view;
+pub use figure::robustness::{found_poses, success_share};
+pub use figure::shares::shares;
+pub use figure::signed_effects::signed_effects;
+pub use figure::surface::surface;
+pub use page::report;
 pub use run::{Watcher, run};
-pub use shares::shares;
-pub use surface::surface;

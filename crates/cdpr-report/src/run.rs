@@ -2,7 +2,7 @@
 //! it. A process that ends at any moment loses the block under way and no more.
 
 use crate::error::ReportError;
-use crate::points::{Points, point_effects};
+use crate::figure::points::{Points, point_effects};
 use crate::{histogram, pose_maps, robot_view, shares, signed_effects, surface};
 use cdpr_study::{
     Blocks, IndexMap, ObservationTable, Sampling, Session, Study, StudyError, StudySummary, Summary,

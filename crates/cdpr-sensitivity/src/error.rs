@@ -1,6 +1,6 @@
 //! What can be wrong with the data of a study: one small enum, each variant with the numbers a user needs.
 
-use crate::fit::Family;
+use crate::law::family::Family;
 
 /// Error of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -5,6 +5,11 @@
 //! error of 1e-10, and so have the normal laws here; the standard deviation of one truncated far from its mean loses
 //! two or three digits more.
 
+pub(crate) mod family;
+pub mod fit;
+mod likelihood;
+pub(crate) mod normal;
+
 use std::f64::consts::{PI, SQRT_2};
 
 use serde::{Deserialize, Serialize};
@@ -12,7 +17,7 @@ use statrs::consts::EULER_MASCHERONI;
 use statrs::function::{beta, gamma};
 
 use crate::error::{SensitivityError, require};
-use crate::normal::{Truncated, ln_normal_pdf, standard_normal_cdf, standard_normal_quantile};
+use crate::law::normal::{Truncated, ln_normal_pdf, standard_normal_cdf, standard_normal_quantile};
 
 /// A law. In JSON: `{"uniform": {"min": -1.0, "max": 1.0}}`. Its unit is that of the variable.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]

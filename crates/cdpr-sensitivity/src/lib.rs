@@ -3,14 +3,14 @@
 //!
 //! | step | module |
 //! |---|---|
-//! | which inputs, with which law and steps | [`law`], [`input`] |
-//! | at which points to run the model | [`design`] on [`sobol`], [`latin_hypercube`], [`halton`], [`correlated`]; [`saltelli`], [`morris`] |
-//! | what the output looks like | [`summary`] |
-//! | which law it follows | [`mod@fit`] |
-//! | which input matters | [`effect`], [`morris`], [`mod@dgsm`], [`mod@regression`] |
-//! | how much of the variance it causes, alone and with others | [`sobol_indices`](mod@sobol_indices), [`pce`] |
-//! | which tolerances to tighten for a limit | [`allocation`] |
-//! | how sure that is, and how many runs would do | [`interval`], [`mod@convergence`] |
+//! | which inputs, with which law and steps | [`law`], [`design::input`] |
+//! | at which points to run the model | [`design`] on [`design::sobol`], [`design::latin_hypercube`], [`design::halton`], [`design::correlated`]; [`design::saltelli`], [`design::morris`] |
+//! | what the output looks like | [`sample::summary`] |
+//! | which law it follows | [`law::fit`] |
+//! | which input matters | [`measure::effect`], [`measure::morris`], [`measure::dgsm`], [`measure::regression`] |
+//! | how much of the variance it causes, alone and with others | [`measure::sobol_indices`], [`measure::expansion`] |
+//! | which tolerances to tighten for a limit | [`measure::allocation`] |
+//! | how sure that is, and how many runs would do | [`sample::interval`], [`measure::convergence`] |
 //!
 //! What holds throughout:
 //!
@@ -51,54 +51,37 @@
 #[cfg(doctest)]
 struct Readme;
 
-pub mod allocation;
-pub mod convergence;
-pub mod correlated;
 pub mod design;
-pub mod dgsm;
-pub mod effect;
 pub mod error;
-mod estimate;
-pub mod fit;
-pub mod halton;
-pub mod input;
-pub mod interval;
-pub mod latin_hypercube;
 pub mod law;
-mod least_squares;
-pub mod morris;
-mod normal;
-pub mod observation;
-pub mod pce;
-pub mod polynomial;
-mod pursuit;
-pub mod regression;
-pub mod saltelli;
-pub mod sobol;
-pub mod sobol_indices;
-pub mod summary;
+pub mod measure;
+pub mod sample;
 
-pub use allocation::allocate;
-pub use convergence::{Target, Tightened, convergence, first_tight, until_tight};
-pub use correlated::Correlated;
-pub use design::{IndependentSample, JointSample, RandomDesign, SampleDesign, SobolDesign};
-pub use dgsm::{DerivativeMeasure, DerivativeMeasures, Slopes, dgsm, poincare_constant};
-pub use effect::{
+pub use design::correlated::Correlated;
+pub use design::halton::Halton;
+pub use design::input::{Input, Steps};
+pub use design::latin_hypercube::LatinHypercube;
+pub use design::morris::MorrisDesign;
+pub use design::observation::observe;
+pub use design::random::RandomDesign;
+pub use design::saltelli::{Order, SaltelliDesign};
+pub use design::sobol::{Sobol, SobolDesign};
+pub use design::{IndependentSample, JointSample, SampleDesign};
+pub use error::SensitivityError;
+pub use law::Law;
+pub use law::family::Family;
+pub use law::fit::{Fit, best, fit, fit_all, ks_distance};
+pub use measure::allocation::allocate;
+pub use measure::convergence::{Target, Tightened, convergence, first_tight, until_tight};
+pub use measure::dgsm::{DerivativeMeasure, DerivativeMeasures, Slopes, dgsm, poincare_constant};
+pub use measure::effect::{
     Effect, EffectInterval, EffectSums, Effects, effect_intervals, intervals_of_effects, student_effects,
 };
-pub use error::SensitivityError;
-pub use fit::{Bootstrap, Family, Fit, best, fit, fit_all, ks_distance};
-pub use halton::Halton;
-pub use input::{Input, Steps};
-pub use interval::Estimate;
-pub use latin_hypercube::LatinHypercube;
-pub use law::Law;
-pub use morris::{MorrisDesign, MorrisEffect, morris_effects};
-pub use observation::observe;
-pub use pce::{Expansion, Shares, Term, expansion};
-pub use polynomial::{Power, Truncation};
-pub use regression::{Coefficient, Regression, rank_correlation, rank_regression, regression};
-pub use saltelli::{Order, SaltelliDesign};
-pub use sobol::Sobol;
-pub use sobol_indices::{PairIndex, SobolIndex, SobolIndices, sobol_indices};
-pub use summary::{Bins, Histogram, Moments, Sample, Summary};
+pub use measure::expansion::polynomial::{Power, Truncation};
+pub use measure::expansion::{Expansion, Shares, Term, expansion};
+pub use measure::morris::{MorrisEffect, morris_effects};
+pub use measure::regression::{Coefficient, Regression, rank_correlation, rank_regression, regression};
+pub use measure::sobol_indices::{PairIndex, SobolIndex, SobolIndices, sobol_indices};
+pub use sample::interval::Estimate;
+pub use sample::random::Bootstrap;
+pub use sample::summary::{Bins, Histogram, Moments, Sample, Summary};

@@ -1,6 +1,6 @@
 //! Sobol's sequence against `scipy`'s points, and what scrambling has to keep.
 
-use cdpr_sensitivity::sobol::MAX_DIMENSIONS;
+use cdpr_sensitivity::design::sobol::MAX_DIMENSIONS;
 use cdpr_sensitivity::{SensitivityError, Sobol};
 use proptest::prelude::*;
 

@@ -2,7 +2,7 @@
 
 use super::functions::{self, Function, ishigami, uniform};
 use approx::assert_abs_diff_eq;
-use cdpr_sensitivity::sobol_indices::MIN_BLOCKS;
+use cdpr_sensitivity::measure::sobol_indices::MIN_BLOCKS;
 use cdpr_sensitivity::{
     Bootstrap, Input, Law, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolIndices, Steps,
     convergence, first_tight, observe, sobol_indices,

@@ -1,0 +1,229 @@
+//! A value over a grid of two quantities: cells, contour lines, colour bar.
+
+use crate::drawing::axis::Axis;
+use crate::drawing::style::{self, Area, DrawingError, GREY, MARGIN, Pen, X_AXIS, px};
+use crate::error::ReportError;
+use plotters::prelude::*;
+
+/// Room of the colour bar with its axis [px].
+pub(crate) const COLOR_BAR: f64 = 96.0;
+const COLORS: usize = 128;
+/// Least distance of hatching lines along an axis [px].
+const HATCH: f64 = 8.0;
+
+/// One axis of the grid, in the unit that its label names.
+pub(crate) struct Nodes {
+    pub(crate) label: String,
+    values: Vec<f64>,
+}
+
+impl Nodes {
+    /// Two or more ascending values.
+    pub(crate) fn new(field: &str, label: String, values: Vec<f64>) -> Result<Self, ReportError> {
+        let ascending = values.windows(2).all(|pair| pair[0] < pair[1]);
+        if values.len() < 2 || !ascending || !(values[values.len() - 1] - values[0]).is_finite() {
+            return Err(ReportError::invalid(field, &format!("{values:?}"), "two or more ascending values"));
+        }
+        Ok(Self { label, values })
+    }
+
+    /// Edge between the cells of node `k - 1` and `k`: halfway between them; the cells at both ends stop at their nodes.
+    fn edge(&self, k: usize) -> f64 {
+        let last = self.values.len() - 1;
+        0.5 * (self.values[k.saturating_sub(1)] + self.values[k.min(last)])
+    }
+
+    /// A pixel or two past that edge, but not past the last one.
+    fn past_edge(&self, k: usize) -> f64 {
+        let (first, last) = (self.edge(0), self.edge(self.values.len()));
+        last.min(self.edge(k) + 4e-3 * (last - first))
+    }
+
+    /// From the first to the last value.
+    pub(crate) fn range(&self) -> std::ops::Range<f64> {
+        self.edge(0)..self.edge(self.values.len())
+    }
+
+    pub(crate) fn axis(&self) -> Axis {
+        Axis::numbers(self.range(), 8, &self.label)
+    }
+}
+
+/// The cells of a grid; that of node i, j has place `i * y.len() + j`.
+pub(crate) struct Cells {
+    pub(crate) x: Nodes,
+    pub(crate) y: Nodes,
+}
+
+/// Values over a grid.
+pub(crate) struct ColorMap {
+    pub(crate) cells: Cells,
+    /// Of each cell; none where there is none.
+    pub(crate) values: Vec<Option<f64>>,
+    pub(crate) least: f64,
+    pub(crate) greatest: f64,
+    /// Axis of the colour bar.
+    color_axis: Axis,
+}
+
+impl Cells {
+    pub(crate) fn count(&self) -> usize {
+        self.x.values.len() * self.y.values.len()
+    }
+
+    /// Draws all cells, those without a colour in grey.
+    pub(crate) fn draw<C>(
+        &self,
+        plot: &DrawingArea<SVGBackend, C>,
+        color: impl Fn(usize) -> Option<RGBColor>,
+    ) -> Result<(), DrawingError>
+    where
+        C: plotters::coord::CoordTranslate<From = (f64, f64)>,
+    {
+        let rows = self.y.values.len();
+        for place in 0..self.count() {
+            let (i, j) = (place / rows, place % rows);
+            let from = (self.x.edge(i), self.y.edge(j));
+            // Each cell reaches a pixel or two below the ones drawn after it, lest the white between them show.
+            let below = (self.x.past_edge(i + 1), self.y.past_edge(j + 1));
+            plot.draw(&Rectangle::new([from, below], color(place).unwrap_or(GREY).filled()))?;
+        }
+        Ok(())
+    }
+
+    /// Hatches the cells for which `hatched` holds: diagonals through all of them, no closer than some pixels.
+    pub(crate) fn hatch<C>(
+        &self,
+        plot: &DrawingArea<SVGBackend, C>,
+        hatched: impl Fn(usize) -> bool,
+    ) -> Result<(), DrawingError>
+    where
+        C: plotters::coord::CoordTranslate<From = (f64, f64)>,
+    {
+        let (columns, rows) = (self.x.values.len(), self.y.values.len());
+        let every = (HATCH * columns as f64 / style::WIDTH).ceil() as usize;
+        for place in (0..columns * rows).filter(|place| hatched(*place)) {
+            let (i, j) = (place / rows, place % rows);
+            if i % every == j % every {
+                let from = (self.x.edge(i), self.y.edge(j));
+                let to = (self.x.edge(i + 1), self.y.edge(j + 1));
+                Pen::solid(BLACK, 0.5).draw(plot, vec![from, to])?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl ColorMap {
+    /// `field` names the values in errors, `label` on the colour bar.
+    pub(crate) fn new(
+        cells: Cells,
+        values: Vec<Option<f64>>,
+        field: &str,
+        label: &str,
+    ) -> Result<Self, ReportError> {
+        if values.len() != cells.count() {
+            return Err(ReportError::invalid(field, &values.len(), "one value a grid point"));
+        }
+        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+        for &value in values.iter().flatten() {
+            ReportError::finite(field, value)?;
+            (least, greatest) = (least.min(value), greatest.max(value));
+        }
+        if least > greatest {
+            return Err(ReportError::Empty { what: "no point of the grid has a value" });
+        }
+        let color_axis = Axis::numbers(least..greatest, 9, label);
+        Ok(Self { cells, values, least, greatest, color_axis })
+    }
+
+    /// Draws all cells and contour lines at the ticks of the colour bar. A cell without value is grey.
+    pub(crate) fn draw<C>(&self, plot: &DrawingArea<SVGBackend, C>) -> Result<(), DrawingError>
+    where
+        C: plotters::coord::CoordTranslate<From = (f64, f64)>,
+    {
+        self.cells.draw(plot, |place| self.values[place].map(|value| self.color(value)))?;
+        for (level, _) in &self.color_axis.ticks {
+            for segment in self.contour(*level) {
+                Pen::solid(self.line_color(*level), 0.8).draw(plot, segment.to_vec())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws the colour bar.
+    pub(crate) fn draw_color_bar(&self, area: &Area) -> Result<(), DrawingError> {
+        let axis = &self.color_axis;
+        let mut chart = ChartBuilder::on(area)
+            .margin_top(px(4.0))
+            .margin_right(px(MARGIN))
+            .margin_bottom(px(MARGIN + X_AXIS))
+            .right_y_label_area_size(px(axis.room()))
+            .build_cartesian_2d(0.0..1.0, axis.clone())?;
+        let (low, high) = (axis.range.start, axis.range.end);
+        let value = |k: usize| low + (high - low) * k as f64 / COLORS as f64;
+        for k in 0..COLORS {
+            let color = self.color(0.5 * (value(k) + value(k + 1)));
+            chart.plotting_area().draw(&Rectangle::new([(0.0, value(k)), (1.0, high)], color.filled()))?;
+        }
+        for (level, _) in &axis.ticks {
+            Pen::solid(self.line_color(*level), 0.8)
+                .draw(chart.plotting_area(), vec![(0.0, *level), (1.0, *level)])?;
+        }
+        chart
+            .configure_mesh()
+            .disable_mesh()
+            .y_desc(&axis.label)
+            .label_style(style::font(style::TEXT))
+            .axis_desc_style(style::font(style::TEXT))
+            .set_all_tick_mark_size(px(4.0))
+            .axis_style(BLACK.stroke_width(px(1.0) as u32))
+            .draw()
+    }
+
+    /// Place of a value on the colour bar, 0 to 1.
+    fn place(&self, value: f64) -> f64 {
+        let range = &self.color_axis.range;
+        ((value - range.start) / (range.end - range.start)).clamp(0.0, 1.0)
+    }
+
+    fn color(&self, value: f64) -> RGBColor {
+        ViridisRGB::get_color(self.place(value))
+    }
+
+    /// White on the dark half of viridis, black on the bright one; both by a hair, so that a page that swaps black and white for
+    /// dark surroundings leaves lines on viridis as they are.
+    fn line_color(&self, value: f64) -> RGBColor {
+        if self.place(value) < 0.5 { RGBColor(254, 254, 254) } else { RGBColor(1, 1, 1) }
+    }
+
+    /// Segments of the line where the value, interpolated along the edges of the grid, is `level` (marching squares).
+    fn contour(&self, level: f64) -> Vec<[(f64, f64); 2]> {
+        let (x, y) = (&self.cells.x.values, &self.cells.y.values);
+        let mut segments = Vec::new();
+        for i in 0..x.len() - 1 {
+            for j in 0..y.len() - 1 {
+                let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                let Some(heights) = corners
+                    .iter()
+                    .map(|&(i, j)| self.values[i * y.len() + j].map(|value| value - level))
+                    .collect::<Option<Vec<f64>>>()
+                else {
+                    continue;
+                };
+                let crossings: Vec<(f64, f64)> = (0..4)
+                    .filter_map(|k| {
+                        let next = (k + 1) % 4;
+                        let (h, h_next) = (heights[k], heights[next]);
+                        let ((i, j), (i_next, j_next)) = (corners[k], corners[next]);
+                        let t = h / (h - h_next);
+                        ((h < 0.0) != (h_next < 0.0))
+                            .then(|| (x[i] + t * (x[i_next] - x[i]), y[j] + t * (y[j_next] - y[j])))
+                    })
+                    .collect();
+                segments.extend(crossings.chunks_exact(2).map(|ends| [ends[0], ends[1]]));
+            }
+        }
+        segments
+    }
+}

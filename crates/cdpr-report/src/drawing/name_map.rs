@@ -1,0 +1,43 @@
+//! A name at each position of a plane, by its colour.
+
+use crate::drawing::heading::Heading;
+use crate::drawing::plane::{self, Paint, Plane};
+use crate::drawing::style::{BLUE, GREEN, Pen};
+use crate::error::ReportError;
+use cdpr_robot::Robot;
+use plotters::style::RGBColor;
+use std::cmp::Reverse;
+
+/// Names with a colour of their own, and that of all others; the colours of the frame and of what is not held are left out.
+const COLORS: [RGBColor; 5] =
+    [BLUE, RGBColor(0x56, 0xB4, 0xE9), GREEN, RGBColor(0xF0, 0xE4, 0x42), RGBColor(0xCC, 0x79, 0xA7)];
+const OTHERS: RGBColor = RGBColor(0x50, 0x50, 0x50);
+
+/// Draws it; the most frequent names have colours of their own, and where there is none is hatched.
+pub(crate) fn name_map(
+    plane: &Plane,
+    robot: &Robot,
+    title: &str,
+    line: String,
+    at: &[Option<&str>],
+) -> Result<String, ReportError> {
+    let mut names: Vec<(&str, usize)> = Vec::new();
+    for name in at.iter().copied().flatten() {
+        match names.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, count)) => *count += 1,
+            None => names.push((name, 1)),
+        }
+    }
+    names.sort_by_key(|(name, count)| (Reverse(*count), *name));
+    let color = |name: &str| {
+        names.iter().zip(COLORS).find(|((known, _), _)| *known == name).map_or(OTHERS, |(_, color)| color)
+    };
+    let colors = at.iter().map(|name| name.map(color)).collect();
+    let mut key: Vec<_> = plane::key().into();
+    key.extend(names.iter().zip(COLORS).map(|((name, _), color)| ((*name).to_owned(), Pen::bar(color))));
+    if names.len() > COLORS.len() {
+        key.push((format!("{} others", names.len() - COLORS.len()), Pen::bar(OTHERS)));
+    }
+    let heading = Heading { title, lines: &[line], key: &key };
+    plane.figure(robot, &heading, &Paint::Colors(plane.cells()?, colors), |place| at[place].is_none())
+}

@@ -1,0 +1,171 @@
+//! Planes of positions in the robot's frame: what maps of them have in common.
+
+use crate::drawing::axis::{Axis, Grid as Lines, chart};
+use crate::drawing::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, DrawingError, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
+use crate::error::ReportError;
+use cdpr_robot::{Axis as Direction, Robot};
+use cdpr_study::{Grid, frame, letter};
+use plotters::prelude::*;
+use std::ops::Range;
+
+/// Room around a map for the frame, as a share of its extent.
+const ROOM: f64 = 0.04;
+/// Heights of a map [px]; both axes have the same scale between them.
+const HEIGHTS: Range<f64> = 160.0..760.0;
+/// The rectangle around the exit points.
+const FRAME: Pen = Pen { color: VERMILLION, width: 1.5, dash: Some(6.0) };
+
+/// A plane of a grid of positions.
+pub(crate) struct Plane {
+    normal: Direction,
+    /// Number of its place along the normal, if the grid is a box.
+    pub(crate) layer: Option<usize>,
+    /// That place [m].
+    place: f64,
+    /// Axes and their places [m].
+    axes: [(Direction, Vec<f64>); 2],
+    /// Numbers in the grid of its positions, the second axis running faster.
+    pub(crate) positions: Vec<usize>,
+}
+
+/// What is shown over a plane.
+pub(crate) enum Paint {
+    /// Values, with a colour bar.
+    Values(ColorMap),
+    /// A colour a cell, which the key explains.
+    Colors(Cells, Vec<Option<RGBColor>>),
+}
+
+/// What the key of every map says.
+pub(crate) fn key() -> [(String, Pen); 3] {
+    [("frame of the exit points", FRAME), ("exit points", Pen::bar(ORANGE)), ("not held", Pen::bar(GREY))]
+        .map(|(name, pen)| (name.to_owned(), pen))
+}
+
+impl Plane {
+    /// The grid itself if it is a plane, the layers of a box from below, none of a line.
+    pub(crate) fn of(grid: &Grid) -> Vec<Self> {
+        let points = |axis| grid.axis(axis).points;
+        let all = [Direction::X, Direction::Y, Direction::Z];
+        let normal = match (grid.normal(), all.iter().all(|axis| points(*axis) > 1)) {
+            (Some(normal), _) => normal,
+            (None, true) => Direction::Z,
+            (None, false) => return Vec::new(),
+        };
+        let [u, v] = match normal {
+            Direction::X => [Direction::Y, Direction::Z],
+            Direction::Y => [Direction::X, Direction::Z],
+            Direction::Z => [Direction::X, Direction::Y],
+        };
+        // Numbers of positions between neighbours along an axis: z runs fastest, x slowest.
+        let step = |axis| match axis {
+            Direction::X => points(Direction::Y) * points(Direction::Z),
+            Direction::Y => points(Direction::Z),
+            Direction::Z => 1,
+        };
+        let layer = |(layer, place): (usize, f64)| {
+            let row =
+                |i: usize| (0..points(v)).map(move |j| i * step(u) + j * step(v) + layer * step(normal));
+            Self {
+                normal,
+                layer: (points(normal) > 1).then_some(layer),
+                place,
+                axes: [u, v].map(|axis| (axis, grid.axis(axis).places())),
+                positions: (0..points(u)).flat_map(row).collect(),
+            }
+        };
+        grid.axis(normal).places().into_iter().enumerate().map(layer).collect()
+    }
+
+    /// What tells its file from those of the other layers of a box: `_z00`.
+    pub(crate) fn suffix(&self) -> String {
+        self.layer.map(|layer| format!("_z{layer:02}")).unwrap_or_default()
+    }
+
+    /// `z = 1.75 m`.
+    pub(crate) fn words(&self) -> String {
+        format!("{} = {} m", letter(self.normal), self.place)
+    }
+
+    pub(crate) fn cells(&self) -> Result<Cells, ReportError> {
+        let nodes = |(axis, places): &(Direction, Vec<f64>)| {
+            Nodes::new("grid", format!("{} [m]", letter(*axis)), places.clone())
+        };
+        Ok(Cells { x: nodes(&self.axes[0])?, y: nodes(&self.axes[1])? })
+    }
+
+    /// The map as a figure, hatched where `hatched` says of a position's place in the map, with frame and exit points.
+    pub(crate) fn figure(
+        &self,
+        robot: &Robot,
+        heading: &Heading,
+        paint: &Paint,
+        hatched: impl Fn(usize) -> bool,
+    ) -> Result<String, ReportError> {
+        let (cells, bar) = match paint {
+            Paint::Values(map) => (&map.cells, COLOR_BAR),
+            Paint::Colors(cells, _) => (cells, 0.0),
+        };
+        let (x, y) = (widened(&cells.x), widened(&cells.y));
+        let width = style::WIDTH - bar - y.room() - 2.0 * MARGIN;
+        let ratio = (y.range.end - y.range.start) / (x.range.end - x.range.start);
+        let height = (width * ratio).clamp(HEIGHTS.start, HEIGHTS.end);
+        style::figure(heading.height() + 4.0 + height + X_AXIS + MARGIN, |area| {
+            let (left, right) = heading.draw(area)?.split_horizontally(px(style::WIDTH - bar));
+            let chart = chart(&left, &x, &y, Lines::None)?;
+            let plot = chart.plotting_area();
+            match paint {
+                Paint::Values(map) => map.draw(plot)?,
+                Paint::Colors(cells, colors) => cells.draw(plot, |place| colors[place])?,
+            }
+            cells.hatch(plot, hatched)?;
+            self.draw_frame(plot, robot, &x.range, &y.range)?;
+            match paint {
+                Paint::Values(map) => map.draw_color_bar(&right),
+                Paint::Colors(..) => Ok(()),
+            }
+        })
+    }
+
+    /// The rectangle around the exit points and the points, as far as they lie in the figure.
+    fn draw_frame<C>(
+        &self,
+        plot: &DrawingArea<SVGBackend, C>,
+        robot: &Robot,
+        u_range: &Range<f64>,
+        v_range: &Range<f64>,
+    ) -> Result<(), DrawingError>
+    where
+        C: plotters::coord::CoordTranslate<From = (f64, f64)>,
+    {
+        let frame = frame(robot);
+        let [u, v] = self.axes.each_ref().map(|(axis, _)| *axis as usize);
+        let ([u_low, u_high], [v_low, v_high]) = (frame[u], frame[v]);
+        let clamped = |low: f64, high: f64, range: &Range<f64>| {
+            [low, high].map(|end| end.clamp(range.start, range.end))
+        };
+        let [left, right] = clamped(u_low, u_high, u_range);
+        let [bottom, top] = clamped(v_low, v_high, v_range);
+        for place in [u_low, u_high].into_iter().filter(|place| u_range.contains(place)) {
+            FRAME.draw(plot, vec![(place, bottom), (place, top)])?;
+        }
+        for place in [v_low, v_high].into_iter().filter(|place| v_range.contains(place)) {
+            FRAME.draw(plot, vec![(left, place), (right, place)])?;
+        }
+        for cable in &robot.cables {
+            let point = (cable.exit_point[u], cable.exit_point[v]);
+            if u_range.contains(&point.0) && v_range.contains(&point.1) {
+                plot.draw(&Circle::new(point, px(4.5), ORANGE.filled()))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn widened(nodes: &Nodes) -> Axis {
+    let Range { start, end } = nodes.range();
+    let room = ROOM * (end - start);
+    Axis::numbers(start - room..end + room, 8, &nodes.label)
+}

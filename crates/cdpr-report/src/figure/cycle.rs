@@ -1,0 +1,70 @@
+//! A cycle of load as lines: Fig. 3 of the paper, and what such cables do to the platform.
+
+use crate::drawing::axis::{Axis, Grid, chart};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, BLUE, GREEN, HEIGHT, ORANGE, Pen, VERMILLION};
+use crate::error::ReportError;
+use plotters::prelude::*;
+
+const PENS: [Pen; 4] = [
+    Pen::solid(BLUE, 2.0),
+    Pen { color: VERMILLION, width: 2.0, dash: Some(8.0) },
+    Pen { color: GREEN, width: 2.0, dash: Some(4.0) },
+    Pen { color: ORANGE, width: 2.0, dash: Some(2.5) },
+];
+
+/// What is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycle<'a> {
+    /// Title of the figure.
+    pub title: &'a str,
+    /// Lines below the title.
+    pub lines: &'a [String],
+    /// Label of the horizontal axis, with its unit.
+    pub x: &'a str,
+    /// Label of the vertical axis, with its unit.
+    pub y: &'a str,
+    /// Name and points of each branch: loading, unloading.
+    pub branches: &'a [(String, Vec<(f64, f64)>)],
+}
+
+/// The branches of a cycle, with a dot at each point.
+///
+/// # Errors
+/// [`ReportError::Empty`] without points, [`ReportError::Invalid`] for a point that is not finite or more than four branches.
+pub fn cycle(cycle: &Cycle) -> Result<String, ReportError> {
+    let points = || cycle.branches.iter().flat_map(|(_, points)| points);
+    if points().next().is_none() {
+        return Err(ReportError::Empty { what: "a cycle without points" });
+    }
+    if cycle.branches.len() > PENS.len() {
+        return Err(ReportError::invalid("branches", &cycle.branches.len(), "4 branches at most"));
+    }
+    for (name, points) in cycle.branches {
+        for (x, y) in points {
+            ReportError::finite(&format!("{name}, horizontal"), *x)?;
+            ReportError::finite(&format!("{name}, vertical"), *y)?;
+        }
+    }
+    let range = |value: fn(&(f64, f64)) -> f64| {
+        let least = points().map(value).fold(f64::INFINITY, f64::min);
+        let greatest = points().map(value).fold(f64::NEG_INFINITY, f64::max);
+        let margin = 0.05 * (greatest - least);
+        least - margin..greatest + margin
+    };
+    let x = Axis::numbers(range(|point| point.0), 9, cycle.x);
+    let y = Axis::numbers(range(|point| point.1), 7, cycle.y);
+    let key: Vec<_> = cycle.branches.iter().zip(PENS).map(|((name, _), pen)| (name.clone(), pen)).collect();
+    let heading = Heading { title: cycle.title, lines: cycle.lines, key: &key };
+    style::figure(HEIGHT, |area| {
+        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
+        let plot = chart.plotting_area();
+        for ((_, points), pen) in cycle.branches.iter().zip(PENS) {
+            pen.draw(plot, points.clone())?;
+            for point in points {
+                plot.draw(&Circle::new(*point, style::px(2.5), pen.color.filled()))?;
+            }
+        }
+        Ok(())
+    })
+}

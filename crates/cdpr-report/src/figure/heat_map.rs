@@ -1,0 +1,141 @@
+//! What a robot does over a plane of its workspace.
+
+use crate::drawing::color_map::ColorMap;
+use crate::drawing::heading::Heading;
+use crate::drawing::name_map::name_map;
+use crate::drawing::plane::{self, Paint, Plane};
+use crate::error::ReportError;
+use crate::figure::pose_map::NamedMap;
+use crate::text::number;
+use cdpr_assess::{WorkspaceRow, WorkspaceSummary};
+use cdpr_robot::Robot;
+
+/// What is drawn over the plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapQuantity {
+    /// |dp| under the load.
+    Deflection,
+    /// Stiffness of the softest motion.
+    LeastStiffness,
+    /// Greatest tension of any cable, without and with the load.
+    GreatestTension,
+}
+
+impl MapQuantity {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Deflection, Self::LeastStiffness, Self::GreatestTension];
+
+    /// Name of its figure file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Deflection => "deflection",
+            Self::LeastStiffness => "least_stiffness",
+            Self::GreatestTension => "greatest_tension",
+        }
+    }
+
+    /// Words for the title, label of the colour bar, unit.
+    fn words(self) -> (&'static str, &'static str, &'static str) {
+        match self {
+            Self::Deflection => ("static deflection", "|dp|", "mm"),
+            Self::LeastStiffness => ("stiffness of the softest motion", "least stiffness", "kN/m"),
+            Self::GreatestTension => ("greatest tension", "greatest tension", "N"),
+        }
+    }
+
+    /// In the unit of the label.
+    fn value(self, row: &WorkspaceRow) -> Option<f64> {
+        match self {
+            Self::Deflection => row.rms_mm,
+            Self::LeastStiffness => row.least_stiffness.map(|stiffness| 1e-3 * stiffness),
+            Self::GreatestTension => row.greatest_tension,
+        }
+    }
+}
+
+/// Heat map of a quantity over a plane, with the exit points and the rectangle around them. Hatched is where the platform is not held
+/// (grey) or the load takes a tension out of its limits (coloured).
+///
+/// # Errors
+/// [`ReportError::Invalid`] for a workspace that is no plane, [`ReportError::Empty`] where the platform is held nowhere.
+pub fn heat_map(
+    robot: &Robot,
+    summary: &WorkspaceSummary,
+    quantity: MapQuantity,
+) -> Result<String, ReportError> {
+    values(&plane_of(summary)?, robot, summary, quantity)
+}
+
+fn values(
+    plane: &Plane,
+    robot: &Robot,
+    summary: &WorkspaceSummary,
+    quantity: MapQuantity,
+) -> Result<String, ReportError> {
+    let (words, label, unit) = quantity.words();
+    let rows: Vec<_> = plane.positions.iter().map(|position| &summary.rows[*position]).collect();
+    let values = rows.iter().map(|row| quantity.value(row)).collect();
+    let map = ColorMap::new(plane.cells()?, values, quantity.name(), &format!("{label} [{unit}]"))?;
+    let hatched = |place: usize| rows[place].status != "held";
+    let held = (0..rows.len()).filter(|place| !hatched(*place)).count();
+    let heading = Heading {
+        title: &format!("{}: {words} at {}, {}", summary.robot, plane.words(), summary.conditions()),
+        lines: &[format!(
+            "{} {unit} to {} {unit}; {held} of {} positions held with all tensions within limits, the others are hatched",
+            number(map.least, 3),
+            number(map.greatest, 3),
+            rows.len()
+        )],
+        key: &plane::key(),
+    };
+    plane.figure(robot, &heading, &Paint::Values(map), hatched)
+}
+
+/// Map of the tolerance that contributes most to the variance of |dp| over a plane. Hatched is where the platform is not held.
+///
+/// # Errors
+/// As [`heat_map`]; [`ReportError::Empty`] also for a workspace without tolerances.
+pub fn tolerance_map(robot: &Robot, summary: &WorkspaceSummary) -> Result<String, ReportError> {
+    names(&plane_of(summary)?, robot, summary)
+}
+
+fn names(plane: &Plane, robot: &Robot, summary: &WorkspaceSummary) -> Result<String, ReportError> {
+    let rows = plane.positions.iter().map(|position| &summary.rows[*position]);
+    let names: Vec<_> = rows.map(|row| row.dominant.as_deref()).collect();
+    let shown = names.iter().flatten().count();
+    if shown == 0 {
+        return Err(ReportError::Empty { what: "no tolerance at any position" });
+    }
+    let title = format!(
+        "{}: tolerance with the largest share of the variance of |dp| at {}, {}",
+        summary.robot,
+        plane.words(),
+        summary.conditions()
+    );
+    let line = format!("{shown} of {} positions, the others are hatched", names.len());
+    name_map(plane, robot, &title, line, &names)
+}
+
+/// All maps of a workspace that is a plane, or of each layer of a box: by the names of their files, with `_z00`, ... for layers.
+pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary) -> Vec<NamedMap> {
+    let mut maps = Vec::new();
+    for plane in Plane::of(&summary.grid) {
+        let name = |quantity: &str| format!("{quantity}{}", plane.suffix());
+        // Without a load nothing is displaced.
+        let deflection = summary.rows.iter().any(|row| row.rms_mm.is_some());
+        let shown = MapQuantity::ALL.into_iter().filter(|of| deflection || *of != MapQuantity::Deflection);
+        maps.extend(shown.map(|of| (name(of.name()), values(&plane, robot, summary, of))));
+        if !summary.uncertainties.is_empty() {
+            maps.push((name("dominant_tolerance"), names(&plane, robot, summary)));
+        }
+    }
+    maps
+}
+
+fn plane_of(summary: &WorkspaceSummary) -> Result<Plane, ReportError> {
+    let mut planes = Plane::of(&summary.grid);
+    match (planes.pop(), planes.is_empty()) {
+        (Some(plane), true) => Ok(plane),
+        _ => Err(ReportError::invalid("grid", &summary.rows.len(), "one place along one axis: a plane")),
+    }
+}

@@ -1,0 +1,131 @@
+//! Distribution of the RMS and the laws fitted to it: Fig. 4a and 5a of the paper.
+
+use crate::drawing::axis::{Axis, Grid, chart};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, BLUE, GREEN, HEIGHT, Pen, VERMILLION};
+use crate::error::ReportError;
+use crate::text::number;
+use cdpr_sensitivity::Histogram;
+use cdpr_study::{FitSummary, SamplingSummary};
+use plotters::prelude::*;
+
+/// Sky blue halfway to white: the laws are drawn over it.
+const BARS: RGBColor = RGBColor(0xAB, 0xDA, 0xF4);
+const NOMINAL: Pen = Pen { color: BLACK, width: 1.4, dash: Some(2.5) };
+/// The three best laws, best first.
+const LAWS: [Pen; 3] = [
+    Pen::solid(VERMILLION, 2.6),
+    Pen { color: BLUE, width: 1.5, dash: Some(8.0) },
+    Pen { color: GREEN, width: 1.5, dash: Some(4.0) },
+];
+/// Points of a curve, about one a pixel.
+const POINTS: usize = 600;
+
+/// Histogram of the RMS as a density, the densities of the preferred law and the two of least AIC beside it, and the nominal robot's
+/// RMS as a vertical line.
+///
+/// # Errors
+/// [`ReportError::Empty`] without counts, [`ReportError::Invalid`] for bins without width, not one edge more than bins, or a
+/// value that is not finite.
+pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
+    let empty = ReportError::Empty { what: "histogram" };
+    let (Some(histogram), Some(rms)) = (&summary.histogram, &summary.rms_mm) else { return Err(empty) };
+    let bars = densities(histogram)?;
+    let nominal = ReportError::finite("rms_mm.nominal", rms.nominal)?;
+    let mut fits: Vec<&FitSummary> = summary.fits.iter().collect();
+    // The preferred law first, then by AIC.
+    fits.sort_by(|one, other| {
+        let place = |fit: &FitSummary| (Some(fit.law) != summary.best_fit, fit.aic);
+        place(one).partial_cmp(&place(other)).unwrap_or(std::cmp::Ordering::Equal)
+    });
+    fits.truncate(LAWS.len());
+
+    let (least, greatest) = (bars[0].0, bars[bars.len() - 1].1);
+    let (least, greatest) = (least.min(nominal), greatest.max(nominal));
+    let margin = 0.05 * (greatest - least);
+    let (low, high) = (least - margin, greatest + margin);
+    let curves: Vec<Vec<(f64, f64)>> = fits
+        .iter()
+        .map(|fit| {
+            let (first, last) = fit.parameters.support();
+            // Both sides of the ends of the support, where the density jumps.
+            let ends = [first.next_down(), first, last, last.next_up()];
+            let mut places: Vec<f64> =
+                (0..=POINTS).map(|k| low + (high - low) * k as f64 / POINTS as f64).collect();
+            places.extend(ends.iter().filter(|end| (low..high).contains(*end)));
+            places.sort_by(f64::total_cmp);
+            let density = |x: f64| fit.parameters.ln_pdf(x).exp();
+            places.into_iter().map(|x| (x, density(x))).filter(|point| point.1.is_finite()).collect()
+        })
+        .collect();
+    let top =
+        bars.iter().map(|bar| bar.2).chain(curves.iter().flatten().map(|point| point.1)).fold(0.0, f64::max);
+
+    let x = Axis::numbers(low..high, 9, "RMS of the static deflection [mm]");
+    let y = Axis::numbers(0.0..1.06 * top, 7, "density [1/mm]");
+    let failed: usize = summary.failed.values().sum();
+    let key: Vec<(String, Pen)> = [("observed".to_owned(), Pen::bar(BARS))]
+        .into_iter()
+        .chain(fits.iter().zip(LAWS).map(|(fit, pen)| (legend(fit, fits[0]), pen)))
+        .chain([("nominal".to_owned(), NOMINAL)])
+        .collect();
+    let heading = Heading {
+        title: &summary.title,
+        lines: &[format!(
+            "mean {}, standard deviation {}, min {}, max {}, nominal {} mm; {} observations, {failed} failed",
+            number(rms.mean, 3),
+            number(rms.std, 3),
+            number(rms.min, 3),
+            number(rms.max, 3),
+            number(nominal, 3),
+            summary.observations,
+        )],
+        key: &key,
+    };
+    style::figure(HEIGHT, |area| {
+        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
+        let plot = chart.plotting_area();
+        for &(from, to, density) in &bars {
+            plot.draw(&Rectangle::new([(from, 0.0), (to, density)], BARS.filled()))?;
+            Pen::solid(WHITE, 0.8)
+                .draw(plot, vec![(from, 0.0), (from, density), (to, density), (to, 0.0)])?;
+        }
+        NOMINAL.draw(plot, vec![(nominal, 0.0), (nominal, y.range.end)])?;
+        // The best one last, over the others.
+        for (curve, pen) in curves.into_iter().zip(LAWS).rev() {
+            pen.draw(plot, curve)?;
+        }
+        Ok(())
+    })
+}
+
+/// Lower edge, upper edge [mm] and density [1/mm] of each bin.
+fn densities(histogram: &Histogram) -> Result<Vec<(f64, f64, f64)>, ReportError> {
+    let Histogram { edges, counts } = histogram;
+    let total: usize = counts.iter().sum();
+    if total == 0 {
+        return Err(ReportError::Empty { what: "histogram.counts" });
+    }
+    if edges.len() != counts.len() + 1 {
+        return Err(ReportError::invalid("histogram.edges", &edges.len(), "one edge more than counts"));
+    }
+    let bins = edges.windows(2).zip(counts);
+    bins.map(|(edges, count)| {
+        let width = edges[1] - edges[0];
+        if !(width > 0.0 && width.is_finite()) {
+            return Err(ReportError::invalid("histogram.edges", &width, "bins of a positive width"));
+        }
+        Ok((edges[0], edges[1], *count as f64 / (total as f64 * width)))
+    })
+    .collect()
+}
+
+fn legend(fit: &FitSummary, preferred: &FitSummary) -> String {
+    if fit == preferred {
+        format!("{} (preferred)", fit.law)
+    } else {
+        let difference = number(fit.aic - preferred.aic, 0);
+        let sign = if difference.starts_with('\u{2212}') { "" } else { "+" };
+        format!("{} (AIC {sign}{difference})", fit.law)
+    }
+}

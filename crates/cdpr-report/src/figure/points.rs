@@ -1,0 +1,295 @@
+//! Effects of the points' coordinates, each at its place in the plan of the robot: Fig. 5b and 5c of the paper.
+
+use crate::drawing::axis::Axis;
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, Area, BLUE, DrawingError, GREEN, GREY, MARGIN, ORANGE, Pen, px, text};
+use crate::error::ReportError;
+use crate::text::number;
+use cdpr_robot::{Axis as Coordinate, Parameter, Pose, Robot, Vector3};
+use cdpr_study::SamplingSummary;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+/// Bars of x, y and z.
+const COORDINATES: [(&str, RGBColor); 3] = [("x", BLUE), ("y", ORANGE), ("z", GREEN)];
+/// Height of a panel with its title [px].
+const PANEL: f64 = 286.0;
+const PANEL_TITLE: f64 = 22.0;
+/// The plan: where the feet of the bars may stand [px].
+const PLAN: [(f64, f64); 2] = [(30.0, 450.0), (98.0, 252.0)];
+/// Height of the longest bar, width of a bar, room of a point's bars with their names [px].
+const LONGEST: f64 = 62.0;
+const BAR: f64 = 9.0;
+const ROOM: (f64, f64) = (35.0, 90.0);
+/// Left edges of the scale and of the list of the largest [px].
+const SCALE: f64 = 520.0;
+const LIST: f64 = 560.0;
+const LISTED: usize = 8;
+const SMALL: f64 = 10.0;
+
+/// Which points of a robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Points {
+    /// Anchor points `A_i` on the platform.
+    Anchor,
+    /// Exit points `B_i` on the frame.
+    Exit,
+}
+
+impl Points {
+    /// Point, counted from 0, and coordinate that a parameter is.
+    fn coordinate(self, parameter: &str) -> Option<(usize, Coordinate)> {
+        match (self, parameter.parse().ok()?) {
+            (Self::Anchor, Parameter::AnchorPoint(i, axis)) | (Self::Exit, Parameter::ExitPoint(i, axis)) => {
+                Some((i, axis))
+            }
+            _ => None,
+        }
+    }
+
+    fn letter(self) -> char {
+        match self {
+            Self::Anchor => 'A',
+            Self::Exit => 'B',
+        }
+    }
+}
+
+/// The t-Student index of each coordinate of each anchor or exit point as bars at the point's place in the plan of the robot,
+/// seen from above: one panel a sampling, headed by the given name and the sampling's title, all with the same scale. Points
+/// whose bars would cover each other stand side by side.
+///
+/// # Errors
+/// [`ReportError::Empty`] if no sampling has such a coordinate among its parameters, [`ReportError::Invalid`] for an index
+/// that is not finite or of a point that the robot does not have, and for a pose that is none.
+pub fn point_effects(
+    robot: &Robot,
+    samplings: &[(&str, &SamplingSummary)],
+    points: Points,
+) -> Result<String, ReportError> {
+    let panels: Vec<Panel> = samplings
+        .iter()
+        .map(|(name, summary)| Panel::new(robot, name, summary, points))
+        .collect::<Result<_, _>>()?;
+    if panels.iter().all(|panel| panel.effects.is_empty()) {
+        return Err(ReportError::Empty { what: "t_student has no coordinate of these points" });
+    }
+    let greatest = panels.iter().flat_map(|panel| &panel.effects).map(|effect| effect.2).fold(0.0, f64::max);
+    let scale = Axis::numbers(0.0..if greatest > 0.0 { greatest } else { 1.0 }, 5, "");
+    let kind = match points {
+        Points::Anchor => "anchor points A\u{1d62}",
+        Points::Exit => "exit points B\u{1d62}",
+    };
+    let heading = Heading {
+        title: &format!("Effect of the coordinates of the {kind} on the RMS of the static deflection"),
+        lines: &["t-Student index [-] of each coordinate, at the point's place in the plan; figures: the largest of a point"
+            .to_owned()],
+        key: &COORDINATES.map(|(name, color)| (name.to_owned(), Pen::bar(color))),
+    };
+    style::figure(heading.height() + PANEL * panels.len() as f64, |area| {
+        let areas = heading.draw(area)?.split_evenly((panels.len(), 1));
+        areas.iter().zip(&panels).try_for_each(|(area, panel)| panel.draw(area, points.letter(), &scale))
+    })
+}
+
+/// A sampling.
+struct Panel {
+    title: String,
+    /// P and the points in the plan [m].
+    center: [f64; 2],
+    places: Vec<[f64; 2]>,
+    /// Point, coordinate, t-Student index.
+    effects: Vec<(usize, usize, f64)>,
+}
+
+impl Panel {
+    fn new(
+        robot: &Robot,
+        name: &str,
+        summary: &SamplingSummary,
+        points: Points,
+    ) -> Result<Self, ReportError> {
+        let pose =
+            Pose::with_quaternion(Vector3::from(summary.pose), summary.quaternion).ok_or_else(|| {
+                ReportError::invalid("quaternion", &format!("{:?}", summary.quaternion), "a rotation")
+            })?;
+        let place = |i: usize| {
+            let point = match points {
+                Points::Anchor => robot.anchor_arm(&pose, i) + pose.position,
+                Points::Exit => robot.cables[i].exit_point,
+            };
+            [point.x, point.y]
+        };
+        let mut effects = Vec::new();
+        for (parameter, &t) in &summary.t_student {
+            if let Some((point, coordinate)) = points.coordinate(parameter) {
+                let field = format!("t_student.{parameter}");
+                let t = ReportError::finite(&field, t)?;
+                if point >= robot.cables.len() {
+                    return Err(ReportError::invalid(field, &t, "a point of the robot"));
+                }
+                effects.push((point, coordinate as usize, t));
+            }
+        }
+        Ok(Self {
+            title: format!("{name}: {}", summary.title),
+            center: [pose.position.x, pose.position.y],
+            places: (0..robot.cables.len()).map(place).collect(),
+            effects,
+        })
+    }
+
+    fn draw(&self, area: &Area, letter: char, scale: &Axis) -> Result<(), DrawingError> {
+        text(area, &self.title, style::TEXT, (MARGIN, 0.5 * PANEL_TITLE))?;
+        let plan = Plan::new(&self.places, self.center);
+        let outline: Vec<(i32, i32)> = plan.outline(&self.places).into_iter().map(pixel).collect();
+        Pen::solid(GREY, 0.8).draw(area, outline)?;
+        let (x, y) = plan.place(self.center);
+        for (dx, dy) in [(4.0, 4.0), (4.0, -4.0)] {
+            Pen::solid(GREY, 1.2).draw(area, vec![pixel((x - dx, y - dy)), pixel((x + dx, y + dy))])?;
+        }
+        centred(area, "P", (x, y + 11.0))?;
+
+        let height = |t: f64| LONGEST * t / scale.range.end;
+        for (point, foot) in plan.feet(&self.places).into_iter().enumerate() {
+            Pen::solid(GREY, 0.8).draw(area, vec![pixel(plan.place(self.places[point])), pixel(foot)])?;
+            let own = || self.effects.iter().filter(|effect| effect.0 == point);
+            for &(_, coordinate, t) in own() {
+                let left = foot.0 + BAR * (coordinate as f64 - 1.5);
+                let corners = [pixel((left, foot.1 - height(t))), pixel((left + BAR - 1.0, foot.1))];
+                area.draw(&Rectangle::new(corners, COORDINATES[coordinate].1.filled()))?;
+            }
+            let (left, right) = (foot.0 - 1.5 * BAR - 1.0, foot.0 + 1.5 * BAR);
+            Pen::solid(BLACK, 0.8).draw(area, vec![pixel((left, foot.1)), pixel((right, foot.1))])?;
+            centred(area, &format!("{letter}{}", point + 1), (foot.0, foot.1 + 8.0))?;
+            if let Some(largest) = own().map(|effect| effect.2).reduce(f64::max) {
+                centred(area, &number(largest, 1), (foot.0, foot.1 - height(largest) - 7.0))?;
+            }
+        }
+        self.draw_scale(area, scale)?;
+        self.draw_largest(area, letter)
+    }
+
+    /// The scale of the bars.
+    fn draw_scale(&self, area: &Area, scale: &Axis) -> Result<(), DrawingError> {
+        let foot = PLAN[1].0 + 20.0;
+        let place = |t: f64| foot - LONGEST * t / scale.range.end;
+        Pen::solid(BLACK, 0.8)
+            .draw(area, vec![pixel((SCALE, foot)), pixel((SCALE, place(scale.range.end)))])?;
+        for (tick, name) in &scale.ticks {
+            Pen::solid(BLACK, 0.8)
+                .draw(area, vec![pixel((SCALE - 4.0, place(*tick))), pixel((SCALE, place(*tick)))])?;
+            let end = style::font(SMALL).pos(Pos::new(HPos::Right, VPos::Center));
+            area.draw_text(name, &end, pixel((SCALE - 7.0, place(*tick))))?;
+        }
+        centred(area, "t [-]", (SCALE, foot + 10.0))?;
+        let bounds = |axis: usize| {
+            let values = || self.places.iter().map(|place| place[axis]);
+            let ends = [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)];
+            ends.map(|end| number(end, 2)).join(" to ")
+        };
+        for (line, axis) in ["x", "y"].iter().enumerate() {
+            let place = (LIST - 72.0, PLAN[1].1 - 22.0 + 15.0 * line as f64);
+            text(area, &format!("plan: {axis} from {} m", bounds(line)), SMALL, place)?;
+        }
+        Ok(())
+    }
+
+    /// The coordinates with the largest index.
+    fn draw_largest(&self, area: &Area, letter: char) -> Result<(), DrawingError> {
+        let mut effects = self.effects.clone();
+        effects.sort_by(|one, other| other.2.total_cmp(&one.2));
+        let top = PLAN[1].0 + 20.0 - LONGEST;
+        text(area, "largest", SMALL, (LIST, top))?;
+        for (row, &(point, coordinate, t)) in effects.iter().take(LISTED).enumerate() {
+            let y = top + 15.0 * (row + 1) as f64;
+            let name = format!("{letter}{} {}", point + 1, COORDINATES[coordinate].0);
+            text(area, &name, SMALL, (LIST, y))?;
+            let end = style::font(SMALL).pos(Pos::new(HPos::Right, VPos::Center));
+            area.draw_text(&number(t, 2), &end, pixel((LIST + 84.0, y)))?;
+        }
+        Ok(())
+    }
+}
+
+/// From metres in the plan to pixels.
+struct Plan {
+    scale: f64,
+    middle: [f64; 2],
+}
+
+impl Plan {
+    fn new(places: &[[f64; 2]], center: [f64; 2]) -> Self {
+        let all = || places.iter().chain([&center]);
+        let bounds = [0, 1].map(|axis| {
+            all().map(|place| place[axis]).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(value), high.max(value))
+            })
+        });
+        let room = |axis: usize| (PLAN[axis].1 - PLAN[axis].0) / (bounds[axis].1 - bounds[axis].0).max(1e-9);
+        // Room for the bars of points at the left and right edge.
+        let scale = (0.8 * room(0)).min(room(1));
+        Self { scale, middle: bounds.map(|(low, high)| 0.5 * (low + high)) }
+    }
+
+    fn place(&self, [x, y]: [f64; 2]) -> (f64, f64) {
+        let middle = PLAN.map(|(low, high)| 0.5 * (low + high));
+        (middle[0] + self.scale * (x - self.middle[0]), middle[1] - self.scale * (y - self.middle[1]))
+    }
+
+    /// Closed line through all points, around their middle.
+    fn outline(&self, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
+        let middle =
+            [0, 1].map(|axis| places.iter().map(|place| place[axis]).sum::<f64>() / places.len() as f64);
+        let angle = |place: &[f64; 2]| (place[1] - middle[1]).atan2(place[0] - middle[0]);
+        let mut corners = places.to_vec();
+        corners.sort_by(|one, other| angle(one).total_cmp(&angle(other)));
+        corners.extend(corners.first().copied());
+        corners.into_iter().map(|place| self.place(place)).collect()
+    }
+
+    /// Where the bars of each point stand: at its place, or in a row with those that they would cover.
+    fn feet(&self, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
+        let step = ROOM.0.min((PLAN[0].1 - PLAN[0].0) / places.len() as f64);
+        let mut rows: Vec<Vec<usize>> = (0..places.len()).map(|point| vec![point]).collect();
+        let middle = |row: &[usize]| {
+            let sum = row
+                .iter()
+                .map(|point| self.place(places[*point]))
+                .fold((0.0, 0.0), |sum, place| (sum.0 + place.0, sum.1 + place.1));
+            (sum.0 / row.len() as f64, sum.1 / row.len() as f64)
+        };
+        let covered = |one: &[usize], other: &[usize]| {
+            let (a, b) = (middle(one), middle(other));
+            (a.0 - b.0).abs() < 0.5 * step * (one.len() + other.len()) as f64 - 1e-6
+                && (a.1 - b.1).abs() < ROOM.1
+        };
+        while let Some((i, j)) = (0..rows.len())
+            .flat_map(|j| (0..j).map(move |i| (i, j)))
+            .find(|&(i, j)| covered(&rows[i], &rows[j]))
+        {
+            let joined = rows.remove(j);
+            rows[i].extend(joined);
+        }
+        let mut feet = vec![(0.0, 0.0); places.len()];
+        for row in &mut rows {
+            // From left to right, as the points do.
+            row.sort_by(|one, other| places[*one][0].total_cmp(&places[*other][0]).then(one.cmp(other)));
+            let half = 0.5 * step * row.len() as f64;
+            let (x, y) = middle(row);
+            let left = x.clamp(PLAN[0].0 - 10.0 + half, PLAN[0].1 + 10.0 - half) - half;
+            for (k, point) in row.iter().enumerate() {
+                feet[*point] = (left + step * (k as f64 + 0.5), y);
+            }
+        }
+        feet
+    }
+}
+
+fn pixel((x, y): (f64, f64)) -> (i32, i32) {
+    (px(x), px(y))
+}
+
+fn centred(area: &Area, text: &str, place: (f64, f64)) -> Result<(), DrawingError> {
+    area.draw_text(text, &style::font(SMALL).pos(Pos::new(HPos::Center, VPos::Center)), pixel(place))
+}

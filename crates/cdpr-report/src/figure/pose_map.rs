@@ -1,0 +1,78 @@
+//! What the observations of a sampling say over a plane or the layers of a box: mean and standard deviation of the RMS, and the parameter
+//! that matters most.
+
+use crate::drawing::color_map::ColorMap;
+use crate::drawing::heading::Heading;
+use crate::drawing::name_map::name_map;
+use crate::drawing::plane::{self, Paint, Plane};
+use crate::error::ReportError;
+use crate::text::number;
+use cdpr_robot::Robot;
+use cdpr_study::{PoseRow, PosesSummary};
+
+/// A map by its name, `mean`, `std` or `dominant`, with `_z00`, ... for the layers of a box; or why it cannot be drawn.
+pub type NamedMap = (String, Result<String, ReportError>);
+
+/// All maps of a sampling at the poses of a grid. Grey and hatched is where there is nothing to show: the nominal robot does not hold the
+/// pose, or hardly any observation has succeeded. A list of poses, or a line, has no map.
+pub fn pose_maps(robot: &Robot, summary: &PosesSummary, rows: &[PoseRow]) -> Vec<NamedMap> {
+    let planes = summary.grid.as_ref().map(Plane::of).unwrap_or_default();
+    let maps = planes.iter().flat_map(|plane| {
+        let layer = plane.suffix();
+        let rows: Option<Vec<&PoseRow>> = plane.positions.iter().map(|place| rows.get(*place)).collect();
+        let drawn = |draw: fn(&Plane, &Robot, &str, &[&PoseRow]) -> Result<String, ReportError>| {
+            let rows = rows.as_ref().ok_or(ReportError::Empty { what: "a pose of the grid has no row" })?;
+            draw(plane, robot, &summary.title, rows)
+        };
+        [
+            (format!("mean{layer}"), drawn(mean)),
+            (format!("std{layer}"), drawn(deviation)),
+            (format!("dominant{layer}"), drawn(dominant)),
+        ]
+    });
+    maps.collect()
+}
+
+fn mean(plane: &Plane, robot: &Robot, title: &str, rows: &[&PoseRow]) -> Result<String, ReportError> {
+    numbers(plane, robot, title, ("mean RMS", "mean"), rows, |row| row.mean_mm)
+}
+
+fn deviation(plane: &Plane, robot: &Robot, title: &str, rows: &[&PoseRow]) -> Result<String, ReportError> {
+    numbers(plane, robot, title, ("standard deviation of the RMS", "standard deviation"), rows, |row| {
+        row.std_mm
+    })
+}
+
+fn numbers(
+    plane: &Plane,
+    robot: &Robot,
+    title: &str,
+    (words, label): (&str, &str),
+    rows: &[&PoseRow],
+    value: fn(&PoseRow) -> Option<f64>,
+) -> Result<String, ReportError> {
+    let values = rows.iter().map(|row| value(row)).collect();
+    let map = ColorMap::new(plane.cells()?, values, label, &format!("{label} [mm]"))?;
+    let heading = Heading {
+        title: &format!("{title}: {words} at {}", plane.words()),
+        lines: &[format!(
+            "{} mm to {} mm; {}",
+            number(map.least, 3),
+            number(map.greatest, 3),
+            counted(rows, |row| value(row).is_some())
+        )],
+        key: &plane::key(),
+    };
+    plane.figure(robot, &heading, &Paint::Values(map), |place| value(rows[place]).is_none())
+}
+
+fn dominant(plane: &Plane, robot: &Robot, title: &str, rows: &[&PoseRow]) -> Result<String, ReportError> {
+    let title = format!("{title}: parameter with the largest t-Student index at {}", plane.words());
+    let names: Vec<_> = rows.iter().map(|row| row.dominant.as_deref()).collect();
+    name_map(plane, robot, &title, counted(rows, |row| row.dominant.is_some()), &names)
+}
+
+fn counted(rows: &[&PoseRow], shown: impl Fn(&PoseRow) -> bool) -> String {
+    let count = rows.iter().filter(|row| shown(row)).count();
+    format!("{count} of {} poses, the others are hatched", rows.len())
+}

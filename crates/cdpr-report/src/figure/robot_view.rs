@@ -1,0 +1,192 @@
+//! The robot with its sagging cables at the poses of a study, seen from above one corner: a parallel projection, to scale.
+
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{
+    self, Area, BLUE, DrawingError, GREEN, GREY, HEIGHT, MARGIN, ORANGE, Pen, VERMILLION, WIDTH, px, text,
+};
+use crate::error::ReportError;
+use crate::scene::{Scene, State};
+use crate::text::number;
+use cdpr_study::Study;
+use plotters::prelude::*;
+
+/// Where the viewer stands: angle from the x axis around z, and above the horizon [rad].
+const AZIMUTH: f64 = -1.05;
+const ELEVATION: f64 = 0.42;
+/// Poses that are drawn, each in a colour of its own.
+const COLORS: [RGBColor; 4] = [BLUE, VERMILLION, GREEN, ORANGE];
+const FRAME: Pen = Pen { color: GREY, width: 1.2, dash: None };
+/// The part of the smallest side of the frame that the axes of the base frame take.
+const AXES: f64 = 0.15;
+
+/// The robot of a study under its load, at the first four of the study's poses.
+///
+/// # Errors
+/// [`ReportError::Empty`] where the nominal robot holds no pose.
+pub fn robot_view(study: &Study) -> Result<String, ReportError> {
+    let scene = Scene::new(study).map_err(|error| ReportError::Drawing { reason: error.to_string() })?;
+    let poses: Vec<_> = scene.poses.iter().zip(COLORS).collect();
+    if poses.is_empty() {
+        return Err(ReportError::Empty { what: "no pose is held" });
+    }
+    let projection = Projection::of(&scene);
+    let tensions = poses.iter().flat_map(|(pose, _)| pose.loaded.cables.iter().map(|cable| cable.tension));
+    let (least, greatest) =
+        tensions.fold((f64::INFINITY, 0.0_f64), |(low, high), t| (low.min(t), high.max(t)));
+    let sag = poses.iter().map(|(pose, _)| pose.loaded.greatest_sag_mm()).fold(0.0, f64::max);
+    let heading = Heading {
+        title: &format!("{} under {} kg, to scale", study.robot.name, study.file.payload),
+        lines: &[format!(
+            "tensions at the platform {} N to {} N; cables sag by {} mm at most",
+            number(least, 0),
+            number(greatest, 0),
+            number(sag, 1)
+        )],
+        key: &poses
+            .iter()
+            .map(|(pose, color)| (pose.name.clone(), Pen::solid(*color, 2.0)))
+            .collect::<Vec<_>>(),
+    };
+    style::figure(heading.height() + HEIGHT, |area| {
+        let area = heading.draw(area)?;
+        projection.frame(&area, &scene)?;
+        poses.iter().try_for_each(|(pose, color)| projection.state(&area, &pose.loaded, *color))
+    })
+}
+
+/// From places in the base frame to pixels.
+struct Projection {
+    /// Pixels a metre.
+    scale: f64,
+    /// The projected place [m] at the middle of the picture.
+    middle: (f64, f64),
+    /// Length of the drawn axes [m].
+    axes: f64,
+}
+
+/// To the right and up in the picture [m].
+fn seen([x, y, z]: [f64; 3]) -> (f64, f64) {
+    let ((sin, cos), (sin_up, cos_up)) = (AZIMUTH.sin_cos(), ELEVATION.sin_cos());
+    (y * cos - x * sin, z * cos_up - (x * cos + y * sin) * sin_up)
+}
+
+impl Projection {
+    /// The whole scene fits.
+    fn of(scene: &Scene) -> Self {
+        let feet = scene.exits.iter().map(|exit| [exit[0], exit[1], scene.floor]);
+        let cables = scene.poses.iter().flat_map(|pose| &pose.loaded.cables);
+        let cables = cables.flat_map(|cable| cable.points.iter().copied());
+        let all: Vec<_> = scene.exits.iter().copied().chain(feet).chain(cables).map(seen).collect();
+        let range = |of: fn(&(f64, f64)) -> f64| {
+            let values = all.iter().map(of);
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+        };
+        let ((left, right), (low, high)) = (range(|place| place.0), range(|place| place.1));
+        let room = (WIDTH - 4.0 * MARGIN, HEIGHT - 4.0 * MARGIN);
+        let scale = (room.0 / (right - left)).min(room.1 / (high - low));
+        Self {
+            scale,
+            middle: (0.5 * (left + right), 0.5 * (low + high)),
+            axes: AXES * (right - left).min(high - low),
+        }
+    }
+
+    fn place(&self, point: [f64; 3]) -> (f64, f64) {
+        let (right, up) = seen(point);
+        (0.5 * WIDTH + self.scale * (right - self.middle.0), 0.5 * HEIGHT - self.scale * (up - self.middle.1))
+    }
+
+    fn line(
+        &self,
+        area: &Area,
+        pen: Pen,
+        points: impl Iterator<Item = [f64; 3]>,
+    ) -> Result<(), DrawingError> {
+        let pixels = points.map(|point| self.place(point)).map(|(x, y)| (px(x), px(y)));
+        pen.draw(area, pixels.collect())
+    }
+
+    fn dot(&self, area: &Area, point: [f64; 3], color: RGBColor) -> Result<(), DrawingError> {
+        let (x, y) = self.place(point);
+        area.draw(&Circle::new((px(x), px(y)), px(2.6) as u32, color.filled()))
+    }
+
+    /// Posts from the floor to the exit points, beams between these, and the axes of the base frame.
+    fn frame(&self, area: &Area, scene: &Scene) -> Result<(), DrawingError> {
+        let corner = |i: usize| scene.exits[scene.ring[i % scene.ring.len()]];
+        let foot = |[x, y, _]: [f64; 3]| [x, y, scene.floor];
+        for i in 0..scene.ring.len() {
+            self.line(area, FRAME, [foot(corner(i)), corner(i), corner(i + 1)].into_iter())?;
+            self.line(area, FRAME, [foot(corner(i)), foot(corner(i + 1))].into_iter())?;
+        }
+        scene.exits.iter().try_for_each(|exit| self.dot(area, *exit, BLACK))?;
+        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+            let mut end = [0.0; 3];
+            end[axis] = self.axes;
+            self.line(area, Pen::solid(BLACK, 1.2), [[0.0; 3], end].into_iter())?;
+            let (x, y) = self.place(end);
+            text(area, name, style::TEXT, (x + 3.0, y - 4.0))?;
+        }
+        Ok(())
+    }
+
+    /// Cables, and the platform as the outline of its anchor points.
+    fn state(&self, area: &Area, state: &State, color: RGBColor) -> Result<(), DrawingError> {
+        for cable in &state.cables {
+            self.line(area, Pen::solid(color, 1.1), cable.points.iter().copied())?;
+        }
+        let outline = outline(state.anchors.iter().map(|anchor| self.place(*anchor)).collect());
+        let pixels: Vec<_> = outline.into_iter().map(|(x, y)| (px(x), px(y))).collect();
+        area.draw(&Polygon::new(pixels, color.mix(0.35)))?;
+        state.anchors.iter().try_for_each(|anchor| self.dot(area, *anchor, color))
+    }
+}
+
+/// Convex hull in the plane (A. M. Andrew, 1979).
+fn outline(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    points.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+    let half = |points: &mut dyn Iterator<Item = (f64, f64)>| {
+        let mut chain: Vec<(f64, f64)> = Vec::new();
+        for point in points {
+            let turns = |a: (f64, f64), b: (f64, f64)| {
+                (b.0 - a.0) * (point.1 - a.1) - (b.1 - a.1) * (point.0 - a.0) > 0.0
+            };
+            while let [.., a, b] = chain[..]
+                && !turns(a, b)
+            {
+                chain.pop();
+            }
+            chain.push(point);
+        }
+        chain.pop();
+        chain
+    };
+    let mut hull = half(&mut points.iter().copied());
+    hull.extend(half(&mut points.iter().rev().copied()));
+    hull
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_study_is_drawn_with_its_frame_cables_and_platforms() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json");
+        let svg = robot_view(&Study::open(path.as_ref()).unwrap()).unwrap();
+        let count = |what: &str| svg.matches(what).count();
+        // Exit points, and the anchor points of two poses, each with a platform.
+        assert_eq!((count("<circle"), count("<polygon")), (8 + 2 * 8, 2));
+        // Frame, axes, cables, key.
+        assert_eq!(count("<polyline"), 2 * 8 + 3 + 2 * 8 + 2);
+        for words in ["CAROCA under 50 kg", "(0, 0, 1.75) m", "sag by"] {
+            assert!(svg.contains(words), "{words}");
+        }
+    }
+
+    #[test]
+    fn an_outline_leaves_out_what_is_within() {
+        let square = vec![(0.0, 0.0), (1.0, 1.0), (0.4, 0.5), (1.0, 0.0), (0.0, 1.0)];
+        assert_eq!(outline(square), [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
+    }
+}

@@ -1,0 +1,113 @@
+//! Shares of the variance of the RMS by every measure that has them.
+
+use crate::drawing::axis::{Axis, Grid, chart};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, BLUE, GREEN, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
+use crate::error::ReportError;
+use crate::text::number;
+use cdpr_study::{InputMeasures, SamplingSummary, SensitivitySummary};
+use plotters::prelude::*;
+
+/// Lines of dots, from top to bottom: name, colour, value, ends of its interval.
+const MEASURES: [Line; 6] = [
+    ("derivatives", BLUE, |input| input.derivative_share, |_| None),
+    ("SRC\u{b2}", ORANGE, |input| input.regression_share, |_| None),
+    ("rank SRC\u{b2}", GREEN, |input| input.rank_regression_share, |_| None),
+    ("expansion", VERMILLION, |input| input.expansion_first, |_| None),
+    (
+        "Sobol' first",
+        BLACK,
+        |input| input.sobol_first,
+        |input| input.sobol_first_low.zip(input.sobol_first_high),
+    ),
+    (
+        "Sobol' total",
+        GREY,
+        |input| input.sobol_total,
+        |input| input.sobol_total_low.zip(input.sobol_total_high),
+    ),
+];
+
+type Line =
+    (&'static str, RGBColor, fn(&InputMeasures) -> Option<f64>, fn(&InputMeasures) -> Option<(f64, f64)>);
+
+/// Height of an input with all its lines [px].
+const ROW: f64 = 44.0;
+/// Distance of the lines of an input; inputs are 1 apart.
+const STEP: f64 = 0.14;
+/// Radius of a dot [px].
+const DOT: f64 = 2.6;
+/// Least share drawn: what is less lies on the left edge.
+const LEAST: f64 = 1e-4;
+
+/// Shares of the variance of the `most` leading inputs on a logarithmic axis, one line of dots an input and measure, with
+/// the intervals of Sobol' indices.
+///
+/// # Errors
+/// [`ReportError::Empty`] for a study without such measures, or if no input is wanted, [`ReportError::Invalid`] for a share
+/// that is not finite.
+pub fn shares(summary: &SamplingSummary, most: usize) -> Result<String, ReportError> {
+    let Some(sensitivity) = &summary.sensitivity else {
+        return Err(ReportError::Empty { what: "sensitivity" });
+    };
+    let mut inputs = sensitivity.leading();
+    inputs.truncate(most);
+    // The leading one on top.
+    inputs.reverse();
+    let measured = |line: &&Line| inputs.iter().any(|input| line.2(input).is_some());
+    let lines: Vec<&Line> = MEASURES.iter().filter(measured).collect();
+    if lines.is_empty() {
+        return Err(ReportError::Empty { what: "shares of the variance" });
+    }
+    let mut dots = Vec::new();
+    for (row, input) in inputs.iter().enumerate() {
+        for (place, &&(name, color, value, interval)) in lines.iter().enumerate() {
+            let Some(value) = value(input) else { continue };
+            let field = format!("sensitivity.{}: {name}", input.input);
+            let (low, high) = interval(input).unwrap_or((value, value));
+            for value in [value, low, high] {
+                ReportError::finite(&field, value)?;
+            }
+            let y = (row + 1) as f64 - STEP * (place as f64 - 0.5 * (lines.len() - 1) as f64);
+            dots.push((y, color, [low, value, high].map(|share| share.max(LEAST).log10())));
+        }
+    }
+    let ticks = [0.0001, 0.001, 0.01, 0.1, 1.0].map(|share: f64| (share.log10(), percent(share))).to_vec();
+    let label = "share of the variance of the RMS of the static deflection [%]".to_owned();
+    let rightmost = dots.iter().map(|(.., share)| share[2]).fold(0.0, f64::max);
+    let x = Axis { range: LEAST.log10()..rightmost + 0.1, ticks, label };
+    let y = Axis::names(inputs.iter().map(|input| input.input.clone()), "");
+    let key: Vec<_> = lines.iter().map(|(name, color, ..)| ((*name).to_owned(), Pen::bar(*color))).collect();
+    let heading =
+        Heading { title: &summary.title, lines: &subtitle(summary, sensitivity, inputs.len()), key: &key };
+    let height = heading.height() + ROW * inputs.len() as f64 + X_AXIS + MARGIN + 4.0;
+    style::figure(height, |area| {
+        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Vertical)?;
+        let plot = chart.plotting_area();
+        for row in 1..inputs.len() {
+            let between = row as f64 + 0.5;
+            Pen::solid(GREY, 0.5).draw(plot, vec![(x.range.start, between), (x.range.end, between)])?;
+        }
+        for (y, color, [low, value, high]) in dots {
+            Pen::solid(color, 1.2).draw(plot, vec![(low, y), (high, y)])?;
+            plot.draw(&Circle::new((value, y), px(DOT), color.filled()))?;
+        }
+        Ok(())
+    })
+}
+
+fn subtitle(summary: &SamplingSummary, sensitivity: &SensitivitySummary, shown: usize) -> Vec<String> {
+    let all = sensitivity.inputs.len();
+    let least = percent(LEAST);
+    let confidence = number(100.0 * summary.confidence, 0);
+    vec![
+        format!("{shown} of {all} parameters; what is below {least} % lies on the left edge"),
+        format!(
+            "first-order shares by every measure, total Sobol' indices; lines: intervals of {confidence} % confidence"
+        ),
+    ]
+}
+
+fn percent(share: f64) -> String {
+    format!("{}", (1e4 * share).round() / 100.0)
+}

@@ -1,0 +1,50 @@
+//! The RMS over two parameters: Fig. 4b and 4c of the paper.
+
+use crate::drawing::axis::{Grid, chart};
+use crate::drawing::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
+use crate::drawing::heading::Heading;
+use crate::drawing::style::{self, GREY, HEIGHT, Pen, px};
+use crate::error::ReportError;
+use crate::parameters::axis_of;
+use crate::text::number;
+use cdpr_study::{SurfaceResult, SurfaceSummary};
+
+/// Heat map of the RMS with contour lines at the ticks of its colour bar. A cell that failed is grey and struck through.
+///
+/// # Errors
+/// [`ReportError::Empty`] if every cell failed, [`ReportError::Invalid`] for a grid that is none, an unknown parameter, or a
+/// value that is not finite.
+pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result<String, ReportError> {
+    let [x, y] = &summary.parameters;
+    let cells = Cells { x: nodes("x", x, &result.x)?, y: nodes("y", y, &result.y)? };
+    let rms = result.rms_mm.iter().map(|rms| rms.as_ref().ok().copied()).collect();
+    let map = ColorMap::new(cells, rms, "rms_mm", "RMS [mm]")?;
+    let failed = map.values.iter().filter(|rms| rms.is_none()).count();
+    let key = [("failed".to_owned(), Pen::bar(GREY))];
+    let heading = Heading {
+        title: &summary.title,
+        lines: &[format!(
+            "RMS of the static deflection: min {} mm, max {} mm, nominal {} mm; {} grid points, {failed} failed",
+            number(map.least, 4),
+            number(map.greatest, 4),
+            number(ReportError::finite("rms_mm.nominal", summary.rms_mm.nominal)?, 4),
+            map.values.len(),
+        )],
+        key: if failed == 0 { &[] } else { &key },
+    };
+    let (x, y) = (map.cells.x.axis(), map.cells.y.axis());
+    style::figure(HEIGHT, |area| {
+        let width = px(style::WIDTH - COLOR_BAR);
+        let (left, right) = heading.draw(area)?.split_horizontally(width);
+        let chart = chart(&left, &x, &y, Grid::None)?;
+        map.draw(chart.plotting_area())?;
+        map.cells.hatch(chart.plotting_area(), |place| map.values[place].is_none())?;
+        map.draw_color_bar(&right)
+    })
+}
+
+/// The values of a parameter in the unit that its label names.
+fn nodes(field: &str, name: &str, values: &[f64]) -> Result<Nodes, ReportError> {
+    let (label, scale) = axis_of(name)?;
+    Nodes::new(field, label, values.iter().map(|value| scale * value).collect())
+}

@@ -1,0 +1,142 @@
+//! The report: one HTML file that tells what was studied and what came out, with all figures, and needs nothing else.
+//!
+//! Static figures are the SVG of this crate, put in as they are. The robot and the surfaces in space are drawn by plotly.js
+//! (`vendor/plotly`) from data that the page carries as JSON. Everything that comes from files is escaped by maud; the data stands in
+//! a `script` element that no browser runs, without a `<`. A content security policy names the two scripts by their hashes and
+//! forbids all others and every connection.
+
+mod comparison;
+mod elements;
+mod glance;
+mod poses;
+mod results;
+mod robot;
+mod run;
+mod setup;
+
+use crate::error::ReportError;
+use crate::page::elements::Section;
+use crate::scene::Scene;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use cdpr_study::Results;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+const STYLE: &str = include_str!("page/page.css");
+const SCRIPT: &str = include_str!("page/page.js");
+const PLOTLY: &str = include_str!("../vendor/plotly/plotly-gl3d.min.js");
+
+/// What the page's script draws.
+#[derive(Serialize)]
+struct Data<'a> {
+    robot: Option<&'a Scene>,
+    surfaces: Vec<results::SpaceSurface>,
+}
+
+/// The report of a study as the text of an HTML file. What cannot be drawn is said in its place.
+///
+/// # Errors
+/// [`ReportError::Drawing`] if the data of the page cannot be written as JSON.
+pub fn report(results: &Results) -> Result<String, ReportError> {
+    let scene = Scene::new(&results.study);
+    let data = Data { robot: scene.as_ref().ok(), surfaces: results::in_space(results) };
+    let json =
+        serde_json::to_string(&data).map_err(|error| ReportError::Drawing { reason: error.to_string() })?;
+    let sections: Vec<Section> = [
+        Some(robot::section(&results.study.robot, &scene)),
+        Some(setup::section(results)),
+        results::distributions(results),
+        results::surfaces(results),
+        poses::section(results),
+        results::points(results),
+        results::effects(results),
+        results::measures(results),
+        comparison::section(&results.summary),
+        Some(run::observations(results)),
+        Some(run::again(results)),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    Ok(page(results, &sections, &json).into_string())
+}
+
+fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
+    let title = &results.summary.study;
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(policy());
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta name="generator" content={ "cdpr " (results.summary.version) };
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                a.skip href="#content" { "Skip to the content" }
+                div.page {
+                    nav aria-label="Contents" {
+                        ol {
+                            li { a href="#content" { "At a glance" } }
+                            @for section in sections { li { a href={ "#" (section.id) } { (section.title) } } }
+                        }
+                    }
+                    main id="content" {
+                        (glance::header(results))
+                        @for section in sections {
+                            section id=(section.id) {
+                                h2 { (section.title) }
+                                (section.body)
+                            }
+                        }
+                        footer {
+                            "Written by cdpr " (results.summary.version) ". Interactive figures by plotly.js 4.1.1 (MIT licence)."
+                        }
+                    }
+                }
+                // No browser runs this type; without `<` nothing in it can end the element.
+                script type="application/json" id="data" { (PreEscaped(json.replace('<', "\\u003c"))) }
+                script { (PreEscaped(PLOTLY)) }
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    }
+}
+
+/// Scripts by their hashes, styles and images from the page itself, nothing else and no connection.
+fn policy() -> String {
+    let hash = |script: &str| BASE64_STANDARD.encode(Sha256::digest(script));
+    format!(
+        "default-src 'none'; script-src 'sha256-{}' 'sha256-{}'; style-src 'unsafe-inline'; img-src data: blob:; \
+         base-uri 'none'; form-action 'none'",
+        hash(PLOTLY),
+        hash(SCRIPT)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fmt::Write;
+
+    #[test]
+    fn plotly_is_the_file_whose_checksum_its_notice_names() {
+        let mut sum = String::new();
+        for byte in Sha256::digest(PLOTLY) {
+            write!(sum, "{byte:02x}").unwrap();
+        }
+        assert!(include_str!("../vendor/plotly/README.md").contains(&sum), "{sum}");
+    }
+
+    #[test]
+    fn the_scripts_do_not_end_their_elements() {
+        for script in [PLOTLY, SCRIPT] {
+            assert!(!script.to_lowercase().contains("</script") && !script.contains("<!--"));
+        }
+    }
+}

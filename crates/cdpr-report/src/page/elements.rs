@@ -1,0 +1,64 @@
+//! What the sections of the page are made of: figures, tables, numbers.
+
+use crate::error::ReportError;
+use crate::text;
+use maud::{Markup, PreEscaped, html};
+
+/// A part of the report.
+pub(crate) struct Section {
+    /// Anchor in the page.
+    pub(crate) id: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) body: Markup,
+}
+
+impl Section {
+    pub(crate) fn new(id: &'static str, title: &'static str, body: Markup) -> Self {
+        Self { id, title, body }
+    }
+}
+
+/// A figure drawn by this crate, or why there is none.
+pub(crate) fn figure(name: &str, alt: &str, svg: Result<String, ReportError>, caption: &Markup) -> Markup {
+    match svg {
+        Ok(svg) => html! {
+            figure id={ "figure-" (name) } {
+                div.drawing role="img" aria-label=(alt) tabindex="0" { (PreEscaped(svg)) }
+                figcaption { (caption) " " span.file { "File: " (name) ".svg" } }
+            }
+        },
+        Err(error) => html! { p.note { "No figure " code { (name) } ": " (error) "." } },
+    }
+}
+
+/// A table that scrolls sideways where it does not fit.
+pub(crate) fn table(caption: &str, head: &[&str], rows: &[Vec<Markup>]) -> Markup {
+    html! {
+        div.table tabindex="0" role="region" aria-label=(caption) {
+            table {
+                caption { (caption) }
+                thead { tr { @for cell in head { th scope="col" { (cell) } } } }
+                tbody {
+                    @for row in rows {
+                        tr {
+                            @for (column, cell) in row.iter().enumerate() {
+                                @if column == 0 { th scope="row" { (cell) } } @else { td { (cell) } }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A cell of plain text.
+pub(crate) fn cell(text: impl AsRef<str>) -> Markup {
+    html! { (text.as_ref()) }
+}
+
+/// A cell of a number with so many significant digits; a dash where there is none.
+pub(crate) fn numeric(value: impl Into<Option<f64>>, digits: usize) -> Markup {
+    let value = value.into();
+    html! { span.number { @match value { Some(value) => (text::figures(value, digits)), None => "\u{2013}" } } }
+}

@@ -1,0 +1,158 @@
+//! Title and main figures.
+
+use crate::page::elements::{cell, numeric, table};
+use crate::parameters;
+use crate::text;
+use cdpr_study::{PosesSummary, Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict};
+use maud::{Markup, html};
+
+/// Most parameters named as dominant, and the least share of the largest index that makes one so.
+const DOMINANT: usize = 3;
+const LEAST: f64 = 0.25;
+
+pub(crate) fn header(results: &Results) -> Markup {
+    let summary = &results.summary;
+    let at_one: usize = samplings(summary).map(|(_, sampling)| sampling.observations).sum();
+    let observations = at_one + poses(summary).map(|(_, poses)| poses.observations).sum::<usize>();
+    html! {
+        header {
+            p.kicker { "Static deflection of a cable-driven parallel robot" }
+            h1 { (summary.study) }
+            p.lead {
+                "How far " (summary.robot) " gives when " (text::digits(summary.payload, 4)) " kg are added to its platform"
+                @if observations > 0 {
+                    ", and how that depends on what is not exactly known: " (observations) " observations at "
+                    (summary.studies.len()) @if summary.studies.len() == 1 { " setting" } @else { " settings" }
+                }
+                "."
+            }
+            (cards(summary))
+            (overview(summary))
+        }
+    }
+}
+
+/// The samplings of a summary.
+pub(crate) fn samplings(summary: &Summary) -> impl Iterator<Item = (&str, &SamplingSummary)> {
+    summary.studies.iter().filter_map(|(name, study)| match study {
+        StudySummary::Sampling(sampling) => Some((name.as_str(), sampling.as_ref())),
+        StudySummary::Surface(_) | StudySummary::Poses(_) => None,
+    })
+}
+
+/// The surfaces of a summary.
+pub(crate) fn surfaces(summary: &Summary) -> impl Iterator<Item = (&str, &SurfaceSummary)> {
+    summary.studies.iter().filter_map(|(name, study)| match study {
+        StudySummary::Surface(surface) => Some((name.as_str(), surface)),
+        StudySummary::Sampling(_) | StudySummary::Poses(_) => None,
+    })
+}
+
+/// The samplings of a summary at several poses.
+pub(crate) fn poses(summary: &Summary) -> impl Iterator<Item = (&str, &PosesSummary)> {
+    summary.studies.iter().filter_map(|(name, study)| match study {
+        StudySummary::Poses(poses) => Some((name.as_str(), poses)),
+        StudySummary::Sampling(_) | StudySummary::Surface(_) => None,
+    })
+}
+
+/// The parameters with the largest t-Student index, largest first, without those that are far behind.
+fn dominant(sampling: &SamplingSummary) -> Vec<(&str, f64)> {
+    let mut effects: Vec<_> = sampling.t_student.iter().map(|(name, t)| (name.as_str(), *t)).collect();
+    effects.sort_by(|one, other| other.1.total_cmp(&one.1));
+    effects.truncate(DOMINANT);
+    let least = effects.first().map_or(0.0, |largest| LEAST * largest.1);
+    effects.retain(|effect| effect.1 > 0.0 && effect.1 >= least);
+    effects
+}
+
+fn cards(summary: &Summary) -> Markup {
+    let first = samplings(summary).next();
+    let surface = surfaces(summary).next();
+    let reproduced = summary.comparison.iter().filter(|row| row.verdict == Verdict::Reproduced).count();
+    let all = summary.comparison.len();
+    let failed: usize = summary.studies.values().flat_map(|study| study.failed().values()).sum();
+    html! {
+        dl.cards {
+            @if let Some(rms) = first.and_then(|(_, sampling)| sampling.rms_mm) {
+                (card("Nominal deflection", &text::figures(rms.nominal, 4), "mm", &first.map_or_else(String::new, |(name, _)| name.to_owned())))
+                (card("Mean \u{b1} std. deviation",
+                    &format!("{} \u{b1} {}", text::figures(rms.mean, 4), text::figures(rms.std, 2)), "mm",
+                    &format!("{} to {} mm", text::figures(rms.min, 4), text::figures(rms.max, 4))))
+            } @else if let Some((name, surface)) = surface {
+                (card("Nominal deflection", &text::figures(surface.rms_mm.nominal, 4), "mm", name))
+            }
+            @if let Some((_, sampling)) = first {
+                @let effects = dominant(sampling);
+                @if !effects.is_empty() {
+                    (card("Dominant parameters",
+                        &effects.iter().map(|effect| parameters::symbol(effect.0)).collect::<Vec<_>>().join(", "), "",
+                        &format!("t = {}", effects.iter().map(|effect| text::figures(effect.1, 3)).collect::<Vec<_>>().join(", "))))
+                }
+            }
+            @if all > 0 {
+                (card("Published figures reproduced", &reproduced.to_string(), &format!("of {all}"), "within the last digit and 1\u{a0}%"))
+            } @else {
+                (card("Failed observations", &failed.to_string(), "", "counted, and left out of statistics"))
+            }
+        }
+    }
+}
+
+fn card(name: &str, value: &str, unit: &str, note: &str) -> Markup {
+    html! {
+        div.card {
+            dt { (name) }
+            dd { span.value { (value) } " " span.unit { (unit) } span.detail { (note) } }
+        }
+    }
+}
+
+/// One row a sampling and surface.
+fn overview(summary: &Summary) -> Markup {
+    let rows: Vec<Vec<Markup>> = summary
+        .studies
+        .iter()
+        .map(|(name, study)| {
+            let title = html! { (study.title()) span.detail { (name) } };
+            let (nominal, mean, std, least, greatest, law, leading) = match study {
+                StudySummary::Sampling(sampling) => {
+                    let rms = sampling.rms_mm.as_ref();
+                    let leading: Vec<_> =
+                        dominant(sampling).iter().map(|effect| parameters::symbol(effect.0)).collect();
+                    let law = sampling.best_fit.map_or_else(String::new, |family| family.to_string());
+                    let of = |value: fn(&cdpr_study::RmsSummary) -> f64| rms.map(value);
+                    (
+                        of(|r| r.nominal),
+                        of(|r| r.mean),
+                        of(|r| r.std),
+                        of(|r| r.min),
+                        of(|r| r.max),
+                        law,
+                        leading.join(", "),
+                    )
+                }
+                StudySummary::Surface(surface) => {
+                    let rms = surface.rms_mm;
+                    let over = surface.parameters.each_ref().map(|name| parameters::symbol(name)).join(", ");
+                    (Some(rms.nominal), None, None, rms.min, rms.max, String::new(), format!("over {over}"))
+                }
+                StudySummary::Poses(poses) => {
+                    // Means over the observations, at the poses where they are least and greatest.
+                    let [least, greatest] =
+                        [poses.mean_mm.map(|mean| mean.min), poses.mean_mm.map(|mean| mean.max)];
+                    let leading = format!("means at {} of {} poses", poses.held(), poses.poses);
+                    (None, None, None, least, greatest, String::new(), leading)
+                }
+            };
+            let mut row = vec![title];
+            row.extend([nominal, mean].map(|value| numeric(value, 4)));
+            row.push(numeric(std, 3));
+            row.extend([least, greatest].map(|value| numeric(value, 4)));
+            row.extend([cell(law), cell(leading)]);
+            row
+        })
+        .collect();
+    let head = ["Setting", "Nominal", "Mean", "Std. dev.", "Least", "Greatest", "Law", "Dominant"];
+    table("RMS of the static deflection [mm], that is the length of the displacement", &head, &rows)
+}

@@ -1,0 +1,92 @@
+//! Samplings at several poses: maps over the workspace, extremes, which parameters matter where. However many poses there are, there is
+//! a section for all of them; a row each stands in the table beside the report.
+
+use crate::page::elements::{Section, cell, figure, numeric, table};
+use crate::page::glance;
+use crate::parameters;
+use crate::pose_maps;
+use crate::text;
+use cdpr_study::{Extremes, HELD, PosesSummary, Results};
+use maud::{Markup, html};
+
+/// Parameters named as dominant.
+const LEADING: usize = 12;
+
+pub(crate) fn section(results: &Results) -> Option<Section> {
+    let all: Vec<_> = glance::poses(&results.summary)
+        .filter_map(|(name, summary)| Some((name, summary, results.poses.get(name)?)))
+        .collect();
+    let body = html! {
+        @for (name, summary, rows) in &all {
+            h3 { (summary.title) }
+            p { (held(summary)) " A row each stands in " code { (name) ".csv" } "." }
+            @let maps = pose_maps(&results.study.robot, summary, rows);
+            @if maps.is_empty() { p.note { "No maps: the poses are on no plane or box." } }
+            @for (map, svg) in maps {
+                @let file = format!("{name}_{map}");
+                @let alt = format!("Map of the workspace, {}, of {name}", map.replace('_', " "));
+                @let drawn = figure(&file, &alt, svg, &caption(&map));
+                // The layers of a box are many.
+                @if map.contains("_z") { details { summary { (file) } (drawn) } } @else { (drawn) }
+            }
+            (extremes(summary))
+            (dominant(summary))
+        }
+    };
+    (!all.is_empty()).then(|| Section::new("workspace", "Over the workspace", body))
+}
+
+/// How many poses are held, and why others are not.
+pub(crate) fn held(summary: &PosesSummary) -> String {
+    let others = summary.status.iter().filter(|(status, _)| *status != HELD);
+    let others: Vec<_> =
+        others.map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
+    let why = if others.is_empty() { String::new() } else { format!("; not held: {}", others.join(", ")) };
+    format!("The nominal robot holds {} of {} poses{why}.", summary.held(), summary.poses)
+}
+
+fn caption(map: &str) -> Markup {
+    let words = match map.split('_').next() {
+        Some("mean") => "Mean of the RMS of the static deflection over the observations at each pose.",
+        Some("std") => {
+            "Standard deviation of the RMS of the static deflection over the observations at each pose."
+        }
+        _ => "The parameter with the largest t-Student index at each pose.",
+    };
+    html! { (words) " Grey and hatched: no pose that the nominal robot holds." }
+}
+
+fn extremes(summary: &PosesSummary) -> Markup {
+    let row = |words: &str, extremes: &Option<Extremes>| {
+        let Extremes { min, min_at, max, max_at } = (*extremes)?;
+        Some(vec![
+            cell(words),
+            numeric(min, 4),
+            cell(text::point(&min_at)),
+            numeric(max, 4),
+            cell(text::point(&max_at)),
+        ])
+    };
+    let rows: Vec<_> = [row("Mean", &summary.mean_mm), row("Standard deviation", &summary.std_mm)]
+        .into_iter()
+        .flatten()
+        .collect();
+    let head = ["Over the poses held", "Least [mm]", "at [m]", "Greatest [mm]", "at [m]"];
+    html! { @if !rows.is_empty() { (table("Extremes of the RMS over the poses", &head, &rows)) } }
+}
+
+fn dominant(summary: &PosesSummary) -> Markup {
+    let mut names: Vec<_> = summary.dominant.iter().collect();
+    names.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+    let row = |(name, count): (&String, &usize)| {
+        let share = 100.0 * *count as f64 / summary.held().max(1) as f64;
+        vec![
+            cell(parameters::symbol(name)),
+            cell(count.to_string()),
+            html! { span.number { (text::digits(share, 3)) " %" } },
+        ]
+    };
+    let rows: Vec<_> = names.into_iter().take(LEADING).map(row).collect();
+    let caption = "Parameters with the largest t-Student index, by the number of poses";
+    html! { @if !rows.is_empty() { (table(caption, &["Parameter", "Poses", "Share"], &rows)) } }
+}

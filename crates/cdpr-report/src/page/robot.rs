@@ -1,0 +1,84 @@
+//! The robot in space, and its cables in figures.
+
+use crate::page::elements::{Section, cell, numeric, table};
+use crate::scene::{Scene, ScenePose};
+use crate::text;
+use cdpr_robot::Robot;
+use cdpr_study::StudyError;
+use maud::{Markup, html};
+
+pub(crate) fn section(robot: &Robot, scene: &Result<Scene, StudyError>) -> Section {
+    let body = match scene {
+        Ok(scene) => html! { (view(robot, scene)) (cables(scene)) },
+        Err(error) => html! { p.note { "The robot cannot be drawn: " (error) "." } },
+    };
+    Section::new("robot", "The robot", body)
+}
+
+fn view(robot: &Robot, scene: &Scene) -> Markup {
+    let alt = format!(
+        "{} in three dimensions with its {} sagging cables; the tables below say the same in figures",
+        robot.name,
+        robot.cables.len()
+    );
+    html! {
+        figure id="figure-robot" {
+            form.controls {
+                label { "Pose " select id="pose" {
+                    @for (i, pose) in scene.poses.iter().enumerate() { option value=(i) { (pose.name) } }
+                } }
+                fieldset {
+                    legend { "Load" }
+                    label { input type="radio" name="state" value="unloaded"; " own weight" }
+                    label { input type="radio" name="state" value="loaded" checked; " with payload" }
+                }
+                label { "Sag drawn " output id="sag-times" for="sag" { "\u{d7}1" }
+                    input type="range" id="sag" min="0" max="9" step="1" value="0" aria-describedby="robot-note"; }
+                label { "Deflection drawn " output id="motion-times" for="motion" { "\u{d7}1" }
+                    input type="range" id="motion" min="0" max="9" step="1" value="0"; }
+            }
+            div.plot id="plot-robot" role="img" aria-label=(alt) tabindex="0" {}
+            noscript { p.note { "The view in space needs JavaScript; all else does not." } }
+            figcaption {
+                span id="robot-note" {} " Cables coloured by their tension at the platform. Grey posts and ring: the frame, as "
+                "the exit points have it; a robot file knows no other. Drag to turn; click, then wheel or pinch to zoom; with the "
+                "keyboard: arrows, + and \u{2212}."
+            }
+        }
+    }
+}
+
+fn cables(scene: &Scene) -> Markup {
+    let head = [
+        "Cable",
+        "Unstrained length [m]",
+        "Tension, own weight [N]",
+        "Sag [mm]",
+        "Tension, payload [N]",
+        "Sag [mm]",
+    ];
+    let rows = |pose: &ScenePose| -> Vec<Vec<Markup>> {
+        let states = pose.unloaded.cables.iter().zip(&pose.loaded.cables);
+        pose.lengths
+            .iter()
+            .zip(states)
+            .enumerate()
+            .map(|(i, (length, (unloaded, loaded)))| {
+                let mut row = vec![cell((i + 1).to_string()), numeric(*length, 5)];
+                for cable in [unloaded, loaded] {
+                    row.extend([numeric(cable.tension, 4), numeric(cable.sag_mm, 3)]);
+                }
+                row
+            })
+            .collect()
+    };
+    html! {
+        @for pose in &scene.poses {
+            details {
+                summary { "Cables at " (pose.name) ": deflection " (text::digits(pose.deflection_mm, 4)) " mm, greatest sag "
+                    (text::digits(pose.unloaded.greatest_sag_mm(), 3)) " mm" }
+                (table(&format!("Cables of the nominal robot at {}; tensions at the platform, sag across the chord", pose.name), &head, &rows(pose)))
+            }
+        }
+    }
+}

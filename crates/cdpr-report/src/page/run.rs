@@ -1,0 +1,98 @@
+//! How the run went, and how to run it again.
+
+use crate::page::elements::{Section, cell, numeric, table};
+use crate::text;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use cdpr_study::{Results, StudySummary, Timings};
+use maud::{Markup, html};
+
+pub(crate) fn observations(results: &Results) -> Section {
+    let studies = &results.summary.studies;
+    let failed: Vec<Vec<Markup>> = studies
+        .iter()
+        .flat_map(|(name, study)| study.failed().iter().map(move |(kind, count)| (name, study, kind, *count)))
+        .filter(|(.., count)| *count > 0)
+        .map(|(name, study, kind, count)| {
+            let share = 100.0 * count as f64 / study.observations().max(1) as f64;
+            let words = kind.replace('_', " ");
+            vec![
+                cell(name),
+                cell(words),
+                cell(count.to_string()),
+                html! { span.number { (text::digits(share, 2)) " %" } },
+            ]
+        })
+        .collect();
+    let notes: Vec<(&str, &str)> = studies
+        .iter()
+        .filter_map(|(name, study)| match study {
+            StudySummary::Sampling(sampling) => Some((name, sampling)),
+            StudySummary::Surface(_) | StudySummary::Poses(_) => None,
+        })
+        .flat_map(|(name, sampling)| {
+            let measures = sampling.sensitivity.iter().flat_map(|found| &found.notes);
+            sampling.notes.iter().chain(measures).map(|note| (name.as_str(), note.as_str()))
+        })
+        .collect();
+    let body = html! {
+        @if failed.is_empty() { p { "No observation failed." } }
+        @else {
+            p { "A failed observation is data: it is counted by kind, its reason stands in the table of the observations, and it is absent "
+                "from every statistic." }
+            (table("Failed observations", &["Setting", "Kind", "Number", "Share"], &failed))
+        }
+        @if !notes.is_empty() {
+            h3 { "Notes" }
+            ul { @for (name, note) in &notes { li { code { (name) } ": " (note) } } }
+        }
+        @if let Some(timings) = &results.timings { (times(timings)) }
+    };
+    Section::new("observations", "Failed observations, notes, timings", body)
+}
+
+fn times(timings: &Timings) -> Markup {
+    let methods = timings.sensitivity.iter().flat_map(|(name, methods)| {
+        methods
+            .iter()
+            .map(move |(method, seconds)| (format!("{name}: {}", method.replace('_', " ")), *seconds))
+    });
+    let parts = timings.seconds.iter().map(|(name, seconds)| (name.clone(), *seconds));
+    let rows: Vec<Vec<Markup>> = parts
+        .chain(methods)
+        .chain([("all".to_owned(), timings.all)])
+        .map(|(name, seconds)| vec![cell(name), numeric(seconds, 3)])
+        .collect();
+    html! {
+        h3 { "Timings" }
+        (table(&format!("Wall time on {} threads", timings.threads), &["Part", "Time [s]"], &rows))
+    }
+}
+
+pub(crate) fn again(results: &Results) -> Section {
+    let (summary, robot) = (&results.summary, &results.study.file.robot);
+    let body = html! {
+        p { "The same version, study, robot and seed give the same numbers, on any number of threads." }
+        pre { code { "cdpr study run study.json --out results" } }
+        dl.facts {
+            dt { "Version" } dd { "cdpr " (summary.version) }
+            dt { "Seed" } dd { (summary.seed) }
+            dt { "Files" } dd { "study.json, and beside it " (robot) }
+        }
+        (file("study.json", &results.study_json))
+        (file(robot, &results.robot_json))
+    };
+    Section::new("again", "Run it again", body)
+}
+
+/// A file, folded away, to be looked at or saved.
+fn file(name: &str, text: &str) -> Markup {
+    let address = format!("data:application/json;base64,{}", BASE64_STANDARD.encode(text));
+    html! {
+        details {
+            summary { (name) }
+            p { a download=(name) href=(address) { "Save " (name) } }
+            pre tabindex="0" { code { (text) } }
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Parameters of a robot as a reader wants them: words, symbols, units.
+
+use crate::error::ReportError;
+use cdpr_robot::{Axis, Parameter};
+
+/// A parameter or group of parameters in words, with its symbol.
+pub(crate) fn parameter(name: &str) -> String {
+    let words = match name {
+        "mass" => "mass of the platform m",
+        "linear_density" => "linear density \u{3c1} of all cables",
+        "youngs_modulus" => "Young's modulus E of all cables",
+        "a" => "anchor points, each coordinate of each",
+        "b" => "exit points, each coordinate of each",
+        "cog" => "centre of mass, each coordinate",
+        "dt" => "tension set-points, each",
+        other => other,
+    };
+    words.to_owned()
+}
+
+/// A parameter as short as can be: `E`, `\u{3c1}`, `m`, or its own name.
+pub(crate) fn symbol(name: &str) -> &str {
+    match name {
+        "mass" => "m",
+        "linear_density" => "\u{3c1}",
+        "youngs_modulus" => "E",
+        other => other,
+    }
+}
+
+/// Unit for reading and how many of it are one SI unit, of a parameter or a group of them.
+pub(crate) fn reading_unit(name: &str) -> (&'static str, f64) {
+    let parameter = match name {
+        "a" => Some(Parameter::AnchorPoint(0, Axis::X)),
+        "b" => Some(Parameter::ExitPoint(0, Axis::X)),
+        "cog" => Some(Parameter::CenterOfMass(Axis::X)),
+        "dt" => Some(Parameter::TensionOffset(0)),
+        name => name.parse().ok(),
+    };
+    match parameter.map(|parameter| parameter.unit()) {
+        Some("Pa") => ("GPa", 1e-9),
+        Some("m") => ("mm", 1e3),
+        Some("kg/m") => ("g/m", 1e3),
+        Some(unit) => (unit, 1.0),
+        None => ("", 1.0),
+    }
+}
+
+/// Label of a parameter's axis, and what turns SI units into the unit that it names.
+pub(crate) fn axis_of(name: &str) -> Result<(String, f64), ReportError> {
+    let parameter: Parameter =
+        name.parse().map_err(|_| ReportError::invalid("parameters", &name, "a parameter of a robot"))?;
+    Ok(match parameter {
+        Parameter::YoungsModulus => ("Young's modulus E [GPa]".to_owned(), 1e-9),
+        Parameter::LinearDensity => ("linear density \u{3c1} [kg/m]".to_owned(), 1.0),
+        Parameter::Mass => ("mass of the platform m [kg]".to_owned(), 1.0),
+        Parameter::AnchorPoint(..) => (format!("anchor point, {name} [m]"), 1.0),
+        Parameter::ExitPoint(..) => (format!("exit point, {name} [m]"), 1.0),
+        Parameter::CenterOfMass(_) => (format!("centre of mass, {name} [m]"), 1.0),
+        Parameter::TensionOffset(_) => (format!("offset of the tension set-point, {name} [N]"), 1.0),
+    })
+}

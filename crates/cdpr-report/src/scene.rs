@@ -1,0 +1,213 @@
+//! The robot at the poses of a study, as points in space: what the page draws with plotly.js.
+
+use crate::text;
+use cdpr_cable::Catenary;
+use cdpr_robot::{Matrix3, Pose, Robot, Vector3};
+use cdpr_statics::{Deflection, Equilibrium};
+use cdpr_study::{Study, StudyError};
+use serde::Serialize;
+
+/// Points of a cable.
+const POINTS: usize = 49;
+
+/// The robot at all poses.
+#[derive(Serialize)]
+pub(crate) struct Scene {
+    /// Exit points [m].
+    pub(crate) exits: Vec<[f64; 3]>,
+    /// The exit points' numbers around their middle, seen from above.
+    pub(crate) ring: Vec<usize>,
+    /// Height of the floor [m].
+    pub(crate) floor: f64,
+    pub poses: Vec<ScenePose>,
+}
+
+/// The robot at one pose.
+#[derive(Serialize)]
+pub(crate) struct ScenePose {
+    #[serde(skip)]
+    pub pose: Pose,
+    /// Samplings and surfaces at this pose.
+    #[serde(skip)]
+    pub parts: Vec<String>,
+    pub name: String,
+    pub unloaded: State,
+    pub loaded: State,
+    /// Unstrained lengths [m].
+    #[serde(skip)]
+    pub lengths: Vec<f64>,
+    /// |dp| [mm].
+    pub deflection_mm: f64,
+    /// The axis that a platform of coplanar anchor points is thinnest along, if it is one.
+    flat: Option<&'static str>,
+}
+
+/// An equilibrium.
+#[derive(Serialize)]
+pub(crate) struct State {
+    /// P and G [m].
+    position: [f64; 3],
+    center_of_mass: [f64; 3],
+    /// Anchor points [m].
+    pub(crate) anchors: Vec<[f64; 3]>,
+    pub cables: Vec<SceneCable>,
+}
+
+/// A cable in equilibrium.
+#[derive(Serialize)]
+pub(crate) struct SceneCable {
+    /// From exit point to anchor point [m].
+    pub(crate) points: Vec<[f64; 3]>,
+    /// At the platform [N].
+    pub tension: f64,
+    /// Greatest distance from the chord [mm].
+    pub sag_mm: f64,
+}
+
+impl Scene {
+    /// Every pose of the study once, in the order of its samplings and surfaces; one of a sampling at several.
+    ///
+    /// # Errors
+    /// As [`Study::sampling`].
+    pub(crate) fn new(study: &Study) -> Result<Self, StudyError> {
+        let mut poses: Vec<ScenePose> = Vec::new();
+        let mut add =
+            |name: &str, pose: Pose, nominal: &Deflection| match poses.iter_mut().find(|p| p.pose == pose) {
+                Some(known) => known.parts.push(name.to_owned()),
+                None => poses.push(ScenePose::new(&study.robot, name, pose, nominal)),
+            };
+        for (name, spec) in &study.file.samplings {
+            if spec.pose.is_some() {
+                let sampling = study.sampling(name)?;
+                add(name, sampling.pose, &sampling.nominal);
+                continue;
+            }
+            // Of many poses the first that is held stands for all.
+            let prefix = format!("{name}/");
+            let mut names = study.sampling_names().filter(|name| name.starts_with(&prefix));
+            if let Some(sampling) = names.find_map(|name| study.sampling(&name).ok()) {
+                add(&sampling.name, sampling.pose, &sampling.nominal);
+            }
+        }
+        for name in study.file.surfaces.keys() {
+            let surface = study.surface(name)?;
+            add(name, surface.pose, &surface.nominal);
+        }
+        if let (true, Some(name)) = (poses.is_empty(), study.sampling_names().next()) {
+            // The reason why there is nothing to draw.
+            study.sampling(&name)?;
+        }
+        let exits: Vec<[f64; 3]> = study.robot.cables.iter().map(|cable| cable.exit_point.into()).collect();
+        let lowest = exits.iter().map(|exit| exit[2]).fold(f64::INFINITY, f64::min);
+        let anchors = poses.iter().flat_map(|pose| pose.loaded.anchors.iter().chain(&pose.unloaded.anchors));
+        let floor = anchors.map(|anchor| anchor[2]).fold(lowest.min(0.0), f64::min);
+        Ok(Self { ring: around(&exits), floor, exits, poses })
+    }
+}
+
+impl ScenePose {
+    fn new(robot: &Robot, part: &str, pose: Pose, nominal: &Deflection) -> Self {
+        let turned = if pose.quaternion() == [1.0, 0.0, 0.0, 0.0] { "" } else { ", turned" };
+        let unloaded = State::new(robot, &nominal.lengths, &nominal.unloaded.equilibrium);
+        Self {
+            flat: flat(&unloaded.anchors),
+            name: format!("{} m{turned}", text::point(pose.position.as_slice())),
+            parts: vec![part.to_owned()],
+            loaded: State::new(robot, &nominal.lengths, &nominal.loaded.equilibrium),
+            unloaded,
+            lengths: nominal.lengths.clone(),
+            deflection_mm: 1e3 * nominal.rms(),
+            pose,
+        }
+    }
+}
+
+impl State {
+    fn new(robot: &Robot, lengths: &[f64], equilibrium: &Equilibrium) -> Self {
+        let Equilibrium { pose, cable_forces } = equilibrium;
+        let anchor = |i: usize| pose.position + robot.anchor_arm(pose, i);
+        let cables = lengths.iter().zip(cable_forces).enumerate().map(|(i, (length, force))| {
+            let catenary = Catenary { cable: robot.cable(i), unstrained_length: *length, force: *force };
+            let (exit, span) = (robot.cables[i].exit_point, robot.span(pose, i));
+            // A cable that hangs straight down has no direction in the plan, and needs none.
+            let along = span.xy().try_normalize(0.0).unwrap_or_default();
+            let place = |point: cdpr_robot::Vector2<f64>| {
+                (exit + Vector3::new(along.x * point.x, along.y * point.x, point.y)).into()
+            };
+            SceneCable {
+                points: catenary.profile(POINTS).into_iter().map(place).collect(),
+                tension: force.norm(),
+                sag_mm: 1e3 * catenary.sag(),
+            }
+        });
+        Self {
+            position: pose.position.into(),
+            center_of_mass: (pose.position + pose.rotation * robot.platform.center_of_mass).into(),
+            anchors: (0..lengths.len()).map(|i| anchor(i).into()).collect(),
+            cables: cables.collect(),
+        }
+    }
+
+    /// The greatest sag [mm].
+    pub(crate) fn greatest_sag_mm(&self) -> f64 {
+        self.cables.iter().map(|cable| cable.sag_mm).fold(0.0, f64::max)
+    }
+}
+
+fn middle(points: &[[f64; 3]]) -> Vector3<f64> {
+    points.iter().map(|point| Vector3::from(*point)).sum::<Vector3<f64>>() / points.len() as f64
+}
+
+/// The points' numbers by their angle around their middle, seen from above.
+fn around(points: &[[f64; 3]]) -> Vec<usize> {
+    let middle = middle(points);
+    let angle = |i: &usize| (points[*i][1] - middle.y).atan2(points[*i][0] - middle.x);
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|one, other| angle(one).total_cmp(&angle(other)));
+    order
+}
+
+/// Points within a thousandth of their extent from a plane: the axis that is nearest to its normal.
+fn flat(points: &[[f64; 3]]) -> Option<&'static str> {
+    let middle = middle(points);
+    let spread: Matrix3<f64> = points
+        .iter()
+        .map(|point| Vector3::from(*point) - middle)
+        .map(|arm| arm * arm.transpose())
+        .fold(Matrix3::zeros(), |sum, part| sum + part);
+    let eigen = spread.symmetric_eigen();
+    let (least, normal) = (eigen.eigenvalues.imin(), eigen.eigenvalues.min());
+    let is_flat = normal < 1e-6 * eigen.eigenvalues.max();
+    is_flat.then(|| ["x", "y", "z"][eigen.eigenvectors.column(least).iamax()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cables_are_drawn_from_exit_to_anchor_point_and_below_their_chord_by_their_sag() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json");
+        let scene = Scene::new(&Study::open(path.as_ref()).unwrap()).unwrap();
+        assert_eq!(scene.poses.len(), 2, "three samplings and two surfaces at two poses");
+        assert_eq!(scene.poses[0].parts.len(), 4);
+        for state in scene.poses.iter().flat_map(|pose| [&pose.unloaded, &pose.loaded]) {
+            for (i, cable) in state.cables.iter().enumerate() {
+                let (first, last) = (Vector3::from(cable.points[0]), Vector3::from(cable.points[POINTS - 1]));
+                assert!((first - Vector3::from(scene.exits[i])).norm() < 1e-12);
+                assert!((last - Vector3::from(state.anchors[i])).norm() < 1e-9);
+                let chord = (last - first).normalize();
+                let away = |point: &[f64; 3]| (Vector3::from(*point) - first).cross(&chord).norm();
+                let sag = cable.points.iter().map(away).fold(0.0, f64::max);
+                assert!(sag > 0.0 && (1e3 * sag - cable.sag_mm).abs() < 0.01 * cable.sag_mm, "{sag}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_platform_is_flat_only_where_its_anchor_points_are_coplanar() {
+        let corners = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]];
+        assert_eq!(flat(&corners), Some("z"));
+        assert_eq!(flat(&[&corners[..], &[[0.5, 0.5, 1.2]]].concat()), None);
+    }
+}

@@ -1,0 +1,54 @@
+//! The families of laws that can be fitted to a sample.
+
+use serde::{Deserialize, Serialize};
+
+/// A family of laws that can be fitted: the variants of [`Law`] of two parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Family {
+    /// [`crate::Law::Uniform`], whose estimate is [min, max] of the sample.
+    Uniform,
+    /// [`crate::Law::Normal`].
+    Normal,
+    /// [`crate::Law::Logistic`].
+    Logistic,
+    /// [`crate::Law::Laplace`].
+    Laplace,
+    /// [`crate::Law::Gumbel`].
+    Gumbel,
+    /// [`crate::Law::LogNormal`], of positive values only.
+    LogNormal,
+    /// [`crate::Law::Weibull`], of positive values only.
+    Weibull,
+}
+
+impl Family {
+    /// All families.
+    pub const ALL: [Self; 7] = [
+        Self::Uniform,
+        Self::Normal,
+        Self::Logistic,
+        Self::Laplace,
+        Self::Gumbel,
+        Self::LogNormal,
+        Self::Weibull,
+    ];
+
+    pub(super) fn positive(self) -> bool {
+        matches!(self, Self::LogNormal | Self::Weibull)
+    }
+}
+
+impl std::fmt::Display for Family {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Self::Uniform => "uniform",
+            Self::Normal => "normal",
+            Self::Logistic => "logistic",
+            Self::Laplace => "Laplace",
+            Self::Gumbel => "Gumbel",
+            Self::LogNormal => "lognormal",
+            Self::Weibull => "Weibull",
+        })
+    }
+}

@@ -1,0 +1,137 @@
+//! Derivative-based measures, and the bounds that they set on total indices.
+//!
+//! With C the constant of Poincaré's inequality of the law of input i, `Var g ≤ C E g'²`, and V the variance of the
+//! output,
+//!
+//! ```text
+//! ν_i = E (∂f/∂x_i)²                                                      (1)
+//! T_i ≤ C_i ν_i / V                                                       (2)
+//! uniform:      C = (max - min)² / π²                                     (3)
+//! normal:       C = std²                                                  (4)
+//! log-concave:  C = 1 / ρ(median)²,   ρ the density                       (5)
+//! ```
+//!
+//! (2) to (4): I. M. Sobol', S. Kucherenko, *Derivative based global sensitivity measures and their link with global
+//! sensitivity indices*, Math. Comput. Simul. 79 (2009). (5): M. Lamboni, B. Iooss, A.-L. Popelin, F. Gamboa,
+//! *Derivative-based global sensitivity measures: general links with Sobol' indices and numerical tests*, Math. Comput.
+//! Simul. 87 (2013). (3) holds for every log-concave law on [min, max] (L. E. Payne, H. F. Weinberger, *An optimal
+//! Poincaré inequality for convex domains*, 1960) and (4) for a normal law however truncated (D. Bakry, M. Émery,
+//! *Diffusions hypercontractives*, 1985): the least of those that apply is taken. Laws that are not log-concave have none
+//! here. The steps of an input are disregarded: C is that of the continuous law.
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use crate::design::IndependentSample;
+use crate::design::input::Input;
+use crate::design::observation::check_variance;
+use crate::error::{SensitivityError, check_length, check_level, check_range};
+use crate::law::Law;
+use crate::sample::interval::Estimate;
+use crate::sample::summary::mean_and_squares;
+
+/// Output of an observation and its derivatives.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Slopes {
+    /// The output.
+    pub output: f64,
+    /// ∂f/∂x of each input, in the unit of the output per that of the input.
+    pub gradient: Vec<f64>,
+}
+
+/// Derivative-based measure of one input.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct DerivativeMeasure {
+    /// Name of the input.
+    pub input: String,
+    /// ν (1), with Student's interval, in the square of the unit of the output per that of the input.
+    pub mean_square: Estimate,
+    /// Bound (2) on the total index, `None` for a law without a known constant.
+    pub total_bound: Option<f64>,
+}
+
+/// Measures of all inputs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct DerivativeMeasures {
+    /// Observations that gave slopes.
+    pub observed: usize,
+    /// Observations that gave none.
+    pub failed: usize,
+    /// Variance V of the output, in the square of its unit.
+    pub variance: f64,
+    /// One an input, in the order of the design.
+    pub inputs: Vec<DerivativeMeasure>,
+}
+
+/// Measures from the output and gradient at each row of a design, `None` where there is none, with intervals of ν at a
+/// confidence `level` in (0, 1).
+///
+/// # Errors
+/// - [`SensitivityError::LengthMismatch`] unless there is one element a row, with one derivative an input;
+/// - [`SensitivityError::NotFinite`] for an output or a derivative that is not finite;
+/// - [`SensitivityError::OutOfRange`] for fewer than two observations with slopes;
+/// - [`SensitivityError::ConstantSample`] if all outputs are equal;
+/// - [`SensitivityError::InvalidParameter`] for the level.
+pub fn dgsm<D: IndependentSample>(
+    design: &D,
+    slopes: &[Option<Slopes>],
+    level: f64,
+) -> Result<DerivativeMeasures, SensitivityError> {
+    check_level(level)?;
+    check_length("slopes", slopes.len(), design.points())?;
+    let inputs = design.inputs();
+    for (index, Slopes { output, gradient }) in
+        slopes.iter().enumerate().filter_map(|(index, slopes)| Some((index, slopes.as_ref()?)))
+    {
+        check_length("gradient", gradient.len(), inputs.len())?;
+        if let Some(&value) = gradient.iter().find(|slope| !slope.is_finite()) {
+            return Err(SensitivityError::NotFinite { field: "gradient", index, value });
+        }
+        if !output.is_finite() {
+            return Err(SensitivityError::NotFinite { field: "outputs", index, value: *output });
+        }
+    }
+    let observed: Vec<&Slopes> = slopes.iter().flatten().collect();
+    check_range("observed outputs", observed.len() as u64, 2, u64::MAX)?;
+    let outputs: Vec<f64> = observed.iter().map(|slopes| slopes.output).collect();
+    check_variance(&outputs)?;
+    let variance = mean_and_squares(&outputs).1 / (outputs.len() as f64 - 1.0);
+    let measure = |(i, input): (usize, &Input)| {
+        let squares: Vec<f64> = observed.iter().map(|slopes| slopes.gradient[i].powi(2)).collect();
+        let mean_square = Estimate::of_mean(&squares, level)?;
+        let total_bound = poincare_constant(&input.law).map(|c| c * mean_square.value / variance);
+        Ok(DerivativeMeasure { input: input.name.clone(), mean_square, total_bound })
+    };
+    Ok(DerivativeMeasures {
+        observed: observed.len(),
+        failed: slopes.len() - observed.len(),
+        variance,
+        inputs: inputs.iter().enumerate().map(measure).collect::<Result<_, _>>()?,
+    })
+}
+
+/// The least of the constants (3) to (5) that apply to a law; `None` for one that is not log-concave.
+#[must_use]
+pub fn poincare_constant(law: &Law) -> Option<f64> {
+    let log_concave = match *law {
+        Law::Beta { alpha, beta, .. } => alpha >= 1.0 && beta >= 1.0,
+        Law::Weibull { shape, .. } => shape >= 1.0,
+        Law::LogNormal { .. } => false,
+        Law::Uniform { .. }
+        | Law::Normal { .. }
+        | Law::TruncatedNormal { .. }
+        | Law::Triangular { .. }
+        | Law::Logistic { .. }
+        | Law::Gumbel { .. }
+        | Law::Laplace { .. } => true,
+    };
+    let (min, max) = law.support();
+    let on_interval = ((max - min) / PI).powi(2);
+    let of_normal = match *law {
+        Law::Normal { std, .. } | Law::TruncatedNormal { std, .. } => std * std,
+        _ => f64::INFINITY,
+    };
+    let at_median = (-2.0 * law.ln_pdf(law.quantile(0.5))).exp();
+    log_concave.then(|| on_interval.min(of_normal).min(at_median))
+}

@@ -1,0 +1,205 @@
+//! Sparse polynomial chaos expansion: a polynomial model of the output, and all Sobol' indices from its coefficients.
+//!
+//! With the orthonormal products Ψ of [`crate::measure::expansion::polynomial`],
+//!
+//! ```text
+//! y = c_0 + Σ_α c_α Ψ_α(x),   V = Σ c_α²                                  (1)
+//! S_u = Σ c_α² / V over the α of the inputs u exactly                     (2)
+//! closed_u = Σ c_α² / V over the α of no input beyond u                   (3)
+//! T_u = Σ c_α² / V over the α of some input of u                          (4)
+//! ```
+//!
+//! B. Sudret, *Global sensitivity analysis using polynomial chaos expansions*, Reliab. Eng. Syst. Saf. 93 (2008). Which
+//! terms, and up to which degree, the corrected leave-one-out error says (`pursuit`). It is the share of the
+//! variance that the model does not predict; the indices are those of the model, no nearer to the truth than that.
+
+pub mod polynomial;
+mod pursuit;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::design::IndependentSample;
+use crate::design::input::Input;
+use crate::design::observation::Observed;
+use crate::error::{SensitivityError, check_length, check_range, require};
+use crate::measure::expansion::polynomial::{Power, Truncation, polynomials};
+use crate::measure::expansion::pursuit::pursue;
+
+/// Least number of outputs that an expansion is fitted to.
+pub const MIN_OUTPUTS: usize = 10;
+/// Largest degree of an expansion.
+pub const MAX_DEGREE: usize = 100;
+/// Most values of candidate terms, terms times outputs: 1 GiB.
+const MAX_VALUES: usize = 1 << 27;
+
+/// One term of an expansion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Term {
+    /// α: the inputs of the product and their degrees.
+    pub powers: Vec<Power>,
+    /// `c_α`, in the unit of the output.
+    pub coefficient: f64,
+}
+
+/// A sparse expansion (1).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Expansion {
+    /// Inputs, in the order of the design.
+    pub inputs: Vec<Input>,
+    /// Observations that it is fitted to.
+    pub observed: usize,
+    /// Observations that failed.
+    pub failed: usize,
+    /// Degree chosen.
+    pub degree: usize,
+    /// Mean `c_0`, in the unit of the output.
+    pub mean: f64,
+    /// Terms, in the order in which they were found.
+    pub terms: Vec<Term>,
+    /// Corrected leave-one-out error, as a share of the variance of the outputs.
+    pub leave_one_out: f64,
+}
+
+/// Indices of one input, or of a group of inputs.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct Shares {
+    /// Share of the variance that the inputs cause without others: (3). Of one input, its index of the first order.
+    pub closed: f64,
+    /// Share of the variance that they take part in (4).
+    pub total: f64,
+}
+
+/// Fits an expansion to one output a row, `None` where it has failed.
+///
+/// # Errors
+/// - [`SensitivityError::InvalidParameter`] for a norm of the truncation outside of (0, 1];
+/// - [`SensitivityError::OutOfRange`] for a degree of zero or above [`MAX_DEGREE`], no interactions (1 is for none),
+///   candidate terms of more than 2^27 values, fewer than [`MIN_OUTPUTS`] outputs;
+/// - [`SensitivityError::LengthMismatch`] unless there is one output a row;
+/// - [`SensitivityError::NotFinite`] for a value that is not finite;
+/// - [`SensitivityError::ConstantSample`] if all outputs are equal.
+pub fn expansion<D: IndependentSample>(
+    design: &D,
+    outputs: &[Option<f64>],
+    truncation: Truncation,
+) -> Result<Expansion, SensitivityError> {
+    let Truncation { max_degree, norm, interactions } = truncation;
+    require(norm > 0.0 && norm <= 1.0, "norm", norm, "a number above 0, at most 1")?;
+    check_range("degree", max_degree as u64, 1, MAX_DEGREE as u64)?;
+    check_range("interactions", interactions as u64, 1, u64::MAX)?;
+    let observed = Observed::new(design, outputs, MIN_OUTPUTS)?;
+    let inputs = design.inputs();
+    let n = observed.outputs.len();
+    // values[input][observation][degree]
+    let of_input = |(input, column): (&Input, &Vec<f64>)| -> Vec<Vec<f64>> {
+        column.iter().map(|&x| polynomials(&input.law, x, max_degree)).collect()
+    };
+    let values: Vec<_> = inputs.par_iter().zip(&observed.columns).map(of_input).collect();
+    let column = |powers: &Vec<Power>| -> Vec<f64> {
+        let value = |i: usize| powers.iter().map(|power| values[power.input][i][power.degree]).product();
+        (0..n).map(value).collect()
+    };
+    let limit = MAX_VALUES / n;
+    let fit = |degree| -> Result<Expansion, SensitivityError> {
+        let products =
+            truncation.products(inputs.len(), degree, limit).ok_or(SensitivityError::OutOfRange {
+                field: "candidate terms",
+                value: limit as u64 + 1,
+                minimum: 1,
+                maximum: limit as u64,
+            })?;
+        let columns: Vec<Vec<f64>> = products.par_iter().map(column).collect();
+        let found = pursue(&columns, &observed.outputs);
+        let term = |(j, coefficient): (usize, f64)| Term { powers: products[j].clone(), coefficient };
+        Ok(Expansion {
+            inputs: inputs.to_vec(),
+            observed: n,
+            failed: observed.failed,
+            degree,
+            mean: found.constant,
+            terms: found.terms.into_iter().map(term).collect(),
+            leave_one_out: found.error,
+        })
+    };
+    let mut best = fit(1)?;
+    for degree in 2..=max_degree {
+        let other = fit(degree)?;
+        if other.leave_one_out < best.leave_one_out {
+            best = other;
+        }
+    }
+    Ok(best)
+}
+
+impl Expansion {
+    /// Variance V (1) of the expansion, in the square of the unit of the output.
+    #[must_use]
+    pub fn variance(&self) -> f64 {
+        self.terms.iter().map(|term| term.coefficient * term.coefficient).sum()
+    }
+
+    /// Indices of each input, in the order of the design. All are 0 if no term is better than the mean.
+    #[must_use]
+    pub fn indices(&self) -> Vec<Shares> {
+        (0..self.inputs.len()).map(|input| self.shares(&[input])).collect()
+    }
+
+    /// Index (2) of each pair of inputs that a term has, by their indices, in ascending order.
+    #[must_use]
+    pub fn pairs(&self) -> Vec<([usize; 2], f64)> {
+        let variance = self.variance();
+        let mut pairs = std::collections::BTreeMap::new();
+        for term in &self.terms {
+            if let [one, other] = term.powers[..] {
+                let share = term.coefficient * term.coefficient / variance;
+                *pairs.entry([one.input, other.input]).or_insert(0.0) += share;
+            }
+        }
+        pairs.into_iter().collect()
+    }
+
+    /// Indices of a group of inputs, by their names.
+    ///
+    /// # Errors
+    /// [`SensitivityError::UnknownInput`].
+    pub fn group(&self, names: &[&str]) -> Result<Shares, SensitivityError> {
+        let index = |name: &&str| {
+            let found = self.inputs.iter().position(|input| input.name == *name);
+            found.ok_or_else(|| SensitivityError::UnknownInput { name: (*name).to_owned() })
+        };
+        Ok(self.shares(&names.iter().map(index).collect::<Result<Vec<_>, _>>()?))
+    }
+
+    /// The expansion (1) at a row of values of the inputs.
+    ///
+    /// # Errors
+    /// [`SensitivityError::LengthMismatch`] for a row that has not one element an input.
+    pub fn predict(&self, row: &[f64]) -> Result<f64, SensitivityError> {
+        check_length("row", row.len(), self.inputs.len())?;
+        let of_input = |(input, &x): (&Input, &f64)| polynomials(&input.law, x, self.degree);
+        let values: Vec<_> = self.inputs.iter().zip(row).map(of_input).collect();
+        let of_term = |term: &Term| {
+            let factors = term.powers.iter().map(|power| values[power.input][power.degree]);
+            term.coefficient * factors.product::<f64>()
+        };
+        Ok(self.mean + self.terms.iter().map(of_term).sum::<f64>())
+    }
+
+    /// Eq. (3) and (4).
+    fn shares(&self, group: &[usize]) -> Shares {
+        let variance = self.variance();
+        let (mut closed, mut total) = (0.0, 0.0);
+        for term in &self.terms {
+            let share = term.coefficient * term.coefficient / variance;
+            let member = |power: &Power| group.contains(&power.input);
+            if term.powers.iter().all(member) {
+                closed += share;
+            }
+            if term.powers.iter().any(member) {
+                total += share;
+            }
+        }
+        Shares { closed, total }
+    }
+}
