@@ -4,11 +4,14 @@ mod carry_out;
 mod print;
 #[cfg(feature = "mpi")]
 mod ranks;
+pub(crate) mod report;
+mod sensitivity;
 mod status;
 mod template;
+mod throughput;
+pub(crate) mod tolerances;
 
 use crate::arguments::Format;
-use crate::{report, throughput};
 use cdpr_study::{Blocks, Existing, Shard, Study, StudyError, TableFormat};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;

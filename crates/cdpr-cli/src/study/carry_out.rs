@@ -1,9 +1,8 @@
 //! `cdpr study run`, `merge` and `extend`. A process that ends at any moment loses the block under way and no more: Ctrl-C need do nothing else.
 
-use super::{Common, RunError, print};
+use super::{Common, RunError, print, report, sensitivity};
 use crate::arguments::Format;
 use crate::output::progress;
-use crate::{report, sensitivity};
 use cdpr_report::Watcher;
 use cdpr_study::{
     Blocks, Plan, REPORT_NAME, STUDY_NAME, Session, Shard, Study, StudyError, StudySummary, Summary,
