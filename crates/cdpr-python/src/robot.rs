@@ -1,7 +1,15 @@
 //! The robot: from a file, a JSON text or arrays; its parameters.
 
-use crate::arrays::{Array, Numbers, components};
-use crate::error::{Answer, Raised};
+pub(crate) mod deflection;
+pub(crate) mod derivatives;
+pub(crate) mod direct;
+pub(crate) mod inverse;
+pub(crate) mod observe;
+pub(crate) mod stiffness;
+pub(crate) mod workspace;
+
+use crate::convert::arrays::{Array, Numbers, components};
+use crate::convert::error::{Answer, Raised};
 use cdpr_robot::{CableProperties, Parameter, Platform, RobotCable, TensionLimits, Vector3};
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};

@@ -1,8 +1,8 @@
 //! Studies: the same functions as `cdpr study`, on folders of results. `study.py` puts them together.
 
-use crate::arrays::whole;
-use crate::error::{Answer, Raised};
-use crate::threads::{run, watched};
+use crate::convert::arrays::whole;
+use crate::convert::error::{Answer, Raised};
+use crate::convert::threads::{run, watched};
 use cdpr_report::{Watcher, report};
 use cdpr_robot::Vector3;
 use cdpr_sensitivity::SampleDesign;

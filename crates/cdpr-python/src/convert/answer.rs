@@ -18,17 +18,17 @@ macro_rules! answer {
             #[pyo3(signature = (*fields))]
             fn of_fields(fields: &pyo3::Bound<pyo3::types::PyTuple>) -> pyo3::PyResult<Self> {
                 let mut fields = fields.iter();
-                Ok(Self { $($field: $crate::answer::next(&mut fields, stringify!($field))?.extract()?,)* })
+                Ok(Self { $($field: $crate::convert::answer::next(&mut fields, stringify!($field))?.extract()?,)* })
             }
 
             fn __getnewargs__<'py>(
                 slf: &pyo3::Bound<'py, Self>,
             ) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::types::PyTuple>> {
-                $crate::answer::fields(slf.as_any(), &[$(stringify!($field)),*])
+                $crate::convert::answer::fields(slf.as_any(), &[$(stringify!($field)),*])
             }
 
             fn __repr__(slf: &pyo3::Bound<Self>) -> pyo3::PyResult<String> {
-                $crate::answer::summary(slf.as_any(), &[$(stringify!($field)),*])
+                $crate::convert::answer::summary(slf.as_any(), &[$(stringify!($field)),*])
             }
         }
     };

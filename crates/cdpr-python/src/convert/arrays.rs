@@ -1,6 +1,6 @@
 //! Arrays in and out: one case, or one case a row.
 
-use crate::error::{Answer, Failure, Raised};
+use crate::convert::error::{Answer, Failure, Raised};
 use cdpr_cable::Vector2;
 use cdpr_robot::{Pose, Vector3, Wrench};
 use cdpr_statics::{Load, StaticsError};

@@ -1,6 +1,6 @@
 //! Work on all cores without Python's lock, which Ctrl-C still ends.
 
-use crate::error::{Answer, Raised};
+use crate::convert::error::{Answer, Raised};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};

@@ -1,11 +1,11 @@
 //! How far the platform gives under a load.
 
-use crate::answer::answer;
-use crate::arrays::{Cases, Columns, Loads, Numbers, Rows};
-use crate::direct::{DirectSolution, Found};
-use crate::error::Answer;
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
+use crate::convert::error::Answer;
+use crate::convert::threads::each;
 use crate::robot::Robot;
-use crate::threads::each;
+use crate::robot::direct::{DirectSolution, Found};
 use cdpr_robot::Vector6;
 use cdpr_statics::{StaticsError, deflection};
 use pyo3::prelude::*;

@@ -1,11 +1,11 @@
 //! What a small change of each parameter does to lengths and deflection.
 
-use crate::answer::answer;
-use crate::arrays::{Cases, Columns, Loads, Numbers, Rows};
-use crate::deflection::{Deflection, Given};
-use crate::error::Answer;
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
+use crate::convert::error::Answer;
+use crate::convert::threads::each;
 use crate::robot::Robot;
-use crate::threads::each;
+use crate::robot::deflection::{Deflection, Given};
 use cdpr_robot::Parameter;
 use cdpr_statics::{StaticsError, derivatives};
 use pyo3::prelude::*;

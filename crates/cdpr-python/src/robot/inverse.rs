@@ -1,10 +1,10 @@
 //! The unstrained lengths that hold a pose.
 
-use crate::answer::answer;
-use crate::arrays::{Cases, Columns, Loads, Numbers, Rows};
-use crate::error::Answer;
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
+use crate::convert::error::Answer;
+use crate::convert::threads::each;
 use crate::robot::Robot;
-use crate::threads::each;
 use cdpr_statics::{Bound, StaticsError, inverse};
 use pyo3::prelude::*;
 

@@ -1,10 +1,10 @@
 //! Deflections of robots that deviate from the nominal one: the model behind every study.
 
-use crate::answer::answer;
-use crate::arrays::{Cases, Columns, Loads, Numbers, Rows};
-use crate::error::{Answer, Raised};
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
+use crate::convert::error::{Answer, Raised};
+use crate::convert::threads::run;
 use crate::robot::Robot;
-use crate::threads::run;
 use cdpr_robot::Parameter;
 use cdpr_statics::{Observation, Observer};
 use pyo3::prelude::*;

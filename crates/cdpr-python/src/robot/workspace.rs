@@ -1,10 +1,10 @@
 //! Where the platform is held, and how it gives, over a plane or a box.
 
-use crate::answer::answer;
-use crate::arrays::{Array, Numbers};
-use crate::error::{Answer, Raised};
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Array, Numbers};
+use crate::convert::error::{Answer, Raised};
+use crate::convert::threads::run;
 use crate::robot::Robot;
-use crate::threads::run;
 use cdpr_robot::{Axis, Rotation3};
 use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, Grid, GridAxis, WorkspaceRow, compute_workspace, uncertainties};

@@ -1,10 +1,12 @@
 //! Designs of experiments for any model.
 
-use crate::arrays::{Array, Numbers, filled, whole};
-use crate::error::{Answer, Raised};
-use crate::estimates::{Effects, Expansion, MorrisEffects, SobolIndices, intervals, to_json, vector};
+use crate::convert::arrays::{Array, Numbers, filled, whole};
+use crate::convert::error::{Answer, Raised};
+use crate::convert::threads::run;
 use crate::robot::json_text;
-use crate::threads::run;
+use crate::sensitivity::estimates::{
+    Effects, Expansion, MorrisEffects, SobolIndices, intervals, to_json, vector,
+};
 use cdpr_robot::from_json;
 use cdpr_sensitivity::{
     Bootstrap, Estimate, Input, Order, SampleDesign, Truncation, expansion, morris_effects, sobol_indices,

@@ -1,9 +1,9 @@
 //! What is estimated from the outputs of any model at the rows of a design.
 
-use crate::answer::answer;
-use crate::arrays::{Array, Numbers};
-use crate::error::{Answer, Raised};
-use crate::threads::run;
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Array, Numbers};
+use crate::convert::error::{Answer, Raised};
+use crate::convert::threads::run;
 use cdpr_robot::from_json;
 use cdpr_sensitivity::Estimate;
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
