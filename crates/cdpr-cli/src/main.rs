@@ -8,13 +8,14 @@ mod output;
 mod answer;
 mod arguments;
 mod cable;
+mod error;
 mod pose;
 mod robot;
 mod study;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use error::ProgramError;
 use output::Ending;
-use std::error::Error;
 use std::process::ExitCode;
 
 /// Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
@@ -27,7 +28,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Compute one cable between two points: force, tensions, sag, energy.
+    /// Compute one cable between two points: its force, tensions, sag and energy.
     #[command(
         after_help = "Example: cdpr catenary --weight 0.9957 --stiffness 1.28e6 --length 4.3 --end 4.1,-1.7"
     )]
@@ -36,25 +37,25 @@ enum Command {
     #[command(after_help = "Example: cdpr inverse data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
     Inverse(pose::inverse::Settings),
     /// Find where the platform stands for given unstrained lengths.
-    #[command(
-        after_help = "Example: cdpr direct data/robots/caroca.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44 --certify"
-    )]
+    #[command(after_help = "Example: cdpr direct data/robots/caroca.json \
+                      --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44 --certify")]
     Direct(pose::direct::Settings),
-    /// Tell how far the platform gives under a load.
+    /// Compute how far a load displaces and rotates the platform.
     #[command(after_help = "Example: cdpr deflection data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
     Deflection(pose::deflection::Settings),
     /// Compute the Cartesian stiffness at a pose and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
     Stiffness(pose::stiffness::Settings),
-    /// Map where the platform is held, and how it gives, over a plane or a box.
+    /// Map where the cables hold the platform, and how far it gives there, over a plane or a box.
     #[command(after_help = "Examples:
   cdpr workspace data/robots/caroca.json --plane z=1.75 --grid 41x41 --payload 50 --out workspace
-  cdpr workspace data/robots/caroca.json --box=-3:3:25,-1.5:1.5:13,0.5:2.5:9 --payload 50 --uncertainty a=0.002,b=0.002")]
+  cdpr workspace data/robots/caroca.json --box=-3:3:25,-1.5:1.5:13,0.5:2.5:9 --payload 50 \
+                      --uncertainty a=0.002,b=0.002")]
     Workspace(robot::workspace::Settings),
-    /// Say everything that is odd about a robot file.
+    /// List everything that is odd about a robot file.
     #[command(after_help = "Example: cdpr check data/robots/cogiro.json")]
     Check(robot::check::Settings),
-    /// Print completions of all commands for a shell.
+    /// Print the completions of all commands for a shell.
     #[command(
         after_help = "Example: cdpr completions bash > ~/.local/share/bash-completion/completions/cdpr"
     )]
@@ -62,42 +63,48 @@ enum Command {
         /// The shell.
         shell: clap_complete::Shell,
     },
-    /// Study which uncertain parameters of a robot matter.
+    /// Find out which uncertain parameters of a robot matter.
     Study {
         #[command(subcommand)]
         command: study::Command,
     },
-    /// Tell which combinations of a robot's parameters measurements identify, and which poses tell most.
+    /// Find the combinations of parameters that measurements identify, and the poses that identify most.
     #[command(after_help = "Example: cdpr calibration data/robots/caroca.json --grid=-2:2:5,-1:1:3,1:2.5:3 \
                       --uncertainty a=0.002,b=0.002,youngs_modulus=5e9 --noise position=1e-4,rotation=1e-4")]
     Calibration(robot::calibration::Settings),
-    /// Derivatives of lengths and deflection with respect to every parameter of a robot, exact.
-    #[command(
-        after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
-    )]
+    /// Compute the exact derivatives of lengths and deflection with respect to every parameter of a robot.
+    #[command(after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 \
+                      --format json")]
     Derivatives(pose::derivatives::Settings),
-    /// Put a payload on a robot and take it off again, on cables with the hysteresis of a load-elongation record or a law.
+    /// Put a payload on a robot and take it off again, with the hysteresis of its cables.
+    ///
+    /// The hysteresis is that of a load-elongation record, of a law, or of the laws in the robot file.
     #[command(after_help = "Examples:
-  cdpr hysteresis data/robots/caroca.json --record data/cables/caroca-4mm-record.csv --length 1 --pose 0,0,1.75 --payload 50
+  cdpr hysteresis data/robots/caroca.json --record data/cables/caroca-4mm-record.csv --length 1 \
+                      --pose 0,0,1.75 --payload 50
   cdpr hysteresis data/robots/caroca.json --law data/cables/caroca-4mm-law.json --pose 0,0,1.75 --payload 50
   cdpr hysteresis data/robots/caroca-law.json --pose 0,0,1.75 --payload 50")]
     Hysteresis(pose::hysteresis::Settings),
-    /// Mass per length of a cable from the weighing of a piece of it.
-    #[command(
-        after_help = "Example: cdpr linear-density --mass 0.203 --length 2 --mass-error 0.001 --length-error 0.001"
-    )]
+    /// Compute the mass per length of a cable from the weighing of a piece of it.
+    #[command(after_help = "Example: cdpr linear-density --mass 0.203 --length 2 --mass-error 0.001 \
+                      --length-error 0.001")]
     LinearDensity(cable::linear_density::Settings),
-    /// Moduli of a cable from a load-elongation record, with their uncertainty, and the energy that the loop dissipates.
+    /// Compute the moduli of a cable from a load-elongation record.
+    ///
+    /// Each modulus has its uncertainty; the energy that the loop dissipates stands below them.
     #[command(after_help = "Examples:
-  cdpr modulus data/cables/caroca-4mm-record.csv --breaking-force 10290 --section 1.2566370614e-5 --length 1 --range 5-10 --range 10-30
-  cdpr modulus data/cables/caroca-4mm-record.csv --published data/cables/caroca-4mm.json --length 1 --law target/law.json")]
+  cdpr modulus data/cables/caroca-4mm-record.csv --breaking-force 10290 --section 1.2566370614e-5 --length 1 \
+                      --range 5-10 --range 10-30
+  cdpr modulus data/cables/caroca-4mm-record.csv --published data/cables/caroca-4mm.json --length 1 \
+                      --law target/law.json")]
     Modulus(cable::modulus::Settings),
     /// Write the report of a study: one HTML file with all figures that opens offline.
     #[command(after_help = "Example: cdpr report results")]
     Report(study::report::Settings),
-    /// Tell which tolerances of a study's error model to tighten, and by how much, so that an error stays below a limit.
+    /// Find which tolerances to tighten so that an error stays below a limit, and by how much.
     #[command(
-        after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric --limit 0.9 --costs b=3"
+        after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric \
+                      --limit 0.9 --costs b=3"
     )]
     Tolerances(study::tolerances::Settings),
     /// Measure how often the direct model finds the true pose from a wrong start.
@@ -111,7 +118,7 @@ fn main() -> ExitCode {
     output::exit_code(run(Arguments::parse().command))
 }
 
-fn run(command: Command) -> Result<Ending, Box<dyn Error>> {
+fn run(command: Command) -> Result<Ending, ProgramError> {
     match command {
         Command::Check(settings) => return robot::check::run(&settings),
         Command::Direct(settings) => return pose::direct::run(&settings),

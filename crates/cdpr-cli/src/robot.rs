@@ -1,4 +1,4 @@
-//! Commands about a robot as a whole: its file, workspace and calibration, and how robustly its equilibria are found.
+//! Commands about a robot as a whole: its file, its workspace, its calibration, its direct model.
 
 pub(crate) mod calibration;
 pub(crate) mod check;

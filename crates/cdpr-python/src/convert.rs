@@ -3,4 +3,5 @@
 pub(crate) mod answer;
 pub(crate) mod arrays;
 pub(crate) mod error;
+pub(crate) mod json;
 pub(crate) mod threads;

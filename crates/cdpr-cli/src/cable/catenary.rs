@@ -1,13 +1,12 @@
-//! `cdpr catenary`: one cable between two points, from any two of its length, end, force and tension.
+//! `cdpr catenary`: one cable between two points, from two of its length, end, force and tension.
 
 use crate::answer::vector;
 use crate::arguments::{self, Format};
-use crate::output::Usage;
+use crate::error::ProgramError;
 use cdpr_cable::{Cable, Catenary, Solution, Vector2, end_force, length_for_tension};
 use serde::Serialize;
-use std::error::Error;
 
-/// What was asked for.
+/// The cable and what is known of it.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     /// Weight per unstrained length [N/m]; 0 makes the cable a straight spring.
@@ -33,24 +32,24 @@ pub(crate) struct Settings {
     format: Format,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let answer = Answer::new(settings)?;
     Ok(settings.format.print(&answer, Answer::print)?)
 }
 
-/// SI units.
+/// The cable in equilibrium, in SI units.
 #[derive(Serialize)]
 struct Answer {
-    /// On the cable at the anchor point.
+    /// Force on the cable at the anchor point.
     force: [f64; 2],
     tension: Tension,
-    /// Greatest height of the chord above the cable.
+    /// Greatest height of the chord above the cable [m].
     sag: f64,
-    /// Elastic energy plus work done against gravity; zero for a massless cable at rest with its weight at the height of the exit point.
+    /// Elastic energy plus potential energy of the weight, which is zero at the height of the exit point [J].
     energy: f64,
     unstrained_length: f64,
     end: [f64; 2],
-    /// Distance between the end asked for and that of the equations.
+    /// Distance between the given end and the end of the catenary [m].
     residual: f64,
 }
 
@@ -61,7 +60,7 @@ struct Tension {
 }
 
 impl Answer {
-    fn new(settings: &Settings) -> Result<Self, Box<dyn Error>> {
+    fn new(settings: &Settings) -> Result<Self, ProgramError> {
         let Settings { weight, stiffness, length, end, force, tension, .. } = *settings;
         let cable = Cable::linear(weight, stiffness);
         let (solution, end) = match (length, end, force, tension) {
@@ -74,10 +73,11 @@ impl Answer {
                 (Solution { catenary, iterations: 0, residual: 0.0 }, catenary.end_position().into())
             }
             _ => {
-                return Err(Box::new(Usage(
-                    "expected two of what is known: --length and --end, --length and --force, or --end and --tension"
+                return Err(ProgramError::Usage(
+                    "expected two of what is known: --length and --end, --length and --force, or --end and \
+                     --tension"
                         .to_owned(),
-                )));
+                ));
             }
         };
         let catenary = &solution.catenary;

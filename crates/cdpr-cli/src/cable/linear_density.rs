@@ -1,17 +1,17 @@
-//! `cdpr linear-density`: a weighing.
+//! `cdpr linear-density`: the mass per length of a cable from a weighing.
 
 use crate::arguments::{Format, number};
+use crate::error::ProgramError;
 use cdpr_cable::{Measured, linear_density};
 use serde::Serialize;
-use std::error::Error;
 
-/// What was weighed.
+/// The piece of cable that was weighed.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     /// Mass of the piece [kg].
     #[arg(long, value_parser = number, allow_hyphen_values = true)]
     mass: f64,
-    /// Its length [m].
+    /// Length of the piece [m].
     #[arg(long, value_parser = number, allow_hyphen_values = true)]
     length: f64,
     /// Greatest error of the mass [kg].
@@ -32,7 +32,7 @@ struct Found {
     unit: &'static str,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let found = linear_density(
         Measured { value: settings.mass, error: settings.mass_error },
         Measured { value: settings.length, error: settings.length_error },

@@ -1,15 +1,15 @@
-//! `cdpr modulus`: what a load-elongation record says of a cable.
+//! `cdpr modulus`: the moduli of a cable from a load-elongation record.
 
 mod published;
 
 use crate::arguments::{Format, number};
+use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, cycle};
 use cdpr_study::{CableLaw, law_json, open_record, write_text};
 use published::{Entry, Published};
 use serde::Serialize;
-use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The record and its specimen.
@@ -17,10 +17,10 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Settings {
     /// Record (CSV with the columns force_n, elongation_mm, phase: loading or unloading).
     record: PathBuf,
-    /// Breaking force, of which ranges are percentages [N].
+    /// Breaking force [N]; ranges of load are percentages of it.
     #[arg(long, value_parser = number, allow_hyphen_values = true, required_unless_present = "published")]
     breaking_force: Option<f64>,
-    /// Section [m²].
+    /// Section of the specimen [m²].
     #[arg(long, value_parser = number, allow_hyphen_values = true, required_unless_present = "published")]
     section: Option<f64>,
     /// Length of the specimen between its clamps [m].
@@ -29,7 +29,9 @@ pub(crate) struct Settings {
     /// Range of load in percent of the breaking force, such as 10-30; may be given several times.
     #[arg(long = "range", value_parser = range, required_unless_present = "published")]
     ranges: Vec<(f64, f64)>,
-    /// Published table (JSON as data/cables/caroca-4mm.json) to stand beside: breaking force, section and ranges are its own.
+    /// Published table to compare with (JSON as data/cables/caroca-4mm.json).
+    ///
+    /// Breaking force, section and ranges are those of the table.
     #[arg(long, conflicts_with_all = ["breaking_force", "section", "ranges"])]
     published: Option<PathBuf>,
     /// Error of each force [N].
@@ -44,10 +46,12 @@ pub(crate) struct Settings {
     /// Error of the section [m²].
     #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.0)]
     section_error: f64,
-    /// File for a picture of the loop (SVG).
+    /// File for a figure of the loop (SVG).
     #[arg(long)]
     figure: Option<PathBuf>,
-    /// File for the record's law (JSON, `cdpr-law/1`), as `cdpr hysteresis --law` and an operating point of a study take it.
+    /// File for the record's law (JSON, `cdpr-law/1`).
+    ///
+    /// `cdpr hysteresis --law` and an operating point of a study take such a law.
     #[arg(long)]
     law: Option<PathBuf>,
     /// How the results are printed.
@@ -55,7 +59,7 @@ pub(crate) struct Settings {
     format: Format,
 }
 
-/// `p-q`.
+/// A range `p-q` [%].
 fn range(text: &str) -> Result<(f64, f64), String> {
     let ends = text.split_once('-').ok_or_else(|| format!("`{text}`: expected p-q, such as 10-30"))?;
     Ok((number(ends.0)?, number(ends.1)?))
@@ -77,7 +81,7 @@ struct InRange {
     unloading: Modulus,
 }
 
-/// Uncertainties as in `cdpr_cable::SecantModulus`.
+/// A modulus with its uncertainties, as in `cdpr_cable::SecantModulus`.
 #[derive(Serialize)]
 struct Modulus {
     modulus_gpa: f64,
@@ -95,13 +99,16 @@ impl From<SecantModulus> for Modulus {
     }
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let record = open_record(&settings.record)?;
     let published = settings.published.as_deref().map(Published::open).transpose()?;
     let (breaking_force, section, ranges) = match (&published, settings.breaking_force, settings.section) {
         (Some(table), ..) => (table.breaking_force, table.section, &table.ranges),
         (None, Some(breaking_force), Some(section)) => (breaking_force, section, &settings.ranges),
-        _ => return Err("expected --breaking-force, --section and --range, or --published".into()),
+        _ => {
+            let expected = "expected --breaking-force, --section and --range, or --published";
+            return Err(ProgramError::Usage(expected.to_owned()));
+        }
     };
     let specimen = Specimen {
         breaking_force,
@@ -169,7 +176,7 @@ fn write_law(
     specimen: &Specimen,
     settings: &Settings,
     path: &Path,
-) -> Result<(), Box<dyn Error>> {
+) -> Result<(), ProgramError> {
     let law = CableLaw::of_record(record, specimen.length, specimen.section)?;
     let source =
         format!("load-elongation record {}, specimen of {} m", settings.record.display(), specimen.length);
@@ -177,7 +184,7 @@ fn write_law(
     Ok(write_text(path, &text)?)
 }
 
-fn draw(record: &Record, found: &Found, path: &Path) -> Result<(), Box<dyn Error>> {
+fn draw(record: &Record, found: &Found, path: &Path) -> Result<(), ProgramError> {
     let branches = [Phase::Loading, Phase::Unloading].map(|phase| {
         let points = record.samples(phase).iter().map(|sample| (1e3 * sample.elongation, sample.force));
         (phase.name().to_owned(), points.collect())

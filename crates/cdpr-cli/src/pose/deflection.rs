@@ -1,13 +1,13 @@
-//! `cdpr deflection`: how far the platform gives under a load, with both equilibria.
+//! `cdpr deflection`: how far a load displaces and rotates the platform, with both equilibria.
 
 use crate::answer::{Found, vector};
 use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::error::ProgramError;
 use cdpr_statics::{Deflection, deflection};
 use cdpr_study::open_robot;
 use serde::Serialize;
-use std::error::Error;
 
-/// What was asked for.
+/// The robot, the pose and the load.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     #[command(flatten)]
@@ -16,7 +16,7 @@ pub(crate) struct Settings {
     load: LoadArguments,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let at = &settings.at;
     let load = settings.load.some_load()?;
     let robot = open_robot(&at.robot)?;
@@ -25,16 +25,16 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
 }
 
-/// SI units, but for what is named otherwise.
+/// The deflection, in SI units unless the name says otherwise.
 #[derive(Serialize)]
 struct Answer {
-    /// dp, Eq. (4).
+    /// Displacement dp of P, Eq. (4).
     deflection_mm: [f64; 3],
-    /// |dp|.
+    /// Its norm |dp|.
     rms_mm: f64,
     /// Rotation vector from the unloaded to the loaded platform.
     rotation_deg: [f64; 3],
-    /// Unstrained.
+    /// Unstrained lengths.
     lengths: Vec<f64>,
     unloaded: Found,
     loaded: Found,
@@ -56,7 +56,7 @@ impl Answer {
     fn print(&self, heading: &str) {
         println!("{heading}");
         println!("dp = {} mm, |dp| = {:.5} mm", vector(&self.deflection_mm, 5), self.rms_mm);
-        println!("turned by {} degrees", vector(&self.rotation_deg, 5));
+        println!("rotated by {} degrees", vector(&self.rotation_deg, 5));
         println!("\nunder its own weight");
         self.unloaded.print(&self.lengths);
         println!("\nwith the load");

@@ -1,14 +1,14 @@
-//! `cdpr derivatives`: what a small change of each parameter does to lengths and deflection.
+//! `cdpr derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
 use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_robot::Parameter;
 use cdpr_statics::{Derivatives, derivatives};
 use cdpr_study::open_robot;
 use serde::Serialize;
-use std::error::Error;
 
-/// What was asked for.
+/// The robot, the pose and the load.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     #[command(flatten)]
@@ -17,7 +17,7 @@ pub(crate) struct Settings {
     load: LoadArguments,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let at = &settings.at;
     let load = settings.load.some_load()?;
     let robot = open_robot(&at.robot)?;
@@ -31,17 +31,17 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
 #[derive(Serialize)]
 struct Slopes {
     parameters: Vec<String>,
-    /// Of |dp| [mm].
+    /// Derivative of |dp| [mm].
     rms_mm: Vec<f64>,
-    /// Of dp [mm].
+    /// Derivative of dp [mm].
     deflection_mm: Vec<[f64; 3]>,
-    /// Of the unstrained length of each cable [m].
+    /// Derivative of the unstrained length of each cable [m].
     unstrained_lengths: Vec<Vec<f64>>,
     unit: &'static str,
 }
 
 impl Slopes {
-    fn new(found: &Derivatives) -> Result<Self, Box<dyn Error>> {
+    fn new(found: &Derivatives) -> Result<Self, ProgramError> {
         let parameters = &found.inputs.parameters;
         let count = parameters.len();
         let mut rms = found.rms()?;
@@ -66,7 +66,7 @@ impl Slopes {
     }
 }
 
-/// The unit of a table: of the size by which such a parameter is uncertain, in SI units.
+/// A unit of the size by which such a parameter is uncertain, and its value in SI units.
 fn handy_unit(parameter: &Parameter) -> (&'static str, f64) {
     match parameter.unit() {
         "kg/m" => ("g/m", 1e-3),

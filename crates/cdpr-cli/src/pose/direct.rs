@@ -1,16 +1,18 @@
-//! `cdpr direct`: where the platform stands for given unstrained lengths, from arguments or for many cases from a file.
+//! `cdpr direct`: where the platform stands for given unstrained lengths.
+//!
+//! Cases come one from the arguments, or one or many from a file.
 
 use crate::answer::Found;
 use crate::arguments::{self, Format};
+use crate::error::ProgramError;
 use crate::output::Ending;
 use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json};
 use cdpr_statics::{Certificate, Load, Start, StaticsError, certify, direct, rough_pose};
 use cdpr_study::{StudyError, open_robot};
 use serde::{Deserialize, Serialize};
-use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// What was asked for.
+/// The robot, the lengths and the load.
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("what").required(true).args(["lengths", "from"]))]
 pub(crate) struct Settings {
@@ -28,13 +30,17 @@ pub(crate) struct Settings {
     /// Moment about P, of constant components in the base frame: mx,my,mz [N m].
     #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
     moment: Option<[f64; 3]>,
-    /// Where the search begins: x,y,z [m], or x,y,z,qw,qx,qy,qz; where straight cables would hold a point if left out.
+    /// Start of the search: x,y,z [m], or x,y,z,qw,qx,qy,qz.
+    ///
+    /// If left out, the search starts where straight cables would hold a point.
     #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
     start: Option<Pose>,
     /// Prove how close the exact equilibrium is.
     #[arg(long)]
     certify: bool,
-    /// The same from a JSON file, one case or a list: {"lengths": [..], "mass": .., "force": [..], "moment": [..], "start": [..]}.
+    /// JSON file with one case or a list of cases, in place of the arguments.
+    ///
+    /// A case: {"lengths": [..], "mass": .., "force": [..], "moment": [..], "start": [..]}.
     #[arg(long, conflicts_with_all = ["lengths", "mass", "force", "moment", "start"])]
     from: Option<PathBuf>,
     /// How the results are printed.
@@ -42,7 +48,7 @@ pub(crate) struct Settings {
     format: Format,
 }
 
-/// A direct problem; also as it stands in a file.
+/// A direct problem, also as it stands in a file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Case {
@@ -50,13 +56,13 @@ struct Case {
     mass: Option<f64>,
     force: Option<[f64; 3]>,
     moment: Option<[f64; 3]>,
-    /// Three or seven numbers.
+    /// Position, or position and quaternion: three or seven numbers.
     start: Option<Vec<f64>>,
     #[serde(default)]
     certify: bool,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<Ending, Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = open_robot(&settings.robot)?;
     let cases = match (&settings.from, &settings.lengths) {
         (Some(path), _) => Cases::read(path)?,
@@ -64,10 +70,11 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, Box<dyn Error>> {
     };
     match cases {
         Cases::One(case) => {
-            let answer = solve(&robot, &case, settings.certify).map_err(|error| match &settings.from {
-                Some(path) => format!("{}: {error}", path.display()).into(),
-                None => Box::<dyn Error>::from(error),
-            })?;
+            let answer = solve(&robot, &case, settings.certify);
+            let answer = match &settings.from {
+                Some(path) => answer.map_err(ProgramError::in_file(path))?,
+                None => answer?,
+            };
             settings.format.print(&answer, |answer| answer.print(&case.lengths))?;
             Ok(answer.ending())
         }
@@ -106,8 +113,7 @@ enum Cases {
 
 impl Cases {
     fn read(path: &Path) -> Result<Self, StudyError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| StudyError::Read { path: path.to_owned(), source })?;
+        let text = arguments::read(path)?;
         let cases = if text.trim_start().starts_with('[') {
             from_json(&text).map(Self::List)
         } else {
@@ -126,7 +132,7 @@ struct Answer {
     certificate: Option<Proof>,
 }
 
-/// How close the exact equilibrium is proved to be, or why there is no proof.
+/// The proof of how close the exact equilibrium is, or why there is no proof.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Proof {
@@ -190,7 +196,8 @@ impl Answer {
         self.found.print(lengths);
         match &self.certificate {
             Some(Proof::Given { position, rotation, force, least_stiffness, .. }) => println!(
-                "proved: exact to {position:.1e} m, {rotation:.1e} rad, {force:.1e} N; softest motion at least {least_stiffness:.1} N/m"
+                "proved: exact to {position:.1e} m, {rotation:.1e} rad, {force:.1e} N; \
+                 softest motion at least {least_stiffness:.1} N/m"
             ),
             Some(Proof::None { error }) => println!("{}", error.message),
             None => {}

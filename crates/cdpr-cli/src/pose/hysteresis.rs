@@ -1,13 +1,13 @@
-//! `cdpr hysteresis`: a payload comes and goes.
+//! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
 use crate::arguments::{self, Format, number, payload};
+use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_report::{Cycle, cycle};
 use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable};
 use cdpr_statics::{DirectSolution, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 use cdpr_study::{CableLaw, open_law, open_record, open_robot, write_text};
 use serde::Serialize;
-use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The robot, its cables and its load.
@@ -33,13 +33,13 @@ pub(crate) struct Settings {
     /// Mass put on the platform's centre of mass and taken off again [kg].
     #[arg(long, value_parser = payload, allow_hyphen_values = true)]
     payload: f64,
-    /// Which part of the unloading curve a cable follows.
+    /// The part of the unloading curve that a cable follows.
     #[arg(long, value_enum, default_value_t = Branch::TurningPoint)]
     unloading: Branch,
-    /// Steps each way.
+    /// Steps of the payload each way.
     #[arg(long, default_value_t = 50)]
     steps: usize,
-    /// File for a picture of payload over height (SVG).
+    /// File for a figure of payload over height (SVG).
     #[arg(long)]
     figure: Option<PathBuf>,
     /// How the results are printed.
@@ -47,12 +47,12 @@ pub(crate) struct Settings {
     format: Format,
 }
 
-/// Which part of the unloading curve.
+/// The part of the unloading curve that a cable follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Branch {
-    /// That of the same tensions.
+    /// The part with the same tensions.
     SameTension,
-    /// Its beginning, from wherever the tension turns.
+    /// The part from its start, which is moved to the turning point of the tension.
     TurningPoint,
 }
 
@@ -65,18 +65,18 @@ struct Found {
     cables: Vec<InCable>,
 }
 
-/// A cable; tensions at its middle.
+/// The load cycle of a cable, with the tensions at its middle.
 #[derive(Serialize)]
 struct InCable {
     tension_own_weight_n: f64,
     tension_payload_n: f64,
     tension_removed_n: f64,
-    /// Secant between own weight and payload.
+    /// Secant modulus between own weight and payload.
     modulus_gpa: f64,
     dissipated_j: f64,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let robot = open_robot(&settings.robot)?;
     let laws = laws(&robot, settings)?;
     let cycle = load_cycle(&robot, &laws, &settings.pose, settings.payload, settings.steps)?;
@@ -84,15 +84,16 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     settings.format.print(&found, print)?;
     if found.cables.iter().any(|cable| cable.dissipated_j < 0.0) {
         eprintln!(
-            "warning: the loop of a cable runs the wrong way round and gives energy: in its range of tension the record's unloading \
-             curve is softer than its loading curve, as it can be far below the turning point that it was measured from"
+            "warning: the loop of a cable runs the wrong way round and gives energy: in its range of tension \
+             the record's unloading curve is softer than its loading curve, as it can be far below the \
+             turning point from which it was measured"
         );
     }
     settings.figure.as_deref().map_or(Ok(()), |path| draw(&robot, &cycle, &found, path))
 }
 
-/// The curves of each cable.
-fn laws(robot: &Robot, settings: &Settings) -> Result<Vec<HysteresisLaw>, Box<dyn Error>> {
+/// The hysteresis of each cable.
+fn laws(robot: &Robot, settings: &Settings) -> Result<Vec<HysteresisLaw>, ProgramError> {
     let law = match (&settings.record, &settings.length, &settings.law) {
         (Some(record), Some(length), _) => of_record(robot, record, *length, settings.section)?,
         (_, _, Some(law)) => open_law(law)?,
@@ -104,7 +105,8 @@ fn laws(robot: &Robot, settings: &Settings) -> Result<Vec<HysteresisLaw>, Box<dy
     };
     let cables = robot.cables.iter().enumerate();
     let curves = cables.map(|(i, cable)| {
-        law.curves(&cable.properties, from).map_err(|error| format!("cable {}: {error}", i + 1).into())
+        let curves = law.curves(&cable.properties, from);
+        curves.map_err(|source| ProgramError::OfCable { cable: i + 1, source })
     });
     curves.collect()
 }
@@ -114,21 +116,19 @@ fn of_record(
     record: &Path,
     length: f64,
     section: Option<f64>,
-) -> Result<CableLaw, Box<dyn Error>> {
+) -> Result<CableLaw, ProgramError> {
     let of_cables = robot.cables[0].properties.section;
     if section.is_none() && robot.cables.iter().any(|cable| cable.properties.section != of_cables) {
-        return Err("the cables of the robot differ in their section: expected --section, that of the record's specimen".into());
+        return Err(ProgramError::DifferentSections);
     }
     let law = CableLaw::of_record(&open_record(record)?, length, section.unwrap_or(of_cables));
-    law.map_err(|error| format!("{}: {error}", record.display()).into())
+    law.map_err(ProgramError::in_file(record))
 }
 
 /// The laws of the robot file, by which cables lose no energy.
-fn own(robot: &Robot) -> Result<Vec<HysteresisLaw>, Box<dyn Error>> {
+fn own(robot: &Robot) -> Result<Vec<HysteresisLaw>, ProgramError> {
     if robot.is_linear() {
-        return Err(
-            "no cable of the robot has a law: expected --record, --law, or a `law` in the robot file".into(),
-        );
+        return Err(ProgramError::NoLaw);
     }
     let linear = PiecewiseLaw::new(0.0, &[(0.0, 1.0)])?;
     let law = |cable: &RobotCable| cable.properties.law.clone().unwrap_or_else(|| linear.clone());
@@ -171,7 +171,9 @@ fn print(found: &Found) {
     let [dx, dy, dz] = found.deflection_mm.map(|d| format!("{:.4}", (1e4 * d).round() / 1e4 + 0.0));
     let [rx, ry, rz] = found.residual_mm.map(|d| format!("{:.5}", (1e5 * d).round() / 1e5 + 0.0));
     println!(
-        "{rows}\ndisplaced by the payload  ({dx}, {dy}, {dz}) mm\nleft when it is gone      ({rx}, {ry}, {rz}) mm"
+        "{rows}\n\
+         displaced by the payload  ({dx}, {dy}, {dz}) mm\n\
+         left when it is gone      ({rx}, {ry}, {rz}) mm"
     );
     println!(
         "energy: {:.4} mJ given by the payload, {:.4} mJ in the loops of the cables",
@@ -180,7 +182,7 @@ fn print(found: &Found) {
     );
 }
 
-fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<(), Box<dyn Error>> {
+fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<(), ProgramError> {
     let begin = ran.loading.first().map_or(0.0, |(_, solution)| solution.equilibrium.pose.position.z);
     let points = |way: &[(f64, DirectSolution)]| {
         let at = |(mass, solution): &(f64, DirectSolution)| {

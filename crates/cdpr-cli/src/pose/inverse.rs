@@ -1,13 +1,13 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
-use crate::answer::{self, Open};
+use crate::answer::{self, Residual};
 use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::error::ProgramError;
 use cdpr_statics::{Bound, InverseSolution, inverse};
 use cdpr_study::open_robot;
 use serde::Serialize;
-use std::error::Error;
 
-/// What was asked for.
+/// The robot, the pose and the load.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     #[command(flatten)]
@@ -16,31 +16,31 @@ pub(crate) struct Settings {
     load: LoadArguments,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let at = &settings.at;
     let robot = open_robot(&at.robot)?;
     let answer = Answer::new(&inverse(&robot, &at.pose, &settings.load.load(), None)?);
     Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
 }
 
-/// SI units.
+/// The lengths, in SI units.
 #[derive(Serialize)]
 struct Answer {
-    /// Unstrained.
+    /// Unstrained lengths.
     lengths: Vec<f64>,
     tensions: Vec<f64>,
-    /// (fx, fz) on each cable at its anchor point, in its vertical plane.
+    /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
     cable_forces: Vec<[f64; 2]>,
     report: Report,
 }
 
 #[derive(Serialize)]
 struct Report {
-    /// Turns of distribution and Newton's method.
+    /// Iterations of distribution and Newton's method.
     turns: usize,
     /// The bound that each tension rests on, `min` or `max`; `null` where it rests on none.
     active: Vec<Option<&'static str>>,
-    residual: Open,
+    residual: Residual,
 }
 
 impl Answer {
@@ -58,7 +58,7 @@ impl Answer {
             report: Report {
                 turns: solution.turns,
                 active: solution.active.iter().map(bound).collect(),
-                residual: Open::new(&solution.residual),
+                residual: Residual::new(&solution.residual),
             },
         }
     }

@@ -1,14 +1,14 @@
-//! `cdpr stiffness`: the Cartesian stiffness at a pose, its eigenvalues and the motions that belong to them.
+//! `cdpr stiffness`: the Cartesian stiffness at a pose, with its eigenvalues and their motions.
 
 use crate::answer::{self, decimal};
 use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_statics::{Stability, Start, Tangent, direct_any, inverse};
 use cdpr_study::open_robot;
 use serde::Serialize;
-use std::error::Error;
 
-/// What was asked for.
+/// The robot, the pose and the load.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     #[command(flatten)]
@@ -17,38 +17,39 @@ pub(crate) struct Settings {
     load: LoadArguments,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let at = &settings.at;
     let robot = open_robot(&at.robot)?;
     let load = settings.load.load();
     let wanted = inverse(&robot, &at.pose, &load, None)?;
-    // The equilibrium at the pose itself, be it stable or not.
+    // The equilibrium at the pose itself, whether or not it is stable.
     let held = direct_any(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium))?;
     let tangent = Tangent::at(&robot, &wanted.lengths, &load, &held)?;
     let answer = Answer::new(&tangent, &held.stability);
     Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
 }
 
+/// The stiffness.
 #[derive(Serialize)]
 struct Answer {
     /// Rows of K in (dp, dφ) [N/m, N/rad, N, N m/rad].
     stiffness: [[f64; 6]; 6],
-    /// From the softest motion.
+    /// Eigenvalues, the softest motion first.
     eigenvalues: Vec<Eigenvalue>,
     least_stiffness: f64,
     stable: bool,
-    /// The length ρ that makes rotations comparable with translations [m].
+    /// Characteristic length ρ, which makes rotations comparable with translations [m].
     arm: f64,
 }
 
-/// Of the stiffness in (dp, ρ dφ).
+/// An eigenvalue of the stiffness in (dp, ρ dφ) and its motion.
 #[derive(Serialize)]
 struct Eigenvalue {
-    /// [N/m].
+    /// Stiffness of the motion [N/m].
     stiffness: f64,
-    /// [m/m], `|translation|² + ρ² |rotation|² = 1`.
+    /// Translation of P [m/m], with `|translation|² + ρ² |rotation|² = 1`.
     translation: [f64; 3],
-    /// [rad/m].
+    /// Rotation vector [rad/m].
     rotation: [f64; 3],
 }
 

@@ -1,17 +1,16 @@
-//! `cdpr calibration`: which combinations of parameters measurements at given poses tell, and which poses tell most.
+//! `cdpr calibration`: the combinations of parameters that measurements identify, and the best poses.
 
 use crate::arguments::{self, Format, Named};
-use crate::output::{Usage, table};
+use crate::error::ProgramError;
+use crate::output::table;
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement};
 use cdpr_study::{Grid, open_robot};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::error::Error;
-use std::fmt;
 use std::path::PathBuf;
 
-/// What was asked for.
+/// The robot, the candidate poses and the measurements.
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("where").required(true).args(["poses", "grid"]))]
 pub(crate) struct Settings {
@@ -23,11 +22,14 @@ pub(crate) struct Settings {
     /// Grid of candidate positions, min:max:points of each axis: -2:2:5,-1:1:3,0.5:2.5:3.
     #[arg(long, value_parser = arguments::grid, allow_hyphen_values = true)]
     grid: Option<Grid>,
-    /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5. The others are known.
+    /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5.
+    ///
+    /// All other parameters are known.
     #[arg(long, value_parser = arguments::named)]
     uncertainty: Named,
-    /// What is measured, with its noise: position [m] and rotation [rad], tensions [N], lengths [m]:
-    /// position=1e-4,rotation=1e-4.
+    /// What is measured, with its noise, such as position=1e-4,rotation=1e-4.
+    ///
+    /// Position [m] and rotation [rad] go together; others are tensions [N] and lengths [m].
     #[arg(long, value_parser = arguments::named)]
     noise: Named,
     /// Known mass added at the platform's centre of mass [kg].
@@ -41,7 +43,7 @@ pub(crate) struct Settings {
     format: Format,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let robot = open_robot(&settings.robot)?;
     let candidates = match (&settings.grid, &settings.poses) {
         (Some(grid), _) => grid.poses(),
@@ -49,7 +51,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
         (None, None) => Vec::new(),
     };
     if candidates.is_empty() {
-        return Err(Box::new(Usage("--poses: the file is empty, expected a pose on each line".to_owned())));
+        let empty = "--poses: the file is empty, expected a pose on each line";
+        return Err(ProgramError::Usage(empty.to_owned()));
     }
     let measurements = measurements(&settings.noise)?;
     let mut calibration =
@@ -58,39 +61,33 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
     for pose in candidates {
         match calibration.add(&pose, &Load::payload(settings.payload), &measurements) {
             Ok(()) => poses.push(pose),
-            // Noise and payload are the same everywhere: what is wrong with them is no property of a pose.
+            // Noise and payload are the same at all poses: an invalid one is no property of a pose.
             Err(error) if error.kind() == "invalid_input" => return Err(error.into()),
             Err(error) => *refused.entry(error.kind()).or_insert(0) += 1,
         }
     }
     if poses.is_empty() {
-        return Err(format!("the robot holds none of the candidate poses: {}", Refused(&refused)).into());
+        let reasons: Vec<_> = refused.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+        return Err(ProgramError::NoPoseHeld { reasons: reasons.join(", ") });
     }
     let told = calibration.identify(0..poses.len());
     let output = Output::new(poses, refused, &told, &calibration, settings.choose);
     Ok(settings.format.print(&output, |output| print(&robot, output))?)
 }
 
-/// Counts of poses by the reason why they are not held.
-struct Refused<'a>(&'a BTreeMap<&'static str, usize>);
-
-impl fmt::Display for Refused<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let counts = self.0.iter().map(|(kind, count)| format!("{count} {kind}"));
-        f.write_str(&counts.collect::<Vec<_>>().join(", "))
-    }
-}
-
-fn measurements(Named(named): &Named) -> Result<Vec<Measurement>, Usage> {
+fn measurements(Named(named): &Named) -> Result<Vec<Measurement>, ProgramError> {
     let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, value)| *value);
     let pose = match (of("position"), of("rotation")) {
         (Some(position), Some(rotation)) => Some(Measurement::Pose { position, rotation }),
         (None, None) => None,
-        _ => return Err(Usage("--noise: expected position and rotation together".to_owned())),
+        _ => return Err(ProgramError::Usage("--noise: expected position and rotation together".to_owned())),
     };
     let all = ["position", "rotation", "tensions", "lengths"];
     if let Some((name, value)) = named.iter().find(|(name, _)| !all.contains(&name.as_str())) {
-        return Err(Usage(format!("--noise {name}={value}: expected one of {}", all.join(", "))));
+        return Err(ProgramError::Usage(format!(
+            "--noise {name}={value}: expected one of {}",
+            all.join(", ")
+        )));
     }
     let others = [of("tensions").map(Measurement::Tensions), of("lengths").map(Measurement::Lengths)];
     Ok(pose.into_iter().chain(others.into_iter().flatten()).collect())
@@ -101,7 +98,7 @@ fn measurements(Named(named): &Named) -> Result<Vec<Measurement>, Usage> {
 struct Output {
     /// Poses that the robot holds.
     poses: usize,
-    /// Others, by reason.
+    /// Numbers of the other poses, by the reason why they are not held.
     refused: BTreeMap<&'static str, usize>,
     told: Vec<Part>,
     untold: Vec<Part>,

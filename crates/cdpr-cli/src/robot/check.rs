@@ -1,12 +1,12 @@
-//! `cdpr check`: everything odd about a robot file that is not an error.
+//! `cdpr check`: everything about a robot file that is odd and yet no error.
 
 use crate::arguments::Format;
+use crate::error::ProgramError;
 use crate::output::Ending;
 use cdpr_study::{Finding, Severity, inspect, open_robot};
-use std::error::Error;
 use std::path::PathBuf;
 
-/// What was asked for.
+/// The robot file.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     /// Robot file (JSON, `cdpr-robot/1`).
@@ -16,7 +16,7 @@ pub(crate) struct Settings {
     format: Format,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<Ending, Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = open_robot(&settings.robot)?;
     let findings = inspect(&robot);
     let warnings = findings.iter().filter(|finding| finding.severity == Severity::Warning).count();

@@ -1,16 +1,16 @@
 //! `cdpr robustness`: how often the direct model finds the true pose from a wrong start.
 
 use crate::arguments::Format;
+use crate::error::ProgramError;
 use crate::output::{progress, table, write_drawn};
 use cdpr_study::{
     Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, check_folder, open_robot,
     run_robustness, write_refused, write_robustness, write_solves,
 };
-use std::error::Error;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// What was asked for.
+/// The robot and the sizes of the protocols.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     /// Robot file (JSON, `cdpr-robot/1`); the protocols are made for CoGiRo.
@@ -19,7 +19,7 @@ pub(crate) struct Settings {
     /// Poses of the protocol of Mahnke and Caverly.
     #[arg(long, default_value_t = 10_000)]
     poses: usize,
-    /// Its Young's modulus of all cables [Pa]; the thirty poses keep the robot's.
+    /// Young's modulus of all cables in that protocol [Pa]; the thirty poses keep the robot's.
     #[arg(long, default_value_t = 35e9, allow_negative_numbers = true)]
     modulus: f64,
     /// Seed of poses and starts. The same seed gives the same numbers, but for the times.
@@ -33,7 +33,7 @@ pub(crate) struct Settings {
     format: Format,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let clock = Instant::now();
     let mut first = Protocol::mahnke_caverly(settings.poses, settings.seed);
     first.youngs_modulus = Some(settings.modulus);

@@ -1,19 +1,18 @@
-//! `cdpr workspace`: where the platform is held and how it gives, over a plane or a box.
+//! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::arguments::{self, Format, LoadArguments, Named};
-use crate::output::{Usage, progress, table, write_drawn};
-use crate::study::start_threads;
+use crate::arguments::{self, Format, LoadArguments, Named, Threads};
+use crate::error::ProgramError;
+use crate::output::{progress, table, write_drawn};
 use cdpr_report::workspace_maps;
 use cdpr_robot::{Axis, Robot, Rotation3};
 use cdpr_study::{
     ErrorModel, Extremes, Grid, Study, Workspace, WorkspaceSummary, check_folder, compute_workspace,
     open_robot, write_workspace,
 };
-use std::error::Error;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// What was asked for.
+/// The robot, the positions and the load.
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("where").required(true).args(["plane", "box"]))]
 pub(crate) struct Settings {
@@ -26,7 +25,8 @@ pub(crate) struct Settings {
     #[arg(long, value_parser = points, default_value = "41x41", conflicts_with = "box")]
     grid: [usize; 2],
     /// Box, or a part of a plane: min:max:points of x, y and z [m], such as -2:2:9,-1:1:5,1.75:1.75:1.
-    #[arg(long = "box", id = "box", value_name = "BOX", value_parser = arguments::grid, allow_hyphen_values = true)]
+    #[arg(long = "box", id = "box", value_name = "BOX", value_parser = arguments::grid)]
+    #[arg(allow_hyphen_values = true)]
     within: Option<Grid>,
     /// Orientation of the platform at all positions, a quaternion: qw,qx,qy,qz; level if left out.
     #[arg(long, value_parser = arguments::rotation, allow_hyphen_values = true, default_value = "1,0,0,0")]
@@ -45,15 +45,14 @@ pub(crate) struct Settings {
     /// Folder for the results; made if missing.
     #[arg(long, default_value = "workspace")]
     out: PathBuf,
-    /// Threads; all cores if left out. The numbers do not depend on it.
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
-/// Where a coordinate has one value.
+/// A plane on which one coordinate is constant.
 #[derive(Clone, Copy)]
 struct Plane {
     normal: Axis,
@@ -82,13 +81,13 @@ fn points(text: &str) -> Result<[usize; 2], String> {
     }
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
-    start_threads(settings.threads)?;
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    settings.threads.start()?;
     let robot = open_robot(&settings.robot)?;
     let grid = match (&settings.within, settings.plane) {
         (Some(grid), _) => *grid,
         (None, Some(Plane { normal, place })) => Grid::over_frame(&robot, normal, place, settings.grid)?,
-        (None, None) => return Err(Box::new(Usage("expected --plane or --box".to_owned()))),
+        (None, None) => return Err(ProgramError::Usage("expected --plane or --box".to_owned())),
     };
     let tolerances = settings.tolerances(&robot)?;
     check_folder(&settings.out)?;
@@ -116,7 +115,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
 }
 
 impl Settings {
-    fn tolerances(&self, robot: &Robot) -> Result<Option<ErrorModel>, Box<dyn Error>> {
+    fn tolerances(&self, robot: &Robot) -> Result<Option<ErrorModel>, ProgramError> {
         if let (Some(path), Some(name)) = (&self.study, &self.error_model) {
             return Ok(Some(Study::open(path)?.tolerances(name)?));
         }

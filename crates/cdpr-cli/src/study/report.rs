@@ -1,12 +1,13 @@
-//! `cdpr report`: the report of a study from its results.
+//! `cdpr report`: the report of a study, from its folder of results.
 
 use crate::arguments::Format;
-use cdpr_report::{ReportError, report};
-use cdpr_study::{Results, StudyError, write_text};
+use crate::error::ProgramError;
+use cdpr_report::report;
+use cdpr_study::{Results, write_text};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// What was asked for.
+/// The folder and the file.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     /// Folder that `cdpr study run` has written.
@@ -14,7 +15,7 @@ pub(crate) struct Settings {
     /// File for the report; `report.html` in the folder if left out.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// How the place of the report is printed.
+    /// How the path of the report is printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -24,17 +25,7 @@ struct Written {
     report: PathBuf,
 }
 
-#[derive(Debug, thiserror::Error)]
-pub(crate) enum WriteError {
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    #[error(transparent)]
-    Report(#[from] ReportError),
-    #[error("cannot write JSON: {0}")]
-    Json(#[from] serde_json::Error),
-}
-
-pub(crate) fn run(settings: &Settings) -> Result<(), WriteError> {
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { folder, out, format } = settings;
     let path = out.clone().unwrap_or_else(|| folder.join("report.html"));
     write(folder, &path)?;
@@ -43,6 +34,6 @@ pub(crate) fn run(settings: &Settings) -> Result<(), WriteError> {
 }
 
 /// Writes the report of the results in `folder`.
-pub(crate) fn write(folder: &Path, path: &Path) -> Result<(), WriteError> {
+pub(crate) fn write(folder: &Path, path: &Path) -> Result<(), ProgramError> {
     Ok(write_text(path, &report(&Results::read(folder)?)?)?)
 }

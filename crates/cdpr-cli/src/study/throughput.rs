@@ -1,6 +1,7 @@
 //! `cdpr study throughput`: how fast a sampling runs, in one line of JSON.
 
-use crate::study::{RunError, start_threads};
+use crate::arguments::Threads;
+use crate::error::ProgramError;
 use cdpr_study::{Session, Study, analyse, observe};
 use serde_json::json;
 use std::path::Path;
@@ -10,9 +11,9 @@ pub(crate) fn run(
     path: &Path,
     sampling: &str,
     observations: usize,
-    threads: Option<u16>,
-) -> Result<(), RunError> {
-    start_threads(threads)?;
+    threads: &Threads,
+) -> Result<(), ProgramError> {
+    threads.start()?;
     let mut study = Study::open(path)?;
     study.set_observations(observations)?;
     // The intervals of replicates and the measures of sensitivity are observations of their own.

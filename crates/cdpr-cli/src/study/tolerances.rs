@@ -1,13 +1,12 @@
-//! `cdpr tolerances`: which tolerances to tighten for a limit.
+//! `cdpr tolerances`: the tolerances to tighten so that an error stays below a limit.
 
-use crate::arguments::{self, Format, Named};
+use crate::arguments::{self, Format, Named, Threads};
+use crate::error::ProgramError;
 use crate::output::table;
-use crate::study::start_threads;
 use cdpr_study::{Estimate, Limit, Limited, Reached, Study, ToleranceBudget, tolerance_budget};
-use std::error::Error;
 use std::path::PathBuf;
 
-/// What was asked for.
+/// The study, the sampling and the limit.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     /// Study file (JSON, `cdpr-study/1`), whose error model holds the tolerances.
@@ -18,21 +17,22 @@ pub(crate) struct Settings {
     /// Limit of the error [mm].
     #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
     limit: f64,
-    /// The error: the static deflection under the load, or the distance from the wanted pose without it.
+    /// The error: the static deflection under the load, or the distance from the wanted pose without load.
     #[arg(long, value_enum, default_value_t = Of::Deflection)]
     of: Of,
     /// Share of the robots that are to keep the limit.
     #[arg(long, value_parser = arguments::number, default_value = "0.95", allow_hyphen_values = true)]
     quantile: f64,
-    /// Costs of tolerances as they are, by entry of the error model: a=2,b=1. A tolerance halved costs twice as much; 1 if left out.
+    /// Costs of the tolerances as they are, by entry of the error model: a=2,b=1; 1 if left out.
+    ///
+    /// Half the tolerance costs twice as much.
     #[arg(long, value_parser = arguments::named)]
     costs: Option<Named>,
     /// Independent robots that the budget is verified with.
     #[arg(long, default_value_t = 20_000)]
     observations: usize,
-    /// Threads; all cores if left out. The numbers do not depend on it.
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -47,8 +47,8 @@ enum Of {
     Position,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), Box<dyn Error>> {
-    start_threads(settings.threads)?;
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    settings.threads.start()?;
     let study = Study::open(&settings.study)?;
     let sampling = study.sampling(&settings.sampling)?;
     let limit = Limit {

@@ -2,11 +2,9 @@
 
 use crate::convert::arrays::{Array, Numbers, filled, whole};
 use crate::convert::error::{Answer, Raised};
+use crate::convert::json::{json_text, to_json};
 use crate::convert::threads::run;
-use crate::robot::json_text;
-use crate::sensitivity::estimates::{
-    Effects, Expansion, MorrisEffects, SobolIndices, intervals, to_json, vector,
-};
+use crate::sensitivity::estimates::{Effects, Expansion, MorrisEffects, SobolIndices, intervals, vector};
 use cdpr_robot::from_json;
 use cdpr_sensitivity::{
     Bootstrap, Estimate, Input, Order, SampleDesign, Truncation, expansion, morris_effects, sobol_indices,

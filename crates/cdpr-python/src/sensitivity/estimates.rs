@@ -3,6 +3,7 @@
 use crate::convert::answer::answer;
 use crate::convert::arrays::{Array, Numbers};
 use crate::convert::error::{Answer, Raised};
+use crate::convert::json::to_json;
 use crate::convert::threads::run;
 use cdpr_robot::from_json;
 use cdpr_sensitivity::Estimate;
@@ -154,10 +155,6 @@ impl Expansion {
         let (inputs, degree) = (self.expansion.inputs.len(), self.expansion.degree);
         format!("<cdpr.sensitivity.Expansion in {inputs} inputs, degree {degree}>")
     }
-}
-
-pub(crate) fn to_json(value: &impl serde::Serialize) -> Answer<String> {
-    serde_json::to_string(value).map_err(|error| Raised::Input(error.to_string()))
 }
 
 pub(crate) fn vector(py: Python, values: impl Iterator<Item = f64>) -> Py<PyAny> {

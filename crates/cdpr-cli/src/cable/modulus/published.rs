@@ -1,19 +1,19 @@
-//! A published table of moduli, and what of it follows from a record.
+//! A published table of moduli, compared with those that follow from a record.
 
 use super::{Found, percent};
+use crate::arguments::read;
+use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_robot::from_json;
-use cdpr_study::StudyError;
 use serde::{Deserialize, Serialize};
 use serde_json::Number;
-use std::error::Error;
 use std::path::Path;
 
-/// A table of moduli over ranges of load, as it is printed.
+/// A table of moduli over ranges of load, as it was published.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Published {
-    /// Where it is printed.
+    /// Where it was published.
     pub(super) source: String,
     /// Breaking force [N].
     pub(super) breaking_force: f64,
@@ -21,13 +21,13 @@ pub(super) struct Published {
     pub(super) section: f64,
     /// Ranges of load in percent of the breaking force.
     pub(super) ranges: Vec<(f64, f64)>,
-    /// Moduli while loading [GPa], with the digits that are printed.
+    /// Moduli while loading [GPa], with the published digits.
     loading_gpa: Vec<Number>,
-    /// The same while unloading.
+    /// Moduli while unloading [GPa].
     unloading_gpa: Vec<Number>,
 }
 
-/// An entry of the table beside what follows from the record.
+/// An entry of the table beside the modulus that follows from the record.
 #[derive(Serialize)]
 pub(super) struct Entry {
     from_percent: f64,
@@ -35,34 +35,29 @@ pub(super) struct Entry {
     phase: &'static str,
     published_gpa: f64,
     computed_gpa: f64,
-    /// Whether the computed one rounds to the published one.
+    /// Whether the computed modulus rounds to the published one.
     consistent: bool,
 }
 
-/// A record of so many digits gives moduli that are exact to this [GPa].
+/// Error of a modulus that comes from the digits of the record [GPa].
 const ROUNDING: f64 = 1e-6;
 
 impl Published {
-    pub(super) fn open(path: &Path) -> Result<Self, Box<dyn Error>> {
-        let place = |error: &dyn Error| format!("{}: {error}", path.display());
-        let source = |source| StudyError::Read { path: path.to_owned(), source };
-        let text = std::fs::read_to_string(path).map_err(source)?;
-        let found: Self = from_json(&text).map_err(|error| place(&error))?;
+    pub(super) fn open(path: &Path) -> Result<Self, ProgramError> {
+        let text = read(path)?;
+        let found: Self = from_json(&text).map_err(ProgramError::in_file(path))?;
+        let expected = found.ranges.len();
         for (field, moduli) in [("loading_gpa", &found.loading_gpa), ("unloading_gpa", &found.unloading_gpa)]
         {
-            let (given, expected) = (moduli.len(), found.ranges.len());
+            let given = moduli.len();
             if given != expected {
-                return Err(format!(
-                    "{}: {field} is a list of {given}: expected {expected} moduli, one a range",
-                    path.display()
-                )
-                .into());
+                return Err(ProgramError::in_file(path)(ProgramError::Moduli { field, given, expected }));
             }
         }
         Ok(found)
     }
 
-    /// Every entry beside what was found for its range.
+    /// Compares every entry with the modulus found for its range.
     pub(super) fn beside(&self, found: &Found) -> Vec<Entry> {
         let of_range = self.ranges.iter().enumerate().flat_map(|(k, &(from_percent, to_percent))| {
             let range = &found.ranges[k];
@@ -106,8 +101,8 @@ pub(super) fn print(published: &Published, entries: &[Entry]) {
         entries.iter().filter(|entry| !entry.consistent)
     {
         println!(
-            "E_{from_percent}-{to_percent} while {phase}: {published_gpa} GPa is published, {computed_gpa:.1} GPa follows from the others, \
-             {:+.1} %",
+            "E_{from_percent}-{to_percent} while {phase}: {published_gpa} GPa is published, \
+             {computed_gpa:.1} GPa follows from the others, {:+.1} %",
             100.0 * (computed_gpa / published_gpa - 1.0)
         );
     }

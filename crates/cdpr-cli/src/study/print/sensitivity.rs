@@ -1,11 +1,12 @@
-//! The measures of sensitivity of a sampling on the terminal: inputs and groups of them, methods, what they agree on.
+//! The measures of sensitivity of a sampling on the terminal.
 
 use crate::output::table;
 use cdpr_study::{InputMeasures, SensitivitySummary};
 
-/// Inputs in the table, the leading ones.
+/// Number of leading inputs in the table.
 const MOST: usize = 10;
 
+/// Prints inputs and groups of them, methods, and what the methods agree on.
 pub(crate) fn print(heading: &str, found: &SensitivitySummary) {
     println!("{heading}");
     print_inputs(found);
@@ -75,7 +76,8 @@ fn print_inputs(found: &SensitivitySummary) {
     }
     println!("{rows}");
     println!(
-        "effect, Morris's \u{b5}* and \u{3c3} [\u{b5}m]; t [-]; all others in % of the variance, DGSM a bound on T; S first order, T total"
+        "effect, Morris's \u{b5}* and \u{3c3} [\u{b5}m]; t [-]; all others in % of the variance, \
+         DGSM a bound on T; S first order, T total"
     );
 }
 
