@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 #[derive(Args)]
-pub(super) struct RunSettings {
+pub(crate) struct RunSettings {
     /// Study file (JSON, `cdpr-study/1`).
     pub(super) study: PathBuf,
     /// Folder for the results; made if missing.
@@ -33,7 +33,7 @@ pub(super) struct RunSettings {
 }
 
 #[derive(Args)]
-pub(super) struct FolderSettings {
+pub(crate) struct FolderSettings {
     /// Folder of the results.
     pub(super) folder: PathBuf,
     #[command(flatten)]
@@ -41,7 +41,7 @@ pub(super) struct FolderSettings {
 }
 
 #[derive(Args)]
-pub(super) struct Common {
+pub(crate) struct Common {
     #[command(flatten)]
     pub(super) threads: Threads,
     /// Format of the tables of observations: 0.9 kB each as CSV, less as Parquet (if built with it).
@@ -56,7 +56,7 @@ pub(super) struct Common {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-pub(super) enum TableName {
+pub(crate) enum TableName {
     Csv,
     #[cfg(feature = "parquet")]
     Parquet,
