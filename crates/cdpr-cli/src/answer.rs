@@ -1,44 +1,47 @@
-//! Results that several commands print, as they stand in JSON (SI units; cables are numbered from 1, as in `a1.x`) and as tables.
+//! Results that several commands print, as JSON and as tables.
+//!
+//! JSON is in SI units; cables are numbered from 1, as in `a1.x`.
 
 use crate::output::table;
 use cdpr_robot::Pose;
-use cdpr_statics::{DirectSolution, Equilibrium, Method, Residual};
+use cdpr_statics::{DirectSolution, Equilibrium, Method};
 use serde::Serialize;
 
-/// What stays open in the equations.
+/// Residuals of the equations at a solution.
 #[derive(Serialize)]
-pub(crate) struct Open {
+pub(crate) struct Residual {
     /// Largest distance between the end of a cable and its anchor point [m].
     closure: f64,
-    /// On the platform [N].
+    /// Norm of the force that remains on the platform [N].
     force: f64,
-    /// About P [N m].
+    /// Norm of the moment about P that remains on the platform [N m].
     moment: f64,
 }
 
-impl Open {
-    pub(crate) fn new(residual: &Residual) -> Self {
-        let Residual { closure, force, moment } = *residual;
+impl Residual {
+    pub(crate) fn new(residual: &cdpr_statics::Residual) -> Self {
+        let cdpr_statics::Residual { closure, force, moment } = *residual;
         Self { closure, force, moment }
     }
 
     pub(crate) fn print(&self) {
-        println!("open: {:.1e} m, {:.1e} N, {:.1e} N m", self.closure, self.force, self.moment);
+        let Self { closure, force, moment } = self;
+        println!("residuals: closure {closure:.1e} m, force {force:.1e} N, moment {moment:.1e} N m");
     }
 }
 
 /// A stable equilibrium of the direct model.
 #[derive(Serialize)]
 pub(crate) struct Found {
-    /// Of P in the base frame.
+    /// Position of P in the base frame.
     position: [f64; 3],
-    /// Rows of R.
+    /// Rows of the rotation matrix R.
     rotation: [[f64; 3]; 3],
-    /// (fx, fz) on each cable at its anchor point, in its vertical plane.
+    /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
     cable_forces: Vec<[f64; 2]>,
     tensions: Vec<f64>,
     stable: bool,
-    residual: Open,
+    residual: Residual,
     report: Report,
 }
 
@@ -61,7 +64,7 @@ impl Found {
             cable_forces: forces(equilibrium),
             tensions: equilibrium.tensions(),
             stable: stability.is_stable(),
-            residual: Open::new(&report.residual),
+            residual: Residual::new(&report.residual),
             report: Report {
                 method: match report.method {
                     Method::Newton => "newton",
@@ -92,7 +95,7 @@ impl Found {
     }
 }
 
-/// Lengths, forces and tensions of all cables.
+/// Prints lengths, forces and tensions of all cables.
 pub(crate) fn print_cables(lengths: &[f64], forces: &[[f64; 2]], tensions: &[f64]) {
     let mut rows = table(&["cable", "unstrained length [m]", "fx [N]", "fz [N]", "tension [N]"]);
     for (i, ((length, [fx, fz]), tension)) in lengths.iter().zip(forces).zip(tensions).enumerate() {
@@ -111,7 +114,7 @@ pub(crate) fn forces(equilibrium: &Equilibrium) -> Vec<[f64; 2]> {
     equilibrium.cable_forces.iter().map(|force| (*force).into()).collect()
 }
 
-/// Rows of R.
+/// Rows of the rotation matrix R.
 fn rows(pose: &Pose) -> [[f64; 3]; 3] {
     pose.rotation.matrix().transpose().into()
 }

@@ -1,14 +1,15 @@
-//! Arguments that are more than a number or a path, as functions for clap, which names the argument and its value in what it
-//! reports.
+//! Arguments that several commands share, and parsers of those that are more than a number or a path.
+//!
+//! A parser says what is wrong with the text; clap adds the argument and the value.
 
-use crate::output::Usage;
+use crate::error::ProgramError;
 use cdpr_robot::{Pose, Robot, Rotation3, UnitQuaternion, Vector3, Wrench};
 use cdpr_statics::Load;
-use cdpr_study::{Grid, GridAxis};
+use cdpr_study::{Grid, GridAxis, StudyError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// How results are printed.
+/// How the results are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Format {
     /// Tables.
@@ -28,6 +29,23 @@ impl Format {
     }
 }
 
+/// How many threads compute.
+#[derive(clap::Args)]
+pub(crate) struct Threads {
+    /// Threads; all cores if left out. The numbers do not depend on it.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+}
+
+impl Threads {
+    /// Starts the threads that were asked for; all cores by default.
+    pub(crate) fn start(&self) -> Result<(), ProgramError> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+        pool.map_err(|source| ProgramError::Threads { threads, source })
+    }
+}
+
 /// A robot at a pose, and how the answer is printed.
 #[derive(clap::Args)]
 pub(crate) struct RobotAtPose {
@@ -42,7 +60,7 @@ pub(crate) struct RobotAtPose {
 }
 
 impl RobotAtPose {
-    /// The heading of an answer.
+    /// Heading of an answer: the robot and the position.
     pub(crate) fn heading(&self, robot: &Robot) -> String {
         let [x, y, z] = self.pose.position.into();
         format!("{} at ({x}, {y}, {z}) m", robot.name)
@@ -82,7 +100,7 @@ pub(crate) fn mass(text: &str) -> Result<f64, String> {
     if mass >= 0.0 { Ok(mass) } else { Err("expected a mass, zero or more [kg]".to_owned()) }
 }
 
-/// A mass whose effect is observed: more than none [kg].
+/// A mass above zero, whose effect is observed [kg].
 pub(crate) fn payload(text: &str) -> Result<f64, String> {
     let mass = number(text)?;
     if mass > 0.0 { Ok(mass) } else { Err("expected a mass above zero [kg]".to_owned()) }
@@ -114,7 +132,7 @@ pub(crate) fn pose_of(numbers: &[f64]) -> Result<Pose, String> {
     }
 }
 
-/// What acts on the platform besides its own weight.
+/// The load: what acts on the platform besides its own weight.
 #[derive(clap::Args)]
 pub(crate) struct LoadArguments {
     /// Force, in the base frame: fx,fy,fz [N].
@@ -129,15 +147,16 @@ pub(crate) struct LoadArguments {
 }
 
 impl LoadArguments {
+    /// The load as the models take it.
     pub(crate) fn load(&self) -> Load {
         let wrench = Wrench { force: self.force.into(), moment: self.moment.into() };
         Load { payload: self.payload, wrench }
     }
 
-    /// A load that displaces the platform.
-    pub(crate) fn some_load(&self) -> Result<Load, Usage> {
+    /// The load, which must displace the platform.
+    pub(crate) fn some_load(&self) -> Result<Load, ProgramError> {
         match self.load() {
-            load if load == Load::none() => Err(Usage(
+            load if load == Load::none() => Err(ProgramError::Usage(
                 "nothing displaces the platform: expected --payload, --force or --moment".to_owned(),
             )),
             load => Ok(load),
@@ -152,16 +171,17 @@ pub(crate) fn pose_numbers(pose: &Pose) -> [f64; 7] {
     [x, y, z, q.w, q.i, q.j, q.k]
 }
 
+/// The text of a file.
+pub(crate) fn read(path: &Path) -> Result<String, StudyError> {
+    std::fs::read_to_string(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })
+}
+
 /// Poses from a file, one a line.
-pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, String> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| format!("--poses: cannot read {}: {error}", path.display()))?;
-    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    lines
-        .map(|(i, line)| {
-            pose(line).map_err(|error| format!("--poses {}, line {}: {error}", path.display(), i + 1))
-        })
-        .collect()
+pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, ProgramError> {
+    let lines = read(path)?;
+    let lines = lines.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let place = |line| move |reason| ProgramError::Poses { path: path.to_owned(), line, reason };
+    lines.map(|(i, line)| pose(line).map_err(place(i + 1))).collect()
 }
 
 /// Positions on a grid: `min:max:points` of each axis [m], separated by commas.
@@ -177,7 +197,7 @@ pub(crate) fn grid(text: &str) -> Result<Grid, String> {
     Grid::new(axes.ok_or_else(|| expected.to_owned())?).map_err(|error| error.to_string())
 }
 
-/// Numbers with names.
+/// Numbers by their names.
 #[derive(Clone)]
 pub(crate) struct Named(pub(crate) Vec<(String, f64)>);
 
@@ -197,8 +217,8 @@ pub(crate) fn named(text: &str) -> Result<Named, String> {
 }
 
 /// The standard deviation of each parameter of `--uncertainty`.
-pub(crate) fn uncertainties(robot: &Robot, Named(named): &Named) -> Result<Vec<f64>, Usage> {
-    cdpr_study::uncertainties(robot, named).map_err(|error| Usage(error.to_string()))
+pub(crate) fn uncertainties(robot: &Robot, Named(named): &Named) -> Result<Vec<f64>, ProgramError> {
+    cdpr_study::uncertainties(robot, named).map_err(|error| ProgramError::Usage(error.to_string()))
 }
 
 #[cfg(test)]

@@ -7,28 +7,15 @@ mod output;
 
 mod answer;
 mod arguments;
-mod calibration;
-mod catenary;
-mod check;
-mod deflection;
-mod derivatives;
-mod direct;
-mod hysteresis;
-mod inverse;
-mod linear_density;
-mod modulus;
-mod report;
-mod robustness;
-mod sensitivity;
-mod stiffness;
+mod cable;
+mod error;
+mod pose;
+mod robot;
 mod study;
-mod throughput;
-mod tolerances;
-mod workspace;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use error::ProgramError;
 use output::Ending;
-use std::error::Error;
 use std::process::ExitCode;
 
 /// Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
@@ -41,34 +28,34 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Compute one cable between two points: force, tensions, sag, energy.
+    /// Compute one cable between two points: its force, tensions, sag and energy.
     #[command(
         after_help = "Example: cdpr catenary --weight 0.9957 --stiffness 1.28e6 --length 4.3 --end 4.1,-1.7"
     )]
-    Catenary(catenary::Settings),
+    Catenary(cable::catenary::Settings),
     /// Find the unstrained lengths that hold a pose.
     #[command(after_help = "Example: cdpr inverse data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
-    Inverse(inverse::Settings),
+    Inverse(pose::inverse::Settings),
     /// Find where the platform stands for given unstrained lengths.
-    #[command(
-        after_help = "Example: cdpr direct data/robots/caroca.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44 --certify"
-    )]
-    Direct(direct::Settings),
-    /// Tell how far the platform gives under a load.
+    #[command(after_help = "Example: cdpr direct data/robots/caroca.json \
+                      --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44 --certify")]
+    Direct(pose::direct::Settings),
+    /// Compute how far a load displaces and rotates the platform.
     #[command(after_help = "Example: cdpr deflection data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
-    Deflection(deflection::Settings),
+    Deflection(pose::deflection::Settings),
     /// Compute the Cartesian stiffness at a pose and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
-    Stiffness(stiffness::Settings),
-    /// Map where the platform is held, and how it gives, over a plane or a box.
+    Stiffness(pose::stiffness::Settings),
+    /// Map where the cables hold the platform, and how far it gives there, over a plane or a box.
     #[command(after_help = "Examples:
   cdpr workspace data/robots/caroca.json --plane z=1.75 --grid 41x41 --payload 50 --out workspace
-  cdpr workspace data/robots/caroca.json --box=-3:3:25,-1.5:1.5:13,0.5:2.5:9 --payload 50 --uncertainty a=0.002,b=0.002")]
-    Workspace(workspace::Settings),
-    /// Say everything that is odd about a robot file.
+  cdpr workspace data/robots/caroca.json --box=-3:3:25,-1.5:1.5:13,0.5:2.5:9 --payload 50 \
+                      --uncertainty a=0.002,b=0.002")]
+    Workspace(robot::workspace::Settings),
+    /// List everything that is odd about a robot file.
     #[command(after_help = "Example: cdpr check data/robots/cogiro.json")]
-    Check(check::Settings),
-    /// Print completions of all commands for a shell.
+    Check(robot::check::Settings),
+    /// Print the completions of all commands for a shell.
     #[command(
         after_help = "Example: cdpr completions bash > ~/.local/share/bash-completion/completions/cdpr"
     )]
@@ -76,74 +63,80 @@ enum Command {
         /// The shell.
         shell: clap_complete::Shell,
     },
-    /// Study which uncertain parameters of a robot matter.
+    /// Find out which uncertain parameters of a robot matter.
     Study {
         #[command(subcommand)]
         command: study::Command,
     },
-    /// Tell which combinations of a robot's parameters measurements identify, and which poses tell most.
+    /// Find the combinations of parameters that measurements identify, and the poses that identify most.
     #[command(after_help = "Example: cdpr calibration data/robots/caroca.json --grid=-2:2:5,-1:1:3,1:2.5:3 \
                       --uncertainty a=0.002,b=0.002,youngs_modulus=5e9 --noise position=1e-4,rotation=1e-4")]
-    Calibration(calibration::Settings),
-    /// Derivatives of lengths and deflection with respect to every parameter of a robot, exact.
-    #[command(
-        after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 --format json"
-    )]
-    Derivatives(derivatives::Settings),
-    /// Put a payload on a robot and take it off again, on cables with the hysteresis of a load-elongation record or a law.
+    Calibration(robot::calibration::Settings),
+    /// Compute the exact derivatives of lengths and deflection with respect to every parameter of a robot.
+    #[command(after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 \
+                      --format json")]
+    Derivatives(pose::derivatives::Settings),
+    /// Put a payload on a robot and take it off again, with the hysteresis of its cables.
+    ///
+    /// The hysteresis is that of a load-elongation record, of a law, or of the laws in the robot file.
     #[command(after_help = "Examples:
-  cdpr hysteresis data/robots/caroca.json --record data/cables/caroca-4mm-record.csv --length 1 --pose 0,0,1.75 --payload 50
+  cdpr hysteresis data/robots/caroca.json --record data/cables/caroca-4mm-record.csv --length 1 \
+                      --pose 0,0,1.75 --payload 50
   cdpr hysteresis data/robots/caroca.json --law data/cables/caroca-4mm-law.json --pose 0,0,1.75 --payload 50
   cdpr hysteresis data/robots/caroca-law.json --pose 0,0,1.75 --payload 50")]
-    Hysteresis(hysteresis::Settings),
-    /// Mass per length of a cable from the weighing of a piece of it.
-    #[command(
-        after_help = "Example: cdpr linear-density --mass 0.203 --length 2 --mass-error 0.001 --length-error 0.001"
-    )]
-    LinearDensity(linear_density::Settings),
-    /// Moduli of a cable from a load-elongation record, with their uncertainty, and the energy that the loop dissipates.
+    Hysteresis(pose::hysteresis::Settings),
+    /// Compute the mass per length of a cable from the weighing of a piece of it.
+    #[command(after_help = "Example: cdpr linear-density --mass 0.203 --length 2 --mass-error 0.001 \
+                      --length-error 0.001")]
+    LinearDensity(cable::linear_density::Settings),
+    /// Compute the moduli of a cable from a load-elongation record.
+    ///
+    /// Each modulus has its uncertainty; the energy that the loop dissipates stands below them.
     #[command(after_help = "Examples:
-  cdpr modulus data/cables/caroca-4mm-record.csv --breaking-force 10290 --section 1.2566370614e-5 --length 1 --range 5-10 --range 10-30
-  cdpr modulus data/cables/caroca-4mm-record.csv --published data/cables/caroca-4mm.json --length 1 --law target/law.json")]
-    Modulus(modulus::Settings),
+  cdpr modulus data/cables/caroca-4mm-record.csv --breaking-force 10290 --section 1.2566370614e-5 --length 1 \
+                      --range 5-10 --range 10-30
+  cdpr modulus data/cables/caroca-4mm-record.csv --published data/cables/caroca-4mm.json --length 1 \
+                      --law target/law.json")]
+    Modulus(cable::modulus::Settings),
     /// Write the report of a study: one HTML file with all figures that opens offline.
     #[command(after_help = "Example: cdpr report results")]
-    Report(report::Settings),
-    /// Tell which tolerances of a study's error model to tighten, and by how much, so that an error stays below a limit.
+    Report(study::report::Settings),
+    /// Find which tolerances to tighten so that an error stays below a limit, and by how much.
     #[command(
-        after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric --limit 0.9 --costs b=3"
+        after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric \
+                      --limit 0.9 --costs b=3"
     )]
-    Tolerances(tolerances::Settings),
+    Tolerances(study::tolerances::Settings),
     /// Measure how often the direct model finds the true pose from a wrong start.
     #[command(
         after_help = "Example: cdpr robustness --robot data/robots/cogiro.json --poses 1000 --out robustness"
     )]
-    Robustness(robustness::Settings),
+    Robustness(robot::robustness::Settings),
 }
 
 fn main() -> ExitCode {
     output::exit_code(run(Arguments::parse().command))
 }
 
-fn run(command: Command) -> Result<Ending, Box<dyn Error>> {
+fn run(command: Command) -> Result<Ending, ProgramError> {
     match command {
-        Command::Check(settings) => return check::run(&settings),
-        Command::Direct(settings) => return direct::run(&settings),
-        Command::Catenary(settings) => catenary::run(&settings)?,
-        Command::Inverse(settings) => inverse::run(&settings)?,
-        Command::Deflection(settings) => deflection::run(&settings)?,
-        Command::Stiffness(settings) => stiffness::run(&settings)?,
-        Command::Workspace(settings) => workspace::run(&settings)?,
+        Command::Check(settings) => return robot::check::run(&settings),
+        Command::Direct(settings) => return pose::direct::run(&settings),
+        Command::Catenary(settings) => cable::catenary::run(&settings)?,
+        Command::Inverse(settings) => pose::inverse::run(&settings)?,
+        Command::Deflection(settings) => pose::deflection::run(&settings)?,
+        Command::Stiffness(settings) => pose::stiffness::run(&settings)?,
+        Command::Workspace(settings) => robot::workspace::run(&settings)?,
         Command::Completions { shell } => completions(shell),
         Command::Study { command } => study::run(command)?,
-        Command::Calibration(settings) => calibration::run(&settings)?,
-        Command::Derivatives(settings) => derivatives::run(&settings)?,
-        Command::Hysteresis(settings) => hysteresis::run(&settings)?,
-        Command::LinearDensity(settings) => linear_density::run(&settings)?,
-        Command::Modulus(settings) => modulus::run(&settings)?,
-        Command::Tolerances(settings) => tolerances::run(&settings)?,
-        Command::Report(settings) => report::run(&settings)?,
-        Command::Robustness(settings) => robustness::run(&settings)?,
+        Command::Calibration(settings) => robot::calibration::run(&settings)?,
+        Command::Derivatives(settings) => pose::derivatives::run(&settings)?,
+        Command::Hysteresis(settings) => pose::hysteresis::run(&settings)?,
+        Command::LinearDensity(settings) => cable::linear_density::run(&settings)?,
+        Command::Modulus(settings) => cable::modulus::run(&settings)?,
+        Command::Tolerances(settings) => study::tolerances::run(&settings)?,
+        Command::Report(settings) => study::report::run(&settings)?,
+        Command::Robustness(settings) => robot::robustness::run(&settings)?,
     }
     Ok(Ending::Well)
 }

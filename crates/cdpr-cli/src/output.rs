@@ -1,11 +1,10 @@
-//! What leaves the program: lines on the standard output, one line on the standard error for what went wrong, the exit code.
+//! Output of the program: lines on the standard output, an error on the standard error, the exit code.
 
-use crate::study::RunError;
+use crate::error::ProgramError;
 use cdpr_report::ReportError;
 use cdpr_study::{StudyError, write_figure};
 use comfy_table::{Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
-use std::error::Error;
 use std::fmt;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
@@ -15,51 +14,46 @@ use std::sync::OnceLock;
 /// Exit codes, as `cdpr --help` and docs/COMMANDS.md state them.
 pub(crate) const EXIT_CODES: &str = "Exit codes:
   0    all that was asked for is done
-  1    it cannot be done: a wrong or unreadable file, no answer, a place that cannot be written; the standard error says why
+  1    it cannot be done: a wrong or unreadable file, no answer, a place that cannot be written;
+       the standard error says why
   2    wrong arguments; the standard error says why
-  3    done, but something is wrong: `check` warns, a case of `direct --from` has no answer, `--certify` proves nothing
-  130  a study was interrupted (Ctrl-C, the end of a job): what is done is kept, and the standard error says how to go on";
+  3    done, but something is wrong: `check` warns, a case of `direct --from` has no answer,
+       `--certify` proves nothing
+  130  a study was interrupted (Ctrl-C, the end of a job): what is done is kept,
+       and the standard error says how to go on";
 
-/// How a command ended that did all it could.
+/// How a command ended that did what it was asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
     /// All is well.
     Well,
-    /// What was printed tells of something wrong.
+    /// Something that was printed is wrong: a warning, a case without an answer.
     SomethingWrong,
 }
-
-/// Arguments that clap cannot judge one by one.
-#[derive(Debug)]
-pub(crate) struct Usage(pub(crate) String);
-
-impl fmt::Display for Usage {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}\n\nFor more information, try '--help'.", self.0)
-    }
-}
-
-impl Error for Usage {}
 
 /// Why the standard output could not be written, the first time.
 static UNPRINTED: OnceLock<io::Error> = OnceLock::new();
 
-/// Prints a line as std's macro does, but without a panic where nobody reads on (`cdpr ... | head`): the command goes on and writes its
-/// files; [`exit_code`] has the last word.
+/// Prints a line as std's macro does, but never panics.
+///
+/// Where nobody reads on (`cdpr ... | head`) the command continues and writes its files; [`exit_code`] tells
+/// of any other failure to print.
 macro_rules! println {
     () => { $crate::output::print_line(format_args!("")) };
     ($($text:tt)*) => { $crate::output::print_line(format_args!($($text)*)) };
 }
 
-/// The same on the standard error. Where it cannot be written nothing is left to tell it.
+/// Prints a line on the standard error. A failure is ignored: there is no other place to report it.
 macro_rules! eprintln {
     ($($text:tt)*) => { $crate::output::tell_line(format_args!($($text)*)) };
 }
 
+/// What `eprintln!` expands to.
 pub(crate) fn tell_line(line: fmt::Arguments) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
+/// What `println!` expands to.
 pub(crate) fn print_line(line: fmt::Arguments) {
     if UNPRINTED.get().is_none()
         && let Err(error) = writeln!(io::stdout().lock(), "{line}")
@@ -69,12 +63,13 @@ pub(crate) fn print_line(line: fmt::Arguments) {
     }
 }
 
-/// Says on the standard error what went wrong, if anything. A reader that reads no further is nothing wrong.
-pub(crate) fn exit_code(result: Result<Ending, Box<dyn Error>>) -> ExitCode {
+/// Prints what went wrong on the standard error, and returns the exit code.
+///
+/// A reader that stops reading is no failure.
+pub(crate) fn exit_code(result: Result<Ending, ProgramError>) -> ExitCode {
     let unprinted = UNPRINTED.get().filter(|error| error.kind() != ErrorKind::BrokenPipe);
     let (code, message) = match (result, unprinted) {
-        (Err(error), _) if is_usage(&*error) => (2, Some(error.to_string())),
-        (Err(error), _) => (1, Some(error.to_string())),
+        (Err(error), _) => (error.exit_code(), Some(error.to_string())),
         (Ok(_), Some(error)) => (1, Some(format!("cannot write to the standard output: {error}"))),
         (Ok(Ending::SomethingWrong), None) => (3, None),
         (Ok(Ending::Well), None) => (0, None),
@@ -85,15 +80,6 @@ pub(crate) fn exit_code(result: Result<Ending, Box<dyn Error>>) -> ExitCode {
     ExitCode::from(code)
 }
 
-/// Whether the arguments are what is wrong.
-fn is_usage(error: &(dyn Error + 'static)) -> bool {
-    let of_study = match error.downcast_ref() {
-        Some(RunError::Study(error)) => Some(error),
-        _ => error.downcast_ref(),
-    };
-    error.is::<Usage>() || of_study.is_some_and(StudyError::is_argument)
-}
-
 /// An empty table.
 pub(crate) fn table(header: &[&str]) -> Table {
     let mut table = Table::new();
@@ -101,10 +87,10 @@ pub(crate) fn table(header: &[&str]) -> Table {
     table
 }
 
-/// A bar over `steps`, with rate and time left; silent when not on a terminal.
+/// A progress bar over `steps`, with rate and time left; silent unless on a terminal.
 pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
     let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
-        // Nothing to be done about a terminal that takes no text.
+        // A terminal that takes no text cannot be helped.
         let _ = write!(out, "{:.0}/s", state.per_sec());
     };
     let bar = ProgressBar::new(steps as u64);
@@ -115,7 +101,7 @@ pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
     }
 }
 
-/// Writes a figure, or notes why there is none: results that cannot be drawn are results nevertheless.
+/// Writes a figure, or notes why it cannot be drawn: the results stand without it.
 pub(crate) fn write_drawn(
     folder: &Path,
     name: &str,

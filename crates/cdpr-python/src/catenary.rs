@@ -1,9 +1,9 @@
 //! One cable between two points.
 
-use crate::answer::answer;
-use crate::arrays::{Cases, Columns, Numbers, Rows};
-use crate::error::{Answer, Raised};
-use crate::threads::each;
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Cases, Columns, Numbers, Rows};
+use crate::convert::error::{Answer, Raised};
+use crate::convert::threads::each;
 use cdpr_cable::{Cable, CableError, Known, Solution, Vector2};
 use pyo3::prelude::*;
 

@@ -1,7 +1,16 @@
 //! The robot: from a file, a JSON text or arrays; its parameters.
 
-use crate::arrays::{Array, Numbers, components};
-use crate::error::{Answer, Raised};
+pub(crate) mod deflection;
+pub(crate) mod derivatives;
+pub(crate) mod direct;
+pub(crate) mod inverse;
+pub(crate) mod observe;
+pub(crate) mod stiffness;
+pub(crate) mod workspace;
+
+use crate::convert::arrays::{Array, Numbers, components};
+use crate::convert::error::{Answer, Raised};
+use crate::convert::json::json_text;
 use cdpr_robot::{CableProperties, Parameter, Platform, RobotCable, TensionLimits, Vector3};
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};
@@ -259,18 +268,6 @@ impl Robot {
     ) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_iter(py, self.robot.cables.iter().map(|cable| property(&cable.properties)))
     }
-}
-
-/// JSON of a dictionary, in which numbers of NumPy and arrays are numbers and lists.
-pub(crate) fn json_text(name: &str, content: &Bound<PyAny>) -> Answer<String> {
-    let py = content.py();
-    let settings = PyDict::new(py);
-    settings.set_item("default", py.import("operator")?.call_method1("methodcaller", ("tolist",))?)?;
-    let text = py.import("json")?.call_method("dumps", (content,), Some(&settings));
-    let text = text.map_err(|error| {
-        Raised::Input(format!("{name} is no JSON ({}): expected what `json.loads` makes", error.value(py)))
-    });
-    Ok(text?.extract()?)
 }
 
 fn points(name: &str, array: &Numbers) -> Answer<Vec<Vector3<f64>>> {

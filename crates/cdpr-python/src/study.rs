@@ -1,8 +1,9 @@
 //! Studies: the same functions as `cdpr study`, on folders of results. `study.py` puts them together.
 
-use crate::arrays::whole;
-use crate::error::{Answer, Raised};
-use crate::threads::{run, watched};
+use crate::convert::arrays::whole;
+use crate::convert::error::{Answer, Raised};
+use crate::convert::json::to_json;
+use crate::convert::threads::{run, watched};
 use cdpr_report::{Watcher, report};
 use cdpr_robot::Vector3;
 use cdpr_sensitivity::SampleDesign;
@@ -144,11 +145,10 @@ pub(crate) fn open_results(py: Python, out: PathBuf) -> Answer<()> {
 /// How far the study in a folder is, as `cdpr study status --format json` says it.
 #[pyfunction]
 pub(crate) fn status(py: Python, out: PathBuf) -> Answer<String> {
-    let found = run(py, |_| {
+    to_json(&run(py, |_| {
         let (study, blocks) = cdpr_study::open_results(&out)?;
         cdpr_study::status(&study, &blocks)
-    })??;
-    serde_json::to_string(&found).map_err(|error| Raised::Input(error.to_string()))
+    })??)
 }
 
 /// Names of the inputs, deviations (m, k), dx, dy, dz and |dp| [mm] (m, 4) and kinds of failure of the observations of a sampling in a folder.

@@ -1,20 +1,22 @@
-//! `cdpr study run`, `merge` and `extend`. A process that ends at any moment loses the block under way and no more: Ctrl-C need do nothing else.
+//! `cdpr study run`, `merge` and `extend`: a study carried out, as a whole or one shard of it.
+//!
+//! A process that ends at any moment loses no more than the block under way, so that Ctrl-C only ends it.
 
-use super::{Common, RunError, print};
+use super::common::Common;
+use super::{print, report};
 use crate::arguments::Format;
+use crate::error::ProgramError;
 use crate::output::progress;
-use crate::{report, sensitivity};
 use cdpr_report::Watcher;
 use cdpr_study::{
-    Blocks, Plan, REPORT_NAME, STUDY_NAME, Session, Shard, Study, StudyError, StudySummary, Summary,
-    TableFormat, Timings, observe_shard,
+    Blocks, Plan, REPORT_NAME, STUDY_NAME, Session, Shard, Study, StudyError, TableFormat, observe_shard,
 };
 use clap::ValueEnum;
 use indicatif::ProgressBar;
 use std::borrow::Cow;
 use std::path::Path;
 
-/// Exit code of a run that was interrupted, as shells have it.
+/// Exit code of an interrupted run, as shells have it.
 const INTERRUPTED: i32 = 130;
 
 /// Makes the blocks of one shard.
@@ -24,7 +26,7 @@ pub(super) fn shard(
     blocks: &Blocks,
     shard: Shard,
     format: Format,
-) -> Result<(), RunError> {
+) -> Result<(), ProgramError> {
     let progress = progress(Plan::new(study)?.observations(shard), "observations");
     leave_when_interrupted(&progress, out, "the same command goes on".to_owned())?;
     let tick = |done: usize| progress.inc(done as u64);
@@ -44,14 +46,14 @@ pub(super) fn shard(
     Ok(format.print(&serde_json::json!({ "folder": out, "shard": "done" }), text)?)
 }
 
-/// Makes what `first` leaves missing and analyses the whole.
+/// Makes the blocks that `first` leaves missing, and analyses the whole study.
 pub(super) fn whole(
     study: &Study,
     out: &Path,
     blocks: &Blocks,
     common: &Common,
-    first: impl FnOnce(&Session) -> Result<(), RunError>,
-) -> Result<(), RunError> {
+    first: impl FnOnce(&Session) -> Result<(), ProgramError>,
+) -> Result<(), ProgramError> {
     let progress = progress(observations(study)?, "observations");
     leave_when_interrupted(&progress, out, format!("go on with: {}", resumed(out, common)))?;
     let watcher = Watcher {
@@ -67,7 +69,7 @@ pub(super) fn whole(
     let format = common.table.map(TableFormat::from);
     let (summary, timings) = cdpr_report::run(study, out, blocks, format, watcher)?;
     progress.finish_and_clear();
-    common.format.print(&summary, |summary| print(summary, &timings))?;
+    common.format.print(&summary, |summary| print::print(summary, &timings))?;
     let path = out.join(REPORT_NAME);
     report::write(out, &path)?;
     if common.format == Format::Text {
@@ -76,24 +78,10 @@ pub(super) fn whole(
     Ok(())
 }
 
-fn print(summary: &Summary, timings: &Timings) {
-    print::print_results(summary);
-    for (name, study) in &summary.studies {
-        if let StudySummary::Sampling(sampling) = study
-            && let Some(found) = &sampling.sensitivity
-        {
-            sensitivity::print(&format!("{name}: {}", sampling.title), found);
-        }
-    }
-    print::print_comparison(summary);
-    for (name, seconds) in &timings.seconds {
-        println!("{name:24} {seconds:6.2} s");
-    }
-    println!("{:24} {:6.2} s", "all", timings.all);
-}
-
-/// Blocks are whole or not there: on Ctrl-C (or an end of time on a cluster) the process says how to go on, and leaves.
-fn leave_when_interrupted(progress: &ProgressBar, out: &Path, remedy: String) -> Result<(), RunError> {
+/// Ends the process on Ctrl-C, or at the end of its time on a cluster, with a message of how to continue.
+///
+/// Nothing has to be put in order: a block is whole or not there.
+fn leave_when_interrupted(progress: &ProgressBar, out: &Path, remedy: String) -> Result<(), ProgramError> {
     let (progress, out) = (progress.clone(), out.display().to_string());
     ctrlc::set_handler(move || {
         progress.abandon();
@@ -103,11 +91,11 @@ fn leave_when_interrupted(progress: &ProgressBar, out: &Path, remedy: String) ->
     Ok(())
 }
 
-/// The command that goes on with a run, as a shell takes it.
+/// The command that continues a run, as a shell takes it.
 fn resumed(out: &Path, common: &Common) -> String {
     let quoted = |path: &Path| {
         let text = path.display().to_string();
-        // No path holds the one character that cannot be quoted.
+        // The one character that cannot be quoted is NUL, which no path holds.
         shlex::try_quote(&text).map_or_else(|_| text.clone(), Cow::into_owned)
     };
     let mut command =
@@ -115,7 +103,7 @@ fn resumed(out: &Path, common: &Common) -> String {
     if let Some(table) = common.table.and_then(|table| table.to_possible_value()) {
         command += &format!(" --table {}", table.get_name());
     }
-    if let Some(threads) = common.threads {
+    if let Some(threads) = common.threads.threads {
         command += &format!(" --threads {threads}");
     }
     if common.format == Format::Json {
@@ -128,7 +116,7 @@ fn warn(progress: &ProgressBar) -> impl Fn(&StudyError) + Sync {
     |damage| progress.suspend(|| eprintln!("warning: {damage}; it is made again"))
 }
 
-/// Observations and grid points of a whole run.
+/// Number of observations and grid points of a whole run.
 fn observations(study: &Study) -> Result<usize, StudyError> {
     let file = &study.file;
     let samplings = file.samplings.keys().map(|name| study.observations(name)).sum::<Result<usize, _>>()?;

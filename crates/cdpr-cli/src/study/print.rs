@@ -1,9 +1,28 @@
 //! The results of a study on the terminal.
 
-use crate::output::table;
-use cdpr_study::{Extremes, PosesSummary, StudySummary, Summary};
+mod sensitivity;
 
-pub(crate) fn print_results(summary: &Summary) {
+use crate::output::table;
+use cdpr_study::{Extremes, PosesSummary, StudySummary, Summary, Timings};
+
+/// Prints all results of a study, and how long each took.
+pub(super) fn print(summary: &Summary, timings: &Timings) {
+    print_results(summary);
+    for (name, study) in &summary.studies {
+        if let StudySummary::Sampling(sampling) = study
+            && let Some(found) = &sampling.sensitivity
+        {
+            sensitivity::print(&format!("{name}: {}", sampling.title), found);
+        }
+    }
+    print_comparison(summary);
+    for (name, seconds) in &timings.seconds {
+        println!("{name:24} {seconds:6.2} s");
+    }
+    println!("{:24} {:6.2} s", "all", timings.all);
+}
+
+fn print_results(summary: &Summary) {
     println!("{}: {}\n", summary.robot, summary.study);
     let mut rows = table(&["study", "n", "failed", "nominal", "mean", "std", "min", "max", "[mm]  best fit"]);
     for (name, study) in &summary.studies {
@@ -47,7 +66,7 @@ pub(crate) fn print_results(summary: &Summary) {
     }
 }
 
-/// Poses that are held and that are not, extremes, what dominates where.
+/// Prints the poses by status, the extremes, and the parameters that dominate.
 fn print_poses(name: &str, summary: &PosesSummary) {
     for (status, count) in &summary.status {
         println!("{name}: {count} of {} poses {}", summary.poses, status.replace('_', " "));
@@ -67,7 +86,7 @@ fn row(name: &str, counts: [String; 2], rms: [Option<f64>; 5], last: String) -> 
     [name.to_owned()].into_iter().chain(counts).chain(rms).chain([last]).collect()
 }
 
-pub(crate) fn print_comparison(summary: &Summary) {
+fn print_comparison(summary: &Summary) {
     if summary.comparison.is_empty() {
         return;
     }
@@ -86,6 +105,7 @@ pub(crate) fn print_comparison(summary: &Summary) {
     println!("{rows}");
     println!("reproduced: within half of the published figure's last digit plus 1 % of it; words: the same");
     println!(
-        "points: by the largest t of their coordinates; nearly equal: the largest at most 1.5 times the smallest\n"
+        "points: by the largest t of their coordinates; \
+         nearly equal: the largest at most 1.5 times the smallest\n"
     );
 }

@@ -1,10 +1,13 @@
-//! A study shared out by MPI. Rank 0 hands the next block to whoever asks and makes blocks itself meanwhile; blocks go to the disk that all
-//! ranks see, where rank 0 finds them when it analyses the whole. A message is one number: to rank 0, how many observations are done since the
-//! last one; from it, the block to make next, or [`NO_MORE`]. A rank that dies takes the others with it, as MPI has it; what is on the
-//! disk stays there for `--resume`.
+//! A study shared out by MPI.
+//!
+//! Rank 0 hands the next block to whoever asks, and meanwhile makes blocks itself. Blocks go to the disk that
+//! all ranks see, where rank 0 finds them when it analyses the whole. A message is one number: to rank 0, the
+//! number of observations since the last message; from rank 0, the block to make next, or [`NO_MORE`]. A rank
+//! that dies takes the others with it, as MPI has it; what is on the disk stays there for `--resume`.
 
 use super::carry_out::whole;
-use super::{RunError, RunSettings, begun, start_threads};
+use super::common::{RunSettings, begun};
+use crate::error::ProgramError;
 use cdpr_study::{BlockMaker, Plan, Session, Study};
 use mpi::Threading;
 use mpi::topology::SimpleCommunicator;
@@ -12,41 +15,41 @@ use mpi::traits::{Communicator, CommunicatorCollectives, Destination, Source};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// In place of a block.
+/// The message in place of a block when there are no more.
 const NO_MORE: u64 = u64::MAX;
 
-/// How long rank 0 waits before it looks for messages again: a receive that waits would take a core.
+/// How long rank 0 waits before it looks for messages again: a receive that waits would occupy a core.
 const LOOK_AGAIN: Duration = Duration::from_millis(1);
 
-/// `cdpr study run` on all ranks; `expected` is how many the launcher says there are.
-pub(super) fn share_out(settings: &RunSettings, expected: usize) -> Result<(), RunError> {
+/// Runs `cdpr study run` on all ranks; `expected` is their number by the launcher.
+pub(super) fn share_out(settings: &RunSettings, expected: usize) -> Result<(), ProgramError> {
     // All messages are sent and received by this thread.
     let universe = mpi::initialize_with_threading(Threading::Funneled);
-    let Some((universe, _)) = universe else { return Err(RunError::Ranks { expected, found: 0 }) };
+    let Some((universe, _)) = universe else { return Err(ProgramError::Ranks { expected, found: 0 }) };
     let world = universe.world();
     let found = usize::try_from(world.size()).unwrap_or(0);
     let result = match world.rank() {
-        _ if found != expected => Err(RunError::Ranks { expected, found }),
+        _ if found != expected => Err(ProgramError::Ranks { expected, found }),
         0 => lead(&world, settings),
         _ => follow(&world, settings),
     };
     if let Err(error) = result {
         eprintln!("error: {error}");
-        // The other ranks would wait for this one for ever.
+        // The other ranks would wait for this one forever.
         world.abort(1);
     }
     Ok(())
 }
 
-fn lead(world: &SimpleCommunicator, settings: &RunSettings) -> Result<(), RunError> {
+fn lead(world: &SimpleCommunicator, settings: &RunSettings) -> Result<(), ProgramError> {
     let (study, blocks) = begun(settings)?;
-    // The folder is there: from now on the others read the study in it.
+    // The folder is there: from now on the other ranks read the study in it.
     world.barrier();
     whole(&study, &settings.out, &blocks, &settings.common, |session| hand_out(world, &study, session))
 }
 
-/// Hands out all blocks, of which another thread makes some.
-fn hand_out(world: &SimpleCommunicator, study: &Study, session: &Session) -> Result<(), RunError> {
+/// Hands out all blocks, some of which another thread of this process makes.
+fn hand_out(world: &SimpleCommunicator, study: &Study, session: &Session) -> Result<(), ProgramError> {
     let plan = Plan::new(study)?;
     let handed_out = AtomicUsize::new(0);
     let next = || Some(handed_out.fetch_add(1, Ordering::Relaxed)).filter(|block| *block < plan.blocks());
@@ -79,9 +82,9 @@ fn hand_out(world: &SimpleCommunicator, study: &Study, session: &Session) -> Res
     })
 }
 
-/// Makes blocks until there are no more.
-fn follow(world: &SimpleCommunicator, settings: &RunSettings) -> Result<(), RunError> {
-    start_threads(settings.common.threads)?;
+/// Makes blocks until rank 0 has no more.
+fn follow(world: &SimpleCommunicator, settings: &RunSettings) -> Result<(), ProgramError> {
+    settings.common.threads.start()?;
     world.barrier();
     let (study, blocks) = cdpr_study::open_results(&settings.out)?;
     let plan = Plan::new(&study)?;

@@ -1,7 +1,7 @@
-//! `cdpr study status`.
+//! `cdpr study status`: how far a study in a folder is.
 
-use super::RunError;
 use crate::arguments::Format;
+use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_study::{Provisional, Status, open_results, status};
 use clap::Args;
@@ -11,12 +11,12 @@ use std::path::PathBuf;
 pub(crate) struct Settings {
     /// Folder of the results.
     folder: PathBuf,
-    /// How it is printed.
+    /// How the status is printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
-pub(super) fn run(settings: &Settings) -> Result<(), RunError> {
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let (study, blocks) = open_results(&settings.folder)?;
     let found = status(&study, &blocks)?;
     Ok(settings.format.print(&found, print)?)

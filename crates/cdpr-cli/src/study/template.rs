@@ -1,7 +1,7 @@
-//! `cdpr study new`.
+//! `cdpr study new`: a first study of a robot.
 
-use super::RunError;
 use crate::arguments;
+use crate::error::ProgramError;
 use cdpr_study::{TEMPLATE_NOTES, open_robot, template, write_template};
 use clap::Args;
 use std::path::PathBuf;
@@ -11,18 +11,18 @@ pub(crate) struct Settings {
     /// Robot file (JSON, `cdpr-robot/1`).
     #[arg(long)]
     robot: PathBuf,
-    /// File to write, which must not be there; printed if left out.
+    /// File to write, which must not exist; if left out, the study is printed.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Position of the platform: x,y,z [m]; in the middle of the exit points if left out.
+    /// Position of the platform: x,y,z [m]; if left out, the middle of the exit points.
     #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
     position: Option<[f64; 3]>,
-    /// Mass added, whose effect is the deflection [kg]; a tenth of the platform's if left out.
+    /// Payload, whose effect is the deflection [kg]; if left out, a tenth of the platform's mass.
     #[arg(long, value_parser = arguments::payload, allow_hyphen_values = true)]
     payload: Option<f64>,
 }
 
-pub(super) fn run(settings: &Settings) -> Result<(), RunError> {
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { robot: path, out, position, payload } = settings;
     let robot = open_robot(path)?;
     let text = |robot_path: &str| template(&robot, robot_path, *position, *payload);

@@ -3,8 +3,8 @@
 use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
 use crate::file::value::Value;
-use cdpr_sensitivity::pce::MAX_DEGREE;
-use cdpr_sensitivity::sobol_indices::MIN_BLOCKS;
+use cdpr_sensitivity::measure::expansion::MAX_DEGREE;
+use cdpr_sensitivity::measure::sobol_indices::MIN_BLOCKS;
 use cdpr_sensitivity::{Law, Steps, Truncation};
 use indexmap::IndexMap;
 use schemars::JsonSchema;

@@ -165,7 +165,10 @@ pub(crate) fn observe_rms(
 }
 
 /// What `observed` says of each row of a design, in parallel and in the order of the rows, from some rows at a time that follow one another.
-pub fn observe_rows<T: Send>(design: &impl SampleDesign, observed: impl Fn(&mut [f64]) -> Vec<T> + Sync) -> Vec<T> {
+pub fn observe_rows<T: Send>(
+    design: &impl SampleDesign,
+    observed: impl Fn(&mut [f64]) -> Vec<T> + Sync,
+) -> Vec<T> {
     let points = design.size();
     let of_part = |part: usize| observed(&mut draw(design, part * PART..points.min((part + 1) * PART)));
     (0..points.div_ceil(PART)).into_par_iter().flat_map_iter(of_part).collect()

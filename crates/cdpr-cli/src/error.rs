@@ -1,0 +1,79 @@
+//! Every error of the program, and its exit code.
+
+use cdpr_cable::{CableError, RecordError};
+use cdpr_report::ReportError;
+use cdpr_robot::JsonError;
+use cdpr_statics::StaticsError;
+use cdpr_study::StudyError;
+use std::path::{Path, PathBuf};
+
+/// Why a command did not do what it was asked for.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum ProgramError {
+    /// Arguments are wrong together, which clap cannot find: it judges them one by one.
+    #[error("{0}\n\nFor more information, try '--help'.")]
+    Usage(String),
+    #[error(transparent)]
+    Cable(#[from] CableError),
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    #[error(transparent)]
+    Statics(#[from] StaticsError),
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// A file was read, and what it says is wrong.
+    #[error("{path}: {source}")]
+    InFile { path: PathBuf, source: Box<ProgramError> },
+    #[error(transparent)]
+    Format(#[from] JsonError),
+    #[error("cable {cable}: {source}")]
+    OfCable { cable: usize, source: CableError },
+    #[error("{field} is a list of {given}: expected {expected} moduli, one a range")]
+    Moduli { field: &'static str, given: usize, expected: usize },
+    #[error(
+        "the cables of the robot differ in their section: expected --section, that of the record's specimen"
+    )]
+    DifferentSections,
+    #[error("no cable of the robot has a law: expected --record, --law, or a `law` in the robot file")]
+    NoLaw,
+    #[error("--poses {path}, line {line}: {reason}")]
+    Poses { path: PathBuf, line: usize, reason: String },
+    #[error("the robot holds none of the candidate poses: {reasons}")]
+    NoPoseHeld { reasons: String },
+    #[error("cannot start {threads} threads: {source}")]
+    Threads { threads: u16, source: rayon::ThreadPoolBuildError },
+    #[cfg(not(feature = "mpi"))]
+    #[error(
+        "{processes} processes run this study together: expected one, several with --shard, or a program \
+         built with the feature `mpi` (cargo install --path crates/cdpr-cli --features mpi)"
+    )]
+    WithoutMpi { processes: usize },
+    #[cfg(feature = "mpi")]
+    #[error(
+        "the launcher has started {expected} processes and MPI knows of {found}: expected a launcher of the \
+         MPI that the program was built with"
+    )]
+    Ranks { expected: usize, found: usize },
+    #[error("cannot wait for Ctrl-C: {0}")]
+    Signals(#[from] ctrlc::Error),
+    #[error("cannot write JSON: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+impl ProgramError {
+    /// The error with the file that it is about.
+    pub(crate) fn in_file<E: Into<Self>>(path: &Path) -> impl Fn(E) -> Self {
+        |source| Self::InFile { path: path.to_owned(), source: Box::new(source.into()) }
+    }
+
+    /// 2 for wrong arguments, 1 for everything else.
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::Usage(_) => 2,
+            Self::Study(error) if error.is_argument() => 2,
+            _ => 1,
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! Commands about a robot at a pose: its lengths, equilibria, stiffness and derivatives.
+
+pub(crate) mod deflection;
+pub(crate) mod derivatives;
+pub(crate) mod direct;
+pub(crate) mod hysteresis;
+pub(crate) mod inverse;
+pub(crate) mod stiffness;

@@ -1,0 +1,65 @@
+//! `cdpr deflection`: how far a load displaces and rotates the platform, with both equilibria.
+
+use crate::answer::{Found, vector};
+use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::error::ProgramError;
+use cdpr_statics::{Deflection, deflection};
+use cdpr_study::open_robot;
+use serde::Serialize;
+
+/// The robot, the pose and the load.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtPose,
+    #[command(flatten)]
+    load: LoadArguments,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let at = &settings.at;
+    let load = settings.load.some_load()?;
+    let robot = open_robot(&at.robot)?;
+    let found = deflection(&robot, &at.pose, &vec![0.0; robot.cables.len()], &load)?;
+    let answer = Answer::new(&found);
+    Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
+}
+
+/// The deflection, in SI units unless the name says otherwise.
+#[derive(Serialize)]
+struct Answer {
+    /// Displacement dp of P, Eq. (4).
+    deflection_mm: [f64; 3],
+    /// Its norm |dp|.
+    rms_mm: f64,
+    /// Rotation vector from the unloaded to the loaded platform.
+    rotation_deg: [f64; 3],
+    /// Unstrained lengths.
+    lengths: Vec<f64>,
+    unloaded: Found,
+    loaded: Found,
+}
+
+impl Answer {
+    fn new(found: &Deflection) -> Self {
+        let motion = found.unloaded.equilibrium.pose.motion_to(&found.loaded.equilibrium.pose);
+        Self {
+            deflection_mm: (1e3 * found.displacement()).into(),
+            rms_mm: 1e3 * found.rms(),
+            rotation_deg: [3, 4, 5].map(|row| motion[row].to_degrees()),
+            lengths: found.lengths.clone(),
+            unloaded: Found::new(&found.unloaded),
+            loaded: Found::new(&found.loaded),
+        }
+    }
+
+    fn print(&self, heading: &str) {
+        println!("{heading}");
+        println!("dp = {} mm, |dp| = {:.5} mm", vector(&self.deflection_mm, 5), self.rms_mm);
+        println!("rotated by {} degrees", vector(&self.rotation_deg, 5));
+        println!("\nunder its own weight");
+        self.unloaded.print(&self.lengths);
+        println!("\nwith the load");
+        self.loaded.print(&self.lengths);
+    }
+}

@@ -1,0 +1,112 @@
+//! `cdpr derivatives`: the derivatives of lengths and deflection with respect to each parameter.
+
+use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::error::ProgramError;
+use crate::output::table;
+use cdpr_robot::Parameter;
+use cdpr_statics::{Derivatives, derivatives};
+use cdpr_study::open_robot;
+use serde::Serialize;
+
+/// The robot, the pose and the load.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtPose,
+    #[command(flatten)]
+    load: LoadArguments,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let at = &settings.at;
+    let load = settings.load.some_load()?;
+    let robot = open_robot(&at.robot)?;
+    let offsets = vec![0.0; robot.cables.len()];
+    let found = derivatives(&robot, &at.pose, &offsets, &load)?;
+    let slopes = Slopes::new(&found)?;
+    Ok(at.format.print(&slopes, |slopes| print(&at.heading(&robot), &found, slopes))?)
+}
+
+/// Derivatives with respect to each parameter; the outer lists are in the order of the parameters.
+#[derive(Serialize)]
+struct Slopes {
+    parameters: Vec<String>,
+    /// Derivative of |dp| [mm].
+    rms_mm: Vec<f64>,
+    /// Derivative of dp [mm].
+    deflection_mm: Vec<[f64; 3]>,
+    /// Derivative of the unstrained length of each cable [m].
+    unstrained_lengths: Vec<Vec<f64>>,
+    unit: &'static str,
+}
+
+impl Slopes {
+    fn new(found: &Derivatives) -> Result<Self, ProgramError> {
+        let parameters = &found.inputs.parameters;
+        let count = parameters.len();
+        let mut rms = found.rms()?;
+        rms.truncate(count);
+        Ok(Self {
+            parameters: parameters.iter().map(ToString::to_string).collect(),
+            rms_mm: rms.iter().map(|slope| 1e3 * slope).collect(),
+            deflection_mm: found
+                .displacement()
+                .column_iter()
+                .take(count)
+                .map(|dp| (1e3 * dp).into())
+                .collect(),
+            unstrained_lengths: found
+                .lengths
+                .column_iter()
+                .take(count)
+                .map(|lengths| lengths.iter().copied().collect())
+                .collect(),
+            unit: "per SI unit of the parameter",
+        })
+    }
+}
+
+/// A unit of the size by which such a parameter is uncertain, and its value in SI units.
+fn handy_unit(parameter: &Parameter) -> (&'static str, f64) {
+    match parameter.unit() {
+        "kg/m" => ("g/m", 1e-3),
+        "Pa" => ("GPa", 1e9),
+        "m" => ("mm", 1e-3),
+        unit => (unit, 1.0),
+    }
+}
+
+fn print(heading: &str, found: &Derivatives, slopes: &Slopes) {
+    println!("{heading}: |dp| = {:.5} mm under the load", 1e3 * found.deflection.rms());
+    let header = [
+        "parameter",
+        "d|dp| [\u{b5}m]",
+        "per",
+        "d dx [\u{b5}m]",
+        "d dy [\u{b5}m]",
+        "d dz [\u{b5}m]",
+        "largest dL [mm]",
+    ];
+    let mut rows: Vec<_> = found.inputs.parameters.iter().map(handy_unit).enumerate().collect();
+    rows.sort_by(|(i, (_, one)), (j, (_, other))| {
+        (slopes.rms_mm[*j] * other).abs().total_cmp(&(slopes.rms_mm[*i] * one).abs())
+    });
+    let mut lines = table(&header);
+    for (place, (unit, step)) in rows {
+        // Without the sign of a zero.
+        let micrometres = |slope: f64| format!("{:.5}", (1e8 * slope * step).round() / 1e5 + 0.0);
+        let [dx, dy, dz] = slopes.deflection_mm[place].map(micrometres);
+        let lengths = slopes.unstrained_lengths[place].iter();
+        let largest = lengths.fold(0.0, |size: f64, slope| size.max(slope.abs()));
+        lines.add_row([
+            slopes.parameters[place].clone(),
+            micrometres(slopes.rms_mm[place]),
+            unit.to_owned(),
+            dx,
+            dy,
+            dz,
+            format!("{:.5}", 1e3 * largest * step),
+        ]);
+    }
+    println!("{lines}");
+}

@@ -1,0 +1,252 @@
+//! `cdpr direct`: where the platform stands for given unstrained lengths.
+//!
+//! Cases come one from the arguments, or one or many from a file.
+
+use crate::answer::Found;
+use crate::arguments::{self, Format};
+use crate::error::ProgramError;
+use crate::output::Ending;
+use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json};
+use cdpr_statics::{Certificate, Load, Start, StaticsError, certify, direct, rough_pose};
+use cdpr_study::{StudyError, open_robot};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// The robot, the lengths and the load.
+#[derive(clap::Args)]
+#[command(group = clap::ArgGroup::new("what").required(true).args(["lengths", "from"]))]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m].
+    #[arg(long, value_parser = arguments::list, allow_hyphen_values = true)]
+    lengths: Option<arguments::List>,
+    /// Mass of the platform with all it carries, in place of the file's [kg].
+    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
+    mass: Option<f64>,
+    /// Force on the platform, in the base frame: fx,fy,fz [N].
+    #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
+    force: Option<[f64; 3]>,
+    /// Moment about P, of constant components in the base frame: mx,my,mz [N m].
+    #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
+    moment: Option<[f64; 3]>,
+    /// Start of the search: x,y,z [m], or x,y,z,qw,qx,qy,qz.
+    ///
+    /// If left out, the search starts where straight cables would hold a point.
+    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
+    start: Option<Pose>,
+    /// Prove how close the exact equilibrium is.
+    #[arg(long)]
+    certify: bool,
+    /// JSON file with one case or a list of cases, in place of the arguments.
+    ///
+    /// A case: {"lengths": [..], "mass": .., "force": [..], "moment": [..], "start": [..]}.
+    #[arg(long, conflicts_with_all = ["lengths", "mass", "force", "moment", "start"])]
+    from: Option<PathBuf>,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// A direct problem, also as it stands in a file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Case {
+    lengths: Vec<f64>,
+    mass: Option<f64>,
+    force: Option<[f64; 3]>,
+    moment: Option<[f64; 3]>,
+    /// Position, or position and quaternion: three or seven numbers.
+    start: Option<Vec<f64>>,
+    #[serde(default)]
+    certify: bool,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let robot = open_robot(&settings.robot)?;
+    let cases = match (&settings.from, &settings.lengths) {
+        (Some(path), _) => Cases::read(path)?,
+        (None, lengths) => Cases::One(Box::new(settings.case(lengths.as_ref()))),
+    };
+    match cases {
+        Cases::One(case) => {
+            let answer = solve(&robot, &case, settings.certify);
+            let answer = match &settings.from {
+                Some(path) => answer.map_err(ProgramError::in_file(path))?,
+                None => answer?,
+            };
+            settings.format.print(&answer, |answer| answer.print(&case.lengths))?;
+            Ok(answer.ending())
+        }
+        Cases::List(cases) => {
+            let answers: Vec<Entry> =
+                cases.iter().map(|case| solve(&robot, case, settings.certify).into()).collect();
+            settings.format.print(&answers, |answers| {
+                for (i, (entry, case)) in answers.iter().zip(&cases).enumerate() {
+                    println!("case {}", i + 1);
+                    entry.print(&case.lengths);
+                }
+            })?;
+            let well = answers.iter().all(|entry| entry.ending() == Ending::Well);
+            Ok(if well { Ending::Well } else { Ending::SomethingWrong })
+        }
+    }
+}
+
+impl Settings {
+    fn case(&self, lengths: Option<&arguments::List>) -> Case {
+        Case {
+            lengths: lengths.map(|arguments::List(lengths)| lengths.clone()).unwrap_or_default(),
+            mass: self.mass,
+            force: self.force,
+            moment: self.moment,
+            start: self.start.as_ref().map(|start| arguments::pose_numbers(start).to_vec()),
+            certify: self.certify,
+        }
+    }
+}
+
+enum Cases {
+    One(Box<Case>),
+    List(Vec<Case>),
+}
+
+impl Cases {
+    fn read(path: &Path) -> Result<Self, StudyError> {
+        let text = arguments::read(path)?;
+        let cases = if text.trim_start().starts_with('[') {
+            from_json(&text).map(Self::List)
+        } else {
+            from_json(&text).map(|case| Self::One(Box::new(case)))
+        };
+        cases.map_err(|source| StudyError::Format { path: path.to_owned(), source })
+    }
+}
+
+/// The equilibrium of a case.
+#[derive(Serialize)]
+struct Answer {
+    #[serde(flatten)]
+    found: Found,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certificate: Option<Proof>,
+}
+
+/// The proof of how close the exact equilibrium is, or why there is no proof.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Proof {
+    Given { position: f64, rotation: f64, force: f64, least_stiffness: f64, stable: bool },
+    None { error: Failure },
+}
+
+/// Why there is no answer.
+#[derive(Serialize)]
+struct Failure {
+    kind: &'static str,
+    message: String,
+}
+
+/// The answer to one case of a list.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Entry {
+    Answer(Box<Answer>),
+    Failed { error: Failure },
+}
+
+fn solve(robot: &Robot, case: &Case, prove: bool) -> Result<Answer, StaticsError> {
+    let mut robot = robot.clone();
+    if let Some(mass) = case.mass {
+        robot.platform.mass = mass;
+        robot.validate()?;
+    }
+    let vector = |components: Option<[f64; 3]>| components.map_or_else(Vector3::zeros, Vector3::from);
+    let load = Load::wrench(Wrench { force: vector(case.force), moment: vector(case.moment) });
+    let start = match &case.start {
+        Some(numbers) => arguments::pose_of(numbers).map_err(|_| StaticsError::Invalid {
+            field: "start".to_owned(),
+            value: format!("{numbers:?}"),
+            expected: "x,y,z [m] or x,y,z,qw,qx,qy,qz, with a quaternion other than zero".to_owned(),
+        })?,
+        None => rough_pose(&robot, &case.lengths),
+    };
+    if !start.is_finite() {
+        return Err(StaticsError::Invalid {
+            field: "lengths".to_owned(),
+            value: format!("{:?}", case.lengths),
+            expected: "lengths within reach of the robot's frame [m]".to_owned(),
+        });
+    }
+    let solution = direct(&robot, &case.lengths, &load, Start::Pose(&start))?;
+    let certificate =
+        (prove || case.certify).then(|| certify(&robot, &case.lengths, &load, &solution).into());
+    Ok(Answer { found: Found::new(&solution), certificate })
+}
+
+impl Answer {
+    fn ending(&self) -> Ending {
+        match self.certificate {
+            Some(Proof::None { .. }) => Ending::SomethingWrong,
+            _ => Ending::Well,
+        }
+    }
+
+    fn print(&self, lengths: &[f64]) {
+        self.found.print(lengths);
+        match &self.certificate {
+            Some(Proof::Given { position, rotation, force, least_stiffness, .. }) => println!(
+                "proved: exact to {position:.1e} m, {rotation:.1e} rad, {force:.1e} N; \
+                 softest motion at least {least_stiffness:.1} N/m"
+            ),
+            Some(Proof::None { error }) => println!("{}", error.message),
+            None => {}
+        }
+    }
+}
+
+impl Entry {
+    fn ending(&self) -> Ending {
+        match self {
+            Self::Answer(answer) => answer.ending(),
+            Self::Failed { .. } => Ending::SomethingWrong,
+        }
+    }
+
+    fn print(&self, lengths: &[f64]) {
+        match self {
+            Self::Answer(answer) => answer.print(lengths),
+            Self::Failed { error } => println!("no answer: {}", error.message),
+        }
+    }
+}
+
+impl From<Result<Answer, StaticsError>> for Entry {
+    fn from(answer: Result<Answer, StaticsError>) -> Self {
+        match answer {
+            Ok(answer) => Self::Answer(Box::new(answer)),
+            Err(error) => Self::Failed { error: error.into() },
+        }
+    }
+}
+
+impl From<Result<Certificate, StaticsError>> for Proof {
+    fn from(certificate: Result<Certificate, StaticsError>) -> Self {
+        match certificate {
+            Ok(proof) => Self::Given {
+                position: proof.position,
+                rotation: proof.rotation,
+                force: proof.force,
+                least_stiffness: proof.least_stiffness,
+                stable: proof.is_stable(),
+            },
+            Err(error) => Self::None { error: error.into() },
+        }
+    }
+}
+
+impl From<StaticsError> for Failure {
+    fn from(error: StaticsError) -> Self {
+        Self { kind: error.kind(), message: error.to_string() }
+    }
+}

@@ -1,0 +1,209 @@
+//! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
+
+use crate::arguments::{self, Format, number, payload};
+use crate::error::ProgramError;
+use crate::output::table;
+use cdpr_report::{Cycle, cycle};
+use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable, Segment};
+use cdpr_statics::{DirectSolution, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+use cdpr_study::{CableLaw, open_law, open_record, open_robot, write_text};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// The robot, its cables and its load.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// Record of its cables (CSV with the columns force_n, elongation_mm, phase: loading or unloading).
+    #[arg(long, requires = "length")]
+    record: Option<PathBuf>,
+    /// Length of the record's specimen between its clamps [m].
+    #[arg(long, value_parser = number, allow_hyphen_values = true, requires = "record")]
+    length: Option<f64>,
+    /// Section of the record's specimen [m²]; that of the cables if left out.
+    #[arg(long, value_parser = number, allow_hyphen_values = true, requires = "record")]
+    section: Option<f64>,
+    /// Law of its cables (JSON, `cdpr-law/1`). Without record and law: the laws in the robot file.
+    #[arg(long, conflicts_with = "record")]
+    law: Option<PathBuf>,
+    /// Pose under the platform's own weight: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
+    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
+    pose: Pose,
+    /// Mass put on the platform's centre of mass and taken off again [kg].
+    #[arg(long, value_parser = payload, allow_hyphen_values = true)]
+    payload: f64,
+    /// The part of the unloading curve that a cable follows.
+    #[arg(long, value_enum, default_value_t = Branch::TurningPoint)]
+    unloading: Branch,
+    /// Steps of the payload each way.
+    #[arg(long, default_value_t = 50)]
+    steps: usize,
+    /// File for a figure of payload over height (SVG).
+    #[arg(long)]
+    figure: Option<PathBuf>,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// The part of the unloading curve that a cable follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Branch {
+    /// The part with the same tensions.
+    SameTension,
+    /// The part from its start, which is moved to the turning point of the tension.
+    TurningPoint,
+}
+
+#[derive(Serialize)]
+struct Found {
+    deflection_mm: [f64; 3],
+    residual_mm: [f64; 3],
+    payload_work_j: f64,
+    dissipated_j: f64,
+    cables: Vec<InCable>,
+}
+
+/// The load cycle of a cable, with the tensions at its middle.
+#[derive(Serialize)]
+struct InCable {
+    tension_own_weight_n: f64,
+    tension_payload_n: f64,
+    tension_removed_n: f64,
+    /// Secant modulus between own weight and payload.
+    modulus_gpa: f64,
+    dissipated_j: f64,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let robot = open_robot(&settings.robot)?;
+    let laws = laws(&robot, settings)?;
+    let cycle = load_cycle(&robot, &laws, &settings.pose, settings.payload, settings.steps)?;
+    let found = Found::new(&robot, &laws, &cycle);
+    settings.format.print(&found, print)?;
+    if found.cables.iter().any(|cable| cable.dissipated_j < 0.0) {
+        eprintln!(
+            "warning: the loop of a cable runs the wrong way round and gives energy: in its range of tension \
+             the record's unloading curve is softer than its loading curve, as it can be far below the \
+             turning point from which it was measured"
+        );
+    }
+    settings.figure.as_deref().map_or(Ok(()), |path| draw(&robot, &cycle, &found, path))
+}
+
+/// The hysteresis of each cable.
+fn laws(robot: &Robot, settings: &Settings) -> Result<Vec<HysteresisLaw>, ProgramError> {
+    let law = match (&settings.record, &settings.length, &settings.law) {
+        (Some(record), Some(length), _) => of_record(robot, record, *length, settings.section)?,
+        (_, _, Some(law)) => open_law(law)?,
+        _ => return own(robot),
+    };
+    let from = match settings.unloading {
+        Branch::SameTension => Unloading::SameTension,
+        Branch::TurningPoint => Unloading::TurningPoint,
+    };
+    let cables = robot.cables.iter().enumerate();
+    let curves = cables.map(|(i, cable)| {
+        let curves = law.curves(&cable.properties, from);
+        curves.map_err(|source| ProgramError::OfCable { cable: i + 1, source })
+    });
+    curves.collect()
+}
+
+fn of_record(
+    robot: &Robot,
+    record: &Path,
+    length: f64,
+    section: Option<f64>,
+) -> Result<CableLaw, ProgramError> {
+    let of_cables = robot.cables[0].properties.section;
+    if section.is_none() && robot.cables.iter().any(|cable| cable.properties.section != of_cables) {
+        return Err(ProgramError::DifferentSections);
+    }
+    let law = CableLaw::of_record(&open_record(record)?, length, section.unwrap_or(of_cables));
+    law.map_err(ProgramError::in_file(record))
+}
+
+/// The laws of the robot file, by which cables lose no energy.
+fn own(robot: &Robot) -> Result<Vec<HysteresisLaw>, ProgramError> {
+    if robot.is_linear() {
+        return Err(ProgramError::NoLaw);
+    }
+    let linear = PiecewiseLaw::new(0.0, &[Segment { tension: 0.0, ratio: 1.0 }])?;
+    let law = |cable: &RobotCable| cable.properties.law.clone().unwrap_or_else(|| linear.clone());
+    Ok(robot.cables.iter().map(|cable| HysteresisLaw::elastic(law(cable))).collect())
+}
+
+impl Found {
+    fn new(robot: &Robot, laws: &[HysteresisLaw], cycle: &LoadCycle) -> Self {
+        let cables = cycle.tensions.iter().zip(&cycle.dissipated).enumerate();
+        let cables = cables.map(|(i, (tensions, dissipated))| InCable {
+            tension_own_weight_n: tensions[0],
+            tension_payload_n: tensions[1],
+            tension_removed_n: tensions[2],
+            modulus_gpa: 1e-9
+                * robot.cables[i].properties.youngs_modulus
+                * laws[i].loading.secant_ratio(tensions[0], tensions[1]),
+            dissipated_j: *dissipated,
+        });
+        Self {
+            deflection_mm: (1e3 * cycle.deflection()).into(),
+            residual_mm: (1e3 * cycle.residual()).into(),
+            payload_work_j: cycle.payload_work,
+            dissipated_j: cycle.dissipated.iter().sum(),
+            cables: cables.collect(),
+        }
+    }
+}
+
+fn print(found: &Found) {
+    let mut rows =
+        table(&["cable", "own weight [N]", "payload [N]", "removed [N]", "E [GPa]", "dissipated [mJ]"]);
+    for (i, cable) in found.cables.iter().enumerate() {
+        let [a, b, c] = [cable.tension_own_weight_n, cable.tension_payload_n, cable.tension_removed_n]
+            .map(|tension| format!("{tension:.2}"));
+        let (modulus, energy) =
+            (format!("{:.2}", cable.modulus_gpa), format!("{:.4}", 1e3 * cable.dissipated_j));
+        rows.add_row([(i + 1).to_string(), a, b, c, modulus, energy]);
+    }
+    // Without the sign of a zero.
+    let [dx, dy, dz] = found.deflection_mm.map(|d| format!("{:.4}", (1e4 * d).round() / 1e4 + 0.0));
+    let [rx, ry, rz] = found.residual_mm.map(|d| format!("{:.5}", (1e5 * d).round() / 1e5 + 0.0));
+    println!(
+        "{rows}\n\
+         displaced by the payload  ({dx}, {dy}, {dz}) mm\n\
+         left when it is gone      ({rx}, {ry}, {rz}) mm"
+    );
+    println!(
+        "energy: {:.4} mJ given by the payload, {:.4} mJ in the loops of the cables",
+        1e3 * found.payload_work_j,
+        1e3 * found.dissipated_j
+    );
+}
+
+fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<(), ProgramError> {
+    let begin = ran.loading.first().map_or(0.0, |(_, solution)| solution.equilibrium.pose.position.z);
+    let points = |way: &[(f64, DirectSolution)]| {
+        let at = |(mass, solution): &(f64, DirectSolution)| {
+            (1e3 * (begin - solution.equilibrium.pose.position.z), *mass)
+        };
+        way.iter().map(at).collect::<Vec<_>>()
+    };
+    let branches = [
+        ("payload put on".to_owned(), points(&ran.loading)),
+        ("payload taken off".to_owned(), points(&ran.unloading)),
+    ];
+    let figure = cycle(&Cycle {
+        title: &format!("{}: payload over the way down", robot.name),
+        lines: &[format!(
+            "{:.5} mm stay; {:.3} mJ given by the payload",
+            -found.residual_mm[2],
+            1e3 * found.payload_work_j
+        )],
+        x: "way down [mm]",
+        y: "payload [kg]",
+        branches: &branches,
+    })?;
+    Ok(write_text(path, &figure)?)
+}

@@ -1,0 +1,76 @@
+//! `cdpr inverse`: the unstrained lengths that hold a pose.
+
+use crate::answer::{self, Residual};
+use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::error::ProgramError;
+use cdpr_statics::{Bound, InverseSolution, inverse};
+use cdpr_study::open_robot;
+use serde::Serialize;
+
+/// The robot, the pose and the load.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtPose,
+    #[command(flatten)]
+    load: LoadArguments,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let at = &settings.at;
+    let robot = open_robot(&at.robot)?;
+    let answer = Answer::new(&inverse(&robot, &at.pose, &settings.load.load(), None)?);
+    Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
+}
+
+/// The lengths, in SI units.
+#[derive(Serialize)]
+struct Answer {
+    /// Unstrained lengths.
+    lengths: Vec<f64>,
+    tensions: Vec<f64>,
+    /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
+    cable_forces: Vec<[f64; 2]>,
+    report: Report,
+}
+
+#[derive(Serialize)]
+struct Report {
+    /// Iterations of distribution and Newton's method.
+    turns: usize,
+    /// The bound that each tension rests on, `min` or `max`; `null` where it rests on none.
+    active: Vec<Option<&'static str>>,
+    residual: Residual,
+}
+
+impl Answer {
+    fn new(solution: &InverseSolution) -> Self {
+        let bound = |bound: &Option<Bound>| {
+            bound.map(|bound| match bound {
+                Bound::Min => "min",
+                Bound::Max => "max",
+            })
+        };
+        Self {
+            lengths: solution.lengths.clone(),
+            tensions: solution.tensions.clone(),
+            cable_forces: answer::forces(&solution.equilibrium),
+            report: Report {
+                turns: solution.turns,
+                active: solution.active.iter().map(bound).collect(),
+                residual: Residual::new(&solution.residual),
+            },
+        }
+    }
+
+    fn print(&self, heading: &str) {
+        println!("{heading}");
+        answer::print_cables(&self.lengths, &self.cable_forces, &self.tensions);
+        for (i, bound) in self.report.active.iter().enumerate() {
+            if let Some(bound) = bound {
+                println!("cable {} rests on its {bound}imum tension", i + 1);
+            }
+        }
+        self.report.residual.print();
+    }
+}

@@ -1,0 +1,92 @@
+//! `cdpr stiffness`: the Cartesian stiffness at a pose, with its eigenvalues and their motions.
+
+use crate::answer::{self, decimal};
+use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::error::ProgramError;
+use crate::output::table;
+use cdpr_statics::{Stability, Start, Tangent, direct_any, inverse};
+use cdpr_study::open_robot;
+use serde::Serialize;
+
+/// The robot, the pose and the load.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtPose,
+    #[command(flatten)]
+    load: LoadArguments,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let at = &settings.at;
+    let robot = open_robot(&at.robot)?;
+    let load = settings.load.load();
+    let wanted = inverse(&robot, &at.pose, &load, None)?;
+    // The equilibrium at the pose itself, whether or not it is stable.
+    let held = direct_any(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium))?;
+    let tangent = Tangent::at(&robot, &wanted.lengths, &load, &held)?;
+    let answer = Answer::new(&tangent, &held.stability);
+    Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
+}
+
+/// The stiffness.
+#[derive(Serialize)]
+struct Answer {
+    /// Rows of K in (dp, dφ) [N/m, N/rad, N, N m/rad].
+    stiffness: [[f64; 6]; 6],
+    /// Eigenvalues, the softest motion first.
+    eigenvalues: Vec<Eigenvalue>,
+    least_stiffness: f64,
+    stable: bool,
+    /// Characteristic length ρ, which makes rotations comparable with translations [m].
+    arm: f64,
+}
+
+/// An eigenvalue of the stiffness in (dp, ρ dφ) and its motion.
+#[derive(Serialize)]
+struct Eigenvalue {
+    /// Stiffness of the motion [N/m].
+    stiffness: f64,
+    /// Translation of P [m/m], with `|translation|² + ρ² |rotation|² = 1`.
+    translation: [f64; 3],
+    /// Rotation vector [rad/m].
+    rotation: [f64; 3],
+}
+
+impl Answer {
+    fn new(tangent: &Tangent, stability: &Stability) -> Self {
+        Self {
+            stiffness: tangent.stiffness().transpose().into(),
+            eigenvalues: stability
+                .modes()
+                .iter()
+                .map(|mode| Eigenvalue {
+                    stiffness: mode.stiffness,
+                    translation: mode.translation.into(),
+                    rotation: mode.rotation.into(),
+                })
+                .collect(),
+            least_stiffness: stability.least_stiffness(),
+            stable: stability.is_stable(),
+            arm: stability.arm(),
+        }
+    }
+
+    fn print(&self, heading: &str) {
+        println!("{heading}: K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]");
+        for row in self.stiffness {
+            println!("{}", row.map(|entry| format!("{:>14}", decimal(entry, 1))).concat());
+        }
+        let mut rows = table(&["eigenvalue [N/m]", "translation [m/m]", "rotation [rad/m]"]);
+        for Eigenvalue { stiffness, translation, rotation } in &self.eigenvalues {
+            let words = |vector: &[f64; 3]| answer::vector(vector, 4);
+            rows.add_row([format!("{stiffness:.1}"), words(translation), words(rotation)]);
+        }
+        println!("{rows}");
+        let stable = if self.stable { "stable" } else { "unstable" };
+        println!(
+            "{stable}; least stiffness {:.1} N/m, with rotations times \u{3c1} = {:.4} m",
+            self.least_stiffness, self.arm
+        );
+    }
+}

@@ -1,0 +1,37 @@
+//! `cdpr check`: everything about a robot file that is odd and yet no error.
+
+use crate::arguments::Format;
+use crate::error::ProgramError;
+use crate::output::Ending;
+use cdpr_assess::{Finding, Severity, inspect};
+use cdpr_study::open_robot;
+use std::path::PathBuf;
+
+/// The robot file.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// How the findings are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let robot = open_robot(&settings.robot)?;
+    let findings = inspect(&robot);
+    let warnings = findings.iter().filter(|finding| finding.severity == Severity::Warning).count();
+    settings.format.print(&findings, |findings| {
+        for Finding { severity, field, value, why, remedy } in findings {
+            println!("{severity}: {field} is {value}: {why}");
+            println!("    remedy: {remedy}");
+        }
+        println!(
+            "{}: {} cables, {warnings} warnings, {} notes",
+            robot.name,
+            robot.cables.len(),
+            findings.len() - warnings
+        );
+    })?;
+    Ok(if warnings > 0 { Ending::SomethingWrong } else { Ending::Well })
+}

@@ -1,0 +1,156 @@
+//! `cdpr robustness`: how often the direct model finds the true pose from a wrong start.
+
+use crate::arguments::Format;
+use crate::error::ProgramError;
+use crate::output::{progress, table, write_drawn};
+use cdpr_assess::{
+    Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, run_robustness, write_refused,
+    write_robustness, write_solves,
+};
+use cdpr_study::{check_folder, open_robot};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// The robot and the sizes of the protocols.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`); the protocols are made for CoGiRo.
+    #[arg(long)]
+    robot: PathBuf,
+    /// Poses of the protocol of Mahnke and Caverly.
+    #[arg(long, default_value_t = 10_000)]
+    poses: usize,
+    /// Young's modulus of all cables in that protocol [Pa]; the thirty poses keep the robot's.
+    #[arg(long, default_value_t = 35e9, allow_negative_numbers = true)]
+    modulus: f64,
+    /// Seed of poses and starts. The same seed gives the same numbers, but for the times.
+    #[arg(long, default_value_t = 2017)]
+    seed: u64,
+    /// Folder for the results; made if missing.
+    #[arg(long, default_value = "robustness")]
+    out: PathBuf,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let clock = Instant::now();
+    let mut first = Protocol::mahnke_caverly(settings.poses, settings.seed);
+    first.youngs_modulus = Some(settings.modulus);
+    let protocols = [first, Protocol::thirty_poses(settings.seed)];
+    for protocol in &protocols {
+        protocol.validate()?;
+    }
+    let robot = open_robot(&settings.robot)?;
+    check_folder(&settings.out)?;
+
+    let steps = protocols.iter().map(|protocol| protocol.poses + protocol.solves()).sum();
+    let progress = progress(steps, "poses and solves");
+    let mut results = Vec::new();
+    for protocol in &protocols {
+        progress.set_message(protocol.name);
+        results.push(run_robustness(&robot, protocol, &|| progress.inc(1))?);
+    }
+    progress.finish_and_clear();
+    let summary = RobustnessSummary {
+        robot: robot.name.clone(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        protocols: results.iter().map(|r| (r.protocol.name.to_owned(), ProtocolSummary::new(r))).collect(),
+    };
+    write_solves(&settings.out, &results)?;
+    write_refused(&settings.out, &results)?;
+    write_robustness(&settings.out, &summary)?;
+    write_drawn(&settings.out, "found_poses", cdpr_report::found_poses(&results[0]))?;
+    write_drawn(&settings.out, "success_share", cdpr_report::success_share(&summary.protocols[0]))?;
+    Ok(settings.format.print(&summary, |summary| {
+        print_results(summary);
+        println!("{:.1} s; results in {}", clock.elapsed().as_secs_f64(), settings.out.display());
+    })?)
+}
+
+fn print_results(summary: &RobustnessSummary) {
+    for protocol in summary.protocols.values() {
+        println!("{}: {}", summary.robot, protocol.title);
+        print_settings(protocol);
+        print_rows(protocol);
+        for (kind, count) in &protocol.total.failed {
+            println!("{count} failed: {kind}");
+        }
+        if let (Some(distance), Some(angle)) =
+            (protocol.total.true_pose_distance, protocol.total.true_pose_angle_deg)
+        {
+            println!("true poses are found to {:.1e} m and {:.1e} degrees at worst", distance.max, angle.max);
+        }
+        println!();
+    }
+}
+
+fn print_settings(protocol: &ProtocolSummary) {
+    let modulus =
+        protocol.youngs_modulus.map_or_else(|| "that of the file".to_owned(), |e| format!("{} GPa", e / 1e9));
+    println!(
+        "E: {modulus}; seed {}; found: within {} m and {} degrees",
+        protocol.seed, protocol.found_distance, protocol.found_angle_deg
+    );
+    let draws = &protocol.draws;
+    let kinds = |counts: &std::collections::BTreeMap<String, usize>| {
+        counts.iter().map(|(kind, count)| format!(", {count} {kind}")).collect::<String>()
+    };
+    println!(
+        "{} poses of {} drawn{}; {} unstable{}",
+        protocol.poses,
+        draws.drawn,
+        kinds(&draws.infeasible),
+        draws.unstable,
+        kinds(&draws.unanswered)
+    );
+}
+
+fn print_rows(protocol: &ProtocolSummary) {
+    let published = protocol.rows.iter().find_map(|row| row.published);
+    let mut header = vec![
+        "start [m]",
+        "[deg]",
+        "solves",
+        "true pose",
+        "[%]",
+        "other",
+        "failed",
+        "Newton",
+        "trust r.",
+        "iterations",
+        "max",
+        "time [\u{b5}s]",
+        "max",
+    ];
+    header.extend(published.map(|published| published.program));
+    let mut rows = table(&header);
+    for row in protocol.rows.iter().chain([&protocol.total]) {
+        let mut cells = cells(row);
+        if published.is_some() {
+            cells.push(row.published.map_or_else(String::new, |p| format!("{} of {}", p.found, p.of)));
+        }
+        rows.add_row(cells);
+    }
+    println!("{rows}");
+}
+
+fn cells(row: &RobustnessRow) -> Vec<String> {
+    let number = |value: Option<f64>| {
+        value.map_or_else(
+            || "all".to_owned(),
+            |value| format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned(),
+        )
+    };
+    let spread = |spread: Option<Spread>| {
+        spread.map_or_else(Default::default, |s| [format!("{:.0}", s.median), format!("{:.0}", s.max)])
+    };
+    let mut cells =
+        vec![number(row.distance), number(row.angle_deg), row.solves.to_string(), row.true_pose.to_string()];
+    cells.push(row.success().map_or_else(String::new, |share| format!("{:.2}", 100.0 * share)));
+    let counts = [row.other_equilibrium, row.failed.values().sum(), row.newton, row.trust_region];
+    cells.extend(counts.map(|count| count.to_string()));
+    cells.extend(spread(row.iterations).into_iter().chain(spread(row.microseconds)));
+    cells
+}

@@ -1,0 +1,155 @@
+//! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
+
+use crate::arguments::{self, Format, LoadArguments, Named, Threads};
+use crate::error::ProgramError;
+use crate::output::{progress, table, write_drawn};
+use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace, write_workspace};
+use cdpr_report::workspace_maps;
+use cdpr_robot::{Axis, Robot, Rotation3};
+use cdpr_study::{ErrorModel, Extremes, Grid, Study, check_folder, open_robot};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// The robot, the positions and the load.
+#[derive(clap::Args)]
+#[command(group = clap::ArgGroup::new("where").required(true).args(["plane", "box"]))]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// Plane over the frame of the exit points: x=, y= or z= a coordinate [m].
+    #[arg(long, value_parser = plane, allow_hyphen_values = true)]
+    plane: Option<Plane>,
+    /// Points of the plane along its two axes.
+    #[arg(long, value_parser = points, default_value = "41x41", conflicts_with = "box")]
+    grid: [usize; 2],
+    /// Box, or a part of a plane: min:max:points of x, y and z [m], such as -2:2:9,-1:1:5,1.75:1.75:1.
+    #[arg(long = "box", id = "box", value_name = "BOX", value_parser = arguments::grid)]
+    #[arg(allow_hyphen_values = true)]
+    within: Option<Grid>,
+    /// Orientation of the platform at all positions, a quaternion: qw,qx,qy,qz; level if left out.
+    #[arg(long, value_parser = arguments::rotation, allow_hyphen_values = true, default_value = "1,0,0,0")]
+    rotation: Rotation3<f64>,
+    #[command(flatten)]
+    load: LoadArguments,
+    /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5.
+    #[arg(long, value_parser = arguments::named)]
+    uncertainty: Option<Named>,
+    /// Study file whose error model gives the standard deviations.
+    #[arg(long, conflicts_with = "uncertainty", requires = "error_model")]
+    study: Option<PathBuf>,
+    /// Name of the study's error model.
+    #[arg(long, requires = "study")]
+    error_model: Option<String>,
+    /// Folder for the results; made if missing.
+    #[arg(long, default_value = "workspace")]
+    out: PathBuf,
+    #[command(flatten)]
+    threads: Threads,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// A plane on which one coordinate is constant.
+#[derive(Clone, Copy)]
+struct Plane {
+    normal: Axis,
+    place: f64,
+}
+
+fn plane(text: &str) -> Result<Plane, String> {
+    let parts = text.split_once('=').and_then(|(name, place)| {
+        let normal = match name.trim() {
+            "x" => Axis::X,
+            "y" => Axis::Y,
+            "z" => Axis::Z,
+            _ => return None,
+        };
+        Some(Plane { normal, place: arguments::number(place).ok()? })
+    });
+    parts.ok_or_else(|| "expected x=, y= or z= a coordinate [m], such as z=1.75".to_owned())
+}
+
+fn points(text: &str) -> Result<[usize; 2], String> {
+    let parts: Vec<_> =
+        text.split('x').map(|count| count.trim().parse().ok().filter(|count| *count > 1)).collect();
+    match parts[..] {
+        [Some(first), Some(second)] => Ok([first, second]),
+        _ => Err("expected two numbers of points, 2 or more, such as 41x41".to_owned()),
+    }
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    settings.threads.start()?;
+    let robot = open_robot(&settings.robot)?;
+    let grid = match (&settings.within, settings.plane) {
+        (Some(grid), _) => *grid,
+        (None, Some(Plane { normal, place })) => Grid::over_frame(&robot, normal, place, settings.grid)?,
+        (None, None) => return Err(ProgramError::Usage("expected --plane or --box".to_owned())),
+    };
+    let tolerances = settings.tolerances(&robot)?;
+    check_folder(&settings.out)?;
+    let workspace = Workspace {
+        robot: &robot,
+        grid,
+        rotation: settings.rotation,
+        load: settings.load.load(),
+        tolerances: tolerances.as_ref(),
+    };
+    let progress = progress(grid.poses().len(), "poses");
+    let clock = Instant::now();
+    let poses = compute_workspace(&workspace, &|| progress.inc(1), &|| false)?;
+    let seconds = clock.elapsed().as_secs_f64();
+    progress.finish_and_clear();
+    let summary = WorkspaceSummary::new(&workspace, &poses);
+    write_workspace(&settings.out, &summary)?;
+    for (name, map) in workspace_maps(&robot, &summary) {
+        write_drawn(&settings.out, &name, map)?;
+    }
+    Ok(settings.format.print(&summary, |summary| {
+        print(summary);
+        println!("{} poses in {seconds:.2} s; results in {}", poses.len(), settings.out.display());
+    })?)
+}
+
+impl Settings {
+    fn tolerances(&self, robot: &Robot) -> Result<Option<ErrorModel>, ProgramError> {
+        if let (Some(path), Some(name)) = (&self.study, &self.error_model) {
+            return Ok(Some(Study::open(path)?.tolerances(name)?));
+        }
+        let named = self.uncertainty.as_ref();
+        let deviations = named.map(|named| arguments::uncertainties(robot, named)).transpose()?;
+        Ok(deviations.map(|deviations| ErrorModel::normal(&deviations)))
+    }
+}
+
+fn print(summary: &WorkspaceSummary) {
+    println!("{}: {} positions, {}", summary.robot, summary.rows.len(), summary.conditions());
+    for (status, count) in &summary.status {
+        println!("{count:8} {status}");
+    }
+    let mut rows = table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
+    let place = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
+    for (name, extremes) in [
+        ("|dp| [mm]", summary.rms_mm),
+        ("least stiffness [N/m]", summary.least_stiffness),
+        ("greatest tension [N]", summary.greatest_tension),
+        ("least tension [N]", summary.least_tension),
+    ] {
+        if let Some(Extremes { min, min_at, max, max_at }) = extremes {
+            rows.add_row([
+                name.to_owned(),
+                format!("{min:.4}"),
+                place(min_at),
+                format!("{max:.4}"),
+                place(max_at),
+            ]);
+        }
+    }
+    println!("{rows}");
+    let mut dominant: Vec<_> = summary.dominant.iter().collect();
+    dominant.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+    for (name, count) in dominant.into_iter().take(5) {
+        println!("{name} dominates the tolerance of |dp| at {count} positions");
+    }
+}

@@ -1,0 +1,39 @@
+//! `cdpr report`: the report of a study, from its folder of results.
+
+use crate::arguments::Format;
+use crate::error::ProgramError;
+use cdpr_report::report;
+use cdpr_study::{Results, write_text};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// The folder and the file.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Folder that `cdpr study run` has written.
+    folder: PathBuf,
+    /// File for the report; `report.html` in the folder if left out.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// How the path of the report is printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Serialize)]
+struct Written {
+    report: PathBuf,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let Settings { folder, out, format } = settings;
+    let path = out.clone().unwrap_or_else(|| folder.join("report.html"));
+    write(folder, &path)?;
+    let text = |written: &Written| println!("report in {}", written.report.display());
+    Ok(format.print(&Written { report: path }, text)?)
+}
+
+/// Writes the report of the results in `folder`.
+pub(crate) fn write(folder: &Path, path: &Path) -> Result<(), ProgramError> {
+    Ok(write_text(path, &report(&Results::read(folder)?)?)?)
+}

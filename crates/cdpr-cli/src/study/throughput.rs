@@ -1,0 +1,49 @@
+//! `cdpr study throughput`: how fast a sampling runs, in one line of JSON.
+
+use crate::arguments::Threads;
+use crate::error::ProgramError;
+use cdpr_study::{Session, Study, analyse, observe};
+use serde_json::json;
+use std::path::Path;
+use std::time::Instant;
+
+pub(crate) fn run(
+    path: &Path,
+    sampling: &str,
+    observations: usize,
+    threads: &Threads,
+) -> Result<(), ProgramError> {
+    threads.start()?;
+    let mut study = Study::open(path)?;
+    study.set_observations(observations)?;
+    // The intervals of replicates and the measures of sensitivity are observations of their own.
+    study.file.replicates = 0;
+    study.file.sensitivity = None;
+    let sampling = study.sampling(sampling)?;
+    let clock = Instant::now();
+    let session = Session::in_memory();
+    let tally = observe(&sampling, &session)?;
+    let summary = analyse(&sampling, &tally, &session)?;
+    let wall = clock.elapsed().as_secs_f64();
+    let threads = rayon::current_num_threads();
+    let rms = summary.rms_mm.map(|rms| json!({ "mean": rms.mean, "std": rms.std }));
+    let line = json!({
+        "observations": observations,
+        "failed": summary.failed.values().sum::<usize>(),
+        "threads": threads,
+        "wall_s": wall,
+        "us_per_observation_core": 1e6 * wall * threads as f64 / observations as f64,
+        "peak_memory_mib": peak_memory_mib(),
+        "rms_mm": rms,
+    });
+    println!("{line}");
+    Ok(())
+}
+
+/// Largest resident memory of this process so far; `None` where the system does not say.
+fn peak_memory_mib() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kib / 1024.0)
+}

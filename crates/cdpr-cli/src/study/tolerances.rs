@@ -1,0 +1,117 @@
+//! `cdpr tolerances`: the tolerances to tighten so that an error stays below a limit.
+
+use crate::arguments::{self, Format, Named, Threads};
+use crate::error::ProgramError;
+use crate::output::table;
+use cdpr_assess::{Limit, Limited, Reached, ToleranceBudget, tolerance_budget};
+use cdpr_study::{Estimate, Study};
+use std::path::PathBuf;
+
+/// The study, the sampling and the limit.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Study file (JSON, `cdpr-study/1`), whose error model holds the tolerances.
+    study: PathBuf,
+    /// Name of the sampling: pose, load and error model.
+    #[arg(long)]
+    sampling: String,
+    /// Limit of the error [mm].
+    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
+    limit: f64,
+    /// The error: the static deflection under the load, or the distance from the wanted pose without load.
+    #[arg(long, value_enum, default_value_t = Of::Deflection)]
+    of: Of,
+    /// Share of the robots that are to keep the limit.
+    #[arg(long, value_parser = arguments::number, default_value = "0.95", allow_hyphen_values = true)]
+    quantile: f64,
+    /// Costs of the tolerances as they are, by entry of the error model: a=2,b=1; 1 if left out.
+    ///
+    /// Half the tolerance costs twice as much.
+    #[arg(long, value_parser = arguments::named)]
+    costs: Option<Named>,
+    /// Independent robots that the budget is verified with.
+    #[arg(long, default_value_t = 20_000)]
+    observations: usize,
+    #[command(flatten)]
+    threads: Threads,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// The error that is limited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Of {
+    /// |dp| under the study's load.
+    Deflection,
+    /// Distance of P from the wanted pose where the deviating robot gets the nominal robot's lengths.
+    Position,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    settings.threads.start()?;
+    let study = Study::open(&settings.study)?;
+    let sampling = study.sampling(&settings.sampling)?;
+    let limit = Limit {
+        of: match settings.of {
+            Of::Deflection => Limited::Deflection,
+            Of::Position => Limited::Position,
+        },
+        limit_mm: settings.limit,
+        quantile: settings.quantile,
+        costs: settings.costs.clone().map(|Named(costs)| costs.into_iter().collect()).unwrap_or_default(),
+        verified_with: settings.observations,
+    };
+    let budget = tolerance_budget(&sampling, &limit)?;
+    Ok(settings.format.print(&budget, |budget| print(sampling.title, budget))?)
+}
+
+fn print(title: &str, budget: &ToleranceBudget) {
+    let of = match budget.of {
+        Limited::Deflection => "deflection",
+        Limited::Position => "distance from the wanted pose",
+    };
+    let percent = 100.0 * budget.quantile;
+    println!("{title}: {of} of {percent} % of the robots at most {} mm", budget.limit_mm);
+    println!("without any deviation it is {:.4} mm\n", budget.least_mm);
+    let mut rows = table(&[
+        "tolerance",
+        "std now",
+        "tighten to",
+        "times",
+        "share of variance [%]",
+        "quantile if it alone is halved [mm]",
+        "cost",
+    ]);
+    for tolerance in &budget.tolerances {
+        let kept = tolerance.factor == 1.0;
+        rows.add_row([
+            tolerance.name.clone(),
+            format!("{:.4e}", tolerance.std),
+            if kept { "-".to_owned() } else { format!("{:.4e}", tolerance.std * tolerance.factor) },
+            if kept { "-".to_owned() } else { format!("{:.3}", tolerance.factor) },
+            format!("{:.2}", 100.0 * tolerance.share),
+            format!("{:.4}", tolerance.halved_mm),
+            format!("{:.3}", tolerance.cost / tolerance.factor),
+        ]);
+    }
+    println!("{rows}");
+    println!("cost {:.3} -> {:.3}\n", budget.cost[0], budget.cost[1]);
+    let mut rows = table(&["verified", "robots", "failed", "quantile [mm]", "within the limit [%]"]);
+    for (name, reached) in [("as it is", &budget.now), ("tightened", &budget.tightened)] {
+        let Reached { quantile_mm, within, robots, failed } = reached;
+        rows.add_row([
+            name.to_owned(),
+            robots.to_string(),
+            failed.to_string(),
+            interval(quantile_mm, 1.0, 4),
+            interval(within, 100.0, 2),
+        ]);
+    }
+    println!("{rows}");
+}
+
+fn interval(estimate: &Estimate, scale: f64, decimals: usize) -> String {
+    let [value, low, high] = [estimate.value, estimate.low, estimate.high].map(|number| scale * number);
+    format!("{value:.decimals$} ({low:.decimals$} to {high:.decimals$})")
+}

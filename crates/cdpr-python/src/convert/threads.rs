@@ -1,0 +1,100 @@
+//! Work on all cores without Python's lock, which Ctrl-C still ends.
+
+use crate::convert::error::{Answer, Raised};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// How often signals and callbacks are looked after.
+const POLL: Duration = Duration::from_millis(50);
+
+/// The pool of a process, with the number of the process.
+static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+/// A pool of so many threads; else the pool of this process: all cores, or `RAYON_NUM_THREADS`.
+///
+/// It is not rayon's global one: a process that `fork` has made inherits a pool without its threads, and would wait for it for ever.
+fn pool(threads: Option<usize>) -> Answer<Arc<ThreadPool>> {
+    let make = |threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map(Arc::new).map_err(|error| {
+            Raised::Input(format!("threads is {threads}: expected as many as can be started: {error}"))
+        })
+    };
+    match threads {
+        Some(0) => return Err(Raised::Input("threads is 0: expected one or more".to_owned())),
+        Some(threads) => return make(threads),
+        None => {}
+    }
+    let mut known = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    if let Some((_, pool)) = known.as_ref().filter(|(owner, _)| *owner == process) {
+        return Ok(pool.clone());
+    }
+    let made = make(0)?;
+    // To drop a pool is to wait for its threads, which are in the parent.
+    std::mem::forget(known.replace((process, made.clone())));
+    Ok(made)
+}
+
+/// Runs `work` on a pool without Python's lock while this thread looks after signals and `poll`. Where one of them raises, the work is told
+/// to stop, and is waited for.
+pub(crate) fn watched<T: Send>(
+    py: Python,
+    threads: Option<usize>,
+    mut poll: impl FnMut(Python) -> PyResult<()> + Send,
+    work: impl FnOnce(&AtomicBool) -> T + Send,
+) -> Answer<T> {
+    let pool = pool(threads)?;
+    let stop = AtomicBool::new(false);
+    let (outcome, raised) = py.detach(|| {
+        let (done, wait) = channel();
+        let (pool, stop) = (&pool, &stop);
+        std::thread::scope(|scope| {
+            // With its end of the channel, which a panic drops.
+            let worker = scope.spawn(move || {
+                let outcome = pool.install(|| work(stop));
+                // The receiver waits longer than this thread lives.
+                let _ = done.send(());
+                outcome
+            });
+            let mut raised = None;
+            while let Err(RecvTimeoutError::Timeout) = wait.recv_timeout(POLL) {
+                if raised.is_none()
+                    && let Err(error) = Python::attach(|py| py.check_signals().and_then(|()| poll(py)))
+                {
+                    stop.store(true, Ordering::Relaxed);
+                    raised = Some(error);
+                }
+            }
+            (worker.join(), raised)
+        })
+    });
+    match (outcome, raised) {
+        (_, Some(error)) => Err(error.into()),
+        (Ok(outcome), None) => Ok(outcome),
+        (Err(panic), None) => std::panic::resume_unwind(panic),
+    }
+}
+
+/// The same on the pool of this process, with nothing to poll.
+pub(crate) fn run<T: Send>(py: Python, work: impl FnOnce(&AtomicBool) -> T + Send) -> Answer<T> {
+    watched(py, None, |_| Ok(()), work)
+}
+
+/// `one` of each case, in parallel and in their order.
+pub(crate) fn each<T: Send>(py: Python, cases: usize, one: impl Fn(usize) -> T + Sync) -> Answer<Vec<T>> {
+    if cases == 1 {
+        return Ok(vec![py.detach(|| one(0))]);
+    }
+    let all = run(py, |stop| {
+        let one = |case| (!stop.load(Ordering::Relaxed)).then(|| one(case));
+        (0..cases).into_par_iter().map(one).collect::<Option<Vec<T>>>()
+    })?;
+    // Nothing stops the work but what has been raised above.
+    Ok(all.unwrap_or_default())
+}

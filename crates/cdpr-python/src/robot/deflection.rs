@@ -1,0 +1,114 @@
+//! How far the platform gives under a load.
+
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
+use crate::convert::error::Answer;
+use crate::convert::threads::each;
+use crate::robot::Robot;
+use crate::robot::direct::{DirectSolution, Found};
+use cdpr_robot::Vector6;
+use cdpr_statics::{StaticsError, deflection};
+use pyo3::prelude::*;
+
+answer! {
+    /// Static deflections. One, or m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Deflection {
+        /// dp, the position with the load minus that without [m], (3,).
+        displacement: Py<PyAny>,
+        /// |dp|, the paper's RMS [m].
+        rms: Py<PyAny>,
+        /// Rotation vector from the unloaded to the loaded platform, in the base frame [rad], (3,).
+        turn: Py<PyAny>,
+        /// Unstrained lengths of the cables [m], (n,).
+        lengths: Py<PyAny>,
+        /// The platform under its own weight.
+        unloaded: Py<DirectSolution>,
+        /// The platform with the load added.
+        loaded: Py<DirectSolution>,
+        /// Why there is no answer, None where there is one; None for one case.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
+}
+
+/// A deflection with what takes time to compute.
+pub(crate) struct Given {
+    rms: f64,
+    displacement: [f64; 3],
+    motion: Vector6<f64>,
+    lengths: Vec<f64>,
+    unloaded: Found,
+    loaded: Found,
+}
+
+impl From<cdpr_statics::Deflection> for Given {
+    fn from(found: cdpr_statics::Deflection) -> Self {
+        Self {
+            rms: found.rms(),
+            displacement: found.displacement().into(),
+            motion: found.unloaded.equilibrium.pose.motion_to(&found.loaded.equilibrium.pose),
+            lengths: found.lengths,
+            unloaded: found.unloaded.into(),
+            loaded: found.loaded.into(),
+        }
+    }
+}
+
+#[pymethods]
+impl Robot {
+    /// How far the platform gives under a load: cables are wound so that it rests at the pose under its own weight, then the load is added.
+    /// Arguments are of one case, or have a first axis of m cases.
+    ///
+    /// pose: wanted pose under the platform's own weight, (3,) or (7,).
+    /// payload: mass added at the platform's centre of mass [kg].
+    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
+    /// tension_offsets: added to the tension set-points [N], (n,).
+    ///
+    /// Raises InputError; for one case NoSolutionError.
+    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, tension_offsets=None))]
+    fn deflection(
+        &self,
+        py: Python,
+        pose: Numbers,
+        payload: Option<Numbers>,
+        force: Option<Numbers>,
+        moment: Option<Numbers>,
+        tension_offsets: Option<Numbers>,
+    ) -> Answer<Deflection> {
+        let cables = self.robot.cables.len();
+        let poses = Rows::poses("pose", &pose)?;
+        let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let offsets = tension_offsets
+            .map(|offsets| Rows::of_cables("tension_offsets", &offsets, cables))
+            .transpose()?;
+        let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&poses]).chain(&offsets).collect();
+        let cases = Cases::of(&arguments)?;
+        let robot = &self.robot;
+        let none = vec![0.0; cables];
+        let outcomes: Vec<Result<Given, StaticsError>> = each(py, cases.count, |case| {
+            let offsets = offsets.as_ref().map_or(none.as_slice(), |offsets| offsets.row(case));
+            deflection(robot, &poses.pose(case)?, offsets, &loads.load(case)?).map(Given::from)
+        })?;
+        let all = Columns::new(py, cases, &outcomes)?;
+        Deflection::new(py, &all, cables)
+    }
+}
+
+impl Deflection {
+    pub(crate) fn new(py: Python, all: &Columns<Given>, cables: usize) -> Answer<Self> {
+        let unloaded = DirectSolution::new(&all.part(|given| &given.unloaded), cables)?;
+        let loaded = DirectSolution::new(&all.part(|given| &given.loaded), cables)?;
+        Ok(Self {
+            displacement: all.vector(|given| given.displacement)?,
+            rms: all.number(|given| given.rms)?,
+            turn: all.vector(|given| [3, 4, 5].map(|row| given.motion[row]))?,
+            lengths: all.numbers(&[cables], |given, out| out.copy_from_slice(&given.lengths))?,
+            unloaded: Py::new(py, unloaded)?,
+            loaded: Py::new(py, loaded)?,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
+        })
+    }
+}

@@ -1,0 +1,107 @@
+//! What a small change of each parameter does to lengths and deflection.
+
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
+use crate::convert::error::Answer;
+use crate::convert::threads::each;
+use crate::robot::Robot;
+use crate::robot::deflection::{Deflection, Given};
+use cdpr_robot::Parameter;
+use cdpr_statics::{StaticsError, derivatives};
+use pyo3::prelude::*;
+
+answer! {
+    /// A deflection with its exact derivatives. One, or m: then every field has a first axis of m, with NaN where there is no answer, and `reasons`
+    /// says why. Derivatives are per SI unit of the k inputs.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Derivatives {
+        /// Names of the k inputs: the parameters of the robot, `payload`, and the wanted pose: `x`, `y`, `z` [m] and `rx`, `ry`, `rz` [rad].
+        inputs: Vec<String>,
+        /// Of |dp| [m per unit], (k,).
+        rms: Py<PyAny>,
+        /// Of dp [m per unit], (3, k).
+        displacement: Py<PyAny>,
+        /// Of the unstrained lengths [m per unit], (n, k).
+        lengths: Py<PyAny>,
+        /// Of the tension set-points [N per unit], (n, k).
+        set_points: Py<PyAny>,
+        /// Of the tensions with the load [N per unit], (n, k).
+        tensions: Py<PyAny>,
+        /// The deflection itself.
+        deflection: Py<Deflection>,
+        /// Why there is no answer, None where there is one; None for one case.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
+}
+
+/// Rows of matrices, one after the other.
+struct Slopes {
+    rms: Vec<f64>,
+    displacement: Vec<f64>,
+    lengths: Vec<f64>,
+    set_points: Vec<f64>,
+    tensions: Vec<f64>,
+    given: Given,
+}
+
+#[pymethods]
+impl Robot {
+    /// Exact derivatives of lengths, tensions and deflection under a load. Arguments are of one case, or have a first axis of m cases.
+    ///
+    /// pose: wanted pose under the platform's own weight, (3,) or (7,).
+    /// payload: mass added at the platform's centre of mass [kg].
+    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
+    ///
+    /// Raises InputError; for one case NoSolutionError, also where a derivative does not exist.
+    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None))]
+    fn derivatives(
+        &self,
+        py: Python,
+        pose: Numbers,
+        payload: Option<Numbers>,
+        force: Option<Numbers>,
+        moment: Option<Numbers>,
+    ) -> Answer<Derivatives> {
+        let poses = Rows::poses("pose", &pose)?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&poses]).collect();
+        let cases = Cases::of(&arguments)?;
+        let robot = &self.robot;
+        let cables = robot.cables.len();
+        let no_offsets = vec![0.0; cables];
+        let outcomes: Vec<Result<Slopes, StaticsError>> = each(py, cases.count, |case| {
+            let found = derivatives(robot, &poses.pose(case)?, &no_offsets, &loads.load(case)?)?;
+            // Storage is column by column.
+            Ok(Slopes {
+                rms: found.rms()?,
+                displacement: found.displacement().transpose().as_slice().to_vec(),
+                lengths: found.lengths.transpose().as_slice().to_vec(),
+                set_points: found.set_points.transpose().as_slice().to_vec(),
+                tensions: found.loaded.tensions.transpose().as_slice().to_vec(),
+                given: found.deflection.into(),
+            })
+        })?;
+        let all = Columns::new(py, cases, &outcomes)?;
+        let parameters = Parameter::all(cables);
+        let of_pose = ["payload", "x", "y", "z", "rx", "ry", "rz"].map(str::to_owned);
+        let inputs: Vec<String> = parameters.iter().map(ToString::to_string).chain(of_pose).collect();
+        let count = inputs.len();
+        let matrix = |rows: usize, matrix: fn(&Slopes) -> &[f64]| {
+            all.numbers(&[rows, count], |slopes: &Slopes, out| out.copy_from_slice(matrix(slopes)))
+        };
+        let deflection = Deflection::new(py, &all.part(|slopes| &slopes.given), cables)?;
+        Ok(Derivatives {
+            rms: all.numbers(&[count], |slopes, out| out.copy_from_slice(&slopes.rms))?,
+            displacement: matrix(3, |slopes| &slopes.displacement)?,
+            lengths: matrix(cables, |slopes| &slopes.lengths)?,
+            set_points: matrix(cables, |slopes| &slopes.set_points)?,
+            tensions: matrix(cables, |slopes| &slopes.tensions)?,
+            deflection: Py::new(py, deflection)?,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
+            inputs,
+        })
+    }
+}

@@ -1,0 +1,139 @@
+//! Where the platform stands for given unstrained lengths.
+
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
+use crate::convert::error::Answer;
+use crate::convert::threads::each;
+use crate::robot::Robot;
+use cdpr_statics::{Method, Start, StaticsError, direct, rough_pose};
+use pyo3::prelude::*;
+
+answer! {
+    /// Stable equilibria of the platform. One, or m: then every field has a first axis of m, with NaN (or False, None) where there is no answer, and
+    /// `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct DirectSolution {
+        /// Position of P in the base frame [m], (3,).
+        position: Py<PyAny>,
+        /// Rotation from the platform to the base frame as a unit quaternion (w, x, y, z), w >= 0, (4,).
+        quaternion: Py<PyAny>,
+        /// The same as a matrix, (3, 3).
+        rotation: Py<PyAny>,
+        /// Position and quaternion: a pose that other calls take, (7,).
+        pose: Py<PyAny>,
+        /// Force (fx, fz) on each cable at its anchor point, in its vertical plane [N], (n, 2).
+        cable_forces: Py<PyAny>,
+        /// Tension of each cable at the platform [N], (n,).
+        tensions: Py<PyAny>,
+        /// Whether every small displacement is pulled back.
+        stable: Py<PyAny>,
+        /// Stiffness of the softest motion [N/m].
+        least_stiffness: Py<PyAny>,
+        /// Which cables are longer than the distance of their points, (n,).
+        slack: Py<PyAny>,
+        /// What stays open in the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,).
+        residual: Py<PyAny>,
+        /// How it was found: newton, trust_region or continuation.
+        method: Py<PyAny>,
+        /// Iterations of that method; 0 where there is no answer.
+        iterations: Py<PyAny>,
+        /// Why there is no answer, None where there is one; None for one case.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
+}
+
+/// An equilibrium with what takes time to compute, which is done in parallel.
+pub(crate) struct Found {
+    solution: cdpr_statics::DirectSolution,
+    least_stiffness: f64,
+}
+
+impl From<cdpr_statics::DirectSolution> for Found {
+    fn from(solution: cdpr_statics::DirectSolution) -> Self {
+        Self { least_stiffness: solution.stability.least_stiffness(), solution }
+    }
+}
+
+#[pymethods]
+impl Robot {
+    /// Where the platform stands for given unstrained lengths: a stable equilibrium. Arguments are of one case, or have a first axis of m cases.
+    ///
+    /// lengths: unstrained lengths of the cables [m], (n,).
+    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
+    /// payload: mass added at the platform's centre of mass [kg].
+    /// start: pose where the search begins, (3,) or (7,); where straight cables would hold a point if left out.
+    ///
+    /// Raises InputError; for one case NoSolutionError.
+    #[pyo3(signature = (lengths, *, force=None, moment=None, payload=None, start=None))]
+    fn direct(
+        &self,
+        py: Python,
+        lengths: Numbers,
+        force: Option<Numbers>,
+        moment: Option<Numbers>,
+        payload: Option<Numbers>,
+        start: Option<Numbers>,
+    ) -> Answer<DirectSolution> {
+        let lengths = Rows::of_cables("lengths", &lengths, self.robot.cables.len())?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let start = start.map(|start| Rows::poses("start", &start)).transpose()?;
+        let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&lengths]).chain(&start).collect();
+        let cases = Cases::of(&arguments)?;
+        let robot = &self.robot;
+        let one = |case| -> Result<Found, StaticsError> {
+            let lengths = lengths.row(case);
+            let start = match &start {
+                Some(start) => start.pose(case)?,
+                None => rough_pose(robot, lengths),
+            };
+            direct(robot, lengths, &loads.load(case)?, Start::Pose(&start)).map(Found::from)
+        };
+        let outcomes = each(py, cases.count, one)?;
+        let found = Columns::new(py, cases, &outcomes)?;
+        DirectSolution::new(&found, robot.cables.len())
+    }
+}
+
+impl DirectSolution {
+    pub(crate) fn new(all: &Columns<Found>, cables: usize) -> Answer<Self> {
+        Ok(Self {
+            position: all.vector(|found| found.solution.equilibrium.pose.position.into())?,
+            quaternion: all.vector(|found| found.solution.equilibrium.pose.quaternion())?,
+            rotation: all.numbers(&[3, 3], |found, out| {
+                // Row by row.
+                let matrix = found.solution.equilibrium.pose.rotation.matrix().transpose();
+                out.copy_from_slice(matrix.as_slice());
+            })?,
+            pose: all.numbers(&[7], |found, out| {
+                let pose = &found.solution.equilibrium.pose;
+                out[..3].copy_from_slice(pose.position.as_slice());
+                out[3..].copy_from_slice(&pose.quaternion());
+            })?,
+            cable_forces: all.pairs(cables, |found| &found.solution.equilibrium.cable_forces)?,
+            tensions: all.numbers(&[cables], |found, out| {
+                out.copy_from_slice(&found.solution.equilibrium.tensions());
+            })?,
+            stable: all.array(false, &[], |found, out| out[0] = found.solution.stability.is_stable())?,
+            least_stiffness: all.number(|found| found.least_stiffness)?,
+            slack: all.array(false, &[cables], |found, out| {
+                found.solution.report.slack.iter().for_each(|cable| out[*cable] = true);
+            })?,
+            residual: all.vector(|found| {
+                let residual = &found.solution.report.residual;
+                [residual.closure, residual.force, residual.moment]
+            })?,
+            method: all.words(|found| match found.solution.report.method {
+                Method::Newton => "newton",
+                Method::TrustRegion => "trust_region",
+                Method::Continuation => "continuation",
+            })?,
+            iterations: all.array(0, &[], |found, out: &mut [i64]| {
+                out[0] = found.solution.report.iterations as i64;
+            })?,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
+        })
+    }
+}

@@ -1,0 +1,84 @@
+//! Deflections of robots that deviate from the nominal one: the model behind every study.
+
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
+use crate::convert::error::{Answer, Raised};
+use crate::convert::threads::run;
+use crate::robot::Robot;
+use cdpr_robot::Parameter;
+use cdpr_statics::{Observation, Observer};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use std::sync::atomic::Ordering;
+
+answer! {
+    /// Deflections of m robots, or of one; NaN where there is none, and `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Observations {
+        /// dp [m], (3,).
+        displacement: Py<PyAny>,
+        /// |dp| [m].
+        rms: Py<PyAny>,
+        /// Why there is no answer, None where there is one; None for one robot.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
+}
+
+/// Robots that a thread takes at a time.
+const PART: usize = 256;
+
+#[pymethods]
+impl Robot {
+    /// The deflections under a load of robots whose k parameters deviate from this one's, each with its cables wound for the pose: what a study
+    /// observes. Many robots go through the lanes of the vector unit at once: the answers agree with `deflection` to rounding, and each
+    /// depends on its own row alone.
+    ///
+    /// pose: wanted pose under the platform's own weight, (3,) or (7,).
+    /// deviations: added to the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
+    /// payload, force, moment: one load for all, as in `deflection`.
+    ///
+    /// Raises InputError; for one robot NoSolutionError.
+    #[pyo3(signature = (pose, deviations, *, payload=None, force=None, moment=None))]
+    fn observe(
+        &self,
+        py: Python,
+        pose: Numbers,
+        deviations: Numbers,
+        payload: Option<Numbers>,
+        force: Option<Numbers>,
+        moment: Option<Numbers>,
+    ) -> Answer<Observations> {
+        let pose = Rows::poses("pose", &pose)?;
+        let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        if !Cases::of(&[&pose, &loads.force, &loads.moment, &loads.payload])?.single {
+            return Err(Raised::Input(
+                "pose or load has a row for each case: expected one of each for all robots".to_owned(),
+            ));
+        }
+        let parameters = Parameter::all(self.robot.cables.len()).len();
+        let rows = Rows::vectors("deviations", &deviations)?;
+        if rows.width() != parameters {
+            let width = rows.width();
+            return Err(Raised::Input(format!(
+                "deviations has {width} numbers a row: expected {parameters}, as `parameters`"
+            )));
+        }
+        let cases = Cases::of(&[&rows])?;
+        let observer = Observer::new(&self.robot, &pose.pose(0)?, &loads.load(0)?)?;
+        let outcomes = run(py, |stop| {
+            let part = |part: &[f64]| {
+                if stop.load(Ordering::Relaxed) { Vec::new() } else { observer.observe_all(part) }
+            };
+            rows.all().par_chunks(PART * parameters).flat_map_iter(part).collect::<Vec<_>>()
+        })?;
+        let all = Columns::new(py, cases, &outcomes)?;
+        Ok(Observations {
+            displacement: all.vector(|found| found.displacement.into())?,
+            rms: all.number(Observation::rms)?,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
+        })
+    }
+}

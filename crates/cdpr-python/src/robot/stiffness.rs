@@ -1,0 +1,108 @@
+//! The Cartesian stiffness at a pose.
+
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
+use crate::convert::error::Answer;
+use crate::convert::threads::each;
+use crate::robot::Robot;
+use cdpr_robot::{Pose, Vector3};
+use cdpr_statics::{Load, Mode, Start, StaticsError, Tangent, direct_any, inverse};
+use pyo3::prelude::*;
+
+answer! {
+    /// Cartesian stiffness. At one pose, or at m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Stiffness {
+        /// K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
+        matrix: Py<PyAny>,
+        /// Eigenvalues of the stiffness in (dp, arm dphi), from the softest motion [N/m], (6,).
+        eigenvalues: Py<PyAny>,
+        /// Translation of P in each of these motions [m/m], (6, 3).
+        translations: Py<PyAny>,
+        /// Rotation in each of these motions [rad/m], (6, 3).
+        rotations: Py<PyAny>,
+        /// Stiffness of the softest motion [N/m].
+        least_stiffness: Py<PyAny>,
+        /// Whether every small displacement is pulled back.
+        stable: Py<PyAny>,
+        /// The length that makes rotations comparable with translations [m].
+        arm: Py<PyAny>,
+        /// Why there is no answer, None where there is one; None for one pose.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
+}
+
+/// What is asked of a pose.
+struct Found {
+    matrix: [[f64; 6]; 6],
+    modes: [Mode; 6],
+    least_stiffness: f64,
+    stable: bool,
+    arm: f64,
+}
+
+#[pymethods]
+impl Robot {
+    /// The Cartesian stiffness at a pose with a load, cables' sag and weight included. Arguments are of one case, or have a first axis of m cases.
+    ///
+    /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+    /// payload: mass that the platform carries there, at its centre of mass [kg].
+    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
+    ///
+    /// Raises InputError; for one case NoSolutionError.
+    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None))]
+    fn stiffness(
+        &self,
+        py: Python,
+        pose: Numbers,
+        payload: Option<Numbers>,
+        force: Option<Numbers>,
+        moment: Option<Numbers>,
+    ) -> Answer<Stiffness> {
+        let poses = Rows::poses("pose", &pose)?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&poses]).collect();
+        let cases = Cases::of(&arguments)?;
+        let outcomes =
+            each(py, cases.count, |case| Found::at(&self.robot, &poses.pose(case)?, &loads.load(case)?))?;
+        let all = Columns::new(py, cases, &outcomes)?;
+        let vectors = |vector: fn(&Mode) -> Vector3<f64>| {
+            all.numbers(&[6, 3], |found: &Found, out| {
+                for (out, mode) in out.chunks_exact_mut(3).zip(&found.modes) {
+                    out.copy_from_slice(vector(mode).as_slice());
+                }
+            })
+        };
+        Ok(Stiffness {
+            matrix: all.numbers(&[6, 6], |found, out| out.copy_from_slice(found.matrix.as_flattened()))?,
+            eigenvalues: all.vector(|found| found.modes.map(|mode| mode.stiffness))?,
+            translations: vectors(|mode| mode.translation)?,
+            rotations: vectors(|mode| mode.rotation)?,
+            least_stiffness: all.number(|found| found.least_stiffness)?,
+            stable: all.array(false, &[], |found, out| out[0] = found.stable)?,
+            arm: all.number(|found| found.arm)?,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
+        })
+    }
+}
+
+impl Found {
+    /// As `cdpr stiffness` does it.
+    fn at(robot: &cdpr_robot::Robot, pose: &Pose, load: &Load) -> Result<Self, StaticsError> {
+        let wanted = inverse(robot, pose, load, None)?;
+        // The equilibrium at the pose itself, be it stable or not.
+        let held = direct_any(robot, &wanted.lengths, load, Start::Near(&wanted.equilibrium))?;
+        let tangent = Tangent::at(robot, &wanted.lengths, load, &held)?;
+        let stability = &held.stability;
+        Ok(Self {
+            matrix: tangent.stiffness().transpose().into(),
+            modes: stability.modes(),
+            least_stiffness: stability.least_stiffness(),
+            stable: stability.is_stable(),
+            arm: stability.arm(),
+        })
+    }
+}

@@ -1,0 +1,152 @@
+//! Where the platform is held, and how it gives, over a plane or a box.
+
+use crate::convert::answer::answer;
+use crate::convert::arrays::{Array, Numbers};
+use crate::convert::error::{Answer, Raised};
+use crate::convert::threads::run;
+use crate::robot::Robot;
+use cdpr_assess::{WorkspaceRow, compute_workspace};
+use cdpr_robot::{Axis, Rotation3};
+use cdpr_statics::Load;
+use cdpr_study::{ErrorModel, Grid, GridAxis, uncertainties};
+use numpy::{IxDyn, PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::atomic::Ordering;
+
+answer! {
+    /// What was found at level positions on a grid, x slowest and z fastest; NaN where there is no answer.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Workspace {
+        /// Number of places along x, y and z.
+        shape: (usize, usize, usize),
+        /// Positions of P [m], (m, 3).
+        positions: Py<PyAny>,
+        /// `held`; `beyond_limits` where the load takes a tension out of the limits; else the kind of failure; m of them.
+        status: Vec<String>,
+        /// Why a position is not held, None where it is; m of them.
+        reasons: Vec<Option<String>>,
+        /// Least tension, without and with the load [N], (m,).
+        least_tension: Py<PyAny>,
+        /// Greatest tension, without and with the load [N], (m,).
+        greatest_tension: Py<PyAny>,
+        /// dp under the payload [m], (m, 3).
+        displacement: Py<PyAny>,
+        /// |dp| [m], (m,).
+        rms: Py<PyAny>,
+        /// Stiffness of the softest motion with the load [N/m], (m,).
+        least_stiffness: Py<PyAny>,
+        /// The uncertain parameter with the largest share of the variance of |dp|, None without uncertainty; m of them.
+        dominant: Vec<Option<String>>,
+        /// Its share, 0 to 1, (m,).
+        dominant_share: Py<PyAny>,
+        /// Standard deviation of |dp| from all uncertain parameters [m], (m,).
+        std: Py<PyAny>,
+    }
+}
+
+/// Points of a plane along its two axes.
+const POINTS: (usize, usize) = (41, 41);
+
+#[pymethods]
+impl Robot {
+    /// Where the platform is held under a payload, and how it gives there, on a grid of level positions.
+    ///
+    /// x, y, z: places along each axis [m]: a number, or (from, to, points).
+    /// plane: in place of these, a plane over the frame of the exit points, ("z", 1.75).
+    /// grid: points of the plane along its two axes; (41, 41) if left out.
+    /// payload: mass added at the platform's centre of mass, whose effect is the deflection [kg]; with 0 there is none.
+    /// uncertainty: standard deviations of parameters or groups of them [SI units]: {"a": 0.002, "mass": 0.5}.
+    ///
+    /// Raises InputError. A position that is not held is no error.
+    #[pyo3(signature = (*, x=None, y=None, z=None, plane=None, grid=None, payload, uncertainty=None))]
+    #[allow(clippy::too_many_arguments)]
+    fn workspace(
+        &self,
+        py: Python,
+        x: Option<Numbers>,
+        y: Option<Numbers>,
+        z: Option<Numbers>,
+        plane: Option<(String, f64)>,
+        grid: Option<(usize, usize)>,
+        payload: f64,
+        uncertainty: Option<&Bound<PyDict>>,
+    ) -> Answer<Workspace> {
+        let grid = match (x, y, z, plane, grid) {
+            (Some(x), Some(y), Some(z), None, None) => {
+                Grid::new([places("x", &x)?, places("y", &y)?, places("z", &z)?])?
+            }
+            (None, None, None, Some((axis, place)), points) => {
+                Grid::over_frame(&self.robot, normal(&axis)?, place, points.unwrap_or(POINTS).into())?
+            }
+            _ => return Err(Raised::Input("expected x, y and z, or plane with its grid".to_owned())),
+        };
+        let tolerances = uncertainty.map(|named| tolerances(&self.robot, named)).transpose()?;
+        let workspace = cdpr_assess::Workspace {
+            robot: &self.robot,
+            grid,
+            rotation: Rotation3::identity(),
+            load: Load::payload(payload),
+            tolerances: tolerances.as_ref(),
+        };
+        let poses = run(py, |stop| compute_workspace(&workspace, &|| (), &|| stop.load(Ordering::Relaxed)))??;
+        let rows: Vec<WorkspaceRow> = poses.iter().map(|pose| WorkspaceRow::new(&workspace, pose)).collect();
+        let column = |value: &dyn Fn(usize) -> Option<f64>| -> Py<PyAny> {
+            let values = (0..rows.len()).map(|row| value(row).unwrap_or(f64::NAN)).collect();
+            PyArray1::from_vec(py, values).into_any().unbind()
+        };
+        let vectors = |value: &dyn Fn(usize) -> Option<[f64; 3]>| -> PyResult<Py<PyAny>> {
+            let values = (0..rows.len()).flat_map(|row| value(row).unwrap_or([f64::NAN; 3])).collect();
+            Ok(PyArray1::<f64>::from_vec(py, values).reshape(IxDyn(&[rows.len(), 3]))?.into_any().unbind())
+        };
+        let held = |row: usize| poses[row].outcome.as_ref().ok();
+        let loaded = |row: usize| held(row).filter(|_| workspace.load != Load::none());
+        Ok(Workspace {
+            shape: [Axis::X, Axis::Y, Axis::Z].map(|axis| grid.axis(axis).points).into(),
+            positions: vectors(&|row| Some(poses[row].pose.position.into()))?,
+            status: rows.iter().map(|row| row.status.to_owned()).collect(),
+            reasons: rows.iter().map(|row| row.reason.clone()).collect(),
+            least_tension: column(&|row| Some(held(row)?.least_tension)),
+            greatest_tension: column(&|row| Some(held(row)?.greatest_tension)),
+            displacement: vectors(&|row| Some(loaded(row)?.displacement.into()))?,
+            rms: column(&|row| Some(loaded(row)?.displacement.norm())),
+            least_stiffness: column(&|row| Some(held(row)?.least_stiffness)),
+            dominant: rows.iter().map(|row| row.dominant.clone()).collect(),
+            dominant_share: column(&|row| Some(held(row)?.dominant?.share)),
+            std: column(&|row| Some(held(row)?.dominant?.std)),
+        })
+    }
+}
+
+/// Places along an axis: one, or from, to and how many.
+fn places(name: &str, numbers: &Numbers) -> Answer<GridAxis> {
+    let Array { shape, values } = Array::new(name, numbers)?;
+    match (shape.len(), &values[..]) {
+        (0, [place]) => Ok(GridAxis { min: *place, max: *place, points: 1 }),
+        // Whole numbers, of which all that memory can hold are exact.
+        (1, [min, max, points]) if *points >= 1.0 && points.fract() == 0.0 => {
+            Ok(GridAxis { min: *min, max: *max, points: *points as usize })
+        }
+        _ => Err(Raised::Input(format!(
+            "{name} is {numbers}: expected a place [m], or from, to, and a number of points"
+        ))),
+    }
+}
+
+fn normal(axis: &str) -> Answer<Axis> {
+    match axis {
+        "x" => Ok(Axis::X),
+        "y" => Ok(Axis::Y),
+        "z" => Ok(Axis::Z),
+        _ => Err(Raised::Input(format!(
+            "plane is {axis}: expected x, y or z with a coordinate, such as (\"z\", 1.75)"
+        ))),
+    }
+}
+
+/// Normal deviations of the parameters that are named themselves or by their group.
+fn tolerances(robot: &cdpr_robot::Robot, named: &Bound<PyDict>) -> Answer<ErrorModel> {
+    let named: Vec<(String, f64)> =
+        named.iter().map(|(name, std)| Ok((name.extract()?, std.extract()?))).collect::<PyResult<_>>()?;
+    Ok(ErrorModel::normal(&uncertainties(robot, &named)?))
+}
