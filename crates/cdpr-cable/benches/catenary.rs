@@ -2,9 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
-use cdpr_cable::{
-    Cable, Catenary, ElasticLaw, PiecewiseLaw, Vector2, end_force, length_for_tension, response,
-};
+use cdpr_cable::kernel::response;
+use cdpr_cable::{Cable, Catenary, ElasticLaw, PiecewiseLaw, Vector2, end_force, length_for_tension};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;

@@ -43,7 +43,7 @@ pub struct Segment {
 
 /// A segment as the catenary takes it, for a given EA.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stretch {
+pub(crate) struct SegmentTerms {
     /// α_k.
     pub(crate) alpha: f64,
     /// 1/EA_k [1/N].
@@ -123,9 +123,9 @@ impl PiecewiseLaw {
     }
 
     /// The segment at a tension, for a cable of axial stiffness `ea` [N].
-    pub(crate) fn stretch(&self, tension: f64, ea: f64) -> Stretch {
+    pub(crate) fn segment_terms(&self, tension: f64, ea: f64) -> SegmentTerms {
         let Segment { tension: t, ratio, scaled_strain, scaled_energy } = *self.at(tension);
-        Stretch {
+        SegmentTerms {
             alpha: 1.0 + (scaled_strain - t / ratio) / ea,
             flexibility: 1.0 / (ratio * ea),
             energy: (scaled_energy - scaled_strain * t + 0.5 * t * t / ratio) / ea,
@@ -189,7 +189,7 @@ mod tests {
             let (low, middle, high) =
                 (step * f64::from(k), step * (f64::from(k) + 0.5), step * f64::from(k + 1));
             energy += step * law.scaled_strain(middle) / ea;
-            let Stretch { alpha, flexibility, energy: c } = law.stretch(low, ea);
+            let SegmentTerms { alpha, flexibility, energy: c } = law.segment_terms(low, ea);
             assert_relative_eq!(
                 alpha + high * flexibility,
                 1.0 + law.scaled_strain(high) / ea,

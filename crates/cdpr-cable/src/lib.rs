@@ -26,25 +26,23 @@
 //!
 //! The crate does no input or output, holds no state and knows no robot.
 
+mod cable;
 mod catenary;
 mod error;
+pub mod kernel;
 mod law;
-mod pieces;
-mod real;
 mod record;
-mod response;
-mod shape;
 mod solve;
-mod tensioned;
 mod weighing;
 
-pub use catenary::{Cable, Catenary, Compliance};
+pub use cable::Cable;
+pub use catenary::Catenary;
+pub use catenary::compliance::Compliance;
 pub use error::CableError;
 pub use law::{ElasticLaw, PiecewiseLaw, Segment};
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
-pub use real::{Field, Real};
 pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen};
-pub use response::{Response, TAUT, TautEnd, response, taut_end, taut_response};
-pub use solve::{Solution, end_force, end_force_near};
-pub use tensioned::{least_tension, length_for_tension, length_for_tension_near};
+pub use solve::{
+    Solution, end_force, end_force_near, least_tension, length_for_tension, length_for_tension_near,
+};
 pub use weighing::{Measured, linear_density};

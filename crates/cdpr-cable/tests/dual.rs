@@ -1,6 +1,7 @@
 //! Every derivative of the catenary against dual numbers: the same equations, with a number that carries its derivative.
 
-use cdpr_cable::{Cable, Catenary, Field, Real, Vector2, least_tension, length_for_tension, response};
+use cdpr_cable::kernel::{Field, Real, response};
+use cdpr_cable::{Cable, Catenary, Vector2, least_tension, length_for_tension};
 use proptest::prelude::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -31,7 +31,7 @@ use crate::equations::{Factored, NEAR_VERTICAL, State, Strung, cross, jacobian, 
 use crate::error::StaticsError;
 use crate::model::Model;
 use crate::state::Load;
-use cdpr_cable::{Field, Real};
+use cdpr_cable::kernel::{Field, Real};
 use cdpr_robot::{Matrix3, Robot, Vector3};
 use interval::Interval;
 use nalgebra::{DMatrix, DVector, Matrix6, UnitQuaternion, Vector2};
@@ -194,7 +194,7 @@ fn degenerate(model: &Model, state: &State<Interval>) -> Option<&'static str> {
             }
             continue;
         }
-        // Far above the guards of `cdpr_cable::response` and of the Jacobian; NaN is refused, too.
+        // Far above the guards of `cdpr_cable::kernel::response` and of the Jacobian; NaN is refused, too.
         let regular = force.x.low > 1e-15 * (middle.norm() + catenary.weight())
             && end.x.low > 2.0 * NEAR_VERTICAL * end.y.magnitude();
         if !regular {

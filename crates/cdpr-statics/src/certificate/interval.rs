@@ -4,7 +4,7 @@
 //! An operation without an answer (a division by an interval around zero, the root of a negative number) gives the whole line,
 //! with which no proof succeeds. Moore, Kearfott, Cloud, *Introduction to Interval Analysis* (2009), chapter 2.
 
-use cdpr_cable::{Field, Real};
+use cdpr_cable::kernel::{Field, Real};
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 

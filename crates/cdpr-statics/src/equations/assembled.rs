@@ -18,7 +18,7 @@
 
 use crate::model::Model;
 use crate::state::Equilibrium;
-use cdpr_cable::{Real, Response, response};
+use cdpr_cable::kernel::{Real, Response, response};
 use cdpr_robot::{Matrix3, Vector3};
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, DVector, Scalar, Vector2};
@@ -151,7 +151,7 @@ pub(crate) fn jacobian<T: Number>(model: &Model, state: &State<T>) -> DMatrix<T>
     for i in 0..model.cables() {
         let cable = Strung::new(model, state, i);
         let place = 6 + 2 * i;
-        let Some(Response { flexibility: [xx, xz, zz], lateral, .. }) = cable.response else {
+        let Some(Response { flexibility: [xx, xz, zz], lateral_flexibility, .. }) = cable.response else {
             // Its force stays zero.
             jacobian.fixed_view_mut::<2, 2>(place, place).fill_with_identity();
             continue;
@@ -160,7 +160,7 @@ pub(crate) fn jacobian<T: Number>(model: &Model, state: &State<T>) -> DMatrix<T>
         let sideways = Vector3::new(-cable.azimuth.y, cable.azimuth.x, T::zero());
         let (h, z) = (cable.end.x, cable.end.y);
         let near_vertical = Real::value(h) <= NEAR_VERTICAL * Real::value(z).abs();
-        let lateral = if near_vertical { T::one() / lateral } else { state.forces[i].x / h };
+        let lateral = if near_vertical { T::one() / lateral_flexibility } else { state.forces[i].x / h };
         let swing = sideways * sideways.transpose() * lateral;
         let mut add = |row: usize, column: usize, block: Matrix3<T>| {
             let mut view = jacobian.fixed_view_mut::<3, 3>(row, column);

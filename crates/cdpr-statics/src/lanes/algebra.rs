@@ -1,7 +1,7 @@
 //! Vectors and systems of six equations in lanes.
 
 use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::Field;
+use cdpr_cable::kernel::Field;
 
 /// A point or a vector in the base frame.
 pub(crate) type Space<S> = [Lanes<S>; 3];

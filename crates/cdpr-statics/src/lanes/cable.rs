@@ -2,7 +2,7 @@
 
 use crate::lanes::algebra::{Space, three};
 use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::{Field, Response, TautEnd, taut_end, taut_response};
+use cdpr_cable::kernel::{Field, Response, TautEnd, taut_end, taut_response};
 
 /// A vector in a cable's vertical plane: along the azimuth, upwards.
 pub(crate) type Plane<S> = [Lanes<S>; 2];
@@ -80,7 +80,7 @@ impl<S: Simd> Linear<S> {
             azimuth: span.azimuth,
             predicted: force,
             stiffness: [zz * inverse, -xz * inverse, xx * inverse],
-            lateral: response.lateral.recip(),
+            lateral: response.lateral_flexibility.recip(),
         };
         linear.predict(force, &span.miss(response.end));
         linear

@@ -24,7 +24,7 @@ use crate::lanes::algebra::{Factored, Space, Wrench, cross, dot, six, three};
 use crate::lanes::cable::{Cable, Linear, Plane, Span};
 use crate::lanes::newton::{Load, MAX_ITERATIONS, Open, Robots, Scale, Tangent};
 use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::{Field, Response, TAUT};
+use cdpr_cable::kernel::{Field, Response, TAUT};
 
 /// Robots at their wanted pose, with starts of lengths and forces.
 pub(crate) struct Beginning<S: Simd> {

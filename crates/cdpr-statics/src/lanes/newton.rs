@@ -7,7 +7,7 @@ use crate::direct::MAX_STRAIN;
 use crate::lanes::algebra::{Matrix, Space, Symmetric, Wrench, add, cross, dot, halves, six, three};
 use crate::lanes::cable::{Cable, Linear, Span};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
-use cdpr_cable::{Field, TAUT, TautEnd};
+use cdpr_cable::kernel::{Field, TAUT, TautEnd};
 use smallvec::{SmallVec, smallvec};
 
 /// What the lanes hold.

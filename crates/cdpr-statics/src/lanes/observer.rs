@@ -14,7 +14,7 @@ use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::deflection;
 use crate::model::Model;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
-use cdpr_cable::Field;
+use cdpr_cable::kernel::Field;
 use cdpr_robot::{Parameter, Pose, Robot, Vector3, Vector6};
 use nalgebra::DVector;
 use smallvec::SmallVec;

@@ -4,7 +4,7 @@
 //! found out when the program runs). Only `+ - * /`, square roots and comparisons are used, which IEEE 754 defines to the bit, and nothing
 //! is fused: a problem has the same answer in any lane of any unit. Lanes cannot branch; where one differs, a [`Mask`] selects.
 
-use cdpr_cable::Field;
+use cdpr_cable::kernel::Field;
 use pulp::Arch;
 #[cfg(test)]
 pub(crate) use pulp::Scalar;

@@ -18,8 +18,8 @@
 //! What is called from outside is marked cold: most cables are linear, and their code is shorter when it is laid out for them.
 
 use crate::catenary::Catenary;
-use crate::law::{PiecewiseLaw, Stretch};
-use crate::response::{Response, Terms};
+use crate::kernel::{Response, Terms};
+use crate::law::{PiecewiseLaw, SegmentTerms};
 use nalgebra::Vector2;
 
 /// A piece of a cable.
@@ -28,7 +28,7 @@ struct Piece {
     elastic: Terms<f64>,
     /// As if it could not stretch.
     inextensible: Terms<f64>,
-    stretch: Stretch,
+    segment: SegmentTerms,
     length: f64,
     /// Length of the cable beyond it, towards A.
     beyond: f64,
@@ -53,14 +53,14 @@ fn pieces(catenary: &Catenary, law: &PiecewiseLaw) -> Vec<Piece> {
         .map(|ends| {
             // The middle decides: an end lies on a kink.
             let tension = fx.hypot(v0 + w * 0.5 * (ends[0] + ends[1]));
-            let stretch = law.stretch(tension, cable.axial_stiffness);
+            let segment = law.segment_terms(tension, cable.axial_stiffness);
             let piece = ends[1] - ends[0];
             let vertical = [0, 1].map(|k| if ends[k] == length { force.y } else { v0 + w * ends[k] });
             let terms = |flexibility| Terms::new(w, flexibility, piece, fx, vertical[1]);
             Piece {
-                elastic: terms(stretch.flexibility),
+                elastic: terms(segment.flexibility),
                 inextensible: terms(0.0),
-                stretch,
+                segment,
                 length: piece,
                 beyond: length - ends[1],
                 vertical,
@@ -75,7 +75,7 @@ impl Piece {
     where
         T: std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
     {
-        quantity(&self.elastic) + quantity(&self.inextensible) * (self.stretch.alpha - 1.0)
+        quantity(&self.elastic) + quantity(&self.inextensible) * (self.segment.alpha - 1.0)
     }
 }
 
@@ -96,7 +96,7 @@ pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64>
         end: [0.0; 2],
         flexibility: [0.0; 3],
         determinant: 0.0,
-        lateral: 0.0,
+        lateral_flexibility: 0.0,
         end_per_length: [0.0; 2],
         tension,
         direction: [force.x / tension, force.y / tension],
@@ -104,7 +104,7 @@ pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64>
     };
     let (mut straight, mut bent, mut determinant) = (0.0, [0.0; 3], 0.0);
     for (place, piece) in pieces(catenary, law).iter().enumerate() {
-        let Piece { stretch: Stretch { alpha, flexibility, .. }, length, .. } = *piece;
+        let Piece { segment: SegmentTerms { alpha, flexibility, .. }, length, .. } = *piece;
         let (elastic, inextensible) = (piece.elastic.response(), piece.inextensible.response());
         let add = |one: f64, other: f64| one + (alpha - 1.0) * other;
         for k in 0..2 {
@@ -113,7 +113,7 @@ pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64>
         for k in 0..3 {
             sum.flexibility[k] += add(elastic.flexibility[k], inextensible.flexibility[k]);
         }
-        sum.lateral += add(elastic.lateral, inextensible.lateral);
+        sum.lateral_flexibility += add(elastic.lateral_flexibility, inextensible.lateral_flexibility);
         if place == 0 {
             // What is paid out enters at B.
             for k in 0..2 {
@@ -154,7 +154,7 @@ pub(crate) fn end_per_stiffness(catenary: &Catenary, law: &PiecewiseLaw) -> Vect
             let [below, above] = piece.vertical;
             let pull = Vector2::new(catenary.force.x, 0.5 * (below + above));
             let bare = Vector2::from(piece.inextensible.end_position());
-            pull * (piece.length * piece.stretch.flexibility) + bare * (piece.stretch.alpha - 1.0)
+            pull * (piece.length * piece.segment.flexibility) + bare * (piece.segment.alpha - 1.0)
         })
         .sum();
     -strained / catenary.cable.axial_stiffness
@@ -164,7 +164,7 @@ pub(crate) fn end_per_stiffness(catenary: &Catenary, law: &PiecewiseLaw) -> Vect
 #[cold]
 pub(crate) fn complementary_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f64 {
     let all = pieces(catenary, law).into_iter();
-    all.map(|piece| piece.of(Terms::complementary_energy) + piece.length * piece.stretch.energy).sum()
+    all.map(|piece| piece.of(Terms::complementary_energy) + piece.length * piece.segment.energy).sum()
 }
 
 /// Potential energy [J]: `f·r - U*` by pieces; each lifts what hangs beyond it.
@@ -174,7 +174,7 @@ pub(crate) fn potential_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f64 {
     let all = pieces(catenary, law).into_iter();
     all.map(|piece| {
         let [_, z] = [0, 1].map(|k| piece.of(|terms| terms.end_position()[k]));
-        piece.of(Terms::potential_energy) - piece.length * piece.stretch.energy + w * piece.beyond * z
+        piece.of(Terms::potential_energy) - piece.length * piece.segment.energy + w * piece.beyond * z
     })
     .sum()
 }

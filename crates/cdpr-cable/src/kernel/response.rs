@@ -70,9 +70,9 @@
 //! d(x, z)/dEA = -(L/EA²) (fx, fz - wL/2)                                                  (11)
 //! ```
 
-use crate::catenary::{Catenary, Compliance};
-use crate::real::{Field, Real};
-use nalgebra::{Matrix2, Vector2};
+use super::field::{Field, Real};
+use super::series::{SERIES_LIMIT, TAUT, psi_of_slack, psi_of_taut};
+use nalgebra::Vector2;
 
 /// How a catenary answers to a force at its end, over any kind of number.
 #[derive(Clone, Copy, Debug)]
@@ -83,8 +83,8 @@ pub struct Response<T> {
     pub flexibility: [T; 3],
     /// Determinant of the flexibility [m²/N²], equation (8).
     pub determinant: T,
-    /// x/fx [m/N]: lateral flexibility.
-    pub lateral: T,
+    /// x/fx [m/N]: the flexibility across the cable's plane.
+    pub lateral_flexibility: T,
     /// Derivative of the end position with respect to the length at constant force [m/m], equation (9).
     pub end_per_length: [T; 2],
     /// T [N].
@@ -95,23 +95,20 @@ pub struct Response<T> {
     pub slackness: T,
 }
 
-/// The response of a cable with weight per length `w` [N/m], axial flexibility `stretch` = 1/EA [1/N] and unstrained length
+/// The response of a cable with weight per length `w` [N/m], axial flexibility `axial_flexibility` = 1/EA [1/N] and unstrained length
 /// `length` [m] to the force `[fx, fz]` [N] at A. Where `fx` is below 1e-25 of the other forces, `fx²` is raised by 1e-60 of their
 /// squares, which keeps a vertical folded cable regular.
-pub fn response<T: Real>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
-    Terms::new(w, stretch, length, fx, fz).response()
+pub fn response<T: Real>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
+    Terms::new(w, axial_flexibility, length, fx, fz).response()
 }
-
-/// A cable with q² up to this is taut: the formulas of [`taut_response`] hold to rounding.
-pub const TAUT: f64 = 0.02;
 
 /// [`response`] of a taut cable ([`Response::slackness`] up to [`TAUT`]): one formula without a choice, a root or a quotient to
 /// spare, for numbers that cannot choose because several cables share them.
 #[inline(always)]
-pub fn taut_response<T: Field>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
-    let terms = Terms::with_square(w, stretch, length, fx, fz, fx * fx);
+pub fn taut_response<T: Field>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
+    let terms = Terms::with_square(w, axial_flexibility, length, fx, fz, fx * fx);
     let q2 = terms.slackness();
-    terms.assemble(q2, taut_series(q2), terms.shape_of_the_taut())
+    terms.assemble(q2, psi_of_taut(q2), terms.shape_of_the_taut())
 }
 
 /// End of a taut cable.
@@ -127,10 +124,10 @@ pub struct TautEnd<T> {
 
 /// What [`taut_response`] says of the end alone.
 #[inline(always)]
-pub fn taut_end<T: Field>(w: T, stretch: T, length: T, [fx, fz]: [T; 2]) -> TautEnd<T> {
-    let terms = Terms::with_square(w, stretch, length, fx, fz, fx * fx);
+pub fn taut_end<T: Field>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> TautEnd<T> {
+    let terms = Terms::with_square(w, axial_flexibility, length, fx, fz, fx * fx);
     let slackness = terms.slackness();
-    let x = fx * terms.lateral(slackness * taut_series(slackness) + 1.0);
+    let x = fx * terms.lateral_flexibility(slackness * psi_of_taut(slackness) + 1.0);
     TautEnd { end: [x, terms.height()], tension: terms.t, slackness }
 }
 
@@ -141,7 +138,7 @@ pub(crate) struct Terms<T> {
     v0: T,
     length: T,
     /// 1/EA.
-    stretch: T,
+    axial_flexibility: T,
     weight: T,
     fx2: T,
     /// T, tension at A.
@@ -153,48 +150,43 @@ pub(crate) struct Terms<T> {
 }
 
 impl Terms<f64> {
-    pub(crate) fn of(catenary: &Catenary) -> Self {
-        let Catenary { cable, unstrained_length, force } = *catenary;
-        Self::new(cable.weight_per_length, 1.0 / cable.axial_stiffness, unstrained_length, force.x, force.y)
-    }
-
     pub(crate) fn complementary_energy(&self) -> f64 {
-        let Self { fx, fz, v0, length, stretch, t, t0, .. } = *self;
+        let Self { fx, fz, v0, length, axial_flexibility, t, t0, .. } = *self;
         let (q2, psi) = self.sag_terms();
         let (s, phi) = (t + t0, 1.0 + q2 * psi);
         let inextensible = (fz + v0) * (fz + v0) / (2.0 * s) + 0.5 * s + 2.0 * fx * fx * phi / s;
-        let elastic = (fx * fx + (fz * fz + fz * v0 + v0 * v0) / 3.0) * stretch;
+        let elastic = (fx * fx + (fz * fz + fz * v0 + v0 * v0) / 3.0) * axial_flexibility;
         0.5 * length * (inextensible + elastic)
     }
 
     pub(crate) fn potential_energy(&self) -> f64 {
-        let Self { fx, fz, v0, length, weight, stretch, fx2, t, t0, s_inv } = *self;
+        let Self { fx, fz, v0, length, weight, axial_flexibility, fx2, t, t0, s_inv } = *self;
         let (q2, psi) = self.sag_terms();
         let (d, m) = (0.5 * weight, 0.5 * (fz + v0));
         let a = fx2 + m * m;
         let rest = d * d * (2.0 * a + d * d - 4.0 * m * m) / (t * t0 + a);
         let gravity = length * (fx * fx * q2 * psi + 2.0 * m * d - 0.5 * (d * d + rest)) * s_inv;
-        let elastic = 0.5 * length * stretch * (fx * fx + m * m + 2.0 * m * d - d * d / 3.0);
+        let elastic = 0.5 * length * axial_flexibility * (fx * fx + m * m + 2.0 * m * d - d * d / 3.0);
         gravity + elastic
     }
 
     /// d(x, z)/dw, equation (10).
     pub(crate) fn end_per_weight(&self) -> Vector2<f64> {
-        let Self { fx, fz, v0, length, weight, stretch, fx2, t, t0, s_inv } = *self;
+        let Self { fx, fz, v0, length, weight, axial_flexibility, fx2, t, t0, s_inv } = *self;
         let (_, psi) = self.sag_terms();
         let (tt0, p) = (t * t0, fz * v0);
         let difference = if p <= 0.0 { tt0 - p } else { fx2 * (fx2 + fz * fz + v0 * v0) / (tt0 + p) };
         let share = (length * s_inv) * (length * s_inv);
         Vector2::new(
             share * fx * ((fz + v0) / t0 - 2.0 * psi * weight * s_inv),
-            -share * (fx2 + difference) / t0 - 0.5 * length * length * stretch,
+            -share * (fx2 + difference) / t0 - 0.5 * length * length * axial_flexibility,
         )
     }
 
     /// d(x, z)/dEA, equation (11).
     pub(crate) fn end_per_stiffness(&self) -> Vector2<f64> {
-        let Self { fx, fz, length, weight, stretch, .. } = *self;
-        Vector2::new(fx, fz - 0.5 * weight) * (-length * stretch * stretch)
+        let Self { fx, fz, length, weight, axial_flexibility, .. } = *self;
+        Vector2::new(fx, fz - 0.5 * weight) * (-length * axial_flexibility * axial_flexibility)
     }
 }
 
@@ -205,7 +197,7 @@ impl Response<f64> {
             end: self.end.map(&of),
             flexibility: self.flexibility.map(&of),
             determinant: of(self.determinant),
-            lateral: of(self.lateral),
+            lateral_flexibility: of(self.lateral_flexibility),
             end_per_length: self.end_per_length.map(&of),
             tension: of(self.tension),
             direction: self.direction.map(&of),
@@ -214,28 +206,14 @@ impl Response<f64> {
     }
 }
 
-impl From<Response<f64>> for Compliance {
-    fn from(response: Response<f64>) -> Self {
-        let Response { end: [x, z], flexibility: [xx, xz, zz], determinant, lateral, end_per_length, .. } =
-            response;
-        Self {
-            end: Vector2::new(x, z),
-            flexibility: Matrix2::new(xx, xz, xz, zz),
-            determinant,
-            lateral_stiffness: 1.0 / lateral,
-            end_per_length: end_per_length.into(),
-        }
-    }
-}
-
 impl<T: Field> Terms<T> {
     #[inline(always)]
-    fn with_square(w: T, stretch: T, length: T, fx: T, fz: T, fx2: T) -> Self {
+    fn with_square(w: T, axial_flexibility: T, length: T, fx: T, fz: T, fx2: T) -> Self {
         let weight = w * length;
         let v0 = fz - weight;
         let t = (fx2 + fz * fz).sqrt();
         let t0 = (fx2 + v0 * v0).sqrt();
-        Self { fx, fz, v0, length, stretch, weight, fx2, t, t0, s_inv: (t + t0).recip() }
+        Self { fx, fz, v0, length, axial_flexibility, weight, fx2, t, t0, s_inv: (t + t0).recip() }
     }
 
     /// q².
@@ -247,15 +225,15 @@ impl<T: Field> Terms<T> {
 
     /// x/fx = L [1/EA + 2φ/s], equation (1).
     #[inline(always)]
-    fn lateral(&self, phi: T) -> T {
-        self.length * (self.stretch + phi * 2.0 * self.s_inv)
+    fn lateral_flexibility(&self, phi: T) -> T {
+        self.length * (self.axial_flexibility + phi * 2.0 * self.s_inv)
     }
 
     /// z, equation (2).
     #[inline(always)]
     fn height(&self) -> T {
-        let Self { fz, v0, length, weight, stretch, s_inv, .. } = *self;
-        length * ((fz + weight * -0.5) * stretch + (fz + v0) * s_inv)
+        let Self { fz, v0, length, weight, axial_flexibility, s_inv, .. } = *self;
+        length * ((fz + weight * -0.5) * axial_flexibility + (fz + v0) * s_inv)
     }
 
     /// g = fx²/D and N/D where nothing cancels in D.
@@ -276,24 +254,24 @@ impl<T: Field> Terms<T> {
     /// Equations (1)-(5), (8), (9) from q², ψ, g and N/D.
     #[inline(always)]
     fn assemble(&self, q2: T, psi: T, (g, n_over_d): (T, T)) -> Response<T> {
-        let Self { fx, fz, v0, length, stretch, t, t0, s_inv, .. } = *self;
+        let Self { fx, fz, v0, length, axial_flexibility, t, t0, s_inv, .. } = *self;
         let tt0_inv = (t * t0).recip();
         let sag = q2 * psi * 2.0;
         let sag_zz = (t + t0) * g * tt0_inv;
         let sag_xx = (sag + n_over_d * tt0_inv) * s_inv;
-        let lateral = self.lateral(q2 * psi + 1.0);
-        let determinant = (stretch + sag_xx + sag_zz) * stretch + sag * g * tt0_inv;
-        let entering = t * tt0_inv + stretch;
+        let lateral_flexibility = self.lateral_flexibility(q2 * psi + 1.0);
+        let determinant = (axial_flexibility + sag_xx + sag_zz) * axial_flexibility + sag * g * tt0_inv;
+        let entering = t * tt0_inv + axial_flexibility;
         let tension_inv = t0 * tt0_inv;
         Response {
-            end: [fx * lateral, self.height()],
+            end: [fx * lateral_flexibility, self.height()],
             flexibility: [
-                length * (stretch + sag_xx),
+                length * (axial_flexibility + sag_xx),
                 -fx * length * (fz + v0) * (tt0_inv * s_inv),
-                length * (stretch + sag_zz),
+                length * (axial_flexibility + sag_zz),
             ],
             determinant: length * determinant * length,
-            lateral,
+            lateral_flexibility,
             end_per_length: [fx * entering, v0 * entering],
             tension: t,
             direction: [fx * tension_inv, fz * tension_inv],
@@ -303,13 +281,13 @@ impl<T: Field> Terms<T> {
 }
 
 impl<T: Real> Terms<T> {
-    pub(crate) fn new(w: T, stretch: T, length: T, fx: T, fz: T) -> Self {
+    pub(crate) fn new(w: T, axial_flexibility: T, length: T, fx: T, fz: T) -> Self {
         let others = fz.value().abs() + (w * length).value();
         let mut fx2 = fx * fx;
         if fx.value() <= (1e-25 * others).max(1e-150) {
             fx2 = fx2 + (1e-60 * others * others + f64::MIN_POSITIVE);
         }
-        Self::with_square(w, stretch, length, fx, fz, fx2)
+        Self::with_square(w, axial_flexibility, length, fx, fz, fx2)
     }
 
     /// m = (fx² + fz² + V0²)/(T T0 - fz V0), with which D = fx² (1 + m) without cancellation where fz V0 < 0.
@@ -328,9 +306,9 @@ impl<T: Real> Terms<T> {
         let q2 = self.slackness();
         // The rest of a series and the rounding of its coefficients are at most 6e-17 in all.
         let psi = if q2.upper() <= TAUT {
-            taut_series(q2).within(1e-16)
+            psi_of_taut(q2).within(1e-16)
         } else if q2.upper() < SERIES_LIMIT {
-            horner(&SERIES, q2).within(1e-16)
+            psi_of_slack(q2).within(1e-16)
         } else {
             // atanh q = ln((1 + q)/sqrt(1 - q²)), with 1 - q² = 2D/s²
             let q = self.weight * self.s_inv;
@@ -342,7 +320,7 @@ impl<T: Real> Terms<T> {
 
     pub(crate) fn end_position(&self) -> [T; 2] {
         let (q2, psi) = self.sag_terms();
-        [self.fx * self.lateral(q2 * psi + 1.0), self.height()]
+        [self.fx * self.lateral_flexibility(q2 * psi + 1.0), self.height()]
     }
 
     pub(crate) fn response(&self) -> Response<T> {
@@ -356,50 +334,5 @@ impl<T: Real> Terms<T> {
             (g, g * (self.squares() + p * 2.0 * m))
         };
         self.assemble(q2, psi, shape)
-    }
-}
-
-/// Above this q² the logarithm is used; both ways agree to rounding there.
-const SERIES_LIMIT: f64 = 0.1;
-
-/// 1/3, 1/5, 1/7, ...: the coefficients of ψ(q²).
-const SERIES: [f64; 17] = {
-    let mut series = [0.0; 17];
-    let mut k = 0;
-    while k < series.len() {
-        series[k] = 1.0 / (2 * k + 3) as f64;
-        k += 1;
-    }
-    series
-};
-
-/// ψ(q²) = (atanh(q)/q - 1)/q² = 1/3 + q²/5 + q⁴/7 + ...: the first terms.
-fn horner<T: Field>(coefficients: &[f64; 17], q2: T) -> T {
-    let [first @ .., before, last] = coefficients;
-    first.iter().rev().fold(q2 * *last + *before, |sum, term| sum * q2 + *term)
-}
-
-/// ψ(q²) for q² up to [`TAUT`]: ten terms leave 5e-19. Even and odd ones apart, so that one need not wait for the other.
-#[inline(always)]
-fn taut_series<T: Field>(q2: T) -> T {
-    let c = &SERIES;
-    let q4 = q2 * q2;
-    let even = (((q4 * c[8] + c[6]) * q4 + c[4]) * q4 + c[2]) * q4 + c[0];
-    let odd = (((q4 * c[9] + c[7]) * q4 + c[5]) * q4 + c[3]) * q4 + c[1];
-    odd * q2 + even
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn series_and_logarithm_meet_without_a_jump() {
-        for q2 in [SERIES_LIMIT * (1.0 - 1e-12), SERIES_LIMIT] {
-            let q = f64::sqrt(q2);
-            assert_relative_eq!(horner(&SERIES, q2), (q.atanh() / q - 1.0) / q2, max_relative = 1e-14);
-        }
-        assert_relative_eq!(taut_series(TAUT), horner(&SERIES, TAUT), max_relative = 1e-15);
     }
 }

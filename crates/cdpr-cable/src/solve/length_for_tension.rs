@@ -10,9 +10,10 @@
 //!
 //! with C the flexibility; where that does not end on the falling branch, bisection of the tension over the length.
 
-use crate::catenary::{Cable, Catenary};
+use crate::cable::Cable;
+use crate::catenary::Catenary;
 use crate::error::{CableError, SMALLEST, check};
-use crate::solve::{Solution, check_end, end_force};
+use crate::solve::end_force::{Solution, check_end, end_force};
 use nalgebra::{Matrix2, Vector2};
 
 /// The cable from the origin to `end = (x, z)` [m], `x >= 0`, that has the tension `tension` [N] at its end A.

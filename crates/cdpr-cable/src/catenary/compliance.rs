@@ -1,0 +1,74 @@
+//! How the end of a cable answers to forces, as matrices of doubles.
+
+use crate::kernel::Response;
+use nalgebra::{Matrix2, Matrix3, Vector2};
+
+/// How the end A answers to forces, with the position it answers from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compliance {
+    /// End position `(x, z)` [m], equations (1)-(2).
+    pub end: Vector2<f64>,
+    /// In-plane flexibility `d(x, z)/d(fx, fz)` [m/N], equations (3)-(5).
+    pub flexibility: Matrix2<f64>,
+    /// Determinant of the flexibility [m²/N²], equation (8): the difference of its products loses the digits of taut, stiff cables.
+    pub determinant: f64,
+    /// Out-of-plane stiffness `fx/x` [N/m]; regular for a vertical cable, where `fx = x = 0`.
+    pub lateral_stiffness: f64,
+    /// Derivative of the end position with respect to the unstrained length at constant force at A [m/m]: the unit tangent
+    /// at B times `1 + T0/EA`, since the new piece of cable enters there.
+    pub end_per_length: Vector2<f64>,
+}
+
+impl Compliance {
+    /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m].
+    #[inline]
+    pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
+        let c = &self.flexibility;
+        Matrix2::new(c.m22, -c.m12, -c.m21, c.m11) / self.determinant
+    }
+
+    /// Derivative of the force at A with respect to the unstrained length with both ends held [N/m].
+    #[inline]
+    pub fn force_per_length(&self) -> Vector2<f64> {
+        -self.in_plane_stiffness() * self.end_per_length
+    }
+
+    /// Stiffness `dF/dr` [N/m] in three dimensions, see [`Catenary::stiffness`].
+    #[inline]
+    pub fn stiffness(&self, azimuth: Vector2<f64>) -> Matrix3<f64> {
+        let k = self.in_plane_stiffness();
+        let lateral = self.lateral_stiffness;
+        let (c, s) = (azimuth.x, azimuth.y);
+        Matrix3::new(
+            c * c * k.m11 + s * s * lateral,
+            c * s * (k.m11 - lateral),
+            c * k.m12,
+            c * s * (k.m11 - lateral),
+            s * s * k.m11 + c * c * lateral,
+            s * k.m12,
+            c * k.m21,
+            s * k.m21,
+            k.m22,
+        )
+    }
+}
+
+impl From<Response<f64>> for Compliance {
+    fn from(response: Response<f64>) -> Self {
+        let Response {
+            end: [x, z],
+            flexibility: [xx, xz, zz],
+            determinant,
+            lateral_flexibility,
+            end_per_length,
+            ..
+        } = response;
+        Self {
+            end: Vector2::new(x, z),
+            flexibility: Matrix2::new(xx, xz, xz, zz),
+            determinant,
+            lateral_stiffness: 1.0 / lateral_flexibility,
+            end_per_length: end_per_length.into(),
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! The equations of one cable in its vertical plane, over any kind of number: doubles, intervals, dual numbers, lanes.
+//!
+//! Solvers that evaluate a cable with numbers of their own build on these functions. For doubles the methods of
+//! [`crate::Catenary`] answer the same questions, for cables of any elastic law.
+
+mod field;
+mod response;
+mod series;
+
+pub use field::{Field, Real};
+pub(crate) use response::Terms;
+pub use response::{Response, TautEnd, response, taut_end, taut_response};
+pub use series::TAUT;

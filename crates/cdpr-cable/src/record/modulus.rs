@@ -1,0 +1,162 @@
+//! Secant and tangent moduli of a record.
+
+use crate::record::load_cycle::Record;
+use crate::record::sample::{Phase, RecordError, Sample};
+
+/// The piece of cable that was tested, and how exactly all was measured: absolute errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Specimen {
+    /// Breaking force [N], of which ranges are percentages.
+    pub breaking_force: f64,
+    /// Section S [m²].
+    pub section: f64,
+    /// Length L_c between the clamps before loading [m].
+    pub length: f64,
+    /// Error of each force [N].
+    pub force_error: f64,
+    /// Error of each elongation [m].
+    pub elongation_error: f64,
+    /// Error of the length [m].
+    pub length_error: f64,
+    /// Error of the section [m²].
+    pub section_error: f64,
+}
+
+/// A secant modulus with its uncertainty.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SecantModulus {
+    /// E_{p-q} [Pa].
+    pub modulus: f64,
+    /// Uncertainty from independent errors [Pa].
+    pub standard: f64,
+    /// Uncertainty where all errors add up [Pa].
+    pub greatest: f64,
+}
+
+/// Strains and moduli beyond these are those of another unit.
+const MAX_STRAIN: f64 = 0.1;
+const MODULI: std::ops::RangeInclusive<f64> = 1e9..=1e12;
+
+impl Record {
+    /// E_{p-q} while loading or unloading, from `low` to `high` percent of the breaking force, Eq. (5).
+    ///
+    /// # Errors
+    /// [`RecordError::Setting`] for a specimen or range that is none, [`RecordError::OutOfRange`]; [`RecordError::Invalid`] where
+    /// strain or modulus are those of no cable, as with other units.
+    pub fn modulus(
+        &self,
+        specimen: &Specimen,
+        phase: Phase,
+        low: f64,
+        high: f64,
+    ) -> Result<SecantModulus, RecordError> {
+        specimen.validate()?;
+        setting("range", low, low >= 0.0, "a lower end of zero or more [%]")?;
+        setting("range", high, high > low, "an upper end above the lower one [%]")?;
+        self.check_strain(specimen.length)?;
+        let [least, greatest] = self.forces(phase).map(|force| 100.0 * force / specimen.breaking_force);
+        let force = |percent: f64| 0.01 * percent * specimen.breaking_force;
+        let (Some(x_low), Some(x_high)) =
+            (self.elongation(phase, force(low)), self.elongation(phase, force(high)))
+        else {
+            return Err(RecordError::OutOfRange { low, high, phase, least, greatest });
+        };
+        let (df, dx) = (force(high) - force(low), x_high - x_low);
+        let modulus = specimen.length * df / (specimen.section * dx);
+        self.samples(phase)[0].check_modulus(modulus, &format!("between {low} and {high} %"))?;
+        let (of_force, of_elongation) = (specimen.force_error / df, specimen.elongation_error / dx);
+        let once = [specimen.length_error / specimen.length, specimen.section_error / specimen.section];
+        let squares = 2.0 * (of_force * of_force + of_elongation * of_elongation)
+            + once.iter().map(|error| error * error).sum::<f64>();
+        let sum = 2.0 * (of_force + of_elongation) + once.iter().sum::<f64>();
+        Ok(SecantModulus { modulus, standard: modulus * squares.sqrt(), greatest: modulus * sum })
+    }
+
+    /// The tangent modulus [Pa] of each piece between two samples of a phase, with the tension at which it begins [N], in ascending order,
+    /// for a specimen of this length [m] and section [m²]. The first piece goes on down to zero.
+    ///
+    /// # Errors
+    /// [`RecordError::Setting`] for a length or section that is none; [`RecordError::Invalid`] where strain or modulus of the whole
+    /// phase are those of no cable, as with other units.
+    pub fn moduli(&self, phase: Phase, length: f64, section: f64) -> Result<Vec<(f64, f64)>, RecordError> {
+        check_specimen(length, section)?;
+        self.check_strain(length)?;
+        let modulus = |one: &Sample, other: &Sample| {
+            length * (other.force - one.force) / (section * (other.elongation - one.elongation))
+        };
+        let samples = self.samples(phase);
+        let (first, last) = (&samples[0], &samples[samples.len() - 1]);
+        first.check_modulus(modulus(first, last), "over the whole phase")?;
+        let mut pieces: Vec<_> = samples
+            .windows(2)
+            .map(|pair| (pair[0].force.min(pair[1].force), modulus(&pair[0], &pair[1])))
+            .collect();
+        pieces.sort_by(|one, other| one.0.total_cmp(&other.0));
+        pieces[0].0 = 0.0;
+        Ok(pieces)
+    }
+
+    /// Strain at the turning point, whose excess is the sign of another unit.
+    fn check_strain(&self, length: f64) -> Result<(), RecordError> {
+        let (first, turning) = (self.loading[0], self.unloading[0]);
+        let strain = (turning.elongation - first.elongation) / length;
+        if strain > MAX_STRAIN {
+            return Err(turning.invalid(
+                "elongation_mm",
+                format!(
+                    "{} more than at the start, {:.3} of the length",
+                    1e3 * (turning.elongation - first.elongation),
+                    strain
+                ),
+                "a strain up to 0.1: elongations in mm, the length in m",
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl Specimen {
+    fn validate(&self) -> Result<(), RecordError> {
+        setting("breaking force", self.breaking_force, self.breaking_force > 0.0, "a positive force [N]")?;
+        check_specimen(self.length, self.section)?;
+        for (field, value) in [
+            ("force error", self.force_error),
+            ("elongation error", self.elongation_error),
+            ("length error", self.length_error),
+            ("section error", self.section_error),
+        ] {
+            setting(field, value, value >= 0.0, "a finite error, zero or more")?;
+        }
+        Ok(())
+    }
+}
+
+fn check_specimen(length: f64, section: f64) -> Result<(), RecordError> {
+    setting("section", section, section > 0.0, "a positive section [m²]")?;
+    setting("length", length, length > 0.0, "a positive length [m]")
+}
+
+impl Sample {
+    /// A modulus that no cable has is the sign of another unit.
+    fn check_modulus(&self, modulus: f64, of: &str) -> Result<(), RecordError> {
+        if MODULI.contains(&modulus) {
+            return Ok(());
+        }
+        let expected =
+            "a modulus from 1e9 to 1e12 Pa: forces in N, elongations in mm, length in m, section in m²";
+        Err(self.invalid("modulus", format!("{modulus:e} Pa {of}"), expected))
+    }
+}
+
+fn setting(
+    field: &'static str,
+    value: f64,
+    admissible: bool,
+    expected: &'static str,
+) -> Result<(), RecordError> {
+    if value.is_finite() && admissible {
+        Ok(())
+    } else {
+        Err(RecordError::Setting { field, value, expected })
+    }
+}

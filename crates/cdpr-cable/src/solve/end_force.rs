@@ -1,0 +1,284 @@
+//! The end force of a cable for a given end position and unstrained length.
+//!
+//! The force maximises the concave function `f·r - U*(f)`, so it is unique. Newton's method on its gradient
+//! `r - (x, z)(f)`, halving the step until it does not pass the maximum, starts from the better of two approximations:
+//!
+//! * taut: a spring along the chord whose stretch gives back what the sag of a parabola takes,
+//!   `T/EA - w² x² L²/(24 l² T²) = (l - L)/L` (l the chord; Irvine 1981, section 2.3, inclined as in section 2.5);
+//! * slack: the inextensible catenary, `sinh λ/λ = sqrt(L² - z²)/x`, `fx = w x/(2λ)`, `fz = (w/2)(z coth λ + L)`.
+//!
+//! A vertical cable (`x = 0`) is linear in each of three regimes: hanging taut, folded, pulled up from below.
+
+use crate::cable::Cable;
+use crate::catenary::Catenary;
+use crate::catenary::compliance::Compliance;
+use crate::error::{CableError, check, check_length};
+use crate::law::ElasticLaw;
+use nalgebra::Vector2;
+
+/// A cable in equilibrium between two given points, with what was left open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution<'a> {
+    /// The equilibrium.
+    pub catenary: Catenary<'a>,
+    /// Newton steps made; 0 for a closed form.
+    pub iterations: usize,
+    /// Distance between the end of the catenary and the wanted one [m].
+    pub residual: f64,
+}
+
+impl<'a> Solution<'a> {
+    pub(crate) fn of(catenary: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Self {
+        // A slack cable without weight has no shape: it is open by what it is too short.
+        let residual = if catenary.is_limp() {
+            (end.norm() - catenary.unstrained_length * (1.0 + catenary.cable.strain(0.0))).max(0.0)
+        } else {
+            (end - catenary.end_position()).norm()
+        };
+        Self { catenary, iterations, residual }
+    }
+}
+
+const MAX_ITERATIONS: usize = 200;
+
+/// From a start that is not near after all, the closed-form starts are faster.
+const MAX_ITERATIONS_NEAR: usize = 8;
+
+/// A step below this, relative to the force at either end, is followed by one below rounding: Newton's method squares it.
+const LAST_STEP: f64 = 1e-8;
+
+/// The force on a cable of unstrained length `unstrained_length` [m] whose end A lies at `end = (x, z)` [m], `x >= 0`.
+///
+/// There is exactly one answer for every input: a chord longer than the cable stretches it, a shorter one lets it hang.
+///
+/// # Errors
+/// [`CableError::InvalidInput`] for values no cable can have; [`CableError::NotConverged`] with what is left open.
+pub fn end_force<'a>(
+    cable: &Cable<'a>,
+    unstrained_length: f64,
+    end: Vector2<f64>,
+) -> Result<Solution<'a>, CableError> {
+    cable.validate()?;
+    check_length(unstrained_length)?;
+    check_end(end)?;
+    let at = |force| Catenary { cable: *cable, unstrained_length, force };
+    if cable.is_weightless(unstrained_length) {
+        let cable = &Cable { weight_per_length: 0.0, ..*cable };
+        let at = |force| Catenary { cable: *cable, unstrained_length, force };
+        return Ok(Solution::of(at(spring_force(cable, unstrained_length, end)), end, 0));
+    }
+    // Closer to the vertical than this, the horizontal force is below rounding of the weight.
+    if end.x < 1e-30 * unstrained_length {
+        return match cable.law {
+            ElasticLaw::Linear => {
+                let force = Vector2::new(0.0, vertical_force(cable, unstrained_length, end.y));
+                Ok(Solution::of(at(force), end, 0))
+            }
+            ElasticLaw::Piecewise(_) => vertical_newton(cable, unstrained_length, end),
+        };
+    }
+    let dual = |force: Vector2<f64>| force.dot(&end) - at(force).complementary_energy();
+    let taut = taut_start(cable, unstrained_length, end);
+    let slack = slack_start(cable, unstrained_length, end);
+    let start = match (taut, slack) {
+        (Some(taut), Some(slack)) if dual(slack) > dual(taut) => slack,
+        (Some(taut), _) => taut,
+        (None, Some(slack)) => slack,
+        (None, None) => Vector2::new(cable.weight_per_length * unstrained_length, 0.0),
+    };
+    newton(at(start), end, MAX_ITERATIONS)
+}
+
+/// The same, begun at a catenary with nearly this end position: fewer steps where `near` is near, the same answer anywhere.
+///
+/// # Errors
+/// As [`end_force`].
+pub fn end_force_near<'a>(near: &Catenary<'a>, end: Vector2<f64>) -> Result<Solution<'a>, CableError> {
+    let regular = near.force.x > 0.0 && !near.cable.is_weightless(near.unstrained_length);
+    if regular && end.x > 1e-30 * near.unstrained_length && end.x.is_finite() && end.y.is_finite() {
+        let begun = newton(*near, end, MAX_ITERATIONS_NEAR);
+        // A start so far off that it ends at a nearly folded cable, of which everything is explained by rounding, is none.
+        let exact = 1e-13 * (near.unstrained_length + end.norm());
+        if begun.as_ref().is_ok_and(|solution| solution.residual <= exact) {
+            return begun;
+        }
+    }
+    end_force(&near.cable, near.unstrained_length, end)
+}
+
+/// Checks that an end position is finite and not on the wrong side of the exit point.
+pub(crate) fn check_end(end: Vector2<f64>) -> Result<(), CableError> {
+    check("end.x", end.x, end.x >= 0.0, "a finite horizontal distance, zero or more [m]")?;
+    check("end.z", end.y, true, "a finite height difference [m]")
+}
+
+fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Result<Solution<'a>, CableError> {
+    let mut now = start;
+    let mut compliance = now.compliance();
+    let mut open = end - compliance.end;
+    for iteration in 1..=iterations {
+        let rounding = rounding(&now, &compliance, end);
+        // What is rounding noise already is not pursued: for a stiff cable it is worth a visible force.
+        let pursued = open.zip_map(&rounding, |open, noise| if open.abs() <= noise { 0.0 } else { open });
+        let step = compliance.in_plane_stiffness() * pursued;
+        let mut fraction = 1.0;
+        let next = loop {
+            let force = now.force + fraction * step;
+            // The horizontal force is positive, however small: never take more than nine tenths of it away.
+            let force = Vector2::new(force.x.max(0.1 * now.force.x), force.y);
+            let next = Catenary { force, ..now };
+            let next_compliance = next.compliance();
+            let next_open = end - next_compliance.end;
+            // Not past the maximum along the step, but for rounding: then the concave function has grown. Or clearly closer.
+            let moved = (force - now.force).abs();
+            if next_open.dot(&(force - now.force)) >= -rounding.dot(&moved)
+                || next_open.norm() <= 0.5 * open.norm()
+            {
+                break Some((next, next_compliance, next_open));
+            }
+            fraction *= 0.5;
+            // A cable just as long as its chord, nearly vertical: its first useful step is a ten billionth.
+            if fraction < 1e-14 {
+                break None;
+            }
+        };
+        let Some((next, next_compliance, next_open)) = next else {
+            // No step gains anything: rounding accuracy is reached, or nothing is.
+            return accept(now, end, iteration);
+        };
+        let moved = next.force - now.force;
+        let at_rounding = next_open.x.abs() <= rounding.x && next_open.y.abs() <= rounding.y;
+        // A full step so small: the next one is below rounding, unless the step met a kink.
+        let last = fraction == 1.0
+            && matches!(now.cable.law, ElasticLaw::Linear)
+            && moved.x.abs() <= LAST_STEP * next.force.x
+            && moved.y.abs() <= LAST_STEP * next.anchor_tension().min(next.exit_tension());
+        (now, compliance, open) = (next, next_compliance, next_open);
+        if last || at_rounding {
+            return accept(now, end, iteration);
+        }
+    }
+    accept(now, end, iterations)
+}
+
+/// How far the computed end position may be off [m]: the rounding of its own sums, and of the force it is computed from.
+fn rounding(catenary: &Catenary, compliance: &Compliance, end: Vector2<f64>) -> Vector2<f64> {
+    let forces = Vector2::new(catenary.force.x, catenary.force.y.abs() + catenary.weight());
+    let sums = Vector2::new(8.0 * end.x, 2.0 * (catenary.unstrained_length + end.norm()));
+    f64::EPSILON * (sums + compliance.flexibility.abs() * forces)
+}
+
+fn accept<'a>(
+    catenary: Catenary<'a>,
+    end: Vector2<f64>,
+    iterations: usize,
+) -> Result<Solution<'a>, CableError> {
+    let solution = Solution::of(catenary, end, iterations);
+    // However much rounding may explain, an end farther off than this is none.
+    let largest = 1e-9 * (catenary.unstrained_length + end.norm());
+    if solution.residual <= (16.0 * rounding(&catenary, &catenary.compliance(), end).norm()).min(largest) {
+        Ok(solution)
+    } else {
+        Err(CableError::NotConverged { iterations, residual: solution.residual })
+    }
+}
+
+/// A cable without weight: a spring that cannot push.
+fn spring_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Vector2<f64> {
+    let chord = end.norm();
+    if let ElasticLaw::Piecewise(_) = cable.law {
+        let tension = cable.tension((chord - unstrained_length) / unstrained_length);
+        return if tension > 0.0 { end * (tension / chord) } else { Vector2::zeros() };
+    }
+    if chord <= unstrained_length {
+        return Vector2::zeros();
+    }
+    end * (cable.axial_stiffness * (chord - unstrained_length) / (unstrained_length * chord))
+}
+
+/// The vertical end force of a cable with A right above or below B at height `z`.
+fn vertical_force(cable: &Cable, unstrained_length: f64, z: f64) -> f64 {
+    let weight = cable.weight_per_length * unstrained_length;
+    let stiffness = cable.axial_stiffness / unstrained_length;
+    let hanging = stiffness * (z + unstrained_length) + 0.5 * weight;
+    let pulled_up = stiffness * (z - unstrained_length) + 0.5 * weight;
+    if hanging <= 0.0 {
+        hanging
+    } else if pulled_up >= weight {
+        pulled_up
+    } else {
+        0.5 * weight + z / (1.0 / stiffness + 2.0 / cable.weight_per_length)
+    }
+}
+
+/// The same with kinks in the law: the height grows with the force, so that Newton's method between two bounds ends at its root.
+fn vertical_newton<'a>(
+    cable: &Cable<'a>,
+    unstrained_length: f64,
+    end: Vector2<f64>,
+) -> Result<Solution<'a>, CableError> {
+    let at = |fz| Catenary { cable: *cable, unstrained_length, force: Vector2::new(0.0, fz) };
+    let open = |fz| end.y - at(fz).end_position().y;
+    let mut now = vertical_force(cable, unstrained_length, end.y);
+    let size = now.abs() + cable.weight_per_length * unstrained_length;
+    let (mut low, mut high) = (now - size, now + size);
+    for _ in 0..100 {
+        if open(low) >= 0.0 && open(high) <= 0.0 {
+            break;
+        }
+        (low, high) = (low - (high - low), high + (high - low));
+    }
+    let mut iterations = 0;
+    while iterations < MAX_ITERATIONS {
+        let compliance = at(now).compliance();
+        let miss = end.y - compliance.end.y;
+        *(if miss > 0.0 { &mut low } else { &mut high }) = now;
+        let next = now + miss / compliance.flexibility.m22;
+        let next = if low < next && next < high { next } else { 0.5 * (low + high) };
+        if next == now || miss == 0.0 {
+            break;
+        }
+        now = next;
+        iterations += 1;
+    }
+    accept(at(now), end, iterations)
+}
+
+fn taut_start(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Option<Vector2<f64>> {
+    let Cable { weight_per_length: w, axial_stiffness: ea, .. } = *cable;
+    let chord = end.norm();
+    let strain = (chord - unstrained_length) / unstrained_length;
+    let across = w * unstrained_length * end.x / chord;
+    let k = across * across / 24.0;
+    let floor = (k * ea).cbrt();
+    if floor == 0.0 {
+        return None;
+    }
+    // T/EA - k/T² grows and is concave: from below, Newton's method climbs to the root.
+    let mut tension =
+        if strain >= 0.0 { floor.max(ea * strain) } else { 1.0 / ((-strain / k).sqrt() + 1.0 / floor) };
+    for _ in 0..6 {
+        let sag = k / (tension * tension);
+        tension += (strain - tension / ea + sag) / (1.0 / ea + 2.0 * sag / tension);
+    }
+    Some(end * (tension / chord) + Vector2::new(0.0, 0.5 * w * unstrained_length))
+}
+
+fn slack_start(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Option<Vector2<f64>> {
+    let (x, z) = (end.x, end.y);
+    if unstrained_length <= end.norm() {
+        return None;
+    }
+    let ratio = ((unstrained_length - z) * (unstrained_length + z)).sqrt() / x;
+    let target = ratio.ln();
+    let mut lambda = if ratio < 3.0 { (6.0 * (ratio - 1.0)).sqrt() } else { (2.0 * ratio).ln() };
+    for _ in 0..8 {
+        // ln(sinh λ/λ) - ln(ratio)
+        let error = lambda + (-(-2.0 * lambda).exp()).ln_1p() - (2.0 * lambda).ln() - target;
+        let slope = 1.0 / lambda.tanh() - 1.0 / lambda;
+        lambda = (lambda - error / slope).max(0.5 * lambda);
+    }
+    let w = cable.weight_per_length;
+    let force = Vector2::new(w * x / (2.0 * lambda), 0.5 * w * (z / lambda.tanh() + unstrained_length));
+    force.iter().all(|f| f.is_finite()).then_some(force)
+}
