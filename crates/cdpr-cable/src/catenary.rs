@@ -64,6 +64,12 @@ impl<'a> Catenary<'a> {
         self.cable.weight_per_length * self.unstrained_length
     }
 
+    /// Length of the cable without tension and weight [m], `L (1 + ε(0))`: a piecewise law may have kept some strain.
+    #[inline]
+    pub fn length_at_rest(&self) -> f64 {
+        self.unstrained_length * (1.0 + self.cable.strain(0.0))
+    }
+
     /// Whether this is a slack cable without weight: it carries nothing, resists nothing and has no shape, so that end
     /// position and flexibility mean nothing.
     #[inline]

@@ -4,10 +4,12 @@
 //! [`crate::Catenary`] answer the same questions, for cables of any elastic law.
 
 mod field;
+mod plane;
 mod response;
 mod series;
 
 pub use field::{Field, Real};
+pub use plane::{closure_of_limp, in_plane_stiffness};
 pub(crate) use response::Terms;
 pub use response::{Response, TautEnd, response, taut_end, taut_response};
 pub use series::TAUT;

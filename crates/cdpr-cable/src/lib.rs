@@ -43,6 +43,6 @@ pub use law::{ElasticLaw, PiecewiseLaw, Segment};
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen};
 pub use solve::{
-    Solution, end_force, end_force_near, least_tension, length_for_tension, length_for_tension_near,
+    Known, Solution, end_force, end_force_near, least_tension, length_for_tension, length_for_tension_near,
 };
 pub use weighing::{Measured, linear_density};

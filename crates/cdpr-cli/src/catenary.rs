@@ -3,7 +3,7 @@
 use crate::answer::vector;
 use crate::arguments::{self, Format};
 use crate::output::Usage;
-use cdpr_cable::{Cable, Catenary, Solution, Vector2, end_force, length_for_tension};
+use cdpr_cable::{Cable, Known, Vector2};
 use serde::Serialize;
 use std::error::Error;
 
@@ -64,22 +64,12 @@ impl Answer {
     fn new(settings: &Settings) -> Result<Self, Box<dyn Error>> {
         let Settings { weight, stiffness, length, end, force, tension, .. } = *settings;
         let cable = Cable::linear(weight, stiffness);
-        let (solution, end) = match (length, end, force, tension) {
-            (Some(length), Some(end), None, None) => (end_force(&cable, length, Vector2::from(end))?, end),
-            (None, Some(end), None, Some(tension)) => {
-                (length_for_tension(&cable, Vector2::from(end), tension)?, end)
-            }
-            (Some(length), None, Some(force), None) => {
-                let catenary = Catenary::new(cable, length, Vector2::from(force))?;
-                (Solution { catenary, iterations: 0, residual: 0.0 }, catenary.end_position().into())
-            }
-            _ => {
-                return Err(Box::new(Usage(
-                    "expected two of what is known: --length and --end, --length and --force, or --end and --tension"
-                        .to_owned(),
-                )));
-            }
-        };
+        let [end, force] = [end, force].map(|vector| vector.map(Vector2::from));
+        let known = Known::from_given(length, end, force, tension).ok_or_else(|| {
+            let expected = "--length and --end, --length and --force, or --end and --tension";
+            Usage(format!("expected two of what is known: {expected}"))
+        })?;
+        let solution = known.solve(&cable)?;
         let catenary = &solution.catenary;
         Ok(Self {
             force: catenary.force.into(),
@@ -87,7 +77,7 @@ impl Answer {
             sag: catenary.vertical_sag(),
             energy: catenary.potential_energy(),
             unstrained_length: catenary.unstrained_length,
-            end,
+            end: solution.end.into(),
             residual: solution.residual,
         })
     }

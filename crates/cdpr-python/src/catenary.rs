@@ -4,7 +4,7 @@ use crate::answer::answer;
 use crate::arrays::{Cases, Columns, Numbers, Rows};
 use crate::error::{Answer, Raised};
 use crate::threads::each;
-use cdpr_cable::{Cable, CableError, Solution, Vector2, end_force, length_for_tension};
+use cdpr_cable::{Cable, CableError, Known, Solution, Vector2};
 use pyo3::prelude::*;
 
 answer! {
@@ -73,37 +73,19 @@ pub(crate) fn catenary(
     };
     let (length, tension) = (scalars("length", length)?, scalars("tension", tension)?);
     let (end, force) = (vectors("end", end)?, vectors("force", force)?);
-    let cable = |case| Cable::linear(weight.scalar(case), stiffness.scalar(case));
-    let place = |rows: &Rows, case| Vector2::from(rows.vector::<2>(case));
-    let (cases, outcomes) = match (&length, &end, &force, &tension) {
-        (Some(length), Some(end), None, None) => {
-            let cases = Cases::of(&[&weight, &stiffness, length, end])?;
-            let one = |i| end_force(&cable(i), length.scalar(i), place(end, i)).map(|s| (s, end.vector(i)));
-            (cases, each(py, cases.count, one)?)
-        }
-        (None, Some(end), None, Some(tension)) => {
-            let cases = Cases::of(&[&weight, &stiffness, end, tension])?;
-            let one = |i| {
-                length_for_tension(&cable(i), place(end, i), tension.scalar(i)).map(|s| (s, end.vector(i)))
-            };
-            (cases, each(py, cases.count, one)?)
-        }
-        (Some(length), None, Some(force), None) => {
-            let cases = Cases::of(&[&weight, &stiffness, length, force])?;
-            let one = |i| {
-                let catenary = cdpr_cable::Catenary::new(cable(i), length.scalar(i), place(force, i))?;
-                let end: [f64; 2] = catenary.end_position().into();
-                Ok((Solution { catenary, iterations: 0, residual: 0.0 }, end))
-            };
-            (cases, each(py, cases.count, one)?)
-        }
-        _ => {
-            return Err(Raised::Input(
-                "expected two of what is known: length and end, length and force, or end and tension"
-                    .to_owned(),
-            ));
-        }
+    let given = [&length, &end, &force, &tension].into_iter().flatten();
+    let arguments: Vec<_> = [&weight, &stiffness].into_iter().chain(given).collect();
+    let known = Known::from_given(length.as_ref(), end.as_ref(), force.as_ref(), tension.as_ref());
+    let known = known.ok_or_else(|| {
+        let expected = "length and end, length and force, or end and tension";
+        Raised::Input(format!("expected two of what is known: {expected}"))
+    })?;
+    let cases = Cases::of(&arguments)?;
+    let one = |i| {
+        let known = known.map(|rows| rows.scalar(i), |rows| Vector2::from(rows.vector::<2>(i)));
+        known.solve(&Cable::linear(weight.scalar(i), stiffness.scalar(i)))
     };
+    let outcomes = each(py, cases.count, one)?;
     Catenary::new(py, cases, &outcomes, points)
 }
 
@@ -111,19 +93,19 @@ impl Catenary {
     fn new(
         py: Python,
         cases: Cases,
-        outcomes: &[Result<(Solution<'static>, [f64; 2]), CableError>],
+        outcomes: &[Result<Solution<'static>, CableError>],
         points: usize,
     ) -> Answer<Self> {
         let all = Columns::new(py, cases, outcomes)?;
         Ok(Self {
-            force: all.vector(|(solution, _)| solution.catenary.force.into())?,
-            anchor_tension: all.number(|(solution, _)| solution.catenary.anchor_tension())?,
-            exit_tension: all.number(|(solution, _)| solution.catenary.exit_tension())?,
-            sag: all.number(|(solution, _)| solution.catenary.vertical_sag())?,
-            energy: all.number(|(solution, _)| solution.catenary.potential_energy())?,
-            unstrained_length: all.number(|(solution, _)| solution.catenary.unstrained_length)?,
-            end: all.vector(|(_, end)| *end)?,
-            residual: all.number(|(solution, _)| solution.residual)?,
+            force: all.vector(|solution| solution.catenary.force.into())?,
+            anchor_tension: all.number(|solution| solution.catenary.anchor_tension())?,
+            exit_tension: all.number(|solution| solution.catenary.exit_tension())?,
+            sag: all.number(|solution| solution.catenary.vertical_sag())?,
+            energy: all.number(|solution| solution.catenary.potential_energy())?,
+            unstrained_length: all.number(|solution| solution.catenary.unstrained_length)?,
+            end: all.vector(|solution| solution.end.into())?,
+            residual: all.number(|solution| solution.residual)?,
             shape: all.numbers(&[points, 2], |(solution, _), out| {
                 for (out, point) in out.chunks_exact_mut(2).zip(solution.catenary.profile(points)) {
                     out.copy_from_slice(point.as_slice());

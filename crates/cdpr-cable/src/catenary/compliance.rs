@@ -1,6 +1,6 @@
 //! How the end of a cable answers to forces, as matrices of doubles.
 
-use crate::kernel::Response;
+use crate::kernel::{Response, in_plane_stiffness};
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 /// How the end A answers to forces, with the position it answers from.
@@ -24,7 +24,8 @@ impl Compliance {
     #[inline]
     pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
         let c = &self.flexibility;
-        Matrix2::new(c.m22, -c.m12, -c.m21, c.m11) / self.determinant
+        let [xx, xz, zz] = in_plane_stiffness([c.m11, c.m12, c.m22], self.determinant);
+        Matrix2::new(xx, xz, xz, zz)
     }
 
     /// Derivative of the force at A with respect to the unstrained length with both ends held [N/m].

@@ -5,7 +5,7 @@
 use crate::catenary::Catenary;
 use crate::catenary::compliance::Compliance;
 use crate::catenary::pieces;
-use crate::kernel::{Response, Terms};
+use crate::kernel::{Response, Terms, closure_of_limp};
 use crate::law::ElasticLaw;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
@@ -15,6 +15,17 @@ impl Catenary<'_> {
         match self.cable.law {
             ElasticLaw::Linear => self.terms().end_position().into(),
             ElasticLaw::Piecewise(law) => pieces::end_position(self, law),
+        }
+    }
+
+    /// Closure residual [m] for an anchor point at `end = (x, z)` [m]: how far the computed end is from it.
+    ///
+    /// A slack cable without weight has no end position, and its residual is what it is too short.
+    pub fn closure(&self, end: Vector2<f64>) -> Vector2<f64> {
+        if self.is_limp() {
+            closure_of_limp(end.into(), self.length_at_rest()).into()
+        } else {
+            end - self.end_position()
         }
     }
 

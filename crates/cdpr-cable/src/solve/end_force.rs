@@ -21,6 +21,8 @@ use nalgebra::Vector2;
 pub struct Solution<'a> {
     /// The equilibrium.
     pub catenary: Catenary<'a>,
+    /// Position (x, z) of A that was asked for, or that follows from a given force [m].
+    pub end: Vector2<f64>,
     /// Newton steps made; 0 for a closed form.
     pub iterations: usize,
     /// Distance between the end of the catenary and the wanted one [m].
@@ -29,13 +31,7 @@ pub struct Solution<'a> {
 
 impl<'a> Solution<'a> {
     pub(crate) fn of(catenary: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Self {
-        // A slack cable without weight has no shape: it is open by what it is too short.
-        let residual = if catenary.is_limp() {
-            (end.norm() - catenary.unstrained_length * (1.0 + catenary.cable.strain(0.0))).max(0.0)
-        } else {
-            (end - catenary.end_position()).norm()
-        };
-        Self { catenary, iterations, residual }
+        Self { catenary, end, iterations, residual: catenary.closure(end).norm() }
     }
 }
 

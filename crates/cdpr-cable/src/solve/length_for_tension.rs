@@ -116,6 +116,7 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, tension: f64) -> Option<So
             let shorter = now.force.dot(&compliance.force_per_length()) < 0.0;
             return (at_rounding && shorter).then_some(Solution {
                 catenary: now,
+                end,
                 iterations: iteration,
                 residual,
             });
