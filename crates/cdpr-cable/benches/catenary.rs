@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used)]
 
 use cdpr_cable::kernel::response;
-use cdpr_cable::{Cable, Catenary, ElasticLaw, PiecewiseLaw, Vector2, end_force, length_for_tension};
+use cdpr_cable::{
+    Cable, Catenary, ElasticLaw, PiecewiseLaw, Segment, Vector2, end_force, length_for_tension,
+};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
@@ -48,7 +50,9 @@ fn catenary(criterion: &mut Criterion) {
 
 /// A cable whose stiffness changes within its length, and one that stays within a piece of its law.
 fn elastic_law(criterion: &mut Criterion) {
-    let law = PiecewiseLaw::new(0.0, &[(0.0, 0.6), (50.0, 0.8), (50.5, 1.0), (600.0, 1.2)]).unwrap();
+    let segments = [(0.0, 0.6), (50.0, 0.8), (50.5, 1.0), (600.0, 1.2)]
+        .map(|(tension, ratio)| Segment { tension, ratio });
+    let law = PiecewiseLaw::new(0.0, &segments).unwrap();
     let cable = Cable { law: ElasticLaw::Piecewise(&law), ..Cable::linear(0.9957, 1.284e6) };
     let end = Vector2::new(4.1, -1.7);
     let mut group = criterion.benchmark_group("catenary/law");

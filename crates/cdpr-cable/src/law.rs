@@ -25,16 +25,22 @@ pub enum ElasticLaw<'a> {
 /// A strain that grows with the tension by pieces of different stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PiecewiseLaw {
-    segments: Vec<Segment>,
+    pieces: Vec<Piece>,
 }
 
-/// A piece of a law.
+/// A range of tensions over which the stiffness of a law is constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
-    /// Tension T_k at which it begins [N].
+    /// Tension T_k at which it begins [N]; zero for the first one.
     pub tension: f64,
     /// Its stiffness over the cable's, κ_k = EA_k/EA.
     pub ratio: f64,
+}
+
+/// A segment with the integrals of the law up to its beginning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Piece {
+    segment: Segment,
     /// σ_k: strain at its beginning, times EA [N].
     scaled_strain: f64,
     /// ∫ σ dT from zero to its beginning [N²].
@@ -53,37 +59,41 @@ pub(crate) struct SegmentTerms {
 }
 
 impl PiecewiseLaw {
-    /// A law from the tension [N] at which each segment begins and its stiffness over the cable's, κ. The first one begins at zero;
+    /// A law from its segments, the first of which begins at zero tension.
+    ///
     /// `scaled_strain_at_rest` is the strain without tension times the cable's axial stiffness [N], zero for a new cable.
     ///
     /// # Errors
-    /// [`CableError::InvalidInput`] for no segment, tensions that do not grow from zero, or a stiffness that is not positive.
-    pub fn new(scaled_strain_at_rest: f64, segments: &[(f64, f64)]) -> Result<Self, CableError> {
+    /// [`CableError::InvalidInput`] for no segment, tensions that do not grow from zero, or a stiffness ratio that is not between
+    /// 1e-6 and 1e6.
+    pub fn new(scaled_strain_at_rest: f64, segments: &[Segment]) -> Result<Self, CableError> {
         check("law.segments", segments.len() as f64, !segments.is_empty(), "one segment at least")?;
         check("law.strain_at_rest", scaled_strain_at_rest, true, "a finite strain")?;
-        let mut made: Vec<Segment> = Vec::with_capacity(segments.len());
-        for &(tension, ratio) in segments {
-            let begins = made.last().map_or(tension == 0.0, |before| tension > before.tension);
+        let mut pieces: Vec<Piece> = Vec::with_capacity(segments.len());
+        for &segment in segments {
+            let Segment { tension, ratio } = segment;
+            let begins = pieces.last().map_or(tension == 0.0, |before| tension > before.segment.tension);
             let expected = "tensions that grow from 0 [N], where each segment begins";
             check("law.segments.tension", tension, begins, expected)?;
             let expected = "a stiffness from 1e-6 to 1e6 of the cable's";
             check("law.segments.ratio", ratio, (1e-6..=1e6).contains(&ratio), expected)?;
-            let (scaled_strain, scaled_energy) = made.last().map_or((scaled_strain_at_rest, 0.0), |before| {
-                (before.strain_at(tension), before.energy_at(tension))
-            });
-            made.push(Segment { tension, ratio, scaled_strain, scaled_energy });
+            let (scaled_strain, scaled_energy) =
+                pieces.last().map_or((scaled_strain_at_rest, 0.0), |before| {
+                    (before.strain_at(tension), before.energy_at(tension))
+                });
+            pieces.push(Piece { segment, scaled_strain, scaled_energy });
         }
-        Ok(Self { segments: made })
+        Ok(Self { pieces })
     }
 
-    /// The pieces, from zero tension up.
-    pub fn segments(&self) -> &[Segment] {
-        &self.segments
+    /// The segments, from zero tension up.
+    pub fn segments(&self) -> impl Iterator<Item = Segment> {
+        self.pieces.iter().map(|piece| piece.segment)
     }
 
     /// Strain without tension, times the cable's axial stiffness [N].
     pub fn scaled_strain_at_rest(&self) -> f64 {
-        self.segments[0].scaled_strain
+        self.pieces[0].scaled_strain
     }
 
     /// Strain at a tension [N], times the cable's axial stiffness [N].
@@ -98,7 +108,7 @@ impl PiecewiseLaw {
 
     /// Stiffness at a tension [N] over the cable's, κ; at a kink that of the piece above it.
     pub fn ratio(&self, tension: f64) -> f64 {
-        self.at(tension).ratio
+        self.at(tension).segment.ratio
     }
 
     /// Stiffness of the secant between two tensions [N] over the cable's; where they are the same, [`PiecewiseLaw::ratio`].
@@ -112,19 +122,20 @@ impl PiecewiseLaw {
 
     /// Tension [N] at a strain times the cable's axial stiffness [N]; zero below the strain at rest.
     pub fn tension(&self, scaled_strain: f64) -> f64 {
-        let above = self.segments.partition_point(|segment| segment.scaled_strain <= scaled_strain);
-        let segment = &self.segments[above.max(1) - 1];
-        (segment.tension + (scaled_strain - segment.scaled_strain) * segment.ratio).max(0.0)
+        let above = self.pieces.partition_point(|piece| piece.scaled_strain <= scaled_strain);
+        let Piece { segment, scaled_strain: start, .. } = self.pieces[above.max(1) - 1];
+        (segment.tension + (scaled_strain - start) * segment.ratio).max(0.0)
     }
 
-    fn at(&self, tension: f64) -> &Segment {
-        let above = self.segments.partition_point(|segment| segment.tension <= tension);
-        &self.segments[above.max(1) - 1]
+    fn at(&self, tension: f64) -> &Piece {
+        let above = self.pieces.partition_point(|piece| piece.segment.tension <= tension);
+        &self.pieces[above.max(1) - 1]
     }
 
     /// The segment at a tension, for a cable of axial stiffness `ea` [N].
     pub(crate) fn segment_terms(&self, tension: f64, ea: f64) -> SegmentTerms {
-        let Segment { tension: t, ratio, scaled_strain, scaled_energy } = *self.at(tension);
+        let Piece { segment: Segment { tension: t, ratio }, scaled_strain, scaled_energy } =
+            *self.at(tension);
         SegmentTerms {
             alpha: 1.0 + (scaled_strain - t / ratio) / ea,
             flexibility: 1.0 / (ratio * ea),
@@ -134,18 +145,18 @@ impl PiecewiseLaw {
 
     /// Tensions at which the stiffness changes [N].
     pub(crate) fn kinks(&self) -> impl Iterator<Item = f64> {
-        self.segments[1..].iter().map(|segment| segment.tension)
+        self.pieces[1..].iter().map(|piece| piece.segment.tension)
     }
 }
 
-impl Segment {
+impl Piece {
     fn strain_at(&self, tension: f64) -> f64 {
-        self.scaled_strain + (tension - self.tension) / self.ratio
+        self.scaled_strain + (tension - self.segment.tension) / self.segment.ratio
     }
 
     fn energy_at(&self, tension: f64) -> f64 {
-        let more = tension - self.tension;
-        self.scaled_energy + more * (self.scaled_strain + 0.5 * more / self.ratio)
+        let more = tension - self.segment.tension;
+        self.scaled_energy + more * (self.scaled_strain + 0.5 * more / self.segment.ratio)
     }
 }
 
@@ -154,8 +165,12 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
+    fn segment((tension, ratio): (f64, f64)) -> Segment {
+        Segment { tension, ratio }
+    }
+
     fn stiffening() -> PiecewiseLaw {
-        PiecewiseLaw::new(3.0, &[(0.0, 0.5), (100.0, 1.0), (300.0, 2.0)]).unwrap()
+        PiecewiseLaw::new(3.0, &[(0.0, 0.5), (100.0, 1.0), (300.0, 2.0)].map(segment)).unwrap()
     }
 
     #[test]
@@ -202,9 +217,12 @@ mod tests {
 
     #[test]
     fn a_law_that_does_not_grow_is_refused() {
-        let field = |segments: &[(f64, f64)]| match PiecewiseLaw::new(0.0, segments) {
-            Err(CableError::InvalidInput { field, .. }) => field,
-            other => panic!("{other:?}"),
+        let field = |segments: &[(f64, f64)]| {
+            let segments: Vec<_> = segments.iter().copied().map(segment).collect();
+            match PiecewiseLaw::new(0.0, &segments) {
+                Err(CableError::InvalidInput { field, .. }) => field,
+                other => panic!("{other:?}"),
+            }
         };
         assert_eq!(field(&[]), "law.segments");
         assert_eq!(field(&[(1.0, 1.0)]), "law.segments.tension");

@@ -41,7 +41,7 @@ pub use catenary::compliance::Compliance;
 pub use error::CableError;
 pub use law::{ElasticLaw, PiecewiseLaw, Segment};
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
-pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen};
+pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen, TangentModulus};
 pub use solve::{
     Known, Solution, end_force, end_force_near, least_tension, length_for_tension, length_for_tension_near,
 };

@@ -25,5 +25,5 @@ mod sample;
 mod tests;
 
 pub use load_cycle::Record;
-pub use modulus::{SecantModulus, Specimen};
+pub use modulus::{SecantModulus, Specimen, TangentModulus};
 pub use sample::{Phase, RecordError, Sample};

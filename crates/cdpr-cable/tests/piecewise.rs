@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use cdpr_cable::{
-    Cable, Catenary, ElasticLaw, Matrix2, PiecewiseLaw, Vector2, end_force, end_force_near,
+    Cable, Catenary, ElasticLaw, Matrix2, PiecewiseLaw, Segment, Vector2, end_force, end_force_near,
     length_for_tension,
 };
 use proptest::prelude::*;
@@ -12,8 +12,14 @@ fn cable(law: &PiecewiseLaw, weight_per_length: f64, axial_stiffness: f64) -> Ca
     Cable { weight_per_length, axial_stiffness, law: ElasticLaw::Piecewise(law) }
 }
 
+/// A law from the tension at which each of its segments begins and its stiffness over the cable's.
+fn law(segments: &[(f64, f64)]) -> PiecewiseLaw {
+    let segment = |&(tension, ratio): &(f64, f64)| Segment { tension, ratio };
+    PiecewiseLaw::new(0.0, &segments.iter().map(segment).collect::<Vec<_>>()).unwrap()
+}
+
 fn stiffening() -> PiecewiseLaw {
-    PiecewiseLaw::new(0.0, &[(0.0, 0.7), (100.0, 0.8), (500.0, 1.0), (1000.0, 1.2)]).unwrap()
+    law(&[(0.0, 0.7), (100.0, 0.8), (500.0, 1.0), (1000.0, 1.2)])
 }
 
 #[test]
@@ -25,7 +31,7 @@ fn the_end_is_that_of_the_integrated_differential_equations() {
         let number = |key: &str| case[key].as_f64().unwrap();
         let digits = |key: &str| case[key].as_str().unwrap().parse::<f64>().unwrap();
         let segments: Vec<(f64, f64)> = serde_json::from_value(case["segments"].clone()).unwrap();
-        let law = PiecewiseLaw::new(0.0, &segments).unwrap();
+        let law = law(&segments);
         let force: [f64; 2] = serde_json::from_value(case["force"].clone()).unwrap();
         let catenary = Catenary {
             cable: cable(&law, number("weight_per_length"), number("axial_stiffness")),
@@ -70,7 +76,7 @@ proptest! {
 
     #[test]
     fn segments_of_the_same_modulus_are_the_linear_cable((w, ea, unstrained_length, force) in any_cable()) {
-        let law = PiecewiseLaw::new(0.0, &[(0.0, 1.0), (50.0, 1.0), (200.0, 1.0), (700.0, 1.0)]).unwrap();
+        let law = law(&[(0.0, 1.0), (50.0, 1.0), (200.0, 1.0), (700.0, 1.0)]);
         let linear = Catenary { cable: Cable::linear(w, ea), unstrained_length, force };
         let pieces = Catenary { cable: cable(&law, w, ea), ..linear };
         let scale = linear.end_position().norm() + unstrained_length;
@@ -193,7 +199,7 @@ fn a_vertical_cable_hangs_taut_folded_or_pulled_up() {
 
 #[test]
 fn a_cable_that_kept_strain_is_a_longer_one() {
-    let kept = PiecewiseLaw::new(1e4 * 2e-3, &[(0.0, 1.0)]).unwrap();
+    let kept = PiecewiseLaw::new(1e4 * 2e-3, &[Segment { tension: 0.0, ratio: 1.0 }]).unwrap();
     let cable = cable(&kept, 20.0, 1e4);
     let force = Vector2::new(200.0, 300.0);
     let c = Catenary { cable, unstrained_length: 10.0, force };

@@ -3,7 +3,7 @@
 use crate::arguments::{self, Format, number, payload};
 use crate::output::table;
 use cdpr_report::{Cycle, cycle};
-use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable};
+use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable, Segment};
 use cdpr_statics::{DirectSolution, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 use cdpr_study::{CableLaw, open_law, open_record, open_robot, write_text};
 use serde::Serialize;
@@ -130,7 +130,7 @@ fn own(robot: &Robot) -> Result<Vec<HysteresisLaw>, Box<dyn Error>> {
             "no cable of the robot has a law: expected --record, --law, or a `law` in the robot file".into(),
         );
     }
-    let linear = PiecewiseLaw::new(0.0, &[(0.0, 1.0)])?;
+    let linear = PiecewiseLaw::new(0.0, &[Segment { tension: 0.0, ratio: 1.0 }])?;
     let law = |cable: &RobotCable| cable.properties.law.clone().unwrap_or_else(|| linear.clone());
     Ok(robot.cables.iter().map(|cable| HysteresisLaw::elastic(law(cable))).collect())
 }

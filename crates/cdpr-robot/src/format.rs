@@ -239,7 +239,6 @@ fn entry(properties: &CableProperties) -> PropertiesEntry {
             strain_at_rest: law.scaled_strain_at_rest() / properties.axial_stiffness(),
             segments: law
                 .segments()
-                .iter()
                 .map(|segment| LawSegment {
                     tension: segment.tension,
                     modulus: segment.ratio * properties.youngs_modulus,

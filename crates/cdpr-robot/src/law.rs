@@ -1,5 +1,6 @@
 //! A piece of an elastic law, as files have it.
 
+use cdpr_cable::Segment;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -14,8 +15,10 @@ pub struct LawSegment {
 }
 
 impl LawSegment {
-    /// Tensions [N] and moduli over `youngs_modulus` [Pa], as [`crate::PiecewiseLaw::new`] takes them.
-    pub fn in_proportion(segments: &[Self], youngs_modulus: f64) -> Vec<(f64, f64)> {
-        segments.iter().map(|segment| (segment.tension, segment.modulus / youngs_modulus)).collect()
+    /// The segments of a [`crate::PiecewiseLaw`] of a cable with this modulus [Pa].
+    pub fn in_proportion(segments: &[Self], youngs_modulus: f64) -> Vec<Segment> {
+        let relative =
+            |&Self { tension, modulus }: &Self| Segment { tension, ratio: modulus / youngs_modulus };
+        segments.iter().map(relative).collect()
     }
 }

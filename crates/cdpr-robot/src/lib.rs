@@ -27,7 +27,7 @@ mod parameter;
 mod pose;
 mod robot;
 
-pub use cdpr_cable::PiecewiseLaw;
+pub use cdpr_cable::{PiecewiseLaw, Segment};
 pub use error::RobotError;
 pub use format::{FORMAT, json_schema};
 pub use json::{JsonError, from_json, place_of};

@@ -1,6 +1,6 @@
 //! Robots whose cables have a piecewise linear law, by every model.
 
-use cdpr_robot::{Parameter, PiecewiseLaw, Pose, Robot, UnitQuaternion, Vector3, deviations};
+use cdpr_robot::{Parameter, PiecewiseLaw, Pose, Robot, Segment, UnitQuaternion, Vector3, deviations};
 use cdpr_statics::{
     Load, Observer, Setting, Start, StaticsError, Tangent, Tracker, certify, deflection, derivatives, direct,
     follow, inverse,
@@ -10,10 +10,16 @@ fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
 }
 
+/// A law from the tension at which each of its segments begins and its stiffness over the cable's.
+pub(crate) fn law(segments: &[(f64, f64)]) -> PiecewiseLaw {
+    let segment = |&(tension, ratio): &(f64, f64)| Segment { tension, ratio };
+    PiecewiseLaw::new(0.0, &segments.iter().map(segment).collect::<Vec<_>>()).unwrap()
+}
+
 fn with(segments: &[(f64, f64)]) -> Robot {
     let mut robot = caroca();
     for cable in &mut robot.cables {
-        cable.properties.law = Some(PiecewiseLaw::new(0.0, segments).unwrap());
+        cable.properties.law = Some(law(segments));
     }
     robot
 }

@@ -1,6 +1,7 @@
 //! A payload that comes and goes, on cables with hysteresis.
 
-use cdpr_robot::{PiecewiseLaw, Pose, Robot};
+use crate::elastic_law::law;
+use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{HysteresisLaw, Load, StaticsError, Unloading, deflection, load_cycle};
 
 fn caroca() -> Robot {
@@ -10,8 +11,8 @@ fn caroca() -> Robot {
 /// One law for all eight cables.
 fn curves(loading: &[(f64, f64)], unloading: &[(f64, f64)]) -> Vec<HysteresisLaw> {
     let law = HysteresisLaw {
-        loading: PiecewiseLaw::new(0.0, loading).unwrap(),
-        unloading: PiecewiseLaw::new(0.0, unloading).unwrap(),
+        loading: law(loading),
+        unloading: law(unloading),
         turning_tension: 3087.0,
         unloading_from: Unloading::SameTension,
     };

@@ -2,7 +2,7 @@
 
 use crate::error::StudyError;
 use crate::study::read;
-use cdpr_cable::{CableError, Phase, PiecewiseLaw, Record, RecordError};
+use cdpr_cable::{CableError, Phase, PiecewiseLaw, Record, RecordError, TangentModulus};
 use cdpr_robot::{CableProperties, LawSegment, from_json};
 use cdpr_statics::{HysteresisLaw, Unloading};
 use schemars::JsonSchema;
@@ -57,7 +57,7 @@ impl CableLaw {
     pub fn of_record(record: &Record, length: f64, section: f64) -> Result<Self, RecordError> {
         let segments = |phase| -> Result<Vec<LawSegment>, RecordError> {
             let pieces = record.moduli(phase, length, section)?.into_iter();
-            Ok(pieces.map(|(tension, modulus)| LawSegment { tension, modulus }).collect())
+            Ok(pieces.map(|TangentModulus { tension, modulus }| LawSegment { tension, modulus }).collect())
         };
         let [_, turning_tension] = record.forces(Phase::Loading);
         let unloading = UnloadingCurve { turning_tension, segments: segments(Phase::Unloading)? };
@@ -101,11 +101,9 @@ impl CableLaw {
         let Self { section, loading, unloading } = self;
         let scale = cable.section / section;
         let curve = |segments: &[LawSegment]| {
-            let pieces = LawSegment::in_proportion(segments, cable.youngs_modulus).into_iter();
-            PiecewiseLaw::new(
-                0.0,
-                &pieces.map(|(tension, ratio)| (scale * tension, ratio)).collect::<Vec<_>>(),
-            )
+            let mut segments = LawSegment::in_proportion(segments, cable.youngs_modulus);
+            segments.iter_mut().for_each(|segment| segment.tension *= scale);
+            PiecewiseLaw::new(0.0, &segments)
         };
         let loading = curve(loading)?;
         Ok(match unloading {

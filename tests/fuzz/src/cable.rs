@@ -1,6 +1,6 @@
 //! What must hold for a cable, whatever the numbers.
 
-use cdpr_cable::{Cable, CableError, Catenary, ElasticLaw, PiecewiseLaw, Solution, Vector2};
+use cdpr_cable::{Cable, CableError, Catenary, ElasticLaw, PiecewiseLaw, Segment, Solution, Vector2};
 
 /// `w, EA, L, x, z`: an equilibrium with an honest residual, or a typed error.
 pub fn end_force([weight_per_length, axial_stiffness, length, x, z]: [f64; 5]) {
@@ -18,7 +18,8 @@ pub fn end_force([weight_per_length, axial_stiffness, length, x, z]: [f64; 5]) {
 
 /// `w, EA, L, x, z, T_1, κ_0, κ_1`: an equilibrium on a law of two pieces with an honest residual, or a typed error.
 pub fn law([weight_per_length, axial_stiffness, length, x, z, kink, soft, stiff]: [f64; 8]) {
-    let law = match PiecewiseLaw::new(0.0, &[(0.0, soft), (kink, stiff)]) {
+    let segments = [Segment { tension: 0.0, ratio: soft }, Segment { tension: kink, ratio: stiff }];
+    let law = match PiecewiseLaw::new(0.0, &segments) {
         Ok(law) => law,
         Err(error) => return typed(&error, &[kink, soft, stiff]),
     };

@@ -33,6 +33,15 @@ pub struct SecantModulus {
     pub greatest: f64,
 }
 
+/// The modulus of a piece of a record between two samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TangentModulus {
+    /// Tension at which the piece begins [N].
+    pub tension: f64,
+    /// Tangent modulus from there on [Pa].
+    pub modulus: f64,
+}
+
 /// Strains and moduli beyond these are those of another unit.
 const MAX_STRAIN: f64 = 0.1;
 const MODULI: std::ops::RangeInclusive<f64> = 1e9..=1e12;
@@ -78,7 +87,12 @@ impl Record {
     /// # Errors
     /// [`RecordError::Setting`] for a length or section that is none; [`RecordError::Invalid`] where strain or modulus of the whole
     /// phase are those of no cable, as with other units.
-    pub fn moduli(&self, phase: Phase, length: f64, section: f64) -> Result<Vec<(f64, f64)>, RecordError> {
+    pub fn moduli(
+        &self,
+        phase: Phase,
+        length: f64,
+        section: f64,
+    ) -> Result<Vec<TangentModulus>, RecordError> {
         check_specimen(length, section)?;
         self.check_strain(length)?;
         let modulus = |one: &Sample, other: &Sample| {
@@ -89,10 +103,13 @@ impl Record {
         first.check_modulus(modulus(first, last), "over the whole phase")?;
         let mut pieces: Vec<_> = samples
             .windows(2)
-            .map(|pair| (pair[0].force.min(pair[1].force), modulus(&pair[0], &pair[1])))
+            .map(|pair| TangentModulus {
+                tension: pair[0].force.min(pair[1].force),
+                modulus: modulus(&pair[0], &pair[1]),
+            })
             .collect();
-        pieces.sort_by(|one, other| one.0.total_cmp(&other.0));
-        pieces[0].0 = 0.0;
+        pieces.sort_by(|one, other| one.tension.total_cmp(&other.tension));
+        pieces[0].tension = 0.0;
         Ok(pieces)
     }
 

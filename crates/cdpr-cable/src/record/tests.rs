@@ -1,6 +1,6 @@
 //! Moduli, energies and refusals of small records.
 
-use super::{Phase, Record, RecordError, Sample, Specimen};
+use super::{Phase, Record, RecordError, Sample, Specimen, TangentModulus};
 use approx::assert_relative_eq;
 
 const SPECIMEN: Specimen = Specimen {
@@ -129,11 +129,11 @@ fn units_that_are_not_those_of_the_columns_are_noticed() {
 #[test]
 fn tangents_are_those_of_the_pieces_whose_units_are_looked_at() {
     let moduli = |phase| record(&LOOP).unwrap().moduli(phase, 2.0, 1e-5).unwrap();
-    let close = |found: Vec<(f64, f64)>, expected: &[(f64, f64)]| {
+    let close = |found: Vec<TangentModulus>, expected: &[(f64, f64)]| {
         assert_eq!(found.len(), expected.len());
         for (one, other) in found.iter().zip(expected) {
-            assert_eq!(one.0, other.0);
-            assert_relative_eq!(one.1, other.1, max_relative = 1e-12);
+            assert_eq!(one.tension, other.0);
+            assert_relative_eq!(one.modulus, other.1, max_relative = 1e-12);
         }
     };
     close(moduli(Loading), &[(0.0, 9e10), (1000.0, 2e11)]);

@@ -20,7 +20,7 @@ use crate::error::StaticsError;
 use crate::loading::deflection::wind;
 use crate::model::Model;
 use crate::state::{Equilibrium, Load};
-use cdpr_cable::{CableError, PiecewiseLaw};
+use cdpr_cable::{CableError, PiecewiseLaw, Segment};
 use cdpr_robot::{Pose, Robot, Vector3};
 
 /// The two curves of a cable, strains in proportion to the robot's modulus.
@@ -95,14 +95,13 @@ impl HysteresisLaw {
             Unloading::TurningPoint => (self.turning_tension - tension).max(0.0),
         };
         // Each segment begins at `moved` less than on its curve; what lies below zero is cut off.
-        let below = self.unloading.segments().iter().map(|segment| (segment.tension - moved, segment.ratio));
-        let below = below.filter(|(begin, _)| 0.0 < *begin && *begin < tension);
-        let above = self.loading.segments().iter().map(|segment| (segment.tension, segment.ratio));
-        let above = above.filter(|(begin, _)| *begin > tension);
-        let segments: Vec<_> = [(0.0, self.unloading.ratio(moved))]
+        let below = self.unloading.segments().map(|at| Segment { tension: at.tension - moved, ..at });
+        let below = below.filter(|segment| 0.0 < segment.tension && segment.tension < tension);
+        let above = self.loading.segments().filter(|segment| segment.tension > tension);
+        let segments: Vec<_> = [Segment { tension: 0.0, ratio: self.unloading.ratio(moved) }]
             .into_iter()
             .chain(below)
-            .chain([(tension, self.loading.ratio(tension))])
+            .chain([Segment { tension, ratio: self.loading.ratio(tension) }])
             .chain(above)
             .collect();
         let back = self.unloading.scaled_strain(tension + moved) - self.unloading.scaled_strain(moved);
