@@ -19,6 +19,7 @@
 //!
 //! The crate does no input or output: it reads and writes text in memory.
 
+mod axis;
 mod error;
 mod format;
 mod json;
@@ -26,13 +27,16 @@ mod law;
 mod parameter;
 mod pose;
 mod robot;
+mod wrench;
 
+pub use axis::Axis;
 pub use cdpr_cable::{PiecewiseLaw, Segment};
 pub use error::RobotError;
 pub use format::{FORMAT, json_schema};
 pub use json::{JsonError, from_json, place_of};
 pub use law::LawSegment;
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
-pub use parameter::{Axis, Parameter, Perturbed, deviations};
-pub use pose::{Pose, Wrench};
+pub use parameter::{Parameter, ParameterLayout, Perturbed, deviations};
+pub use pose::{Pose, orthonormalized};
 pub use robot::{CableProperties, Platform, Robot, RobotCable, TensionLimits};
+pub use wrench::Wrench;

@@ -4,29 +4,11 @@
 //! modulus, the coordinates of every anchor and exit point, the centre of mass, and an offset of every tension
 //! set-point. A *deviation* is added to the nominal value.
 
+use crate::axis::Axis;
 use crate::error::RobotError;
 use crate::robot::Robot;
 use std::fmt;
 use std::str::FromStr;
-
-/// Coordinate axis of a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Axis {
-    /// First axis.
-    X,
-    /// Second axis.
-    Y,
-    /// Third axis; vertical in the base frame.
-    Z,
-}
-
-impl Axis {
-    const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
-
-    fn index(self) -> usize {
-        self as usize
-    }
-}
 
 /// One uncertain parameter. Cables count from 0 here and from 1 in names (`a1.x`, as in the literature).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -47,8 +29,80 @@ pub enum Parameter {
     TensionOffset(usize),
 }
 
+/// The order of the parameters in the vector of a robot with a given number of cables.
+///
+/// A point stands as three coordinates one after the other: its methods give the index of the first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ParameterLayout {
+    cables: usize,
+}
+
+impl ParameterLayout {
+    /// The layout of a robot with `cables` cables.
+    pub const fn new(cables: usize) -> Self {
+        Self { cables }
+    }
+
+    /// Number of parameters, `6 + 7n`.
+    pub const fn count(&self) -> usize {
+        self.tension_offset(self.cables)
+    }
+
+    /// Index of the platform's mass.
+    pub const fn mass(&self) -> usize {
+        0
+    }
+
+    /// Index of the cables' linear density.
+    pub const fn linear_density(&self) -> usize {
+        1
+    }
+
+    /// Index of the cables' modulus.
+    pub const fn youngs_modulus(&self) -> usize {
+        2
+    }
+
+    /// First index of anchor point `i`, from 0.
+    pub const fn anchor_point(&self, i: usize) -> usize {
+        3 + 3 * i
+    }
+
+    /// First index of exit point `i`, from 0.
+    pub const fn exit_point(&self, i: usize) -> usize {
+        self.anchor_point(self.cables) + 3 * i
+    }
+
+    /// First index of the centre of mass.
+    pub const fn center_of_mass(&self) -> usize {
+        self.exit_point(self.cables)
+    }
+
+    /// Index of the offset of tension set-point `i`, from 0.
+    pub const fn tension_offset(&self, i: usize) -> usize {
+        self.center_of_mass() + 3 + i
+    }
+
+    /// Index of a parameter; `None` for a cable that the robot does not have.
+    pub fn index(&self, parameter: Parameter) -> Option<usize> {
+        let (i, index) = match parameter {
+            Parameter::Mass => (0, self.mass()),
+            Parameter::LinearDensity => (0, self.linear_density()),
+            Parameter::YoungsModulus => (0, self.youngs_modulus()),
+            Parameter::AnchorPoint(i, axis) => (i, self.anchor_point(i) + axis.index()),
+            Parameter::ExitPoint(i, axis) => (i, self.exit_point(i) + axis.index()),
+            Parameter::CenterOfMass(axis) => (0, self.center_of_mass() + axis.index()),
+            Parameter::TensionOffset(i) => (i, self.tension_offset(i)),
+        };
+        (i < self.cables).then_some(index)
+    }
+}
+
 impl Parameter {
-    /// All parameters of a robot with `cables` cables, in the order of the parameter vector.
+    /// The names of all parameters, as messages list them.
+    pub const NAMES: &str = "mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...";
+
+    /// All parameters of a robot with `cables` cables, in the order of [`ParameterLayout`].
     pub fn all(cables: usize) -> Vec<Self> {
         let points = |parameter: fn(usize, Axis) -> Self| {
             (0..cables).flat_map(move |i| Axis::ALL.map(move |axis| parameter(i, axis)))
@@ -121,11 +175,10 @@ impl Parameter {
 
 impl fmt::Display for Parameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let letter = |axis: &Axis| ["x", "y", "z"][axis.index()];
         match self {
-            Self::AnchorPoint(i, axis) => write!(f, "a{}.{}", i + 1, letter(axis)),
-            Self::ExitPoint(i, axis) => write!(f, "b{}.{}", i + 1, letter(axis)),
-            Self::CenterOfMass(axis) => write!(f, "cog.{}", letter(axis)),
+            Self::AnchorPoint(i, axis) => write!(f, "a{}.{}", i + 1, axis),
+            Self::ExitPoint(i, axis) => write!(f, "b{}.{}", i + 1, axis),
+            Self::CenterOfMass(axis) => write!(f, "cog.{}", axis),
             Self::TensionOffset(i) => write!(f, "dt{}", i + 1),
             scalar => f.write_str(scalar.group()),
         }
@@ -138,8 +191,7 @@ impl FromStr for Parameter {
     fn from_str(name: &str) -> Result<Self, RobotError> {
         parse(name).ok_or_else(|| RobotError::UnknownParameter {
             name: name.to_owned(),
-            expected: "mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ..."
-                .to_owned(),
+            expected: Self::NAMES.to_owned(),
         })
     }
 }
@@ -156,12 +208,7 @@ fn parse(name: &str) -> Option<Parameter> {
         return cable(number).map(Parameter::TensionOffset);
     }
     let (point, axis) = name.split_once('.')?;
-    let axis = match axis {
-        "x" => Axis::X,
-        "y" => Axis::Y,
-        "z" => Axis::Z,
-        _ => return None,
-    };
+    let axis = Axis::from_letter(axis)?;
     match point {
         "cog" => Some(Parameter::CenterOfMass(axis)),
         _ => match point.split_at_checked(1)? {
@@ -212,9 +259,8 @@ impl Robot {
         let mut changed = Perturbed { robot: self.clone(), tension_offsets: Vec::new() };
         for (name, value) in named {
             let parameter: Parameter = name.parse()?;
-            if matches!(parameter, Parameter::TensionOffset(_))
-                || !Parameter::all(cables).contains(&parameter)
-            {
+            let exists = ParameterLayout::new(cables).index(parameter).is_some();
+            if matches!(parameter, Parameter::TensionOffset(_)) || !exists {
                 return Err(RobotError::UnknownParameter {
                     name: (*name).to_owned(),
                     expected: format!(
@@ -234,16 +280,15 @@ impl Robot {
 /// # Errors
 /// [`RobotError::UnknownParameter`] for a name that such a robot does not have.
 pub fn deviations(cables: usize, named: &[(&str, f64)]) -> Result<Vec<f64>, RobotError> {
-    let parameters = Parameter::all(cables);
-    let mut deviations = vec![0.0; parameters.len()];
+    let layout = ParameterLayout::new(cables);
+    let mut deviations = vec![0.0; layout.count()];
     for (name, deviation) in named {
         let parameter: Parameter = name.parse()?;
-        let place =
-            parameters.iter().position(|p| *p == parameter).ok_or_else(|| RobotError::UnknownParameter {
-                name: (*name).to_owned(),
-                expected: format!("those of a robot with {cables} cables"),
-            })?;
-        deviations[place] += deviation;
+        let index = layout.index(parameter).ok_or_else(|| RobotError::UnknownParameter {
+            name: (*name).to_owned(),
+            expected: format!("those of a robot with {cables} cables"),
+        })?;
+        deviations[index] += deviation;
     }
     Ok(deviations)
 }
@@ -262,6 +307,17 @@ mod tests {
         assert_eq!(names[61], "dt8");
         let geometric = Parameter::all(8).iter().filter(|p| p.unit() == "m").count();
         assert_eq!((geometric, 62 - geometric), (51, 11));
+    }
+
+    #[test]
+    fn the_layout_gives_the_index_of_every_parameter() {
+        for cables in 6..=16 {
+            let (layout, all) = (ParameterLayout::new(cables), Parameter::all(cables));
+            assert_eq!(all.len(), layout.count());
+            let indices: Vec<_> = all.iter().map(|parameter| layout.index(*parameter)).collect();
+            assert_eq!(indices, (0..layout.count()).map(Some).collect::<Vec<_>>());
+            assert_eq!(layout.index(Parameter::AnchorPoint(cables, Axis::X)), None);
+        }
     }
 
     #[test]

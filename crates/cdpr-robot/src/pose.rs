@@ -1,6 +1,6 @@
-//! Pose of the platform and wrench on it.
+//! Pose of the platform.
 
-use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3, Vector6};
 
 /// Position and orientation of the platform frame in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,9 +34,12 @@ impl Pose {
 
     /// The pose moved by `translation` [m] and turned by the rotation vector `rotation` [rad], both in the base frame:
     /// `p + dp`, `exp(dphi) R`.
+    ///
+    /// Poses moved thousands of times keep a rotation to rounding: see [`orthonormalized`].
     #[inline]
     pub fn moved(&self, translation: Vector3<f64>, rotation: Vector3<f64>) -> Self {
-        Self { position: self.position + translation, rotation: Rotation3::new(rotation) * self.rotation }
+        let product = Rotation3::new(rotation) * self.rotation;
+        Self { position: self.position + translation, rotation: orthonormalized(product.matrix()) }
     }
 
     /// The motion (dp, dphi) [m, rad] from this pose to another, in the base frame: the inverse of [`Pose::moved`].
@@ -56,39 +59,17 @@ impl Pose {
     }
 }
 
-/// Force and moment on the platform, in the base frame, the moment about P.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wrench {
-    /// Force [N].
-    pub force: Vector3<f64>,
-    /// Moment about P [N m].
-    pub moment: Vector3<f64>,
-}
-
-impl Wrench {
-    /// No force, no moment.
-    #[inline]
-    pub fn zero() -> Self {
-        Self { force: Vector3::zeros(), moment: Vector3::zeros() }
-    }
-
-    /// (force, moment) as one vector [N, N m].
-    pub fn to_vector(&self) -> Vector6<f64> {
-        Vector6::new(self.force.x, self.force.y, self.force.z, self.moment.x, self.moment.y, self.moment.z)
-    }
-
-    /// From (force, moment) [N, N m].
-    pub fn from_vector(v: &Vector6<f64>) -> Self {
-        Self { force: Vector3::new(v[0], v[1], v[2]), moment: Vector3::new(v[3], v[4], v[5]) }
-    }
-}
-
-impl std::ops::Add for Wrench {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self { force: self.force + other.force, moment: self.moment + other.moment }
-    }
+/// The rotation next to a matrix that differs from one by rounding.
+///
+/// Products of rotations drift away from the rotations. This takes the drift out: the first two columns are made orthonormal by one
+/// step of Newton's method for `1/|v|`, without a root, and the third is their cross product. What is left is the square of the drift.
+#[inline]
+pub fn orthonormalized(matrix: &Matrix3<f64>) -> Rotation3<f64> {
+    let unit = |v: Vector3<f64>| v * (1.5 - 0.5 * v.norm_squared());
+    let x = unit(matrix.column(0).into());
+    let y: Vector3<f64> = matrix.column(1).into();
+    let y = unit(y - x * x.dot(&y));
+    Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, x.cross(&y)]))
 }
 
 #[cfg(test)]
@@ -105,6 +86,17 @@ mod tests {
         let turn = Vector3::new(3e-11, -1e-11, 2e-11);
         let small = start.motion_to(&start.moved(Vector3::zeros(), turn));
         assert_relative_eq!(small.fixed_rows::<3>(3).into_owned(), turn, epsilon = 1e-15);
+    }
+
+    #[test]
+    fn a_pose_moved_a_million_times_keeps_a_rotation() {
+        let mut pose = Pose::at(0.0, 0.0, 0.0);
+        for k in 0..1_000_000 {
+            pose = pose.moved(Vector3::zeros(), Vector3::new(0.1, -0.2, 1e-6 * f64::from(k)));
+        }
+        let rotation = pose.rotation.matrix();
+        assert_relative_eq!(rotation.transpose() * rotation, Matrix3::identity(), epsilon = 2e-15);
+        assert_relative_eq!(rotation.determinant(), 1.0, epsilon = 2e-15);
     }
 
     #[test]

@@ -6,7 +6,8 @@
 //! ```
 
 use crate::error::RobotError;
-use crate::pose::{Pose, Wrench};
+use crate::pose::Pose;
+use crate::wrench::Wrench;
 use cdpr_cable::{Cable, ElasticLaw, PiecewiseLaw};
 use nalgebra::{Matrix6xX, Vector3};
 
@@ -113,6 +114,7 @@ impl Robot {
     /// r_i = p + R a_i - b_i: from exit point i to anchor point i, in the base frame [m] (Eq. (1)).
     #[inline]
     pub fn span(&self, pose: &Pose, i: usize) -> Vector3<f64> {
+        // Eq. (1)
         pose.position + self.anchor_arm(pose, i) - self.cables[i].exit_point
     }
 
@@ -120,8 +122,7 @@ impl Robot {
     #[inline]
     pub fn weight(&self, pose: &Pose, payload: f64) -> Wrench {
         let force = Vector3::new(0.0, 0.0, -(self.platform.mass + payload) * self.gravity);
-        let arm = pose.rotation * self.platform.center_of_mass;
-        Wrench { force, moment: arm.cross(&force) }
+        Wrench::of_force_at(&(pose.rotation * self.platform.center_of_mass), force)
     }
 
     /// Wrench matrix W, 6 x n: column i is the wrench on the platform of a unit tension in cable i, which pulls the
@@ -129,9 +130,7 @@ impl Robot {
     pub fn wrench_matrix(&self, pose: &Pose, pulls: &[Vector3<f64>]) -> Matrix6xX<f64> {
         let mut matrix = Matrix6xX::zeros(pulls.len());
         for (i, pull) in pulls.iter().enumerate() {
-            let moment = self.anchor_arm(pose, i).cross(pull);
-            matrix.fixed_view_mut::<3, 1>(0, i).copy_from(pull);
-            matrix.fixed_view_mut::<3, 1>(3, i).copy_from(&moment);
+            matrix.set_column(i, &Wrench::of_force_at(&self.anchor_arm(pose, i), *pull).to_vector());
         }
         matrix
     }
