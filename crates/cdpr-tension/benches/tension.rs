@@ -1,9 +1,9 @@
-//! Tension distribution: the closed form, active bounds, and what Clarabel is asked.
+//! Tension distribution in closed form, with active bounds, and by Clarabel.
 
 #![allow(clippy::unwrap_used)]
 
 use cdpr_robot::{Pose, Robot, TensionLimits};
-use cdpr_tension::{Method, Problem, TensionError, distribute};
+use cdpr_tension::{DistributionMethod, Problem, TensionError, distribute};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
@@ -21,9 +21,10 @@ fn tension(criterion: &mut Criterion) {
     let wrench_matrix = robot.wrench_matrix(&pose, &pulls);
     let wrench = robot.weight(&pose, 0.0).to_vector();
     let mut group = criterion.benchmark_group("tension");
-    for (name, min, method) in
-        [("closed_form", 1.0, Method::ClosedForm), ("active_bounds", 450.0, Method::ActiveSet)]
-    {
+    for (name, min, method) in [
+        ("closed_form", 1.0, DistributionMethod::ClosedForm),
+        ("active_bounds", 450.0, DistributionMethod::ActiveSet),
+    ] {
         let limits = &[TensionLimits { min, max: 10290.0 }; 8];
         let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &[0.0; 8], limits };
         let solution = distribute(&problem).unwrap();
@@ -31,7 +32,7 @@ fn tension(criterion: &mut Criterion) {
         assert!(solution.residual.norm() < 1e-9);
         group.bench_function(name, |b| b.iter(|| counted(|| distribute(black_box(&problem)))));
     }
-    // Nobody pushes: Clarabel proves it and finds the best attempt.
+    // Tensions too small for the weight: Clarabel proves it and finds the best attempt.
     let limits = &[TensionLimits { min: 1.0, max: 10.0 }; 8];
     let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &[0.0; 8], limits };
     assert!(matches!(distribute(&problem), Err(TensionError::Infeasible { .. })));

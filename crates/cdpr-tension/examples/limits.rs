@@ -1,4 +1,4 @@
-//! CAROCA's tensions in the middle of its workspace for a rising least tension, until none are left.
+//! Tensions of CAROCA at one pose for a rising least tension, up to one that no distribution respects.
 
 #![allow(clippy::print_stdout)]
 

@@ -1,10 +1,10 @@
-//! The distribution problem, its closed form, and the polished solution of the bounded problem.
+//! The distribution problem, its closed form, and the active-set solution of the bounded problem.
 
 use crate::quadratic_program::{Outcome, least_residual, solve};
 use cdpr_robot::TensionLimits;
 use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
 
-/// What is to be distributed.
+/// A distribution problem (T1).
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// Wrench matrix W, 6 x n [1, m].
@@ -17,7 +17,7 @@ pub struct Problem<'a> {
     pub limits: &'a [TensionLimits],
 }
 
-/// A bound that a tension rests on.
+/// A bound that holds a tension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// The least tension.
@@ -28,12 +28,12 @@ pub enum Bound {
 
 /// How a distribution was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// Equation (2): no bound is active.
+pub enum DistributionMethod {
+    /// The closed form (T2): no bound is active.
     ClosedForm,
-    /// The optimality conditions with the right bounds active.
+    /// The optimality conditions (T3) with the active bounds of the optimum.
     ActiveSet,
-    /// Clarabel's solution, to its tolerances: the optimality conditions with its active bounds are singular.
+    /// Clarabel's solution, to its tolerances: the conditions (T3) with its active bounds are singular.
     InteriorPoint,
 }
 
@@ -42,12 +42,12 @@ pub enum Method {
 pub struct Distribution {
     /// Tensions t [N].
     pub tensions: Vec<f64>,
-    /// The bound each tension rests on, if any.
+    /// The bound that holds each tension, if any.
     pub active: Vec<Option<Bound>>,
-    /// Open wrench W t + w [N, N m].
+    /// Residual wrench W t + w [N, N m].
     pub residual: Vector6<f64>,
     /// How it was found.
-    pub method: Method,
+    pub method: DistributionMethod,
 }
 
 /// Why there is no distribution.
@@ -55,46 +55,47 @@ pub struct Distribution {
 pub enum TensionError {
     /// No tensions within the bounds balance the wrench.
     #[error(
-        "no tensions between {min} N and {max} N balance the wrench: at best {force:.3} N and {moment:.3} N m stay open; \
-         change the pose, the load or the limits"
+        "no tensions between {min} N and {max} N balance the wrench: the best of them leave a residual of {force:.3} N and \
+         {moment:.3} N m; change the pose, the load or the limits"
     )]
     Infeasible {
         /// Least tension allowed in any cable [N].
         min: f64,
         /// Greatest tension allowed in any cable [N].
         max: f64,
-        /// Norm of the open force in the best attempt [N].
+        /// Norm of the residual force in the best attempt [N].
         force: f64,
-        /// Norm of the open moment in the best attempt [N m].
+        /// Norm of the residual moment in the best attempt [N m].
         moment: f64,
-        /// The tensions of that attempt: least |W t + w| within the bounds [N].
+        /// The tensions of that attempt [N]: those within the bounds with the least |W t + w|.
         tensions: Vec<f64>,
     },
-    /// A number of the problem is not finite, or sizes differ.
+    /// A value of the problem is not finite, or sizes differ.
     #[error("{field} is {value}: expected {expected}")]
     Invalid {
-        /// Part of the problem.
+        /// Field of the problem.
         field: &'static str,
         /// What was given.
         value: String,
         /// What would be right.
         expected: &'static str,
     },
-    /// The QP solver gave up.
-    #[error("the QP solver stopped with status {status}")]
+    /// The solver of the quadratic program stopped without an answer.
+    #[error("the solver of the quadratic program stopped with status {status}")]
     Solver {
         /// The status it reported.
         status: String,
     },
 }
 
-/// Relative size of rounding in the tensions that is not taken for a crossed bound.
+/// A tension beyond its bound by less than this, relative to the largest tension, is on the bound but for
+/// rounding.
 const ROUNDING: f64 = 1e-11;
 
-/// Open wrench, relative to tensions and wrench, that is taken for the rounding of a solved system.
+/// A residual wrench below this, relative to tensions and wrench, is the rounding of a solved system.
 const BALANCE: f64 = 1e-9;
 
-/// Solves problem (1).
+/// Solves problem (T1).
 ///
 /// # Errors
 /// [`TensionError::Infeasible`] with the best attempt, [`TensionError::Invalid`], [`TensionError::Solver`].
@@ -104,27 +105,28 @@ pub fn distribute(problem: &Problem) -> Result<Distribution, TensionError> {
     if let Some(tensions) = closed_form(problem)
         && tensions.iter().zip(problem.limits).all(|(t, limits)| limits.min <= *t && *t <= limits.max)
     {
-        return Ok(problem.distribution(tensions.as_slice().to_vec(), vec![None; n], Method::ClosedForm));
+        let solution = Bounded { tensions: tensions.as_slice().to_vec(), active: vec![None; n] };
+        return Ok(problem.distribution(solution, DistributionMethod::ClosedForm));
     }
-    if let Some((tensions, active)) = active_set(problem, vec![None; n]) {
-        return Ok(problem.distribution(tensions, active, Method::ActiveSet));
+    if let Some(solution) = active_set(problem, vec![None; n]) {
+        return Ok(problem.distribution(solution, DistributionMethod::ActiveSet));
     }
     match solve(problem)? {
         Outcome::Infeasible => Err(problem.infeasible()?),
         Outcome::Solved { tensions, active } => Ok(match active_set(problem, active.clone()) {
-            Some((tensions, active)) => problem.distribution(tensions, active, Method::ActiveSet),
-            None => problem.distribution(tensions, active, Method::InteriorPoint),
+            Some(solution) => problem.distribution(solution, DistributionMethod::ActiveSet),
+            None => problem.distribution(Bounded { tensions, active }, DistributionMethod::InteriorPoint),
         }),
     }
 }
 
-/// Equation (2), whether or not it respects the bounds. `None` if W does not have full rank.
+/// The closed form (T2), whether or not it respects the bounds. `None` if W does not have full rank.
 pub fn closed_form(problem: &Problem) -> Option<DVector<f64>> {
     let w = problem.wrench_matrix;
     let reference = DVector::from_column_slice(problem.reference);
     let gram = w * w.transpose();
-    let open = problem.wrench + w * &reference;
-    // W Wᵀ mixes 1 and m²: its diagonal scales it.
+    let residual = problem.wrench + w * &reference;
+    // W Wᵀ has elements in 1, m and m²: its diagonal scales it.
     let scale = gram.diagonal().map(|d| 1.0 / d.sqrt());
     let scaled = gram.component_mul(&(scale * scale.transpose()));
     let cholesky = scaled.cholesky()?;
@@ -132,29 +134,42 @@ pub fn closed_form(problem: &Problem) -> Option<DVector<f64>> {
     if pivots.min() < 1e-7 {
         return None;
     }
-    let multipliers = cholesky.solve(&open.component_mul(&scale)).component_mul(&scale);
+    let multipliers = cholesky.solve(&residual.component_mul(&scale)).component_mul(&scale);
     Some(reference - w.transpose() * multipliers)
 }
 
-/// Set-points after an offset of each tension, kept at or above the least tension [N].
+/// Set-points [N]: each tension with its offset added, kept at or above the least tension.
 pub fn offset(tensions: &[f64], offsets: &[f64], limits: TensionLimits) -> Vec<f64> {
     tensions.iter().zip(offsets).map(|(t, dt)| (t + dt).max(limits.min)).collect()
 }
 
-/// Tensions, and the bound each rests on.
-type Bounded = (Vec<f64>, Vec<Option<Bound>>);
+/// Tensions and the bounds that hold them.
+struct Bounded {
+    tensions: Vec<f64>,
+    active: Vec<Option<Bound>>,
+}
 
-/// The optimum to rounding from a guess of the active bounds: solve with those bounds, take in the bound that is crossed
-/// most or let go the one whose multiplier has the wrong sign most, until neither is left: then it is the optimum, for the problem is
-/// convex. `None` where that does not end, leaves fewer than six cables free, or free cables that
-/// do not span all wrenches.
+/// Solution of the optimality conditions (T3) for given active bounds.
+struct Stationary {
+    tensions: Vec<f64>,
+    /// Slope `t_i - t_ref,i + w_i·λ` of the objective with respect to each tension, zero for a free cable
+    /// [N].
+    slopes: Vec<f64>,
+}
+
+/// The optimum to rounding, from a guess of the active bounds.
+///
+/// Each iteration solves (T3), then adds the bound that is violated most or removes the one whose multiplier
+/// has the wrong sign most. When none is left, the tensions are the optimum, because the problem is convex.
+/// `None` if the iteration does not end, leaves fewer than six cables free, or leaves free cables that do not
+/// span all wrenches.
 fn active_set(problem: &Problem, mut active: Vec<Option<Bound>>) -> Option<Bounded> {
     for _ in 0..4 * active.len() {
-        let (tensions, slopes) = with_active(problem, &active)?;
+        let Stationary { tensions, slopes } = stationary(problem, &active)?;
         let size = tensions.iter().fold(1.0, |size: f64, t| size.max(t.abs()));
         let wrong = |i: usize| {
             let TensionLimits { min, max } = problem.limits[i];
-            // At a bound the objective must grow into the interior.
+            // At a bound the objective must grow towards the interior.
             match active[i] {
                 None if min - tensions[i] > tensions[i] - max => (min - tensions[i], Some(Bound::Min)),
                 None => (tensions[i] - max, Some(Bound::Max)),
@@ -168,18 +183,18 @@ fn active_set(problem: &Problem, mut active: Vec<Option<Bound>>) -> Option<Bound
             let clamped =
                 tensions.iter().zip(problem.limits).map(|(t, limits)| t.clamp(limits.min, limits.max));
             let tensions: Vec<f64> = clamped.collect();
-            // Free cables that cannot balance every wrench: the solution of a singular system balances none.
-            let balanced = problem.open_wrench(&tensions).norm() <= BALANCE * (size + problem.wrench.norm());
-            return balanced.then_some((tensions, active));
+            // The solution of a singular system, of free cables that cannot balance every wrench, is not
+            // balanced.
+            let balanced = problem.residual(&tensions).norm() <= BALANCE * (size + problem.wrench.norm());
+            return balanced.then_some(Bounded { tensions, active });
         }
         active[i] = bound;
     }
     None
 }
 
-/// With the given bounds active, the optimum solves `t_F = t_ref - W_Fᵀ λ`, `W t + w = 0` over the free cables F. Returns the
-/// tensions and the slope `t_i - t_ref,i + w_iᵀ λ` of the objective with respect to each.
-fn with_active(problem: &Problem, active: &[Option<Bound>]) -> Option<(Vec<f64>, Vec<f64>)> {
+/// Solves the optimality conditions (T3) as one linear system, with the given bounds active.
+fn stationary(problem: &Problem, active: &[Option<Bound>]) -> Option<Stationary> {
     let w = problem.wrench_matrix;
     let mut tensions: Vec<f64> = active
         .iter()
@@ -200,16 +215,17 @@ fn with_active(problem: &Problem, active: &[Option<Bound>]) -> Option<(Vec<f64>,
     kkt.view_mut((0, 0), (k, k)).fill_with_identity();
     kkt.view_mut((0, k), (k, 6)).copy_from(&free_matrix.transpose());
     kkt.view_mut((k, 0), (6, k)).copy_from(&free_matrix);
-    let open = problem.wrench + w * DVector::from_column_slice(&tensions);
-    let right = DVector::from_fn(k + 6, |i, _| if i < k { problem.reference[free[i]] } else { -open[i - k] });
+    let residual = problem.residual(&tensions);
+    let right =
+        DVector::from_fn(k + 6, |i, _| if i < k { problem.reference[free[i]] } else { -residual[i - k] });
     let solution = kkt.lu().solve(&right)?;
-    for (place, i) in free.iter().enumerate() {
-        tensions[*i] = solution[place];
+    for (position, i) in free.iter().enumerate() {
+        tensions[*i] = solution[position];
     }
     let multipliers = Vector6::from_fn(|row, _| solution[k + row]);
     let slopes = w.transpose() * multipliers;
     let slopes = (0..active.len()).map(|i| tensions[i] - problem.reference[i] + slopes[i]).collect();
-    Some((tensions, slopes))
+    Some(Stationary { tensions, slopes })
 }
 
 impl Problem<'_> {
@@ -218,15 +234,15 @@ impl Problem<'_> {
         if self.reference.len() != n {
             return Err(TensionError::Invalid {
                 field: "reference",
-                value: format!("of {} tensions", self.reference.len()),
+                value: format!("a list of {} tensions", self.reference.len()),
                 expected: "one reference tension for each column of the wrench matrix",
             });
         }
         if self.limits.len() != n {
             return Err(TensionError::Invalid {
                 field: "limits",
-                value: format!("of {} cables", self.limits.len()),
-                expected: "limits for each column of the wrench matrix",
+                value: format!("a list of {} limits", self.limits.len()),
+                expected: "one pair of limits for each column of the wrench matrix",
             });
         }
         let finite =
@@ -252,23 +268,25 @@ impl Problem<'_> {
         }
     }
 
-    fn open_wrench(&self, tensions: &[f64]) -> Vector6<f64> {
+    /// Residual wrench W t + w [N, N m], Eq. (3).
+    fn residual(&self, tensions: &[f64]) -> Vector6<f64> {
         self.wrench + self.wrench_matrix * DVector::from_column_slice(tensions)
     }
 
-    fn distribution(&self, tensions: Vec<f64>, active: Vec<Option<Bound>>, method: Method) -> Distribution {
-        let residual = self.open_wrench(&tensions);
+    fn distribution(&self, solution: Bounded, method: DistributionMethod) -> Distribution {
+        let Bounded { tensions, active } = solution;
+        let residual = self.residual(&tensions);
         Distribution { tensions, active, residual, method }
     }
 
     fn infeasible(&self) -> Result<TensionError, TensionError> {
         let tensions = least_residual(self)?;
-        let open = self.open_wrench(&tensions);
+        let residual = self.residual(&tensions);
         Ok(TensionError::Infeasible {
             min: self.limits.iter().map(|limits| limits.min).fold(f64::INFINITY, f64::min),
             max: self.limits.iter().map(|limits| limits.max).fold(0.0, f64::max),
-            force: open.fixed_rows::<3>(0).norm(),
-            moment: open.fixed_rows::<3>(3).norm(),
+            force: residual.fixed_rows::<3>(0).norm(),
+            moment: residual.fixed_rows::<3>(3).norm(),
             tensions,
         })
     }

@@ -1,21 +1,31 @@
 //! Tension distribution of a cable-driven parallel robot.
 //!
-//! For the wrench matrix `W` (6 x n) and the sum `w` of all wrenches on the platform that do not come from the cables:
+//! A robot with more than six cables can balance a wrench with many sets of tensions. Eq. (3) of Baklouti,
+//! Caro, Courteille (CableCon 2017), `W t + w = 0`, leaves the choice to a distribution algorithm. This crate
+//! chooses the tensions nearest to a reference. W is the wrench matrix (6 x n) and w the sum of all wrenches
+//! on the platform that do not come from the cables:
 //!
 //! ```text
-//! minimise  |t - t_ref|²   subject to   W t + w = 0,   t_min <= t_i <= t_max                     (1)
+//! minimise  |t - t_ref|²   subject to   W t + w = 0,   t_min <= t_i <= t_max                    (T1)
 //! ```
 //!
-//! (Eq. (3) of Baklouti, Caro, Courteille 2017, which leaves the choice among the solutions to a distribution algorithm.)
-//! With `t_ref = 0` this is the least-norm distribution. Where no bound is active the solution has the closed form
+//! With `t_ref = 0` this is the least-norm distribution. Where no bound is active the solution has the closed
+//! form
 //!
 //! ```text
-//! t = t_ref - Wᵀ (W Wᵀ)⁻¹ (w + W t_ref)                                                          (2)
+//! t = t_ref - Wᵀ λ,      λ = (W Wᵀ)⁻¹ (w + W t_ref)                                            (T2)
 //! ```
 //!
-//! Otherwise bounds are taken in and let go one by one, each time with the linear system of the optimality conditions; where that does
-//! not end at the optimum, Clarabel (Goulart and Chen, arXiv:2405.12762) says which bounds are active, or that the problem has no
-//! solution, which is answered by the least residual wrench that tensions within the bounds leave.
+//! Otherwise an active-set method adds and removes one bound at a time and solves the optimality conditions
+//! of the free cables F:
+//!
+//! ```text
+//! t_i = t_ref,i - w_i·λ   for i in F,      W t + w = 0                                          (T3)
+//! ```
+//!
+//! where `w_i` is column i of W. If that method does not end at the optimum, Clarabel (Goulart and Chen,
+//! arXiv:2405.12762) says which bounds are active, or that the problem has no solution. An infeasible problem
+//! is answered by the least residual wrench that tensions within the bounds leave.
 //!
 //! ```
 //! use cdpr_robot::{Pose, Robot};
@@ -37,4 +47,6 @@
 mod distribution;
 mod quadratic_program;
 
-pub use distribution::{Bound, Distribution, Method, Problem, TensionError, closed_form, distribute, offset};
+pub use distribution::{
+    Bound, Distribution, DistributionMethod, Problem, TensionError, closed_form, distribute, offset,
+};

@@ -1,5 +1,6 @@
-//! The two quadratic programs, in Clarabel's form `min ½ xᵀPx + qᵀx  s.t.  Ax + s = b, s in a cone`. No other module names
-//! Clarabel.
+//! The two quadratic programs in Clarabel's form, `min ½ xᵀPx + qᵀx  subject to  Ax + s = b, s in a cone`.
+//!
+//! No other module names Clarabel.
 
 use crate::distribution::{Bound, Problem, TensionError};
 use clarabel::algebra::CscMatrix;
@@ -8,15 +9,15 @@ use clarabel::solver::{
     SupportedConeT::{NonnegativeConeT, ZeroConeT},
 };
 
-/// What the solver says about problem (1).
+/// What the solver says about problem (T1).
 pub(crate) enum Outcome {
-    /// Tensions, and the bounds whose slack is smaller than their multiplier.
+    /// Tensions, and as active bounds those whose slack is smaller than their multiplier.
     Solved { tensions: Vec<f64>, active: Vec<Option<Bound>> },
-    /// A certificate of infeasibility was found.
+    /// The solver found a certificate of infeasibility.
     Infeasible,
 }
 
-/// Problem (1): P = I, q = -t_ref, equality rows W t = -w, then t <= t_max, then -t <= -t_min.
+/// Solves problem (T1) with P = I and q = -t_ref. The rows are W t = -w, then t <= t_max, then -t <= -t_min.
 pub(crate) fn solve(problem: &Problem) -> Result<Outcome, TensionError> {
     let n = problem.reference.len();
     let size = problem.scale();
@@ -51,31 +52,21 @@ pub(crate) fn solve(problem: &Problem) -> Result<Outcome, TensionError> {
     }
 }
 
-/// The tensions within the bounds that leave the least `|W t + w|`, force and moment weighed 1 N to 1 N m: with the open
-/// wrench `e = W t + w` as further unknowns, P = 0 for t (plus 1e-9 for uniqueness) and I for e.
+/// The tensions within the bounds with the least residual wrench `|W t + w|`, where 1 N counts as much as 1 N
+/// m.
+///
+/// The residual `e = W t + w` takes part as six further unknowns: P is the identity for e and zero for t, but
+/// for 1e-9 that makes the tensions unique.
 pub(crate) fn least_residual(problem: &Problem) -> Result<Vec<f64>, TensionError> {
     let n = problem.reference.len();
     let size = problem.scale();
     let wrench = problem.wrench_matrix;
-    let diagonal: Vec<f64> = (0..n + 6).map(|i| if i < n { 1e-9 } else { 1.0 }).collect();
-    let p = CscMatrix::from(
-        &(0..n + 6)
-            .map(|i| (0..n + 6).map(|j| if i == j { diagonal[i] } else { 0.0 }).collect())
-            .collect::<Vec<Vec<f64>>>(),
-    );
+    let diagonal = |i: usize| if i < n { 1e-9 } else { 1.0 };
+    let row_of_p = |i| (0..n + 6).map(|j| if i == j { diagonal(i) } else { 0.0 }).collect();
+    let p = CscMatrix::from(&(0..n + 6).map(row_of_p).collect::<Vec<Vec<f64>>>());
     let rows = (0..6).map(|row| {
-        (0..n + 6)
-            .map(|column| match column.checked_sub(n) {
-                None => wrench[(row, column)],
-                Some(open) => {
-                    if open == row {
-                        -1.0
-                    } else {
-                        0.0
-                    }
-                }
-            })
-            .collect()
+        let of_residual = |component| if component == row { -1.0 } else { 0.0 };
+        (0..n).map(|column| wrench[(row, column)]).chain((0..6).map(of_residual)).collect()
     });
     let a = CscMatrix::from(&rows.chain(bound_rows(n, n + 6)).collect::<Vec<Vec<f64>>>());
     let b: Vec<f64> = problem.wrench.iter().map(|w| -w / size).chain(bounds(problem, size)).collect();
@@ -92,7 +83,7 @@ pub(crate) fn least_residual(problem: &Problem) -> Result<Vec<f64>, TensionError
     }
 }
 
-/// Rows of t <= t_max and -t <= -t_min for n tensions among `columns` unknowns.
+/// Rows of t <= t_max, then of -t <= -t_min, for n tensions among `columns` unknowns.
 fn bound_rows(n: usize, columns: usize) -> impl Iterator<Item = Vec<f64>> {
     [1.0, -1.0].into_iter().flat_map(move |sign| {
         (0..n).map(move |i| (0..columns).map(|column| if column == i { sign } else { 0.0 }).collect())
@@ -105,7 +96,7 @@ fn bounds(problem: &Problem, size: f64) -> impl Iterator<Item = f64> {
 }
 
 impl Problem<'_> {
-    /// A tension to scale the problem by [N], so that the solver's tolerances are relative.
+    /// A tension that scales the problem [N], so that the solver's tolerances are relative.
     fn scale(&self) -> f64 {
         let force = self.wrench.fixed_rows::<3>(0).norm();
         let reference = self.reference.iter().fold(0.0, |size: f64, t| size.max(t.abs()));
@@ -134,7 +125,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// Clarabel as the oracle of the active set.
+        /// Clarabel is the oracle of the active-set method.
         #[test]
         fn the_qp_finds_the_distribution_with_active_bounds(
             x in -3.2..3.2f64, y in -1.7..1.7f64, z in 0.2..3.2f64, min in 100.0..500.0f64, reference in 0.0..1000.0f64,

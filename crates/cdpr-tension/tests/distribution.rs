@@ -1,9 +1,11 @@
-//! The distribution against its optimality conditions, and the closed form against the QP.
+//! Distributions against their optimality conditions, and what an infeasible or invalid problem is told.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use cdpr_robot::{Matrix6xX, Pose, Robot, TensionLimits, Vector3, Vector6};
-use cdpr_tension::{Bound, Distribution, Method, Problem, TensionError, closed_form, distribute, offset};
+use cdpr_tension::{
+    Bound, Distribution, DistributionMethod, Problem, TensionError, closed_form, distribute, offset,
+};
 use proptest::prelude::*;
 
 fn caroca() -> Robot {
@@ -17,7 +19,7 @@ fn straight(pose: &Pose) -> (Matrix6xX<f64>, Vector6<f64>) {
     (robot.wrench_matrix(pose, &pulls), robot.weight(pose, 0.0).to_vector())
 }
 
-/// Largest violation of the optimality conditions of problem (1), relative to the largest tension.
+/// Largest violation of the optimality conditions of problem (T1), relative to the largest tension.
 fn optimality_error(problem: &Problem, solution: &Distribution) -> f64 {
     let size = solution.tensions.iter().fold(1.0, |size: f64, t| size.max(t.abs()));
     let w = problem.wrench_matrix;
@@ -49,7 +51,7 @@ fn least_norm_tensions_are_closed_form_in_the_middle_of_the_workspace() {
     let limits = &[TensionLimits { min: 1.0, max: 10290.0 }; 8];
     let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &[0.0; 8], limits };
     let solution = distribute(&problem).unwrap();
-    assert_eq!(solution.method, Method::ClosedForm);
+    assert_eq!(solution.method, DistributionMethod::ClosedForm);
     assert!(optimality_error(&problem, &solution) < 1e-12);
     let closed = closed_form(&problem).unwrap();
     assert!(solution.tensions.iter().zip(&closed).all(|(a, b)| a == b));
@@ -70,15 +72,15 @@ proptest! {
         let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &reference, limits };
         match distribute(&problem) {
             Ok(solution) => {
-                let tolerance = if solution.method == Method::InteriorPoint { 1e-6 } else { 1e-9 };
+                let tolerance = if solution.method == DistributionMethod::InteriorPoint { 1e-6 } else { 1e-9 };
                 let error = optimality_error(&problem, &solution);
                 prop_assert!(error < tolerance, "{error:e} by {:?}", solution.method);
             }
             Err(TensionError::Infeasible { force, moment, tensions, .. }) => {
                 prop_assert!(force.hypot(moment) > 1e-6 * wrench.norm(), "{force} N, {moment} N m");
                 // The best attempt cannot be improved: the projected gradient of |W t + w|² vanishes.
-                let open = wrench + &wrench_matrix * nalgebra::DVector::from_column_slice(&tensions);
-                let gradient = wrench_matrix.transpose() * open;
+                let residual = wrench + &wrench_matrix * nalgebra::DVector::from_column_slice(&tensions);
+                let gradient = wrench_matrix.transpose() * residual;
                 for (t, slope) in tensions.iter().zip(&gradient) {
                     let small = 1e-4 * wrench.norm();
                     let at_min = *t <= limits[0].min + small;
@@ -92,7 +94,7 @@ proptest! {
 }
 
 #[test]
-fn six_cables_leave_no_choice() {
+fn six_cables_have_one_distribution() {
     let robot = caroca();
     let pose = Pose::at(0.3, 0.2, 1.5);
     let (all, wrench) = straight(&pose);
@@ -104,10 +106,10 @@ fn six_cables_leave_no_choice() {
 }
 
 #[test]
-fn a_platform_that_cannot_be_pushed_is_infeasible_and_says_how_far() {
+fn cables_from_above_cannot_push_a_lifted_platform_down_and_the_error_says_what_is_missing() {
     let (wrench_matrix, wrench) = straight(&Pose::at(0.0, 0.0, 1.75));
     let limits = &[TensionLimits { min: 1.0, max: 10290.0 }; 8];
-    let up = -wrench; // a lift: cables from above cannot hold the platform down
+    let up = -wrench;
     let error =
         distribute(&Problem { wrench_matrix: &wrench_matrix, wrench: up, reference: &[0.0; 8], limits })
             .unwrap_err();
@@ -123,7 +125,7 @@ fn an_offset_set_point_stays_at_or_above_the_least_tension() {
 }
 
 #[test]
-fn numbers_that_are_none_are_named() {
+fn an_invalid_problem_is_refused_with_its_field() {
     let (wrench_matrix, wrench) = straight(&Pose::at(0.0, 0.0, 1.75));
     let limits = &[TensionLimits { min: 1.0, max: 100.0 }; 8];
     let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &[0.0; 8], limits };
