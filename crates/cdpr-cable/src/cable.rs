@@ -67,7 +67,8 @@ impl Cable<'_> {
         }
     }
 
-    /// Whether the weight of this length vanishes beside the stiffness, and its square below the smallest number.
+    /// Whether the weight of this length vanishes beside the stiffness, and its square below the smallest
+    /// number.
     pub(crate) fn is_weightless(&self, unstrained_length: f64) -> bool {
         self.weight_per_length * unstrained_length <= 1e-100 * self.axial_stiffness
     }

@@ -24,8 +24,8 @@ impl<'a> Catenary<'a> {
     /// The cable of unstrained length `unstrained_length` [m] with the force `(fx, fz)` [N] at A.
     ///
     /// # Errors
-    /// [`CableError::InvalidInput`] for values no cable can have, among them a force that pushes towards the exit point and a slack cable
-    /// without weight, which has no shape.
+    /// [`CableError::InvalidInput`] for values no cable can have, among them a force that pushes towards the
+    /// exit point and a slack cable without weight, which has no shape.
     pub fn new(cable: Cable<'a>, unstrained_length: f64, force: Vector2<f64>) -> Result<Self, CableError> {
         cable.validate()?;
         check_length(unstrained_length)?;
@@ -64,14 +64,15 @@ impl<'a> Catenary<'a> {
         self.cable.weight_per_length * self.unstrained_length
     }
 
-    /// Length of the cable without tension and weight [m], `L (1 + ε(0))`: a piecewise law may have kept some strain.
+    /// Length of the cable without tension and weight [m], `L (1 + ε(0))`: a piecewise law may have kept some
+    /// strain.
     #[inline]
     pub fn length_at_rest(&self) -> f64 {
         self.unstrained_length * (1.0 + self.cable.strain(0.0))
     }
 
-    /// Whether this is a slack cable without weight: it carries nothing, resists nothing and has no shape, so that end
-    /// position and flexibility mean nothing.
+    /// Whether this is a slack cable without weight: it carries nothing, resists nothing and has no shape, so
+    /// that end position and flexibility mean nothing.
     #[inline]
     pub fn is_limp(&self) -> bool {
         self.force == Vector2::zeros() && self.cable.is_weightless(self.unstrained_length)

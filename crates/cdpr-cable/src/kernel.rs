@@ -1,6 +1,8 @@
-//! The equations of one cable in its vertical plane, over any kind of number: doubles, intervals, dual numbers, lanes.
+//! The equations of one cable in its vertical plane, over any kind of number: doubles, intervals, dual
+//! numbers, lanes.
 //!
-//! Solvers that evaluate a cable with numbers of their own build on these functions. For doubles the methods of
+//! Solvers that evaluate a cable with numbers of their own build on these functions. For doubles the methods
+//! of
 //! [`crate::Catenary`] answer the same questions, for cables of any elastic law.
 
 mod field;

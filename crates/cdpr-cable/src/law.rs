@@ -1,15 +1,15 @@
 //! How a cable stretches under tension: in proportion, or by pieces of different stiffness.
 //!
-//! The strain is a continuous, strictly increasing function of the tension. It is written as `ε(T) = σ(T)/EA` with the cable's
-//! axial stiffness EA as a scale, so that a change of the modulus scales the whole law:
+//! The strain is a continuous, strictly increasing function of the tension. It is written as `ε(T) = σ(T)/EA`
+//! with the cable's axial stiffness EA as a scale, so that a change of the modulus scales the whole law:
 //!
 //! ```text
 //! linear:      σ = T
 //! piecewise:   σ = σ_k + (T - T_k)/κ_k      for T_k <= T < T_{k+1},   κ_k = EA_k/EA
 //! ```
 //!
-//! Within a piece `1 + ε = α_k + T/EA_k`, `α_k = 1 + (σ_k - T_k/κ_k)/EA`, and the complementary energy per length is
-//! `∫ ε dT = c_k + (α_k - 1) T + T²/2EA_k`.
+//! Within a piece `1 + ε = α_k + T/EA_k`, `α_k = 1 + (σ_k - T_k/κ_k)/EA`, and the complementary energy per
+//! length is `∫ ε dT = c_k + (α_k - 1) T + T²/2EA_k`.
 
 use crate::error::{CableError, check};
 
@@ -61,11 +61,12 @@ pub(crate) struct SegmentTerms {
 impl PiecewiseLaw {
     /// A law from its segments, the first of which begins at zero tension.
     ///
-    /// `scaled_strain_at_rest` is the strain without tension times the cable's axial stiffness [N], zero for a new cable.
+    /// `scaled_strain_at_rest` is the strain without tension times the cable's axial stiffness [N], zero for
+    /// a new cable.
     ///
     /// # Errors
-    /// [`CableError::InvalidInput`] for no segment, tensions that do not grow from zero, or a stiffness ratio that is not between
-    /// 1e-6 and 1e6.
+    /// [`CableError::InvalidInput`] for no segment, tensions that do not grow from zero, or a stiffness ratio
+    /// that is not between 1e-6 and 1e6.
     pub fn new(scaled_strain_at_rest: f64, segments: &[Segment]) -> Result<Self, CableError> {
         check("law.segments", segments.len() as f64, !segments.is_empty(), "one segment at least")?;
         check("law.strain_at_rest", scaled_strain_at_rest, true, "a finite strain")?;
@@ -101,7 +102,8 @@ impl PiecewiseLaw {
         self.at(tension).strain_at(tension)
     }
 
-    /// Integral of the strain over the tension from zero up to a tension [N], times the cable's axial stiffness [N²].
+    /// Integral of the strain over the tension from zero up to a tension [N], times the cable's axial
+    /// stiffness [N²].
     pub fn scaled_energy(&self, tension: f64) -> f64 {
         self.at(tension).energy_at(tension)
     }
@@ -111,7 +113,8 @@ impl PiecewiseLaw {
         self.at(tension).segment.ratio
     }
 
-    /// Stiffness of the secant between two tensions [N] over the cable's; where they are the same, [`PiecewiseLaw::ratio`].
+    /// Stiffness of the secant between two tensions [N] over the cable's; where they are the same,
+    /// [`PiecewiseLaw::ratio`].
     pub fn secant_ratio(&self, from: f64, to: f64) -> f64 {
         if from == to {
             self.ratio(to)

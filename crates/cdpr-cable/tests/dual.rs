@@ -1,4 +1,5 @@
-//! Every derivative of the catenary against dual numbers: the same equations, with a number that carries its derivative.
+//! Every derivative of the catenary against dual numbers: the same equations, with a number that carries its
+//! derivative.
 
 use cdpr_cable::kernel::{Field, Real, response};
 use cdpr_cable::{Cable, Catenary, Vector2, least_tension, length_for_tension};
@@ -131,7 +132,8 @@ proptest! {
         for (which, (derivative, name)) in derivatives.into_iter().enumerate() {
             let expected = dual(&c, which);
             let error = (derivative - expected).norm() / expected.norm();
-            // Dual numbers differentiate T0 and s where they are differences; the formulas are freed of those.
+            // Dual numbers differentiate T0 and s where they are differences; the formulas are freed of
+            // those.
             prop_assert!(error < 1e-10, "{name}: {error:e}");
         }
     }

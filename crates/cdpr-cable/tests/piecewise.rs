@@ -1,4 +1,5 @@
-//! Cables with a piecewise linear law: against the linear cable, numerical integration (`data/reference/piecewise.py`) and differences.
+//! Cables with a piecewise linear law: against the linear cable, numerical integration
+//! (`data/reference/piecewise.py`) and differences.
 
 use approx::assert_relative_eq;
 use cdpr_cable::{
@@ -203,7 +204,8 @@ fn a_cable_that_kept_strain_is_a_longer_one() {
     let cable = cable(&kept, 20.0, 1e4);
     let force = Vector2::new(200.0, 300.0);
     let c = Catenary { cable, unstrained_length: 10.0, force };
-    // Its weight is that of 10 m, its shape that of 10.02 m of a cable as much lighter, and stretched as much less.
+    // Its weight is that of 10 m, its shape that of 10.02 m of a cable as much lighter, and stretched as much
+    // less.
     let longer =
         Catenary { cable: Cable::linear(20.0 / 1.002, 1e4 * 1.002), unstrained_length: 10.02, force };
     assert_relative_eq!(c.end_position(), longer.end_position(), max_relative = 1e-13);

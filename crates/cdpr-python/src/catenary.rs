@@ -106,7 +106,7 @@ impl Catenary {
             unstrained_length: all.number(|solution| solution.catenary.unstrained_length)?,
             end: all.vector(|solution| solution.end.into())?,
             residual: all.number(|solution| solution.residual)?,
-            shape: all.numbers(&[points, 2], |(solution, _), out| {
+            shape: all.numbers(&[points, 2], |solution, out| {
                 for (out, point) in out.chunks_exact_mut(2).zip(solution.catenary.profile(points)) {
                     out.copy_from_slice(point.as_slice());
                 }

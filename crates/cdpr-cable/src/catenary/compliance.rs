@@ -10,12 +10,13 @@ pub struct Compliance {
     pub end: Vector2<f64>,
     /// In-plane flexibility `d(x, z)/d(fx, fz)` [m/N], equations (3)-(5).
     pub flexibility: Matrix2<f64>,
-    /// Determinant of the flexibility [m²/N²], equation (8): the difference of its products loses the digits of taut, stiff cables.
+    /// Determinant of the flexibility [m²/N²], equation (8): the difference of its products loses the digits
+    /// of taut, stiff cables.
     pub determinant: f64,
     /// Out-of-plane stiffness `fx/x` [N/m]; regular for a vertical cable, where `fx = x = 0`.
     pub lateral_stiffness: f64,
-    /// Derivative of the end position with respect to the unstrained length at constant force at A [m/m]: the unit tangent
-    /// at B times `1 + T0/EA`, since the new piece of cable enters there.
+    /// Derivative of the end position with respect to the unstrained length at constant force at A [m/m]: the
+    /// unit tangent at B times `1 + T0/EA`, since the new piece of cable enters there.
     pub end_per_length: Vector2<f64>,
 }
 

@@ -1,6 +1,7 @@
 //! What follows from the force at the end of a cable: its end position, flexibility, stiffness and energy.
 //!
-//! The equations of a linear cable are in `kernel/response.rs`, those of one with a piecewise linear law in `pieces.rs`.
+//! The equations of a linear cable are in `kernel/response.rs`, those of one with a piecewise linear law in
+//! `pieces.rs`.
 
 use crate::catenary::Catenary;
 use crate::catenary::compliance::Compliance;
@@ -44,8 +45,8 @@ impl Catenary<'_> {
         self.response().into()
     }
 
-    /// Derivative of the end position with respect to the weight per length at constant force at A and constant unstrained
-    /// length [m²/N], equation (10).
+    /// Derivative of the end position with respect to the weight per length at constant force at A and
+    /// constant unstrained length [m²/N], equation (10).
     pub fn end_per_weight(&self) -> Vector2<f64> {
         match self.cable.law {
             ElasticLaw::Linear => self.terms().end_per_weight(),
@@ -53,8 +54,8 @@ impl Catenary<'_> {
         }
     }
 
-    /// Derivative of the end position with respect to the axial stiffness EA at constant force at A and constant unstrained
-    /// length [m/N], equation (11).
+    /// Derivative of the end position with respect to the axial stiffness EA at constant force at A and
+    /// constant unstrained length [m/N], equation (11).
     pub fn end_per_stiffness(&self) -> Vector2<f64> {
         match self.cable.law {
             ElasticLaw::Linear => self.terms().end_per_stiffness(),
@@ -62,14 +63,15 @@ impl Catenary<'_> {
         }
     }
 
-    /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], the inverse of the flexibility. Zero for a slack cable without weight.
+    /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], the inverse of the flexibility. Zero for a slack cable
+    /// without weight.
     #[inline]
     pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
         if self.is_limp() { Matrix2::zeros() } else { self.compliance().in_plane_stiffness() }
     }
 
-    /// Stiffness `dF/dr` [N/m] of the end force in three dimensions, `z` up. `azimuth` is the horizontal unit vector
-    /// from B towards A (any unit vector if A is right above or below B).
+    /// Stiffness `dF/dr` [N/m] of the end force in three dimensions, `z` up. `azimuth` is the horizontal unit
+    /// vector from B towards A (any unit vector if A is right above or below B).
     #[inline]
     pub fn stiffness(&self, azimuth: Vector2<f64>) -> Matrix3<f64> {
         if self.is_limp() { Matrix3::zeros() } else { self.compliance().stiffness(azimuth) }
@@ -83,8 +85,9 @@ impl Catenary<'_> {
         }
     }
 
-    /// Potential energy V [J], equation (7): elastic energy plus the work done against gravity, zero for a massless cable at
-    /// rest with its weight at the height of B. As a function of the end position its gradient is the force at A.
+    /// Potential energy V [J], equation (7): elastic energy plus the work done against gravity, zero for a
+    /// massless cable at rest with its weight at the height of B. As a function of the end position its
+    /// gradient is the force at A.
     pub fn potential_energy(&self) -> f64 {
         match self.cable.law {
             ElasticLaw::Linear => self.terms().potential_energy(),

@@ -1,4 +1,5 @@
-//! A cable whose stiffness changes with its tension, as the sum of pieces that each stay within one segment of its law.
+//! A cable whose stiffness changes with its tension, as the sum of pieces that each stay within one segment
+//! of its law.
 //!
 //! Each element points along its force, stretched by `1 + ε(T)`:
 //!
@@ -6,16 +7,18 @@
 //! dx = (1 + ε) fx/T ds,      dz = (1 + ε) V/T ds,      1 + ε = α_k + T/EA_k
 //! ```
 //!
-//! so that a piece of cable whose tension stays within segment k has the equations of `response` with 1/EA_k for 1/EA and their
-//! inextensible part times α_k: `Q = Q(1/EA_k) + (α_k - 1) Q(0)` for every Q that is linear in the two. The cable is cut where its
-//! tension crosses a kink, at `V = ±sqrt(T_k² - fx²)`. Since ε is continuous, what a cut that moves adds to one piece it takes from
-//! the next: all derivatives are sums over the pieces at fixed ranges of s, with `dV = df_z` and, for the weight, `dV = -(L - s) dw`.
+//! so that a piece of cable whose tension stays within segment k has the equations of `response` with 1/EA_k
+//! for 1/EA and their inextensible part times α_k: `Q = Q(1/EA_k) + (α_k - 1) Q(0)` for every Q that is
+//! linear in the two. The cable is cut where its tension crosses a kink, at `V = ±sqrt(T_k² - fx²)`. Since ε
+//! is continuous, what a cut that moves adds to one piece it takes from the next: all derivatives are sums
+//! over the pieces at fixed ranges of s, with `dV = df_z` and, for the weight, `dV = -(L - s) dw`.
 //!
-//! With S the sum of L_k/EA_k and N that of α_k times the inextensible flexibilities, the flexibility is `S 1 + N` and its determinant
-//! `S² + S tr N + det N`. The complementary energy is the integral over the cable of a convex function of a convex one: the force at
-//! the end stays unique.
+//! With S the sum of L_k/EA_k and N that of α_k times the inextensible flexibilities, the flexibility is `S 1
+//! + N` and its determinant `S² + S tr N + det N`. The complementary energy is the integral over the cable of
+//! a convex function of a convex one: the force at the end stays unique.
 //!
-//! What is called from outside is marked cold: most cables are linear, and their code is shorter when it is laid out for them.
+//! What is called from outside is marked cold: most cables are linear, and their code is shorter when it is
+//! laid out for them.
 
 use crate::catenary::Catenary;
 use crate::kernel::{Response, Terms};

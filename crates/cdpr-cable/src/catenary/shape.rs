@@ -1,7 +1,7 @@
 //! The shape of a cable in equilibrium, along its unstrained arc length `s` from the exit point B.
 //!
-//! The piece of cable between B and `s` is itself a catenary of unstrained length `s` that carries `(fx, V0 + w s)` at
-//! its end: every point comes from the same equations (1)-(2) as the end.
+//! The piece of cable between B and `s` is itself a catenary of unstrained length `s` that carries `(fx, V0 +
+//! w s)` at its end: every point comes from the same equations (1)-(2) as the end.
 
 use crate::catenary::Catenary;
 use nalgebra::Vector2;
@@ -47,7 +47,8 @@ impl<'a> Catenary<'a> {
         self.point(self.lowest_arc_length())
     }
 
-    /// Sag [m]: the greatest distance of the cable from its chord, measured across the chord (Irvine 1981, section 2.5).
+    /// Sag [m]: the greatest distance of the cable from its chord, measured across the chord (Irvine 1981,
+    /// section 2.5).
     pub fn sag(&self) -> f64 {
         let end = self.end_position();
         let chord = end.norm();
@@ -58,8 +59,8 @@ impl<'a> Catenary<'a> {
         (point.x * end.y - point.y * end.x).abs() / chord
     }
 
-    /// Vertical sag [m]: the greatest height of the chord above the cable; for points one above the other, how far the cable hangs
-    /// below the lower of them.
+    /// Vertical sag [m]: the greatest height of the chord above the cable; for points one above the other,
+    /// how far the cable hangs below the lower of them.
     pub fn vertical_sag(&self) -> f64 {
         let end = self.end_position();
         if self.cable.weight_per_length == 0.0 {
@@ -72,7 +73,8 @@ impl<'a> Catenary<'a> {
         }
     }
 
-    /// Where the cable, which has weight, is parallel to its chord from the origin to `end`: there V/fx = z/x.
+    /// Where the cable, which has weight, is parallel to its chord from the origin to `end`: there V/fx =
+    /// z/x.
     fn parallel_point(&self, end: Vector2<f64>) -> Vector2<f64> {
         let v = if end.x > 0.0 { self.force.x * end.y / end.x } else { 0.0 };
         self.point((v - self.exit_vertical_force()) / self.cable.weight_per_length)

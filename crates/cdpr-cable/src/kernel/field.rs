@@ -1,9 +1,11 @@
-//! What the equations of the catenary ask of a number, so that they stand once for floating point, intervals, dual numbers or
-//! the lanes of a vector unit.
+//! The operations that the equations of a cable ask of a kind of number.
+//!
+//! The equations are written once over these traits, for doubles, intervals, dual numbers and the lanes of a
+//! vector unit.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Numbers for formulas without a choice: sums, products, quotients and roots.
+/// Numbers for formulas without branches: they have sums, products, quotients and square roots.
 pub trait Field:
     Copy
     + Add<Output = Self>
@@ -21,21 +23,22 @@ pub trait Field:
     fn sqrt(self) -> Self;
 }
 
-/// A kind of real number: a double, an interval of them, a number with its derivative.
+/// Numbers for formulas with branches: a double, an interval of doubles, a double with its derivative.
 pub trait Real: Field {
     /// The exact number `value`.
     fn of(value: f64) -> Self;
 
-    /// A double nearby: decides which of two equivalent formulas is used.
+    /// A double nearby, which decides between two equivalent formulas.
     fn value(self) -> f64;
 
-    /// A double that it does not exceed.
+    /// An upper bound of the number.
     fn upper(self) -> f64;
 
     /// Natural logarithm of a positive number.
     fn ln(self) -> Self;
 
-    /// This number, known to within `error` only: the rest of a series. Kinds that do not bound errors ignore it.
+    /// This number, known to within `error` only, as the remainder of a series. Kinds that do not bound
+    /// errors ignore it.
     fn within(self, error: f64) -> Self;
 }
 

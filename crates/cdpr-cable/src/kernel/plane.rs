@@ -20,10 +20,12 @@ pub fn in_plane_stiffness<T: Field>([xx, xz, zz]: [T; 3], determinant: T) -> [T;
     [zz * inverse, -xz * inverse, xx * inverse]
 }
 
-/// Closure residual of a slack cable without weight whose anchor point lies at `end = (x, z)` [m] from its exit point.
+/// Closure residual of a slack cable without weight whose anchor point lies at `end = (x, z)` [m] from its
+/// exit point.
 ///
-/// Such a cable has no shape: it closes any distance up to its length at rest `L (1 + ε(0))` [m], the argument `rest`
-/// ([`crate::Catenary::length_at_rest`]). What it is too short for a longer one stays open along the chord.
+/// Such a cable has no shape: it closes any distance up to its length at rest `L (1 + ε(0))` [m], the
+/// argument `rest` ([`crate::Catenary::length_at_rest`]). What it is too short for a longer one stays open
+/// along the chord.
 pub fn closure_of_limp<T: Real>([x, z]: [T; 2], rest: T) -> [T; 2] {
     let chord = (x * x + z * z).sqrt();
     let open = if chord.value() > rest.value() { T::of(1.0) - rest / chord } else { T::of(0.0) };

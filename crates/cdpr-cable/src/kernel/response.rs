@@ -1,7 +1,7 @@
 //! The elastic catenary for a given force at its end.
 //!
-//! A cable of unstrained length `L`, weight `w` per unstrained length and axial stiffness `EA` carries the force
-//! `(fx, fz)` at A. With the vertical force at B, the two end tensions and their sum
+//! A cable of unstrained length `L`, weight `w` per unstrained length and axial stiffness `EA` carries the
+//! force `(fx, fz)` at A. With the vertical force at B, the two end tensions and their sum
 //!
 //! ```text
 //! V0 = fz - w L,   T = sqrt(fx² + fz²),   T0 = sqrt(fx² + V0²),   s = T + T0,   q = w L / s
@@ -10,100 +10,109 @@
 //! the end A lies at
 //!
 //! ```text
-//! x = fx L [ 1/EA + (2/s) φ(q²) ],            φ(q²) = atanh(q)/q = 1 + q² ψ(q²)            (1)
-//! z = L [ (fz - wL/2)/EA + (fz + V0)/s ]                                                   (2)
+//! x = fx L [ 1/EA + (2/s) φ(q²) ],        φ(q²) = atanh(q)/q = 1 + q² ψ(q²)             (C1)
+//! z = L [ (fz - wL/2)/EA + (fz + V0)/s ]                                                (C2)
 //! ```
 //!
-//! This is the model of Irvine, *Cable Structures* (1981), eq. (1.32)-(1.33), word for word: with `sinh u = fz/fx` at
-//! A and `sinh u0 = V0/fx` at B, `tanh((u - u0)/2) = q`. The usual form subtracts two inverse hyperbolic sines and two
-//! square roots and loses most of its digits for taut, stiff or light cables; this one is exact to rounding for all of
-//! them, and `w = 0` is a straight spring.
+//! These are Eq. (2a) and (2b) of Baklouti, Caro, Courteille (CableCon 2017) and (1.32)-(1.33) of Irvine,
+//! *Cable Structures* (1981), written without differences: with `sinh u = fz/fx` at A and `sinh u0 = V0/fx`
+//! at B, `tanh((u - u0)/2) = q`. The usual form subtracts two inverse hyperbolic sines and two square roots
+//! and loses most of its digits for taut, stiff or light cables. This one is exact to rounding for all of
+//! them, and `w = 0` is a straight spring. (The paper prints Eq. (2b) with `fx L/ES` as its first term, which
+//! has to be `fz L/ES`.)
 //!
-//! The flexibility `d(x, z)/d(fx, fz)`, symmetric and positive definite, follows from
+//! The flexibility `C = d(x, z)/d(fx, fz)` is symmetric and positive definite. It follows from
 //! `D = fx² + T T0 + fz V0 = s² (1 - q²)/2` and `g = fx²/D`:
 //!
 //! ```text
-//! dz/dfz = L [ 1/EA + s g/(T T0) ]                                                         (3)
-//! dx/dfz = -fx L (fz + V0) / (T T0 s)                                                      (4)
-//! dx/dfx = L [ 1/EA + 2 q² ψ/s + N/(s T T0 D) ],                                           (5)
+//! dz/dfz = L [ 1/EA + s g/(T T0) ]                                                      (C3)
+//! dx/dfz = -fx L (fz + V0) / (T T0 s)                                                   (C4)
+//! dx/dfx = L [ 1/EA + 2 q² ψ/s + N/(s T T0 D) ],                                        (C5)
 //!          N = fx² (fz² + V0²) + 2 fz V0 (fz V0 + T T0)
 //! ```
 //!
-//! and its determinant, every term of which is positive,
+//! The complementary energy has (C1)-(C2) for its gradient. It is the integral of `T + T²/2EA` over the
+//! unstrained length:
 //!
 //! ```text
-//! det C = L² [ (1/EA) (1/EA + xx + zz) + 2 q² ψ g/(T T0) ],                                (8)
+//! U* = (L/2) [ (fz + V0)²/(2s) + s/2 + 2 fx² φ/s ] + (L/2EA) [ fx² + (fz² + fz V0 + V0²)/3 ]   (C6)
 //! ```
 //!
-//! with `xx` and `zz` the other terms of the brackets of (5) and (3) (the determinant of the inextensible cable is
-//! `4 sinh²h (h/tanh h - 1)/(w² cosh u cosh u0)` with `tanh h = q`).
-//!
-//! Cable paid out at B enters along the tangent there, stretched:
-//!
-//! ```text
-//! d(x, z)/dL = (fx, V0) (1/T0 + 1/EA)                                                      (9)
-//! ```
-//!
-//! For `fz V0 < 0` (the cable dips below both ends) `T T0 + fz V0` is formed as
-//! `fx² (fx² + fz² + V0²)/(T T0 - fz V0)`, so that nothing cancels for a cable that hangs folded (`fx -> 0`). A
-//! taut cable, `q² <= 0.02`, need not choose: there `-fz V0 <= (w L/2)² = q² s²/4`, a fiftieth of `T T0`.
-//!
-//! The complementary energy, whose gradient is (1)-(2), is the integral of `T + T²/2EA` over the unstrained length:
-//!
-//! ```text
-//! U* = (L/2) [ (fz + V0)²/(2s) + s/2 + 2 fx² φ/s ] + (L/2EA) [ fx² + (fz² + fz V0 + V0²)/3 ]   (6)
-//! ```
-//!
-//! and the potential energy `V = f·r - U*`, with `m = (fz + V0)/2`, `d = w L/2` and `A = fx² + m²` freed of what cancels:
+//! The potential energy is `V = f·r - U*`. With `m = (fz + V0)/2`, `d = w L/2` and `A = fx² + m²` it is,
+//! freed of what cancels,
 //!
 //! ```text
 //! V = (L/s) [ fx² q² ψ + 2 m d - d²/2 - d² (2A + d² - 4m²)/(2 (T T0 + A)) ]
-//!   + (L/2EA) [ fx² + m² + 2 m d - d²/3 ]                                                      (7)
+//!   + (L/2EA) [ fx² + m² + 2 m d - d²/3 ]                                               (C7)
 //! ```
 //!
-//! At constant force and length the end moves with what the cable is made of. From `dT0/dw = -L V0/T0` follows
-//! `d atanh(q)/dw = L/2T0`, and with it, freed of `1/w`,
+//! The determinant of the flexibility is a sum of positive terms,
+//!
+//! ```text
+//! det C = L² [ (1/EA) (1/EA + xx + zz) + 2 q² ψ g/(T T0) ],                             (C8)
+//! ```
+//!
+//! with `xx` and `zz` the terms of the brackets of (C5) and (C3) besides 1/EA. (The determinant of the
+//! inextensible cable is `4 sinh²h (h/tanh h - 1)/(w² cosh u cosh u0)` with `tanh h = q`.)
+//!
+//! Cable paid out at B enters along the tangent there, with the strain that it has there:
+//!
+//! ```text
+//! d(x, z)/dL = (fx, V0) (1/T0 + 1/EA)                                                   (C9)
+//! ```
+//!
+//! At constant force and length the end moves with the weight and the axial stiffness of the cable. From
+//! `dT0/dw = -L V0/T0` follows `d atanh(q)/dw = L/2T0`, and with it, freed of `1/w`,
 //!
 //! ```text
 //! dx/dw = (fx L²/s²) [ (fz + V0)/T0 - 2 q ψ ]
-//! dz/dw = -(L²/s²) (fx² + T T0 - fz V0)/T0 - L²/2EA                                        (10)
-//! d(x, z)/dEA = -(L/EA²) (fx, fz - wL/2)                                                  (11)
+//! dz/dw = -(L²/s²) (fx² + T T0 - fz V0)/T0 - L²/2EA                                     (C10)
+//! d(x, z)/dEA = -(L/EA²) (fx, fz - wL/2)                                                (C11)
 //! ```
+//!
+//! Where `fz V0 < 0` (the cable dips below both ends) `T T0 + fz V0` is computed as `fx² (fx² + fz² + V0²)/(T
+//! T0 - fz V0)`, so that nothing cancels for a cable that hangs folded (`fx -> 0`). A taut cable, `q² <=
+//! 0.02`, does not need the choice: there `-fz V0 <= (w L/2)² = q² s²/4`, a fiftieth of `T T0`.
 
 use super::field::{Field, Real};
 use super::series::{SERIES_LIMIT, TAUT, psi_of_slack, psi_of_taut};
 use nalgebra::Vector2;
 
-/// How a catenary answers to a force at its end, over any kind of number.
+/// End position of a cable for a force at its end, and how it changes with force and length, over any kind of
+/// number.
 #[derive(Clone, Copy, Debug)]
 pub struct Response<T> {
-    /// End position (x, z) [m], equations (1)-(2).
+    /// End position (x, z) [m], (C1) and (C2).
     pub end: [T; 2],
-    /// Flexibility dx/dfx, dx/dfz = dz/dfx, dz/dfz [m/N], equations (3)-(5).
+    /// In-plane flexibility C: dx/dfx, dx/dfz = dz/dfx, dz/dfz [m/N], (C3)-(C5).
     pub flexibility: [T; 3],
-    /// Determinant of the flexibility [m²/N²], equation (8).
+    /// Determinant of the in-plane flexibility [m²/N²], (C8).
     pub determinant: T,
-    /// x/fx [m/N]: the flexibility across the cable's plane.
+    /// Flexibility x/fx across the cable's plane [m/N].
     pub lateral_flexibility: T,
-    /// Derivative of the end position with respect to the length at constant force [m/m], equation (9).
+    /// Derivative of the end position with respect to the length at constant force [m/m], (C9).
     pub end_per_length: [T; 2],
-    /// T [N].
+    /// Tension T at A [N].
     pub tension: T,
-    /// (fx, fz)/T.
+    /// Direction (fx, fz)/T of the force at A.
     pub direction: [T; 2],
-    /// q²: how slack the cable is, from 0 for a straight one to 1 for one that hangs folded.
+    /// Slackness q², from 0 for a straight cable to 1 for one that hangs folded.
     pub slackness: T,
 }
 
-/// The response of a cable with weight per length `w` [N/m], axial flexibility `axial_flexibility` = 1/EA [1/N] and unstrained length
-/// `length` [m] to the force `[fx, fz]` [N] at A. Where `fx` is below 1e-25 of the other forces, `fx²` is raised by 1e-60 of their
-/// squares, which keeps a vertical folded cable regular.
+/// The response of a linear cable to the force `[fx, fz]` [N] at A.
+///
+/// The cable has the weight per length `w` [N/m], the axial flexibility 1/EA [1/N] and the unstrained length
+/// `length` [m]. Where `fx` is below 1e-25 of the other forces, `fx²` is raised by 1e-60 of their squares,
+/// which keeps a vertical folded cable regular.
 pub fn response<T: Real>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
     Terms::new(w, axial_flexibility, length, fx, fz).response()
 }
 
-/// [`response`] of a taut cable ([`Response::slackness`] up to [`TAUT`]): one formula without a choice, a root or a quotient to
-/// spare, for numbers that cannot choose because several cables share them.
+/// The [`response`] of a taut cable, whose [`Response::slackness`] is at most [`TAUT`].
+///
+/// It has no branches and as few roots and quotients as possible, for numbers that are shared by several
+/// cables and cannot branch.
 #[inline(always)]
 pub fn taut_response<T: Field>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
     let terms = Terms::with_square(w, axial_flexibility, length, fx, fz, fx * fx);
@@ -111,18 +120,18 @@ pub fn taut_response<T: Field>(w: T, axial_flexibility: T, length: T, [fx, fz]: 
     terms.assemble(q2, psi_of_taut(q2), terms.shape_of_the_taut())
 }
 
-/// End of a taut cable.
+/// End position, tension and slackness of a taut cable.
 #[derive(Clone, Copy, Debug)]
 pub struct TautEnd<T> {
-    /// End position (x, z) [m], equations (1)-(2).
+    /// End position (x, z) [m], (C1) and (C2).
     pub end: [T; 2],
-    /// T [N].
+    /// Tension T at A [N].
     pub tension: T,
-    /// q².
+    /// Slackness q².
     pub slackness: T,
 }
 
-/// What [`taut_response`] says of the end alone.
+/// The end of a taut cable alone, as in [`taut_response`].
 #[inline(always)]
 pub fn taut_end<T: Field>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> TautEnd<T> {
     let terms = Terms::with_square(w, axial_flexibility, length, fx, fz, fx * fx);
@@ -131,7 +140,7 @@ pub fn taut_end<T: Field>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2
     TautEnd { end: [x, terms.height()], tension: terms.t, slackness }
 }
 
-/// The quantities that equations (1)-(11) share.
+/// The quantities that equations (C1)-(C11) share.
 pub(crate) struct Terms<T> {
     fx: T,
     fz: T,
@@ -170,7 +179,7 @@ impl Terms<f64> {
         gravity + elastic
     }
 
-    /// d(x, z)/dw, equation (10).
+    /// d(x, z)/dw, (C10).
     pub(crate) fn end_per_weight(&self) -> Vector2<f64> {
         let Self { fx, fz, v0, length, weight, axial_flexibility, fx2, t, t0, s_inv } = *self;
         let (_, psi) = self.sag_terms();
@@ -183,7 +192,7 @@ impl Terms<f64> {
         )
     }
 
-    /// d(x, z)/dEA, equation (11).
+    /// d(x, z)/dEA, (C11).
     pub(crate) fn end_per_stiffness(&self) -> Vector2<f64> {
         let Self { fx, fz, length, weight, axial_flexibility, .. } = *self;
         Vector2::new(fx, fz - 0.5 * weight) * (-length * axial_flexibility * axial_flexibility)
@@ -191,7 +200,7 @@ impl Terms<f64> {
 }
 
 impl Response<f64> {
-    /// The same in another kind of number.
+    /// The same response in another kind of number.
     pub fn map<T: Copy>(self, of: impl Fn(f64) -> T) -> Response<T> {
         Response {
             end: self.end.map(&of),
@@ -223,20 +232,22 @@ impl<T: Field> Terms<T> {
         q * q
     }
 
-    /// x/fx = L [1/EA + 2φ/s], equation (1).
+    /// x/fx = L [1/EA + 2φ/s], (C1).
     #[inline(always)]
     fn lateral_flexibility(&self, phi: T) -> T {
+        // Eq. (2a), divided by fx.
         self.length * (self.axial_flexibility + phi * 2.0 * self.s_inv)
     }
 
-    /// z, equation (2).
+    /// z, (C2).
     #[inline(always)]
     fn height(&self) -> T {
         let Self { fz, v0, length, weight, axial_flexibility, s_inv, .. } = *self;
+        // Eq. (2b), with fz L/ES as its first term.
         length * ((fz + weight * -0.5) * axial_flexibility + (fz + v0) * s_inv)
     }
 
-    /// g = fx²/D and N/D where nothing cancels in D.
+    /// g = fx²/D and N/D of a cable for which nothing cancels in D.
     #[inline(always)]
     fn shape_of_the_taut(&self) -> (T, T) {
         let p = self.fz * self.v0;
@@ -251,7 +262,7 @@ impl<T: Field> Terms<T> {
         self.fz * self.fz + self.v0 * self.v0
     }
 
-    /// Equations (1)-(5), (8), (9) from q², ψ, g and N/D.
+    /// (C1)-(C5), (C8) and (C9) from q², ψ, g and N/D.
     #[inline(always)]
     fn assemble(&self, q2: T, psi: T, (g, n_over_d): (T, T)) -> Response<T> {
         let Self { fx, fz, v0, length, axial_flexibility, t, t0, s_inv, .. } = *self;
@@ -290,7 +301,7 @@ impl<T: Real> Terms<T> {
         Self::with_square(w, axial_flexibility, length, fx, fz, fx2)
     }
 
-    /// m = (fx² + fz² + V0²)/(T T0 - fz V0), with which D = fx² (1 + m) without cancellation where fz V0 < 0.
+    /// m = (fx² + fz² + V0²)/(T T0 - fz V0): D = fx² (1 + m) without cancellation where fz V0 < 0.
     fn fold(&self) -> T {
         (self.fx2 + self.squares()) / (self.t * self.t0 - self.fz * self.v0)
     }
@@ -304,7 +315,7 @@ impl<T: Real> Terms<T> {
     /// (q², ψ(q²)).
     fn sag_terms(&self) -> (T, T) {
         let q2 = self.slackness();
-        // The rest of a series and the rounding of its coefficients are at most 6e-17 in all.
+        // The remainder of a series and the rounding of its coefficients are at most 6e-17 together.
         let psi = if q2.upper() <= TAUT {
             psi_of_taut(q2).within(1e-16)
         } else if q2.upper() < SERIES_LIMIT {

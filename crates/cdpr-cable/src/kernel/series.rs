@@ -5,7 +5,7 @@ use super::field::Field;
 /// A cable with q² up to this is taut: the formulas of [`crate::kernel::taut_response`] hold to rounding.
 pub const TAUT: f64 = 0.02;
 
-/// Above this q² the logarithm is used; both ways agree to rounding there.
+/// Above this q² the logarithm is used; it agrees with the series to rounding there.
 pub(super) const SERIES_LIMIT: f64 = 0.1;
 
 /// 1/3, 1/5, 1/7, ...: the coefficients of ψ(q²).
@@ -19,13 +19,15 @@ const SERIES: [f64; 17] = {
     series
 };
 
-/// ψ(q²) = (atanh(q)/q - 1)/q² = 1/3 + q²/5 + q⁴/7 + ...: the first terms.
+/// ψ(q²) for q² up to [`SERIES_LIMIT`]: the first terms of 1/3 + q²/5 + q⁴/7 + ...
 pub(super) fn psi_of_slack<T: Field>(q2: T) -> T {
     let [first @ .., before, last] = &SERIES;
     first.iter().rev().fold(q2 * *last + *before, |sum, term| sum * q2 + *term)
 }
 
-/// ψ(q²) for q² up to [`TAUT`]: ten terms leave 5e-19. Even and odd ones apart, so that one need not wait for the other.
+/// ψ(q²) for q² up to [`TAUT`], by ten terms, which leave 5e-19.
+///
+/// Even and odd terms are summed apart, so that neither sum waits for the other.
 #[inline(always)]
 pub(super) fn psi_of_taut<T: Field>(q2: T) -> T {
     let c = &SERIES;

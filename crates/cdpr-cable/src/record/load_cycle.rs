@@ -11,11 +11,12 @@ pub struct Record {
 }
 
 impl Record {
-    /// A record from its samples, in the order of the test: loading first, then unloading; in both, force and elongation move one way
-    /// only, and unloading begins at or below the end of loading.
+    /// A record from its samples, in the order of the test: loading first, then unloading; in both, force and
+    /// elongation move one way only, and unloading begins at or below the end of loading.
     ///
     /// # Errors
-    /// [`RecordError::Invalid`] names the line; [`RecordError::TooShort`] a phase with fewer than two samples.
+    /// [`RecordError::Invalid`] names the line; [`RecordError::TooShort`] a phase with fewer than two
+    /// samples.
     pub fn new(samples: &[Sample]) -> Result<Self, RecordError> {
         for sample in samples {
             let fields = [("force_n", sample.force), ("elongation_mm", 1e3 * sample.elongation)];

@@ -50,8 +50,8 @@ impl Record {
     /// E_{p-q} while loading or unloading, from `low` to `high` percent of the breaking force, Eq. (5).
     ///
     /// # Errors
-    /// [`RecordError::Setting`] for a specimen or range that is none, [`RecordError::OutOfRange`]; [`RecordError::Invalid`] where
-    /// strain or modulus are those of no cable, as with other units.
+    /// [`RecordError::Setting`] for a specimen or range that is none, [`RecordError::OutOfRange`];
+    /// [`RecordError::Invalid`] where strain or modulus are those of no cable, as with other units.
     pub fn modulus(
         &self,
         specimen: &Specimen,
@@ -81,12 +81,13 @@ impl Record {
         Ok(SecantModulus { modulus, standard: modulus * squares.sqrt(), greatest: modulus * sum })
     }
 
-    /// The tangent modulus [Pa] of each piece between two samples of a phase, with the tension at which it begins [N], in ascending order,
-    /// for a specimen of this length [m] and section [m²]. The first piece goes on down to zero.
+    /// The tangent modulus [Pa] of each piece between two samples of a phase, with the tension at which it
+    /// begins [N], in ascending order, for a specimen of this length [m] and section [m²]. The first piece
+    /// goes on down to zero.
     ///
     /// # Errors
-    /// [`RecordError::Setting`] for a length or section that is none; [`RecordError::Invalid`] where strain or modulus of the whole
-    /// phase are those of no cable, as with other units.
+    /// [`RecordError::Setting`] for a length or section that is none; [`RecordError::Invalid`] where strain
+    /// or modulus of the whole phase are those of no cable, as with other units.
     pub fn moduli(
         &self,
         phase: Phase,
@@ -115,7 +116,7 @@ impl Record {
 
     /// Strain at the turning point, whose excess is the sign of another unit.
     fn check_strain(&self, length: f64) -> Result<(), RecordError> {
-        let (first, turning) = (self.loading[0], self.unloading[0]);
+        let [first, turning] = [Phase::Loading, Phase::Unloading].map(|phase| self.samples(phase)[0]);
         let strain = (turning.elongation - first.elongation) / length;
         if strain > MAX_STRAIN {
             return Err(turning.invalid(

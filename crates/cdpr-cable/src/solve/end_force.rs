@@ -1,11 +1,13 @@
 //! The end force of a cable for a given end position and unstrained length.
 //!
 //! The force maximises the concave function `f·r - U*(f)`, so it is unique. Newton's method on its gradient
-//! `r - (x, z)(f)`, halving the step until it does not pass the maximum, starts from the better of two approximations:
+//! `r - (x, z)(f)`, halving the step until it does not pass the maximum, starts from the better of two
+//! approximations:
 //!
-//! * taut: a spring along the chord whose stretch gives back what the sag of a parabola takes,
-//!   `T/EA - w² x² L²/(24 l² T²) = (l - L)/L` (l the chord; Irvine 1981, section 2.3, inclined as in section 2.5);
-//! * slack: the inextensible catenary, `sinh λ/λ = sqrt(L² - z²)/x`, `fx = w x/(2λ)`, `fz = (w/2)(z coth λ + L)`.
+//! * taut: a spring along the chord whose stretch gives back what the sag of a parabola takes, `T/EA - w² x²
+//!   L²/(24 l² T²) = (l - L)/L` (l the chord; Irvine 1981, section 2.3, inclined as in section 2.5);
+//! * slack: the inextensible catenary, `sinh λ/λ = sqrt(L² - z²)/x`, `fx = w x/(2λ)`, `fz = (w/2)(z coth λ +
+//!   L)`.
 //!
 //! A vertical cable (`x = 0`) is linear in each of three regimes: hanging taut, folded, pulled up from below.
 
@@ -40,15 +42,19 @@ const MAX_ITERATIONS: usize = 200;
 /// From a start that is not near after all, the closed-form starts are faster.
 const MAX_ITERATIONS_NEAR: usize = 8;
 
-/// A step below this, relative to the force at either end, is followed by one below rounding: Newton's method squares it.
+/// A step below this, relative to the force at either end, is followed by one below rounding: Newton's method
+/// squares it.
 const LAST_STEP: f64 = 1e-8;
 
-/// The force on a cable of unstrained length `unstrained_length` [m] whose end A lies at `end = (x, z)` [m], `x >= 0`.
+/// The force on a cable of unstrained length `unstrained_length` [m] whose end A lies at `end = (x, z)` [m],
+/// `x >= 0`.
 ///
-/// There is exactly one answer for every input: a chord longer than the cable stretches it, a shorter one lets it hang.
+/// There is exactly one answer for every input: a chord longer than the cable stretches it, a shorter one
+/// lets it hang.
 ///
 /// # Errors
-/// [`CableError::InvalidInput`] for values no cable can have; [`CableError::NotConverged`] with what is left open.
+/// [`CableError::InvalidInput`] for values no cable can have; [`CableError::NotConverged`] with what is left
+/// open.
 pub fn end_force<'a>(
     cable: &Cable<'a>,
     unstrained_length: f64,
@@ -85,7 +91,8 @@ pub fn end_force<'a>(
     newton(at(start), end, MAX_ITERATIONS)
 }
 
-/// The same, begun at a catenary with nearly this end position: fewer steps where `near` is near, the same answer anywhere.
+/// The same, begun at a catenary with nearly this end position: fewer steps where `near` is near, the same
+/// answer anywhere.
 ///
 /// # Errors
 /// As [`end_force`].
@@ -93,7 +100,8 @@ pub fn end_force_near<'a>(near: &Catenary<'a>, end: Vector2<f64>) -> Result<Solu
     let regular = near.force.x > 0.0 && !near.cable.is_weightless(near.unstrained_length);
     if regular && end.x > 1e-30 * near.unstrained_length && end.x.is_finite() && end.y.is_finite() {
         let begun = newton(*near, end, MAX_ITERATIONS_NEAR);
-        // A start so far off that it ends at a nearly folded cable, of which everything is explained by rounding, is none.
+        // A start so far off that it ends at a nearly folded cable, of which everything is explained by
+        // rounding, is none.
         let exact = 1e-13 * (near.unstrained_length + end.norm());
         if begun.as_ref().is_ok_and(|solution| solution.residual <= exact) {
             return begun;
@@ -125,7 +133,8 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
             let next = Catenary { force, ..now };
             let next_compliance = next.compliance();
             let next_open = end - next_compliance.end;
-            // Not past the maximum along the step, but for rounding: then the concave function has grown. Or clearly closer.
+            // Not past the maximum along the step, but for rounding: then the concave function has grown. Or
+            // clearly closer.
             let moved = (force - now.force).abs();
             if next_open.dot(&(force - now.force)) >= -rounding.dot(&moved)
                 || next_open.norm() <= 0.5 * open.norm()
@@ -157,7 +166,8 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
     accept(now, end, iterations)
 }
 
-/// How far the computed end position may be off [m]: the rounding of its own sums, and of the force it is computed from.
+/// How far the computed end position may be off [m]: the rounding of its own sums, and of the force it is
+/// computed from.
 fn rounding(catenary: &Catenary, compliance: &Compliance, end: Vector2<f64>) -> Vector2<f64> {
     let forces = Vector2::new(catenary.force.x, catenary.force.y.abs() + catenary.weight());
     let sums = Vector2::new(8.0 * end.x, 2.0 * (catenary.unstrained_length + end.norm()));
@@ -207,7 +217,8 @@ fn vertical_force(cable: &Cable, unstrained_length: f64, z: f64) -> f64 {
     }
 }
 
-/// The same with kinks in the law: the height grows with the force, so that Newton's method between two bounds ends at its root.
+/// The same with kinks in the law: the height grows with the force, so that Newton's method between two
+/// bounds ends at its root.
 fn vertical_newton<'a>(
     cable: &Cable<'a>,
     unstrained_length: f64,

@@ -7,9 +7,11 @@ use crate::solve::end_force::{Solution, end_force};
 use crate::solve::length_for_tension::length_for_tension;
 use nalgebra::Vector2;
 
-/// What is known of a cable in equilibrium: two of its unstrained length, end position, end force and tension.
+/// What is known of a cable in equilibrium: two of its unstrained length, end position, end force and
+/// tension.
 ///
-/// `S` stands for a scalar and `V` for a vector of the cable's plane: one cable has numbers, a batch of cables arrays.
+/// `S` stands for a scalar and `V` for a vector of the cable's plane: one cable has numbers, a batch of
+/// cables arrays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known<S = f64, V = Vector2<f64>> {
     /// The force at the end is to be found.
@@ -36,7 +38,8 @@ pub enum Known<S = f64, V = Vector2<f64>> {
 }
 
 impl<S, V> Known<S, V> {
-    /// Sorts what is given into its case; `None` unless it is length and end, length and force, or end and tension.
+    /// Sorts what is given into its case; `None` unless it is length and end, length and force, or end and
+    /// tension.
     pub fn from_given(
         length: Option<S>,
         end: Option<V>,

@@ -1,14 +1,15 @@
 //! The unstrained length that gives a wanted tension at the anchor point.
 //!
-//! Over a given span the tension at A falls as cable is paid out, passes a minimum, and rises again with the weight of
-//! the cable that hangs below. The answer is the shorter cable of the two. Newton's method on the direction θ of the
-//! force and the length `L`, with `f = T (cos θ, sin θ)`:
+//! Over a given span the tension at A falls as cable is paid out, passes a minimum, and rises again with the
+//! weight of the cable that hangs below. The answer is the shorter cable of the two. Newton's method on the
+//! direction θ of the force and the length `L`, with `f = T (cos θ, sin θ)`:
 //!
 //! ```text
 //! (x, z)(f, L) = end,      d(x, z)/dθ = C (-fz, fx),      d(x, z)/dL = (fx, V0) (1/T0 + 1/EA)
 //! ```
 //!
-//! with C the flexibility; where that does not end on the falling branch, bisection of the tension over the length.
+//! with C the flexibility; where that does not end on the falling branch, bisection of the tension over the
+//! length.
 
 use crate::cable::Cable;
 use crate::catenary::Catenary;
@@ -16,11 +17,12 @@ use crate::error::{CableError, SMALLEST, check};
 use crate::solve::end_force::{Solution, check_end, end_force};
 use nalgebra::{Matrix2, Vector2};
 
-/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, that has the tension `tension` [N] at its end A.
+/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, that has the tension `tension` [N] at its end
+/// A.
 ///
 /// # Errors
-/// [`CableError::InvalidInput`] for values no cable can have, [`CableError::TensionTooSmall`] where the cable's weight
-/// alone demands more, with the least tension there is.
+/// [`CableError::InvalidInput`] for values no cable can have, [`CableError::TensionTooSmall`] where the
+/// cable's weight alone demands more, with the least tension there is.
 pub fn length_for_tension<'a>(
     cable: &Cable<'a>,
     end: Vector2<f64>,
@@ -58,11 +60,12 @@ pub fn length_for_tension_near<'a>(
     }
 }
 
-/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, whose tension at its end A is the least that any unstrained length
-/// gives.
+/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, whose tension at its end A is the least that
+/// any unstrained length gives.
 ///
 /// # Errors
-/// [`CableError::InvalidInput`] for values no cable can have, and for a cable without weight, which may be slack.
+/// [`CableError::InvalidInput`] for values no cable can have, and for a cable without weight, which may be
+/// slack.
 pub fn least_tension<'a>(cable: &Cable<'a>, end: Vector2<f64>) -> Result<Catenary<'a>, CableError> {
     let w = cable.weight_per_length;
     check("weight_per_length", w, w >= SMALLEST, "a weight per length from 1e-30 to 1e30 [N/m]")?;
