@@ -11,7 +11,7 @@ fn caroca() -> Robot {
 }
 
 /// A law from the tension at which each of its segments begins and its stiffness over the cable's.
-fn law(segments: &[(f64, f64)]) -> PiecewiseLaw {
+pub(crate) fn law(segments: &[(f64, f64)]) -> PiecewiseLaw {
     let segment = |&(tension, ratio): &(f64, f64)| Segment { tension, ratio };
     PiecewiseLaw::new(0.0, &segments.iter().map(segment).collect::<Vec<_>>()).unwrap()
 }

@@ -1,16 +1,11 @@
 //! A payload that comes and goes, on cables with hysteresis.
 
-use cdpr_robot::{PiecewiseLaw, Pose, Robot, Segment};
+use crate::elastic_law::law;
+use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{HysteresisLaw, Load, StaticsError, Unloading, deflection, load_cycle};
 
 fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
-}
-
-/// A law from the tension at which each of its segments begins and its stiffness over the cable's.
-fn law(segments: &[(f64, f64)]) -> PiecewiseLaw {
-    let segment = |&(tension, ratio): &(f64, f64)| Segment { tension, ratio };
-    PiecewiseLaw::new(0.0, &segments.iter().map(segment).collect::<Vec<_>>()).unwrap()
 }
 
 /// One law for all eight cables.
