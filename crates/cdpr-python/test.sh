@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests the Python package as a user has it: a fresh environment, a wheel, pytest, and the type stubs. Arguments are further packages to test
-# with, engines for instance:
+# Tests the Python package as a user has it: a fresh environment, a wheel, pytest, and the type stubs.
+# Arguments are further packages to test with, such as engines:
 #   crates/cdpr-python/test.sh distributed ray
 # Without them the tests of these engines are left out, and pytest says so.
 set -euo pipefail

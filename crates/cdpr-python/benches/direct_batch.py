@@ -1,4 +1,7 @@
-"""Seconds for 10^5 direct solves in one call, each from 1 cm away along each axis, and the sum of all heights: the same as `cargo run --release -p cdpr-statics --example direct_batch`.
+"""Prints the seconds for 10^5 direct solves in one call, and the sum of all heights.
+
+Each solve starts 1 cm away along each axis. It measures the same as `cargo run --release -p cdpr-statics
+--example direct_batch`.
 
 python crates/cdpr-python/benches/direct_batch.py, at the root of the repository
 """

@@ -1,6 +1,9 @@
-"""Seconds of a study on each engine, and whether its files are the same: `python engines.py [observations] [engine ...]`, at the root of the repository.
+"""Prints the seconds of a study on each engine, and whether its files are the same.
 
-The mechanical sampling of CAROCA alone, without replicates, surfaces and table. Engines: sequential, rayon, processes, dask, ray.
+python engines.py [observations] [engine ...], at the root of the repository
+
+The study is the mechanical sampling of CAROCA alone, without replicates, surfaces and table. Engines are
+sequential, rayon, processes, dask and ray.
 """
 
 import concurrent.futures
@@ -80,7 +83,8 @@ def main():
                 cdpr.study.run(study, out, observations=observations, table="none", **arguments)
                 seconds = time.perf_counter() - clock
             # Children count when they have ended.
-            print(f"{name:12} {seconds:6.2f} s, {processor() - before:6.2f} s of processors, files {digest(out)}", flush=True)
+            used = processor() - before
+            print(f"{name:12} {seconds:6.2f} s, {used:6.2f} s of processors, files {digest(out)}", flush=True)
 
 
 if __name__ == "__main__":

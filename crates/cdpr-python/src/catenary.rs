@@ -8,8 +8,12 @@ use cdpr_cable::{Cable, CableError, Known, Solution, Vector2};
 use pyo3::prelude::*;
 
 answer! {
-    /// Cables in equilibrium, in their vertical planes: exit point at the origin, anchor point at (x, z), z up. One cable, or m: then every
-    /// field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    /// Cables in equilibrium, in their vertical planes.
+    ///
+    /// The exit point is the origin, the anchor point is at (x, z), and z points up.
+    ///
+    /// The answer is of one cable, or of m: then every field has a first axis of m, with NaN where there is
+    /// no answer, and `reasons` says why.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Catenary {
         /// Force (fx, fz) on the cable at the anchor point [N], (2,).
@@ -20,25 +24,27 @@ answer! {
         exit_tension: Py<PyAny>,
         /// Greatest height of the chord above the cable [m].
         sag: Py<PyAny>,
-        /// Elastic energy plus work done against gravity [J].
+        /// Elastic energy plus potential energy of the weight, zero at the height of the exit point [J].
         energy: Py<PyAny>,
         /// Unstrained length [m].
         unstrained_length: Py<PyAny>,
         /// Position (x, z) of the anchor point [m], (2,).
         end: Py<PyAny>,
-        /// Distance that stays open at the end [m].
+        /// Closure residual: distance between the given end and that of the catenary [m].
         residual: Py<PyAny>,
-        /// Points (x, z) of the cable from exit to anchor point, at equal unstrained distances [m], (points, 2).
+        /// Points (x, z) from exit to anchor point, at equal unstrained distances [m], (points, 2).
         shape: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one cable.
         reasons: Py<PyAny>,
-        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
     }
 }
 
-/// An elastic cable from any two of its unstrained length, end, force and tension: `length` and `end`, `length` and `force`, or `end` and
-/// `tension`. Arguments are of one cable, or have a first axis of m cables.
+/// Computes an elastic cable from two of its unstrained length, end, force and tension.
+///
+/// Given are `length` and `end`, `length` and `force`, or `end` and `tension`. Arguments are of one cable, or
+/// have a first axis of m cables.
 ///
 /// weight: weight per unstrained length [N/m]; 0 makes the cable a straight spring.
 /// stiffness: axial stiffness EA [N].
@@ -46,7 +52,7 @@ answer! {
 /// end: position (x, z) of the anchor point [m], (2,); x >= 0, z up.
 /// force: force (fx, fz) on the cable at the anchor point [N], (2,).
 /// tension: tension at the anchor point [N].
-/// points: points of `shape`, 2 at least.
+/// points: number of points of `shape`, at least 2.
 ///
 /// Raises InputError; for one cable NoSolutionError.
 #[pyfunction]

@@ -1,8 +1,11 @@
-//! The native half of the Python package `cdpr`: the models on NumPy arrays, studies, designs of experiments. Each module has one class or
-//! one function of the package, with the documentation that Python shows; the other half is in `python/cdpr`.
+//! The native half of the Python package `cdpr`: the models on NumPy arrays, studies, designs of experiments.
 //!
-//! Arguments and answers are of one case or have a first axis of cases (`convert::arrays`, `convert::answer`), which are computed in parallel without
-//! Python's lock (`convert::threads`). What a model refuses is an exception (`convert::error`).
+//! Each module has one class or function of the package, with the documentation that Python shows; the other
+//! half is in `python/cdpr`.
+//!
+//! Arguments and answers are of one case, or have a first axis of cases (`convert::arrays`,
+//! `convert::answer`). Cases are computed in parallel without Python's lock (`convert::threads`). What a
+//! model refuses becomes an exception (`convert::error`).
 
 mod catenary;
 mod convert;

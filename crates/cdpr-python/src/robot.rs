@@ -1,4 +1,6 @@
-//! The robot: from a file, a JSON text or arrays; its parameters.
+//! The class `Robot`: made from a file, a JSON text or arrays; its parameters.
+//!
+//! Each model is a method in a file of the folder.
 
 pub(crate) mod deflection;
 pub(crate) mod derivatives;
@@ -19,19 +21,17 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 
-/// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables. It does not change: `with_parameters` makes another one.
+/// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables.
 ///
-/// SI units; base frame with z up; poses are x, y, z [m] or x, y, z, qw, qx, qy, qz.
+/// A robot does not change: `with_parameters` makes another one. SI units; base frame with z up; poses are x,
+/// y, z [m] or x, y, z, qw, qx, qy, qz.
 ///
-/// anchor_points: (n, 3), points A_i in the platform frame [m].
-/// exit_points: (n, 3), points B_i in the base frame [m].
-/// mass: mass of the platform [kg].
-/// section: section of a cable that carries its tension [m²]; one number, or one for each cable, as the following two.
-/// linear_density: mass per unstrained length [kg/m].
-/// youngs_modulus: Young's modulus [Pa].
-/// tension_limits: least and greatest tension of a cable at the platform [N].
-/// center_of_mass: centre of mass in the platform frame [m]; P if left out.
-/// gravity: acceleration due to gravity [m/s²].
+/// anchor_points: (n, 3), points A_i in the platform frame [m]. exit_points: (n, 3), points B_i in the base
+/// frame [m]. mass: mass of the platform [kg]. section: section of a cable that carries its tension [m²];
+/// this and the next two: one number, or one for each cable. linear_density: mass per unstrained length
+/// [kg/m]. youngs_modulus: Young's modulus [Pa]. tension_limits: least and greatest tension of a cable at the
+/// platform [N]. center_of_mass: centre of mass in the platform frame [m]; P if left out. gravity:
+/// acceleration due to gravity [m/s²].
 ///
 /// Raises InputError naming the field, its value and what would be right.
 #[pyclass(frozen, module = "cdpr")]
@@ -42,8 +42,8 @@ pub(crate) struct Robot {
 #[pymethods]
 impl Robot {
     #[new]
-    #[pyo3(signature = (anchor_points, exit_points, *, mass, section, linear_density, youngs_modulus, tension_limits,
-        center_of_mass = None, gravity = 9.81, name = "robot".to_owned()))]
+    #[pyo3(signature = (anchor_points, exit_points, *, mass, section, linear_density, youngs_modulus,
+        tension_limits, center_of_mass = None, gravity = 9.81, name = "robot".to_owned()))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         anchor_points: Numbers,
@@ -99,19 +99,23 @@ impl Robot {
         Ok(Self { robot })
     }
 
-    /// Reads a robot file (`cdpr-robot/1`). Raises FileError, and InputError with line, column, field and what would be right.
+    /// Reads a robot file (`cdpr-robot/1`).
+    ///
+    /// Raises FileError, and InputError with line, column, field and what would be right.
     #[staticmethod]
     fn from_file(path: PathBuf) -> Answer<Self> {
         Ok(Self { robot: open_robot(&path)? })
     }
 
-    /// The same from the text of such a file.
+    /// Makes a robot from the text of a robot file.
     #[staticmethod]
     fn from_json(text: &str) -> Answer<Self> {
         Ok(Self { robot: cdpr_robot::Robot::from_json(text)? })
     }
 
-    /// The same from what `json.loads` makes of such a file; numbers of NumPy and arrays will do.
+    /// Makes a robot from the dictionary that `json.loads` makes of a robot file.
+    ///
+    /// It may hold numbers and arrays of NumPy.
     #[staticmethod]
     fn from_dict(content: &Bound<PyDict>) -> Answer<Self> {
         Self::from_json(&json_text("content", content)?)
@@ -193,8 +197,10 @@ impl Robot {
         self.robot.gravity
     }
 
-    /// All parameters that studies know, by name, with their values in SI units: mass, linear_density, youngs_modulus, a1.x ..., b1.x ...,
-    /// cog.x ..., dt1 ... (offsets of tension set-points, zero). All cables share one linear density and one modulus here: the value is the
+    /// All parameters that studies know, by name, with their values in SI units.
+    ///
+    /// They are mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ... (offsets of
+    /// tension set-points, zero). All cables share one linear density and one modulus here: the value is the
     /// first cable's.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -205,9 +211,11 @@ impl Robot {
         Ok(values)
     }
 
-    /// The robot with other values of some of its parameters, by their names in `parameters` [SI units]: `{"mass": 185.0, "a1.x": 0.25}`.
-    /// `linear_density` and `youngs_modulus` are set for all cables. Offsets dt are of a set-point, not of a robot: they can be zero only, and
-    /// others are given as `tension_offsets` where the cables are wound.
+    /// Makes a robot with other values of some parameters [SI units]: `{"mass": 185.0, "a1.x": 0.25}`.
+    ///
+    /// Names are those in `parameters`. `linear_density` and `youngs_modulus` are set for all cables. Offsets
+    /// dt belong to a set-point and not to a robot: they can only be zero here; `deflection` takes them as
+    /// `tension_offsets`.
     ///
     /// Raises InputError for a name or value that no such robot has.
     fn with_parameters(&self, values: &Bound<PyDict>) -> Answer<Self> {
@@ -222,19 +230,19 @@ impl Robot {
             .partition(|(name, _)| offsets.iter().any(|offset| offset == name));
         if let Some((name, value)) = offsets.iter().find(|(_, value)| *value != 0.0) {
             return Err(Raised::Input(format!(
-                "{name} is {value}: expected 0, as offsets belong to no robot; give them as tension_offsets"
+                "{name} is {value}: expected 0, as offsets belong to set-points; give them as tension_offsets"
             )));
         }
         Ok(Self { robot: self.robot.with_values(&named)? })
     }
 
-    /// For `pickle`: a robot goes to other processes as its file.
+    /// Makes a robot again for `pickle`, which carries it as its file.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let class: Bound<PyType> = py.get_type::<Self>();
         Ok((class.getattr("from_json")?, PyTuple::new(py, [self.to_json()])?))
     }
 
-    /// Whether all that a robot file says is the same.
+    /// Whether two robots have the same content of a robot file.
     fn __eq__(&self, other: &Self) -> bool {
         self.robot == other.robot
     }
@@ -274,7 +282,7 @@ fn points(name: &str, array: &Numbers) -> Answer<Vec<Vector3<f64>>> {
     let Array { shape, values } = Array::new(name, array)?;
     if !matches!(shape[..], [_, 3]) {
         return Err(Raised::Input(format!(
-            "{name} has the shape {shape:?}: expected (n, 3), a point a cable"
+            "{name} has the shape {shape:?}: expected (n, 3), one point for each cable"
         )));
     }
     Ok(values.chunks_exact(3).map(Vector3::from_column_slice).collect())

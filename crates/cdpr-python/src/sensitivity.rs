@@ -1,4 +1,4 @@
-//! Designs of experiments for any model, and what they estimate from its outputs.
+//! `cdpr.sensitivity`: designs of experiments for any model, and estimates from its outputs.
 
 pub(crate) mod designs;
 pub(crate) mod estimates;

@@ -1,4 +1,4 @@
-//! Studies: the same functions as `cdpr study`, on folders of results. `study.py` puts them together.
+//! Functions of studies on folders of results, as `cdpr study` has them. `study.py` puts them together.
 
 use crate::convert::arrays::whole;
 use crate::convert::error::{Answer, Raised};
@@ -17,8 +17,9 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Makes the folder of a study, or goes on with it; says how many blocks and observations the study has. All settings of the run are looked at
-/// before anything is removed.
+/// Makes the folder of a study, or continues with it; returns the numbers of blocks and observations.
+///
+/// All settings of the run are checked before anything is removed.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn begin(
@@ -53,7 +54,7 @@ pub(crate) fn begin(
     Ok(watched(py, threads, |_| Ok(()), begun)??)
 }
 
-/// Makes the blocks of the `index`-th of `count` shards that are not in the folder; says how many observations they are.
+/// Makes the missing blocks of the `index`-th of `count` shards; returns their number of observations.
 #[pyfunction]
 pub(crate) fn make_shard(
     py: Python,
@@ -76,7 +77,7 @@ pub(crate) fn make_shard(
             let session = Session {
                 blocks: Some(&blocks),
                 tick: &tick,
-                // It is made again, which is all there is to say of it.
+                // A damaged block is made again.
                 warn: &|_| (),
                 stop: &|| stop.load(Ordering::Relaxed),
             };
@@ -86,8 +87,10 @@ pub(crate) fn make_shard(
     Ok(made.into_inner())
 }
 
-/// Makes what is missing in the folder, unless it has to be complete, and analyses the whole; writes all results and the report. Progress is
-/// told as observations of `all`.
+/// Makes what is missing in the folder, analyses the whole, and writes all results and the report.
+///
+/// A folder that must be `complete` is refused if blocks are missing. `progress` is called with the
+/// observations that are done and `all`.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn carry_out(
@@ -135,14 +138,14 @@ pub(crate) fn carry_out(
     Ok(notes.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Sees to it that a folder is one of results.
+/// Checks that a folder holds results.
 #[pyfunction]
 pub(crate) fn open_results(py: Python, out: PathBuf) -> Answer<()> {
     run(py, |_| cdpr_study::open_results(&out))??;
     Ok(())
 }
 
-/// How far the study in a folder is, as `cdpr study status --format json` says it.
+/// Returns how far the study in a folder is, as `cdpr study status --format json` prints it.
 #[pyfunction]
 pub(crate) fn status(py: Python, out: PathBuf) -> Answer<String> {
     to_json(&run(py, |_| {
@@ -151,7 +154,10 @@ pub(crate) fn status(py: Python, out: PathBuf) -> Answer<String> {
     })??)
 }
 
-/// Names of the inputs, deviations (m, k), dx, dy, dz and |dp| [mm] (m, 4) and kinds of failure of the observations of a sampling in a folder.
+/// Reads the observations of a sampling in a folder.
+///
+/// Returns the names of the inputs, their deviations (m, k), dx, dy, dz and |dp| [mm] (m, 4), and the kinds
+/// of failure.
 #[pyfunction]
 #[allow(clippy::type_complexity)]
 pub(crate) fn observations(
@@ -190,7 +196,7 @@ pub(crate) fn observations(
     Ok((names, rows, deflections, failures))
 }
 
-/// What the observations are written as; by default as `cdpr_report::run` has it.
+/// The format of the tables of observations; `None` for the default.
 fn format_of(table: Option<&str>) -> Answer<Option<TableFormat>> {
     match table {
         None => Ok(None),
@@ -200,7 +206,7 @@ fn format_of(table: Option<&str>) -> Answer<Option<TableFormat>> {
     }
 }
 
-/// Observations and points of a whole run, replicates and measures of sensitivity included.
+/// Number of observations and points of a whole run, including replicates and measures of sensitivity.
 fn observations_of(study: &Study) -> Result<usize, StudyError> {
     let of_sampling = |name: &String| study.observations(name);
     let samplings: usize = study.file.samplings.keys().map(of_sampling).sum::<Result<_, _>>()?;

@@ -37,8 +37,8 @@ def test_numbers_are_the_same_however_they_lie_in_memory(caroca):
 def test_a_robot_is_the_same_however_its_arrays_lie_in_memory(caroca):
     moduli = numpy.linspace(0.9e11, 1.1e11, 8)
     made = [
-        cdpr.Robot(anchors, exits, mass=caroca.mass, section=caroca.section, linear_density=caroca.linear_density,
-                   youngs_modulus=modulus, tension_limits=(1.0, 1e4))
+        cdpr.Robot(anchors, exits, mass=caroca.mass, section=caroca.section,
+                   linear_density=caroca.linear_density, youngs_modulus=modulus, tension_limits=(1.0, 1e4))
         for (_, anchors), (_, exits), (_, modulus) in zip(
             layouts(caroca.anchor_points), layouts(caroca.exit_points), layouts(moduli)
         )
@@ -60,13 +60,15 @@ def test_designs_take_outputs_however_they_lie_in_memory():
 
 def test_arrays_of_a_wrong_width_raise_however_many_cases_there_are(caroca):
     expected = "expected one value for each of the 8 cables"
+    design = SobolDesign({"x": uniform(0, 1)}, 64)
     for call, start in (
         (lambda: caroca.direct(numpy.full((3, 7), 4.4)), f"lengths is a list of 7: {expected}"),
         (lambda: caroca.direct(numpy.empty((0, 7))), f"lengths is a list of 7: {expected}"),
-        (lambda: caroca.inverse([POSE] * 3, reference=numpy.zeros(7)), f"reference is a list of 7: {expected}"),
+        (lambda: caroca.inverse([POSE] * 3, reference=numpy.zeros(7)),
+         f"reference is a list of 7: {expected}"),
         (lambda: caroca.deflection([POSE] * 3, payload=1, tension_offsets=numpy.zeros(9)),
          f"tension_offsets is a list of 9: {expected}"),
-        (lambda: SobolDesign({"x": uniform(0, 1)}, 64).expansion(numpy.arange(64.0)).predict(numpy.empty((0, 2))),
+        (lambda: design.expansion(numpy.arange(64.0)).predict(numpy.empty((0, 2))),
          "rows has the shape [0, 2]: expected (m, 1)"),
     ):
         with pytest.raises(cdpr.InputError) as raised:
@@ -101,25 +103,34 @@ def test_failures_are_counted_by_their_kinds(caroca):
 def test_what_is_no_array_of_real_numbers_is_refused_with_its_name(caroca):
     design = SobolDesign({"x": uniform(0, 1)}, 2)
     for call, start in (
-        (lambda: caroca.inverse([[0, 0, 1], [0, 0]]), "pose is no array of numbers ("),
+        (lambda: caroca.inverse([[0, 0, 1], [0, 0]]), "pose is not an array of numbers ("),
         (lambda: caroca.inverse(["0", "0", "1"]), "pose is an array of <U1: expected real numbers"),
         (lambda: caroca.inverse([0, 0, "up"]), "pose is an array of <U"),
         (lambda: caroca.inverse([0, 0, 1 + 1j]), "pose is an array of complex128: expected real numbers"),
-        (lambda: caroca.inverse([object()] * 3), "pose is no array of numbers ("),
-        (lambda: caroca.inverse(POSE, payload=datetime.date(2017, 8, 2)), "payload is no array of numbers ("),
+        (lambda: caroca.inverse([object()] * 3), "pose is not an array of numbers ("),
+        (lambda: caroca.inverse(POSE, payload=datetime.date(2017, 8, 2)),
+         "payload is not an array of numbers ("),
         (lambda: design.effects([1, 2j]), "outputs is an array of complex128"),
         (lambda: cdpr.Robot([[1, 2], [3]], caroca.exit_points, mass=1, section=1, linear_density=1,
-                            youngs_modulus=1, tension_limits=(1, 2)), "anchor_points is no array of numbers ("),
+                            youngs_modulus=1, tension_limits=(1, 2)),
+                             "anchor_points is not an array of numbers ("),
         (lambda: cdpr.Robot(caroca.anchor_points, caroca.exit_points, mass=1, section=1, linear_density=1,
-                            youngs_modulus=1, tension_limits=(1, 2, 3)), "tension_limits has the shape [3]: expected 2"),
-        (lambda: caroca.workspace(x=(-1, 1, 2.5), y=0, z=1.75, payload=50), "x is (-1, 1, 2.5): expected a place [m], or"),
-        (lambda: caroca.workspace(x=(-1, 1), y=0, z=1.75, payload=50), "x is (-1, 1): expected a place [m], or"),
-        (lambda: caroca.workspace(x="left", y=0, z=1.75, payload=50), "x is an array of <U4: expected real numbers"),
+                            youngs_modulus=1, tension_limits=(1, 2, 3)),
+                             "tension_limits has the shape [3]: expected 2"),
+        (lambda: caroca.workspace(x=(-1, 1, 2.5), y=0, z=1.75, payload=50),
+         "x is (-1, 1, 2.5): expected a coordinate [m], or"),
+        (lambda: caroca.workspace(x=(-1, 1), y=0, z=1.75, payload=50),
+         "x is (-1, 1): expected a coordinate [m], or"),
+        (lambda: caroca.workspace(x="left", y=0, z=1.75, payload=50),
+         "x is an array of <U4: expected real numbers"),
         (lambda: SobolDesign({"x": uniform(0, 1)}, 8, seed=-1), "seed is -1: expected a whole number from 0"),
-        (lambda: SaltelliDesign({"x": uniform(0, 1)}, 16, seed=0.5), "seed is 0.5: expected a whole number from 0"),
+        (lambda: SaltelliDesign({"x": uniform(0, 1)}, 16, seed=0.5),
+         "seed is 0.5: expected a whole number from 0"),
         (lambda: SobolDesign({"x": uniform(0, 1)}, -8), "points is -8: expected a whole number from 0"),
-        (lambda: SaltelliDesign({"x": uniform(0, 1)}, 16, seed=1).indices(numpy.arange(48), seed=-1), "seed is -1"),
-        (lambda: SobolDesign({"x": {"uniform": object()}}, 8), "law of input `x` is no JSON ("),
+        (lambda: SaltelliDesign({"x": uniform(0, 1)}, 16, seed=1).indices(numpy.arange(48), seed=-1),
+         "seed is -1"),
+        (lambda: SobolDesign({"x": {"uniform": object()}}, 8),
+         "law of input `x` cannot be written as JSON ("),
     ):
         with pytest.raises(cdpr.InputError) as raised:
             call()
@@ -148,13 +159,15 @@ def test_what_does_not_fit_in_memory_raises():
         SobolDesign(many, 2**32).rows()
     with pytest.raises(MemoryError, match="does not fit in memory"):
         MorrisDesign(dict(list(many.items())[:1000]), 2**32, seed=1).rows()
-    with pytest.raises(cdpr.InputError, match="blocks = 4294967296: expected fewer, whose points fit in memory"):
+    message = "blocks = 4294967296: expected fewer, whose points fit in memory"
+    with pytest.raises(cdpr.InputError, match=message):
         SaltelliDesign(dict(list(many.items())[:1000]), 2**32)
 
 
 def test_a_load_is_asked_for_where_it_is_the_question(caroca):
     for call in (lambda: caroca.deflection(POSE), lambda: caroca.observe(POSE, numpy.zeros(62))):
-        with pytest.raises(cdpr.InputError, match="nothing displaces the platform: expected payload, force or moment"):
+        message = "nothing displaces the platform: expected payload, force or moment"
+        with pytest.raises(cdpr.InputError, match=message):
             call()
     assert caroca.deflection(POSE, payload=[0.0, 50.0]).rms[0] < 1e-12
     with pytest.raises(TypeError, match="payload"):

@@ -156,7 +156,8 @@ def test_a_row_of_an_array_is_what_the_case_is_alone(caroca):
 def test_robots_that_deviate_are_observed_as_they_are_alone(caroca):
     generator = numpy.random.default_rng(2)
     names = list(caroca.parameters)
-    sizes = numpy.array([{"mass": 5.0, "linear_density": 1e-3, "youngs_modulus": 5e9}.get(name, 2e-3) for name in names])
+    uncertain = {"mass": 5.0, "linear_density": 1e-3, "youngs_modulus": 5e9}
+    sizes = numpy.array([uncertain.get(name, 2e-3) for name in names])
     deviations = sizes * generator.uniform(-1, 1, (600, len(names)))
     deviations[7, 0] = -1e4
     found = caroca.observe(POSE, deviations, payload=50)
@@ -191,23 +192,33 @@ def test_a_case_without_an_answer_is_nan_in_an_array_and_raises_alone(caroca, ca
 
 def test_bad_input_is_refused_with_field_value_and_what_would_be_right(caroca, caroca_file, tmp_path):
     for call, start in (
-        (lambda: caroca.direct([1.0, 2.0]), "lengths is a list of 2: expected one value for each of the 8 cables"),
-        (lambda: caroca.direct([-1.0] * 8), "lengths[0] is -1: expected a finite, positive unstrained length"),
+        (lambda: caroca.direct([1.0, 2.0]),
+         "lengths is a list of 2: expected one value for each of the 8 cables"),
+        (lambda: caroca.direct([-1.0] * 8),
+         "lengths[0] is -1: expected a finite, positive unstrained length"),
         (lambda: caroca.inverse([0, 0]), "pose has 2 numbers a row: expected x,y,z [m] or"),
-        (lambda: caroca.inverse([0, 0, 1, 0, 0, 0, 0]), "pose is [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0]: expected"),
+        (lambda: caroca.inverse([0, 0, 1, 0, 0, 0, 0]),
+         "pose is [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0]: expected"),
         (lambda: caroca.inverse([0, 0, numpy.nan]), "pose is [0.0, 0.0, NaN]: expected finite numbers"),
         (lambda: caroca.inverse([[[0]]]), "pose has the shape [1, 1, 1]: expected"),
         (lambda: caroca.inverse(POSE, force=[1, 2]), "force has 2 numbers a row: expected 3"),
-        (lambda: caroca.inverse([POSE] * 3, payload=[1, 2]), "pose has 3 rows: expected one for all cases, or 2"),
+        (lambda: caroca.inverse([POSE] * 3, payload=[1, 2]),
+         "pose has 3 rows: expected one for all cases, or 2"),
         (lambda: caroca.inverse(POSE, payload=-1), "payload is -1: expected a mass, zero or more"),
-        (lambda: caroca.observe(POSE, [0.0] * 61, payload=50), "deviations has 61 numbers a row: expected 62"),
-        (lambda: caroca.observe([POSE, POSE], [0.0] * 62, payload=50), "pose or load has a row for each case"),
+        (lambda: caroca.observe(POSE, [0.0] * 61, payload=50),
+         "deviations has 61 numbers a row: expected 62"),
+        (lambda: caroca.observe([POSE, POSE], [0.0] * 62, payload=50),
+         "pose or load has a row for each case"),
         (lambda: cdpr.catenary(1, 1e6, length=4, end=[3, 0], points=1), "points is 1: expected 2 or more"),
         (lambda: caroca.with_parameters({"a9.x": 1.0}), "no parameter is named `a9.x`"),
-        (lambda: caroca.with_parameters({"mass": -1.0}), "platform.mass is -1: expected a finite, positive mass"),
-        (lambda: caroca.workspace(x=0, y=0, z=0, payload=50, uncertainty={"q": 1}), "uncertainty of q is 1: expected"),
-        (lambda: caroca.workspace(x=0, y=0, z=0, payload=50, uncertainty={"mass": numpy.inf}), "uncertainty of mass is inf"),
-        (lambda: caroca.with_parameters({"dt1": 5.0}), "dt1 is 5: expected 0, as offsets belong to no robot"),
+        (lambda: caroca.with_parameters({"mass": -1.0}),
+         "platform.mass is -1: expected a finite, positive mass"),
+        (lambda: caroca.workspace(x=0, y=0, z=0, payload=50, uncertainty={"q": 1}),
+         "uncertainty of q is 1: expected"),
+        (lambda: caroca.workspace(x=0, y=0, z=0, payload=50, uncertainty={"mass": numpy.inf}),
+         "uncertainty of mass is inf"),
+        (lambda: caroca.with_parameters({"dt1": 5.0}),
+         "dt1 is 5: expected 0, as offsets belong to set-points"),
         (lambda: cdpr.catenary(1, 1e6, length=4), "expected two of what is known"),
         (lambda: cdpr.Robot.from_json("{}"), "line 1, column 2: "),
     ):
@@ -290,12 +301,12 @@ def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
         check_same(answer, copy.deepcopy(answer))
         assert repr(answer).startswith(f"<{type(answer).__module__}.{type(answer).__name__} ")
         assert len(repr(answer)) < 400
-    assert classes == {"Catenary", "InverseSolution", "Deflection", "Stiffness", "Derivatives", "DirectSolution",
-                       "Observations", "Workspace", "Effects", "SobolIndices", "MorrisEffects"}
+    assert classes == {"Catenary", "InverseSolution", "Deflection", "Stiffness", "Derivatives",
+                       "DirectSolution", "Observations", "Workspace", "Effects", "SobolIndices", "MorrisEffects"}
     found = caroca.deflection([POSE, POSE], payload=50)
     assert repr(found) == (
-        "<cdpr.Deflection displacement (2, 3), rms (2,), turn (2, 3), lengths (2, 8), unloaded DirectSolution, "
-        "loaded DirectSolution, reasons [2], kinds [2]>"
+        "<cdpr.Deflection displacement (2, 3), rms (2,), turn (2, 3), lengths (2, 8), "
+        "unloaded DirectSolution, loaded DirectSolution, reasons [2], kinds [2]>"
     )
     with pytest.raises(TypeError, match="missing"):
         cdpr.Deflection(1, 2)

@@ -19,7 +19,8 @@ HERE = Path(__file__).resolve().parents[1]
 
 
 def python(code, folder=ROOT):
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=folder, check=False)
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=folder, check=False)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -67,7 +68,8 @@ def test_everything_public_is_documented():
 
 
 def test_the_import_leaves_numpy_to_whoever_uses_it():
-    assert python("import sys, cdpr; print('numpy' in sys.modules, 'pandas' in sys.modules)") == "False False\n"
+    loaded = "print('numpy' in sys.modules, 'pandas' in sys.modules)"
+    assert python(f"import sys, cdpr; {loaded}") == "False False\n"
 
 
 def test_numbers_do_not_depend_on_the_threads(caroca_file):

@@ -85,8 +85,9 @@ def test_the_same_seed_gives_the_same_rows_and_none_the_plain_sequence():
 
 def test_a_design_or_expansion_goes_to_another_process():
     laws = {"x": normal(0.1, 1 / 3), "y": uniform(0, 4)}
-    designs = [SobolDesign(laws, 32, seed=7), SobolDesign(laws, 32, first_index=3), SaltelliDesign(laws, 16, seed=7),
-               SaltelliDesign(laws, 16, first_index=1, pairs=True), MorrisDesign(laws, 4, seed=7)]
+    designs = [SobolDesign(laws, 32, seed=7), SobolDesign(laws, 32, first_index=3),
+               SaltelliDesign(laws, 16, seed=7), SaltelliDesign(laws, 16, first_index=1, pairs=True),
+               MorrisDesign(laws, 4, seed=7)]
     for design in designs:
         copy = pickle.loads(pickle.dumps(design))
         assert repr(copy) == repr(design)
@@ -143,5 +144,6 @@ def test_a_design_over_the_parameters_of_a_robot_finds_what_its_derivatives_say(
     slopes = caroca.with_parameters(nominal).derivatives([0, 0, 1.75], payload=50)
     halves = [0.5 * (law["uniform"]["max"] - law["uniform"]["min"]) for law in laws.values()]
     expected = [slopes.rms[slopes.inputs.index(name)] * half for name, half in zip(laws, halves)]
-    # 1/E is not linear over 10 %: its third order is 0.5 % of the largest effect, and balance of the points about as much.
+    # 1/E is not linear over 10 %: its third order is 0.5 % of the largest effect, and the points are out of
+    # balance by about as much.
     numpy.testing.assert_allclose(found.effect, expected, atol=0.01 * numpy.abs(expected).max())

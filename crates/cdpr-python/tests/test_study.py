@@ -1,4 +1,4 @@
-"""Studies give the files of `cdpr study run`, byte for byte, whoever makes their blocks and whatever dies on the way."""
+"""Studies give the files of `cdpr study run`, byte for byte, with any executor and after any interruption."""
 
 import concurrent.futures
 import json
@@ -243,7 +243,8 @@ def test_the_table_of_a_surface_has_a_row_a_point(data, tmp_path):
     file = json.loads((data / "studies" / "caroca.json").read_text())
     name, surface = next(iter(file["surfaces"].items()))
     surface["x"]["points"], surface["y"]["points"] = 4, 3
-    file.update(robot=str(data / "robots" / "caroca.json"), samplings={}, surfaces={name: surface}, comparison=[])
+    file.update(robot=str(data / "robots" / "caroca.json"))
+    file.update(samplings={}, surfaces={name: surface}, comparison=[])
     study = tmp_path / "surface.json"
     study.write_text(json.dumps(file))
     table = cdpr.study.run(study, tmp_path / "out").table(name)

@@ -1,8 +1,10 @@
 """Elasto-statics of cable-driven parallel robots: platforms held by sagging, elastic cables.
 
-All units are SI; the base frame has z up. A pose is x, y, z [m] or x, y, z, qw, qx, qy, qz. Every call takes one case, or arrays with a first
-axis of m cases, which are computed on all cores: the answer then has that axis, too, with NaN where there is no answer and the reasons beside
-it. A single case without an answer raises.
+All units are SI; the base frame has z up. A pose is x, y, z [m] or x, y, z, qw, qx, qy, qz.
+
+Every call takes one case, or arrays with a first axis of m cases, which are computed on all cores. The answer
+then has that axis, too, with NaN where there is no answer, and the reasons beside it. A single case without
+an answer raises.
 
 >>> import cdpr
 >>> robot = cdpr.Robot.from_file("data/robots/caroca.json")
@@ -54,7 +56,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    # `cdpr.study` is loaded by whoever uses it: the modules that it needs take longer than all the rest.
+    # `cdpr.study` is loaded when it is first used: the modules that it needs take longer than all the rest.
     if name == "study":
         import importlib
 

@@ -1,4 +1,4 @@
-# Types of the native half. What each argument and field is stands in the documentation that `help(cdpr.Robot)` shows.
+# Types of the native half of the package. `help(cdpr.Robot)` explains each argument and field.
 
 from os import PathLike
 from typing import Any, Callable, TypeAlias, final
@@ -36,16 +36,16 @@ __all__ = [
 VERSION: str
 
 _Floats: TypeAlias = NDArray[np.float64]
-#: A number for one case, an array (m,) for m: Any, as a union would refuse what only one of them can do.
+#: A number for one case, an array (m,) for m cases. A union would refuse what only one of the two can do.
 _Float: TypeAlias = Any
 _Bool: TypeAlias = Any
 _Int: TypeAlias = Any
-#: A word for one case, a list for m.
+#: A word for one case, a list for m cases.
 _Word: TypeAlias = Any
 _Words: TypeAlias = list[str | None] | None
 _Path: TypeAlias = str | PathLike[str]
 _Law: TypeAlias = dict[str, dict[str, float]]
-#: A place [m], or from, to and how many.
+#: A coordinate [m], or from, to and the number of points.
 _Places: TypeAlias = float | tuple[float, float, int] | NDArray[Any]
 
 @final

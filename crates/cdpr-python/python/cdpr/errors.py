@@ -1,14 +1,14 @@
-"""What the package raises. Messages are those of the command line: field, value, and what would be right."""
+"""Exceptions of the package. Messages name the field, its value, and what would be right."""
 
 from __future__ import annotations
 
 
 class CdprError(Exception):
-    """Everything that the package raises by itself."""
+    """Base class of all exceptions of the package."""
 
 
 class InputError(CdprError, ValueError):
-    """A value that cannot be; the message names the field, the value, and what would be right."""
+    """An invalid value; the message names the field, the value, and what would be right."""
 
 
 class FileError(CdprError, OSError):
@@ -16,9 +16,10 @@ class FileError(CdprError, OSError):
 
 
 class NoSolutionError(CdprError):
-    """A question without an answer, such as a pose that no tensions hold.
+    """A question without an answer, such as a pose that no tensions can hold.
 
-    ``kind`` names the kind of failure as tables of studies do: ``infeasible_tension``, ``cable_overstrained``, ...
+    ``kind`` names the kind of failure as tables of studies do: ``infeasible_tension``,
+    ``cable_overstrained``, ...
     """
 
     def __init__(self, message: str, kind: str = "") -> None:

@@ -1,7 +1,8 @@
 """Designs of experiments for any model, and measures of sensitivity from its outputs.
 
-A design is made of the law of each input by its name. The model runs at `design.rows()`, wherever and however, and its outputs go back into
-the design that the rows are of; NaN where the model failed.
+A design is made from the law of each input by its name. The model runs at `design.rows()`, in any place and
+order of execution; its outputs, one for each row and NaN where the model failed, go back into the same
+design.
 
 >>> import numpy
 >>> from cdpr.sensitivity import SaltelliDesign, uniform
@@ -40,7 +41,7 @@ __all__ = [
     "uniform",
 ]
 
-#: A law as it stands in a study file.
+#: A law as in a study file.
 Law = dict[str, dict[str, float]]
 
 
@@ -55,7 +56,7 @@ def normal(mean: float, std: float) -> Law:
 
 
 def truncated_normal(mean: float, std: float, min: float, max: float) -> Law:
-    """Gauss's law restricted to [min, max]; mean and standard deviation are those before."""
+    """Gauss's law restricted to [min, max]; mean and standard deviation are those of the unrestricted law."""
     return {"truncated_normal": {"mean": mean, "std": std, "min": min, "max": max}}
 
 

@@ -1,4 +1,6 @@
-"""Studies: which uncertain parameters of a robot matter. The same files as `cdpr study run` writes, byte for byte.
+"""Studies, which find out which uncertain parameters of a robot matter.
+
+The files are those of `cdpr study run`, byte for byte.
 
 >>> import cdpr
 >>> results = cdpr.study.run("data/studies/caroca.json", out="results", observations=500)
@@ -23,10 +25,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Results", "open_results", "run"]
 
-#: Columns of tables that are no numbers.
+#: Columns of tables that hold text.
 _TEXTS = ("sampling", "status", "dominant", "reason")
 
-#: Told how many observations of how many are there.
+#: Called with the number of observations that are done, and that of all.
 Progress = Callable[[int, int], object]
 
 
@@ -36,40 +38,53 @@ class Results:
     def __init__(self, folder: Union[str, "PathLike[str]"]) -> None:
         #: The folder.
         self.folder = Path(folder)
-        #: What a run could not draw, and damaged blocks that it made again.
+        #: Figures that a run could not draw, and damaged blocks that it made again.
         self.notes: list[str] = []
 
     @property
     def summary(self) -> dict[str, Any]:
-        """`summary.json`: moments, fitted laws, effects and measures of sensitivity of each sampling, and the comparison with the paper."""
+        """Content of `summary.json`.
+
+        It has moments, fitted laws, effects and measures of sensitivity of each sampling, and the comparison
+        with the paper.
+        """
         return json.loads(self._text("summary.json"))
 
     @property
     def timings(self) -> dict[str, Any]:
-        """`timings.json`: threads and seconds."""
+        """Content of `timings.json`: threads and seconds."""
         return json.loads(self._text("timings.json"))
 
     def status(self) -> dict[str, Any]:
-        """How far the study is, as `cdpr study status --format json` says it: blocks, observations and failures of each design. Reads all
-        blocks."""
+        """Returns how far the study is: blocks, observations and failures of each design.
+
+        It reads all blocks. The content is that of `cdpr study status --format json`.
+        """
         return json.loads(_core.status(self.folder))
 
     def table(self, name: str) -> "numpy.ndarray[Any, Any]":
-        """The table `NAME.csv` as a structured array, NaN and "" where a cell is empty: of a sampling at several poses a row a pose, of a surface a
-        row a point."""
+        """Returns the table `NAME.csv` as a structured array, with NaN or "" where a cell is empty.
+
+        A sampling at several poses has a row for each pose, a surface a row for each point.
+        """
         import numpy
 
         header, *rows = csv.reader(self._text(f"{name}.csv").splitlines(keepends=True))
         columns = [
-            numpy.array(column, dtype=str) if head in _TEXTS else numpy.array([cell or "nan" for cell in column], dtype="f8")
+            numpy.array(column, dtype=str)
+            if head in _TEXTS
+            else numpy.array([cell or "nan" for cell in column], dtype="f8")
             for head, column in zip(header, zip(*rows))
         ]
         return _records(dict(zip(header, columns)))
 
     def observations(self, sampling: str) -> "numpy.ndarray[Any, Any]":
-        """The observations of a sampling as a structured array, with the columns of its table but for `reason`: `index`, `d_mass`, ... [SI units],
-        `dx_mm`, `dy_mm`, `dz_mm`, `rms_mm` (NaN where it failed), `status` (`ok` or the kind of failure). Of a sampling at several poses
-        those at one of them, by its name: `plane/0003`."""
+        """Returns the observations of a sampling as a structured array.
+
+        Columns are those of its table without `reason`: `index`, `d_mass`, ... [SI units], `dx_mm`, `dy_mm`,
+        `dz_mm`, `rms_mm` (NaN where it failed), `status` (`ok` or the kind of failure). A sampling at several
+        poses has one for each of them, named `plane/0003`.
+        """
         import numpy
 
         names, rows, deflections, failures = _core.observations(self.folder, sampling)
@@ -80,7 +95,7 @@ class Results:
         return _records(columns)
 
     def frame(self, sampling: str) -> Any:
-        """The same as a `pandas.DataFrame`, with the index as its index."""
+        """Returns the observations of a sampling as a `pandas.DataFrame`, with `index` as its index."""
         import pandas
 
         return pandas.DataFrame(self.observations(sampling)).set_index("index")
@@ -90,14 +105,18 @@ class Results:
         try:
             return path.read_text(encoding="utf-8")
         except OSError as error:
-            raise FileError(f"cannot read {path}: {error.strerror}: expected the results of a run that has ended") from error
+            expected = "expected the results of a run that has ended"
+            raise FileError(f"cannot read {path}: {error.strerror}: {expected}") from error
 
     def __repr__(self) -> str:
         return f"<cdpr.study.Results {self.folder}>"
 
 
 def open_results(folder: Union[str, "PathLike[str]"]) -> Results:
-    """The results in a folder that `run` or `cdpr study run` has written. Raises FileError for a folder that holds none."""
+    """Opens the results in a folder that `run` or `cdpr study run` has written.
+
+    Raises FileError for a folder without results.
+    """
     _core.open_results(folder)
     return Results(folder)
 
@@ -117,21 +136,28 @@ def run(
 ) -> Results:
     """Runs a study file (`cdpr-study/1`) and writes its results into a folder.
 
-    observations: of each sampling, in place of the file's.
-    resume: go on with what the folder holds of this study; overwrite: begin anew. Else a folder that holds blocks is refused.
-    table: "csv", or "none" for no tables of observations; csv if left out, but none of samplings at several poses.
-    threads: of this process; all cores if left out. The numbers do not depend on it.
-    progress: told (done, all) observations from time to time, in the thread that called; what it raises ends the run, as Ctrl-C does.
-    executor: who makes the blocks of observations, in place of this process: an executor of `concurrent.futures`, Dask's client, or a pool with
-        `imap_unordered`, such as those of `multiprocessing` and `ray.util.multiprocessing`. Its workers need this package and the same folder. A pool of
-        `multiprocessing` does not notice that a worker was killed, and the run waits for ever.
-    tasks: in how many tasks, one or more; one for each block of 16 384 observations, but 256 at most, if left out. Each uses one thread.
+    observations: number of observations of each sampling, in place of the file's.
+    resume: continue with the blocks of this study that the folder holds. overwrite: start anew. Without
+        either, a folder that holds blocks is refused.
+    table: "csv", or "none" for no tables of observations. If left out, samplings at one pose have tables as
+        csv, and those at several poses have none.
+    threads: number of threads of this process; all cores if left out. The numbers do not depend on it.
+    progress: function that is called with (done, all) observations from time to time, in the thread that
+        called. What it raises ends the run, as Ctrl-C does.
+    executor: what makes the blocks of observations, in place of this process: an executor of
+        `concurrent.futures`, Dask's client, or a pool with `imap_unordered`, such as those of
+        `multiprocessing` and `ray.util.multiprocessing`. Its workers need this package and the same folder. A
+        pool of `multiprocessing` does not notice that a worker was killed, and the run waits forever.
+    tasks: number of tasks for the executor, each of which uses one thread. If left out, one for each block of
+        16 384 observations, and at most 256.
 
-    Blocks are whole or not there: a run that ended in any way goes on with `resume=True`, to the same bytes.
+    A block is whole or not there: a run that ended in any way continues with `resume=True`, to the same
+    bytes.
 
-    Raises InputError, FileError, NoSolutionError where the nominal robot cannot hold a pose, and what the executor raises.
+    Raises InputError, FileError, NoSolutionError where the nominal robot cannot hold a pose, and what the
+    executor raises.
     """
-    # Everything is looked at before anything is removed or made.
+    # All arguments are checked before anything is removed or made.
     for name, number in (("threads", threads), ("tasks", tasks)):
         if number is not None and number < 1:
             raise InputError(f"{name} is {number}: expected one or more")
@@ -144,22 +170,22 @@ def run(
     if executor is not None:
         done = 0
         count = max(1, min(blocks, 256) if tasks is None else tasks)
-        # Workers may stand elsewhere in the file system.
+        # Workers may have another working directory.
         shards = [(str(Path(out).resolve()), number, count) for number in range(1, count + 1)]
         for made in _completed(executor, shards):
             done += made
             if progress is not None:
                 progress(done, total)
     results = Results(out)
-    told = progress if executor is None else None
-    results.notes = _core.carry_out(out, table, threads, executor is not None, total, told)
+    watcher = progress if executor is None else None
+    results.notes = _core.carry_out(out, table, threads, executor is not None, total, watcher)
     if executor is not None and progress is not None:
         progress(total, total)
     return results
 
 
 def _records(columns: "dict[str, numpy.ndarray[Any, Any]]") -> "numpy.ndarray[Any, Any]":
-    """A structured array of columns, its fields aligned."""
+    """Makes a structured array of columns, with aligned fields."""
     import numpy
 
     dtype = numpy.dtype([(name, column.dtype) for name, column in columns.items()], align=True)
@@ -170,15 +196,15 @@ def _records(columns: "dict[str, numpy.ndarray[Any, Any]]") -> "numpy.ndarray[An
 
 
 def _make_shard(shard: tuple[str, int, int]) -> int:
-    """A task, on a worker."""
+    """Runs one task on a worker."""
     folder, number, count = shard
     return _core.make_shard(folder, number, count, 1)
 
 
 def _completed(executor: Any, shards: list[tuple[str, int, int]]) -> Iterator[int]:
-    """Observations of each task, as they are done."""
+    """Yields the number of observations of each task when it is done."""
     if hasattr(executor, "get_executor"):
-        # Dask's client: tasks write files, so that two of the same arguments are not one.
+        # Dask's client: tasks write files, so that two tasks with the same arguments must both run.
         executor = executor.get_executor(pure=False)
     if hasattr(executor, "submit"):
         futures = [executor.submit(_make_shard, shard) for shard in shards]

@@ -1,24 +1,27 @@
-//! Classes of answers: fields that do not change, which `pickle` carries to other processes and `repr` sums up.
+//! Classes of answers: constant fields, which `pickle` carries to other processes and `repr` summarises.
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::tuple::BoundTupleIterator;
 use pyo3::types::{PyList, PyTuple};
 
-/// A struct as a Python class that is pickled and printed by its fields.
+/// Declares a struct as a Python class that is pickled and printed by its fields.
 macro_rules! answer {
-    ($(#[$($about:tt)*])* pub(crate) struct $class:ident { $($(#[$($doc:tt)*])* $field:ident: $kind:ty,)* }) => {
+    ($(#[$($about:tt)*])* pub(crate) struct $class:ident {
+        $($(#[$($doc:tt)*])* $field:ident: $kind:ty,)*
+    }) => {
         $(#[$($about)*])*
         pub(crate) struct $class { $($(#[$($doc)*])* pub(crate) $field: $kind,)* }
 
         #[pyo3::pymethods]
         impl $class {
-            /// As `pickle` makes it again.
+            /// Made from its fields, as `pickle` does.
             #[new]
             #[pyo3(signature = (*fields))]
             fn of_fields(fields: &pyo3::Bound<pyo3::types::PyTuple>) -> pyo3::PyResult<Self> {
+                use $crate::convert::answer::next;
                 let mut fields = fields.iter();
-                Ok(Self { $($field: $crate::convert::answer::next(&mut fields, stringify!($field))?.extract()?,)* })
+                Ok(Self { $($field: next(&mut fields, stringify!($field))?.extract()?,)* })
             }
 
             fn __getnewargs__<'py>(
@@ -35,7 +38,7 @@ macro_rules! answer {
 }
 pub(crate) use answer;
 
-/// The value of the field that comes next.
+/// Takes the value of the next field.
 pub(crate) fn next<'py>(fields: &mut BoundTupleIterator<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     fields.next().ok_or_else(|| {
         PyTypeError::new_err(format!("{name} is missing: expected all fields, in their order"))
@@ -48,13 +51,15 @@ pub(crate) fn fields<'py>(answer: &Bound<'py, PyAny>, names: &[&str]) -> PyResul
     PyTuple::new(answer.py(), values)
 }
 
-/// `<cdpr.Deflection displacement (40, 3), rms (40,), ..., reasons [40]>`: shapes of arrays, lengths of lists, and what else is not None.
+/// Summarises an answer: `<cdpr.Deflection displacement (40, 3), rms (40,), ..., reasons [40]>`.
+///
+/// Arrays show their shapes, lists their lengths; fields that are None are left out.
 pub(crate) fn summary(answer: &Bound<PyAny>, names: &[&str]) -> PyResult<String> {
     let class = answer.get_type();
     let module = class.module()?.to_string();
     let mut parts = Vec::new();
     for (name, value) in names.iter().zip(fields(answer, names)?) {
-        let told = if value.is_none() {
+        let shown = if value.is_none() {
             continue;
         } else if value.get_type().module()? == *module {
             value.get_type().name()?.to_string()
@@ -65,7 +70,7 @@ pub(crate) fn summary(answer: &Bound<PyAny>, names: &[&str]) -> PyResult<String>
         } else {
             value.repr()?.to_string()
         };
-        parts.push(format!("{name} {told}"));
+        parts.push(format!("{name} {shown}"));
     }
     Ok(format!("<{} {}>", class.fully_qualified_name()?, parts.join(", ")))
 }

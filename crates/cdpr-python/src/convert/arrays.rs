@@ -1,4 +1,4 @@
-//! Arrays in and out: one case, or one case a row.
+//! Arrays in and out: one case, or one case in each row.
 
 use crate::convert::error::{Answer, Failure, Raised};
 use cdpr_cable::Vector2;
@@ -18,15 +18,16 @@ pub(crate) struct Array {
 }
 
 impl Array {
-    /// Those of an argument, by its name.
+    /// The numbers of an argument, which errors name.
     ///
-    /// NumPy copies what is not contiguous or not aligned, such as a field of records: rust-numpy 0.30 views these with truncated strides.
+    /// NumPy copies what is not contiguous or not aligned, such as a field of records: rust-numpy 0.30 views
+    /// these with truncated strides.
     pub(crate) fn new(name: &str, numbers: &Numbers) -> Answer<Self> {
         let py = numbers.py();
         let refused = |found: String| Raised::Input(format!("{name} is {found}: expected real numbers"));
         let unless_refused = |error: PyErr| {
             if error.is_instance_of::<PyValueError>(py) || error.is_instance_of::<PyTypeError>(py) {
-                refused(format!("no array of numbers ({})", error.value(py)))
+                refused(format!("not an array of numbers ({})", error.value(py)))
             } else {
                 Raised::Python(error)
             }
@@ -34,7 +35,7 @@ impl Array {
         let numpy = py.import("numpy")?;
         let array = numpy.call_method1("asarray", (numbers,)).map_err(unless_refused)?;
         let kind = array.getattr("dtype")?;
-        // Text would be parsed, and imaginary parts dropped.
+        // NumPy would parse text and drop imaginary parts.
         if !"biufO".contains(&kind.getattr("kind")?.extract::<String>()?) {
             return Err(refused(format!("an array of {kind}")));
         }
@@ -63,7 +64,7 @@ pub(crate) fn components<const N: usize>(name: &'static str, numbers: &Numbers) 
         .ok_or_else(|| Raised::Input(format!("{name} has the shape {shape:?}: expected {N} numbers")))
 }
 
-/// Room for an array of this shape, filled with a value. Raises MemoryError.
+/// The values of an array of this shape, all the same. Raises MemoryError.
 pub(crate) fn filled<E: Copy>(shape: &[usize], value: E) -> Answer<Vec<E>> {
     let mut values = Vec::new();
     let size = shape.iter().try_fold(1_usize, |size, length| size.checked_mul(*length));
@@ -84,11 +85,11 @@ pub(crate) struct Rows {
     count: Option<usize>,
 }
 
-/// How many cases there are.
+/// The number of cases of a call.
 #[derive(Clone, Copy)]
 pub(crate) struct Cases {
     pub(crate) count: usize,
-    /// Whether no argument has an axis of cases: then neither has the answer.
+    /// Whether no argument has an axis of cases, so that the answer has none either.
     pub(crate) single: bool,
 }
 
@@ -106,7 +107,7 @@ impl Rows {
         Ok(Self { name, values, width, count })
     }
 
-    /// Vectors of any number of components.
+    /// Vectors with any number of components.
     pub(crate) fn vectors(name: &'static str, numbers: &Numbers) -> Answer<Self> {
         Self::new(name, numbers, 1, "a row of numbers, or one row for each case")
     }
@@ -160,7 +161,7 @@ impl Rows {
         Self { name, values: vec![value], width: 1, count: None }
     }
 
-    /// Numbers a row.
+    /// Numbers in a row.
     pub(crate) fn width(&self) -> usize {
         self.width
     }
@@ -185,7 +186,7 @@ impl Rows {
     pub(crate) fn pose(&self, case: usize) -> Result<Pose, StaticsError> {
         let row = self.row(case);
         let position = Vector3::new(row[0], row[1], row[2]);
-        // The quaternion of no rotation makes the very matrix of `Pose::at`.
+        // The quaternion (1, 0, 0, 0) makes the same matrix as `Pose::at`.
         let quaternion = if let [_, _, _, w, i, j, k] = *row { [w, i, j, k] } else { [1.0, 0.0, 0.0, 0.0] };
         Pose::with_quaternion(position, quaternion).ok_or_else(|| StaticsError::Invalid {
             field: self.name.to_owned(),
@@ -194,7 +195,7 @@ impl Rows {
         })
     }
 
-    /// The vector of a case, of as many components as were asked for.
+    /// The vector of a case, with the number of components that was asked for.
     pub(crate) fn vector<const N: usize>(&self, case: usize) -> [f64; N] {
         let row = self.row(case);
         std::array::from_fn(|k| row[k])
@@ -202,7 +203,7 @@ impl Rows {
 }
 
 impl Cases {
-    /// As many as the arguments have.
+    /// The number of cases that the arguments have.
     pub(crate) fn of(arguments: &[&Rows]) -> Answer<Self> {
         let mut counts = arguments.iter().filter_map(|rows| Some((rows.name, rows.count?)));
         let Some((name, count)) = counts.next() else { return Ok(Self { count: 1, single: true }) };
@@ -215,7 +216,7 @@ impl Cases {
     }
 }
 
-/// What acts on the platform besides its own weight.
+/// The loads: what acts on the platform besides its own weight.
 pub(crate) struct Loads {
     pub(crate) force: Rows,
     pub(crate) moment: Rows,
@@ -223,6 +224,7 @@ pub(crate) struct Loads {
 }
 
 impl Loads {
+    /// Loads that may all be left out.
     pub(crate) fn new(
         force: Option<&Numbers>,
         moment: Option<&Numbers>,
@@ -237,7 +239,7 @@ impl Loads {
         Ok(Self { force, moment, payload })
     }
 
-    /// The same where a load is the question.
+    /// Loads of which at least one must be given.
     pub(crate) fn given(
         force: Option<&Numbers>,
         moment: Option<&Numbers>,
@@ -250,10 +252,12 @@ impl Loads {
         Self::new(force, moment, payload)
     }
 
+    /// The arguments that make the load.
     pub(crate) fn rows(&self) -> [&Rows; 3] {
         [&self.force, &self.moment, &self.payload]
     }
 
+    /// The load of a case.
     pub(crate) fn load(&self, case: usize) -> Result<Load, StaticsError> {
         let payload = self.payload.scalar(case);
         if payload < 0.0 {
@@ -271,19 +275,19 @@ impl Loads {
     }
 }
 
-/// The answers to all cases, `None` where there is none.
+/// The answers to all cases, `None` for a case without an answer.
 pub(crate) struct Columns<'py, 'a, T> {
     py: Python<'py>,
     single: bool,
     rows: Vec<Option<&'a T>>,
-    /// Why there is none: a list; `None` for a single case, which raises.
+    /// Why each case has no answer: a list; `None` for a single case, which raises.
     reasons: Py<PyAny>,
-    /// The kinds of these failures, likewise.
+    /// The kinds of these failures, in the same form.
     kinds: Py<PyAny>,
 }
 
 impl<'py, 'a, T> Columns<'py, 'a, T> {
-    /// Of the outcomes of all cases. A single case without an answer raises.
+    /// The columns of all outcomes. A single case without an answer raises.
     pub(crate) fn new<E: Failure>(py: Python<'py>, cases: Cases, outcomes: &'a [Result<T, E>]) -> Answer<Self>
     where
         Raised: From<&'a E>,
@@ -307,38 +311,40 @@ impl<'py, 'a, T> Columns<'py, 'a, T> {
         })
     }
 
-    /// What `part` is of each answer.
+    /// The columns of a part of each answer.
     pub(crate) fn part<U>(&self, part: impl Fn(&'a T) -> &'a U) -> Columns<'py, 'a, U> {
         let rows = self.rows.iter().map(|row| row.map(&part)).collect();
         Columns { py: self.py, single: self.single, rows, reasons: self.reasons(), kinds: self.kinds() }
     }
 
-    /// Why each case has no answer, `None` for those that have one; `None` for a single case.
+    /// Why each case has no answer, `None` for a case with one; `None` for a single case.
     pub(crate) fn reasons(&self) -> Py<PyAny> {
         self.reasons.clone_ref(self.py)
     }
 
-    /// The kind of each failure, likewise.
+    /// The kind of each failure, in the same form.
     pub(crate) fn kinds(&self) -> Py<PyAny> {
         self.kinds.clone_ref(self.py)
     }
 
-    /// An array of numbers of the shape `inner` for each case, NaN where there is no answer; a number where both axes are missing.
+    /// An array of the shape `inner` for each case, NaN where there is no answer.
+    ///
+    /// For a single case and an empty shape it is a number.
     pub(crate) fn numbers(&self, inner: &[usize], fill: impl Fn(&T, &mut [f64])) -> Answer<Py<PyAny>> {
         self.array(f64::NAN, inner, fill)
     }
 
-    /// The same of one number each.
+    /// One number for each case.
     pub(crate) fn number(&self, value: impl Fn(&T) -> f64) -> Answer<Py<PyAny>> {
         self.numbers(&[], |row, out| out[0] = value(row))
     }
 
-    /// The same of a vector each.
+    /// A vector for each case.
     pub(crate) fn vector<const N: usize>(&self, value: impl Fn(&T) -> [f64; N]) -> Answer<Py<PyAny>> {
         self.numbers(&[N], |row, out| out.copy_from_slice(&value(row)))
     }
 
-    /// The same of so many pairs each.
+    /// An array of pairs for each case.
     pub(crate) fn pairs(&self, count: usize, pairs: impl Fn(&T) -> &[Vector2<f64>]) -> Answer<Py<PyAny>> {
         self.numbers(&[count, 2], |row, out| {
             for (out, pair) in out.chunks_exact_mut(2).zip(pairs(row)) {
@@ -347,7 +353,7 @@ impl<'py, 'a, T> Columns<'py, 'a, T> {
         })
     }
 
-    /// An array of anything, `missing` where there is no answer.
+    /// An array of any element for each case, `missing` where there is no answer.
     pub(crate) fn array<E: Element + Copy>(
         &self,
         missing: E,
@@ -367,7 +373,7 @@ impl<'py, 'a, T> Columns<'py, 'a, T> {
         Ok(if shape.is_empty() { array.call_method0("item")?.unbind() } else { array.into_any().unbind() })
     }
 
-    /// A word for each case, `None` where there is no answer: a list unless there is a single case.
+    /// A word for each case, `None` where there is no answer; a list unless there is a single case.
     pub(crate) fn words(&self, word: impl Fn(&T) -> &'static str) -> PyResult<Py<PyAny>> {
         let words: Vec<Option<&str>> = self.rows.iter().map(|row| row.map(&word)).collect();
         let object = if self.single {

@@ -1,4 +1,4 @@
-//! Exceptions: those of `cdpr.errors`, with the texts of the command line.
+//! Exceptions: the classes of `cdpr.errors`, with the sentences of the libraries.
 
 use cdpr_cable::CableError;
 use cdpr_robot::RobotError;
@@ -8,15 +8,15 @@ use cdpr_study::StudyError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
-/// What becomes an exception.
+/// An error that becomes an exception.
 pub(crate) enum Raised {
-    /// `InputError`: a value that cannot be.
+    /// `InputError`: an invalid value.
     Input(String),
     /// `FileError`: a file or folder that cannot be read, written or used.
     File(String),
     /// `NoSolutionError`: a question without an answer.
     NoSolution {
-        /// As in tables of failures: `infeasible_tension`, ...
+        /// The kind of failure, as in tables of studies: `infeasible_tension`, ...
         kind: &'static str,
         message: String,
     },
@@ -61,9 +61,9 @@ impl From<RobotError> for Raised {
     }
 }
 
-/// Why a case has no answer.
+/// A reason why a case has no answer.
 pub(crate) trait Failure: ToString {
-    /// Its kind, as in tables of studies.
+    /// The kind of failure, as in tables of studies.
     fn kind(&self) -> &'static str;
 }
 
@@ -132,7 +132,7 @@ impl From<StudyError> for Raised {
     }
 }
 
-/// The kind of failure of an error that is a question without an answer.
+/// The kind of failure, if the error is a question without an answer.
 fn kind(error: &StudyError) -> Option<&'static str> {
     match error {
         StudyError::At { source, .. } => kind(source),

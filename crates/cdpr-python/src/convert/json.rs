@@ -1,4 +1,4 @@
-//! JSON as the way between Python's dictionaries and the types of the models.
+//! JSON between Python's dictionaries and the types of the models.
 
 use crate::convert::error::{Answer, Raised};
 use pyo3::prelude::*;
@@ -11,7 +11,10 @@ pub(crate) fn json_text(name: &str, content: &Bound<PyAny>) -> Answer<String> {
     settings.set_item("default", py.import("operator")?.call_method1("methodcaller", ("tolist",))?)?;
     let text = py.import("json")?.call_method("dumps", (content,), Some(&settings));
     let text = text.map_err(|error| {
-        Raised::Input(format!("{name} is no JSON ({}): expected what `json.loads` makes", error.value(py)))
+        Raised::Input(format!(
+            "{name} cannot be written as JSON ({}): expected what `json.loads` makes",
+            error.value(py)
+        ))
     });
     Ok(text?.extract()?)
 }

@@ -1,4 +1,4 @@
-//! Work on all cores without Python's lock, which Ctrl-C still ends.
+//! Work on all cores without Python's lock, which Ctrl-C ends.
 
 use crate::convert::error::{Answer, Raised};
 use pyo3::prelude::*;
@@ -9,15 +9,16 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// How often signals and callbacks are looked after.
+/// Time between two looks at signals and callbacks.
 const POLL: Duration = Duration::from_millis(50);
 
 /// The pool of a process, with the number of the process.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
-/// A pool of so many threads; else the pool of this process: all cores, or `RAYON_NUM_THREADS`.
+/// A pool of that many threads, or else the pool of this process: all cores, or `RAYON_NUM_THREADS`.
 ///
-/// It is not rayon's global one: a process that `fork` has made inherits a pool without its threads, and would wait for it for ever.
+/// It is not rayon's global pool: a forked process inherits a pool without its threads and would wait for it
+/// forever.
 fn pool(threads: Option<usize>) -> Answer<Arc<ThreadPool>> {
     let make = |threads| {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
@@ -36,13 +37,14 @@ fn pool(threads: Option<usize>) -> Answer<Arc<ThreadPool>> {
         return Ok(pool.clone());
     }
     let made = make(0)?;
-    // To drop a pool is to wait for its threads, which are in the parent.
+    // Dropping the parent's pool would wait for its threads, which are in the parent.
     std::mem::forget(known.replace((process, made.clone())));
     Ok(made)
 }
 
-/// Runs `work` on a pool without Python's lock while this thread looks after signals and `poll`. Where one of them raises, the work is told
-/// to stop, and is waited for.
+/// Runs `work` on a pool without Python's lock, while this thread looks after signals and calls `poll`.
+///
+/// If one of them raises, the work is told to stop and is waited for.
 pub(crate) fn watched<T: Send>(
     py: Python,
     threads: Option<usize>,
@@ -55,10 +57,10 @@ pub(crate) fn watched<T: Send>(
         let (done, wait) = channel();
         let (pool, stop) = (&pool, &stop);
         std::thread::scope(|scope| {
-            // With its end of the channel, which a panic drops.
+            // It owns its end of the channel, which a panic drops.
             let worker = scope.spawn(move || {
                 let outcome = pool.install(|| work(stop));
-                // The receiver waits longer than this thread lives.
+                // The receiver outlives this thread.
                 let _ = done.send(());
                 outcome
             });
@@ -81,12 +83,12 @@ pub(crate) fn watched<T: Send>(
     }
 }
 
-/// The same on the pool of this process, with nothing to poll.
+/// Runs `work` on the pool of this process, with nothing to poll.
 pub(crate) fn run<T: Send>(py: Python, work: impl FnOnce(&AtomicBool) -> T + Send) -> Answer<T> {
     watched(py, None, |_| Ok(()), work)
 }
 
-/// `one` of each case, in parallel and in their order.
+/// Computes `one` for each case in parallel; the results are in the order of the cases.
 pub(crate) fn each<T: Send>(py: Python, cases: usize, one: impl Fn(usize) -> T + Sync) -> Answer<Vec<T>> {
     if cases == 1 {
         return Ok(vec![py.detach(|| one(0))]);
@@ -95,6 +97,6 @@ pub(crate) fn each<T: Send>(py: Python, cases: usize, one: impl Fn(usize) -> T +
         let one = |case| (!stop.load(Ordering::Relaxed)).then(|| one(case));
         (0..cases).into_par_iter().map(one).collect::<Option<Vec<T>>>()
     })?;
-    // Nothing stops the work but what has been raised above.
+    // Only an exception stops the work, and it has been raised above.
     Ok(all.unwrap_or_default())
 }

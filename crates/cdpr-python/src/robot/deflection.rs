@@ -1,4 +1,4 @@
-//! How far the platform gives under a load.
+//! `Robot.deflection`: how far a load displaces and rotates the platform.
 
 use crate::convert::answer::answer;
 use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
@@ -11,12 +11,15 @@ use cdpr_statics::{StaticsError, deflection};
 use pyo3::prelude::*;
 
 answer! {
-    /// Static deflections. One, or m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    /// Static deflections.
+    ///
+    /// The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
+    /// answer, and `reasons` says why.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Deflection {
-        /// dp, the position with the load minus that without [m], (3,).
+        /// Displacement dp of P, the position with the load minus that without [m], (3,).
         displacement: Py<PyAny>,
-        /// |dp|, the paper's RMS [m].
+        /// Norm |dp| of the displacement, the paper's RMS [m].
         rms: Py<PyAny>,
         /// Rotation vector from the unloaded to the loaded platform, in the base frame [rad], (3,).
         turn: Py<PyAny>,
@@ -28,12 +31,12 @@ answer! {
         loaded: Py<DirectSolution>,
         /// Why there is no answer, None where there is one; None for one case.
         reasons: Py<PyAny>,
-        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
     }
 }
 
-/// A deflection with what takes time to compute.
+/// A deflection with its derived quantities, which are computed in parallel.
 pub(crate) struct Given {
     rms: f64,
     displacement: [f64; 3],
@@ -58,13 +61,15 @@ impl From<cdpr_statics::Deflection> for Given {
 
 #[pymethods]
 impl Robot {
-    /// How far the platform gives under a load: cables are wound so that it rests at the pose under its own weight, then the load is added.
-    /// Arguments are of one case, or have a first axis of m cases.
+    /// Computes how far a load displaces and rotates the platform.
+    ///
+    /// The cables are wound so that the platform rests at the pose under its own weight; then the load is
+    /// added. Arguments are of one case, or have a first axis of m cases.
     ///
     /// pose: wanted pose under the platform's own weight, (3,) or (7,).
     /// payload: mass added at the platform's centre of mass [kg].
     /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// tension_offsets: added to the tension set-points [N], (n,).
+    /// tension_offsets: offsets added to the tension set-points [N], (n,).
     ///
     /// Raises InputError; for one case NoSolutionError.
     #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, tension_offsets=None))]

@@ -1,4 +1,4 @@
-//! What a small change of each parameter does to lengths and deflection.
+//! `Robot.derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
 use crate::convert::answer::answer;
 use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
@@ -11,32 +11,36 @@ use cdpr_statics::{StaticsError, derivatives};
 use pyo3::prelude::*;
 
 answer! {
-    /// A deflection with its exact derivatives. One, or m: then every field has a first axis of m, with NaN where there is no answer, and `reasons`
-    /// says why. Derivatives are per SI unit of the k inputs.
+    /// A deflection with its exact derivatives, per SI unit of the k inputs.
+    ///
+    /// The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
+    /// answer, and `reasons` says why.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Derivatives {
-        /// Names of the k inputs: the parameters of the robot, `payload`, and the wanted pose: `x`, `y`, `z` [m] and `rx`, `ry`, `rz` [rad].
+        /// Names of the k inputs: the parameters of the robot, `payload`, and the wanted pose.
+        ///
+        /// The inputs of the pose are `x`, `y`, `z` [m] and `rx`, `ry`, `rz` [rad].
         inputs: Vec<String>,
-        /// Of |dp| [m per unit], (k,).
+        /// Derivatives of |dp| [m per unit], (k,).
         rms: Py<PyAny>,
-        /// Of dp [m per unit], (3, k).
+        /// Derivatives of dp [m per unit], (3, k).
         displacement: Py<PyAny>,
-        /// Of the unstrained lengths [m per unit], (n, k).
+        /// Derivatives of the unstrained lengths [m per unit], (n, k).
         lengths: Py<PyAny>,
-        /// Of the tension set-points [N per unit], (n, k).
+        /// Derivatives of the tension set-points [N per unit], (n, k).
         set_points: Py<PyAny>,
-        /// Of the tensions with the load [N per unit], (n, k).
+        /// Derivatives of the tensions with the load [N per unit], (n, k).
         tensions: Py<PyAny>,
         /// The deflection itself.
         deflection: Py<Deflection>,
         /// Why there is no answer, None where there is one; None for one case.
         reasons: Py<PyAny>,
-        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
     }
 }
 
-/// Rows of matrices, one after the other.
+/// The matrices of derivatives, row by row.
 struct Slopes {
     rms: Vec<f64>,
     displacement: Vec<f64>,
@@ -48,7 +52,9 @@ struct Slopes {
 
 #[pymethods]
 impl Robot {
-    /// Exact derivatives of lengths, tensions and deflection under a load. Arguments are of one case, or have a first axis of m cases.
+    /// Computes the exact derivatives of lengths, tensions and deflection under a load.
+    ///
+    /// Arguments are of one case, or have a first axis of m cases.
     ///
     /// pose: wanted pose under the platform's own weight, (3,) or (7,).
     /// payload: mass added at the platform's centre of mass [kg].
@@ -73,7 +79,7 @@ impl Robot {
         let no_offsets = vec![0.0; cables];
         let outcomes: Vec<Result<Slopes, StaticsError>> = each(py, cases.count, |case| {
             let found = derivatives(robot, &poses.pose(case)?, &no_offsets, &loads.load(case)?)?;
-            // Storage is column by column.
+            // nalgebra stores matrices column by column.
             Ok(Slopes {
                 rms: found.rms()?,
                 displacement: found.displacement().transpose().as_slice().to_vec(),

@@ -1,4 +1,4 @@
-//! Where the platform stands for given unstrained lengths.
+//! `Robot.direct`: where the platform stands for given unstrained lengths.
 
 use crate::convert::answer::answer;
 use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
@@ -9,42 +9,44 @@ use cdpr_statics::{Method, Start, StaticsError, direct, rough_pose};
 use pyo3::prelude::*;
 
 answer! {
-    /// Stable equilibria of the platform. One, or m: then every field has a first axis of m, with NaN (or False, None) where there is no answer, and
-    /// `reasons` says why.
+    /// Stable equilibria of the platform.
+    ///
+    /// The answer is of one case, or of m: then every field has a first axis of m, with NaN (or False, None)
+    /// where there is no answer, and `reasons` says why.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct DirectSolution {
         /// Position of P in the base frame [m], (3,).
         position: Py<PyAny>,
         /// Rotation from the platform to the base frame as a unit quaternion (w, x, y, z), w >= 0, (4,).
         quaternion: Py<PyAny>,
-        /// The same as a matrix, (3, 3).
+        /// Rotation from the platform to the base frame as a matrix, (3, 3).
         rotation: Py<PyAny>,
-        /// Position and quaternion: a pose that other calls take, (7,).
+        /// Position and quaternion, a pose as other calls take it, (7,).
         pose: Py<PyAny>,
         /// Force (fx, fz) on each cable at its anchor point, in its vertical plane [N], (n, 2).
         cable_forces: Py<PyAny>,
         /// Tension of each cable at the platform [N], (n,).
         tensions: Py<PyAny>,
-        /// Whether every small displacement is pulled back.
+        /// Whether the equilibrium is stable.
         stable: Py<PyAny>,
         /// Stiffness of the softest motion [N/m].
         least_stiffness: Py<PyAny>,
-        /// Which cables are longer than the distance of their points, (n,).
+        /// Whether each cable is longer than the distance of its points, (n,).
         slack: Py<PyAny>,
-        /// What stays open in the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,).
+        /// Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,).
         residual: Py<PyAny>,
-        /// How it was found: newton, trust_region or continuation.
+        /// Method that found the equilibrium: newton, trust_region or continuation.
         method: Py<PyAny>,
         /// Iterations of that method; 0 where there is no answer.
         iterations: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one case.
         reasons: Py<PyAny>,
-        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
     }
 }
 
-/// An equilibrium with what takes time to compute, which is done in parallel.
+/// An equilibrium with its least stiffness, which is computed in parallel.
 pub(crate) struct Found {
     solution: cdpr_statics::DirectSolution,
     least_stiffness: f64,
@@ -58,12 +60,13 @@ impl From<cdpr_statics::DirectSolution> for Found {
 
 #[pymethods]
 impl Robot {
-    /// Where the platform stands for given unstrained lengths: a stable equilibrium. Arguments are of one case, or have a first axis of m cases.
+    /// Finds where the platform stands for given unstrained lengths: a stable equilibrium.
     ///
-    /// lengths: unstrained lengths of the cables [m], (n,).
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// payload: mass added at the platform's centre of mass [kg].
-    /// start: pose where the search begins, (3,) or (7,); where straight cables would hold a point if left out.
+    /// Arguments are of one case, or have a first axis of m cases.
+    ///
+    /// lengths: unstrained lengths of the cables [m], (n,). force, moment: on the platform in the base frame,
+    /// about P [N, N m], (3,). payload: mass added at the platform's centre of mass [kg]. start: pose where
+    /// the search starts, (3,) or (7,); if left out, where straight cables would hold a point.
     ///
     /// Raises InputError; for one case NoSolutionError.
     #[pyo3(signature = (lengths, *, force=None, moment=None, payload=None, start=None))]

@@ -1,4 +1,4 @@
-//! The unstrained lengths that hold a pose.
+//! `Robot.inverse`: the unstrained lengths that hold a pose.
 
 use crate::convert::answer::answer;
 use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
@@ -9,8 +9,10 @@ use cdpr_statics::{Bound, StaticsError, inverse};
 use pyo3::prelude::*;
 
 answer! {
-    /// Unstrained lengths that hold poses. One pose, or m: then every field has a first axis of m, with NaN where there is no answer, and
-    /// `reasons` says why.
+    /// Unstrained lengths that hold poses.
+    ///
+    /// The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
+    /// answer, and `reasons` says why.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct InverseSolution {
         /// Unstrained length of each cable [m], (n,).
@@ -21,26 +23,28 @@ answer! {
         cable_forces: Py<PyAny>,
         /// The bound that each tension rests on: -1 the least, 1 the greatest, 0 none, (n,).
         active: Py<PyAny>,
-        /// What stays open in the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,).
+        /// Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,).
         residual: Py<PyAny>,
-        /// Turns of distribution and Newton's method; 0 where there is no answer.
+        /// Iterations of distribution and Newton's method; 0 where there is no answer.
         turns: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
-        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
     }
 }
 
 #[pymethods]
 impl Robot {
-    /// The unstrained lengths with which the platform rests at a pose under its weight and a load, with the least-norm tensions within the
-    /// robot's limits. Arguments are of one case, or have a first axis of m cases.
+    /// Computes the unstrained lengths that hold the platform at a pose under its weight and a load.
+    ///
+    /// The tensions are those of least norm within the robot's limits. Arguments are of one case, or have a
+    /// first axis of m cases.
     ///
     /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
     /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
     /// payload: mass added at the platform's centre of mass [kg].
-    /// reference: tensions to be as near to as possible in place of zero [N], (n,).
+    /// reference: tensions that the tensions are nearest to, in place of zero [N], (n,).
     ///
     /// Raises InputError; for one case NoSolutionError.
     #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None))]

@@ -1,4 +1,4 @@
-//! Deflections of robots that deviate from the nominal one: the model behind every study.
+//! `Robot.observe`: the deflections of robots that deviate from the nominal one, which every study observes.
 
 use crate::convert::answer::answer;
 use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
@@ -12,31 +12,33 @@ use rayon::prelude::*;
 use std::sync::atomic::Ordering;
 
 answer! {
-    /// Deflections of m robots, or of one; NaN where there is none, and `reasons` says why.
+    /// Deflections of m robots, or of one; NaN where there is no answer, and `reasons` says why.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Observations {
-        /// dp [m], (3,).
+        /// Displacement dp of P [m], (3,).
         displacement: Py<PyAny>,
-        /// |dp| [m].
+        /// Norm |dp| of the displacement [m].
         rms: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one robot.
         reasons: Py<PyAny>,
-        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
     }
 }
 
-/// Robots that a thread takes at a time.
+/// Number of robots that a thread takes at a time.
 const PART: usize = 256;
 
 #[pymethods]
 impl Robot {
-    /// The deflections under a load of robots whose k parameters deviate from this one's, each with its cables wound for the pose: what a study
-    /// observes. Many robots go through the lanes of the vector unit at once: the answers agree with `deflection` to rounding, and each
-    /// depends on its own row alone.
+    /// Computes the deflections under a load of robots whose k parameters deviate from those of this robot.
+    ///
+    /// This is what a study observes; each robot has its cables wound for the pose. Several robots go through
+    /// the vector unit at once: the answers agree with `deflection` to rounding, and each depends on its own
+    /// row alone.
     ///
     /// pose: wanted pose under the platform's own weight, (3,) or (7,).
-    /// deviations: added to the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
+    /// deviations: deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
     /// payload, force, moment: one load for all, as in `deflection`.
     ///
     /// Raises InputError; for one robot NoSolutionError.

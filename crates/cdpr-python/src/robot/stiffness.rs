@@ -1,4 +1,4 @@
-//! The Cartesian stiffness at a pose.
+//! `Robot.stiffness`: the Cartesian stiffness at a pose.
 
 use crate::convert::answer::answer;
 use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
@@ -10,10 +10,13 @@ use cdpr_statics::{Load, Mode, Start, StaticsError, Tangent, direct_any, inverse
 use pyo3::prelude::*;
 
 answer! {
-    /// Cartesian stiffness. At one pose, or at m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    /// Cartesian stiffness.
+    ///
+    /// The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
+    /// answer, and `reasons` says why.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Stiffness {
-        /// K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
+        /// Stiffness K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
         matrix: Py<PyAny>,
         /// Eigenvalues of the stiffness in (dp, arm dphi), from the softest motion [N/m], (6,).
         eigenvalues: Py<PyAny>,
@@ -23,18 +26,18 @@ answer! {
         rotations: Py<PyAny>,
         /// Stiffness of the softest motion [N/m].
         least_stiffness: Py<PyAny>,
-        /// Whether every small displacement is pulled back.
+        /// Whether the equilibrium is stable.
         stable: Py<PyAny>,
-        /// The length that makes rotations comparable with translations [m].
+        /// Characteristic length, which makes rotations comparable with translations [m].
         arm: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
-        /// The kind of each failure, likewise: `infeasible_tension`, ...
+        /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
     }
 }
 
-/// What is asked of a pose.
+/// The stiffness at one pose.
 struct Found {
     matrix: [[f64; 6]; 6],
     modes: [Mode; 6],
@@ -45,7 +48,9 @@ struct Found {
 
 #[pymethods]
 impl Robot {
-    /// The Cartesian stiffness at a pose with a load, cables' sag and weight included. Arguments are of one case, or have a first axis of m cases.
+    /// Computes the Cartesian stiffness at a pose with a load, including the sag and weight of the cables.
+    ///
+    /// Arguments are of one case, or have a first axis of m cases.
     ///
     /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
     /// payload: mass that the platform carries there, at its centre of mass [kg].

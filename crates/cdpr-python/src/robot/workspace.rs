@@ -1,4 +1,4 @@
-//! Where the platform is held, and how it gives, over a plane or a box.
+//! `Robot.workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
 use crate::convert::answer::answer;
 use crate::convert::arrays::{Array, Numbers};
@@ -15,14 +15,16 @@ use pyo3::types::PyDict;
 use std::sync::atomic::Ordering;
 
 answer! {
-    /// What was found at level positions on a grid, x slowest and z fastest; NaN where there is no answer.
+    /// Results at level positions on a grid, x slowest and z fastest; NaN where there is no answer.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Workspace {
-        /// Number of places along x, y and z.
+        /// Number of positions along x, y and z.
         shape: (usize, usize, usize),
         /// Positions of P [m], (m, 3).
         positions: Py<PyAny>,
-        /// `held`; `beyond_limits` where the load takes a tension out of the limits; else the kind of failure; m of them.
+        /// `held`, `beyond_limits`, or the kind of failure; m of them.
+        ///
+        /// A position is `beyond_limits` where the load takes a tension out of the limits.
         status: Vec<String>,
         /// Why a position is not held, None where it is; m of them.
         reasons: Vec<Option<String>>,
@@ -30,33 +32,35 @@ answer! {
         least_tension: Py<PyAny>,
         /// Greatest tension, without and with the load [N], (m,).
         greatest_tension: Py<PyAny>,
-        /// dp under the payload [m], (m, 3).
+        /// Displacement dp of P under the payload [m], (m, 3).
         displacement: Py<PyAny>,
-        /// |dp| [m], (m,).
+        /// Norm |dp| of the displacement [m], (m,).
         rms: Py<PyAny>,
         /// Stiffness of the softest motion with the load [N/m], (m,).
         least_stiffness: Py<PyAny>,
-        /// The uncertain parameter with the largest share of the variance of |dp|, None without uncertainty; m of them.
+        /// Uncertain parameter with the largest share of the variance of |dp|, or None; m of them.
         dominant: Vec<Option<String>>,
-        /// Its share, 0 to 1, (m,).
+        /// Share of that parameter, 0 to 1, (m,).
         dominant_share: Py<PyAny>,
         /// Standard deviation of |dp| from all uncertain parameters [m], (m,).
         std: Py<PyAny>,
     }
 }
 
-/// Points of a plane along its two axes.
+/// Number of points of a plane along its two axes.
 const POINTS: (usize, usize) = (41, 41);
 
 #[pymethods]
 impl Robot {
-    /// Where the platform is held under a payload, and how it gives there, on a grid of level positions.
+    /// Finds where the cables hold the platform under a payload, and how far it gives there.
     ///
-    /// x, y, z: places along each axis [m]: a number, or (from, to, points).
-    /// plane: in place of these, a plane over the frame of the exit points, ("z", 1.75).
-    /// grid: points of the plane along its two axes; (41, 41) if left out.
-    /// payload: mass added at the platform's centre of mass, whose effect is the deflection [kg]; with 0 there is none.
-    /// uncertainty: standard deviations of parameters or groups of them [SI units]: {"a": 0.002, "mass": 0.5}.
+    /// Positions are on a grid, with the platform level.
+    ///
+    /// x, y, z: coordinates along each axis [m]: a number, or (from, to, points). plane: in place of x, y and
+    /// z, a plane over the frame of the exit points, ("z", 1.75). grid: points of the plane along its two
+    /// axes; (41, 41) if left out. payload: mass added at the platform's centre of mass [kg], whose effect is
+    /// the deflection; 0 for no deflection. uncertainty: standard deviations of parameters or groups of them
+    /// [SI units]: {"a": 0.002, "mass": 0.5}.
     ///
     /// Raises InputError. A position that is not held is no error.
     #[pyo3(signature = (*, x=None, y=None, z=None, plane=None, grid=None, payload, uncertainty=None))]
@@ -118,7 +122,7 @@ impl Robot {
     }
 }
 
-/// Places along an axis: one, or from, to and how many.
+/// Coordinates along an axis: one, or from, to and their number.
 fn places(name: &str, numbers: &Numbers) -> Answer<GridAxis> {
     let Array { shape, values } = Array::new(name, numbers)?;
     match (shape.len(), &values[..]) {
@@ -128,7 +132,7 @@ fn places(name: &str, numbers: &Numbers) -> Answer<GridAxis> {
             Ok(GridAxis { min: *min, max: *max, points: *points as usize })
         }
         _ => Err(Raised::Input(format!(
-            "{name} is {numbers}: expected a place [m], or from, to, and a number of points"
+            "{name} is {numbers}: expected a coordinate [m], or from, to, and a number of points"
         ))),
     }
 }
@@ -144,7 +148,7 @@ fn normal(axis: &str) -> Answer<Axis> {
     }
 }
 
-/// Normal deviations of the parameters that are named themselves or by their group.
+/// Normal deviations of the parameters that are named, by themselves or by their group.
 fn tolerances(robot: &cdpr_robot::Robot, named: &Bound<PyDict>) -> Answer<ErrorModel> {
     let named: Vec<(String, f64)> =
         named.iter().map(|(name, std)| Ok((name.extract()?, std.extract()?))).collect::<PyResult<_>>()?;

@@ -16,13 +16,15 @@ use pyo3::types::PyDict;
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
 
-/// Consecutive points of Sobol's sequence in the laws of k inputs, plain or, with a seed, under Owen's scrambling. Sizes of 2^m, from
-/// index 0, keep its balance.
+/// Consecutive points of Sobol's sequence in the laws of k inputs.
+///
+/// The sequence is plain or, with a seed, under Owen's scrambling. Sizes of 2^m, from index 0, keep its
+/// balance.
 ///
 /// inputs: law of each input by its name; see `uniform`, `normal` and the other laws.
 /// points: number of rows.
-/// first_index: index in the plain sequence of the first row; 1 where a law has no lower end.
-/// seed: of the scrambling; None for the plain sequence.
+/// first_index: index of the first row in the plain sequence; 1 where a law has no lower end.
+/// seed: seed of the scrambling; None for the plain sequence.
 ///
 /// Raises InputError.
 #[pyclass(frozen, module = "cdpr.sensitivity")]
@@ -30,10 +32,12 @@ pub(crate) struct SobolDesign {
     design: cdpr_sensitivity::SobolDesign,
 }
 
-/// Blocks of k + 2 rows for Sobol' indices (2k + 2 for those of pairs), on 8 scrambled sequences by turns or, without a seed, on the plain
-/// one. Arguments as of `SobolDesign`.
+/// Blocks of k + 2 rows for Sobol' indices (2k + 2 for those of pairs).
 ///
-/// blocks: number of blocks N, 16 at least.
+/// Blocks lie on 8 scrambled sequences in rotation or, without a seed, on the plain one. Other arguments are
+/// as of `SobolDesign`.
+///
+/// blocks: number of blocks N, at least 16.
 /// pairs: whether indices of pairs of inputs are wanted.
 #[pyclass(frozen, module = "cdpr.sensitivity")]
 pub(crate) struct SaltelliDesign {
@@ -42,8 +46,8 @@ pub(crate) struct SaltelliDesign {
 
 /// Radial blocks of k + 1 rows for Morris's elementary effects, on points of the scrambled Sobol sequence.
 ///
-/// blocks: number of blocks, 2 at least.
-/// seed: of the scrambling.
+/// blocks: number of blocks, at least 2.
+/// seed: seed of the scrambling.
 #[pyclass(frozen, module = "cdpr.sensitivity")]
 pub(crate) struct MorrisDesign {
     design: cdpr_sensitivity::MorrisDesign,
@@ -69,7 +73,7 @@ impl SobolDesign {
         Ok(Self { design: design? })
     }
 
-    /// For `pickle`.
+    /// Arguments that make the design again, for `pickle`.
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> Answer<Made<'py>> {
         let settings = PyDict::new(py);
         settings.set_item("first_index", self.design.first_index())?;
@@ -81,12 +85,12 @@ impl SobolDesign {
         summary("SobolDesign", &self.design)
     }
 
-    /// Values of the inputs, (points, k).
+    /// Returns the values of the inputs, (points, k).
     fn rows(&self, py: Python) -> Answer<Py<PyAny>> {
         rows(py, &self.design)
     }
 
-    /// Effect of each input from one output a row, NaN where the model failed, (points,).
+    /// Estimates the effect of each input from one output a row, NaN where the model failed, (points,).
     fn effects(&self, py: Python, outputs: Numbers) -> Answer<Effects> {
         let outputs = values(&outputs)?;
         let found = run(py, |_| student_effects(&self.design, &outputs))??;
@@ -100,11 +104,11 @@ impl SobolDesign {
         })
     }
 
-    /// A polynomial chaos expansion from one output a row, NaN where the model failed, (points,).
+    /// Fits a polynomial chaos expansion to one output a row, NaN where the model failed, (points,).
     ///
     /// max_degree: largest degree that is tried.
     /// norm: q in (0, 1] of the hyperbolic truncation; 1 for all products up to the degree.
-    /// interactions: most inputs in one product.
+    /// interactions: largest number of inputs in one product.
     #[pyo3(signature = (outputs, *, max_degree=5, norm=1.0, interactions=2))]
     fn expansion(
         &self,
@@ -141,7 +145,7 @@ impl SaltelliDesign {
         Ok(Self { design: design? })
     }
 
-    /// For `pickle`.
+    /// Arguments that make the design again, for `pickle`.
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> Answer<Made<'py>> {
         let settings = PyDict::new(py);
         settings.set_item("first_index", self.design.first_index())?;
@@ -154,16 +158,16 @@ impl SaltelliDesign {
         summary("SaltelliDesign", &self.design)
     }
 
-    /// Values of the inputs, (points, k).
+    /// Returns the values of the inputs, (points, k).
     fn rows(&self, py: Python) -> Answer<Py<PyAny>> {
         rows(py, &self.design)
     }
 
-    /// Sobol' indices from one output a row, NaN where the model failed, (points,), with bootstrap intervals.
+    /// Estimates Sobol' indices, with bootstrap intervals, from one output a row, NaN where the model failed.
     ///
     /// level: confidence of the intervals.
-    /// resamples: of the bootstrap.
-    /// seed: of the bootstrap; 0 if left out, so that the same outputs have the same intervals.
+    /// resamples: number of resamples of the bootstrap.
+    /// seed: seed of the bootstrap; 0 if left out, so that the same outputs have the same intervals.
     #[pyo3(signature = (outputs, *, level=0.95, resamples=1000, seed=None))]
     fn indices(
         &self,
@@ -205,7 +209,7 @@ impl MorrisDesign {
         Ok(Self { design: design? })
     }
 
-    /// For `pickle`.
+    /// Arguments that make the design again, for `pickle`.
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> Answer<Made<'py>> {
         let settings = PyDict::new(py);
         settings.set_item("seed", self.design.seed())?;
@@ -216,12 +220,12 @@ impl MorrisDesign {
         summary("MorrisDesign", &self.design)
     }
 
-    /// Values of the inputs, (points, k).
+    /// Returns the values of the inputs, (points, k).
     fn rows(&self, py: Python) -> Answer<Py<PyAny>> {
         rows(py, &self.design)
     }
 
-    /// Elementary effects from one output a row, NaN where the model failed, (points,).
+    /// Estimates elementary effects from one output a row, NaN where the model failed, (points,).
     #[pyo3(signature = (outputs, *, level=0.95))]
     fn effects(&self, py: Python, outputs: Numbers, level: f64) -> Answer<MorrisEffects> {
         let outputs = values(&outputs)?;
@@ -237,7 +241,7 @@ impl MorrisDesign {
     }
 }
 
-/// Rows that a thread makes at a time.
+/// Number of rows that a thread makes at a time.
 const PART: usize = 1024;
 
 /// Inputs from their laws, as they stand in study files: `{"uniform": {"min": .., "max": ..}}`.
@@ -252,7 +256,7 @@ fn laws(inputs: &Bound<PyDict>) -> Answer<Vec<Input>> {
     inputs.iter().map(input).collect()
 }
 
-/// What a design is made again of: its arguments by place and by name.
+/// Arguments that make a design again: by position and by name.
 type Made<'py> = ((Bound<'py, PyDict>, usize), Bound<'py, PyDict>);
 
 fn made<'py>(
@@ -272,7 +276,7 @@ fn summary(class: &str, design: &impl SampleDesign) -> String {
     format!("<cdpr.sensitivity.{class} of {} inputs, {} rows>", design.inputs().len(), design.points())
 }
 
-/// The seed of a scrambled sequence, which begins at index 0.
+/// The seed of a scrambled sequence, which starts at index 0.
 fn scrambling(seed: Option<Bound<PyAny>>, first_index: u32) -> Answer<Option<u64>> {
     match seed.map(|seed| whole("seed", &seed)).transpose()? {
         Some(_) if first_index > 0 => {

@@ -1,4 +1,4 @@
-//! What is estimated from the outputs of any model at the rows of a design.
+//! Estimates from the outputs of any model at the rows of a design.
 
 use crate::convert::answer::answer;
 use crate::convert::arrays::{Array, Numbers};
@@ -23,9 +23,9 @@ answer! {
         student: Py<PyAny>,
         /// Mean of the outputs.
         mean: f64,
-        /// Their standard deviation, with n - 1.
+        /// Standard deviation of the outputs, with n - 1.
         std: f64,
-        /// Observations without an output.
+        /// Number of observations without an output.
         failed: usize,
     }
 }
@@ -36,25 +36,25 @@ answer! {
     pub(crate) struct SobolIndices {
         /// Names of the inputs.
         inputs: Vec<String>,
-        /// Share of the variance that each causes alone, (k,).
+        /// Share of the variance that each input causes alone, (k,).
         first: Py<PyAny>,
-        /// Its interval, (k, 2).
+        /// Intervals of these, (k, 2).
         first_interval: Py<PyAny>,
-        /// Share of the variance that each takes part in, (k,).
+        /// Share of the variance that each input takes part in, (k,).
         total: Py<PyAny>,
-        /// Its interval, (k, 2).
+        /// Intervals of these, (k, 2).
         total_interval: Py<PyAny>,
-        /// Names of the pairs of inputs; none unless they are asked for.
+        /// Names of the pairs of inputs; empty unless pairs are asked for.
         pairs: Vec<(String, String)>,
         /// Share of the variance that each pair causes together beyond what each causes alone, (pairs,).
         second: Py<PyAny>,
-        /// Its interval, (pairs, 2).
+        /// Intervals of these, (pairs, 2).
         second_interval: Py<PyAny>,
         /// Variance of the output.
         variance: f64,
-        /// Blocks that the indices rest on.
+        /// Number of blocks that the indices are estimated from.
         blocks: usize,
-        /// Blocks left out for an output that failed.
+        /// Number of blocks left out because an output failed.
         failed_blocks: usize,
     }
 }
@@ -69,7 +69,7 @@ answer! {
         mean: Py<PyAny>,
         /// mu*: mean of absolute values, (k,).
         mean_absolute: Py<PyAny>,
-        /// Its interval, (k, 2).
+        /// Intervals of these, (k, 2).
         mean_absolute_interval: Py<PyAny>,
         /// sigma: standard deviation, (k,).
         std: Py<PyAny>,
@@ -102,7 +102,7 @@ impl Expansion {
         self.expansion.variance()
     }
 
-    /// Degree chosen.
+    /// Degree of the expansion.
     #[getter]
     fn degree(&self) -> usize {
         self.expansion.degree
@@ -126,7 +126,7 @@ impl Expansion {
         vector(py, self.expansion.indices().iter().map(|shares| shares.total))
     }
 
-    /// The expansion at rows of values of the inputs, (m, k): m outputs.
+    /// Evaluates the expansion at rows of values of the inputs, (m, k): m outputs.
     fn predict(&self, py: Python, rows: Numbers) -> Answer<Py<PyAny>> {
         let Array { shape, values } = Array::new("rows", &rows)?;
         let width = self.expansion.inputs.len();
@@ -139,7 +139,7 @@ impl Expansion {
         Ok(vector(py, outputs.into_iter()))
     }
 
-    /// For `pickle`: an expansion goes to other processes as JSON.
+    /// Makes an expansion again for `pickle`, which carries it as JSON.
     fn __reduce__<'py>(&self, py: Python<'py>) -> Answer<(Bound<'py, PyAny>, (String,))> {
         let text = to_json(&self.expansion)?;
         Ok((py.get_type::<Self>().getattr("_from_json")?, (text,)))
