@@ -1,21 +1,23 @@
 // Direct model and one observation with Ceres: ceres PROBLEM.json [tiny], result as JSON on stdout.
 //
-// Unknowns of the direct model: p, rotation vector v with R = exp([v]), force (fx, fz) on every cable at its anchor point A_i.
-// Equations, with r_i = p + R a_i - b_i, h_i and z_i its horizontal length and height, e_i = (r_x/h, r_y/h):
+// Unknowns of the direct model: p, rotation vector v with R = exp([v]), force (fx, fz) on every cable at its
+// anchor point A_i. Equations, with r_i = p + R a_i - b_i, Eq. (1), h_i and z_i its horizontal length and
+// height, e_i = (r_x/h, r_y/h):
 //
-//   sum F_i = m g,  F_i = (fx e_i, fz),  g = (0, 0, -9.81) m/s^2                                  [N]     (3)
-//   sum (R a_i) x F_i = (R c) x m g                                                               [N m]   (3)
-//   h = fx L/EA + fx/w (asinh(fz/fx) - asinh((fz - w L)/fx))                                      [mm]    (2a)
-//   z = fz L/EA - w L^2/(2 EA) + (sqrt(fx^2 + fz^2) - sqrt(fx^2 + (fz - w L)^2))/w                [mm]    (2b)
+//   sum F_i + m g = 0,  F_i = -(fx e_i, fz),  g = (0, 0, -9.81) m/s^2                  [N]     Eq. (3)
+//   sum (R a_i) x F_i + (R c) x m g = 0                                                [N m]   Eq. (3)
+//   h = fx L/EA + fx/w (asinh(fz/fx) - asinh((fz - w L)/fx))                           [mm]    Eq. (2a)
+//   z = fz L/EA - w L^2/(2 EA) + (sqrt(fx^2 + fz^2) - sqrt(fx^2 + (fz - w L)^2))/w     [mm]    Eq. (2b)
 //
-// Inverse model: least-norm tensions t = -W^T (W W^T)^-1 w_ex, W from the directions of the cables at the platform; then for
-// every cable the unknowns (angle, L) of (2) with fx = t cos, fz = t sin; again, until the directions stop moving.
+// Inverse model: least-norm tensions t = -W^T (W W^T)^-1 w_ex, W from the directions of the cables at the
+// platform; then for every cable the unknowns (angle, L) of Eq. (2a), (2b) with fx = t cos, fz = t sin;
+// again, until the directions stop moving.
 //
-// Observation: inverse model of the robot with deviations, tension offsets dt, lengths for these, direct model without and
-// with the payload, difference of the positions.
+// Observation: inverse model of the robot with deviations, tension offsets dt, lengths for these, direct
+// model without and with the payload, difference of the positions.
 //
-// Solver: ceres::Solve, Levenberg-Marquardt with dense Cholesky, or ceres::TinySolver (fixed sizes, no allocation) with LU of the
-// normal equations; automatic derivatives.
+// Solver: ceres::Solve, Levenberg-Marquardt with dense Cholesky, or ceres::TinySolver (fixed sizes, no
+// allocation) with LU of the normal equations; automatic derivatives.
 
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
