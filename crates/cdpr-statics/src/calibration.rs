@@ -24,9 +24,10 @@
 //! Taking the pose that adds most, one after the other, comes within 1 - 1/e of the information of the best choice (D-optimal design;
 //! Nemhauser, Wolsey, Fisher 1978: the information is submodular).
 
-use crate::derivatives::{EquilibriumDerivatives, derivatives};
+use crate::derivatives::derivatives;
 use crate::equations::Inputs;
 use crate::error::StaticsError;
+use crate::problem::DirectProblem;
 use crate::state::Load;
 use cdpr_robot::{Parameter, Pose, Robot};
 use nalgebra::{DMatrix, DVector};
@@ -116,8 +117,8 @@ impl Calibration {
         let n = self.robot.cables.len();
         let nominal = derivatives(&self.robot, pose, &vec![0.0; n], load)?;
         let lengths = &nominal.deflection.lengths;
-        let wound =
-            EquilibriumDerivatives::at(&self.robot, lengths, load, &nominal.deflection.loaded.equilibrium)?;
+        let problem = DirectProblem::new(&self.robot, lengths, load)?;
+        let wound = problem.derivatives(&nominal.deflection.loaded.equilibrium)?;
         let mut rows = Vec::new();
         for measurement in measurements {
             match *measurement {

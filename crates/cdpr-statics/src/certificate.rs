@@ -27,12 +27,12 @@
 mod interval;
 
 use crate::direct::DirectSolution;
-use crate::equations::{Factored, NEAR_VERTICAL, State, Strung, cross, jacobian, residual};
+use crate::equations::{FactoredJacobian, NEAR_VERTICAL, State, jacobian, residual, skew};
 use crate::error::StaticsError;
-use crate::model::Model;
-use crate::state::Load;
-use cdpr_cable::kernel::{Field, Real};
-use cdpr_robot::{Matrix3, Robot, Vector3};
+use crate::problem::DirectProblem;
+use crate::state::Equilibrium;
+use cdpr_cable::kernel::Real;
+use cdpr_robot::{Matrix3, Vector3};
 use interval::Interval;
 use nalgebra::{DMatrix, DVector, Matrix6, UnitQuaternion, Vector2};
 
@@ -60,56 +60,53 @@ impl Certificate {
 
 const MAX_BOXES: usize = 12;
 
-/// Proves that an exact equilibrium lies near `solution`, and how near.
-///
-/// # Errors
-/// [`StaticsError::Invalid`] for lengths or loads that are none; [`StaticsError::NotCertified`] where no box could be proved to hold
-/// an equilibrium: a cable that hangs vertically or folded, or stiffnesses so different that rounding hides the equilibrium.
-pub fn certify(
-    robot: &Robot,
-    lengths: &[f64],
-    load: &Load,
-    solution: &DirectSolution,
-) -> Result<Certificate, StaticsError> {
-    let model = Model::new(robot, lengths, load)?;
-    let equilibrium = &solution.equilibrium;
-    StaticsError::one_per_cable(
-        "solution.equilibrium.cable_forces",
-        &equilibrium.tensions(),
-        model.cables(),
-    )?;
-    let failed = |reason, growth| StaticsError::NotCertified { reason, growth };
-    if !robot.is_linear() {
-        let reason = "a cable's elastic law has pieces; certificates are for linear cables";
-        return Err(failed(reason, f64::INFINITY));
+impl DirectProblem<'_> {
+    /// Proves that an exact equilibrium lies near `solution`, and how near.
+    ///
+    /// # Errors
+    /// - [`StaticsError::Invalid`] unless the solution is finite and has one force for each cable.
+    /// - [`StaticsError::NotCertified`] where no box could be proved to hold an equilibrium: a cable that hangs vertically or folded, or
+    ///   stiffnesses so different that rounding hides the equilibrium.
+    pub fn certify(&self, solution: &DirectSolution) -> Result<Certificate, StaticsError> {
+        self.check("solution.equilibrium", &solution.equilibrium)?;
+        if !self.robot.is_linear() {
+            let reason = "a cable's elastic law has pieces; certificates are for linear cables";
+            return Err(StaticsError::NotCertified { reason, growth: f64::INFINITY });
+        }
+        prove(self, &solution.equilibrium)
     }
+}
+
+/// Looks for a box around the equilibrium that Krawczyk's operator maps into its own interior.
+fn prove(problem: &DirectProblem, equilibrium: &Equilibrium) -> Result<Certificate, StaticsError> {
+    let failed = |reason, growth| StaticsError::NotCertified { reason, growth };
     let state = State::from(equilibrium);
     let rotation = exact_rotation(&state.rotation);
     let at = |radius: &DVector<f64>| enclose(&state, &rotation, radius);
-    let size = 6 + 2 * model.cables();
+    let size = 6 + 2 * problem.cables();
 
-    let inverse = Factored::new(&jacobian(&model, &state)).inverse();
+    let inverse = FactoredJacobian::new(&jacobian(problem, &state)).inverse();
     if inverse.iter().any(|y| !y.is_finite()) {
         return Err(failed("the equations are singular here", f64::INFINITY));
     }
     let multiplier = Multiplier::new(inverse);
-    let open = residual(&model, &at(&DVector::zeros(size)).state);
+    let open = residual(problem, &at(&DVector::zeros(size)).state);
     let (middle, error) = multiplier.times(&DMatrix::from_column_slice(size, 1, open.as_slice()));
     let defect = DVector::from_fn(size, |i, _| (middle[i].abs() + error[i]).next_up());
     // No component of the box is much smaller than rounding: the others would push it out of itself.
     let floor = DVector::from_fn(size, |i, _| match i {
-        0..3 => f64::EPSILON * model.size(),
-        3..6 => f64::EPSILON * model.size() / model.arm(),
+        0..3 => f64::EPSILON * problem.size(),
+        3..6 => f64::EPSILON * problem.size() / problem.characteristic_length(),
         _ => f64::EPSILON * equilibrium.cable_forces[(i - 6) / 2].norm(),
     });
     let mut radius = floor.zip_map(&defect, |floor, defect| 2.0 * defect + floor);
     let mut growth = f64::INFINITY;
     for _ in 0..MAX_BOXES {
         let boxed = at(&radius);
-        if let Some(reason) = degenerate(&model, &boxed.state) {
+        if let Some(reason) = degenerate(problem, &boxed.state) {
             return Err(failed(reason, growth));
         }
-        let jacobian = jacobian(&model, &boxed.state);
+        let jacobian = jacobian(problem, &boxed.state);
         // (I - Y g'(X)) (X - x̃), by magnitudes.
         let (product, error) = multiplier.times(&turned(jacobian.clone(), &boxed.per_delta));
         let mut image = defect.clone();
@@ -122,7 +119,7 @@ pub fn certify(
         }
         growth = image.iter().zip(&radius).map(|(image, radius)| image / radius).fold(0.0, f64::max);
         if image.iter().zip(&radius).all(|(image, radius)| image < radius) {
-            let least_stiffness = least_stiffness(&model, &boxed.state, &jacobian);
+            let least_stiffness = least_stiffness(problem, &boxed.state, &jacobian);
             return Ok(bounds(&state, &rotation, &image, least_stiffness));
         }
         if !image.iter().all(|image| image.is_finite()) {
@@ -142,7 +139,7 @@ struct Boxed {
 fn enclose(state: &State<f64>, rotation: &Matrix3<Interval>, radius: &DVector<f64>) -> Boxed {
     let half = |value: f64| Interval::of(value);
     let delta = Vector3::from_fn(|i, _| Interval::around(0.0, radius[3 + i]));
-    let skew = cross(&delta);
+    let skew = skew(&delta);
     let denominator = Interval::of(1.0) + (delta.x * delta.x + delta.y * delta.y + delta.z * delta.z) * 0.25;
     let factor = Interval::of(1.0) / denominator;
     let one = Matrix3::identity();
@@ -183,20 +180,21 @@ fn exact_rotation(rotation: &Matrix3<f64>) -> Matrix3<Interval> {
 }
 
 /// What the equations cannot be enclosed for.
-fn degenerate(model: &Model, state: &State<Interval>) -> Option<&'static str> {
+fn degenerate(problem: &DirectProblem, state: &State<Interval>) -> Option<&'static str> {
     for (i, force) in state.forces.iter().enumerate() {
         let middle = Vector2::new(force.x.value(), force.y.value());
-        let catenary = model.catenary(i, middle);
-        let end = Strung::new(model, state, i).end;
+        let catenary = problem.catenary(i, middle);
+        let span = state.cable(problem, i).span;
+        let [h, z] = span.end;
         if catenary.is_limp() {
-            if (end.x * end.x + end.y * end.y).sqrt().high >= model.lengths[i] {
+            if span.chord().high >= problem.lengths[i] {
                 return Some("a slack cable without weight is about to become taut");
             }
             continue;
         }
         // Far above the guards of `cdpr_cable::kernel::response` and of the Jacobian; NaN is refused, too.
         let regular = force.x.low > 1e-15 * (middle.norm() + catenary.weight())
-            && end.x.low > 2.0 * NEAR_VERTICAL * end.y.magnitude();
+            && h.low > 2.0 * NEAR_VERTICAL * z.magnitude();
         if !regular {
             return Some("a cable hangs vertically or folded");
         }
@@ -241,15 +239,14 @@ fn turned(mut jacobian: DMatrix<Interval>, per_delta: &Matrix3<Interval>) -> DMa
 }
 
 /// Lower bound of the smallest eigenvalue of the symmetric Hessian over the box, in (dp, ρ dφ).
-fn least_stiffness(model: &Model, state: &State<Interval>, jacobian: &DMatrix<Interval>) -> f64 {
+fn least_stiffness(problem: &DirectProblem, state: &State<Interval>, jacobian: &DMatrix<Interval>) -> f64 {
     let mut hessian: Matrix6<Interval> = jacobian.fixed_view::<6, 6>(0, 0).into_owned();
-    for i in 0..model.cables() {
+    for i in 0..problem.cables() {
         let place = 6 + 2 * i;
-        let [xx, xz, zz] = [(0, 0), (0, 1), (1, 1)].map(|(r, c)| -jacobian[(place + r, place + c)]);
-        // Of a slack cable without weight only the ones on the diagonal are left.
-        let determinant =
-            Strung::new(model, state, i).response.map_or(xx * zz, |response| response.determinant);
-        let stiffness = [[zz / determinant, -(xz / determinant)], [-(xz / determinant), xx / determinant]];
+        // A slack cable without weight resists nothing.
+        let Some(cable) = state.cable(problem, i).linearized() else { continue };
+        let [xx, xz, zz] = cable.stiffness;
+        let stiffness = [[xx, xz], [xz, zz]];
         for row in 0..6 {
             for column in 0..6 {
                 for (j, stiffness) in stiffness.iter().enumerate() {
@@ -261,8 +258,8 @@ fn least_stiffness(model: &Model, state: &State<Interval>, jacobian: &DMatrix<In
             }
         }
     }
-    let arm = model.arm();
-    let scale = |i: usize| if i < 3 { 1.0 } else { 1.0 / arm };
+    let length = problem.characteristic_length();
+    let scale = |i: usize| if i < 3 { 1.0 } else { 1.0 / length };
     let symmetric = Matrix6::from_fn(|i, j| {
         (hessian[(i, j)] + hessian[(j, i)]) * 0.5 * Interval::of(scale(i)) * Interval::of(scale(j))
     });

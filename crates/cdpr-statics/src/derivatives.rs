@@ -1,48 +1,49 @@
 //! Exact derivatives of a deflection and of all that leads to it: the implicit function theorem on the equations of
 //! [`crate::inverse`], of the set-points, and of both equilibria.
 //!
-//! Cables answer to their inputs by (1)-(4) of `equations/partials.rs`.
+//! Cables answer to their inputs by (D1)-(D4) of `equations/partials.rs`.
 //!
-//! **Inverse model.** With `[u; s x u]` for minus the unit wrench `w_i` and a twist `λ = (λ_p, λ_r)` that moves anchor point A_i by
-//! `μ_i = λ_p + λ_r x s_i`, tensions without active bound and the balance of the platform are
+//! **Inverse model.** With the unit wrenches `w_i = [u_i; s_i x u_i]`, the multipliers `λ = (λ_p, λ_r)` of the balance make a twist that
+//! moves anchor point A_i by `μ_i = λ_p + λ_r x s_i`: `w_i·λ = u_i·μ_i`. Tensions without active bound and the balance of the platform
+//! are equation (I1) of `inverse.rs` and Eq. (3),
 //!
 //! ```text
-//! t_i - t_ref,i - u_i·μ_i = 0,      G = sum [u_i; s_i x u_i] t_i - w_ex = 0                       (5)
+//! t_i - t_ref,i + u_i·μ_i = 0,      G = sum w_i t_i + w_ex = 0                                    (D5)
 //! ```
 //!
 //! λ follows from the tensions of the free cables. A tension changes the direction it pulls in: `du_i = (dF_i - u_i dt_i)/t_i`
-//! with dF_i by (3). Differentiated, with `D_i = 1 - μ_i·(v_i - u_i)/t_i` and partial derivatives ∂ at constant t and λ,
+//! with dF_i by (D3). Differentiated, with `D_i = 1 + μ_i·(v_i - u_i)/t_i` and partial derivatives ∂ at constant t and λ,
 //!
 //! ```text
-//! dt_i = ( ∂ρ_i + [u; s x u]·dλ )/D_i,      ∂ρ_i = μ_i·∂F_i/t_i + u_i·(λ_r x ∂s_i)                (6)
-//! [ sum_free [v; s x v][u; s x u]ᵀ/D_i ] dλ = -∂G - sum_free [v; s x v] ∂ρ_i/D_i - sum_active [v; s x v] dt_i
+//! dt_i = -( ∂ρ_i + w_i·dλ )/D_i,      ∂ρ_i = μ_i·∂F_i/t_i + u_i·(λ_r x ∂s_i)                      (D6)
+//! [ sum_free [v; s x v] w_iᵀ/D_i ] dλ = ∂G - sum_free [v; s x v] ∂ρ_i/D_i + sum_active [v; s x v] dt_i
 //! ```
 //!
 //! **Active bounds stay active.** On the robot's own limits `dt_i = 0`. A cable whose weight demands more rests on the constant
-//! [`ABOVE_LEAST`] times the least tension over its span. That least tension, a minimum over the length, changes as if the length at which it is taken
-//! were held: `dt_i = ABOVE_LEAST u·(K dr + k_ρ dρ + k_E dE)` of that catenary.
+//! [`ABOVE_LEAST`] times the least tension over its span. That least tension, a minimum over the length, changes as if the length at
+//! which it is taken were held: `dt_i = ABOVE_LEAST u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary.
 //!
 //! **Set-points** are `t_i + dt_i`, or the bounds above where that is less: then the offset changes nothing.
 //!
-//! **Lengths** follow from (1) at the set-points:
+//! **Lengths** follow from (D1) at the set-points:
 //!
 //! ```text
-//! dL_i = ( dt_i - u_i·∂F_i )/(u_i·k_L)                                                            (7)
+//! dL_i = ( dt_i - u_i·∂F_i )/(u_i·k_L)                                                            (D7)
 //! ```
 //!
-//! **Equilibria.** With `H = ∂G/∂(p, φ)`,
+//! **Equilibria.** With `∂G/∂(p, φ)`, minus the stiffness of the platform,
 //!
 //! ```text
-//! H d(p, φ) = -∂G - sum [k_L; s x k_L] dL_i,      dt_i = u_i·(∂F_i + K_i (dp + dφ x s_i) + k_L dL_i)       (8)
+//! ∂G/∂(p, φ) d(p, φ) = -∂G - sum [k_L; s x k_L] dL_i,   dt_i = u_i·(∂F_i - K3_i (dp + dφ x s_i) + k_L dL_i)   (D8)
 //! ```
 //!
 //! Nothing larger than 6 x 6 is factored: the cables are eliminated, as in Newton's method of the direct model.
 
-use crate::equations::{Inputs, LinearCable, Partials, Reading, Span, solve, tensions, wrench};
+use crate::equations::{CableDerivatives, Inputs, Partials, Reading, Span, solve, tensions, wrench};
 use crate::error::StaticsError;
 use crate::inverse::{ABOVE_LEAST, InverseSolution};
 use crate::loading::{Deflection, Wound, deflection_from, wind};
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_cable::least_tension;
 use cdpr_robot::{Matrix6xX, Pose, Robot, Vector3};
@@ -115,7 +116,8 @@ pub fn derivatives(
     let set_points = stage.set_points(tension_offsets)?;
     let lengths = stage.lengths(&set_points)?;
     let at = |load: &Load, equilibrium| {
-        EquilibriumDerivatives::new(robot, &stage.inputs, &wound.lengths, load, equilibrium, Some(&lengths))
+        let problem = DirectProblem::new(robot, &wound.lengths, load)?;
+        EquilibriumDerivatives::new(&problem, &stage.inputs, equilibrium, Some(&lengths))
     };
     let mut unloaded = at(&Load::none(), &deflection.unloaded.equilibrium)?;
     let loaded = at(load, &deflection.loaded.equilibrium)?;
@@ -158,42 +160,39 @@ impl Derivatives {
     }
 }
 
-impl EquilibriumDerivatives {
-    /// Of the equilibrium for *given* lengths [m], which do not change with the parameters: neither tension offsets nor the
-    /// wanted pose matter.
+impl DirectProblem<'_> {
+    /// Derivatives of an equilibrium for *given* lengths, which do not change with the parameters: neither tension offsets nor the wanted
+    /// pose matter.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for lengths or loads that are none; [`StaticsError::NoDerivative`] at the border of stability.
-    pub fn at(
-        robot: &Robot,
-        lengths: &[f64],
-        load: &Load,
-        equilibrium: &Equilibrium,
-    ) -> Result<Self, StaticsError> {
-        Self::new(robot, &Inputs::new(robot.cables.len()), lengths, load, equilibrium, None)
+    /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable; [`StaticsError::NoDerivative`] at the
+    /// border of stability.
+    pub fn derivatives(&self, equilibrium: &Equilibrium) -> Result<EquilibriumDerivatives, StaticsError> {
+        self.check("equilibrium", equilibrium)?;
+        EquilibriumDerivatives::new(self, &Inputs::new(self.cables()), equilibrium, None)
     }
+}
 
-    /// Equation (8), for lengths with the derivatives `winding`.
+impl EquilibriumDerivatives {
+    /// Equation (D8), for lengths with the derivatives `winding`.
     fn new(
-        robot: &Robot,
+        problem: &DirectProblem,
         inputs: &Inputs,
-        lengths: &[f64],
-        load: &Load,
         equilibrium: &Equilibrium,
         winding: Option<&DMatrix<f64>>,
     ) -> Result<Self, StaticsError> {
-        let model = Model::new(robot, lengths, load)?;
         let Equilibrium { pose, cable_forces } = equilibrium;
-        let cables = LinearCable::all(&model, pose, cable_forces);
-        let mut partials = Partials::new(robot, inputs, pose, load, &cables, Reading::tension);
+        let cables = CableDerivatives::all(problem, pose, cable_forces);
+        let mut partials =
+            Partials::new(problem.robot, inputs, pose, &problem.load, &cables, Reading::tension);
         let (hessian, tensions_per_motion) = partials.take_pose(inputs);
         let Partials { mut balance, readings: mut tensions } = partials;
         if let Some(winding) = winding {
-            let winches: Vec<_> = cables.iter().map(LinearCable::winch_wrench).collect();
-            balance.gemm(1.0, &Matrix6xX::from_columns(&winches), winding, 1.0);
+            let per_actuation: Vec<_> = cables.iter().map(CableDerivatives::wrench_per_actuation).collect();
+            balance.gemm(1.0, &Matrix6xX::from_columns(&per_actuation), winding, 1.0);
             for (i, cable) in cables.iter().enumerate() {
                 let mut row = tensions.row_mut(i);
-                row += winding.row(i) * cable.direction.dot(&cable.winch);
+                row += winding.row(i) * cable.direction.dot(&cable.per_actuation);
             }
         }
         balance.neg_mut();
@@ -214,13 +213,16 @@ struct Stage<'a> {
 }
 
 impl Stage<'_> {
-    fn cables(&self, lengths: &[f64], equilibrium: &Equilibrium) -> Result<Vec<LinearCable>, StaticsError> {
-        let none = Load::none();
-        let model = Model::new(self.robot, lengths, &none)?;
-        Ok(LinearCable::all(&model, self.pose, &equilibrium.cable_forces))
+    fn cables(
+        &self,
+        lengths: &[f64],
+        equilibrium: &Equilibrium,
+    ) -> Result<Vec<CableDerivatives>, StaticsError> {
+        let problem = DirectProblem::new(self.robot, lengths, &Load::none())?;
+        Ok(CableDerivatives::all(&problem, self.pose, &equilibrium.cable_forces))
     }
 
-    /// Of the tensions of the inverse model, equation (6); `bounds` has a row for each active bound.
+    /// Of the tensions of the inverse model, equation (D6); `bounds` has a row for each active bound.
     fn tensions(&self, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
         let InverseSolution { lengths, active, equilibrium, .. } = &self.wound.wanted;
         let mut cables = self.cables(lengths, equilibrium)?;
@@ -228,39 +230,39 @@ impl Stage<'_> {
         let units: Vec<Vector6<f64>> =
             cables.iter().map(|cable| wrench(&cable.arm, &cable.direction)).collect();
 
-        // t_i = u_i·μ_i over the free cables.
+        // t_i = -w_i·λ over the free cables.
         let (mut gram, mut twist) = (Matrix6::zeros(), Matrix6xX::zeros(1));
         for ((unit, cable), _) in units.iter().zip(&cables).zip(active).filter(|(_, bound)| bound.is_none()) {
             gram += unit * unit.transpose();
-            twist += unit * cable.tension;
+            twist -= unit * cable.tension;
         }
         solve(gram, &mut twist, DISTRIBUTION)?;
         let [translation, rotation]: [Vector3<f64>; 2] =
             [0, 3].map(|row| twist.fixed_view::<3, 1>(row, 0).into());
-        let motion = |cable: &LinearCable| translation + rotation.cross(&cable.arm);
+        let motion = |cable: &CableDerivatives| translation + rotation.cross(&cable.arm);
 
-        let reading = |cable: &LinearCable| Reading {
+        let reading = |cable: &CableDerivatives| Reading {
             per_force: motion(cable) / cable.tension,
             per_arm: cable.direction.cross(&rotation),
         };
         let Partials { mut balance, readings: mut rows } =
             Partials::new(self.robot, &self.inputs, self.pose, &Load::none(), &cables, reading);
         balance.column_mut(self.inputs.payload()).fill(0.0);
-        let mut winches = Matrix6xX::zeros(cables.len());
-        // [u; s x u]/D_i, zero for a cable on a bound.
+        let mut per_actuation = Matrix6xX::zeros(cables.len());
+        // -w_i/D_i, zero for a cable on a bound.
         let mut answers = DMatrix::zeros(cables.len(), 6);
         for (i, cable) in cables.iter().enumerate() {
-            winches.set_column(i, &cable.winch_wrench());
+            per_actuation.set_column(i, &cable.wrench_per_actuation());
             if active[i].is_some() {
                 rows.set_row(i, &bounds.row(i));
                 continue;
             }
-            let d = 1.0 - motion(cable).dot(&(cable.winch - cable.direction)) / cable.tension;
-            rows.row_mut(i).unscale_mut(d);
-            answers.set_row(i, &(units[i] / d).transpose());
+            let d = 1.0 + motion(cable).dot(&(cable.per_actuation - cable.direction)) / cable.tension;
+            rows.row_mut(i).unscale_mut(-d);
+            answers.set_row(i, &-(units[i] / d).transpose());
         }
-        let matrix: Matrix6<f64> = (&winches * &answers).fixed_columns::<6>(0).into();
-        balance.gemm(1.0, &winches, &rows, 1.0);
+        let matrix: Matrix6<f64> = (&per_actuation * &answers).fixed_columns::<6>(0).into();
+        balance.gemm(1.0, &per_actuation, &rows, 1.0);
         balance.neg_mut();
         solve(matrix, &mut balance, DISTRIBUTION)?;
         rows.gemm(1.0, &answers, &balance, 1.0);
@@ -299,21 +301,21 @@ impl Stage<'_> {
         }
         let mut cables = self.cables(&self.wound.lengths, &self.wound.held)?;
         for &i in which {
-            let end = Span::new(self.robot.span(self.pose, i)).end;
+            let end = Span::new(self.robot.span(self.pose, i).into()).end.into();
             let catenary = least_tension(&self.robot.cable(i), end).map_err(StaticsError::cable(i))?;
-            cables[i] = LinearCable::new(self.robot, self.pose, i, &catenary);
+            cables[i] = CableDerivatives::new(self.robot, self.pose, i, &catenary);
         }
         let least = tensions(&self.inputs, self.pose, &cables);
         which.iter().for_each(|i| rows.set_row(*i, &(ABOVE_LEAST * least.row(*i))));
         Ok(rows)
     }
 
-    /// Of the lengths, equation (7).
+    /// Of the lengths, equation (D7).
     fn lengths(&self, set_points: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
         let cables = self.cables(&self.wound.lengths, &self.wound.held)?;
         let mut rows = tensions(&self.inputs, self.pose, &cables);
         for (i, cable) in cables.iter().enumerate() {
-            let per_length = cable.direction.dot(&cable.winch);
+            let per_length = cable.direction.dot(&cable.per_actuation);
             for (slope, set_point) in rows.row_mut(i).iter_mut().zip(set_points.row(i).iter()) {
                 *slope = (set_point - *slope) / per_length;
             }

@@ -10,12 +10,12 @@ mod trust_region;
 
 pub(crate) use continuation::follow_from;
 pub use continuation::{Loss, LossKind, Path, PathStep, Setting};
-pub use multistart::{Equilibria, Found, Starts, direct_all};
+pub use multistart::{Equilibria, Found, Starts};
 #[cfg(test)]
 pub(crate) use newton::newton_step;
-pub use search::{Start, direct, direct_any, rough_pose};
+pub use search::{Start, direct, rough_pose};
 pub(crate) use solution::MAX_STRAIN;
-pub use solution::{DirectSolution, Method, Report};
+pub use solution::{DirectMethod, DirectSolution, Report};
 pub use stability::{Mode, Stability};
 #[cfg(test)]
 pub(crate) use trust_region::cables_at;

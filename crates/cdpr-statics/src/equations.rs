@@ -2,14 +2,17 @@
 
 mod assembled;
 mod balance;
+mod cable;
+mod linearization;
 mod partials;
 mod rounding;
-mod span;
-mod tangent;
+mod spanned;
+pub(crate) mod vector;
 
-pub(crate) use assembled::{Factored, NEAR_VERTICAL, State, Strung, cross, jacobian, residual};
+pub(crate) use assembled::{FactoredJacobian, NEAR_VERTICAL, State, jacobian, residual, skew};
 pub(crate) use balance::Balance;
+pub(crate) use cable::{CablePlane, LinearizedCable, Span, between};
+pub use linearization::Linearization;
 pub use partials::Inputs;
-pub(crate) use partials::{LinearCable, Partials, Reading, solve, tensions, wrench};
-pub(crate) use span::Span;
-pub use tangent::Tangent;
+pub(crate) use partials::{CableDerivatives, Partials, Reading, solve, tensions, wrench};
+pub(crate) use spanned::SpannedCable;

@@ -140,6 +140,10 @@ impl StaticsError {
         }
     }
 
+    pub(crate) fn invalid(field: String, value: impl ToString, expected: impl ToString) -> Self {
+        Self::Invalid { field, value: value.to_string(), expected: expected.to_string() }
+    }
+
     pub(crate) fn cable(index: usize) -> impl Fn(CableError) -> Self {
         move |source| Self::Cable { index, source }
     }
@@ -148,10 +152,7 @@ impl StaticsError {
         if values.len() == cables {
             return Ok(());
         }
-        Err(Self::Invalid {
-            field: field.to_owned(),
-            value: format!("a list of {}", values.len()),
-            expected: format!("one value for each of the {cables} cables"),
-        })
+        let expected = format!("one value for each of the {cables} cables");
+        Err(Self::invalid(field.to_owned(), format!("a list of {}", values.len()), expected))
     }
 }

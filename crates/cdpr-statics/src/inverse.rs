@@ -20,12 +20,12 @@
 //!
 //! The least tension of a cable is the robot's, or what its own weight demands over its span where that is more.
 
-use crate::equations::Span;
+use crate::equations::{Span, wrench};
 use crate::error::StaticsError;
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
 use cdpr_cable::{CableError, Catenary, length_for_tension, length_for_tension_near};
-use cdpr_robot::{Pose, Robot, TensionLimits, Vector3, Vector6};
+use cdpr_robot::{Pose, Robot, TensionLimits, Vector2, Vector3, Vector6};
 use cdpr_tension::{Bound, Distribution, Problem, distribute};
 use nalgebra::Matrix6;
 
@@ -104,14 +104,14 @@ impl<'a> Inverse<'a> {
         self.load.total(self.robot, self.pose).to_vector()
     }
 
-    fn spans(&self) -> Vec<Span> {
-        (0..self.cables()).map(|i| Span::new(self.robot.span(self.pose, i))).collect()
+    fn spans(&self) -> Vec<Span<f64>> {
+        (0..self.cables()).map(|i| Span::new(self.robot.span(self.pose, i).into())).collect()
     }
 
-    /// Wrench about P of a force `pull` at anchor point i.
-    fn wrench_of(&self, i: usize, pull: &Vector3<f64>) -> Vector6<f64> {
-        let moment = self.robot.anchor_arm(self.pose, i).cross(pull);
-        Vector6::new(pull.x, pull.y, pull.z, moment.x, moment.y, moment.z)
+    /// Wrench about P of a force (fx, fz) on cable i.
+    fn wrench_of(&self, i: usize, span: &Span<f64>, force: Vector2<f64>) -> Vector6<f64> {
+        let force = span.plane.force_on_platform(force.into());
+        wrench(&self.robot.anchor_arm(self.pose, i), &force.into())
     }
 
     fn solution(
@@ -122,7 +122,7 @@ impl<'a> Inverse<'a> {
         turns: usize,
     ) -> Result<InverseSolution, StaticsError> {
         let (lengths, equilibrium) = lengths_and_forces(self.pose, catenaries);
-        let residual = Residual::of(&Model::new(self.robot, &lengths, self.load)?, &equilibrium);
+        let residual = Residual::of(&DirectProblem::new(self.robot, &lengths, self.load)?, &equilibrium);
         Ok(InverseSolution { lengths, tensions, active, equilibrium, turns, residual })
     }
 
@@ -157,7 +157,8 @@ impl<'a> Inverse<'a> {
                 }
                 Turn::Catenaries(catenaries) => {
                     for ((pull, span), catenary) in pulls.iter_mut().zip(&spans).zip(&catenaries) {
-                        let tangent = -span.lift(catenary.force) / catenary.anchor_tension();
+                        let force = Vector3::from(span.plane.force_on_platform(catenary.force.into()));
+                        let tangent = force / catenary.anchor_tension();
                         // The first turns go all the way; later ones are damped, should they swing.
                         let share = if turn <= 5 { 1.0 } else { 0.5 };
                         *pull = (*pull * (1.0 - share) + tangent * share).normalize();
@@ -176,10 +177,10 @@ impl<'a> Inverse<'a> {
     }
 
     /// All catenaries at given tensions, or the first cable whose span demands more.
-    fn catenaries(&self, spans: &[Span], tensions: &[f64]) -> Result<Turn<'a>, StaticsError> {
+    fn catenaries(&self, spans: &[Span<f64>], tensions: &[f64]) -> Result<Turn<'a>, StaticsError> {
         let mut catenaries = Vec::with_capacity(spans.len());
         for (i, (span, t)) in spans.iter().zip(tensions).enumerate() {
-            match length_for_tension(&self.robot.cable(i), span.end, *t) {
+            match length_for_tension(&self.robot.cable(i), span.end.into(), *t) {
                 Ok(solution) => catenaries.push(solution.catenary),
                 Err(CableError::TensionTooSmall { least, .. }) => {
                     return Ok(Turn::TooSmall { cable: i, least });
@@ -193,7 +194,7 @@ impl<'a> Inverse<'a> {
     /// Newton's method on (a) with the distribution's active bounds, from its tensions.
     fn newton(
         &self,
-        spans: &[Span],
+        spans: &[Span<f64>],
         limits: &[TensionLimits],
         distribution: &Distribution,
     ) -> Result<Turn<'a>, StaticsError> {
@@ -209,7 +210,7 @@ impl<'a> Inverse<'a> {
             if round > 0 {
                 for (i, ((span, t), place)) in spans.iter().zip(&tensions).zip(&mut catenaries).enumerate() {
                     if distribution.active[i].is_none() {
-                        match length_for_tension_near(place, span.end, *t) {
+                        match length_for_tension_near(place, span.end.into(), *t) {
                             Ok(solution) => *place = solution.catenary,
                             // A step too far: the tension at the end need not be too small.
                             Err(_) => return Ok(Turn::Lost),
@@ -223,14 +224,14 @@ impl<'a> Inverse<'a> {
             let mut cables = Vec::with_capacity(self.cables());
             for (i, (span, t)) in spans.iter().zip(&tensions).enumerate() {
                 let direction = catenaries[i].force / *t;
-                let w = self.wrench_of(i, &-span.lift(direction));
+                let w = self.wrench_of(i, span, direction);
                 let left = t - self.reference[i] + w.dot(&multipliers);
                 open += w * *t;
                 let mut d = f64::INFINITY;
                 if distribution.active[i].is_none() {
                     let per_length = catenaries[i].compliance().force_per_length();
                     let per_tension = per_length / per_length.dot(&direction);
-                    let turn = self.wrench_of(i, &-span.lift((per_tension - direction) / *t));
+                    let turn = self.wrench_of(i, span, (per_tension - direction) / *t);
                     d = 1.0 + turn.dot(&multipliers);
                     let c = w + turn * *t;
                     matrix += c * w.transpose() / d;
@@ -295,7 +296,7 @@ pub fn lengths_for_tensions(
 ) -> Result<(Vec<f64>, Equilibrium), StaticsError> {
     StaticsError::one_per_cable("tensions", tensions, robot.cables.len())?;
     let solutions = tensions.iter().enumerate().map(|(i, tension)| {
-        let (cable, end) = (robot.cable(i), Span::new(robot.span(pose, i)).end);
+        let (cable, end) = (robot.cable(i), Span::new(robot.span(pose, i).into()).end.into());
         let solution = match length_for_tension(&cable, end, *tension) {
             Err(CableError::TensionTooSmall { least, .. }) => {
                 length_for_tension(&cable, end, ABOVE_LEAST * least)

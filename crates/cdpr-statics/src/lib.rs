@@ -47,17 +47,17 @@ mod error;
 mod inverse;
 mod lanes;
 mod loading;
-mod model;
+mod problem;
 mod state;
 
 pub use calibration::{Calibration, ChosenPose, Combination, Identifiability, Measurement};
-pub use certificate::{Certificate, certify};
+pub use certificate::Certificate;
 pub use derivatives::{Derivatives, EquilibriumDerivatives, VarianceBudget, derivatives};
 pub use direct::{
-    DirectSolution, Equilibria, Found, Loss, LossKind, Method, Mode, Path, PathStep, Report, Setting,
-    Stability, Start, Starts, direct, direct_all, direct_any, rough_pose,
+    DirectMethod, DirectSolution, Equilibria, Found, Loss, LossKind, Mode, Path, PathStep, Report, Setting,
+    Stability, Start, Starts, direct, rough_pose,
 };
-pub use equations::{Inputs, Tangent};
+pub use equations::{Inputs, Linearization};
 pub use error::StaticsError;
 pub use inverse::{InverseSolution, inverse, lengths_for_tensions};
 pub use lanes::{Observation, Observer, Tracker};
@@ -65,6 +65,7 @@ pub use loading::{
     Deflection, HysteresisLaw, LoadCycle, PoseDeflections, Unloading, deflection, deflection_from,
     deflections, follow, load_cycle, wound_lengths,
 };
+pub use problem::DirectProblem;
 pub use state::{Equilibrium, Load, Residual};
 
 pub use cdpr_tension::Bound;

@@ -7,9 +7,9 @@
 //! Methods*, 2003, chapter 2). So a jump of the platform is reported, not stepped over.
 
 use crate::direct::newton::{Converged, newton};
-use crate::direct::solution::{DirectSolution, Method, descend, solution};
+use crate::direct::solution::{DirectMethod, DirectSolution, descend, solution};
 use crate::error::StaticsError;
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Robot, Vector6, Wrench};
 
@@ -83,17 +83,17 @@ pub(crate) fn follow_from(
     to: &Setting,
     first: DirectSolution,
 ) -> Result<Path, StaticsError> {
-    let size = Model::new(robot, &from.lengths, &from.load)?.size();
+    let size = DirectProblem::new(robot, &from.lengths, &from.load)?.size();
     let mut steps = vec![PathStep { share: 0.0, solution: first.clone() }];
     let (mut share, mut now, mut step) = (0.0, first, 0.1);
     while share < 1.0 {
         let next = if share + step >= 1.0 { 1.0 } else { share + step };
         let setting = between(from, to, next);
-        let model = Model::new(robot, &setting.lengths, &setting.load)?;
-        let found = newton(&model, now.equilibrium.clone());
-        let kind = match found.filter(|found| is_near_prediction(&model, &now.equilibrium, found, size)) {
+        let problem = DirectProblem::new(robot, &setting.lengths, &setting.load)?;
+        let found = newton(&problem, now.equilibrium.clone());
+        let kind = match found.filter(|found| is_near_prediction(&problem, &now.equilibrium, found, size)) {
             Some(found) if found.stability.is_stable() => {
-                match solution(&model, found, Method::Continuation) {
+                match solution(&problem, found, DirectMethod::Continuation) {
                     Ok(solution) => now = solution,
                     Err(error) => {
                         let kind = LossKind::Overstrained;
@@ -114,11 +114,11 @@ pub(crate) fn follow_from(
         if step < LEAST_STEP || limit {
             let beyond = (share + 1e-6).min(1.0);
             let setting = between(from, to, beyond);
-            let model = Model::new(robot, &setting.lengths, &setting.load)?;
-            let after = descend(&model, &now.equilibrium.pose);
+            let problem = DirectProblem::new(robot, &setting.lengths, &setting.load)?;
+            let after = descend(&problem, &now.equilibrium.pose);
             if let Ok(same) = &after
                 && !limit
-                && motion(&model, &now.equilibrium, &same.equilibrium).norm() <= SAME * size
+                && motion(&problem, &now.equilibrium, &same.equilibrium).norm() <= SAME * size
             {
                 now = same.clone();
                 steps.push(PathStep { share: beyond, solution: now.clone() });
@@ -133,15 +133,15 @@ pub(crate) fn follow_from(
 }
 
 /// Whether the iteration ended near what its first step predicted: on the same branch.
-fn is_near_prediction(model: &Model, from: &Equilibrium, found: &Converged, size: f64) -> bool {
-    let motion = motion(model, from, &found.equilibrium);
+fn is_near_prediction(problem: &DirectProblem, from: &Equilibrium, found: &Converged, size: f64) -> bool {
+    let motion = motion(problem, from, &found.equilibrium);
     (motion - found.first_step).norm() <= MAX_CORRECTION * found.first_step.norm() + 1e-7 * size
 }
 
 /// (dp, ρ dφ) from one equilibrium to another [m].
-fn motion(model: &Model, from: &Equilibrium, to: &Equilibrium) -> Vector6<f64> {
+fn motion(problem: &DirectProblem, from: &Equilibrium, to: &Equilibrium) -> Vector6<f64> {
     let mut motion = from.pose.motion_to(&to.pose);
-    motion.fixed_rows_mut::<3>(3).scale_mut(model.arm());
+    motion.fixed_rows_mut::<3>(3).scale_mut(problem.characteristic_length());
     motion
 }
 

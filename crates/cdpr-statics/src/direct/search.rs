@@ -2,15 +2,15 @@
 
 use crate::direct::continuation::{Loss, LossKind, Path, Setting, follow_from};
 use crate::direct::newton::newton;
-use crate::direct::solution::{DirectSolution, Method, Report, descend, solution};
+use crate::direct::solution::{DirectMethod, DirectSolution, Report, descend, solution};
 use crate::direct::stability::Stability;
 use crate::direct::trust_region::cables_at;
 use crate::error::StaticsError;
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Matrix3, Pose, Robot, Rotation3, Vector3, Wrench};
 
-/// Where the search begins.
+/// Where the search starts.
 #[derive(Clone, Copy, Debug)]
 pub enum Start<'a> {
     /// At a pose; the cables are first brought into equilibrium there.
@@ -19,41 +19,54 @@ pub enum Start<'a> {
     Near(&'a Equilibrium),
 }
 
-/// A stable equilibrium for the unstrained lengths `lengths` [m] and a load, near the start where Newton's method converges to
-/// one, else downhill of the start. Without a moment the potential always has a minimum: the cables' elasticity bounds it from below.
+/// The stable equilibrium of a robot for unstrained lengths [m] and a load: [`DirectProblem::direct`] in one call.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] for lengths, loads or a start that are none; [`StaticsError::Overstrained`] where the equilibrium
-/// strains a cable by more than 10 %; [`StaticsError::Indifferent`] where nothing determines the pose;
-/// [`StaticsError::EquilibriumLost`] where none is found under the load's moment and the one without it disappears on the way;
-/// [`StaticsError::DirectNotConverged`] with the last pose; [`StaticsError::Robot`] where it is the robot's values that are none.
-/// The start is never returned as an answer.
+/// [`StaticsError::Invalid`] unless there is one finite, positive length for each cable and the load is finite; those of
+/// [`DirectProblem::direct`].
 pub fn direct(
     robot: &Robot,
     lengths: &[f64],
     load: &Load,
     start: Start,
 ) -> Result<DirectSolution, StaticsError> {
-    search(&Model::new(robot, lengths, load)?, start, Stability::is_stable)
+    DirectProblem::new(robot, lengths, load)?.direct(start)
 }
 
-/// As [`direct`], but an unstable equilibrium is an answer, too, where Newton's method converges to one: a platform that balances like
-/// a pendulum upside down.
+impl DirectProblem<'_> {
+    /// A stable equilibrium: the one that Newton's method converges to from the start, else one downhill of the start.
+    ///
+    /// Without a moment in the load the potential always has a minimum, because the cables' elasticity bounds it from below. The
+    /// start is never returned as an answer.
+    ///
+    /// # Errors
+    /// - [`StaticsError::Invalid`] for a start that is not finite or has not one force for each cable.
+    /// - [`StaticsError::Overstrained`] where the equilibrium strains a cable by more than 10 %.
+    /// - [`StaticsError::Indifferent`] where nothing determines the pose.
+    /// - [`StaticsError::EquilibriumLost`] where none is found under the load's moment, and the one without it disappears while the
+    ///   moment is raised.
+    /// - [`StaticsError::DirectNotConverged`] with the last pose.
+    /// - [`StaticsError::Robot`] where the search fails because a value of the robot is invalid.
+    pub fn direct(&self, start: Start) -> Result<DirectSolution, StaticsError> {
+        search(self, start, Stability::is_stable)
+    }
+
+    /// As [`DirectProblem::direct`], but an unstable equilibrium to which Newton's method converges is an answer, too.
+    ///
+    /// A platform that balances like an upright pendulum is one.
+    ///
+    /// # Errors
+    /// As [`DirectProblem::direct`].
+    pub fn direct_any(&self, start: Start) -> Result<DirectSolution, StaticsError> {
+        search(self, start, |_| true)
+    }
+}
+
+/// A level pose to start from where none is known: where straight cables of these lengths [m] would hold a point.
 ///
-/// # Errors
-/// As [`direct`].
-pub fn direct_any(
-    robot: &Robot,
-    lengths: &[f64],
-    load: &Load,
-    start: Start,
-) -> Result<DirectSolution, StaticsError> {
-    search(&Model::new(robot, lengths, load)?, start, |_| true)
-}
-
-/// A level pose to start from where none is known: where straight cables of these lengths [m] would hold a point. With `d_i` the exit
-/// points from their middle and q the point from there, `L_i² = |d_i|² - 2 d_i·q + |q|²`; the differences of these equations, by
-/// least squares, give q in the space that the exit points span, their mean what is left of |q|, taken downwards.
+/// With `d_i` the exit points seen from their middle and q the point seen from there, `L_i² = |d_i|² - 2 d_i·q + |q|²`. The differences
+/// of these equations give q, by least squares, in the space that the exit points span; their mean gives the rest of |q|, which points
+/// downwards.
 pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
     let n = robot.cables.len() as f64;
     let middle = robot.cables.iter().map(|cable| cable.exit_point).sum::<Vector3<f64>>() / n;
@@ -65,7 +78,7 @@ pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
         moment += d * excess;
         mean += excess / n;
     }
-    // Survey errors of exit points in one plane span no space.
+    // Exit points in one plane span no space, whatever the errors of their survey.
     let inverse = scatter.pseudo_inverse(0.01 * scatter.trace()).unwrap_or_else(|_| Matrix3::zeros());
     let q = -0.5 * inverse * moment;
     let depth = (mean - q.norm_squared()).max(0.0).sqrt();
@@ -73,81 +86,61 @@ pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
 }
 
 fn search(
-    model: &Model,
+    problem: &DirectProblem,
     start: Start,
     accepted: impl Fn(&Stability) -> bool,
 ) -> Result<DirectSolution, StaticsError> {
-    let start = checked(model, start)?;
+    let start = checked(problem, start)?;
     let pose = start.pose;
-    match newton(model, start) {
+    match newton(problem, start) {
         // A strained equilibrium far from the start need not be the one downhill.
         Some(converged) if accepted(&converged.stability) => {
-            solution(model, converged, Method::Newton).or_else(|_| settle(model, &pose))
+            solution(problem, converged, DirectMethod::Newton).or_else(|_| settle(problem, &pose))
         }
-        _ => settle(model, &pose),
+        _ => settle(problem, &pose),
     }
 }
 
-/// The start as a state of the model.
-fn checked(model: &Model, start: Start) -> Result<Equilibrium, StaticsError> {
-    let invalid = |field: &str, value: String, expected: String| {
-        Err(StaticsError::Invalid { field: field.to_owned(), value, expected })
-    };
-    let pose = match start {
-        Start::Pose(pose) => pose,
-        Start::Near(equilibrium) => &equilibrium.pose,
-    };
-    if !pose.is_finite() {
-        return invalid("start", format!("{:?}", pose.position.as_slice()), "a finite pose".to_owned());
-    }
+/// The start as an equilibrium to be found, validated.
+fn checked(problem: &DirectProblem, start: Start) -> Result<Equilibrium, StaticsError> {
     match start {
-        Start::Pose(pose) => cables_at(model, pose),
-        Start::Near(equilibrium) if equilibrium.cable_forces.len() == model.cables() => {
-            match equilibrium
-                .cable_forces
-                .iter()
-                .position(|force| !(force.x.is_finite() && force.y.is_finite()))
-            {
-                None => Ok(equilibrium.clone()),
-                Some(i) => invalid(
-                    &format!("start.cable_forces[{i}]"),
-                    format!("{:?}", equilibrium.cable_forces[i].as_slice()),
-                    "finite components [N]".to_owned(),
-                ),
-            }
+        Start::Pose(pose) if pose.is_finite() => cables_at(problem, pose),
+        Start::Pose(pose) => {
+            let position = format!("{:?}", pose.position.as_slice());
+            Err(StaticsError::invalid("start".to_owned(), position, "a finite pose"))
         }
-        Start::Near(equilibrium) => invalid(
-            "start.cable_forces",
-            format!("a list of {}", equilibrium.cable_forces.len()),
-            format!("one force for each of the {} cables", model.cables()),
-        ),
+        Start::Near(equilibrium) => {
+            problem.check("start", equilibrium)?;
+            Ok(equilibrium.clone())
+        }
     }
 }
 
-/// The stable equilibrium downhill of a pose. A moment has no potential: where it keeps the descent from ending, the equilibrium
-/// without it is followed while the moment is raised.
-fn settle(model: &Model, pose: &Pose) -> Result<DirectSolution, StaticsError> {
-    let error = match descend(model, pose) {
+/// The stable equilibrium downhill of a pose.
+///
+/// A moment has no potential: where it keeps the descent from ending, the equilibrium without it is followed while the moment is
+/// raised.
+fn settle(problem: &DirectProblem, pose: &Pose) -> Result<DirectSolution, StaticsError> {
+    let error = match descend(problem, pose) {
         Err(error @ StaticsError::DirectNotConverged { .. }) => error,
         outcome => return outcome,
     };
-    // Fields are public: what looks like a hard problem may be a robot that is none.
-    model.robot.validate()?;
-    let wrench = model.load.wrench;
+    // Fields are public: what looks like a hard problem may be an invalid robot.
+    problem.robot.validate()?;
+    let wrench = problem.load.wrench;
     if wrench.moment == Vector3::zeros() {
         return Err(error);
     }
-    let resting = Load { wrench: Wrench { moment: Vector3::zeros(), ..wrench }, ..*model.load };
-    let without = Model { load: &resting, ..*model };
+    let resting = Load { wrench: Wrench { moment: Vector3::zeros(), ..wrench }, ..problem.load };
+    let without = DirectProblem { load: resting, ..*problem };
     let Ok(first) = descend(&without, pose) else { return Err(error) };
-    let [from, to] =
-        [&resting, model.load].map(|load| Setting { lengths: model.lengths.to_vec(), load: *load });
-    let Path { mut steps, lost } = follow_from(model.robot, &from, &to, first)?;
+    let [from, to] = [resting, problem.load].map(|load| Setting { lengths: problem.lengths.to_vec(), load });
+    let Path { mut steps, lost } = follow_from(problem.robot, &from, &to, first)?;
     let iterations = steps.iter().map(|step| step.solution.report.iterations).sum();
     match (steps.pop(), lost) {
         (Some(last), None) => {
             let mut solution = last.solution;
-            solution.report = Report { method: Method::Continuation, iterations, ..solution.report };
+            solution.report = Report { method: DirectMethod::Continuation, iterations, ..solution.report };
             Ok(solution)
         }
         (_, Some(Loss { kind: LossKind::Overstrained, after: Err(error), .. })) => Err(error),

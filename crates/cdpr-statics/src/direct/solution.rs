@@ -4,13 +4,15 @@ use crate::direct::newton::Converged;
 use crate::direct::stability::Stability;
 use crate::direct::trust_region::minimise;
 use crate::error::StaticsError;
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
 use cdpr_robot::Pose;
+use std::fmt;
+use std::str::FromStr;
 
-/// How an equilibrium was found.
+/// How an equilibrium was found; its name is `newton`, `trust_region` or `continuation`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
+pub enum DirectMethod {
     /// Newton's method on the `6 + 2n` equations.
     Newton,
     /// Trust region on the potential, ended by Newton's method.
@@ -19,16 +21,38 @@ pub enum Method {
     Continuation,
 }
 
+impl fmt::Display for DirectMethod {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Newton => "newton",
+            Self::TrustRegion => "trust_region",
+            Self::Continuation => "continuation",
+        })
+    }
+}
+
+impl FromStr for DirectMethod {
+    type Err = StaticsError;
+
+    fn from_str(name: &str) -> Result<Self, StaticsError> {
+        let methods = [Self::Newton, Self::TrustRegion, Self::Continuation];
+        methods.into_iter().find(|method| method.to_string() == name).ok_or_else(|| {
+            StaticsError::invalid("method".to_owned(), name, "newton, trust_region or continuation")
+        })
+    }
+}
+
 /// How an answer was found and how good it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// The method that found it.
-    pub method: Method,
+    pub method: DirectMethod,
     /// Iterations made by that method.
     pub iterations: usize,
     /// Residuals of all equations.
     pub residual: Residual,
-    /// Cables (from 0) whose unstrained length exceeds the distance of their points: they carry little but their own weight.
+    /// Indices of the slack cables, whose unstrained length exceeds the distance of their points: they carry little but their own
+    /// weight.
     pub slack: Vec<usize>,
 }
 
@@ -39,30 +63,30 @@ pub struct DirectSolution {
     pub equilibrium: Equilibrium,
     /// How it was found, with residuals.
     pub report: Report,
-    /// Whether it holds, and how far it is from losing hold.
+    /// Whether it is stable, and how far it is from becoming unstable.
     pub stability: Stability,
 }
 
-/// A strain beyond which a linear, small-strain cable describes nothing: steel and fibre ropes break at less.
+/// Strain beyond which the law of a linear, small-strain cable is invalid: steel and fibre ropes break at less.
 pub(crate) const MAX_STRAIN: f64 = 0.1;
 
 /// The minimum of the potential downhill of a pose.
-pub(crate) fn descend(model: &Model, pose: &Pose) -> Result<DirectSolution, StaticsError> {
-    solution(model, minimise(model, pose)?, Method::TrustRegion)
+pub(crate) fn descend(problem: &DirectProblem, pose: &Pose) -> Result<DirectSolution, StaticsError> {
+    solution(problem, minimise(problem, pose)?, DirectMethod::TrustRegion)
 }
 
 pub(crate) fn solution(
-    model: &Model,
+    problem: &DirectProblem,
     converged: Converged,
-    method: Method,
+    method: DirectMethod,
 ) -> Result<DirectSolution, StaticsError> {
     let Converged { equilibrium, iterations, residual, stability, .. } = converged;
     let mut slack = Vec::new();
     for (i, force) in equilibrium.cable_forces.iter().enumerate() {
-        let (length, chord) = (model.lengths[i], model.span(&equilibrium.pose, i).end.norm());
-        let catenary = model.catenary(i, *force);
+        let (length, chord) = (problem.lengths[i], problem.span(&equilibrium.pose, i).chord());
+        let catenary = problem.catenary(i, *force);
         let tension = catenary.anchor_tension().max(catenary.exit_tension());
-        let strain = model.cable(i).strain(tension);
+        let strain = problem.cable(i).strain(tension);
         if strain > MAX_STRAIN {
             return Err(StaticsError::Overstrained { index: i, length, distance: chord, strain });
         }

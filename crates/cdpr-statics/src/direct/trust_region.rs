@@ -17,9 +17,9 @@
 //! A moment of constant components has no potential; the work it does over each step stands in for one.
 
 use crate::direct::newton::{Converged, newton};
-use crate::equations::Balance;
+use crate::equations::{Balance, SpannedCable};
 use crate::error::StaticsError;
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
 use cdpr_cable::{end_force, end_force_near};
 use cdpr_robot::{Pose, Vector2, Vector6};
@@ -47,10 +47,10 @@ struct Point {
 }
 
 /// The forces of all cables at a pose, each in its own equilibrium.
-pub(crate) fn cables_at(model: &Model, pose: &Pose) -> Result<Equilibrium, StaticsError> {
-    let cable_forces = (0..model.cables())
+pub(crate) fn cables_at(problem: &DirectProblem, pose: &Pose) -> Result<Equilibrium, StaticsError> {
+    let cable_forces = (0..problem.cables())
         .map(|i| {
-            let solution = end_force(&model.cable(i), model.lengths[i], model.span(pose, i).end);
+            let solution = end_force(&problem.cable(i), problem.lengths[i], problem.span(pose, i).end.into());
             solution.map(|s| s.catenary.force).map_err(StaticsError::cable(i))
         })
         .collect::<Result<_, _>>()?;
@@ -58,26 +58,24 @@ pub(crate) fn cables_at(model: &Model, pose: &Pose) -> Result<Equilibrium, Stati
 }
 
 impl Point {
-    fn new(model: &Model, equilibrium: Equilibrium) -> Self {
+    fn new(problem: &DirectProblem, equilibrium: Equilibrium) -> Self {
         let pose = &equilibrium.pose;
-        let mut balance = Balance::of_load(model, pose);
-        let weight = model.robot.weight(pose, model.load.payload).force;
-        let center = pose.rotation * model.robot.platform.center_of_mass;
-        let mut potential = -(weight + model.load.wrench.force).dot(&pose.position) - weight.dot(&center);
+        let mut balance = Balance::of_load(problem, pose);
+        let weight = problem.robot.weight(pose, problem.load.payload).force;
+        let center = pose.rotation * problem.robot.platform.center_of_mass;
+        let mut potential = -(weight + problem.load.wrench.force).dot(&pose.position) - weight.dot(&center);
         let mut noise = f64::EPSILON * potential.abs();
         for (i, force) in equilibrium.cable_forces.iter().enumerate() {
-            let span = model.span(pose, i);
-            let catenary = model.catenary(i, *force);
-            if catenary.is_limp() {
-                continue;
-            }
+            let catenary = problem.catenary(i, *force);
+            let cable = SpannedCable::of(problem.robot, pose, i, &catenary);
+            let Some(linearized) = cable.linearized() else { continue };
             potential += catenary.potential_energy();
             // The span itself is rounded, and the force is the slope of the energy over it.
-            noise += f64::EPSILON * force.norm() * (span.end.norm() + pose.position.norm());
-            let s = model.robot.anchor_arm(pose, i);
-            balance.add_cable(&s, &span.lift(*force), &catenary.stiffness(span.azimuth));
+            noise += f64::EPSILON * force.norm() * (cable.span.chord() + pose.position.norm());
+            let stiffness = linearized.stiffness_in_space();
+            balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), stiffness);
         }
-        let scale = scale(model);
+        let scale = scale(problem);
         Self {
             gradient: balance.gradient.component_mul(&scale),
             hessian: balance.symmetric_hessian().component_mul(&(scale * scale.transpose())),
@@ -88,16 +86,17 @@ impl Point {
     }
 
     /// The point a step (dp, l dφ) away. `None` where a cable has no answer.
-    fn moved(&self, model: &Model, step: &Vector6<f64>) -> Option<Self> {
-        let motion = step.component_mul(&scale(model));
+    fn moved(&self, problem: &DirectProblem, step: &Vector6<f64>) -> Option<Self> {
+        let motion = step.component_mul(&scale(problem));
         let mut pose =
             self.equilibrium.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
         // Thousands of products of rotations are none any more; nor is the quaternion of such a matrix a unit.
         let quaternion = UnitQuaternion::from_rotation_matrix(&pose.rotation).into_inner();
         pose.rotation = UnitQuaternion::new_normalize(quaternion).to_rotation_matrix();
         let solve = |(i, force): (usize, &Vector2<f64>)| {
-            let mut near = model.catenary(i, *force);
-            let (before, end) = (model.span(&self.equilibrium.pose, i).end, model.span(&pose, i).end);
+            let mut near = problem.catenary(i, *force);
+            let [before, end] =
+                [&self.equilibrium.pose, &pose].map(|pose| Vector2::from(problem.span(pose, i).end));
             let predicted = force + near.in_plane_stiffness() * (end - before);
             if (0.3 * force.x..3.0 * force.x).contains(&predicted.x) {
                 near.force = predicted;
@@ -106,13 +105,13 @@ impl Point {
         };
         let cable_forces =
             self.equilibrium.cable_forces.iter().enumerate().map(solve).collect::<Option<_>>()?;
-        Some(Self::new(model, Equilibrium { pose, cable_forces }))
+        Some(Self::new(problem, Equilibrium { pose, cable_forces }))
     }
 
     /// By how much the potential falls, less the work of the load's moment, on the way to `next` by `step`.
-    fn gain(&self, model: &Model, next: &Self, step: &Vector6<f64>) -> f64 {
+    fn gain(&self, problem: &DirectProblem, next: &Self, step: &Vector6<f64>) -> f64 {
         let noise = self.noise + next.noise;
-        let moment = model.load.wrench.moment * scale(model)[3];
+        let moment = problem.load.wrench.moment * scale(problem)[3];
         let gain = self.potential - next.potential + moment.dot(&step.fixed_rows::<3>(3));
         if gain.abs() > 100.0 * noise {
             return gain;
@@ -123,15 +122,15 @@ impl Point {
 }
 
 /// From (dp, l dφ) to (dp, dφ).
-fn scale(model: &Model) -> Vector6<f64> {
-    let turn = 2.0 / model.size();
+fn scale(problem: &DirectProblem) -> Vector6<f64> {
+    let turn = 2.0 / problem.size();
     Vector6::new(1.0, 1.0, 1.0, turn, turn, turn)
 }
 
 /// The minimum of the potential that lies downhill of `start`.
-pub(crate) fn minimise(model: &Model, start: &Pose) -> Result<Converged, StaticsError> {
-    let size = model.size();
-    let mut now = Point::new(model, cables_at(model, start)?);
+pub(crate) fn minimise(problem: &DirectProblem, start: &Pose) -> Result<Converged, StaticsError> {
+    let size = problem.size();
+    let mut now = Point::new(problem, cables_at(problem, start)?);
     let mut radius = FIRST_RADIUS * size;
     let mut polish_below = f64::INFINITY;
     for iteration in 1..=MAX_ITERATIONS {
@@ -139,28 +138,28 @@ pub(crate) fn minimise(model: &Model, start: &Pose) -> Result<Converged, Statics
         let tensions: f64 = now.equilibrium.cable_forces.iter().map(Vector2::norm).sum();
         if slope <= (1e-4 * tensions).min(polish_below) {
             polish_below = 0.1 * slope;
-            if let Some(minimum) = polish(model, &now, radius) {
+            if let Some(minimum) = polish(problem, &now, radius) {
                 return Ok(Converged { iterations: iteration + minimum.iterations, ..minimum });
             }
         }
         let (step, predicted) = subproblem(&now.gradient, &now.hessian, radius);
         if predicted.is_nan() || predicted <= 0.0 {
             // Neither slope nor negative curvature (or no number): there is nowhere to go.
-            return Err(not_converged(model, &now, iteration));
+            return Err(not_converged(problem, &now, iteration));
         }
-        let Some(mut next) = now.moved(model, &step) else {
+        let Some(mut next) = now.moved(problem, &step) else {
             radius = 0.25 * step.norm();
             continue;
         };
-        let mut gain = now.gain(model, &next, &step);
+        let mut gain = now.gain(problem, &next, &step);
         // A curved valley: the step left its floor, further ones of the same kind find back to it.
         for _ in 0..SECOND_LOOKS {
             if gain >= 0.25 * predicted {
                 break;
             }
             let (second, _) = subproblem(&next.gradient, &next.hessian, radius);
-            let Some(after) = next.moved(model, &second) else { break };
-            gain += next.gain(model, &after, &second);
+            let Some(after) = next.moved(problem, &second) else { break };
+            gain += next.gain(problem, &after, &second);
             next = after;
         }
         if gain < 0.25 * predicted {
@@ -172,24 +171,24 @@ pub(crate) fn minimise(model: &Model, start: &Pose) -> Result<Converged, Statics
             now = next;
         }
         if radius <= 1e-15 * size {
-            return Err(not_converged(model, &now, iteration));
+            return Err(not_converged(problem, &now, iteration));
         }
     }
-    Err(not_converged(model, &now, MAX_ITERATIONS))
+    Err(not_converged(problem, &now, MAX_ITERATIONS))
 }
 
 /// The minimum that Newton's method finds from a point, if it is one and near.
-fn polish(model: &Model, point: &Point, radius: f64) -> Option<Converged> {
-    let minimum = newton(model, point.equilibrium.clone())?;
+fn polish(problem: &DirectProblem, point: &Point, radius: f64) -> Option<Converged> {
+    let minimum = newton(problem, point.equilibrium.clone())?;
     let motion = point.equilibrium.pose.motion_to(&minimum.equilibrium.pose);
-    let away = motion.component_div(&scale(model)).norm();
-    (minimum.stability.is_stable() && away <= radius.max(1e-3 * model.size())).then_some(minimum)
+    let away = motion.component_div(&scale(problem)).norm();
+    (minimum.stability.is_stable() && away <= radius.max(1e-3 * problem.size())).then_some(minimum)
 }
 
-fn not_converged(model: &Model, last: &Point, iterations: usize) -> StaticsError {
+fn not_converged(problem: &DirectProblem, last: &Point, iterations: usize) -> StaticsError {
     let pose = Box::new(last.equilibrium.pose);
-    let residual = Residual::of(model, &last.equilibrium);
-    if residual.is_rounding(model, &last.equilibrium) {
+    let residual = Residual::of(problem, &last.equilibrium);
+    if residual.is_rounding(problem, &last.equilibrium) {
         return StaticsError::Indifferent { pose };
     }
     StaticsError::DirectNotConverged { iterations, pose, residual }

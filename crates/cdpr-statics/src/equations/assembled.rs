@@ -3,22 +3,24 @@
 //! Unknowns: the motion (dp, dφ) of the platform, then (fx, fz) of every cable at A. Equations, in this order:
 //!
 //! ```text
-//! sum F_i - F = 0                        force balance of the platform [N]               (3)
-//! sum s_i x F_i - M = 0                  moment balance about P [N m]                    (3)
-//! (h_i, z_i) - (x, z)(f_i, L_i) = 0      each cable spans its two points [m]         (1), (2)
+//! -( sum F_i + F_ex ) = 0                 force balance of the platform [N]               Eq. (3)
+//! -( sum s_i x F_i + M_ex ) = 0           moment balance about P [N m]                    Eq. (3)
+//! (h_i, z_i) - (x, z)(f_i, L_i) = 0       each cable spans its two points [m]    Eq. (1), (2a), (2b)
 //! ```
 //!
-//! with `F_i = fx e_h + fz e_z`, `e_h` the horizontal direction of `r_i`, and (F, M) weight and load. Their derivatives:
+//! with F_i of (S1) and the wrench (F_ex, M_ex) of weight and load. The sign of the balance makes it the gradient of the potential.
+//! Derivatives:
 //!
 //! ```text
-//! dF_i = e_h dfx + e_z dfz + (fx/h) e_l e_lᵀ dr_i,    dr_i = dp - [s_i] dφ,    e_l = e_z x e_h
-//! d(s_i x F_i) = [s_i] dF_i + [F_i][s_i] dφ,          dM = [F_w][R c] dφ
-//! d(h_i, z_i) = (e_hᵀ, e_zᵀ) dr_i,                    d(x, z) = C_i df_i
+//! -dF_i = e_h dfx + e_z dfz + (fx/h) e_l e_lᵀ dr_i,    dr_i = dp - [s_i] dφ,    e_l = e_z x e_h
+//! d(s_i x F_i) = [s_i] dF_i + [F_i][s_i] dφ,           dM_ex = [F_w][R c] dφ
+//! d(h_i, z_i) = (e_hᵀ, e_zᵀ) dr_i,                     d(x, z) = C_i df_i
 //! ```
 
-use crate::model::Model;
+use crate::equations::spanned::SpannedCable;
+use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
-use cdpr_cable::kernel::{Real, Response, response};
+use cdpr_cable::kernel::{Real, Response};
 use cdpr_robot::{Matrix3, Vector3};
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, DVector, Scalar, Vector2};
@@ -49,118 +51,71 @@ impl From<&Equilibrium> for State<f64> {
     }
 }
 
-/// Cross-product matrix [v].
-pub(crate) fn cross<T: Number>(v: &Vector3<T>) -> Matrix3<T> {
-    let o = T::zero();
-    Matrix3::new(o, -v.z, v.y, v.z, o, -v.x, -v.y, v.x, o)
+impl<T: Number> State<T> {
+    /// Cable i at this state.
+    pub(crate) fn cable(&self, problem: &DirectProblem, i: usize) -> SpannedCable<T> {
+        let arm = self.rotation * problem.robot.cables[i].anchor_point.map(T::of);
+        SpannedCable::new(problem, self.position.into(), arm.into(), self.forces[i].into(), i)
+    }
 }
 
-/// Cable i at a state.
-pub(crate) struct Strung<T> {
-    /// s_i = R a_i.
-    arm: Vector3<T>,
-    /// Horizontal direction e_h from B towards A.
-    azimuth: Vector2<T>,
-    /// (h, z).
-    pub(crate) end: Vector2<T>,
-    /// F_i.
-    force: Vector3<T>,
-    /// `None` for a slack cable without weight.
-    pub(crate) response: Option<Response<T>>,
+/// Cross-product matrix [v].
+pub(crate) fn skew<T: Number>(v: &Vector3<T>) -> Matrix3<T> {
+    let o = T::zero();
+    Matrix3::new(o, -v.z, v.y, v.z, o, -v.x, -v.y, v.x, o)
 }
 
 /// Nearer to the vertical than this, `fx/h` of a cable that need not fit its points means nothing, and its limit stands in.
 pub(crate) const NEAR_VERTICAL: f64 = 1e-9;
 
-impl<T: Number> Strung<T> {
-    pub(crate) fn new(model: &Model, state: &State<T>, i: usize) -> Self {
-        let cable = &model.robot.cables[i];
-        let arm = state.rotation * cable.anchor_point.map(T::of);
-        let r = state.position + arm - cable.exit_point.map(T::of);
-        let h = (r.x * r.x + r.y * r.y).sqrt();
-        let azimuth =
-            if h.value() == 0.0 { Vector2::new(T::one(), T::zero()) } else { Vector2::new(r.x / h, r.y / h) };
-        let f = state.forces[i];
-        let p = &cable.properties;
-        let w = T::of(p.linear_density) * T::of(model.robot.gravity);
-        let catenary = model.catenary(i, Vector2::new(f.x.value(), f.y.value()));
-        let response = || match p.law {
-            None => {
-                let ea = T::of(p.youngs_modulus) * T::of(p.section);
-                response(w, ea.recip(), T::of(model.lengths[i]), [f.x, f.y])
-            }
-            // Doubles: certificates are refused for such a cable.
-            Some(_) => catenary.response().map(T::of),
-        };
-        Self {
-            arm,
-            azimuth,
-            end: Vector2::new(h, r.z),
-            force: Vector3::new(f.x * azimuth.x, f.x * azimuth.y, f.y),
-            response: (!catenary.is_limp()).then(response),
-        }
-    }
-
-    fn lift(&self, x: T, z: T) -> Vector3<T> {
-        Vector3::new(x * self.azimuth.x, x * self.azimuth.y, z)
-    }
-}
-
-/// Weight of platform and payload [N], and the arm of its centre of mass [m].
-fn weight<T: Number>(model: &Model, state: &State<T>) -> (Vector3<T>, Vector3<T>) {
-    let platform = &model.robot.platform;
-    let mass = T::of(platform.mass) + T::of(model.load.payload);
-    let weight = Vector3::new(T::zero(), T::zero(), -(mass * T::of(model.robot.gravity)));
+/// Weight of platform and payload [N], and the lever of its centre of mass [m].
+fn weight<T: Number>(problem: &DirectProblem, state: &State<T>) -> (Vector3<T>, Vector3<T>) {
+    let platform = &problem.robot.platform;
+    let mass = T::of(platform.mass) + T::of(problem.load.payload);
+    let weight = Vector3::new(T::zero(), T::zero(), -(mass * T::of(problem.robot.gravity)));
     (weight, state.rotation * platform.center_of_mass.map(T::of))
 }
 
 /// Left-hand sides of all equations.
-pub(crate) fn residual<T: Number>(model: &Model, state: &State<T>) -> DVector<T> {
-    let mut residual = DVector::from_element(6 + 2 * model.cables(), T::zero());
-    let (weight, center) = weight(model, state);
-    let load = &model.load.wrench;
-    let mut force = -(weight + load.force.map(T::of));
-    let mut moment = -(center.cross(&weight) + load.moment.map(T::of));
-    for i in 0..model.cables() {
-        let cable = Strung::new(model, state, i);
-        force += cable.force;
-        moment += cable.arm.cross(&cable.force);
-        let open = match cable.response {
-            Some(Response { end: [x, z], .. }) => cable.end - Vector2::new(x, z),
-            // A slack cable without weight has no shape; it is open by what it is too short.
-            None => {
-                let chord = (cable.end.x * cable.end.x + cable.end.y * cable.end.y).sqrt();
-                let length = T::of(model.lengths[i]);
-                let short = chord.value() > length.value();
-                if short { cable.end * (T::one() - length / chord) } else { Vector2::from_element(T::zero()) }
-            }
-        };
-        residual.fixed_rows_mut::<2>(6 + 2 * i).copy_from(&open);
+pub(crate) fn residual<T: Number>(problem: &DirectProblem, state: &State<T>) -> DVector<T> {
+    let mut residual = DVector::from_element(6 + 2 * problem.cables(), T::zero());
+    let (weight, center) = weight(problem, state);
+    let load = &problem.load.wrench;
+    residual.fixed_rows_mut::<3>(0).copy_from(&-(weight + load.force.map(T::of)));
+    residual.fixed_rows_mut::<3>(3).copy_from(&-(center.cross(&weight) + load.moment.map(T::of)));
+    for i in 0..problem.cables() {
+        let cable = state.cable(problem, i);
+        // Eq. (3)
+        for (balance, wrench) in residual.iter_mut().zip(cable.wrench()) {
+            *balance -= wrench;
+        }
+        // Eq. (2a) and (2b)
+        let misclosure = Vector2::from(cable.misclosure(problem.lengths[i]));
+        residual.fixed_rows_mut::<2>(6 + 2 * i).copy_from(&misclosure);
     }
-    residual.fixed_rows_mut::<3>(0).copy_from(&force);
-    residual.fixed_rows_mut::<3>(3).copy_from(&moment);
     residual
 }
 
 /// Derivatives of [`residual`] with respect to (dp, dφ, fx_1, fz_1, ..., fx_n, fz_n).
-pub(crate) fn jacobian<T: Number>(model: &Model, state: &State<T>) -> DMatrix<T> {
-    let size = 6 + 2 * model.cables();
+pub(crate) fn jacobian<T: Number>(problem: &DirectProblem, state: &State<T>) -> DMatrix<T> {
+    let size = 6 + 2 * problem.cables();
     let mut jacobian = DMatrix::from_element(size, size, T::zero());
-    let (weight, center) = weight(model, state);
-    let mut rotation_of_moment = -(cross(&weight) * cross(&center));
-    for i in 0..model.cables() {
-        let cable = Strung::new(model, state, i);
+    let (weight, center) = weight(problem, state);
+    let mut rotation_of_moment = -(skew(&weight) * skew(&center));
+    for i in 0..problem.cables() {
+        let cable = state.cable(problem, i);
         let place = 6 + 2 * i;
         let Some(Response { flexibility: [xx, xz, zz], lateral_flexibility, .. }) = cable.response else {
             // Its force stays zero.
             jacobian.fixed_view_mut::<2, 2>(place, place).fill_with_identity();
             continue;
         };
-        let s = cross(&cable.arm);
-        let sideways = Vector3::new(-cable.azimuth.y, cable.azimuth.x, T::zero());
-        let (h, z) = (cable.end.x, cable.end.y);
+        let s = skew(&Vector3::from(cable.anchor_arm));
+        let plane = &cable.span.plane;
+        let sideways = Vector3::new(-plane.azimuth[1], plane.azimuth[0], T::zero());
+        let [h, z] = cable.span.end;
         let near_vertical = Real::value(h) <= NEAR_VERTICAL * Real::value(z).abs();
-        let lateral = if near_vertical { T::one() / lateral_flexibility } else { state.forces[i].x / h };
+        let lateral = if near_vertical { T::one() / lateral_flexibility } else { cable.force[0] / h };
         let swing = sideways * sideways.transpose() * lateral;
         let mut add = |row: usize, column: usize, block: Matrix3<T>| {
             let mut view = jacobian.fixed_view_mut::<3, 3>(row, column);
@@ -169,10 +124,9 @@ pub(crate) fn jacobian<T: Number>(model: &Model, state: &State<T>) -> DMatrix<T>
         add(0, 0, swing);
         add(0, 3, -(swing * s));
         add(3, 0, s * swing);
-        rotation_of_moment += cross(&cable.force) * s - s * swing * s;
-        for (j, axis) in
-            [cable.lift(T::one(), T::zero()), cable.lift(T::zero(), T::one())].into_iter().enumerate()
-        {
+        rotation_of_moment -= skew(&Vector3::from(cable.force_on_platform())) * s + s * swing * s;
+        for (j, axis) in [[T::one(), T::zero()], [T::zero(), T::one()]].into_iter().enumerate() {
+            let axis = Vector3::from(plane.lift(axis));
             let turned = s * axis;
             jacobian.fixed_view_mut::<3, 1>(0, place + j).copy_from(&axis);
             jacobian.fixed_view_mut::<3, 1>(3, place + j).copy_from(&turned);
@@ -187,12 +141,12 @@ pub(crate) fn jacobian<T: Number>(model: &Model, state: &State<T>) -> DMatrix<T>
 }
 
 /// The assembled Jacobian at an equilibrium, factored once for any number of right-hand sides.
-pub(crate) struct Factored {
+pub(crate) struct FactoredJacobian {
     lu: PartialPivLu<f64>,
     size: usize,
 }
 
-impl Factored {
+impl FactoredJacobian {
     pub(crate) fn new(jacobian: &DMatrix<f64>) -> Self {
         let size = jacobian.nrows();
         let matrix = faer::Mat::from_fn(size, size, |i, j| jacobian[(i, j)]);
@@ -259,18 +213,18 @@ mod tests {
         fn the_jacobian_is_the_derivative_of_the_equations(
             (robot, lengths, load, pose) in any_state(), misfit in prop_oneof![Just(1.0), 0.5..2.0f64],
         ) {
-            let model = Model::new(&robot, &lengths, &load).unwrap();
-            let mut state = cables_at(&model, &pose).unwrap();
+            let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
+            let mut state = cables_at(&problem, &pose).unwrap();
             // Forces that need not fit the pose, too.
             state.cable_forces.iter_mut().for_each(|force| *force *= misfit);
-            let jacobian = jacobian(&model, &State::from(&state));
+            let jacobian = jacobian(&problem, &State::from(&state));
             for column in 0..jacobian.ncols() {
                 let force = state.cable_forces.get(column.wrapping_sub(6) / 2);
                 let h = if column < 6 { 1e-4 } else { force.map_or(1.0, |f| 2e-4 * f.x.max(1e-3 * f.norm())) };
                 let at = |h: f64| {
                     let mut step = DVector::zeros(jacobian.nrows());
                     step[column] = h;
-                    residual(&model, &State::from(&moved(&state, &step)))
+                    residual(&problem, &State::from(&moved(&state, &step)))
                 };
                 let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
                 let error = (&slope - jacobian.column(column)).norm();
@@ -281,11 +235,11 @@ mod tests {
 
         #[test]
         fn eliminating_the_cables_is_newtons_step_of_the_assembled_equations((robot, lengths, load, pose) in any_state()) {
-            let model = Model::new(&robot, &lengths, &load).unwrap();
-            let state = cables_at(&model, &pose).unwrap();
-            let right = -residual(&model, &State::from(&state));
-            let assembled = Factored::new(&jacobian(&model, &State::from(&state))).solve(&DMatrix::from_column_slice(right.len(), 1, right.as_slice()));
-            let reduced = newton_step(&model, &state).unwrap();
+            let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
+            let state = cables_at(&problem, &pose).unwrap();
+            let right = -residual(&problem, &State::from(&state));
+            let assembled = FactoredJacobian::new(&jacobian(&problem, &State::from(&state))).solve(&DMatrix::from_column_slice(right.len(), 1, right.as_slice()));
+            let reduced = newton_step(&problem, &state).unwrap();
             let expected = assembled.fixed_view::<6, 1>(0, 0);
             prop_assert!((reduced - expected).norm() < 1e-6 * expected.norm(), "{reduced} {expected}");
         }

@@ -1,33 +1,35 @@
-//! Partial derivatives of the equations of equilibrium with respect to all that a robot, its load and its pose are made of.
+//! Partial derivatives of the equations of equilibrium with respect to the robot's parameters, the load and the pose.
 //!
 //! Between held ends the force of a cable follows from its span, its length and its material. The catenary
-//! `(h, z) = (x, z)(f, L, w, EA)` with stiffness K in space, `K̄ = C⁻¹` in its plane, `w = ρ g` and `EA = E S` gives
+//! `(h, z) = (x, z)(f, L, w, EA)` with the stiffness K3 in space (S3), `K = C⁻¹` in its plane, `w = ρ g` and `EA = E S` gives for the
+//! force F_i on the platform
 //!
 //! ```text
-//! dF_i = K_i dr_i + k_L dL_i + k_ρ dρ + k_E dE                                                    (1)
-//!        k_L = -K̄ ∂(x, z)/∂L,   k_ρ = -g K̄ ∂(x, z)/∂w,   k_E = -S K̄ ∂(x, z)/∂EA   (lifted from its plane)
-//! ds_i = dφ x s_i + R da_i,   dr_i = dp + ds_i - db_i                                             (2)
+//! dF_i = -K3_i dr_i + k_L dL_i + k_ρ dρ + k_E dE                                                  (D1)
+//!        k_L = K ∂(x, z)/∂L,   k_ρ = g K ∂(x, z)/∂w,   k_E = S K ∂(x, z)/∂EA   (lifted from its plane)
+//! ds_i = dφ x s_i + R da_i,   dr_i = dp + ds_i - db_i                                             (D2)
 //! ```
 //!
 //! With `u_i = F_i/t_i` the tension changes by `dt_i = u_i·dF_i`. A cable that is given its tension instead of its length has
 //!
 //! ```text
-//! dF_i = Q_i (K_i dr_i + k_ρ dρ + k_E dE) + v_i dt_i,   v_i = k_L/(u_i·k_L),   Q_i = 1 - v_i u_iᵀ  (3)
+//! dF_i = Q_i (-K3_i dr_i + k_ρ dρ + k_E dE) + v_i dt_i,   v_i = k_L/(u_i·k_L),   Q_i = 1 - v_i u_iᵀ  (D3)
 //! ```
 //!
-//! which is (1) with other coefficients. The balance of the platform, `G = sum [F_i; s_i x F_i] - w_ex = 0`, changes by
+//! which is (D1) with other coefficients. The left-hand side of the paper's Eq. (3), `G = sum [F_i; s_i x F_i] + w_ex`, changes by
 //!
 //! ```text
-//! dG = sum [ dF_i; ds_i x F_i + s_i x dF_i ] - dw_ex                                              (4)
+//! dG = sum [ dF_i; ds_i x F_i + s_i x dF_i ] + dw_ex                                              (D4)
 //! w_ex = [ F_w; R c x F_w ] + load,   F_w = -(m + payload) g e_z
 //! ```
 
-use crate::equations::span::Span;
+use crate::equations::spanned::SpannedCable;
+use crate::equations::vector;
 use crate::error::StaticsError;
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use crate::state::Load;
 use cdpr_cable::Catenary;
-use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, Vector2, Vector3, Vector6};
 use nalgebra::{DMatrix, Matrix6};
 use std::ops::Range;
 
@@ -76,10 +78,9 @@ impl Inputs {
     }
 }
 
-/// Force and moment about P of a force at an arm.
+/// Wrench [F; s x F] about P of a force F at the arm s.
 pub(crate) fn wrench(arm: &Vector3<f64>, force: &Vector3<f64>) -> Vector6<f64> {
-    let moment = arm.cross(force);
-    Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+    vector::wrench(&(*arm).into(), &(*force).into()).into()
 }
 
 /// The moment alone.
@@ -88,75 +89,85 @@ fn moment(arm: &Vector3<f64>, force: &Vector3<f64>) -> Vector6<f64> {
     Vector6::new(0.0, 0.0, 0.0, moment.x, moment.y, moment.z)
 }
 
-/// A cable in space and how its force answers to its span, its material, and the one thing that its winch gives it.
+/// A cable with the derivatives of its force on the platform.
 #[derive(Clone, Copy)]
-pub(crate) struct LinearCable {
+pub(crate) struct CableDerivatives {
     /// s_i [m].
     pub(crate) arm: Vector3<f64>,
-    /// F_i [N].
+    /// F_i [N], on the platform.
     pub(crate) force: Vector3<f64>,
     /// Tension t_i [N].
     pub(crate) tension: f64,
     /// u_i; zero for a slack cable without weight.
     pub(crate) direction: Vector3<f64>,
-    /// K_i, or Q_i K_i where the tension is given [N/m].
+    /// -dF_i/dr_i: K3_i, or Q_i K3_i where the tension is given [N/m].
     stiffness: Matrix3<f64>,
     /// Per density [N m/kg].
-    density: Vector3<f64>,
+    per_density: Vector3<f64>,
     /// Per modulus [N/Pa].
-    modulus: Vector3<f64>,
-    /// k_L [N/m] per length, or v_i per tension.
-    pub(crate) winch: Vector3<f64>,
+    per_modulus: Vector3<f64>,
+    /// k_L [N/m] per length, or v_i per tension where the tension is given.
+    pub(crate) per_actuation: Vector3<f64>,
 }
 
-impl LinearCable {
-    /// Equation (1): cable i at a pose, with its length given.
+impl CableDerivatives {
+    /// Cable i at a pose with its length given, equation (D1).
     pub(crate) fn new(robot: &Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Self {
-        let arm = robot.anchor_arm(pose, i);
-        let span = Span::new(pose.position + arm - robot.cables[i].exit_point);
-        let (force, tension) = (span.lift(catenary.force), catenary.anchor_tension());
-        let o = Vector3::zeros();
-        if catenary.is_limp() {
+        let cable = SpannedCable::of(robot, pose, i, catenary);
+        let (arm, o) = (cable.anchor_arm.into(), Vector3::zeros());
+        let (force, tension) = (cable.force_on_platform().into(), catenary.anchor_tension());
+        let (Some(response), Some(linearized)) = (cable.response, cable.linearized()) else {
             let stiffness = Matrix3::zeros();
-            return Self { arm, force, tension, direction: o, stiffness, density: o, modulus: o, winch: o };
-        }
-        let compliance = catenary.compliance();
-        let in_plane = compliance.in_plane_stiffness();
-        let held = |end| -span.lift(in_plane * end);
+            return Self {
+                arm,
+                force,
+                tension,
+                direction: o,
+                stiffness,
+                per_density: o,
+                per_modulus: o,
+                per_actuation: o,
+            };
+        };
+        // The force by which the cable gives way to a motion of its free end.
+        let held = |end: Vector2<f64>| -> Vector3<f64> {
+            cable.span.plane.lift(linearized.answer([0.0; 2], end.into())).into()
+        };
         Self {
             arm,
             force,
             tension,
             direction: force / tension,
-            stiffness: compliance.stiffness(span.azimuth),
-            density: held(catenary.end_per_weight()) * robot.gravity,
-            modulus: held(catenary.end_per_stiffness()) * robot.cables[i].properties.section,
-            winch: held(compliance.end_per_length),
+            stiffness: linearized.stiffness_in_space().into(),
+            per_density: held(catenary.end_per_weight()) * robot.gravity,
+            per_modulus: held(catenary.end_per_stiffness()) * robot.cables[i].properties.section,
+            per_actuation: held(response.end_per_length.into()),
         }
     }
 
     /// All cables of a model at a pose.
-    pub(crate) fn all(model: &Model, pose: &Pose, forces: &[cdpr_robot::Vector2<f64>]) -> Vec<Self> {
-        let catenary = |(i, force): (usize, &_)| Self::new(model.robot, pose, i, &model.catenary(i, *force));
+    pub(crate) fn all(problem: &DirectProblem, pose: &Pose, forces: &[Vector2<f64>]) -> Vec<Self> {
+        let catenary =
+            |(i, force): (usize, &_)| Self::new(problem.robot, pose, i, &problem.catenary(i, *force));
         forces.iter().enumerate().map(catenary).collect()
     }
 
-    /// Equation (3): the same cable with its tension given.
+    /// The same cable with its tension given, equation (D3).
     pub(crate) fn at_tension(&self) -> Self {
-        let v = self.winch / self.direction.dot(&self.winch);
+        let v = self.per_actuation / self.direction.dot(&self.per_actuation);
         let keep = |force: Vector3<f64>| force - v * self.direction.dot(&force);
         Self {
             stiffness: self.stiffness - v * (self.direction.transpose() * self.stiffness),
-            density: keep(self.density),
-            modulus: keep(self.modulus),
-            winch: v,
+            per_density: keep(self.per_density),
+            per_modulus: keep(self.per_modulus),
+            per_actuation: v,
             ..*self
         }
     }
 
-    /// The wrench about P that its winch changes.
-    pub(crate) fn winch_wrench(&self) -> Vector6<f64> {
-        wrench(&self.arm, &self.winch)
+    /// Wrench about P per length, or per tension where the tension is given.
+    pub(crate) fn wrench_per_actuation(&self) -> Vector6<f64> {
+        wrench(&self.arm, &self.per_actuation)
     }
 }
 
@@ -169,15 +180,15 @@ pub(crate) struct Reading {
 
 impl Reading {
     /// dt_i.
-    pub(crate) fn tension(cable: &LinearCable) -> Self {
+    pub(crate) fn tension(cable: &CableDerivatives) -> Self {
         Self { per_force: cable.direction, per_arm: Vector3::zeros() }
     }
 }
 
-/// Partial derivatives with respect to all [`Inputs`], with the winches held. The columns of the pose are those of the pose
+/// Partial derivatives with respect to all [`Inputs`], with lengths or tensions held. The columns of the pose are those of the pose
 /// that the cables are at.
 pub(crate) struct Partials {
-    /// dG, equation (4), 6 x count.
+    /// dG, equation (D4), 6 x count.
     pub(crate) balance: Matrix6xX<f64>,
     /// One reading of each cable, n x count.
     pub(crate) readings: DMatrix<f64>,
@@ -190,8 +201,8 @@ impl Partials {
         inputs: &Inputs,
         pose: &Pose,
         load: &Load,
-        cables: &[LinearCable],
-        reading: impl Fn(&LinearCable) -> Reading,
+        cables: &[CableDerivatives],
+        reading: impl Fn(&CableDerivatives) -> Reading,
     ) -> Self {
         let mut partials = Self {
             balance: Matrix6xX::from_vec(vec![0.0; 6 * inputs.count()]),
@@ -208,19 +219,19 @@ impl Partials {
         partials
     }
 
-    /// -dw_ex.
+    /// Adds dw_ex.
     fn add_weight(&mut self, robot: &Robot, inputs: &Inputs, pose: &Pose, load: &Load) {
         let weight = robot.weight(pose, load.payload).force;
         let center = pose.rotation * robot.platform.center_of_mass;
         // dF_w = -g e_z dm
-        let per_mass = wrench(&center, &Vector3::new(0.0, 0.0, robot.gravity));
+        let per_mass = wrench(&center, &Vector3::new(0.0, 0.0, -robot.gravity));
         for (column, parameter) in inputs.parameters.iter().enumerate() {
             match *parameter {
                 Parameter::Mass => self.balance.set_column(column, &per_mass),
                 // R dc x F_w
                 Parameter::CenterOfMass(axis) => {
                     let arm = pose.rotation.matrix().column(axis as usize).into();
-                    self.balance.set_column(column, &-moment(&arm, &weight));
+                    self.balance.set_column(column, &moment(&arm, &weight));
                 }
                 _ => {}
             }
@@ -229,7 +240,7 @@ impl Partials {
         for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
             // (dφ x R c) x F_w
             let mut column = self.balance.column_mut(inputs.pose().start + 3 + axis);
-            column -= moment(&unit.cross(&center), &weight);
+            column += moment(&unit.cross(&center), &weight);
         }
     }
 
@@ -244,8 +255,8 @@ impl Partials {
     }
 }
 
-/// Of the tensions of `cables` at `pose` with the winches held, n x count: `u_i·dF_i`.
-pub(crate) fn tensions(inputs: &Inputs, pose: &Pose, cables: &[LinearCable]) -> DMatrix<f64> {
+/// Of the tensions of `cables` at `pose` with the lengths held, n x count: `u_i·dF_i`.
+pub(crate) fn tensions(inputs: &Inputs, pose: &Pose, cables: &[CableDerivatives]) -> DMatrix<f64> {
     let mut tensions = inputs.zeros(cables.len());
     each_effect(inputs, pose, cables, |column, i, force, _| {
         tensions[(i, column)] += cables[i].direction.dot(&force);
@@ -253,11 +264,11 @@ pub(crate) fn tensions(inputs: &Inputs, pose: &Pose, cables: &[LinearCable]) -> 
     tensions
 }
 
-/// Gives `add(column, i, dF_i, ds_i)` for every input that cable i answers to, equations (1)-(3).
+/// Gives `add(column, i, dF_i, ds_i)` for every input that cable i answers to, equations (D1)-(D3).
 fn each_effect(
     inputs: &Inputs,
     pose: &Pose,
-    cables: &[LinearCable],
+    cables: &[CableDerivatives],
     mut add: impl FnMut(usize, usize, Vector3<f64>, Vector3<f64>),
 ) {
     let o = Vector3::zeros();
@@ -265,20 +276,20 @@ fn each_effect(
         match *parameter {
             // dF_i = k_ρ dρ
             Parameter::LinearDensity => {
-                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.density, o));
+                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.per_density, o));
             }
             // dF_i = k_E dE
             Parameter::YoungsModulus => {
-                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.modulus, o));
+                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.per_modulus, o));
             }
             // dr_i = ds_i = R da_i
             Parameter::AnchorPoint(i, axis) => {
                 let moved: Vector3<f64> = pose.rotation.matrix().column(axis as usize).into();
-                add(column, i, cables[i].stiffness * moved, moved);
+                add(column, i, -cables[i].stiffness * moved, moved);
             }
             // dr_i = -db_i
             Parameter::ExitPoint(i, axis) => {
-                add(column, i, -cables[i].stiffness.column(axis as usize), o);
+                add(column, i, cables[i].stiffness.column(axis as usize).into(), o);
             }
             // In the weight, or in the set-points.
             Parameter::Mass | Parameter::CenterOfMass(_) | Parameter::TensionOffset(_) => {}
@@ -288,10 +299,10 @@ fn each_effect(
     for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
         for (i, cable) in cables.iter().enumerate() {
             // dr_i = dp
-            add(start + axis, i, cable.stiffness.column(axis).into(), o);
+            add(start + axis, i, -cable.stiffness.column(axis), o);
             // dr_i = ds_i = dφ x s_i
             let turn = unit.cross(&cable.arm);
-            add(start + 3 + axis, i, cable.stiffness * turn, turn);
+            add(start + 3 + axis, i, -cable.stiffness * turn, turn);
         }
     }
 }

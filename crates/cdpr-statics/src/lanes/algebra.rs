@@ -1,5 +1,6 @@
 //! Vectors and systems of six equations in lanes.
 
+use crate::equations::vector::wrench;
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::Field;
 
@@ -136,26 +137,11 @@ pub(crate) fn halves<S: Simd>(wrench: &Wrench<S>) -> (Space<S>, Space<S>) {
     (three(|k| wrench[k]), three(|k| wrench[3 + k]))
 }
 
+/// Adds [F; s x F].
 #[inline(always)]
-pub(crate) fn cross<S: Simd>(a: &Space<S>, b: &Space<S>) -> Space<S> {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-pub(crate) fn dot<S: Simd, const N: usize>(a: &[Lanes<S>; N], b: &[Lanes<S>; N]) -> Lanes<S> {
-    let mut sum = a[0] * b[0];
-    for k in 1..N {
-        sum += a[k] * b[k];
-    }
-    sum
-}
-
-/// Adds (F, s x F).
-#[inline(always)]
-pub(crate) fn add<S: Simd>(wrench: &mut Wrench<S>, arm: &Space<S>, force: &Space<S>) {
-    let moment = cross(arm, force);
-    for k in 0..3 {
-        wrench[k] += force[k];
-        wrench[3 + k] += moment[k];
+pub(crate) fn add<S: Simd>(sum: &mut Wrench<S>, arm: &Space<S>, force: &Space<S>) {
+    let wrench = wrench(arm, force);
+    for k in 0..6 {
+        sum[k] += wrench[k];
     }
 }

@@ -20,8 +20,10 @@
 //!
 //! A lane stops by its own steps alone: the others of a batch change none of its digits.
 
-use crate::lanes::algebra::{Factored, Space, Wrench, cross, dot, six, three};
-use crate::lanes::cable::{Cable, Linear, Plane, Span};
+use crate::equations::vector::{dot, wrench};
+use crate::equations::{LinearizedCable, Span};
+use crate::lanes::algebra::{Factored, Space, Wrench, six, three};
+use crate::lanes::cable::{Cable, Plane};
 use crate::lanes::newton::{Load, MAX_ITERATIONS, Open, Robots, Scale, Tangent};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::{Field, Response, TAUT};
@@ -75,7 +77,7 @@ pub(crate) fn observe<S: Simd>(begin: Beginning<S>, settings: &Settings) -> Outc
     let zero = robots.weight.all(0.0);
     let mut spans = Vec::with_capacity(robots.cables.len());
     for cable in &robots.cables {
-        spans.push(Span::new(&robots.position, cable));
+        spans.push(cable.span(&robots.position));
     }
     let mut set_points = offsets;
     let within = distribute(robots, multipliers, &mut set_points, &spans, settings);
@@ -110,23 +112,13 @@ struct Held<S: Simd> {
     delta: Lanes<S>,
 }
 
-impl<S: Simd> Span<S> {
-    /// Wrench on the platform of a force on the cable's end.
-    #[inline(always)]
-    fn wrench(&self, arm: &Space<S>, [x, z]: Plane<S>) -> Wrench<S> {
-        let force = [-x * self.azimuth[0], -x * self.azimuth[1], -z];
-        let moment = cross(arm, &force);
-        [force[0], force[1], force[2], moment[0], moment[1], moment[2]]
-    }
-}
-
 impl<S: Simd> Held<S> {
     #[inline(always)]
-    fn new(cable: &Cable<S>, span: &Span<S>, response: &Response<Lanes<S>>) -> Self {
+    fn new(cable: &Cable<S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
         let [fx, fz] = cable.force;
         let [xx, xz, zz] = response.flexibility;
         let along = response.direction;
-        let miss = span.miss(response.end);
+        let miss = span.misclosure(response.end);
         let turn = [xz * fx - xx * fz, zz * fx - xz * fz];
         let give = [xx * along[0] + xz * along[1], xz * along[0] + zz * along[1]];
         let longer = response.end_per_length;
@@ -165,7 +157,7 @@ fn distribute<S: Simd>(
     robots: &mut Robots<S>,
     mut multipliers: Wrench<S>,
     offsets: &mut [Lanes<S>],
-    spans: &[Span<S>],
+    spans: &[Span<Lanes<S>>],
     settings: &Settings,
 ) -> Mask<S> {
     let zero = robots.weight.all(0.0);
@@ -182,8 +174,8 @@ fn distribute<S: Simd>(
         for (span, cable) in spans.iter().zip(&robots.cables) {
             let held = Held::new(cable, span, &cable.response());
             let [ux, uz] = held.along;
-            let pull = span.wrench(&cable.arm, held.along);
-            let turn = span.wrench(&cable.arm, [-uz, ux]);
+            let pull = wrench(&cable.arm, &span.plane.force_on_platform(held.along));
+            let turn = wrench(&cable.arm, &span.plane.force_on_platform([-uz, ux]));
             let turned = dot(&turn, &multipliers);
             let d_inv = (held.beta * turned + 1.0).recip();
             let left = held.tension + dot(&pull, &multipliers) + held.alpha * turned;
@@ -232,7 +224,7 @@ fn hold<S: Simd>(
     robots: &mut Robots<S>,
     tangent: &mut Tangent<S>,
     set_points: &[Lanes<S>],
-    spans: &[Span<S>],
+    spans: &[Span<Lanes<S>>],
     settings: &Settings,
 ) -> Mask<S> {
     let zero = robots.weight.all(0.0);
@@ -243,7 +235,7 @@ fn hold<S: Simd>(
         for _ in 0..MAX_ITERATIONS {
             let response = cable.response();
             let held = Held::new(cable, span, &response);
-            linear.replace(&Linear::new(span, cable.force, &response), going);
+            linear.replace(&LinearizedCable::new(span, cable.force, &response), going);
             let moved = held.change(cable, *set_point - held.tension, going, settings);
             going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
             if !going.any() {

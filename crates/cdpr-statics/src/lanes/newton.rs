@@ -4,8 +4,10 @@
 //! A lane stops by its own steps alone: the others of a batch change none of its digits.
 
 use crate::direct::MAX_STRAIN;
-use crate::lanes::algebra::{Matrix, Space, Symmetric, Wrench, add, cross, dot, halves, six, three};
-use crate::lanes::cable::{Cable, Linear, Span};
+use crate::equations::vector::{cross, dot};
+use crate::equations::{CablePlane, LinearizedCable};
+use crate::lanes::algebra::{Matrix, Space, Symmetric, Wrench, add, halves, six, three};
+use crate::lanes::cable::Cable;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_cable::kernel::{Field, TAUT, TautEnd};
 use smallvec::{SmallVec, smallvec};
@@ -89,7 +91,7 @@ impl<S: Simd> Load<S> {
 
 /// The platform between linearised cables.
 pub(crate) struct Tangent<S: Simd> {
-    pub(crate) cables: SmallVec<[Linear<S>; INLINE]>,
+    pub(crate) cables: SmallVec<[LinearizedCable<Lanes<S>>; INLINE]>,
     /// Gradient of the potential with the predicted forces.
     pub(crate) gradient: Wrench<S>,
     /// Its derivative, factored.
@@ -100,7 +102,12 @@ impl<S: Simd> Tangent<S> {
     /// A place for one, all zero.
     #[inline(always)]
     pub(crate) fn new(zero: Lanes<S>, cables: usize) -> Self {
-        let cable = Linear { azimuth: [zero; 2], predicted: [zero; 2], stiffness: [zero; 3], lateral: zero };
+        let cable = LinearizedCable {
+            plane: CablePlane { azimuth: [zero; 2] },
+            predicted: [zero; 2],
+            stiffness: [zero; 3],
+            lateral_stiffness: zero,
+        };
         Self {
             cables: smallvec![cable; cables],
             gradient: [zero; 6],
@@ -114,9 +121,9 @@ impl<S: Simd> Robots<S> {
     #[inline(always)]
     pub(crate) fn linearise(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) {
         for (cable, linear) in self.cables.iter().zip(&mut tangent.cables) {
-            let span = Span::new(&self.position, cable);
+            let span = cable.span(&self.position);
             let response = cable.response();
-            linear.replace(&Linear::new(&span, cable.force, &response), going);
+            linear.replace(&LinearizedCable::new(&span, cable.force, &response), going);
         }
         self.assemble(load, tangent, going);
     }
@@ -132,16 +139,16 @@ impl<S: Simd> Robots<S> {
         let zero = self.weight.all(0.0);
         let (mut gradient, mut hessian) = ([zero; 6], [[zero; 6]; 6]);
         for (i, (cable, linear)) in self.cables.iter().zip(&tangent.cables).enumerate() {
-            let predicted = linear.predicted;
-            let force = linear.lift([self.counted(i, predicted[0]), self.counted(i, predicted[1])]);
+            let counted = LinearizedCable {
+                plane: linear.plane,
+                predicted: [self.counted(i, linear.predicted[0]), self.counted(i, linear.predicted[1])],
+                stiffness: three(|j| self.counted(i, linear.stiffness[j])),
+                lateral_stiffness: self.counted(i, linear.lateral_stiffness),
+            };
+            // -F_i
+            let force = counted.plane.lift(counted.predicted);
             add(&mut gradient, &cable.arm, &force);
-            let [c, s] = linear.azimuth;
-            let k = three(|j| self.counted(i, linear.stiffness[j]));
-            let lateral = self.counted(i, linear.lateral);
-            let (kc, ks, swing) = (k[0] * c, k[0] * s, lateral * s);
-            let (xy, xz, yz) = (kc * s - swing * c, k[1] * c, k[1] * s);
-            let space = [[kc * c + swing * s, xy, xz], [xy, ks * s + lateral * c * c, yz], [xz, yz, k[2]]];
-            add_stiffness(&mut hessian, &cable.arm, &force, &space);
+            add_stiffness(&mut hessian, &cable.arm, &force, &counted.stiffness_in_space());
         }
         if let Layout::Cables(_) = self.layout {
             for row in 0..6 {
@@ -217,16 +224,16 @@ impl<S: Simd> Robots<S> {
         let mut gradient = [zero; 6];
         let (mut tensions, mut failed) = (zero, zero);
         for (i, (cable, linear)) in self.cables.iter().zip(&mut tangent.cables).enumerate() {
-            let span = Span::new(&self.position, cable);
+            let span = cable.span(&self.position);
             let TautEnd { end, tension, slackness } = cable.end();
-            let miss = span.miss(end);
+            let miss = span.misclosure(end);
             open.closure = open.closure.max(dot(&miss, &miss));
-            let mut moved = Linear { azimuth: span.azimuth, ..*linear };
-            moved.predict(cable.force, &miss);
+            let predicted = linear.answer(cable.force, miss);
+            let moved = LinearizedCable { plane: span.plane, predicted, ..*linear };
             let [fx, fz] = [self.counted(i, cable.force[0]), self.counted(i, cable.force[1])];
             let [x, z] = [self.counted(i, moved.predicted[0]), self.counted(i, moved.predicted[1])];
-            add(&mut open.wrench, &cable.arm, &moved.lift([fx, fz]));
-            add(&mut gradient, &cable.arm, &moved.lift([x, z]));
+            add(&mut open.wrench, &cable.arm, &moved.plane.lift([fx, fz]));
+            add(&mut gradient, &cable.arm, &moved.plane.lift([x, z]));
             linear.replace(&moved, near);
             tensions += self.counted(i, tension);
             let strain = (tension + cable.weight * cable.length) * cable.stretch;
@@ -295,7 +302,7 @@ impl<S: Simd> Robots<S> {
         translation: &Space<S>,
         rotation: &Space<S>,
         square: Lanes<S>,
-        linear: &[Linear<S>],
+        linear: &[LinearizedCable<Lanes<S>>],
         going: Mask<S>,
     ) {
         // sin φ/φ and (1 - cos φ)/φ² to rounding for φ up to 0.1.
@@ -309,10 +316,7 @@ impl<S: Simd> Robots<S> {
         for (cable, linear) in self.cables.iter_mut().zip(linear) {
             let (swung, arm) = turn(&cable.arm, rotation, a, b);
             let r = three(|k| translation[k] + swung[k]);
-            let out = linear.azimuth[0] * r[0] + linear.azimuth[1] * r[1];
-            let [xx, xz, zz] = linear.stiffness;
-            let force =
-                [linear.predicted[0] + xx * out + xz * r[2], linear.predicted[1] + xz * out + zz * r[2]];
+            let force = linear.force_after(r);
             cable.force = [going.select(force[0], cable.force[0]), going.select(force[1], cable.force[1])];
             cable.arm = three(|k| going.select(arm[k], cable.arm[k]));
         }

@@ -12,7 +12,7 @@ use crate::lanes::chain::{Beginning, Settings, observe};
 use crate::lanes::newton::{Layout, Open, Robots, Scale};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::deflection;
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
 use cdpr_cable::kernel::Field;
 use cdpr_robot::{Parameter, Pose, Robot, Vector3, Vector6};
@@ -108,15 +108,16 @@ impl Nominal {
         let solution = inverse(robot, pose, &Load::none(), None).ok()?;
         let pulls: Vec<Vector3<f64>> = (0..robot.cables.len())
             .map(|i| {
-                let span = Span::new(robot.span(pose, i));
-                -span.lift(solution.equilibrium.cable_forces[i]) / solution.tensions[i]
+                let span = Span::new(robot.span(pose, i).into());
+                let force = span.plane.force_on_platform(solution.equilibrium.cable_forces[i].into());
+                Vector3::from(force) / solution.tensions[i]
             })
             .collect();
         let w = robot.wrench_matrix(pose, &pulls);
         let tensions = DVector::from_column_slice(&solution.tensions);
         // t = -Wᵀ λ
         let multipliers = -(&w * w.transpose()).lu().solve(&(&w * &tensions))?;
-        let model = Model { robot, lengths: &solution.lengths, load };
+        let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let settings = Settings {
             least: robot.tension_limits.min,
@@ -125,9 +126,9 @@ impl Nominal {
             force: load.wrench.force.into(),
             tension: tensions.sum(),
             scale: Scale {
-                size: model.size(),
-                arm: model.arm(),
-                rounding: rounding_of_closure(model.size(), pose.position.norm() + exits),
+                size: problem.size(),
+                arm: problem.characteristic_length(),
+                rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
             },
         };
         Some(Self { equilibrium: solution.equilibrium, lengths: solution.lengths, multipliers, settings })

@@ -5,7 +5,7 @@ use crate::error::StaticsError;
 use crate::lanes::cable::Cable;
 use crate::lanes::newton::{self as taut, Layout, Robots, Scale, Tangent};
 use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
 use cdpr_robot::{Matrix3, Robot, Rotation3, Vector3};
 use smallvec::SmallVec;
@@ -67,12 +67,12 @@ impl<'a> Tracker<'a> {
     /// # Errors
     /// Those of [`direct`]; the equilibrium at hand is then the one before.
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
-        let model = Model::new(self.robot, lengths, load)?;
+        let problem = DirectProblem::new(self.robot, lengths, load)?;
         // A moment has no potential: whether its equilibria are stable is not seen from pivots.
         // The lanes hold linear cables.
         let taut = load.wrench.moment == Vector3::zeros()
             && self.robot.is_linear()
-            && dispatch(Update { tracker: self, model: &model });
+            && dispatch(Update { tracker: self, problem: &problem });
         if !taut {
             let solution = direct(self.robot, lengths, load, Start::Near(&self.equilibrium))?;
             self.residual = solution.report.residual;
@@ -85,7 +85,7 @@ impl<'a> Tracker<'a> {
 /// Newton's method for taut cables, which fill the lanes. Whether it found an equilibrium.
 struct Update<'a, 'b> {
     tracker: &'a mut Tracker<'b>,
-    model: &'a Model<'a>,
+    problem: &'a DirectProblem<'a>,
 }
 
 impl WithSimd for Update<'_, '_> {
@@ -93,9 +93,9 @@ impl WithSimd for Update<'_, '_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
-        let Self { tracker: Tracker { robot, equilibrium, residual, farthest }, model } = self;
+        let Self { tracker: Tracker { robot, equilibrium, residual, farthest }, problem } = self;
         let pose = &mut equilibrium.pose;
-        let n = model.cables();
+        let n = problem.cables();
         let (count, zero) = (Lanes::<S>::COUNT, Lanes::splat(simd, 0.0));
         let in_last = n - (n - 1) / count * count;
         let last = Lanes::from_fn(simd, |lane| lane as f64).less_or_equal(zero.all(in_last as f64 - 0.5));
@@ -115,7 +115,7 @@ impl WithSimd for Update<'_, '_> {
             for lane in 0..count {
                 // Lanes beyond the last cable repeat it, uncounted.
                 let i = (first + lane).min(n - 1);
-                let (cable, force) = (model.cable(i), equilibrium.cable_forces[i]);
+                let (cable, force) = (problem.cable(i), equilibrium.cable_forces[i]);
                 let (exit, arm) = (robot.cables[i].exit_point, robot.anchor_arm(pose, i));
                 let (weight, stretch) = (cable.weight_per_length, 1.0 / cable.axial_stiffness);
                 let cable = [
@@ -127,7 +127,7 @@ impl WithSimd for Update<'_, '_> {
                     arm.x,
                     arm.y,
                     arm.z,
-                    model.lengths[i],
+                    problem.lengths[i],
                     force.x,
                     force.y,
                 ];
@@ -146,12 +146,12 @@ impl WithSimd for Update<'_, '_> {
             });
         }
         let load = taut::Load {
-            weight: platform.weight + model.load.payload * robot.gravity,
-            force: vector(simd, &model.load.wrench.force),
+            weight: platform.weight + problem.load.payload * robot.gravity,
+            force: vector(simd, &problem.load.wrench.force),
         };
-        let size = model.size();
+        let size = problem.size();
         let rounding = rounding_of_closure(size, pose.position.norm() + *farthest);
-        let scale = Scale { size, arm: model.arm(), rounding };
+        let scale = Scale { size, arm: problem.characteristic_length(), rounding };
         let everywhere = zero.less_or_equal(zero);
         let mut tangent = Tangent::new(zero, platform.cables.len());
         platform.linearise(&load, &mut tangent, everywhere);

@@ -5,11 +5,11 @@
 //! `dp = p_loaded - p_unloaded`.
 
 use crate::direct::{DirectSolution, Start, direct};
-use crate::equations::Tangent;
 use crate::error::StaticsError;
 use crate::inverse::{InverseSolution, inverse, lengths_for_tensions};
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_robot::{Pose, Robot, Vector3, Wrench};
 use cdpr_tension::offset;
 
 /// The platform without and with a load, on the same cable lengths.
@@ -37,12 +37,13 @@ impl Deflection {
     /// The displacement dp [m] that the stiffness at the unloaded pose predicts for `load`.
     ///
     /// # Errors
-    /// As [`Tangent::new`].
+    /// As [`DirectProblem::linearize`].
     pub fn small_displacement(&self, robot: &Robot, load: &Load) -> Result<Vector3<f64>, StaticsError> {
-        let tangent = Tangent::at(robot, &self.lengths, &Load::none(), &self.unloaded)?;
+        let problem = DirectProblem::new(robot, &self.lengths, &Load::none())?;
+        let linearization = problem.linearize(&self.unloaded.equilibrium)?;
         let pose = &self.unloaded.equilibrium.pose;
         let added = load.total(robot, pose).to_vector() - Load::none().total(robot, pose).to_vector();
-        Ok(tangent.displacement(&cdpr_robot::Wrench::from_vector(&added)).fixed_rows::<3>(0).into())
+        Ok(linearization.displacement(&Wrench::from_vector(&added)).fixed_rows::<3>(0).into())
     }
 }
 

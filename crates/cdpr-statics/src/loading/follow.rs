@@ -2,7 +2,7 @@
 
 use crate::direct::{Path, Setting, Start, direct, follow_from};
 use crate::error::StaticsError;
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use cdpr_robot::Robot;
 
 /// Follows the stable equilibrium near `start` from one setting to another.
@@ -10,7 +10,7 @@ use cdpr_robot::Robot;
 /// # Errors
 /// Those of [`direct`] at the first setting. That the equilibrium is lost on the way is an answer, not an error.
 pub fn follow(robot: &Robot, from: &Setting, to: &Setting, start: Start) -> Result<Path, StaticsError> {
-    Model::new(robot, &to.lengths, &to.load)?;
+    DirectProblem::new(robot, &to.lengths, &to.load)?;
     let first = direct(robot, &from.lengths, &from.load, start)?;
     follow_from(robot, from, to, first)
 }

@@ -18,7 +18,7 @@
 use crate::direct::{DirectSolution, Start, direct};
 use crate::error::StaticsError;
 use crate::loading::deflection::wind;
-use crate::model::Model;
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_cable::{CableError, PiecewiseLaw, Segment};
 use cdpr_robot::{Pose, Robot, Vector3};
@@ -214,8 +214,7 @@ fn middle_tensions(
     lengths: &[f64],
     equilibrium: &Equilibrium,
 ) -> Result<Vec<f64>, StaticsError> {
-    let load = Load::none();
-    let model = Model::new(robot, lengths, &load)?;
+    let problem = DirectProblem::new(robot, lengths, &Load::none())?;
     let forces = equilibrium.cable_forces.iter().enumerate();
-    Ok(forces.map(|(i, force)| model.catenary(i, *force).tension(0.5 * lengths[i])).collect())
+    Ok(forces.map(|(i, force)| problem.catenary(i, *force).tension(0.5 * lengths[i])).collect())
 }

@@ -1,0 +1,109 @@
+//! A cable of a robot between its two points, with the force it carries and how it answers.
+
+use crate::equations::cable::{LinearizedCable, Span, between};
+use crate::equations::vector::wrench;
+use crate::problem::DirectProblem;
+use cdpr_cable::Catenary;
+use cdpr_cable::kernel::{Real, Response, response};
+use cdpr_robot::{Pose, Robot, Vector2};
+
+/// A cable with a force that need not fit its two points.
+#[derive(Clone, Copy)]
+pub(crate) struct SpannedCable<T> {
+    /// s_i = R a_i [m].
+    pub(crate) anchor_arm: [T; 3],
+    pub(crate) span: Span<T>,
+    /// (fx, fz) on the cable at A [N].
+    pub(crate) force: [T; 2],
+    /// How its end answers to forces; `None` for a slack cable without weight, which has no shape.
+    pub(crate) response: Option<Response<T>>,
+}
+
+impl SpannedCable<f64> {
+    /// Cable i of a robot at a pose, in the shape of `catenary`.
+    #[inline]
+    pub(crate) fn of(robot: &Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Self {
+        let anchor_arm = robot.anchor_arm(pose, i).into();
+        Self {
+            anchor_arm,
+            // Eq. (1)
+            span: Span::new(between(&pose.position.into(), &anchor_arm, &robot.cables[i].exit_point.into())),
+            force: catenary.force.into(),
+            response: (!catenary.is_limp()).then(|| catenary.response()),
+        }
+    }
+}
+
+impl<T: Real> SpannedCable<T> {
+    /// Cable i with its anchor point at `position + anchor_arm` [m].
+    pub(crate) fn new(
+        problem: &DirectProblem,
+        position: [T; 3],
+        anchor_arm: [T; 3],
+        force: [T; 2],
+        i: usize,
+    ) -> Self {
+        let cable = &problem.robot.cables[i];
+        let p = &cable.properties;
+        let catenary = problem.catenary(i, Vector2::from(force.map(T::value)));
+        let answer = || match p.law {
+            None => {
+                let weight = T::of(p.linear_density) * T::of(problem.robot.gravity);
+                let stiffness = T::of(p.youngs_modulus) * T::of(p.section);
+                response(weight, stiffness.recip(), T::of(problem.lengths[i]), force)
+            }
+            // Only doubles come here: certificates refuse such a cable.
+            Some(_) => catenary.response().map(T::of),
+        };
+        Self {
+            anchor_arm,
+            // Eq. (1)
+            span: Span::new(between(&position, &anchor_arm, &<[f64; 3]>::from(cable.exit_point).map(T::of))),
+            force,
+            response: (!catenary.is_limp()).then(answer),
+        }
+    }
+
+    /// F_i [N], the force on the platform.
+    #[inline]
+    pub(crate) fn force_on_platform(&self) -> [T; 3] {
+        self.span.plane.force_on_platform(self.force)
+    }
+
+    /// [F_i; s_i x F_i] [N, N m], the wrench on the platform.
+    #[inline]
+    pub(crate) fn wrench(&self) -> [T; 6] {
+        wrench(&self.anchor_arm, &self.force_on_platform())
+    }
+
+    /// Misclosure [m] of a cable of this unstrained length: from its end to its anchor point.
+    #[inline]
+    pub(crate) fn misclosure(&self, length: f64) -> [T; 2] {
+        match &self.response {
+            Some(response) => self.span.misclosure(response.end),
+            None => {
+                // It is open by what it is too short.
+                let ([h, z], chord) = (self.span.end, self.span.chord());
+                if chord.value() <= length {
+                    return [T::of(0.0); 2];
+                }
+                let short = T::of(1.0) - T::of(length) / chord;
+                [h * short, z * short]
+            }
+        }
+    }
+
+    /// The cable linearised about its force; `None` for a slack cable without weight, which resists nothing.
+    #[inline]
+    pub(crate) fn linearized(&self) -> Option<LinearizedCable<T>> {
+        self.response.as_ref().map(|response| LinearizedCable::new(&self.span, self.force, response))
+    }
+}
+
+impl DirectProblem<'_> {
+    /// The span of cable i at a pose.
+    pub(crate) fn span(&self, pose: &Pose, i: usize) -> Span<f64> {
+        // Eq. (1)
+        Span::new(self.robot.span(pose, i).into())
+    }
+}

@@ -1,0 +1,110 @@
+//! The direct problem: a robot with unstrained lengths and a load, validated.
+
+use crate::error::StaticsError;
+use crate::state::{Equilibrium, Load};
+use cdpr_cable::{Cable, Catenary};
+use cdpr_robot::{Robot, Vector2};
+
+/// A robot whose cables have given unstrained lengths, under a load: what the direct model solves.
+///
+/// ```
+/// use cdpr_robot::{Pose, Robot};
+/// use cdpr_statics::{DirectProblem, Load, Start, inverse};
+///
+/// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+/// let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None)?;
+/// let problem = DirectProblem::new(&robot, &wanted.lengths, &Load::payload(50.0))?;
+/// let found = problem.direct(Start::Near(&wanted.equilibrium))?;
+/// assert!(problem.certify(&found)?.position < 1e-12); // [m]
+/// let stiffness = *problem.linearize(&found.equilibrium)?.stiffness();
+/// assert!(stiffness.symmetric_eigenvalues().min() > 0.0);
+/// # Ok::<(), cdpr_statics::StaticsError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct DirectProblem<'a> {
+    pub(crate) robot: &'a Robot,
+    pub(crate) lengths: &'a [f64],
+    pub(crate) load: Load,
+}
+
+impl<'a> DirectProblem<'a> {
+    /// The problem of a robot with these unstrained lengths [m] and this load.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] unless there is one finite, positive length for each cable and the load is finite.
+    pub fn new(robot: &'a Robot, lengths: &'a [f64], load: &Load) -> Result<Self, StaticsError> {
+        StaticsError::one_per_cable("lengths", lengths, robot.cables.len())?;
+        for (i, length) in lengths.iter().enumerate() {
+            if !(length.is_finite() && *length > 0.0) {
+                let expected = "a finite, positive unstrained length [m]";
+                return Err(StaticsError::invalid(format!("lengths[{i}]"), length, expected));
+            }
+        }
+        load.validate()?;
+        Ok(Self { robot, lengths, load: *load })
+    }
+
+    /// Number of cables n.
+    pub(crate) fn cables(&self) -> usize {
+        self.lengths.len()
+    }
+
+    pub(crate) fn cable(&self, i: usize) -> Cable<'a> {
+        self.robot.cable(i)
+    }
+
+    /// Cable i in the shape that the force (fx, fz) [N] gives it.
+    pub(crate) fn catenary(&self, i: usize, force: Vector2<f64>) -> Catenary<'a> {
+        Catenary { cable: self.cable(i), unstrained_length: self.lengths[i], force }
+    }
+
+    /// The longest cable [m]: what errors of position are compared with.
+    pub(crate) fn size(&self) -> f64 {
+        self.lengths.iter().fold(0.0, |size: f64, length| size.max(*length))
+    }
+
+    /// Length ρ [m] that makes rotations comparable with translations, see [`crate::Stability::characteristic_length`].
+    pub(crate) fn characteristic_length(&self) -> f64 {
+        self.robot.platform_size().max(1e-3 * self.size())
+    }
+
+    /// Checks that an equilibrium has a finite pose and one finite force for each cable.
+    pub(crate) fn check(&self, field: &str, equilibrium: &Equilibrium) -> Result<(), StaticsError> {
+        let Equilibrium { pose, cable_forces } = equilibrium;
+        if !pose.is_finite() {
+            let position = format!("{:?}", pose.position.as_slice());
+            return Err(StaticsError::invalid(field.to_owned(), position, "a finite pose"));
+        }
+        if cable_forces.len() != self.cables() {
+            return Err(StaticsError::invalid(
+                format!("{field}.cable_forces"),
+                format!("a list of {}", cable_forces.len()),
+                format!("one force for each of the {} cables", self.cables()),
+            ));
+        }
+        match cable_forces.iter().position(|force| !(force.x.is_finite() && force.y.is_finite())) {
+            None => Ok(()),
+            Some(i) => Err(StaticsError::invalid(
+                format!("{field}.cable_forces[{i}]"),
+                format!("{:?}", cable_forces[i].as_slice()),
+                "finite components [N]",
+            )),
+        }
+    }
+}
+
+impl Load {
+    pub(crate) fn validate(&self) -> Result<(), StaticsError> {
+        if !self.payload.is_finite() {
+            let field = "load.payload".to_owned();
+            return Err(StaticsError::invalid(field, self.payload, "a finite mass [kg]"));
+        }
+        match self.wrench.to_vector().iter().find(|component| !component.is_finite()) {
+            Some(component) => {
+                let expected = "finite components [N, N m]";
+                Err(StaticsError::invalid("load.wrench".to_owned(), component, expected))
+            }
+            None => Ok(()),
+        }
+    }
+}
