@@ -16,7 +16,7 @@ pub use summary::{Draws, ProtocolSummary, RobustnessRow, RobustnessSummary, Spre
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_sensitivity::{RandomDesign, SampleDesign};
 use cdpr_statics::{
-    DirectSolution, Load, Method, Residual, Start, StaticsError, direct, direct_any, inverse,
+    DirectMethod, DirectProblem, DirectSolution, Load, Residual, Start, StaticsError, direct, inverse,
 };
 use cdpr_study::StudyError;
 use rayon::prelude::*;
@@ -68,7 +68,7 @@ pub struct Answer {
     /// [`anchor_distance`] from the true pose [m].
     pub anchor_distance: f64,
     /// The method that found it.
-    pub method: Method,
+    pub method: DirectMethod,
     /// Iterations of that method.
     pub iterations: usize,
     /// Residuals of all equations.
@@ -257,7 +257,8 @@ fn draw(robot: &Robot, design: &RandomDesign, index: usize) -> Result<HeldPose, 
     let pose = Pose::at(x, y, z).moved(Vector3::zeros(), angle * axis);
     let refuse = |refusal| Box::new(RefusedPose { draw: index, pose, refusal });
     let held = inverse(robot, &pose, &Load::none(), None).map_err(|e| refuse(Refusal::Infeasible(e)))?;
-    let found = direct_any(robot, &held.lengths, &Load::none(), Start::Near(&held.equilibrium))
+    let found = DirectProblem::new(robot, &held.lengths, &Load::none())
+        .and_then(|problem| problem.direct_any(Start::Near(&held.equilibrium)))
         .map_err(|error| refuse(Refusal::Unanswered(error)))?;
     // What the direct model itself does from the true pose is not asked: only whether the equilibrium there is stable.
     let motion = pose.motion_to(&found.equilibrium.pose);

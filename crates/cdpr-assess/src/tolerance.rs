@@ -15,9 +15,7 @@
 
 use cdpr_robot::Perturbed;
 use cdpr_sensitivity::{Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate};
-use cdpr_statics::{
-    EquilibriumDerivatives, Load, Start, StaticsError, Tangent, derivatives, direct, wound_lengths,
-};
+use cdpr_statics::{DirectProblem, Load, Start, StaticsError, derivatives, direct, wound_lengths};
 use cdpr_study::{Sampling, StudyError, observe_rows};
 use indexmap::IndexMap;
 use rayon::prelude::*;
@@ -254,12 +252,12 @@ impl<'a> Model<'a> {
             Limited::Position => {
                 let (none, lengths) = (Load::none(), self.lengths(&perturbed)?);
                 let found = direct(&perturbed.robot, &lengths, &none, Start::Pose(pose))?.equilibrium;
-                let mut slopes = EquilibriumDerivatives::at(&perturbed.robot, &lengths, &none, &found)?.pose;
+                let problem = DirectProblem::new(&perturbed.robot, &lengths, &none)?;
+                let mut slopes = problem.derivatives(&found)?.pose;
                 if self.offsets {
                     // Offsets act through the lengths alone, which are those of the nominal robot.
                     let wound = derivatives(robot, pose, &perturbed.tension_offsets, load)?.lengths;
-                    let moved =
-                        Tangent::new(&perturbed.robot, &lengths, &none, &found)?.pose_per_length() * wound;
+                    let moved = problem.linearize(&found)?.pose_per_length() * wound;
                     let n = robot.cables.len();
                     let first = errors.parameters() - n;
                     slopes.columns_mut(first, n).copy_from(&moved.columns(first, n));

@@ -4,7 +4,7 @@
 
 use crate::output::table;
 use cdpr_robot::Pose;
-use cdpr_statics::{DirectSolution, Equilibrium, Method};
+use cdpr_statics::{DirectSolution, Equilibrium};
 use serde::Serialize;
 
 /// Residuals of the equations at a solution.
@@ -47,7 +47,7 @@ pub(crate) struct Found {
 
 #[derive(Serialize)]
 struct Report {
-    method: &'static str,
+    method: String,
     iterations: usize,
     /// Stiffness of the softest motion [N/m].
     least_stiffness: f64,
@@ -66,11 +66,7 @@ impl Found {
             stable: stability.is_stable(),
             residual: Residual::new(&report.residual),
             report: Report {
-                method: match report.method {
-                    Method::Newton => "newton",
-                    Method::TrustRegion => "trust_region",
-                    Method::Continuation => "continuation",
-                },
+                method: report.method.to_string(),
                 iterations: report.iterations,
                 least_stiffness: stability.least_stiffness(),
                 slack_cables: report.slack.iter().map(|i| i + 1).collect(),

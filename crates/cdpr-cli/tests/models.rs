@@ -4,7 +4,7 @@
 use cdpr_robot::{
     CableProperties, Platform, Pose, Robot, RobotCable, TensionLimits, UnitQuaternion, Vector3, Wrench,
 };
-use cdpr_statics::{Load, Start, Tangent, deflection, direct, inverse};
+use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -269,9 +269,11 @@ fn the_stiffness_predicts_the_displacement_under_a_small_force() {
     let rows: Vec<Vec<f64>> = found["stiffness"].as_array().unwrap().iter().map(numbers).collect();
     let pose = Pose::at(0.4, 0.2, 1.5);
     let held = inverse(&caroca(), &pose, &Load::none(), None).unwrap();
-    let tangent = Tangent::new(&caroca(), &held.lengths, &Load::none(), &held.equilibrium).unwrap();
+    let robot = caroca();
+    let problem = DirectProblem::new(&robot, &held.lengths, &Load::none()).unwrap();
+    let linearization = problem.linearize(&held.equilibrium).unwrap();
     let wrench = Wrench { force: Vector3::new(1.0, 2.0, -3.0), moment: Vector3::zeros() };
-    let motion = tangent.displacement(&wrench);
+    let motion = linearization.displacement(&wrench);
     for (row, force) in rows.iter().zip(wrench.to_vector().iter()) {
         let balanced: f64 = row.iter().zip(motion.iter()).map(|(k, x)| k * x).sum();
         assert!((balanced - force).abs() < 1e-9, "{balanced} N for {force} N");

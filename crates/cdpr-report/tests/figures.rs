@@ -7,7 +7,7 @@ use cdpr_report::{
 };
 use cdpr_robot::{Pose, Robot};
 use cdpr_sensitivity::{Family, Histogram, Law};
-use cdpr_statics::{Method, Residual, StaticsError};
+use cdpr_statics::{DirectMethod, Residual, StaticsError};
 use cdpr_study::{
     Agreement, FitSummary, IndexMap, InputMeasures, NominalSummary, RmsSummary, SamplingSummary,
     SensitivitySummary, SignedEffect, Study, SurfaceResult, SurfaceSummary,
@@ -131,7 +131,7 @@ fn robustness() -> RobustnessResult {
             distance,
             angle: 0.0,
             anchor_distance: distance,
-            method: Method::Newton,
+            method: DirectMethod::Newton,
             iterations: 5,
             residual: Residual { closure: 0.0, force: 0.0, moment: 0.0 },
             is_equilibrium: true,

@@ -6,7 +6,7 @@ mod problems;
 
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{
-    Load, Setting, Start, Tangent, Tracker, certify, deflection, derivatives, direct, follow, inverse,
+    DirectProblem, Load, Setting, Start, Tracker, deflection, derivatives, direct, follow, inverse,
 };
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use problems::{caroca, counted, ring, settings};
@@ -98,10 +98,14 @@ fn proofs_and_searches(criterion: &mut Criterion) {
     let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
     let load = Load::payload(50.0);
     let found = direct(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium)).unwrap();
-    let proof = certify(&robot, &wanted.lengths, &load, &found).unwrap();
+    let proof = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().certify(&found).unwrap();
     assert!(proof.position < 1e-12 && proof.is_stable());
     group.bench_function("certify", |b| {
-        b.iter(|| counted(|| certify(black_box(&robot), black_box(&wanted.lengths), &load, &found)));
+        b.iter(|| {
+            counted(|| {
+                DirectProblem::new(black_box(&robot), black_box(&wanted.lengths), &load)?.certify(&found)
+            })
+        });
     });
     assert!(found.stability.least_stiffness() > 0.0);
     group.bench_function("least_stiffness", |b| {
@@ -128,8 +132,10 @@ fn whole_deflection(criterion: &mut Criterion) {
             b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
         });
         group.bench_function(BenchmarkId::new("tangent", name), |b| {
-            let (lengths, unloaded) = (&found.lengths, &found.unloaded);
-            b.iter(|| counted(|| Tangent::at(black_box(&robot), lengths, &Load::none(), unloaded)));
+            let (lengths, unloaded) = (&found.lengths, &found.unloaded.equilibrium);
+            b.iter(|| {
+                counted(|| DirectProblem::new(black_box(&robot), lengths, &Load::none())?.linearize(unloaded))
+            });
         });
     }
     group.finish();

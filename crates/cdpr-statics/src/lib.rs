@@ -62,8 +62,8 @@ pub use error::StaticsError;
 pub use inverse::{InverseSolution, inverse, lengths_for_tensions};
 pub use lanes::{Observation, Observer, Tracker};
 pub use loading::{
-    Deflection, HysteresisLaw, LoadCycle, PoseDeflections, Unloading, deflection, deflection_from,
-    deflections, follow, load_cycle, wound_lengths,
+    Deflection, HysteresisLaw, LoadCycle, PoseDeflections, PoseStiffness, Unloading, deflection,
+    deflection_from, deflections, follow, load_cycle, stiffness_at, wound_lengths,
 };
 pub use problem::DirectProblem;
 pub use state::{Equilibrium, Load, Residual};

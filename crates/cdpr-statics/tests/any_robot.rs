@@ -3,7 +3,7 @@
 use cdpr_robot::{
     CableProperties, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
 };
-use cdpr_statics::{Load, Start, StaticsError, certify, direct};
+use cdpr_statics::{DirectProblem, Load, Start, StaticsError, direct};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -110,7 +110,7 @@ fn outcome(case: &Case, certified: bool) -> (String, Option<String>) {
                 robot.name
             );
             assert!(found.stability.is_stable() && found.stability.least_stiffness() > 0.0, "{}", robot.name);
-            let prove = || match certify(robot, lengths, load, &found) {
+            let prove = || match DirectProblem::new(robot, lengths, load).unwrap().certify(&found) {
                 Ok(proof) => {
                     assert!(proof.position <= 1e-6 * size, "{}: {proof:?}", robot.name);
                     if proof.is_stable() { "proved, stable" } else { "proved, stability open" }.to_owned()

@@ -4,7 +4,7 @@ use cdpr_robot::{
     Parameter, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Vector6, Wrench,
 };
 use cdpr_statics::{
-    Deflection, Derivatives, EquilibriumDerivatives, Load, StaticsError, Tangent, deflection_from,
+    Deflection, Derivatives, DirectProblem, EquilibriumDerivatives, Load, StaticsError, deflection_from,
     derivatives, inverse, lengths_for_tensions,
 };
 use nalgebra::DVector;
@@ -437,10 +437,13 @@ fn a_payload_moves_the_platform_as_the_tangent_says() {
     let Case { robot, load, .. } = some_case();
     let exact = some_derivatives();
     let loaded = &exact.deflection.loaded;
-    let tangent = Tangent::at(&robot, &exact.deflection.lengths, &load, loaded).unwrap();
+    let linearization = DirectProblem::new(&robot, &exact.deflection.lengths, &load)
+        .unwrap()
+        .linearize(&loaded.equilibrium)
+        .unwrap();
     let arm = loaded.equilibrium.pose.rotation * robot.platform.center_of_mass;
     let force = Vector3::new(0.0, 0.0, -robot.gravity);
-    let expected = tangent.displacement(&Wrench { force, moment: arm.cross(&force) });
+    let expected = linearization.displacement(&Wrench { force, moment: arm.cross(&force) });
     let payload = exact.inputs.payload();
     assert!((exact.loaded.pose.column(payload) - expected).norm() < 1e-9 * expected.norm());
     assert_eq!(exact.unloaded.pose.column(payload).amax(), 0.0);
@@ -453,9 +456,10 @@ fn the_chain_through_the_lengths_is_that_of_the_assembled_equations() {
         let Case { robot, pose, offsets, load } = random_case(seed);
         let Ok(exact) = derivatives(&robot, &pose, &offsets, &load) else { continue };
         let Deflection { lengths, loaded, .. } = &exact.deflection;
-        let held = EquilibriumDerivatives::at(&robot, lengths, &load, &loaded.equilibrium).unwrap();
-        let tangent = Tangent::at(&robot, lengths, &load, loaded).unwrap();
-        let expected = tangent.pose_per_length() * &exact.lengths + &held.pose;
+        let problem = DirectProblem::new(&robot, lengths, &load).unwrap();
+        let held = problem.derivatives(&loaded.equilibrium).unwrap();
+        let linearization = problem.linearize(&loaded.equilibrium).unwrap();
+        let expected = linearization.pose_per_length() * &exact.lengths + &held.pose;
         let pose = exact.inputs.pose();
         let parameters = 0..exact.inputs.payload();
         for column in parameters.chain(pose) {

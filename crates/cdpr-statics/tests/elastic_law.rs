@@ -2,7 +2,7 @@
 
 use cdpr_robot::{Parameter, PiecewiseLaw, Pose, Robot, Segment, UnitQuaternion, Vector3, deviations};
 use cdpr_statics::{
-    Load, Observer, Setting, Start, StaticsError, Tangent, Tracker, certify, deflection, derivatives, direct,
+    DirectProblem, Load, Observer, Setting, Start, StaticsError, Tracker, deflection, derivatives, direct,
     follow, inverse,
 };
 
@@ -118,8 +118,11 @@ fn the_stiffness_is_that_of_small_loads() {
     let gone = deflection(&robot, &pose, &[0.0; 8], &Load::payload(0.1)).unwrap();
     let predicted = gone.small_displacement(&robot, &Load::payload(0.1)).unwrap();
     assert!((gone.displacement() - predicted).norm() < 1e-3 * predicted.norm());
-    let tangent = Tangent::at(&robot, &gone.lengths, &Load::none(), &gone.unloaded).unwrap();
-    assert!(tangent.stiffness().symmetric_eigenvalues().min() > 0.0);
+    let linearization = DirectProblem::new(&robot, &gone.lengths, &Load::none())
+        .unwrap()
+        .linearize(&gone.unloaded.equilibrium)
+        .unwrap();
+    assert!(linearization.stiffness().symmetric_eigenvalues().min() > 0.0);
 }
 
 #[test]
@@ -135,7 +138,7 @@ fn lanes_and_certificates_never_take_such_a_cable_for_a_linear_one() {
         Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.unloaded.equilibrium).unwrap();
     let tracked = tracker.update(&wanted.lengths, &load).unwrap().pose.position;
     assert!((tracked - wanted.loaded.equilibrium.pose.position).norm() < 1e-12);
-    let refused = certify(&robot, &wanted.lengths, &load, &wanted.loaded);
+    let refused = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().certify(&wanted.loaded);
     assert!(matches!(refused, Err(StaticsError::NotCertified { .. })));
     let [from, to] = [Load::none(), load].map(|load| Setting { lengths: wanted.lengths.clone(), load });
     let path = follow(&robot, &from, &to, Start::Near(&wanted.unloaded.equilibrium)).unwrap();

@@ -2,8 +2,8 @@
 
 use cdpr_robot::{Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
-    Equilibrium, Load, Method, Start, StaticsError, Tangent, deflection, deflections, direct, inverse,
-    lengths_for_tensions,
+    DirectMethod, DirectProblem, Equilibrium, Load, Start, StaticsError, deflection, deflections, direct,
+    inverse, lengths_for_tensions,
 };
 use proptest::prelude::*;
 
@@ -193,8 +193,11 @@ fn a_slack_cable_without_weight_is_the_limit_of_a_light_one() {
         lengths[0] *= 1.05;
         let found = direct(&robot, &lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
         assert!(found.report.slack.contains(&0));
-        let tangent = Tangent::at(&robot, &lengths, &Load::none(), &found).unwrap();
-        (found.equilibrium.pose, tangent.displacement(&moment(1.0, 0.0, 0.0)))
+        let linearization = DirectProblem::new(&robot, &lengths, &Load::none())
+            .unwrap()
+            .linearize(&found.equilibrium)
+            .unwrap();
+        (found.equilibrium.pose, linearization.displacement(&moment(1.0, 0.0, 0.0)))
     };
     let (pose, turn) = solve(0.0);
     for density in [1e-6, 1e-9, 1e-12] {
@@ -271,8 +274,8 @@ proptest! {
         prop_assert!(found.report.residual.force < 1e-8 * weight, "{:?}", found.report);
         prop_assert!(found.report.residual.closure < 1e-12);
         // Stable: the stiffness is positive definite.
-        let tangent = Tangent::at(&robot, &lengths, &Load::none(), &found).unwrap();
-        prop_assert!(tangent.stiffness().symmetric_eigenvalues().min() > 0.0);
+        let linearization = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().linearize(&found.equilibrium).unwrap();
+        prop_assert!(linearization.stiffness().symmetric_eigenvalues().min() > 0.0);
     }
 
     #[test]
@@ -286,7 +289,7 @@ proptest! {
             Ok(wanted) => {
                 let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
                 // A pose of six cables may be an unstable equilibrium: then another one is found, and said so.
-                if found.report.method == Method::Newton {
+                if found.report.method == DirectMethod::Newton {
                     assert_same_pose(&found.equilibrium.pose, &pose, 1e-8, 1e-8)?;
                 }
             }
@@ -344,7 +347,7 @@ proptest! {
             direct(&robot, lengths, load, Start::Near(&wanted.equilibrium)).unwrap().equilibrium.pose
         };
         let pose = solve(&wanted.lengths, &load);
-        let tangent = Tangent::new(&robot, &wanted.lengths, &load, &wanted.equilibrium).unwrap();
+        let linearization = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().linearize(&wanted.equilibrium).unwrap();
         // Winching one cable.
         let at = |h: f64| {
             let mut lengths = wanted.lengths.clone();
@@ -355,7 +358,7 @@ proptest! {
         prop_assume!(wanted.tensions.iter().all(|t| *t > 30.0));
         let h = 1e-6;
         let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
-        let exact: nalgebra::Vector6<f64> = tangent.pose_per_length().column(cable).into_owned();
+        let exact: nalgebra::Vector6<f64> = linearization.pose_per_length().column(cable).into_owned();
         prop_assert!((slope - exact).norm() < 1e-5 * exact.norm(), "{slope} {exact}");
         // Pushing.
         let mut unit = nalgebra::Vector6::zeros();
@@ -366,10 +369,10 @@ proptest! {
         };
         let h = 0.05;
         let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
-        let exact = tangent.displacement(&Wrench::from_vector(&unit));
+        let exact = linearization.displacement(&Wrench::from_vector(&unit));
         prop_assert!((slope - exact).norm() < 1e-5 * exact.norm(), "{slope} {exact}");
         // The Cartesian stiffness is what is left of the assembled equations without the cables.
-        let inverse = tangent.stiffness().try_inverse().unwrap();
+        let inverse = linearization.stiffness().try_inverse().unwrap();
         prop_assert!((inverse * unit - exact).norm() < 1e-6 * exact.norm());
     }
 }

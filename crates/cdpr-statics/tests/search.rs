@@ -2,8 +2,8 @@
 
 use cdpr_robot::{Platform, Pose, Robot, RobotCable, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
-    DirectSolution, Load, LossKind, Method, Setting, Start, Starts, StaticsError, certify, direct,
-    direct_all, direct_any, follow, inverse, rough_pose,
+    DirectMethod, DirectProblem, DirectSolution, Load, LossKind, Setting, Start, Starts, StaticsError,
+    direct, follow, inverse, rough_pose,
 };
 
 fn caroca() -> Robot {
@@ -52,7 +52,10 @@ fn a_platform_standing_on_its_head_is_an_equilibrium_but_not_a_stable_one() {
     let robot = tripod(0.1, 1.0, 300.0);
     let lengths = tightened(&robot, 1e-3);
     let upright = Pose::at(0.0, 0.0, 0.0);
-    let head = direct_any(&robot, &lengths, &Load::none(), Start::Pose(&upright)).unwrap();
+    let head = DirectProblem::new(&robot, &lengths, &Load::none())
+        .unwrap()
+        .direct_any(Start::Pose(&upright))
+        .unwrap();
     let axis = |solution: &DirectSolution| solution.equilibrium.pose.rotation * Vector3::z();
     assert!((axis(&head) - Vector3::z()).norm() < 1e-9, "{}", axis(&head));
     assert!(!head.stability.is_stable() && head.stability.least_stiffness() < 0.0);
@@ -70,8 +73,8 @@ fn a_platform_standing_on_its_head_is_an_equilibrium_but_not_a_stable_one() {
 fn many_starts_find_the_platform_on_its_head_and_hanging() {
     let robot = tripod(0.1, 1.0, 300.0);
     let lengths = tightened(&robot, 1e-3);
-    let starts = Starts { center: Pose::at(0.0, 0.0, 0.0), reach: 0.2, turn: 1.5, count: 60 };
-    let all = direct_all(&robot, &lengths, &Load::none(), &starts).unwrap();
+    let starts = Starts { center: Pose::at(0.0, 0.0, 0.0), reach: 0.2, rotation: 1.5, count: 60 };
+    let all = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().direct_all(&starts).unwrap();
     assert_eq!(all.failed, []);
     for found in &all.found {
         assert!(found.solution.report.residual.force < 1e-7, "{:?}", found.solution.report);
@@ -87,15 +90,24 @@ fn many_starts_find_the_platform_on_its_head_and_hanging() {
             assert!(distance(&first.solution, &second.solution) > 1e-6);
         }
     }
-    assert_eq!(direct_all(&robot, &lengths, &Load::none(), &starts).unwrap(), all);
+    assert_eq!(
+        DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().direct_all(&starts).unwrap(),
+        all
+    );
 }
 
 #[test]
 fn starts_that_are_none_are_named() {
     let robot = tripod(0.3, 0.0, 50.0);
     let lengths = tightened(&robot, 1e-3);
-    let starts = Starts { center: Pose::at(0.0, 0.0, 0.0), reach: 0.1, turn: 0.1, count: 0 };
-    let text = |starts: Starts| direct_all(&robot, &lengths, &Load::none(), &starts).unwrap_err().to_string();
+    let starts = Starts { center: Pose::at(0.0, 0.0, 0.0), reach: 0.1, rotation: 0.1, count: 0 };
+    let text = |starts: Starts| {
+        DirectProblem::new(&robot, &lengths, &Load::none())
+            .unwrap()
+            .direct_all(&starts)
+            .unwrap_err()
+            .to_string()
+    };
     assert_eq!(text(starts), "starts.count is 0: expected one start or more");
     let text = text(Starts { count: 1, reach: f64::NAN, ..starts });
     assert!(text.starts_with("starts.reach is NaN: expected a finite number, zero or more"), "{text}");
@@ -149,7 +161,7 @@ fn winching_a_cable_and_back_ends_where_it_began() {
     assert_eq!(there.lost, None);
     let end = &there.steps.last().unwrap().solution;
     assert_eq!((there.steps[0].share, there.steps.last().unwrap().share), (0.0, 1.0));
-    assert_eq!(end.report.method, Method::Continuation);
+    assert_eq!(end.report.method, DirectMethod::Continuation);
     assert!(end.report.residual.force < 1e-7, "{:?}", end.report);
     assert!(!end.report.slack.is_empty(), "{:?}", end.report);
     let back = follow(&robot, &to, &from, Start::Near(&end.equilibrium)).unwrap();
@@ -215,7 +227,7 @@ fn a_certificate_bounds_the_distance_of_a_solution_that_is_off() {
     let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
     let load = Load::payload(50.0);
     let exact = direct(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium)).unwrap();
-    let proof = certify(&robot, &wanted.lengths, &load, &exact).unwrap();
+    let proof = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().certify(&exact).unwrap();
     println!("proved: {proof:?}");
     assert!(proof.position < 1e-12 && proof.rotation < 1e-12 && proof.force < 1e-7);
     let least = exact.stability.least_stiffness();
@@ -224,7 +236,7 @@ fn a_certificate_bounds_the_distance_of_a_solution_that_is_off() {
         let mut moved = exact.clone();
         let away = off * Vector3::new(0.6, 0.0, -0.8);
         moved.equilibrium.pose = exact.equilibrium.pose.moved(away, away);
-        match certify(&robot, &wanted.lengths, &load, &moved) {
+        match DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().certify(&moved) {
             Ok(proof) => {
                 assert!(proof.position > 0.99 * off && proof.rotation > 0.99 * off, "{off}: {proof:?}");
             }
@@ -245,7 +257,8 @@ fn what_cannot_be_proved_says_why() {
     }
     let lengths = vec![2.0; 6];
     let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&Pose::at(0.0, 0.0, 0.0)));
-    let error = certify(&robot, &lengths, &Load::none(), &found.unwrap()).unwrap_err();
+    let error =
+        DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().certify(&found.unwrap()).unwrap_err();
     assert!(error.to_string().starts_with("not certified: a cable hangs vertically or folded"), "{error}");
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Findings, Severity};
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{InverseSolution, Load, Start, direct_any, inverse};
+use cdpr_statics::{DirectProblem, InverseSolution, Load, Start, inverse};
 use cdpr_study::frame;
 
 /// Share of the platform's weight beyond which that of the cables shapes the robot.
@@ -45,7 +45,8 @@ impl Findings<'_> {
                 "anchor and exit points that let the cables pull in all directions",
             );
         }
-        let held = direct_any(robot, &solution.lengths, &Load::none(), Start::Near(&solution.equilibrium));
+        let held = DirectProblem::new(robot, &solution.lengths, &Load::none())
+            .and_then(|problem| problem.direct_any(Start::Near(&solution.equilibrium)));
         if held.is_ok_and(|held| !held.stability.is_stable()) {
             self.add(
                 Severity::Warning,

@@ -1,7 +1,7 @@
 //! Counts and spreads of a test's solves, in total and for each start offset.
 
 use super::{Answer, Assignment, Outcome, Published, Refusal, RobustnessResult, Solve, StartOffset};
-use cdpr_statics::Method;
+use cdpr_statics::DirectMethod;
 use indexmap::IndexMap;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -172,8 +172,8 @@ impl RobustnessRow {
             true_pose: count(Outcome::TruePose),
             other_equilibrium: count(Outcome::OtherEquilibrium),
             failed,
-            newton: by(Method::Newton),
-            trust_region: by(Method::TrustRegion),
+            newton: by(DirectMethod::Newton),
+            trust_region: by(DirectMethod::TrustRegion),
             iterations: Spread::of(answers().map(|answer| answer.iterations as f64)),
             true_pose_distance: of_true_poses(|answer| answer.distance),
             true_pose_angle_deg: of_true_poses(|answer| answer.angle.to_degrees()),

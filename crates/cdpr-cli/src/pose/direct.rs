@@ -7,7 +7,7 @@ use crate::arguments::{self, Format};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json};
-use cdpr_statics::{Certificate, Load, Start, StaticsError, certify, direct, rough_pose};
+use cdpr_statics::{Certificate, DirectProblem, Load, Start, StaticsError, rough_pose};
 use cdpr_study::{StudyError, open_robot};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -178,9 +178,9 @@ fn solve(robot: &Robot, case: &Case, prove: bool) -> Result<Answer, StaticsError
             expected: "lengths within reach of the robot's frame [m]".to_owned(),
         });
     }
-    let solution = direct(&robot, &case.lengths, &load, Start::Pose(&start))?;
-    let certificate =
-        (prove || case.certify).then(|| certify(&robot, &case.lengths, &load, &solution).into());
+    let problem = DirectProblem::new(&robot, &case.lengths, &load)?;
+    let solution = problem.direct(Start::Pose(&start))?;
+    let certificate = (prove || case.certify).then(|| problem.certify(&solution).into());
     Ok(Answer { found: Found::new(&solution), certificate })
 }
 

@@ -4,7 +4,7 @@ use crate::answer::{self, decimal};
 use crate::arguments::{LoadArguments, RobotAtPose};
 use crate::error::ProgramError;
 use crate::output::table;
-use cdpr_statics::{Stability, Start, Tangent, direct_any, inverse};
+use cdpr_statics::{PoseStiffness, stiffness_at};
 use cdpr_study::open_robot;
 use serde::Serialize;
 
@@ -20,12 +20,7 @@ pub(crate) struct Settings {
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let at = &settings.at;
     let robot = open_robot(&at.robot)?;
-    let load = settings.load.load();
-    let wanted = inverse(&robot, &at.pose, &load, None)?;
-    // The equilibrium at the pose itself, whether or not it is stable.
-    let held = direct_any(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium))?;
-    let tangent = Tangent::at(&robot, &wanted.lengths, &load, &held)?;
-    let answer = Answer::new(&tangent, &held.stability);
+    let answer = Answer::new(&stiffness_at(&robot, &at.pose, &settings.load.load())?);
     Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
 }
 
@@ -54,9 +49,9 @@ struct Eigenvalue {
 }
 
 impl Answer {
-    fn new(tangent: &Tangent, stability: &Stability) -> Self {
+    fn new(PoseStiffness { matrix, stability }: &PoseStiffness) -> Self {
         Self {
-            stiffness: tangent.stiffness().transpose().into(),
+            stiffness: matrix.transpose().into(),
             eigenvalues: stability
                 .modes()
                 .iter()
@@ -68,7 +63,7 @@ impl Answer {
                 .collect(),
             least_stiffness: stability.least_stiffness(),
             stable: stability.is_stable(),
-            arm: stability.arm(),
+            arm: stability.characteristic_length(),
         }
     }
 

@@ -5,7 +5,7 @@ use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
 use crate::convert::error::Answer;
 use crate::convert::threads::each;
 use crate::robot::Robot;
-use cdpr_statics::{Method, Start, StaticsError, direct, rough_pose};
+use cdpr_statics::{DirectMethod, Start, StaticsError, direct, rough_pose};
 use pyo3::prelude::*;
 
 answer! {
@@ -128,9 +128,9 @@ impl DirectSolution {
                 [residual.closure, residual.force, residual.moment]
             })?,
             method: all.words(|found| match found.solution.report.method {
-                Method::Newton => "newton",
-                Method::TrustRegion => "trust_region",
-                Method::Continuation => "continuation",
+                DirectMethod::Newton => "newton",
+                DirectMethod::TrustRegion => "trust_region",
+                DirectMethod::Continuation => "continuation",
             })?,
             iterations: all.array(0, &[], |found, out: &mut [i64]| {
                 out[0] = found.solution.report.iterations as i64;

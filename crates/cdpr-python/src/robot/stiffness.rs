@@ -5,8 +5,8 @@ use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
 use crate::convert::error::Answer;
 use crate::convert::threads::each;
 use crate::robot::Robot;
-use cdpr_robot::{Pose, Vector3};
-use cdpr_statics::{Load, Mode, Start, StaticsError, Tangent, direct_any, inverse};
+use cdpr_robot::Vector3;
+use cdpr_statics::{Mode, PoseStiffness, StaticsError, stiffness_at};
 use pyo3::prelude::*;
 
 answer! {
@@ -37,13 +37,11 @@ answer! {
     }
 }
 
-/// The stiffness at one pose.
+/// A stiffness with its motions.
 struct Found {
-    matrix: [[f64; 6]; 6],
+    stiffness: PoseStiffness,
     modes: [Mode; 6],
     least_stiffness: f64,
-    stable: bool,
-    arm: f64,
 }
 
 #[pymethods]
@@ -70,8 +68,12 @@ impl Robot {
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&poses]).collect();
         let cases = Cases::of(&arguments)?;
-        let outcomes =
-            each(py, cases.count, |case| Found::at(&self.robot, &poses.pose(case)?, &loads.load(case)?))?;
+        let outcomes = each(py, cases.count, |case| {
+            let stiffness = stiffness_at(&self.robot, &poses.pose(case)?, &loads.load(case)?)?;
+            let (modes, least_stiffness) =
+                (stiffness.stability.modes(), stiffness.stability.least_stiffness());
+            Ok::<_, StaticsError>(Found { stiffness, modes, least_stiffness })
+        })?;
         let all = Columns::new(py, cases, &outcomes)?;
         let vectors = |vector: fn(&Mode) -> Vector3<f64>| {
             all.numbers(&[6, 3], |found: &Found, out| {
@@ -81,33 +83,17 @@ impl Robot {
             })
         };
         Ok(Stiffness {
-            matrix: all.numbers(&[6, 6], |found, out| out.copy_from_slice(found.matrix.as_flattened()))?,
+            matrix: all.numbers(&[6, 6], |found, out| {
+                out.copy_from_slice(found.stiffness.matrix.transpose().as_slice());
+            })?,
             eigenvalues: all.vector(|found| found.modes.map(|mode| mode.stiffness))?,
             translations: vectors(|mode| mode.translation)?,
             rotations: vectors(|mode| mode.rotation)?,
             least_stiffness: all.number(|found| found.least_stiffness)?,
-            stable: all.array(false, &[], |found, out| out[0] = found.stable)?,
-            arm: all.number(|found| found.arm)?,
+            stable: all.array(false, &[], |found, out| out[0] = found.stiffness.stability.is_stable())?,
+            arm: all.number(|found| found.stiffness.stability.characteristic_length())?,
             reasons: all.reasons(),
             kinds: all.kinds(),
-        })
-    }
-}
-
-impl Found {
-    /// As `cdpr stiffness` does it.
-    fn at(robot: &cdpr_robot::Robot, pose: &Pose, load: &Load) -> Result<Self, StaticsError> {
-        let wanted = inverse(robot, pose, load, None)?;
-        // The equilibrium at the pose itself, be it stable or not.
-        let held = direct_any(robot, &wanted.lengths, load, Start::Near(&wanted.equilibrium))?;
-        let tangent = Tangent::at(robot, &wanted.lengths, load, &held)?;
-        let stability = &held.stability;
-        Ok(Self {
-            matrix: tangent.stiffness().transpose().into(),
-            modes: stability.modes(),
-            least_stiffness: stability.least_stiffness(),
-            stable: stability.is_stable(),
-            arm: stability.arm(),
         })
     }
 }

@@ -1,15 +1,16 @@
-//! Whether an equilibrium holds, and how far it is from losing hold.
+//! Stability of an equilibrium, and the stiffness of its motions.
 
 use cdpr_robot::Vector3;
 use nalgebra::{Matrix6, Vector6};
 use std::array::from_fn;
 
-/// Stability of an equilibrium: the Hessian of the potential in (dp, ρ dφ), where the length ρ makes rotations comparable with
-/// translations. Stable where all its eigenvalues are positive.
+/// Stability of an equilibrium: stable where all eigenvalues of the potential's Hessian are positive.
+///
+/// The Hessian is that in (dp, ρ dφ), where the characteristic length ρ makes rotations comparable with translations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability {
     hessian: Matrix6<f64>,
-    arm: f64,
+    characteristic_length: f64,
     stable: bool,
 }
 
@@ -26,10 +27,11 @@ pub struct Mode {
 
 impl Stability {
     /// From the symmetric Hessian in (dp, dφ).
-    pub(crate) fn new(hessian: &Matrix6<f64>, arm: f64) -> Self {
-        let scale = Vector6::new(1.0, 1.0, 1.0, 1.0 / arm, 1.0 / arm, 1.0 / arm);
+    pub(crate) fn new(hessian: &Matrix6<f64>, characteristic_length: f64) -> Self {
+        let per_length = 1.0 / characteristic_length;
+        let scale = Vector6::new(1.0, 1.0, 1.0, per_length, per_length, per_length);
         let hessian = hessian.component_mul(&(scale * scale.transpose()));
-        Self { stable: hessian.cholesky().is_some(), hessian, arm }
+        Self { stable: hessian.cholesky().is_some(), hessian, characteristic_length }
     }
 
     /// Whether the potential has a minimum here: every small displacement is pulled back.
@@ -44,15 +46,19 @@ impl Stability {
         values
     }
 
-    /// The motions that are each resisted along themselves only, with their stiffness, from the softest.
+    /// The motions along the eigenvectors of the stiffness, each resisted along itself only, from the softest.
     pub fn modes(&self) -> [Mode; 6] {
         let eigen = self.hessian.symmetric_eigen();
         let mut modes = from_fn(|k| {
             let direction = eigen.eigenvectors.column(k);
-            // Of the two signs, that with the largest component positive.
+            // Of the two signs, the one that makes the largest component positive.
             let direction = direction * direction[direction.iamax()].signum();
             let [translation, rotation] = [0, 3].map(|row| direction.fixed_rows::<3>(row).into_owned());
-            Mode { stiffness: eigen.eigenvalues[k], translation, rotation: rotation / self.arm }
+            Mode {
+                stiffness: eigen.eigenvalues[k],
+                translation,
+                rotation: rotation / self.characteristic_length,
+            }
         });
         modes.sort_by(|a, b| a.stiffness.total_cmp(&b.stiffness));
         modes
@@ -63,17 +69,18 @@ impl Stability {
         self.eigenvalues()[0]
     }
 
-    /// In how many independent directions the platform would move away: the number of negative eigenvalues.
+    /// Number of independent directions in which the platform would move away: of negative eigenvalues.
     pub fn unstable_directions(&self) -> usize {
         let negative = self.eigenvalues().iter().filter(|value| **value < 0.0).count();
-        // At the border rounding decides; the factorisation has the last word.
+        // At the border of stability rounding decides: the answer agrees with `is_stable`.
         if self.stable { 0 } else { negative.max(1) }
     }
 
-    /// The length ρ that makes rotations comparable with translations [m]: the root mean square distance of the anchor
-    /// points from P, or a thousandth of the longest cable where that is more.
-    pub fn arm(&self) -> f64 {
-        self.arm
+    /// Characteristic length ρ that makes rotations comparable with translations [m].
+    ///
+    /// It is the root mean square distance of the anchor points from P, or a thousandth of the longest cable where that is more.
+    pub fn characteristic_length(&self) -> f64 {
+        self.characteristic_length
     }
 }
 

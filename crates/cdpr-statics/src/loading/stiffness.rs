@@ -1,0 +1,30 @@
+//! The Cartesian stiffness at a wanted pose.
+
+use crate::direct::{Stability, Start};
+use crate::error::StaticsError;
+use crate::inverse::inverse;
+use crate::problem::DirectProblem;
+use crate::state::Load;
+use cdpr_robot::{Pose, Robot};
+use nalgebra::Matrix6;
+
+/// Stiffness of a robot at a pose that the inverse model holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoseStiffness {
+    /// Stiffness K in (dp, dφ) [N/m, N/rad, N, N m/rad], see [`crate::Linearization::stiffness`].
+    pub matrix: Matrix6<f64>,
+    /// Its eigenvalues and motions, and whether the equilibrium is stable.
+    pub stability: Stability,
+}
+
+/// The Cartesian stiffness at a wanted pose under the platform's weight and `load`, be the equilibrium there stable or not.
+///
+/// # Errors
+/// Those of [`inverse`] and of [`DirectProblem::direct_any`].
+pub fn stiffness_at(robot: &Robot, pose: &Pose, load: &Load) -> Result<PoseStiffness, StaticsError> {
+    let wanted = inverse(robot, pose, load, None)?;
+    let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
+    let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
+    let matrix = *problem.linearize(&held.equilibrium)?.stiffness();
+    Ok(PoseStiffness { matrix, stability: held.stability })
+}
