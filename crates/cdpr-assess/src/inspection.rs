@@ -1,5 +1,5 @@
-//! What is odd about a robot that is none the less a robot: units that look wrong, limits without sense, points in one place, poses that
-//! cannot be held.
+//! Inspection of a robot file for likely mistakes: units that look wrong, limits without sense, coinciding
+//! points, poses without feasible tensions. The robot is valid all the same.
 
 mod pose;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::f64::consts::PI;
 use std::fmt;
 
-/// How odd a finding is.
+/// Severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
@@ -28,22 +28,23 @@ impl fmt::Display for Severity {
     }
 }
 
-/// Something odd.
+/// A likely mistake in a robot file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
-    /// How odd it is.
+    /// Severity.
     pub severity: Severity,
     /// Path of the field in the robot file, such as `cables[2].exit_point`.
     pub field: String,
-    /// Its value, or what was computed, with its unit.
+    /// Value of the field, or a computed quantity, with its unit.
     pub value: String,
-    /// Why it is odd.
+    /// Why the value is suspicious.
     pub why: String,
-    /// What would be right, or what to look at.
+    /// What is expected, or what to check.
     pub remedy: String,
 }
 
-/// Everything odd about a robot, in the order of its file; what follows from several fields at a pose comes last.
+/// All findings about a robot, in the order of its file. Findings that follow from several fields at a pose
+/// come last.
 pub fn inspect(robot: &Robot) -> Vec<Finding> {
     let mut findings = Findings { robot, list: Vec::new() };
     findings.loads();

@@ -23,23 +23,23 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::time::Instant;
 
-/// A pose that was drawn and is not looked for.
+/// A pose that was drawn and then rejected.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RefusedPose {
     /// Index of the pose among those drawn.
     pub draw: usize,
     /// The pose.
     pub pose: Pose,
-    /// Why it is not looked for.
+    /// Why it was rejected.
     pub refusal: Refusal,
 }
 
-/// Why a pose is not looked for.
+/// Why a pose was rejected.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The inverse model has no lengths for it.
     Infeasible(StaticsError),
-    /// The direct model leaves it when it starts at its equilibrium.
+    /// Started at its equilibrium, the direct model moves to another pose.
     Unstable,
     /// The direct model has no answer from its equilibrium.
     Unanswered(StaticsError),
@@ -52,7 +52,7 @@ pub enum Outcome {
     TruePose,
     /// Farther away, with residuals that say that it is an equilibrium.
     OtherEquilibrium,
-    /// No answer, or one whose residuals say that it is none.
+    /// No answer, or an answer whose residuals are too large.
     Failed,
 }
 
@@ -73,16 +73,16 @@ pub struct Answer {
     pub iterations: usize,
     /// Residuals of all equations.
     pub residual: Residual,
-    /// Whether these are small enough.
+    /// Whether the residuals are small enough for an equilibrium.
     pub is_equilibrium: bool,
 }
 
-/// One pose looked for.
+/// One solve of the direct model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solve {
     /// Index of the pose among those drawn.
     pub draw: usize,
-    /// Place of the start offset in the test's list.
+    /// Index of the start offset in the test's list.
     pub start_offset: usize,
     /// The true pose.
     pub wanted: Pose,
@@ -90,7 +90,7 @@ pub struct Solve {
     pub start: Pose,
     /// [`anchor_distance`] of the start from the true pose [m].
     pub start_distance: f64,
-    /// What it found, or why it found nothing.
+    /// The answer, or the error.
     pub answer: Result<Answer, StaticsError>,
     /// Wall time of the call [µs].
     pub microseconds: f64,
@@ -101,9 +101,9 @@ pub struct Solve {
 pub struct RobustnessResult {
     /// Its settings.
     pub protocol: Protocol,
-    /// Poses drawn until enough were held.
+    /// Poses drawn until enough had a stable equilibrium.
     pub drawn: usize,
-    /// Those of them that are not looked for.
+    /// The rejected poses among them.
     pub refused: Vec<RefusedPose>,
     /// All solves, in the order of the poses.
     pub solves: Vec<Solve>,
@@ -114,11 +114,11 @@ pub const FOUND_DISTANCE: f64 = 0.1;
 /// ... and the rotation [rad].
 pub const FOUND_ANGLE: f64 = PI / 180.0;
 
-/// An equilibrium that the direct model stays at to this [m, rad] is stable.
+/// An equilibrium is stable if the direct model, started there, stays within this distance [m, rad].
 const STABLE: f64 = 1e-6;
-/// Open wrench of an equilibrium, relative to the platform's weight (and its size).
+/// Largest residual wrench of an equilibrium, relative to the platform's weight (and its size).
 const OPEN_WRENCH: f64 = 1e-8;
-/// Open closure of an equilibrium, relative to the longest cable.
+/// Largest closure residual of an equilibrium, relative to the longest cable.
 const OPEN_CLOSURE: f64 = 1e-10;
 
 impl Refusal {
@@ -260,7 +260,8 @@ fn draw(robot: &Robot, design: &RandomDesign, index: usize) -> Result<HeldPose, 
     let found = DirectProblem::new(robot, &held.lengths, &Load::none())
         .and_then(|problem| problem.direct_any(Start::Near(&held.equilibrium)))
         .map_err(|error| refuse(Refusal::Unanswered(error)))?;
-    // What the direct model itself does from the true pose is not asked: only whether the equilibrium there is stable.
+    // Only the stability of the equilibrium at the true pose matters, not what the direct model does from
+    // there.
     let motion = pose.motion_to(&found.equilibrium.pose);
     if !found.stability.is_stable()
         || motion.fixed_rows::<3>(0).norm().max(motion.fixed_rows::<3>(3).norm()) > STABLE

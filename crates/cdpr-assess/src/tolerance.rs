@@ -5,13 +5,13 @@
 //! deviations are the means, and J its exact derivatives there,
 //!
 //! ```text
-//! v_j = sum over the inputs i of tolerance j:  |J_i|² var_i                             (1)
-//! quantile(s) = y0 + κ √(sum v_j s_j²)                                                  (2)
+//! v_j = sum over the inputs i of tolerance j:  |J_i|² var_i                            (B1)
+//! quantile(s) = y0 + κ √(sum v_j s_j²)                                                 (B2)
 //! ```
 //!
-//! defines κ, which is constant for a linear model and hardly changes otherwise. From a sample at the current s follows κ, from κ the
-//! variance that the limit leaves room for, from that the cheapest s ([`allocate`]); a few rounds settle. What the budget reaches is then
-//! found with independent draws that took no part in this.
+//! defines κ, which is constant for a linear model and hardly changes otherwise. A sample at the current s
+//! gives κ; κ and the limit give the admissible variance; this gives the cheapest s ([`allocate`]). A few
+//! rounds suffice. Independent draws then verify what the budget reaches.
 
 use cdpr_robot::Perturbed;
 use cdpr_sensitivity::{Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate};
@@ -28,12 +28,12 @@ use std::borrow::Cow;
 pub enum Limited {
     /// |dp| of the static deflection under the study's load.
     Deflection,
-    /// Distance of P from the wanted pose where the deviating robot gets the nominal robot's lengths, without the load. Offsets of tension
-    /// set-points are in these lengths.
+    /// Distance of P from the wanted pose, without the load, if the deviating robot is given the nominal
+    /// robot's lengths. These lengths include the offsets of tension set-points.
     Position,
 }
 
-/// What is asked of a budget.
+/// The question that a budget answers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
     /// The error.
@@ -61,11 +61,11 @@ pub struct ToleranceBudget {
     pub least_mm: f64,
     /// All tolerances, those to tighten most first.
     pub tolerances: Vec<Tolerance>,
-    /// What the tolerances reach as they are.
+    /// Result of the tolerances as they are.
     pub now: Reached,
-    /// What they reach tightened.
+    /// Result of the tightened tolerances.
     pub tightened: Reached,
-    /// Sum of the costs now and tightened.
+    /// Sum of the costs, now and after tightening.
     pub cost: [f64; 2],
     /// Rounds of sampling until the factors settled.
     pub rounds: usize,
@@ -82,22 +82,22 @@ pub struct Tolerance {
     pub share: f64,
     /// Predicted quantile [mm] if it alone is halved.
     pub halved_mm: f64,
-    /// What it is to be multiplied by: above 0, 1 if it may stay.
+    /// Factor of the tolerance, above 0; 1 if it may stay as it is.
     pub factor: f64,
     /// Cost now; tightened, it is divided by the factor.
     pub cost: f64,
 }
 
-/// What independent draws of the deviations reach, with intervals at the study's confidence.
+/// Results of independent draws of the deviations, with intervals at the study's confidence.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reached {
-    /// The quantile [mm], robots that hold no pose counted beyond it.
+    /// The quantile [mm]; robots without feasible tensions count as beyond it.
     pub quantile_mm: Estimate,
     /// Share of the robots within the limit.
     pub within: Estimate,
     /// Robots drawn.
     pub robots: usize,
-    /// Those that hold no pose; they count as beyond the limit.
+    /// Robots without feasible tensions; they count as beyond the limit.
     pub failed: usize,
 }
 
@@ -105,16 +105,17 @@ pub struct Reached {
 const ROUND: usize = 1 << 12;
 /// Rounds at most.
 const ROUNDS: usize = 40;
-/// The quantile meets the limit within this share of what the tolerances may add to the least error.
+/// The quantile meets the limit within this share of the difference between limit and least error.
 const SETTLED: f64 = 1e-3;
-/// Most robots to verify with: one number each is kept.
+/// Most robots for the verification, which keeps one number for each.
 const MOST_ROBOTS: usize = 1 << 24;
 
 /// Finds the cheapest tightening of a sampling's tolerances by which `limit` is kept.
 ///
 /// # Errors
-/// [`StudyError::Setting`] for a limit, quantile, cost or count that is none; [`StudyError::Unreachable`] for a limit that no tightening
-/// reaches; [`StudyError::Unobservable`] where the robot without deviations, or too many robots of a sample, hold no pose.
+/// [`StudyError::Setting`] for an invalid limit, quantile, cost or count; [`StudyError::Unreachable`] for a
+/// limit that no tightening reaches; [`StudyError::Unobservable`] where the robot without deviations, or too
+/// many robots of a sample, have no feasible tensions.
 pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceBudget, StudyError> {
     let model = Model::new(sampling, limit)?;
     let unmoved = vec![1.0; model.names.len()];
@@ -129,7 +130,7 @@ pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceB
         if rounds == ROUNDS {
             return Err(model.unreachable("the quantile does not settle", predicted));
         }
-        // Half of what is allowed below the limit is aimed at.
+        // The aim lies below the limit by half of the allowed difference.
         let aim = (room * (1.0 - 0.5 * SETTLED)).powi(2) / inflation(predicted, &factors);
         factors = allocate(&model.variances, &model.costs, aim).map_err(|_| {
             model.unreachable("no tolerance has an effect on the error, to first order", predicted)
@@ -180,7 +181,7 @@ struct Model<'a> {
     costs: Vec<f64>,
     /// Largest standard deviation of the inputs of a tolerance.
     stds: Vec<f64>,
-    /// Equation (1) [mm²].
+    /// Equation (B1) [mm²].
     variances: Vec<f64>,
     /// Tolerance of each input, and the mean of its law.
     inputs: Vec<(usize, f64)>,
@@ -269,7 +270,8 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Errors [mm] of the robots of a design under tightened tolerances in ascending order, those of robots that hold no pose infinite.
+    /// Errors [mm] of the robots of a design under tightened tolerances, in ascending order; infinite for
+    /// robots without feasible tensions.
     fn errors(&self, design: &impl SampleDesign, factors: &[f64]) -> Vec<f64> {
         let inputs = self.inputs.len();
         let errors_of = |rows: &mut [f64]| -> Vec<f64> {
@@ -315,7 +317,8 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// The quantile [mm] of a round: of the same points whatever the factors, so that it changes with them alone.
+    /// The quantile [mm] of a round. It uses the same points for all factors, so that it changes with the
+    /// factors alone.
     fn rounded_quantile(&self, factors: &[f64]) -> Result<f64, StudyError> {
         let (study, errors) = (self.sampling.study, &self.sampling.errors);
         let design = SobolDesign::scrambled(errors.inputs.clone(), ROUND, study.file.seed);
@@ -323,7 +326,7 @@ impl<'a> Model<'a> {
         self.estimate(&ascending).map(|quantile| quantile.value)
     }
 
-    /// Equation (2) with independent draws.
+    /// Equation (B2) with independent draws.
     fn verify(&self, factors: &[f64], draw: u64) -> Result<Reached, StudyError> {
         let file = &self.sampling.study.file;
         let (inputs, robots) = (self.sampling.errors.inputs.clone(), self.limit.verified_with);

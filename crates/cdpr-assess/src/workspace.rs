@@ -8,31 +8,31 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What is asked of every position of a grid.
+/// The question about every position of a grid.
 #[derive(Clone, Copy, Debug)]
 pub struct Workspace<'a> {
     /// The robot.
     pub robot: &'a Robot,
     /// The positions.
     pub grid: Grid,
-    /// The orientation at all of them.
+    /// The orientation at all positions.
     pub rotation: Rotation3<f64>,
-    /// The load whose effect is the deflection; without one, tensions and stiffness alone are told.
+    /// The load whose effect is the deflection. Without it only tensions and stiffness are computed.
     pub load: Load,
-    /// What is uncertain; none where no tolerance is asked for.
+    /// The uncertain parameters; `None` if no tolerance is wanted.
     pub tolerances: Option<&'a ErrorModel>,
 }
 
-/// A position and what was found there.
+/// A position and its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorkspacePose {
     /// The wanted pose.
     pub pose: Pose,
-    /// What holds the platform there; the reason if nothing does, or if what does cannot bear the load.
+    /// The result there, or the reason why no tensions hold the platform or bear the load.
     pub outcome: Result<Held, StaticsError>,
 }
 
-/// A pose that is held.
+/// A pose with feasible tensions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Held {
     /// Least tension at the platform, without and with the load [N].
@@ -47,14 +47,15 @@ pub struct Held {
     pub least_stiffness: f64,
     /// Cables (from 0) that are slack with the load.
     pub slack: Vec<usize>,
-    /// The tolerance that matters most; none where none was asked for, nothing is uncertain, or |dp| has no derivative.
+    /// The tolerance that matters most; `None` if no tolerance is wanted, nothing is uncertain, or |dp| has
+    /// no derivative.
     pub dominant: Option<Dominant>,
 }
 
 /// The cause behind the largest share of the variance of |dp|, to first order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dominant {
-    /// Number of the error model's input.
+    /// Index of the error model's input.
     pub input: usize,
     /// Its share, 0 to 1.
     pub share: f64,
@@ -65,12 +66,12 @@ pub struct Dominant {
 /// Rounding of a tension that rests on its limit.
 const ROUNDING: f64 = 1e-9;
 
-/// Runs in parallel; `tick` is told of every position that is done, `stop` is asked before each whether to end there. Positions come back
-/// in the order of the grid.
+/// Computes all positions in parallel, in the order of the grid. `tick` is called after each position; a
+/// `stop` that returns true ends the run.
 ///
 /// # Errors
-/// [`StudyError::Setting`] for a load or error model that is none, and for an error model without a load; [`StudyError::Stopped`]. A pose that is not held
-/// is no error.
+/// [`StudyError::Setting`] for an invalid load or error model, and for an error model without a load;
+/// [`StudyError::Stopped`]. A pose without feasible tensions is not an error.
 pub fn compute_workspace(
     workspace: &Workspace,
     tick: &(dyn Fn() + Sync),
@@ -126,7 +127,7 @@ fn held(
     };
     match derivatives(robot, pose, &offsets, load) {
         Ok(found) => Ok(Held::new(robot, &found.deflection, Dominant::of(&found, model))),
-        // The border of what has a derivative is held nevertheless.
+        // A pose without a derivative is held nevertheless.
         Err(StaticsError::NoDerivative { .. }) => {
             Ok(Held::new(robot, &deflection(robot, pose, &offsets, load)?, None))
         }
@@ -168,8 +169,8 @@ impl Dominant {
     }
 }
 
-/// A position as it stands in `workspace.csv` and `workspace.json`: positions [m], deflection [mm], tensions [N], stiffness [N/m]. What
-/// does not exist is empty.
+/// A row of `workspace.csv` and `workspace.json`: positions [m], deflection [mm], tensions [N], stiffness
+/// [N/m]. Values that do not exist are empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[allow(missing_docs)]
 pub struct WorkspaceRow {
@@ -198,7 +199,7 @@ pub struct WorkspaceRow {
 }
 
 impl WorkspaceRow {
-    /// Of a pose of a workspace and what was found there.
+    /// The row of a pose and its result.
     pub fn new(workspace: &Workspace, pose: &WorkspacePose) -> Self {
         let [x, y, z] = pose.pose.position.into();
         let held = pose.outcome.as_ref().ok();
@@ -255,7 +256,8 @@ pub struct WorkspaceSummary {
     pub status: BTreeMap<&'static str, usize>,
     /// Number of positions at which each cause dominates.
     pub dominant: BTreeMap<String, usize>,
-    /// |dp| [mm] over the positions with status `held`; this and the following are absent where there is none.
+    /// |dp| [mm] over the positions with status `held`. This and the following are absent without such
+    /// positions.
     pub rms_mm: Option<Extremes>,
     /// Stiffness of the softest motion [N/m].
     pub least_stiffness: Option<Extremes>,

@@ -14,7 +14,8 @@ pub fn write_robustness(folder: &Path, summary: &RobustnessSummary) -> Result<Pa
     write_json(folder.join("robustness.json"), summary)
 }
 
-/// Writes `solves.csv`: one row a solve, with the true pose, the start, the pose found (position [m], rotation vector [rad]), how
+/// Writes `solves.csv`: one row for each solve, with the true pose, the start, the pose found (position [m],
+/// rotation vector [rad]), how
 /// far it is from the true one, outcome, reason of a failure, method, iterations, residuals and wall time.
 ///
 /// # Errors
@@ -76,7 +77,7 @@ pub fn write_solves(folder: &Path, results: &[RobustnessResult]) -> Result<PathB
     write_csv(folder.join("solves.csv"), header, rows)
 }
 
-/// Writes `refused.csv`: the poses drawn that are not looked for, with the reason.
+/// Writes `refused.csv`: the rejected poses with the reason.
 ///
 /// # Errors
 /// [`StudyError::Write`].
@@ -98,7 +99,8 @@ pub fn write_refused(folder: &Path, results: &[RobustnessResult]) -> Result<Path
     write_csv(folder.join("refused.csv"), header.map(str::to_owned).into(), rows)
 }
 
-/// Writes `workspace.csv`, one row a position, and `workspace.json`, the same with settings and extremes.
+/// Writes `workspace.csv`, one row for each position, and `workspace.json`, the same with settings and
+/// extremes.
 ///
 /// # Errors
 /// [`StudyError::Write`].

@@ -1,4 +1,4 @@
-//! What can go wrong with a figure.
+//! Errors of figures.
 
 /// Why there is no figure.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,13 +16,13 @@ pub enum ReportError {
         field: String,
         /// What was given.
         value: String,
-        /// What would be right.
+        /// What is expected.
         expected: &'static str,
     },
     /// The drawing library failed.
     #[error("cannot draw: {reason}")]
     Drawing {
-        /// What it says.
+        /// Message of the drawing library.
         reason: String,
     },
 }
@@ -32,7 +32,7 @@ impl ReportError {
         Self::Invalid { field: field.into(), value: value.to_string(), expected }
     }
 
-    /// `value`, if it is finite: anything else has no place on an axis.
+    /// `value` if it is finite; no other value has a position on an axis.
     pub(crate) fn finite(field: &str, value: f64) -> Result<f64, Self> {
         if value.is_finite() { Ok(value) } else { Err(Self::invalid(field, &value, "a finite number")) }
     }

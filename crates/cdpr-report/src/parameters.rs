@@ -1,4 +1,4 @@
-//! Parameters of a robot as a reader wants them: words, symbols, units.
+//! Words, symbols and units of a robot's parameters, for readers.
 
 use crate::error::ReportError;
 use cdpr_robot::{Axis, Parameter};
@@ -18,7 +18,7 @@ pub(crate) fn parameter(name: &str) -> String {
     words.to_owned()
 }
 
-/// A parameter as short as can be: `E`, `\u{3c1}`, `m`, or its own name.
+/// Symbol of a parameter: `E`, `\u{3c1}`, `m`, or its own name.
 pub(crate) fn symbol(name: &str) -> &str {
     match name {
         "mass" => "m",
@@ -28,7 +28,7 @@ pub(crate) fn symbol(name: &str) -> &str {
     }
 }
 
-/// Unit for reading and how many of it are one SI unit, of a parameter or a group of them.
+/// Unit in which a parameter or a group is shown, and how many of it make one SI unit.
 pub(crate) fn reading_unit(name: &str) -> (&'static str, f64) {
     let parameter = match name {
         "a" => Some(Parameter::AnchorPoint(0, Axis::X)),
@@ -46,7 +46,7 @@ pub(crate) fn reading_unit(name: &str) -> (&'static str, f64) {
     }
 }
 
-/// Label of a parameter's axis, and what turns SI units into the unit that it names.
+/// Label of a parameter's axis, and the factor from SI units to the unit in the label.
 pub(crate) fn axis_of(name: &str) -> Result<(String, f64), ReportError> {
     let parameter: Parameter =
         name.parse().map_err(|_| ReportError::invalid("parameters", &name, "a parameter of a robot"))?;

@@ -1,4 +1,4 @@
-//! Numbers and names as a reader wants them.
+//! Texts of numbers and names, for readers.
 
 use cdpr_sensitivity::{Law, Steps};
 use serde::Serialize;
@@ -15,7 +15,7 @@ pub(crate) fn digits(value: f64, digits: usize) -> String {
     mantissa.trim_end_matches('0').trim_end_matches('.').to_owned() + power
 }
 
-/// The same with its zeros, as columns of numbers want it.
+/// The same with its zeros, for columns of numbers.
 pub(crate) fn figures(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };
@@ -71,7 +71,7 @@ pub(crate) fn law(law: &Law, scale: f64) -> String {
     }
 }
 
-/// Whether [`law`] scales the parameters of a law: shapes and logarithms have no unit that could be changed.
+/// Whether [`law`] scales the parameters of a law; shapes and logarithms have no unit to change.
 pub(crate) fn is_scaled(law: &Law) -> bool {
     matches!(law, Law::Uniform { .. } | Law::Normal { .. })
 }

@@ -1,17 +1,18 @@
-//! What is odd about a robot at a pose: cables that cross, wrenches hardly resisted, equilibria that are not stable.
+//! Inspection of a robot at a pose: cables that cross, wrenches that are hardly resisted, unstable
+//! equilibria.
 
 use super::{Findings, Severity};
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, InverseSolution, Load, Start, inverse};
 use cdpr_study::frame;
 
-/// Share of the platform's weight beyond which that of the cables shapes the robot.
+/// Weight of the cables, as a share of the platform's weight, beyond which sag shapes the robot.
 const CABLE_WEIGHT: f64 = 0.5;
 /// Ratio of the extreme singular values of the wrench matrix beyond which it hardly resists some wrench.
 const CONDITION: f64 = 100.0;
 
 impl Findings<'_> {
-    /// What follows at a pose that is held.
+    /// Findings at a pose with feasible tensions.
     pub(super) fn at_pose(&mut self, pose: &Pose, solution: &InverseSolution) {
         let robot = self.robot;
         let [x, y, z] = pose.position.into();
@@ -92,8 +93,8 @@ impl Findings<'_> {
     }
 }
 
-/// Distance of two lines between their exit and anchor points, the second's exit point `between` from the first's; none where they are
-/// closest outside of these ends, or parallel.
+/// Distance of two lines between their exit and anchor points; `between` leads from the first exit point to
+/// the second. `None` where the lines are parallel, or closest outside of these ends.
 fn line_distance((first, second): (&Vector3<f64>, &Vector3<f64>), between: &Vector3<f64>) -> Option<f64> {
     let normal = first.cross(second);
     let square = normal.norm_squared();
@@ -106,8 +107,9 @@ fn line_distance((first, second): (&Vector3<f64>, &Vector3<f64>), between: &Vect
     (inside(on_first) && inside(on_second)).then(|| between.dot(&normal).abs() / square.sqrt())
 }
 
-/// A level pose that is held, on the vertical through the middle of the exit points: as near as possible to half of the frame's size below
-/// them where they are at one height, to the middle of their heights else.
+/// A level pose with feasible tensions, on the vertical through the middle of the exit points. Where the exit
+/// points have one height, it is as near as possible to half of the frame's size below them; otherwise it is
+/// as near as possible to the middle of their heights.
 pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
     let [[x_low, x_high], [y_low, y_high], [z_low, z_high]] = frame(robot);
     let size = (x_high - x_low).max(y_high - y_low).max(z_high - z_low);

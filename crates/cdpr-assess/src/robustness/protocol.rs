@@ -1,4 +1,4 @@
-//! Settings of a test of robustness, and the two protocols that other programs are known by.
+//! Settings of a test of robustness, and the two protocols for which results of other programs are published.
 
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{Input, Law, RandomDesign};
@@ -13,7 +13,7 @@ pub struct PoseRegion {
     pub low: [f64; 3],
     /// Greatest coordinates of P [m].
     pub high: [f64; 3],
-    /// Greatest angle of the rotation [rad]; its axis has any direction, and any smaller angle is as likely.
+    /// Greatest angle of the rotation [rad]. Axis and angle are uniformly distributed.
     pub max_angle: f64,
 }
 
@@ -28,24 +28,24 @@ pub struct StartOffset {
     pub published: Option<Published>,
 }
 
-/// Poses found by another program, of so many of its own.
+/// Poses that another program found, and how many it was given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Published {
     /// Name of the program.
     pub program: &'static str,
     /// Poses found.
     pub found: usize,
-    /// Poses looked for.
+    /// Poses given to it.
     pub of: usize,
 }
 
-/// Which poses are looked for from which start offsets.
+/// How poses and start offsets are combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Assignment {
-    /// Each pose from one of them, in turn.
+    /// Each pose from one start offset; the offsets take turns.
     InTurn,
-    /// Each pose from all of them, in the same direction.
+    /// Each pose from all start offsets, in the same direction.
     Each,
 }
 
@@ -60,11 +60,11 @@ pub struct Protocol {
     pub youngs_modulus: Option<f64>,
     /// Where poses are drawn from.
     pub region: PoseRegion,
-    /// Poses that are looked for: so many stable ones are collected.
+    /// Number of stable poses that are collected and solved.
     pub poses: usize,
     /// Start offsets.
     pub starts: Vec<StartOffset>,
-    /// Which poses are looked for from which of them.
+    /// How poses and start offsets are combined.
     pub assignment: Assignment,
     /// Seed of poses and directions.
     pub seed: u64,

@@ -30,9 +30,9 @@ pub struct ProtocolSummary {
     pub region_high: [f64; 3],
     /// Greatest rotation of the poses [degrees].
     pub region_angle_deg: f64,
-    /// Poses looked for.
+    /// Number of poses that were solved.
     pub poses: usize,
-    /// From which start offsets.
+    /// How poses and start offsets were combined.
     pub assignment: Assignment,
     /// Seed.
     pub seed: u64,
@@ -48,14 +48,14 @@ pub struct ProtocolSummary {
     pub rows: Vec<RobustnessRow>,
 }
 
-/// What was drawn until enough poses were held.
+/// The poses drawn until enough had a stable equilibrium.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Draws {
     /// Poses drawn.
     pub drawn: usize,
     /// Poses without an answer of the inverse model, by kind of failure.
     pub infeasible: BTreeMap<String, usize>,
-    /// Poses that the direct model leaves when it starts at their equilibrium.
+    /// Poses from whose equilibrium the direct model moves to another pose.
     pub unstable: usize,
     /// Poses at whose equilibrium the direct model has no answer, by kind of failure.
     pub unanswered: BTreeMap<String, usize>,
@@ -64,11 +64,11 @@ pub struct Draws {
 /// Solves from one start offset, or all of them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RobustnessRow {
-    /// Distance of the starts [m]; none in the total.
+    /// Distance of the starts [m]; `None` in the total.
     pub distance: Option<f64>,
-    /// Angle of the starts [degrees]; none in the total.
+    /// Angle of the starts [degrees]; `None` in the total.
     pub angle_deg: Option<f64>,
-    /// Solves.
+    /// Number of solves.
     pub solves: usize,
     /// Those that found the true pose.
     pub true_pose: usize,
@@ -88,7 +88,7 @@ pub struct RobustnessRow {
     pub true_pose_angle_deg: Option<Spread>,
     /// Wall time of a solve [µs], one at a time. The only figures that differ from run to run.
     pub microseconds: Option<Spread>,
-    /// What another program finds.
+    /// Published results of another program.
     pub published: Option<Published>,
 }
 
@@ -148,7 +148,7 @@ impl Draws {
 }
 
 impl RobustnessRow {
-    /// Share of solves that found the true pose; none without solves.
+    /// Share of solves that found the true pose; `None` without solves.
     pub fn success(&self) -> Option<f64> {
         (self.solves > 0).then(|| self.true_pose as f64 / self.solves as f64)
     }
@@ -195,7 +195,7 @@ impl Spread {
     }
 }
 
-/// In degrees, without the rounding of the way there and back: 20, not 20.000000000000004.
+/// Degrees from radians, rounded so that 20 degrees stay 20 and not 20.000000000000004.
 pub(crate) fn in_degrees(angle: f64) -> f64 {
     (1e9 * angle.to_degrees()).round() / 1e9
 }

@@ -46,7 +46,7 @@ pub(crate) fn chart<'a>(area: &Area<'a>, x: &Axis, y: &Axis, grid: Grid) -> Resu
     Ok(chart)
 }
 
-/// An axis: its range, what stands at which tick, and its label.
+/// An axis: its range, its ticks with their texts, and its label.
 #[derive(Clone)]
 pub(crate) struct Axis {
     pub range: Range<f64>,
@@ -55,7 +55,8 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// An axis of numbers, with at most `most` ticks at round values. A range that is none but for rounding is widened.
+    /// An axis of numbers, with at most `most` ticks at round values. A range whose width is only rounding is
+    /// widened.
     pub(crate) fn numbers(range: Range<f64>, most: usize, label: impl Into<String>) -> Self {
         let size = range.start.abs().max(range.end.abs());
         let half = if range.end - range.start > 1e-9 * size { 0.0 } else { 1e-3 * size.max(1.0) };

@@ -49,7 +49,7 @@ impl Nodes {
     }
 }
 
-/// The cells of a grid; that of node i, j has place `i * y.len() + j`.
+/// The cells of a grid; the cell of node i, j has the index `i * y.len() + j`.
 pub(crate) struct Cells {
     pub(crate) x: Nodes,
     pub(crate) y: Nodes,
@@ -58,7 +58,7 @@ pub(crate) struct Cells {
 /// Values over a grid.
 pub(crate) struct ColorMap {
     pub(crate) cells: Cells,
-    /// Of each cell; none where there is none.
+    /// Value of each cell; `None` for a cell without a value.
     pub(crate) values: Vec<Option<f64>>,
     pub(crate) least: f64,
     pub(crate) greatest: f64,
@@ -84,7 +84,8 @@ impl Cells {
         for place in 0..self.count() {
             let (i, j) = (place / rows, place % rows);
             let from = (self.x.edge(i), self.y.edge(j));
-            // Each cell reaches a pixel or two below the ones drawn after it, lest the white between them show.
+            // Each cell extends a pixel or two below the cells drawn after it, so that no white shows between
+            // them.
             let below = (self.x.past_edge(i + 1), self.y.past_edge(j + 1));
             plot.draw(&Rectangle::new([from, below], color(place).unwrap_or(GREY).filled()))?;
         }
@@ -181,7 +182,7 @@ impl ColorMap {
             .draw()
     }
 
-    /// Place of a value on the colour bar, 0 to 1.
+    /// Position of a value on the colour bar, from 0 to 1.
     fn place(&self, value: f64) -> f64 {
         let range = &self.color_axis.range;
         ((value - range.start) / (range.end - range.start)).clamp(0.0, 1.0)
@@ -191,8 +192,8 @@ impl ColorMap {
         ViridisRGB::get_color(self.place(value))
     }
 
-    /// White on the dark half of viridis, black on the bright one; both by a hair, so that a page that swaps black and white for
-    /// dark surroundings leaves lines on viridis as they are.
+    /// White on the dark half of viridis and black on the bright half. Both are slightly off, so that a page
+    /// that swaps black and white in the dark leaves lines on viridis as they are.
     fn line_color(&self, value: f64) -> RGBColor {
         if self.place(value) < 0.5 { RGBColor(254, 254, 254) } else { RGBColor(1, 1, 1) }
     }

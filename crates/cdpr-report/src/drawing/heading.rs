@@ -1,4 +1,4 @@
-//! What stands above the charts of a figure: title, lines, key.
+//! The heading above the charts of a figure: title, lines, key.
 
 use crate::drawing::style::{Area, CHARACTER, DrawingError, LINE_HEIGHT, MARGIN, Pen, TEXT, WIDTH, px, text};
 
@@ -10,7 +10,7 @@ const KEY_LINE: f64 = 24.0;
 const KEY_GAP: f64 = 5.0;
 const KEY_ENTRY: f64 = KEY_LINE + KEY_GAP + 12.0;
 
-/// What stands above the charts.
+/// The heading above the charts.
 pub(crate) struct Heading<'a> {
     pub title: &'a str,
     /// Lines below the title.
@@ -26,7 +26,7 @@ impl Heading<'_> {
         MARGIN + LINE_HEIGHT * rows as f64 + 4.0
     }
 
-    /// Draws the heading; what is left of the area.
+    /// Draws the heading, and returns the rest of the area.
     pub(crate) fn draw<'a>(&self, area: &Area<'a>) -> Result<Area<'a>, DrawingError> {
         let (head, rest) = area.split_vertically(px(self.height()));
         let mut y = MARGIN + 0.5 * LINE_HEIGHT;

@@ -8,12 +8,13 @@ use cdpr_robot::Robot;
 use plotters::style::RGBColor;
 use std::cmp::Reverse;
 
-/// Names with a colour of their own, and that of all others; the colours of the frame and of what is not held are left out.
+/// The colours of names, and the colour of all other names. The colours of the frame and of positions without
+/// feasible tensions are not among them.
 const COLORS: [RGBColor; 5] =
     [BLUE, RGBColor(0x56, 0xB4, 0xE9), GREEN, RGBColor(0xF0, 0xE4, 0x42), RGBColor(0xCC, 0x79, 0xA7)];
 const OTHERS: RGBColor = RGBColor(0x50, 0x50, 0x50);
 
-/// Draws it; the most frequent names have colours of their own, and where there is none is hatched.
+/// Draws the map. The most frequent names have colours of their own; a position without a name is hatched.
 pub(crate) fn name_map(
     plane: &Plane,
     robot: &Robot,

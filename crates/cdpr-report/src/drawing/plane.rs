@@ -1,4 +1,4 @@
-//! Planes of positions in the robot's frame: what maps of them have in common.
+//! Planes of positions in the robot's frame, and what all maps of them share.
 
 use crate::drawing::axis::{Axis, Grid as Lines, chart};
 use crate::drawing::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
@@ -20,13 +20,13 @@ const FRAME: Pen = Pen { color: VERMILLION, width: 1.5, dash: Some(6.0) };
 /// A plane of a grid of positions.
 pub(crate) struct Plane {
     normal: Direction,
-    /// Number of its place along the normal, if the grid is a box.
+    /// Index of the plane along its normal, if the grid is a box.
     pub(crate) layer: Option<usize>,
-    /// That place [m].
+    /// Coordinate of the plane along its normal [m].
     place: f64,
-    /// Axes and their places [m].
+    /// Axes and the coordinates along them [m].
     axes: [(Direction, Vec<f64>); 2],
-    /// Numbers in the grid of its positions, the second axis running faster.
+    /// Indices of its positions in the grid; the second axis runs faster.
     pub(crate) positions: Vec<usize>,
 }
 
@@ -34,18 +34,18 @@ pub(crate) struct Plane {
 pub(crate) enum Paint {
     /// Values, with a colour bar.
     Values(ColorMap),
-    /// A colour a cell, which the key explains.
+    /// A colour for each cell, which the key explains.
     Colors(Cells, Vec<Option<RGBColor>>),
 }
 
-/// What the key of every map says.
+/// The key of every map.
 pub(crate) fn key() -> [(String, Pen); 3] {
     [("frame of the exit points", FRAME), ("exit points", Pen::bar(ORANGE)), ("not held", Pen::bar(GREY))]
         .map(|(name, pen)| (name.to_owned(), pen))
 }
 
 impl Plane {
-    /// The grid itself if it is a plane, the layers of a box from below, none of a line.
+    /// The grid itself if it is a plane, the layers of a box from below, and nothing for a line.
     pub(crate) fn of(grid: &Grid) -> Vec<Self> {
         let points = |axis| grid.axis(axis).points;
         let all = [Direction::X, Direction::Y, Direction::Z];
@@ -79,7 +79,7 @@ impl Plane {
         grid.axis(normal).places().into_iter().enumerate().map(layer).collect()
     }
 
-    /// What tells its file from those of the other layers of a box: `_z00`.
+    /// Suffix of the file of a layer of a box: `_z00`.
     pub(crate) fn suffix(&self) -> String {
         self.layer.map(|layer| format!("_z{layer:02}")).unwrap_or_default()
     }
@@ -96,7 +96,8 @@ impl Plane {
         Ok(Cells { x: nodes(&self.axes[0])?, y: nodes(&self.axes[1])? })
     }
 
-    /// The map as a figure, hatched where `hatched` says of a position's place in the map, with frame and exit points.
+    /// The map as a figure, with frame and exit points. `hatched` says of a position's index whether it is
+    /// hatched.
     pub(crate) fn figure(
         &self,
         robot: &Robot,

@@ -23,7 +23,7 @@ pub(crate) const ORANGE: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
 pub(crate) const GREEN: RGBColor = RGBColor(0x00, 0x9E, 0x73);
 pub(crate) const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xB2);
 pub(crate) const VERMILLION: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
-/// What could not be computed, or cannot be told from zero.
+/// Colour of values that could not be computed or cannot be distinguished from zero.
 pub(crate) const GREY: RGBColor = RGBColor(0xB0, 0xB0, 0xB0);
 
 pub(crate) const TEXT: f64 = 12.0;
@@ -44,7 +44,7 @@ pub(crate) struct Pen {
     pub color: RGBColor,
     /// Width [px].
     pub width: f64,
-    /// Length of a dash [px]; none for a solid line.
+    /// Length of a dash [px]; `None` for a solid line.
     pub dash: Option<f64>,
 }
 
@@ -53,7 +53,7 @@ impl Pen {
         Self { color, width, dash: None }
     }
 
-    /// What stands for filled bars in a key.
+    /// The pen for filled bars in a key.
     pub(crate) const fn bar(color: RGBColor) -> Self {
         Self::solid(color, 9.0)
     }

@@ -1,4 +1,4 @@
-//! A cycle of load as lines: Fig. 3 of the paper, and what such cables do to the platform.
+//! A load cycle as lines: Fig. 3 of the paper, and the cycle of a platform on such cables.
 
 use crate::drawing::axis::{Axis, Grid, chart};
 use crate::drawing::heading::Heading;

@@ -1,4 +1,4 @@
-//! What a robot does over a plane of its workspace.
+//! Maps of a robot's behaviour over a plane of its workspace.
 
 use crate::drawing::color_map::ColorMap;
 use crate::drawing::heading::Heading;
@@ -53,8 +53,9 @@ impl MapQuantity {
     }
 }
 
-/// Heat map of a quantity over a plane, with the exit points and the rectangle around them. Hatched is where the platform is not held
-/// (grey) or the load takes a tension out of its limits (coloured).
+/// Heat map of a quantity over a plane, with the exit points and the rectangle around them. Positions without
+/// feasible tensions are hatched in grey, positions at which the load takes a tension out of its limits are
+/// hatched in colour.
 ///
 /// # Errors
 /// [`ReportError::Invalid`] for a workspace that is no plane, [`ReportError::Empty`] where the platform is held nowhere.
@@ -91,7 +92,8 @@ fn values(
     plane.figure(robot, &heading, &Paint::Values(map), hatched)
 }
 
-/// Map of the tolerance that contributes most to the variance of |dp| over a plane. Hatched is where the platform is not held.
+/// Map of the tolerance that contributes most to the variance of |dp| over a plane. Positions without
+/// feasible tensions are hatched.
 ///
 /// # Errors
 /// As [`heat_map`]; [`ReportError::Empty`] also for a workspace without tolerances.

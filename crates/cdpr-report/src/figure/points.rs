@@ -37,7 +37,7 @@ pub enum Points {
 }
 
 impl Points {
-    /// Point, counted from 0, and coordinate that a parameter is.
+    /// The point, counted from 0, and the coordinate that a parameter stands for.
     fn coordinate(self, parameter: &str) -> Option<(usize, Coordinate)> {
         match (self, parameter.parse().ok()?) {
             (Self::Anchor, Parameter::AnchorPoint(i, axis)) | (Self::Exit, Parameter::ExitPoint(i, axis)) => {
@@ -60,8 +60,8 @@ impl Points {
 /// whose bars would cover each other stand side by side.
 ///
 /// # Errors
-/// [`ReportError::Empty`] if no sampling has such a coordinate among its parameters, [`ReportError::Invalid`] for an index
-/// that is not finite or of a point that the robot does not have, and for a pose that is none.
+/// [`ReportError::Empty`] if no sampling has such a coordinate among its parameters, [`ReportError::Invalid`]
+/// for an index that is not finite or of a point that the robot does not have, and for an invalid pose.
 pub fn point_effects(
     robot: &Robot,
     samplings: &[(&str, &SamplingSummary)],

@@ -1,5 +1,5 @@
-//! What the observations of a sampling say over a plane or the layers of a box: mean and standard deviation of the RMS, and the parameter
-//! that matters most.
+//! Maps of a sampling over a plane or the layers of a box: mean and standard deviation of the RMS, and the
+//! parameter that matters most.
 
 use crate::drawing::color_map::ColorMap;
 use crate::drawing::heading::Heading;
@@ -13,8 +13,9 @@ use cdpr_study::{PoseRow, PosesSummary};
 /// A map by its name, `mean`, `std` or `dominant`, with `_z00`, ... for the layers of a box; or why it cannot be drawn.
 pub type NamedMap = (String, Result<String, ReportError>);
 
-/// All maps of a sampling at the poses of a grid. Grey and hatched is where there is nothing to show: the nominal robot does not hold the
-/// pose, or hardly any observation has succeeded. A list of poses, or a line, has no map.
+/// All maps of a sampling at the poses of a grid. A pose is grey and hatched if the nominal robot has no
+/// feasible tensions there, or if hardly any observation has succeeded. A list of poses, or a line, has no
+/// map.
 pub fn pose_maps(robot: &Robot, summary: &PosesSummary, rows: &[PoseRow]) -> Vec<NamedMap> {
     let planes = summary.grid.as_ref().map(Plane::of).unwrap_or_default();
     let maps = planes.iter().flat_map(|plane| {

@@ -16,13 +16,13 @@ const ELEVATION: f64 = 0.42;
 /// Poses that are drawn, each in a colour of its own.
 const COLORS: [RGBColor; 4] = [BLUE, VERMILLION, GREEN, ORANGE];
 const FRAME: Pen = Pen { color: GREY, width: 1.2, dash: None };
-/// The part of the smallest side of the frame that the axes of the base frame take.
+/// Length of the axes of the base frame, as a share of the smallest side of the frame.
 const AXES: f64 = 0.15;
 
 /// The robot of a study under its load, at the first four of the study's poses.
 ///
 /// # Errors
-/// [`ReportError::Empty`] where the nominal robot holds no pose.
+/// [`ReportError::Empty`] if the nominal robot has feasible tensions at no pose.
 pub fn robot_view(study: &Study) -> Result<String, ReportError> {
     let scene = Scene::new(study).map_err(|error| ReportError::Drawing { reason: error.to_string() })?;
     let poses: Vec<_> = scene.poses.iter().zip(COLORS).collect();
@@ -54,11 +54,11 @@ pub fn robot_view(study: &Study) -> Result<String, ReportError> {
     })
 }
 
-/// From places in the base frame to pixels.
+/// The projection from the base frame to pixels.
 struct Projection {
     /// Pixels a metre.
     scale: f64,
-    /// The projected place [m] at the middle of the picture.
+    /// The projected point [m] at the middle of the picture.
     middle: (f64, f64),
     /// Length of the drawn axes [m].
     axes: f64,

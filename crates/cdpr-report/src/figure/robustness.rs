@@ -19,11 +19,11 @@ const OUTCOMES: [(Outcome, &str, RGBColor); 3] = [
 const MARK: f64 = 1.8;
 /// True poses drawn at most: more would hide one another.
 const MOST_TRUE_POSES: usize = 2000;
-/// Distance that rounding cannot be told from [m]: what is nearer is drawn there.
+/// Distance below which differences are rounding [m]; nearer answers are drawn at this distance.
 const NEAREST: f64 = 1e-16;
 /// Height of a row of the grid [px].
 const ROW: f64 = 46.0;
-/// The dark end of the colours is the least share of the grid, but no more than this.
+/// The dark end of the colours is the least share of the grid, but at most this value.
 const BRIGHTEST_DARK: f64 = 0.99;
 
 /// Every solve of a test: how far the answer is from the true pose, over how far the start was from it, both as the root mean
@@ -45,7 +45,7 @@ pub fn found_poses(result: &RobustnessResult) -> Result<String, ReportError> {
         points.push((x, y.map(|y| y.max(NEAREST).log10()), solve.outcome()));
     }
     let found = || points.iter().filter_map(|(_, y, _)| *y);
-    // Whole decades, and one more for what has no answer.
+    // Whole decades, and one more for solves without an answer.
     let low = found().fold(-1.0, f64::min).floor();
     let high = found().fold(0.0, f64::max).ceil();
     let top = if points.iter().any(|(_, y, _)| y.is_none()) { high + 1.0 } else { high };

@@ -37,7 +37,7 @@ const ROW: f64 = 44.0;
 const STEP: f64 = 0.14;
 /// Radius of a dot [px].
 const DOT: f64 = 2.6;
-/// Least share drawn: what is less lies on the left edge.
+/// Least share drawn; smaller shares lie on the left edge.
 const LEAST: f64 = 1e-4;
 
 /// Shares of the variance of the `most` leading inputs on a logarithmic axis, one line of dots an input and measure, with

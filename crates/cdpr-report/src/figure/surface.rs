@@ -12,8 +12,8 @@ use cdpr_study::{SurfaceResult, SurfaceSummary};
 /// Heat map of the RMS with contour lines at the ticks of its colour bar. A cell that failed is grey and struck through.
 ///
 /// # Errors
-/// [`ReportError::Empty`] if every cell failed, [`ReportError::Invalid`] for a grid that is none, an unknown parameter, or a
-/// value that is not finite.
+/// [`ReportError::Empty`] if every cell failed, [`ReportError::Invalid`] for an invalid grid, an unknown
+/// parameter, or a value that is not finite.
 pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result<String, ReportError> {
     let [x, y] = &summary.parameters;
     let cells = Cells { x: nodes("x", x, &result.x)?, y: nodes("y", y, &result.y)? };
