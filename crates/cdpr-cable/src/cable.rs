@@ -8,14 +8,15 @@ use crate::law::ElasticLaw;
 pub struct Cable<'a> {
     /// Weight per unstrained length w = rho g [N/m]; zero makes the cable a straight spring.
     pub weight_per_length: f64,
-    /// Axial stiffness EA [N]; of a piecewise law the scale.
+    /// Axial stiffness EA [N]; a piecewise law is given relative to it.
     pub axial_stiffness: f64,
-    /// How its strain follows from its tension.
+    /// Elastic law: the strain as a function of the tension.
     pub law: ElasticLaw<'a>,
 }
 
 impl Cable<'_> {
-    /// A cable of this weight per unstrained length [N/m] and axial stiffness [N] whose strain is T/EA.
+    /// A linear cable, whose strain is T/EA, of this weight per unstrained length [N/m] and axial stiffness
+    /// [N].
     pub const fn linear(weight_per_length: f64, axial_stiffness: f64) -> Self {
         Self { weight_per_length, axial_stiffness, law: ElasticLaw::Linear }
     }
@@ -29,7 +30,7 @@ impl Cable<'_> {
         }
     }
 
-    /// Tension at a strain [N]; a cable does not push.
+    /// Tension at a strain [N], never negative because a cable does not push.
     pub fn tension(&self, strain: f64) -> f64 {
         match self.law {
             ElasticLaw::Linear => (self.axial_stiffness * strain).max(0.0),
@@ -37,7 +38,7 @@ impl Cable<'_> {
         }
     }
 
-    /// Tangent of tension over strain at a tension [N], in [N].
+    /// Tangent stiffness dT/dε [N] at a tension [N].
     pub fn tangent_stiffness(&self, tension: f64) -> f64 {
         match self.law {
             ElasticLaw::Linear => self.axial_stiffness,

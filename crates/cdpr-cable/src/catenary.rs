@@ -1,4 +1,5 @@
-//! A cable in equilibrium; what follows from the force at its end is in the modules of this folder.
+//! A cable in equilibrium, as a plain type. What follows from the force at its end is in the modules of this
+//! folder.
 
 pub(crate) mod compliance;
 mod mechanics;
@@ -24,8 +25,8 @@ impl<'a> Catenary<'a> {
     /// The cable of unstrained length `unstrained_length` [m] with the force `(fx, fz)` [N] at A.
     ///
     /// # Errors
-    /// [`CableError::InvalidInput`] for values no cable can have, among them a force that pushes towards the
-    /// exit point and a slack cable without weight, which has no shape.
+    /// [`CableError::InvalidInput`] for an invalid value, for a force that pushes towards the exit point, and
+    /// for a slack cable without weight, which has no shape.
     pub fn new(cable: Cable<'a>, unstrained_length: f64, force: Vector2<f64>) -> Result<Self, CableError> {
         cable.validate()?;
         check_length(unstrained_length)?;
@@ -71,8 +72,10 @@ impl<'a> Catenary<'a> {
         self.unstrained_length * (1.0 + self.cable.strain(0.0))
     }
 
-    /// Whether this is a slack cable without weight: it carries nothing, resists nothing and has no shape, so
-    /// that end position and flexibility mean nothing.
+    /// Whether this is a slack cable without weight.
+    ///
+    /// Such a cable carries nothing, resists nothing and has no shape: its end position and flexibility are
+    /// undefined.
     #[inline]
     pub fn is_limp(&self) -> bool {
         self.force == Vector2::zeros() && self.cable.is_weightless(self.unstrained_length)

@@ -1,9 +1,9 @@
-//! What can be wrong with a question about a cable.
+//! Why a question about a cable has no answer.
 
 /// Why a cable could not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CableError {
-    /// An input is not a number that a cable can have.
+    /// An input is invalid.
     #[error("{field} is {value}: expected {expected}")]
     InvalidInput {
         /// Name of the input.
@@ -13,10 +13,11 @@ pub enum CableError {
         /// What would be right.
         expected: &'static str,
     },
-    /// No unstrained length gives so small a tension: the cable's own weight demands more over this span.
+    /// No unstrained length gives so small a tension, because the weight of the cable alone demands more over
+    /// this span.
     #[error(
-        "a tension of {tension} N at the anchor point is too small: over this span the weight of the cable alone demands {least} N; \
-         raise the tension"
+        "a tension of {tension} N at the anchor point is too small: over this span the weight of the cable \
+         alone demands {least} N; raise the tension"
     )]
     TensionTooSmall {
         /// The tension asked for [N].
@@ -26,7 +27,8 @@ pub enum CableError {
     },
     /// The iteration ended without reaching rounding accuracy.
     #[error(
-        "no equilibrium of the cable found after {iterations} iterations: {residual:e} m remain open at its end"
+        "no equilibrium of the cable was found in {iterations} iterations: the closure residual at its end \
+         is {residual:e} m"
     )]
     NotConverged {
         /// Iterations made.
@@ -36,7 +38,7 @@ pub enum CableError {
     },
 }
 
-/// Magnitudes beyond this are refused, so that no product of four of them overflows.
+/// Magnitudes above this are refused, so that no product of four of them overflows.
 const LARGEST: f64 = 1e30;
 
 /// Lengths, stiffnesses and tensions below this are refused, so that no quotient of such products overflows.

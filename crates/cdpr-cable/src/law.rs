@@ -1,28 +1,28 @@
-//! How a cable stretches under tension: in proportion, or by pieces of different stiffness.
+//! Elastic laws of a cable: a strain in proportion to the tension, or with pieces of different stiffness.
 //!
 //! The strain is a continuous, strictly increasing function of the tension. It is written as `ε(T) = σ(T)/EA`
 //! with the cable's axial stiffness EA as a scale, so that a change of the modulus scales the whole law:
 //!
 //! ```text
-//! linear:      σ = T
-//! piecewise:   σ = σ_k + (T - T_k)/κ_k      for T_k <= T < T_{k+1},   κ_k = EA_k/EA
+//! linear:      σ = T                                                                           (C14)
+//! piecewise:   σ = σ_k + (T - T_k)/κ_k      for T_k <= T < T_{k+1},   κ_k = EA_k/EA            (C15)
 //! ```
 //!
-//! Within a piece `1 + ε = α_k + T/EA_k`, `α_k = 1 + (σ_k - T_k/κ_k)/EA`, and the complementary energy per
-//! length is `∫ ε dT = c_k + (α_k - 1) T + T²/2EA_k`.
+//! Within a segment `1 + ε = α_k + T/EA_k` with `α_k = 1 + (σ_k - T_k/κ_k)/EA`, and the complementary energy
+//! per length is `∫ ε dT = c_k + (α_k - 1) T + T²/2EA_k`.
 
 use crate::error::{CableError, check};
 
-/// Strain over tension.
+/// Strain as a function of the tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ElasticLaw<'a> {
-    /// ε = T/EA.
+    /// The strain is T/EA.
     Linear,
-    /// Pieces of different stiffness.
+    /// The strain has segments of different stiffness.
     Piecewise(&'a PiecewiseLaw),
 }
 
-/// A strain that grows with the tension by pieces of different stiffness.
+/// A strain that grows with the tension by segments of different stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PiecewiseLaw {
     pieces: Vec<Piece>,
@@ -47,14 +47,14 @@ struct Piece {
     scaled_energy: f64,
 }
 
-/// A segment as the catenary takes it, for a given EA.
+/// Coefficients of a segment for a given EA, as the equations of a piece of cable take them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentTerms {
-    /// α_k.
+    /// α_k = 1 + (σ_k - T_k/κ_k)/EA.
     pub(crate) alpha: f64,
-    /// 1/EA_k [1/N].
+    /// Axial flexibility 1/EA_k [1/N].
     pub(crate) flexibility: f64,
-    /// c_k [N].
+    /// Constant c_k of the complementary energy per length [N].
     pub(crate) energy: f64,
 }
 
@@ -102,19 +102,18 @@ impl PiecewiseLaw {
         self.at(tension).strain_at(tension)
     }
 
-    /// Integral of the strain over the tension from zero up to a tension [N], times the cable's axial
-    /// stiffness [N²].
+    /// Integral of the strain from zero tension to a tension [N], times the cable's axial stiffness [N²].
     pub fn scaled_energy(&self, tension: f64) -> f64 {
         self.at(tension).energy_at(tension)
     }
 
-    /// Stiffness at a tension [N] over the cable's, κ; at a kink that of the piece above it.
+    /// Stiffness at a tension [N] over the cable's, κ; at a kink it is that of the segment above.
     pub fn ratio(&self, tension: f64) -> f64 {
         self.at(tension).segment.ratio
     }
 
-    /// Stiffness of the secant between two tensions [N] over the cable's; where they are the same,
-    /// [`PiecewiseLaw::ratio`].
+    /// Stiffness of the secant between two tensions [N] over the cable's; [`PiecewiseLaw::ratio`] where they
+    /// are the same.
     pub fn secant_ratio(&self, from: f64, to: f64) -> f64 {
         if from == to {
             self.ratio(to)
@@ -135,7 +134,7 @@ impl PiecewiseLaw {
         &self.pieces[above.max(1) - 1]
     }
 
-    /// The segment at a tension, for a cable of axial stiffness `ea` [N].
+    /// Coefficients of the segment at a tension, for a cable of axial stiffness `ea` [N].
     pub(crate) fn segment_terms(&self, tension: f64, ea: f64) -> SegmentTerms {
         let Piece { segment: Segment { tension: t, ratio }, scaled_strain, scaled_energy } =
             *self.at(tension);
@@ -189,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_secant_lies_between_the_pieces_that_it_spans() {
+    fn a_secant_lies_between_the_segments_that_it_spans() {
         let law = stiffening();
         // 200 N in each of the two pieces, of κ = 1 and 2.
         assert_relative_eq!(law.secant_ratio(100.0, 500.0), 400.0 / 300.0, max_relative = 1e-15);
@@ -199,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn the_form_of_the_catenary_is_the_law_and_its_integral() {
+    fn the_coefficients_of_a_segment_give_the_law_and_its_integral() {
         let (law, ea) = (stiffening(), 1e4);
         let mut energy = 0.0;
         let step = 0.25;

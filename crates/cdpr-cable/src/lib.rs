@@ -4,15 +4,17 @@
 //! >= 0`. Force: `(fx, fz)` [N] is the force applied *to the cable at A*; whatever hangs on the cable
 //! receives its opposite.
 //!
-//! | question | answer |
+//! | question | item |
 //! |---|---|
-//! | where is A for a force at A? | [`Catenary::end_position`] |
-//! | what is the force for an end position and an unstrained length? | [`end_force`] |
-//! | what unstrained length gives a wanted tension at A? | [`length_for_tension`] |
-//! | what is the least tension at A over a span? | [`least_tension`] |
-//! | what modulus does a load-elongation record give? | [`Record::modulus`] |
-//! | what mass per length does a weighing give? | [`linear_density`] |
-//! | how stiff, how much energy, what shape? | the other methods of [`Catenary`] |
+//! | Where is A for a force at A? | [`Catenary::end_position`] |
+//! | What is the force for an end position and an unstrained length? | [`end_force`] |
+//! | What unstrained length gives a wanted tension at A? | [`length_for_tension`] |
+//! | What is the least tension at A over a span? | [`least_tension`] |
+//! | What follows from any two of length, end, force and tension? | [`Known::solve`] |
+//! | What modulus does a load-elongation record give? | [`Record::modulus`] |
+//! | What mass per length does a weighing give? | [`linear_density`] |
+//! | What are its stiffness, energy and shape? | the other methods of [`Catenary`] |
+//! | How do I evaluate it with intervals, dual numbers or lanes? | [`kernel`] |
 //!
 //! ```
 //! use cdpr_cable::{Cable, Vector2, end_force};
@@ -21,7 +23,7 @@
 //! let solution = end_force(&cable, 4.3, Vector2::new(4.1, -1.7))?; // 4.3 m of cable, A 1.7 m below B
 //! let catenary = solution.catenary;
 //! assert!((catenary.end_position() - Vector2::new(4.1, -1.7)).norm() < 1e-12);
-//! println!("tension at the platform {:.1} N, sag {:.1} mm", catenary.anchor_tension(), 1e3 * catenary.sag());
+//! println!("tension at A {:.1} N, sag {:.1} mm", catenary.anchor_tension(), 1e3 * catenary.sag());
 //! # Ok::<(), cdpr_cable::CableError>(())
 //! ```
 //!

@@ -3,23 +3,22 @@
 //!
 //! A test bench loads a piece of cable of length `L_c` to some force and unloads it again. With x_p the
 //! elongation at p percent of the breaking force, interpolated between the samples of one phase, the secant
-//! modulus is
+//! modulus is Eq. (5) of Baklouti, Caro, Courteille (CableCon 2017), also found in ISO 12076:
 //!
 //! ```text
-//! E_{p-q} = L_c (F_q - F_p) / (S (x_q - x_p))                                                     (5)
+//! E_{p-q} = L_c (F_q - F_p) / (S (x_q - x_p))                                            Eq. (5)
 //! ```
 //!
-//! (ISO 12076; Eq. (5) of Baklouti, Caro, Courteille 2017). It is a product of powers, so that relative
-//! errors add: both forces and both elongations are measured with the same absolute error, and with `ΔF = F_q
-//! - F_p`, `Δx = x_q - x_p`
+//! It is a product of powers, so that relative errors add. Both forces are measured with the same absolute
+//! error, and so are both elongations. With `ΔF = F_q - F_p` and `Δx = x_q - x_p`
 //!
 //! ```text
-//! standard:  (δE/E)² = 2 (δF/ΔF)² + 2 (δx/Δx)² + (δL/L_c)² + (δS/S)²       independent errors
-//! greatest:   δE/E   = 2 δF/ΔF + 2 δx/Δx + δL/L_c + δS/S                   all of them against us
+//! standard:  (δE/E)² = 2 (δF/ΔF)² + 2 (δx/Δx)² + (δL/L_c)² + (δS/S)²    independent errors (C16)
+//! greatest:   δE/E   = 2 δF/ΔF + 2 δx/Δx + δL/L_c + δS/S                errors that add up (C17)
 //! ```
 //!
-//! The energy dissipated by the loop is the area `∮ F dx` between its branches, closed by a straight line
-//! where it does not close by itself.
+//! The energy dissipated by the loop is the area `∮ F dx` between its branches. A straight line closes a loop
+//! that does not close by itself.
 
 mod load_cycle;
 mod modulus;

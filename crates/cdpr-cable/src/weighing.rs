@@ -11,9 +11,10 @@ pub struct Measured {
     pub error: f64,
 }
 
-/// Mass per length [kg/m] of a piece of cable of mass m [kg] and length L [m]: `ρ = m/L`, with the error `δρ
-/// = (m δL + L δm)/L²` of section 4.2.2 of Baklouti, Caro, Courteille (CableCon 2017), in which both errors
-/// add up.
+/// Mass per length [kg/m] of a piece of cable of mass m [kg] and length L [m]: `ρ = m/L`.
+///
+/// Its error `δρ = (m δL + L δm)/L²` is that of section 4.2.2 of Baklouti, Caro, Courteille (CableCon 2017),
+/// in which both errors add up.
 ///
 /// ```
 /// use cdpr_cable::{Measured, linear_density};

@@ -1,4 +1,4 @@
-//! Every derivative of the catenary against dual numbers: the same equations, with a number that carries its
+//! Every derivative of the catenary against dual numbers: the same equations over a number that carries its
 //! derivative.
 
 use cdpr_cable::kernel::{Field, Real, response};
@@ -119,7 +119,11 @@ fn any_catenary() -> impl Strategy<Value = Catenary<'static>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 20_000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn derivatives_are_those_of_dual_numbers(c in any_catenary()) {
@@ -132,15 +136,15 @@ proptest! {
         for (which, (derivative, name)) in derivatives.into_iter().enumerate() {
             let expected = dual(&c, which);
             let error = (derivative - expected).norm() / expected.norm();
-            // Dual numbers differentiate T0 and s where they are differences; the formulas are freed of
-            // those.
+            // Dual numbers differentiate T0 and s as differences, of which the formulas are free.
             prop_assert!(error < 1e-10, "{name}: {error:e}");
         }
     }
 
     #[test]
     fn no_length_has_less_than_the_least_tension(
-        w in 0.01..100.0f64, stiffness in 2.0..6.0f64, x in 0.01..10.0f64, z in -10.0..10.0f64, share in 0.01..0.99f64,
+        w in 0.01..100.0f64, stiffness in 2.0..6.0f64,
+        x in 0.01..10.0f64, z in -10.0..10.0f64, share in 0.01..0.99f64,
     ) {
         let end = Vector2::new(x, z);
         let cable = Cable::linear(w, w * end.norm() * 10f64.powf(stiffness));

@@ -4,7 +4,7 @@ use cdpr_cable::{Cable, CableError, Catenary, Vector2, end_force, length_for_ten
 use proptest::prelude::*;
 
 /// A cable, its unstrained length, and an end position between right below or above the exit point and level
-/// with it; the chord is between a hundredth of the length (folded) and a stretch of a percent.
+/// with it; the chord is between a hundredth of the length (folded) and a strain of a percent.
 fn any_span() -> impl Strategy<Value = (Cable<'static>, f64, Vector2<f64>)> {
     (
         -5.0..2.5f64,
@@ -33,7 +33,11 @@ fn chord() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 20_000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn every_span_has_an_end_force_to_rounding((cable, length, end) in any_span()) {
@@ -65,13 +69,16 @@ proptest! {
     }
 
     #[test]
-    fn a_tension_that_is_too_small_is_below_that_of_any_length((cable, length, end) in any_span(), fraction in 0.01..1.0f64) {
+    fn a_tension_that_is_too_small_is_below_that_of_any_length(
+        (cable, length, end) in any_span(), fraction in 0.01..1.0f64,
+    ) {
         let tension = fraction * cable.weight_per_length * end.norm();
         if let Err(error) = length_for_tension(&cable, end, tension) {
             let CableError::TensionTooSmall { least, .. } = error else { panic!("{error}") };
             let any = end_force(&cable, length, end).unwrap().catenary.anchor_tension();
             let rounding = 8.0 * f64::EPSILON * cable.axial_stiffness;
-            prop_assert!(tension < least && least <= any * (1.0 + 1e-9) + rounding, "{tension} {least} {any}");
+            let bound = any * (1.0 + 1e-9) + rounding;
+            prop_assert!(tension < least && least <= bound, "{tension} {least} {any}");
         }
     }
 
@@ -84,7 +91,7 @@ proptest! {
 }
 
 #[test]
-fn inputs_that_no_cable_has_are_named() {
+fn an_invalid_input_is_refused_with_its_field() {
     let cable = Cable::linear(1.0, 1e6);
     let end = Vector2::new(3.0, -1.0);
     let field = |result: Result<_, CableError>| match result {

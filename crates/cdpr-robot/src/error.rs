@@ -1,4 +1,4 @@
-//! What can be wrong with a robot.
+//! Why a robot, its file or its parameters are refused.
 
 use crate::json::{JsonError, place_of};
 
@@ -8,7 +8,7 @@ pub enum RobotError {
     /// The text is not a robot file.
     #[error(transparent)]
     Format(#[from] JsonError),
-    /// A value that no such robot can have.
+    /// A value is invalid.
     #[error("{field} is {value}: expected {expected}")]
     Invalid {
         /// Path of the field, such as `cables[2].exit_point[0]`.
@@ -18,7 +18,7 @@ pub enum RobotError {
         /// What would be right.
         expected: String,
     },
-    /// The same, with its place in a robot file.
+    /// A value of a robot file is invalid: the same with line and column.
     #[error("{source} (line {line}, column {column})")]
     At {
         /// Line in the file, from 1.
@@ -28,15 +28,15 @@ pub enum RobotError {
         /// What is wrong there.
         source: Box<RobotError>,
     },
-    /// A parameter name that this robot does not have.
+    /// The robot has no parameter of this name.
     #[error("no parameter is named `{name}`: expected one of {expected}")]
     UnknownParameter {
         /// The name given.
         name: String,
-        /// The names there are.
+        /// The names that exist.
         expected: String,
     },
-    /// A perturbation of another length than the parameter vector.
+    /// A perturbation has another length than the parameter vector.
     #[error("{given} deviations for {parameters} parameters")]
     DeviationCount {
         /// Deviations given.
@@ -55,7 +55,7 @@ impl RobotError {
         Self::Invalid { field: field.into(), value: value.to_string(), expected: expected.into() }
     }
 
-    /// With the place of the field in the file's text, where it has one.
+    /// Adds line and column of the field, if the text contains it.
     pub(crate) fn placed(self, text: &str) -> Self {
         let place = match &self {
             Self::Invalid { field, .. } => place_of(text, field),

@@ -107,14 +107,14 @@ impl Robot {
     /// Reads and validates a robot file.
     ///
     /// # Errors
-    /// [`RobotError::Format`] with field, line and column for a file of another shape; [`RobotError::Invalid`] within
-    /// [`RobotError::At`] for a value that no robot can have.
+    /// [`RobotError::Format`] with field, line and column for a file of another shape;
+    /// [`RobotError::Invalid`] within [`RobotError::At`] for an invalid value.
     pub fn from_json(text: &str) -> Result<Self, RobotError> {
         let file: RobotFile = from_json(text)?;
         file.checked().map_err(|error| error.placed(text))
     }
 
-    /// Writes the robot file; every cable carries its own properties unless all are the same.
+    /// Writes the robot file; each cable has its own properties unless all are the same.
     pub fn to_json(&self) -> String {
         let entries: Vec<PropertiesEntry> =
             self.cables.iter().map(|cable| entry(&cable.properties)).collect();
@@ -211,7 +211,7 @@ fn properties(entry: &PropertiesEntry, field: &str) -> Result<CableProperties, R
     })
 }
 
-/// A law in proportion to the cable's modulus.
+/// The law of a cable, in proportion to its modulus.
 fn law_of(
     entry: &LawEntry,
     youngs_modulus: f64,

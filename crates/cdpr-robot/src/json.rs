@@ -1,14 +1,15 @@
-//! JSON text to data, with the place of what is wrong.
+//! JSON text to data, with line and column of what is wrong.
 
 use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 
-/// Where a JSON text is not what was expected: a missing, misspelt or mistyped field, or no JSON at all.
+/// Where a JSON text differs from what was expected: a missing, misspelt or mistyped field, or no JSON at
+/// all.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}, column {column}: {field}: {message}")]
 pub struct JsonError {
-    /// Path of the field, such as `cables[2].exit_point`; `the whole text` where it is none in particular.
+    /// Path of the field, such as `cables[2].exit_point`; `the whole text` if there is none in particular.
     pub field: String,
     /// Line in the text, from 1.
     pub line: usize,
@@ -20,22 +21,20 @@ pub struct JsonError {
 
 impl JsonError {
     fn new(field: String, error: &serde_json::Error) -> Self {
-        // serde_json ends its message with the place, which is given apart.
+        // serde_json ends its message with line and column, which are fields of their own here.
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
         let message = match message {
-            "expected value" => {
-                "expected a JSON value, of which NaN, Infinity and bare words are none".to_owned()
-            }
+            "expected value" => "expected a JSON value; NaN, Infinity and bare words are not JSON".to_owned(),
             "number out of range" => "number out of range, expected a finite number".to_owned(),
             "EOF while parsing a value" => "the text ends where a JSON value is expected".to_owned(),
-            // Types as Rust names them.
+            // Types that have Rust's names.
             message => message
                 .replace("EOF while parsing", "the text ends within")
                 .replace("expected f64", "expected a number")
                 .replace("expected usize", "expected a whole number"),
         };
-        // A place in no field is that of what contains it.
+        // Without a name for the last step, the field is the one that contains it.
         let field = field.trim_end_matches('?').trim_end_matches('.');
         let field = if field.is_empty() { "the whole text" } else { field }.to_owned();
         Self { field, line: error.line(), column: error.column(), message }
@@ -52,13 +51,14 @@ pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
         let field = error.path().to_string();
         JsonError::new(field, &error.into_inner())
     })?;
-    // What follows the value is looked at, too: half a file may have been pasted behind another.
+    // Text after the value is refused: half a file may have been pasted behind another.
     deserializer.end().map_err(|error| JsonError::new(".".to_owned(), &error))?;
     Ok(value)
 }
 
-/// Line and column, both from 1, at which the value of `field`, such as `cables[2].exit_point[0]`, stands in a JSON text; those of what
-/// would contain it where it is missing.
+/// Line and column, both from 1, of the value of a field such as `cables[2].exit_point[0]` in a JSON text.
+///
+/// For a missing field they are those of the value that would contain it.
 pub fn place_of(text: &str, field: &str) -> Option<(usize, usize)> {
     let mut value: &RawValue = serde_json::from_str(text).ok()?;
     for key in field.split(['.', '[', ']']).filter(|key| !key.is_empty()) {
@@ -73,7 +73,7 @@ pub fn place_of(text: &str, field: &str) -> Option<(usize, usize)> {
         let Some(inner) = inner else { break };
         value = inner;
     }
-    // The value borrows from the text: where it begins is a difference of addresses.
+    // The value borrows from the text, so that its position is a difference of addresses.
     let before = text.get(..value.get().as_ptr() as usize - text.as_ptr() as usize)?;
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1))

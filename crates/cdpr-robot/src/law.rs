@@ -1,4 +1,4 @@
-//! A piece of an elastic law, as files have it.
+//! A segment of an elastic law as files have it.
 
 use cdpr_cable::Segment;
 use schemars::JsonSchema;
@@ -15,7 +15,7 @@ pub struct LawSegment {
 }
 
 impl LawSegment {
-    /// The segments of a [`crate::PiecewiseLaw`] of a cable with this modulus [Pa].
+    /// The segments of a [`crate::PiecewiseLaw`] for a cable of this modulus [Pa].
     pub fn in_proportion(segments: &[Self], youngs_modulus: f64) -> Vec<Segment> {
         let relative =
             |&Self { tension, modulus }: &Self| Segment { tension, ratio: modulus / youngs_modulus };

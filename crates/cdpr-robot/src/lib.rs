@@ -1,8 +1,9 @@
-//! A cable-driven parallel robot as data: exit points, anchor points, platform, cables, tension limits; its pose, the
-//! wrench on it, its wrench matrix; and the vector of its uncertain parameters.
+//! A cable-driven parallel robot as data: exit points, anchor points, platform, cables, tension limits; its
+//! pose, the wrench on it, its wrench matrix; and the vector of its uncertain parameters.
 //!
-//! Frames: the base frame `F_b` has `z` up, gravity acts along `-z`; the platform frame `F_p` sits at the platform's
-//! reference point P. Units are SI throughout. Signs and symbols: `docs/NOTATION.md` of the repository.
+//! Frames: the base frame `F_b` has `z` up, gravity acts along `-z`; the platform frame `F_p` sits at the
+//! platform's reference point P. Units are SI throughout. Signs and symbols: `docs/NOTATION.md` of the
+//! repository.
 //!
 //! ```
 //! use cdpr_robot::{Parameter, Pose, Robot, deviations};

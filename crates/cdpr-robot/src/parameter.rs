@@ -1,8 +1,9 @@
-//! The uncertain parameters of a robot as one vector: section 4 of Baklouti, Caro, Courteille (CableCon 2017).
+//! The uncertain parameters of a robot as one vector: section 4 of Baklouti, Caro, Courteille (CableCon
+//! 2017).
 //!
-//! For n cables there are `6 + 7n` parameters (62 for 8 cables): the platform's mass, the cables' linear density and
-//! modulus, the coordinates of every anchor and exit point, the centre of mass, and an offset of every tension
-//! set-point. A *deviation* is added to the nominal value.
+//! For n cables there are `6 + 7n` parameters (62 for 8 cables): the platform's mass, the cables' linear
+//! density and modulus, the coordinates of every anchor and exit point, the centre of mass, and an offset of
+//! every tension set-point. A *deviation* is added to the nominal value.
 
 use crate::axis::Axis;
 use crate::error::RobotError;
@@ -116,8 +117,9 @@ impl Parameter {
             .collect()
     }
 
-    /// Name of the group that a study can give one law: `a` for all anchor points, `b`, `cog`, `dt`; the parameter's own
-    /// name for the three scalars.
+    /// Name of the group that a study can give one law: `a`, `b`, `cog` or `dt`.
+    ///
+    /// A scalar is a group of its own and has its own name.
     pub fn group(&self) -> &'static str {
         match self {
             Self::Mass => "mass",
@@ -141,7 +143,9 @@ impl Parameter {
         }
     }
 
-    /// Nominal value in `robot`, in [`Parameter::unit`]; of the first cable for what all cables share, zero for an offset.
+    /// Nominal value in `robot`, in [`Parameter::unit`].
+    ///
+    /// It is that of the first cable for what all cables share, and zero for an offset.
     pub fn nominal(&self, robot: &Robot) -> f64 {
         match *self {
             Self::Mass => robot.platform.mass,
@@ -154,7 +158,7 @@ impl Parameter {
         }
     }
 
-    /// Changes what this parameter stands for, of all cables what they share.
+    /// Changes the value of this parameter, for all cables if they share it.
     fn change(&self, perturbed: &mut Perturbed, change: impl Fn(&mut f64)) {
         let Perturbed { robot, tension_offsets } = perturbed;
         match *self {
@@ -219,10 +223,10 @@ fn parse(name: &str) -> Option<Parameter> {
     }
 }
 
-/// A robot with its deviations applied.
+/// A robot with deviations added to its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Perturbed {
-    /// The robot as it would really be.
+    /// The perturbed robot.
     pub robot: Robot,
     /// Offset dt_i of every cable's tension set-point [N].
     pub tension_offsets: Vec<f64>,
@@ -232,7 +236,8 @@ impl Robot {
     /// The robot with one deviation added to each of its parameters, in the order of [`Parameter::all`].
     ///
     /// # Errors
-    /// [`RobotError::DeviationCount`]; [`RobotError::Invalid`] if the perturbed robot is none (a negative mass, say).
+    /// [`RobotError::DeviationCount`]; [`RobotError::Invalid`] if the perturbed robot is invalid, for example
+    /// with a negative mass.
     pub fn perturbed(&self, deviations: &[f64]) -> Result<Perturbed, RobotError> {
         let parameters = Parameter::all(self.cables.len());
         if deviations.len() != parameters.len() {
@@ -252,8 +257,8 @@ impl Robot {
     /// The robot with other values of some parameters, by name and in [`Parameter::unit`].
     ///
     /// # Errors
-    /// [`RobotError::UnknownParameter`] for a name that the robot does not have, among them offsets of tension, which are not its own;
-    /// [`RobotError::Invalid`] for a value that it cannot have.
+    /// [`RobotError::UnknownParameter`] for a name that the robot does not have, and for an offset of a
+    /// tension, which is no property of a robot; [`RobotError::Invalid`] for an invalid value.
     pub fn with_values(&self, named: &[(&str, f64)]) -> Result<Self, RobotError> {
         let cables = self.cables.len();
         let mut changed = Perturbed { robot: self.clone(), tension_offsets: Vec::new() };
@@ -264,7 +269,7 @@ impl Robot {
                 return Err(RobotError::UnknownParameter {
                     name: (*name).to_owned(),
                     expected: format!(
-                        "those of a robot with {cables} cables, but for the offsets dt of its tensions"
+                        "those of a robot with {cables} cables, except the offsets dt of its tensions"
                     ),
                 });
             }
@@ -275,7 +280,7 @@ impl Robot {
     }
 }
 
-/// The deviation vector of a robot with `cables` cables that is zero but for the named parameters.
+/// The deviation vector of a robot with `cables` cables that is zero except for the named parameters.
 ///
 /// # Errors
 /// [`RobotError::UnknownParameter`] for a name that such a robot does not have.
@@ -346,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn a_parameter_of_a_cable_that_is_not_there_is_refused() {
+    fn a_parameter_of_a_cable_that_does_not_exist_is_refused() {
         assert!(matches!(deviations(8, &[("b9.x", 0.1)]), Err(RobotError::UnknownParameter { .. })));
     }
 }

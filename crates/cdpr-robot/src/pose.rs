@@ -17,14 +17,14 @@ impl Pose {
         Self { position: Vector3::new(x, y, z), rotation: Rotation3::identity() }
     }
 
-    /// The pose with a unit quaternion (w, x, y, z), which is normalised. `None` if it is zero or not finite.
+    /// The pose with a quaternion (w, x, y, z), which is normalised; `None` if it is zero or not finite.
     pub fn with_quaternion(position: Vector3<f64>, [w, x, y, z]: [f64; 4]) -> Option<Self> {
         let quaternion = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-12)?;
         let finite = quaternion.coords.iter().chain(position.iter()).all(|c| c.is_finite());
         finite.then(|| Self { position, rotation: quaternion.to_rotation_matrix() })
     }
 
-    /// Its rotation as a unit quaternion (w, x, y, z), w >= 0: the inverse of [`Pose::with_quaternion`].
+    /// Rotation as a unit quaternion (w, x, y, z) with w >= 0: the inverse of [`Pose::with_quaternion`].
     pub fn quaternion(&self) -> [f64; 4] {
         let quaternion = UnitQuaternion::from_rotation_matrix(&self.rotation);
         let sign = if quaternion.w < 0.0 { -1.0 } else { 1.0 };
@@ -32,23 +32,25 @@ impl Pose {
         [quaternion.w, quaternion.i, quaternion.j, quaternion.k].map(|component| sign * component + 0.0)
     }
 
-    /// The pose moved by `translation` [m] and turned by the rotation vector `rotation` [rad], both in the base frame:
-    /// `p + dp`, `exp(dphi) R`.
+    /// The pose moved by `translation` [m] and rotated by the vector `rotation` [rad], both in the base
+    /// frame.
     ///
-    /// Poses moved thousands of times keep a rotation to rounding: see [`orthonormalized`].
+    /// The new position is `p + dp`, the new rotation `exp(dphi) R`. A pose that is moved many times keeps a
+    /// rotation to rounding: see [`orthonormalized`].
     #[inline]
     pub fn moved(&self, translation: Vector3<f64>, rotation: Vector3<f64>) -> Self {
         let product = Rotation3::new(rotation) * self.rotation;
         Self { position: self.position + translation, rotation: orthonormalized(product.matrix()) }
     }
 
-    /// The motion (dp, dphi) [m, rad] from this pose to another, in the base frame: the inverse of [`Pose::moved`].
+    /// The motion (dp, dphi) [m, rad] from this pose to another, in the base frame: the inverse of
+    /// [`Pose::moved`].
     #[inline]
     pub fn motion_to(&self, other: &Self) -> Vector6<f64> {
         let translation = other.position - self.position;
-        // Through the quaternion: the angle of a matrix comes from its trace, which knows nothing of small turns.
-        let turn = other.rotation * self.rotation.inverse();
-        let rotation = UnitQuaternion::from_rotation_matrix(&turn).scaled_axis();
+        // A quaternion keeps small angles, which the trace of a matrix loses.
+        let relative = other.rotation * self.rotation.inverse();
+        let rotation = UnitQuaternion::from_rotation_matrix(&relative).scaled_axis();
         Vector6::new(translation.x, translation.y, translation.z, rotation.x, rotation.y, rotation.z)
     }
 
@@ -59,10 +61,11 @@ impl Pose {
     }
 }
 
-/// The rotation next to a matrix that differs from one by rounding.
+/// The rotation next to a matrix that differs from a rotation by rounding.
 ///
-/// Products of rotations drift away from the rotations. This takes the drift out: the first two columns are made orthonormal by one
-/// step of Newton's method for `1/|v|`, without a root, and the third is their cross product. What is left is the square of the drift.
+/// Products of rotations drift away from the rotations, and this is the one place that takes the drift out.
+/// The first two columns are made orthonormal by one step of Newton's method for `1/|v|`, which needs no
+/// root, and the third is their cross product. What is left is of the order of the drift squared.
 #[inline]
 pub fn orthonormalized(matrix: &Matrix3<f64>) -> Rotation3<f64> {
     let unit = |v: Vector3<f64>| v * (1.5 - 0.5 * v.norm_squared());
@@ -83,9 +86,9 @@ mod tests {
         let end = start.moved(Vector3::new(0.1, 0.0, -0.2), Vector3::new(-0.4, 0.9, 0.1));
         let motion = start.motion_to(&end);
         assert_relative_eq!(motion, Vector6::new(0.1, 0.0, -0.2, -0.4, 0.9, 0.1), epsilon = 1e-14);
-        let turn = Vector3::new(3e-11, -1e-11, 2e-11);
-        let small = start.motion_to(&start.moved(Vector3::zeros(), turn));
-        assert_relative_eq!(small.fixed_rows::<3>(3).into_owned(), turn, epsilon = 1e-15);
+        let angle = Vector3::new(3e-11, -1e-11, 2e-11);
+        let small = start.motion_to(&start.moved(Vector3::zeros(), angle));
+        assert_relative_eq!(small.fixed_rows::<3>(3).into_owned(), angle, epsilon = 1e-15);
     }
 
     #[test]
@@ -100,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_quaternion_that_is_none_is_refused() {
+    fn a_zero_or_undefined_quaternion_is_refused() {
         assert!(Pose::with_quaternion(Vector3::zeros(), [0.0; 4]).is_none());
         assert!(Pose::with_quaternion(Vector3::zeros(), [f64::NAN, 0.0, 0.0, 0.0]).is_none());
         let half_turn = Pose::with_quaternion(Vector3::zeros(), [0.0, 0.0, 0.0, 2.0]).unwrap();
@@ -108,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn the_quaternion_of_a_pose_gives_the_pose_again() {
+    fn a_pose_is_that_of_its_quaternion() {
         assert_eq!(Pose::at(1.0, 2.0, 3.0).quaternion(), [1.0, 0.0, 0.0, 0.0]);
         for quaternion in [[0.5, -0.5, 0.5, 0.5], [0.6, 0.0, -0.8, 0.0]] {
             let negative = quaternion.map(|component: f64| -component);

@@ -1,9 +1,12 @@
 //! The robot: geometry, platform, cables, limits, and what follows from them at a pose.
 //!
 //! ```text
-//! r_i = p + R a_i - b_i                      from exit point B_i to anchor point A_i (Eq. (1) of the paper)
-//! W = [ u_i ; (R a_i) x u_i ],  W t + w = 0  with u_i the unit pull of cable i on the platform, w all other loads (Eq. (3))
+//! r_i = p + R a_i - b_i                          from exit point B_i to anchor point A_i        Eq. (1)
+//! W t + w = 0,   W = [ u_i ; (R a_i) x u_i ]     u_i the unit pull of cable i on the platform,  Eq. (3)
+//!                                                w the wrench of all other loads
 //! ```
+//!
+//! Both equations are those of Baklouti, Caro, Courteille (CableCon 2017).
 
 use crate::error::RobotError;
 use crate::pose::Pose;
@@ -16,7 +19,7 @@ use nalgebra::{Matrix6xX, Vector3};
 pub struct Robot {
     /// Name.
     pub name: String,
-    /// Where the values come from.
+    /// Where the values come from, if known.
     pub source: Option<String>,
     /// Acceleration due to gravity, along -z of the base frame [m/s²].
     pub gravity: f64,
@@ -53,11 +56,11 @@ pub struct RobotCable {
     pub exit_point: Vector3<f64>,
     /// Anchor point a_i in the platform frame [m].
     pub anchor_point: Vector3<f64>,
-    /// What the cable is made of.
+    /// Material of the cable.
     pub properties: CableProperties,
 }
 
-/// What a cable is made of.
+/// Section, density, modulus and elastic law of a cable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CableProperties {
     /// Section S that carries the tension [m²].
@@ -70,7 +73,7 @@ pub struct CableProperties {
     pub diameter: Option<f64>,
     /// Breaking force [N], if known.
     pub breaking_force: Option<f64>,
-    /// Strain over tension where it is not T/EA, in proportion to the modulus; `None` for a linear cable.
+    /// Elastic law in proportion to the modulus, where the strain is not T/EA; `None` for a linear cable.
     pub law: Option<PiecewiseLaw>,
 }
 
@@ -83,7 +86,7 @@ impl CableProperties {
 }
 
 impl Robot {
-    /// The mechanics of cable `i`: weight per length w = rho g, axial stiffness E S, and its law.
+    /// Cable `i` as `cdpr-cable` has it: weight per length w = rho g, axial stiffness E S, and elastic law.
     #[inline]
     pub fn cable(&self, i: usize) -> Cable<'_> {
         let properties = &self.cables[i].properties;
@@ -105,28 +108,31 @@ impl Robot {
         self.cable(i).tangent_stiffness(tension) / self.cables[i].properties.section
     }
 
-    /// s_i = R a_i: from P to anchor point i, in the base frame [m].
+    /// Arm s_i = R a_i from P to anchor point i, in the base frame [m].
     #[inline]
     pub fn anchor_arm(&self, pose: &Pose, i: usize) -> Vector3<f64> {
         pose.rotation * self.cables[i].anchor_point
     }
 
-    /// r_i = p + R a_i - b_i: from exit point i to anchor point i, in the base frame [m] (Eq. (1)).
+    /// Span r_i = p + R a_i - b_i from exit point i to anchor point i, in the base frame [m], Eq. (1).
     #[inline]
     pub fn span(&self, pose: &Pose, i: usize) -> Vector3<f64> {
         // Eq. (1)
         pose.position + self.anchor_arm(pose, i) - self.cables[i].exit_point
     }
 
-    /// Weight of the platform and of an additional `payload` [kg] at its centre of mass, as a wrench about P.
+    /// Weight of the platform and of a `payload` [kg] at its centre of mass, as a wrench about P.
     #[inline]
     pub fn weight(&self, pose: &Pose, payload: f64) -> Wrench {
         let force = Vector3::new(0.0, 0.0, -(self.platform.mass + payload) * self.gravity);
         Wrench::of_force_at(&(pose.rotation * self.platform.center_of_mass), force)
     }
 
-    /// Wrench matrix W, 6 x n: column i is the wrench on the platform of a unit tension in cable i, which pulls the
-    /// platform along `pulls[i]` (unit vector in the base frame; for a sagging cable its end tangent, away from the platform).
+    /// Wrench matrix W of Eq. (3), 6 x n: column i is the wrench on the platform of a unit tension in cable
+    /// i.
+    ///
+    /// Cable i pulls the platform along the unit vector `pulls[i]` in the base frame. For a sagging cable
+    /// that is its end tangent, away from the platform.
     pub fn wrench_matrix(&self, pose: &Pose, pulls: &[Vector3<f64>]) -> Matrix6xX<f64> {
         let mut matrix = Matrix6xX::zeros(pulls.len());
         for (i, pull) in pulls.iter().enumerate() {
@@ -135,8 +141,9 @@ impl Robot {
         matrix
     }
 
-    /// Root mean square distance of the anchor points from P [m]: the length that makes rotations comparable with
-    /// translations.
+    /// Root mean square distance of the anchor points from P [m].
+    ///
+    /// As characteristic length it makes rotations comparable with translations.
     #[inline]
     pub fn platform_size(&self) -> f64 {
         let sum: f64 = self.cables.iter().map(|cable| cable.anchor_point.norm_squared()).sum();
@@ -175,7 +182,7 @@ impl Robot {
         let p = &self.cables[i].properties;
         let field = |name: &'static str| {
             move || {
-                // What all cables share is named as the file's common entry.
+                // Properties that all cables share stand in the common entry of the file.
                 let shared = self.cables.iter().all(|cable| cable.properties == *p);
                 if shared { format!("cable.{name}") } else { format!("cables[{i}].cable.{name}") }
             }
@@ -190,7 +197,7 @@ impl Robot {
         require(field("breaking_force"), force, force > 0.0, "a finite, positive force [N]")
     }
 
-    /// Points so degenerate that no pose can be held: two cables in the same place, all points on one line.
+    /// Refuses points that cannot hold any pose: two cables with the same points, or all points on one line.
     fn validate_points(&self) -> Result<(), RobotError> {
         let same = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).norm() < 1e-9;
         for (j, second) in self.cables.iter().enumerate() {
@@ -221,7 +228,9 @@ impl Robot {
     }
 }
 
-/// `field` is asked for its name only where it is needed: every perturbed robot is validated.
+/// Checks a value of a field.
+///
+/// `field` is asked for its name only if the value is invalid, because every perturbed robot is validated.
 fn require(
     field: impl Fn() -> String,
     value: f64,

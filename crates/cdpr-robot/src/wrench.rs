@@ -12,7 +12,7 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// No force, no moment.
+    /// The zero wrench.
     #[inline]
     pub fn zero() -> Self {
         Self { force: Vector3::zeros(), moment: Vector3::zeros() }
@@ -29,7 +29,7 @@ impl Wrench {
         Vector6::new(self.force.x, self.force.y, self.force.z, self.moment.x, self.moment.y, self.moment.z)
     }
 
-    /// From (force, moment) [N, N m].
+    /// The wrench of (force, moment) as one vector [N, N m].
     pub fn from_vector(v: &Vector6<f64>) -> Self {
         Self { force: Vector3::new(v[0], v[1], v[2]), moment: Vector3::new(v[3], v[4], v[5]) }
     }

@@ -1,4 +1,4 @@
-//! Robot files: what is read, and what is refused with which words.
+//! Robot files: what is read back, and the error for what is refused.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
@@ -18,8 +18,9 @@ fn the_robot_files_are_read_and_written_back() {
 
 #[test]
 fn a_cable_may_have_its_own_properties() {
-    let own = r#""anchor_point": [0.2, 0.15, 0.125], "cable": {"diameter": 0.006, "linear_density": 0.2, "youngs_modulus": 9e10}"#;
-    let robot = Robot::from_json(&CAROCA.replacen(r#""anchor_point": [0.2, 0.15, 0.125]"#, own, 1)).unwrap();
+    let point = r#""anchor_point": [0.2, 0.15, 0.125]"#;
+    let own = r#""cable": {"diameter": 0.006, "linear_density": 0.2, "youngs_modulus": 9e10}"#;
+    let robot = Robot::from_json(&CAROCA.replacen(point, &format!("{point}, {own}"), 1)).unwrap();
     assert_eq!(robot.cables[0].properties.linear_density, 0.2);
     assert!((robot.cables[0].properties.section - 2.827_433e-5).abs() < 1e-11);
     assert_eq!(robot.cables[1].properties.linear_density, 0.1015);
@@ -68,7 +69,8 @@ fn a_bad_file_is_refused_with_field_value_and_remedy() {
         (
             r#""mass": 180.0"#,
             r#""mass": NaN"#,
-            "line 6, column 24: platform.mass: expected a JSON value, of which NaN, Infinity and bare words are none",
+            "line 6, column 24: platform.mass: expected a JSON value; NaN, Infinity and bare words are not \
+             JSON",
         ),
         (
             r#""mass": 180.0"#,
@@ -98,7 +100,8 @@ fn a_bad_file_is_refused_with_field_value_and_remedy() {
         (
             r#""min": 1.0, "max": 10290.0"#,
             r#""min": 20.0, "max": 10.0"#,
-            "tension_limits.max is 10: expected a finite tension above tension_limits.min (line 8, column 42)",
+            "tension_limits.max is 10: expected a finite tension above tension_limits.min \
+             (line 8, column 42)",
         ),
         (
             "cdpr-robot/1",
@@ -117,7 +120,7 @@ fn a_bad_file_is_refused_with_field_value_and_remedy() {
 }
 
 #[test]
-fn points_that_hold_no_platform_are_refused() {
+fn points_that_cannot_hold_a_platform_are_refused() {
     let robot = Robot::from_json(CAROCA).unwrap();
     let refusal = |change: &dyn Fn(&mut Robot)| {
         let mut robot = robot.clone();
@@ -132,7 +135,8 @@ fn points_that_hold_no_platform_are_refused() {
     let twice = refusal(&|robot| robot.cables[2].anchor_point = robot.cables[0].anchor_point);
     assert_eq!(
         twice,
-        "cables[2] is coincident with another cable: expected exit or anchor point different from those of cables[0]"
+        "cables[2] is coincident with another cable: expected exit or anchor point different from those of \
+         cables[0]"
     );
     let line = refusal(&|robot| {
         for (i, cable) in robot.cables.iter_mut().enumerate() {
@@ -159,7 +163,7 @@ fn a_perturbation_moves_exactly_the_named_parameters() {
 }
 
 #[test]
-fn a_perturbation_that_leaves_no_robot_is_refused() {
+fn a_perturbation_that_makes_the_robot_invalid_is_refused() {
     let robot = Robot::from_json(CAROCA).unwrap();
     let result = robot.perturbed(&deviations(8, &[("mass", -200.0)]).unwrap());
     assert!(matches!(result, Err(RobotError::Invalid { field, .. }) if field == "platform.mass"));
@@ -167,7 +171,7 @@ fn a_perturbation_that_leaves_no_robot_is_refused() {
 }
 
 #[test]
-fn the_wrench_matrix_turns_pulls_into_force_and_moment_about_p() {
+fn the_wrench_matrix_maps_tensions_to_force_and_moment_about_p() {
     let robot = Robot::from_json(COGIRO).unwrap();
     let pose = Pose {
         position: Vector3::new(0.5, -0.3, 2.0),

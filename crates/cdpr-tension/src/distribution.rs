@@ -1,30 +1,10 @@
-//! The distribution problem, its closed form, and the active-set solution of the bounded problem.
+//! The solution of a distribution problem: the closed form, and the active-set method where bounds are
+//! active.
 
+use crate::problem::{Bound, Problem, TensionError};
 use crate::quadratic_program::{Outcome, least_residual, solve};
 use cdpr_robot::TensionLimits;
-use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
-
-/// A distribution problem (T1).
-#[derive(Clone, Copy, Debug)]
-pub struct Problem<'a> {
-    /// Wrench matrix W, 6 x n [1, m].
-    pub wrench_matrix: &'a Matrix6xX<f64>,
-    /// Sum w of all wrenches on the platform but the cables' [N, N m].
-    pub wrench: Vector6<f64>,
-    /// Reference tensions t_ref, n of them [N]; zeros for the least-norm distribution.
-    pub reference: &'a [f64],
-    /// Bounds of each tension, n of them [N].
-    pub limits: &'a [TensionLimits],
-}
-
-/// A bound that holds a tension.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bound {
-    /// The least tension.
-    Min,
-    /// The greatest tension.
-    Max,
-}
+use nalgebra::{DMatrix, DVector, Vector6};
 
 /// How a distribution was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,44 +28,6 @@ pub struct Distribution {
     pub residual: Vector6<f64>,
     /// How it was found.
     pub method: DistributionMethod,
-}
-
-/// Why there is no distribution.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum TensionError {
-    /// No tensions within the bounds balance the wrench.
-    #[error(
-        "no tensions between {min} N and {max} N balance the wrench: the best of them leave a residual of {force:.3} N and \
-         {moment:.3} N m; change the pose, the load or the limits"
-    )]
-    Infeasible {
-        /// Least tension allowed in any cable [N].
-        min: f64,
-        /// Greatest tension allowed in any cable [N].
-        max: f64,
-        /// Norm of the residual force in the best attempt [N].
-        force: f64,
-        /// Norm of the residual moment in the best attempt [N m].
-        moment: f64,
-        /// The tensions of that attempt [N]: those within the bounds with the least |W t + w|.
-        tensions: Vec<f64>,
-    },
-    /// A value of the problem is not finite, or sizes differ.
-    #[error("{field} is {value}: expected {expected}")]
-    Invalid {
-        /// Field of the problem.
-        field: &'static str,
-        /// What was given.
-        value: String,
-        /// What would be right.
-        expected: &'static str,
-    },
-    /// The solver of the quadratic program stopped without an answer.
-    #[error("the solver of the quadratic program stopped with status {status}")]
-    Solver {
-        /// The status it reported.
-        status: String,
-    },
 }
 
 /// A tension beyond its bound by less than this, relative to the largest tension, is on the bound but for
@@ -229,50 +171,6 @@ fn stationary(problem: &Problem, active: &[Option<Bound>]) -> Option<Stationary>
 }
 
 impl Problem<'_> {
-    fn validate(&self) -> Result<(), TensionError> {
-        let n = self.wrench_matrix.ncols();
-        if self.reference.len() != n {
-            return Err(TensionError::Invalid {
-                field: "reference",
-                value: format!("a list of {} tensions", self.reference.len()),
-                expected: "one reference tension for each column of the wrench matrix",
-            });
-        }
-        if self.limits.len() != n {
-            return Err(TensionError::Invalid {
-                field: "limits",
-                value: format!("a list of {} limits", self.limits.len()),
-                expected: "one pair of limits for each column of the wrench matrix",
-            });
-        }
-        let finite =
-            |field, mut values: Box<dyn Iterator<Item = &f64> + '_>| match values.find(|v| !v.is_finite()) {
-                Some(value) => {
-                    Err(TensionError::Invalid { field, value: value.to_string(), expected: "finite numbers" })
-                }
-                None => Ok(()),
-            };
-        finite("wrench_matrix", Box::new(self.wrench_matrix.iter()))?;
-        finite("wrench", Box::new(self.wrench.iter()))?;
-        finite("reference", Box::new(self.reference.iter()))?;
-        match self.limits.iter().find(|l| !(l.min.is_finite() && l.max.is_finite() && l.min <= l.max)) {
-            None => Ok(()),
-            Some(TensionLimits { min, max }) => {
-                let value = format!("{min} N to {max} N");
-                Err(TensionError::Invalid {
-                    field: "limits",
-                    value,
-                    expected: "finite limits, the least first",
-                })
-            }
-        }
-    }
-
-    /// Residual wrench W t + w [N, N m], Eq. (3).
-    fn residual(&self, tensions: &[f64]) -> Vector6<f64> {
-        self.wrench + self.wrench_matrix * DVector::from_column_slice(tensions)
-    }
-
     fn distribution(&self, solution: Bounded, method: DistributionMethod) -> Distribution {
         let Bounded { tensions, active } = solution;
         let residual = self.residual(&tensions);

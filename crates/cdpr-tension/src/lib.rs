@@ -45,8 +45,8 @@
 //! ```
 
 mod distribution;
+mod problem;
 mod quadratic_program;
 
-pub use distribution::{
-    Bound, Distribution, DistributionMethod, Problem, TensionError, closed_form, distribute, offset,
-};
+pub use distribution::{Distribution, DistributionMethod, closed_form, distribute, offset};
+pub use problem::{Bound, Problem, TensionError};

@@ -2,7 +2,7 @@
 //!
 //! No other module names Clarabel.
 
-use crate::distribution::{Bound, Problem, TensionError};
+use crate::problem::{Bound, Problem, TensionError};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus,
@@ -95,15 +95,6 @@ fn bounds(problem: &Problem, size: f64) -> impl Iterator<Item = f64> {
     upper.chain(problem.limits.iter().map(move |limits| -limits.min / size))
 }
 
-impl Problem<'_> {
-    /// A tension that scales the problem [N], so that the solver's tolerances are relative.
-    fn scale(&self) -> f64 {
-        let force = self.wrench.fixed_rows::<3>(0).norm();
-        let reference = self.reference.iter().fold(0.0, |size: f64, t| size.max(t.abs()));
-        force.max(reference).max(f64::MIN_POSITIVE)
-    }
-}
-
 fn settings() -> Result<DefaultSettings<f64>, TensionError> {
     DefaultSettingsBuilder::default()
         .verbose(false)
@@ -128,7 +119,8 @@ mod tests {
         /// Clarabel is the oracle of the active-set method.
         #[test]
         fn the_qp_finds_the_distribution_with_active_bounds(
-            x in -3.2..3.2f64, y in -1.7..1.7f64, z in 0.2..3.2f64, min in 100.0..500.0f64, reference in 0.0..1000.0f64,
+            x in -3.2..3.2f64, y in -1.7..1.7f64, z in 0.2..3.2f64,
+            min in 100.0..500.0f64, reference in 0.0..1000.0f64,
         ) {
             let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
             let pose = Pose::at(x, y, z);

@@ -1,22 +1,25 @@
-//! How the end of a cable answers to forces, as matrices of doubles.
+//! The flexibility of a cable at its end, and the stiffness that is its inverse.
 
 use crate::kernel::{Response, in_plane_stiffness};
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
-/// How the end A answers to forces, with the position it answers from.
+/// End position of a cable with its derivatives with respect to force and length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compliance {
-    /// End position `(x, z)` [m], equations (1)-(2).
+    /// End position `(x, z)` [m], (C1)-(C2).
     pub end: Vector2<f64>,
-    /// In-plane flexibility `d(x, z)/d(fx, fz)` [m/N], equations (3)-(5).
+    /// In-plane flexibility `d(x, z)/d(fx, fz)` [m/N], (C3)-(C5).
     pub flexibility: Matrix2<f64>,
-    /// Determinant of the flexibility [m²/N²], equation (8): the difference of its products loses the digits
-    /// of taut, stiff cables.
+    /// Determinant of the in-plane flexibility [m²/N²], (C8).
+    ///
+    /// The difference of the products of its elements loses the digits of taut, stiff cables.
     pub determinant: f64,
-    /// Out-of-plane stiffness `fx/x` [N/m]; regular for a vertical cable, where `fx = x = 0`.
+    /// Stiffness `fx/x` across the cable's plane [N/m]; regular for a vertical cable, where `fx = x = 0`.
     pub lateral_stiffness: f64,
-    /// Derivative of the end position with respect to the unstrained length at constant force at A [m/m]: the
-    /// unit tangent at B times `1 + T0/EA`, since the new piece of cable enters there.
+    /// Derivative of the end position with respect to the unstrained length at constant force at A [m/m],
+    /// (C9).
+    ///
+    /// It is the unit tangent at B times `1 + T0/EA`, because cable that is paid out enters there.
     pub end_per_length: Vector2<f64>,
 }
 
@@ -35,7 +38,7 @@ impl Compliance {
         -self.in_plane_stiffness() * self.end_per_length
     }
 
-    /// Stiffness `dF/dr` [N/m] in three dimensions, see [`Catenary::stiffness`].
+    /// Stiffness `dF/dr` [N/m] of the end force in three dimensions: see [`crate::Catenary::stiffness`].
     #[inline]
     pub fn stiffness(&self, azimuth: Vector2<f64>) -> Matrix3<f64> {
         let k = self.in_plane_stiffness();

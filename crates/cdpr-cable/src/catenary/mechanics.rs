@@ -11,7 +11,7 @@ use crate::law::ElasticLaw;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 impl Catenary<'_> {
-    /// Position `(x, z)` of A relative to B [m], equations (1)-(2).
+    /// Position `(x, z)` of A relative to B [m], (C1)-(C2).
     pub fn end_position(&self) -> Vector2<f64> {
         match self.cable.law {
             ElasticLaw::Linear => self.terms().end_position().into(),
@@ -19,9 +19,11 @@ impl Catenary<'_> {
         }
     }
 
-    /// Closure residual [m] for an anchor point at `end = (x, z)` [m]: how far the computed end is from it.
+    /// Closure residual [m] of an anchor point at `end = (x, z)` [m]: the distance from the computed end to
+    /// it, as a vector.
     ///
-    /// A slack cable without weight has no end position, and its residual is what it is too short.
+    /// A slack cable without weight has no end position; its residual is what it is too short
+    /// ([`closure_of_limp`]).
     pub fn closure(&self, end: Vector2<f64>) -> Vector2<f64> {
         if self.is_limp() {
             closure_of_limp(end.into(), self.length_at_rest()).into()
@@ -30,7 +32,7 @@ impl Catenary<'_> {
         }
     }
 
-    /// How the end answers to forces, as [`crate::kernel::response`] gives it for a linear cable.
+    /// End position, flexibility and tension, as [`crate::kernel::response`] gives them for a linear cable.
     #[inline]
     pub fn response(&self) -> Response<f64> {
         match self.cable.law {
@@ -39,14 +41,15 @@ impl Catenary<'_> {
         }
     }
 
-    /// End position, in-plane flexibility and lateral stiffness at once.
+    /// End position, in-plane flexibility and lateral stiffness.
     #[inline]
     pub fn compliance(&self) -> Compliance {
         self.response().into()
     }
 
-    /// Derivative of the end position with respect to the weight per length at constant force at A and
-    /// constant unstrained length [m²/N], equation (10).
+    /// Derivative of the end position with respect to the weight per length [m²/N], (C10).
+    ///
+    /// The force at A and the unstrained length are constant.
     pub fn end_per_weight(&self) -> Vector2<f64> {
         match self.cable.law {
             ElasticLaw::Linear => self.terms().end_per_weight(),
@@ -54,8 +57,9 @@ impl Catenary<'_> {
         }
     }
 
-    /// Derivative of the end position with respect to the axial stiffness EA at constant force at A and
-    /// constant unstrained length [m/N], equation (11).
+    /// Derivative of the end position with respect to the axial stiffness EA [m/N], (C11).
+    ///
+    /// The force at A and the unstrained length are constant.
     pub fn end_per_stiffness(&self) -> Vector2<f64> {
         match self.cable.law {
             ElasticLaw::Linear => self.terms().end_per_stiffness(),
@@ -63,21 +67,22 @@ impl Catenary<'_> {
         }
     }
 
-    /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], the inverse of the flexibility. Zero for a slack cable
-    /// without weight.
+    /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], `C⁻¹`; zero for a slack cable without weight.
     #[inline]
     pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
         if self.is_limp() { Matrix2::zeros() } else { self.compliance().in_plane_stiffness() }
     }
 
-    /// Stiffness `dF/dr` [N/m] of the end force in three dimensions, `z` up. `azimuth` is the horizontal unit
-    /// vector from B towards A (any unit vector if A is right above or below B).
+    /// Stiffness `dF/dr` [N/m] of the end force in three dimensions, `z` up.
+    ///
+    /// `azimuth` is the horizontal unit vector from B towards A (any unit vector if A is right above or below
+    /// B).
     #[inline]
     pub fn stiffness(&self, azimuth: Vector2<f64>) -> Matrix3<f64> {
         if self.is_limp() { Matrix3::zeros() } else { self.compliance().stiffness(azimuth) }
     }
 
-    /// Complementary energy U*(f) [J], equation (6): strictly convex, its gradient is the end position.
+    /// Complementary energy U*(f) [J], (C6): strictly convex, with the end position for its gradient.
     pub fn complementary_energy(&self) -> f64 {
         match self.cable.law {
             ElasticLaw::Linear => self.terms().complementary_energy(),
@@ -85,9 +90,10 @@ impl Catenary<'_> {
         }
     }
 
-    /// Potential energy V [J], equation (7): elastic energy plus the work done against gravity, zero for a
-    /// massless cable at rest with its weight at the height of B. As a function of the end position its
-    /// gradient is the force at A.
+    /// Potential energy V [J], (C7): elastic energy plus the work done against gravity.
+    ///
+    /// It is zero for a cable at rest with its weight at the height of B. As a function of the end position
+    /// it has the force at A for its gradient.
     pub fn potential_energy(&self) -> f64 {
         match self.cable.law {
             ElasticLaw::Linear => self.terms().potential_energy(),
@@ -117,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cable_is_refused_that_no_end_can_be_computed_of() {
+    fn a_catenary_without_a_defined_end_is_refused() {
         let refused = |cable, length, fx, fz| match Catenary::new(cable, length, Vector2::new(fx, fz)) {
             Err(CableError::InvalidInput { field, .. }) => field,
             other => panic!("{other:?}"),
@@ -216,10 +222,12 @@ mod tests {
             let flexibility = c.compliance().flexibility;
             for (j, direction) in [Vector2::x(), Vector2::y()].into_iter().enumerate() {
                 let at = |h: f64| Catenary { force: c.force + direction * h, ..c }.end_position();
-                let slope = (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step);
+                let differences = 8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step));
+                let slope = differences / (12.0 * step);
                 let rounding = 20.0 * f64::EPSILON * c.end_position().norm().max(c.unstrained_length) / step;
                 let error = (slope - flexibility.column(j)).norm();
-                prop_assert!(error < 1e-7 * flexibility.norm() + rounding, "{error:e} of {:e}", flexibility.norm());
+                let size = flexibility.norm();
+                prop_assert!(error < 1e-7 * size + rounding, "{error:e} of {size:e}");
             }
         }
 
@@ -242,7 +250,8 @@ mod tests {
             let end = c.end_position();
             prop_assume!(end.x > 1e-3 * end.norm() && c.exit_tension() > 1e-2 * c.weight());
             let step = 1e-5 * c.anchor_tension().min(c.weight()) / c.compliance().force_per_length().norm();
-            let at = |h: f64| crate::end_force(&c.cable, c.unstrained_length + h, end).unwrap().catenary.force;
+            let solve = |h: f64| crate::end_force(&c.cable, c.unstrained_length + h, end).unwrap();
+            let at = |h: f64| solve(h).catenary.force;
             let slope = (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step);
             // The force itself is known to the rounding of the end position times the stiffness.
             let rounding = 1e-14 * c.in_plane_stiffness().norm() * (end.norm() + c.unstrained_length) / step;

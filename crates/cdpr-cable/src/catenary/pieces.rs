@@ -1,45 +1,51 @@
-//! A cable whose stiffness changes with its tension, as the sum of pieces that each stay within one segment
-//! of its law.
+//! A cable whose stiffness changes with its tension, as a sum of pieces that each stay within one segment of
+//! its law.
 //!
-//! Each element points along its force, stretched by `1 + ε(T)`:
+//! Each element points along its force and is strained by ε(T):
 //!
 //! ```text
-//! dx = (1 + ε) fx/T ds,      dz = (1 + ε) V/T ds,      1 + ε = α_k + T/EA_k
+//! dx = (1 + ε) fx/T ds,      dz = (1 + ε) V/T ds,      1 + ε = α_k + T/EA_k                    (C12)
 //! ```
 //!
-//! so that a piece of cable whose tension stays within segment k has the equations of `response` with 1/EA_k
-//! for 1/EA and their inextensible part times α_k: `Q = Q(1/EA_k) + (α_k - 1) Q(0)` for every Q that is
-//! linear in the two. The cable is cut where its tension crosses a kink, at `V = ±sqrt(T_k² - fx²)`. Since ε
-//! is continuous, what a cut that moves adds to one piece it takes from the next: all derivatives are sums
+//! A piece of cable whose tension stays within segment k therefore has the equations of `kernel/response.rs`
+//! with 1/EA_k for 1/EA and their inextensible part times α_k: every quantity Q that is linear in the two
+//! parts is
+//!
+//! ```text
+//! Q = Q(1/EA_k) + (α_k - 1) Q(0)                                                               (C13)
+//! ```
+//!
+//! The cable is cut where its tension crosses a kink of the law, at `V = ±sqrt(T_k² - fx²)`. Since ε is
+//! continuous, what a moving cut adds to one piece it takes from the next. All derivatives are therefore sums
 //! over the pieces at fixed ranges of s, with `dV = df_z` and, for the weight, `dV = -(L - s) dw`.
 //!
-//! With S the sum of L_k/EA_k and N that of α_k times the inextensible flexibilities, the flexibility is `S 1
-//! + N` and its determinant `S² + S tr N + det N`. The complementary energy is the integral over the cable of
-//! a convex function of a convex one: the force at the end stays unique.
+//! With S the sum of L_k/EA_k and N the sum of α_k times the inextensible flexibilities, the flexibility is
+//! `S 1 + N` and its determinant `S² + S tr N + det N`. The complementary energy is the integral over the
+//! cable of a convex function of a convex one, so that the force at the end stays unique.
 //!
-//! What is called from outside is marked cold: most cables are linear, and their code is shorter when it is
-//! laid out for them.
+//! Functions that are called from outside are marked cold: most cables are linear, and their code is shorter
+//! when it is laid out for them.
 
 use crate::catenary::Catenary;
 use crate::kernel::{Response, Terms};
 use crate::law::{PiecewiseLaw, SegmentTerms};
 use nalgebra::Vector2;
 
-/// A piece of a cable.
+/// A piece of a cable whose tension stays within one segment.
 struct Piece {
-    /// As if it were linear with 1/EA_k.
+    /// Terms of a linear cable with 1/EA_k.
     elastic: Terms<f64>,
-    /// As if it could not stretch.
+    /// Terms of an inextensible cable.
     inextensible: Terms<f64>,
     segment: SegmentTerms,
     length: f64,
-    /// Length of the cable beyond it, towards A.
+    /// Length of the cable beyond the piece, towards A.
     beyond: f64,
-    /// Vertical force at its ends, nearer to B and to A.
+    /// Vertical force at the ends of the piece, nearer to B and to A.
     vertical: [f64; 2],
 }
 
-/// The pieces from B to A.
+/// The pieces in the order from B to A.
 fn pieces(catenary: &Catenary, law: &PiecewiseLaw) -> Vec<Piece> {
     let Catenary { cable, unstrained_length: length, force } = *catenary;
     let (w, fx, v0) = (cable.weight_per_length, force.x, catenary.exit_vertical_force());
@@ -54,7 +60,7 @@ fn pieces(catenary: &Catenary, law: &PiecewiseLaw) -> Vec<Piece> {
     let between = cuts.windows(2).filter(|ends| ends[1] > ends[0]);
     between
         .map(|ends| {
-            // The middle decides: an end lies on a kink.
+            // The tension in the middle decides, because an end may lie on a kink.
             let tension = fx.hypot(v0 + w * 0.5 * (ends[0] + ends[1]));
             let segment = law.segment_terms(tension, cable.axial_stiffness);
             let piece = ends[1] - ends[0];
@@ -73,7 +79,7 @@ fn pieces(catenary: &Catenary, law: &PiecewiseLaw) -> Vec<Piece> {
 }
 
 impl Piece {
-    /// `Q(1/EA_k) + (α_k - 1) Q(0)`.
+    /// (C13): `Q(1/EA_k) + (α_k - 1) Q(0)`.
     fn of<T>(&self, quantity: impl Fn(&Terms<f64>) -> T) -> T
     where
         T: std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
@@ -89,7 +95,7 @@ pub(crate) fn end_position(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f
     ends.map(|piece| piece.of(|terms| Vector2::from(terms.end_position()))).sum()
 }
 
-/// How the end answers to forces.
+/// End position, flexibility and tension.
 #[cold]
 pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64> {
     let Catenary { unstrained_length: length, force, cable } = *catenary;
@@ -106,7 +112,7 @@ pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64>
         slackness: q * q,
     };
     let (mut straight, mut bent, mut determinant) = (0.0, [0.0; 3], 0.0);
-    for (place, piece) in pieces(catenary, law).iter().enumerate() {
+    for (index, piece) in pieces(catenary, law).iter().enumerate() {
         let Piece { segment: SegmentTerms { alpha, flexibility, .. }, length, .. } = *piece;
         let (elastic, inextensible) = (piece.elastic.response(), piece.inextensible.response());
         let add = |one: f64, other: f64| one + (alpha - 1.0) * other;
@@ -117,8 +123,8 @@ pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64>
             sum.flexibility[k] += add(elastic.flexibility[k], inextensible.flexibility[k]);
         }
         sum.lateral_flexibility += add(elastic.lateral_flexibility, inextensible.lateral_flexibility);
-        if place == 0 {
-            // What is paid out enters at B.
+        if index == 0 {
+            // Cable that is paid out enters at B.
             for k in 0..2 {
                 sum.end_per_length[k] = add(elastic.end_per_length[k], inextensible.end_per_length[k]);
             }
@@ -138,7 +144,7 @@ pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64>
 pub(crate) fn end_per_weight(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
     let all = pieces(catenary, law).into_iter();
     all.map(|piece| {
-        // The force at the piece's own end falls by what the cable beyond it weighs more.
+        // The force at the end of the piece falls by the added weight of the cable beyond it.
         let per_vertical = piece.of(|terms| {
             let [_, xz, zz] = terms.response().flexibility;
             Vector2::new(xz, zz)
@@ -148,7 +154,7 @@ pub(crate) fn end_per_weight(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2
     .sum()
 }
 
-/// d(x, z)/dEA at constant force at A [m/N]: the strain of each element is inverse to EA.
+/// d(x, z)/dEA at constant force at A [m/N]: the strain of each element is proportional to 1/EA.
 #[cold]
 pub(crate) fn end_per_stiffness(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
     let strained: Vector2<f64> = pieces(catenary, law)
@@ -170,7 +176,7 @@ pub(crate) fn complementary_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f
     all.map(|piece| piece.of(Terms::complementary_energy) + piece.length * piece.segment.energy).sum()
 }
 
-/// Potential energy [J]: `f·r - U*` by pieces; each lifts what hangs beyond it.
+/// Potential energy [J]: the sum of `f·r - U*` over the pieces, each of which lifts the cable beyond it.
 #[cold]
 pub(crate) fn potential_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f64 {
     let w = catenary.cable.weight_per_length;

@@ -1,7 +1,7 @@
 //! The shape of a cable in equilibrium, along its unstrained arc length `s` from the exit point B.
 //!
 //! The piece of cable between B and `s` is itself a catenary of unstrained length `s` that carries `(fx, V0 +
-//! w s)` at its end: every point comes from the same equations (1)-(2) as the end.
+//! w s)` at its end: every point comes from the same equations (C1)-(C2) as the end.
 
 use crate::catenary::Catenary;
 use nalgebra::Vector2;
@@ -24,13 +24,14 @@ impl<'a> Catenary<'a> {
         self.up_to(s).anchor_tension()
     }
 
-    /// `points` positions [m] from B to A at equal unstrained distances (2 at least).
+    /// Positions [m] of `points` points (2 at least) from B to A, at equal unstrained distances.
     pub fn profile(&self, points: usize) -> Vec<Vector2<f64>> {
         let last = points.max(2) - 1;
         (0..=last).map(|k| self.point(self.unstrained_length * k as f64 / last as f64)).collect()
     }
 
-    /// Unstrained arc length [m] from B at which the cable is lowest: where it is level, or its lower end.
+    /// Unstrained arc length [m] from B to the lowest point of the cable: where it is level, or its lower
+    /// end.
     pub fn lowest_arc_length(&self) -> f64 {
         let (w, v0) = (self.cable.weight_per_length, self.exit_vertical_force());
         if w > 0.0 {
@@ -59,8 +60,9 @@ impl<'a> Catenary<'a> {
         (point.x * end.y - point.y * end.x).abs() / chord
     }
 
-    /// Vertical sag [m]: the greatest height of the chord above the cable; for points one above the other,
-    /// how far the cable hangs below the lower of them.
+    /// Vertical sag [m]: the greatest height of the chord above the cable.
+    ///
+    /// Where the two ends lie one above the other it is how far the cable hangs below the lower of them.
     pub fn vertical_sag(&self) -> f64 {
         let end = self.end_position();
         if self.cable.weight_per_length == 0.0 {
@@ -73,7 +75,7 @@ impl<'a> Catenary<'a> {
         }
     }
 
-    /// Where the cable, which has weight, is parallel to its chord from the origin to `end`: there V/fx =
+    /// The point at which a cable with weight is parallel to its chord from the origin to `end`: there V/fx =
     /// z/x.
     fn parallel_point(&self, end: Vector2<f64>) -> Vector2<f64> {
         let v = if end.x > 0.0 { self.force.x * end.y / end.x } else { 0.0 };
@@ -138,14 +140,14 @@ mod tests {
 
     #[test]
     fn a_vertical_cable_sags_by_its_loop_and_a_taut_one_not_at_all() {
-        // 7 m over 4 m of height leave a loop of 1.5 m below the lower end, up to the stretch by the weight.
+        // 7 m over 4 m of height leave a loop of 1.5 m below the lower end, up to the strain by the weight.
         assert_relative_eq!(hanging(7.0, 0.0, 4.0).vertical_sag(), 1.5, epsilon = 1e-4);
         assert_relative_eq!(hanging(7.0, 0.0, -4.0).vertical_sag(), 1.5, epsilon = 1e-4);
         assert_eq!(hanging(3.9, 0.0, -4.0).vertical_sag(), 0.0);
     }
 
     #[test]
-    fn the_tension_is_that_of_the_ends_at_the_ends() {
+    fn the_tension_along_the_cable_ends_with_the_tensions_at_b_and_a() {
         let catenary = hanging(7.0, 3.0, -2.0);
         assert_relative_eq!(catenary.tension(0.0), catenary.exit_tension(), max_relative = 1e-15);
         assert_relative_eq!(catenary.tension(7.0), catenary.anchor_tension(), max_relative = 1e-13);

@@ -2,17 +2,19 @@
 
 use crate::record::sample::{Phase, RecordError, Sample};
 
-/// A loop: loading up to a turning point, then unloading from it.
+/// A record of one loop: loading up to a turning point, then unloading from it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     loading: Vec<Sample>,
-    /// Begins at the turning point.
+    /// Starts with the turning point.
     unloading: Vec<Sample>,
 }
 
 impl Record {
-    /// A record from its samples, in the order of the test: loading first, then unloading; in both, force and
-    /// elongation move one way only, and unloading begins at or below the end of loading.
+    /// A record from its samples in the order of the test: loading first, then unloading.
+    ///
+    /// In both phases force and elongation change in one direction only, and unloading starts at or below the
+    /// end of loading.
     ///
     /// # Errors
     /// [`RecordError::Invalid`] names the line; [`RecordError::TooShort`] a phase with fewer than two
@@ -52,7 +54,7 @@ impl Record {
         Ok(Self { loading: loading.to_vec(), unloading: branch })
     }
 
-    /// Samples of a phase, in the order of the test; those of unloading begin with the last one of loading.
+    /// Samples of a phase in the order of the test; those of unloading start with the last one of loading.
     pub fn samples(&self, phase: Phase) -> &[Sample] {
         match phase {
             Phase::Loading => &self.loading,

@@ -3,7 +3,7 @@
 use crate::record::load_cycle::Record;
 use crate::record::sample::{Phase, RecordError, Sample};
 
-/// The piece of cable that was tested, and how exactly all was measured: absolute errors.
+/// The piece of cable that was tested, with the absolute errors of all measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Specimen {
     /// Breaking force [N], of which ranges are percentages.
@@ -25,11 +25,11 @@ pub struct Specimen {
 /// A secant modulus with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SecantModulus {
-    /// E_{p-q} [Pa].
+    /// Modulus E_{p-q} [Pa].
     pub modulus: f64,
-    /// Uncertainty from independent errors [Pa].
+    /// Uncertainty from independent errors [Pa], (C16).
     pub standard: f64,
-    /// Uncertainty where all errors add up [Pa].
+    /// Uncertainty where all errors add up [Pa], (C17).
     pub greatest: f64,
 }
 
@@ -42,16 +42,19 @@ pub struct TangentModulus {
     pub modulus: f64,
 }
 
-/// Strains and moduli beyond these are those of another unit.
+/// A strain above this, or a modulus outside of [`MODULI`], comes from another unit.
 const MAX_STRAIN: f64 = 0.1;
+/// Moduli of cables [Pa].
 const MODULI: std::ops::RangeInclusive<f64> = 1e9..=1e12;
 
 impl Record {
-    /// E_{p-q} while loading or unloading, from `low` to `high` percent of the breaking force, Eq. (5).
+    /// Secant modulus E_{p-q} while loading or unloading, from `low` to `high` percent of the breaking force,
+    /// Eq. (5).
     ///
     /// # Errors
-    /// [`RecordError::Setting`] for a specimen or range that is none, [`RecordError::OutOfRange`];
-    /// [`RecordError::Invalid`] where strain or modulus are those of no cable, as with other units.
+    /// [`RecordError::Setting`] for an invalid specimen or range; [`RecordError::OutOfRange`];
+    /// [`RecordError::Invalid`] where strain or modulus are so far from those of cables that the units must
+    /// be wrong.
     pub fn modulus(
         &self,
         specimen: &Specimen,
@@ -71,6 +74,7 @@ impl Record {
             return Err(RecordError::OutOfRange { low, high, phase, least, greatest });
         };
         let (df, dx) = (force(high) - force(low), x_high - x_low);
+        // Eq. (5)
         let modulus = specimen.length * df / (specimen.section * dx);
         self.samples(phase)[0].check_modulus(modulus, &format!("between {low} and {high} %"))?;
         let (of_force, of_elongation) = (specimen.force_error / df, specimen.elongation_error / dx);
@@ -81,13 +85,13 @@ impl Record {
         Ok(SecantModulus { modulus, standard: modulus * squares.sqrt(), greatest: modulus * sum })
     }
 
-    /// The tangent modulus [Pa] of each piece between two samples of a phase, with the tension at which it
-    /// begins [N], in ascending order, for a specimen of this length [m] and section [m²]. The first piece
-    /// goes on down to zero.
+    /// Tangent modulus of each piece between two samples of a phase, in ascending order of tension.
+    ///
+    /// The specimen has this length [m] and section [m²]. The first piece goes on down to zero tension.
     ///
     /// # Errors
-    /// [`RecordError::Setting`] for a length or section that is none; [`RecordError::Invalid`] where strain
-    /// or modulus of the whole phase are those of no cable, as with other units.
+    /// [`RecordError::Setting`] for an invalid length or section; [`RecordError::Invalid`] where strain or
+    /// modulus of the whole phase are so far from those of cables that the units must be wrong.
     pub fn moduli(
         &self,
         phase: Phase,
@@ -114,7 +118,7 @@ impl Record {
         Ok(pieces)
     }
 
-    /// Strain at the turning point, whose excess is the sign of another unit.
+    /// Checks the strain at the turning point, which is too large where units are wrong.
     fn check_strain(&self, length: f64) -> Result<(), RecordError> {
         let [first, turning] = [Phase::Loading, Phase::Unloading].map(|phase| self.samples(phase)[0]);
         let strain = (turning.elongation - first.elongation) / length;
@@ -155,7 +159,7 @@ fn check_specimen(length: f64, section: f64) -> Result<(), RecordError> {
 }
 
 impl Sample {
-    /// A modulus that no cable has is the sign of another unit.
+    /// Checks a modulus, which is far from that of a cable where units are wrong.
     fn check_modulus(&self, modulus: f64, of: &str) -> Result<(), RecordError> {
         if MODULI.contains(&modulus) {
             return Ok(());

@@ -1,4 +1,4 @@
-//! Samples of a load-elongation test, and why they or a question about them are refused.
+//! Samples of a load-elongation test, and why samples or a question about them are refused.
 
 /// Whether a cable is being loaded or unloaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +19,7 @@ impl Phase {
     }
 }
 
-/// One line of a record.
+/// One sample of a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Line of the file that it comes from, for messages.
@@ -46,7 +46,7 @@ impl Sample {
 /// Why a record, or a question about it, was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RecordError {
-    /// A value that a record cannot have.
+    /// A value of the record is invalid.
     #[error("line {line}: {field} is {value}: expected {expected}")]
     Invalid {
         /// Line of the file.
@@ -58,7 +58,7 @@ pub enum RecordError {
         /// What would be right.
         expected: String,
     },
-    /// A phase without enough samples.
+    /// A phase has too few samples.
     #[error(
         "the record ends at line {line} with {found} samples of phase {}: expected 2 at least",
         phase.name()
@@ -71,7 +71,7 @@ pub enum RecordError {
         /// Its samples.
         found: usize,
     },
-    /// A setting that no analysis can have.
+    /// A setting of the analysis is invalid.
     #[error("{field} is {value}: expected {expected}")]
     Setting {
         /// The setting.
@@ -81,9 +81,10 @@ pub enum RecordError {
         /// What would be right.
         expected: &'static str,
     },
-    /// A range of load that the record does not hold.
+    /// A range of load is not within the record.
     #[error(
-        "the range {low} to {high} % of the breaking force is not in the record: while {} it runs from {least:.3} to {greatest:.3} %",
+        "the range {low} to {high} % of the breaking force is not in the record: \
+         while {} it runs from {least:.3} to {greatest:.3} %",
         phase.name()
     )]
     OutOfRange {

@@ -115,7 +115,7 @@ fn a_bad_record_is_refused_with_its_line() {
 }
 
 #[test]
-fn units_that_are_not_those_of_the_columns_are_noticed() {
+fn a_record_in_other_units_is_refused() {
     // Elongations in micrometres: more than the cable is long.
     let micrometres = LOOP.map(|(force, mm, phase)| (force, 1e3 * mm, phase));
     let error = record(&micrometres).unwrap().modulus(&SPECIMEN, Loading, 10.0, 20.0).unwrap_err();
@@ -127,7 +127,7 @@ fn units_that_are_not_those_of_the_columns_are_noticed() {
 }
 
 #[test]
-fn tangents_are_those_of_the_pieces_whose_units_are_looked_at() {
+fn tangent_moduli_are_those_of_the_pieces_and_their_units_are_checked() {
     let moduli = |phase| record(&LOOP).unwrap().moduli(phase, 2.0, 1e-5).unwrap();
     let close = |found: Vec<TangentModulus>, expected: &[(f64, f64)]| {
         assert_eq!(found.len(), expected.len());
@@ -149,7 +149,7 @@ fn tangents_are_those_of_the_pieces_whose_units_are_looked_at() {
 }
 
 #[test]
-fn a_question_that_the_record_does_not_answer_is_refused() {
+fn a_range_outside_of_the_record_and_an_invalid_specimen_are_refused() {
     let record = record(&LOOP).unwrap();
     let ask = |low, high| record.modulus(&SPECIMEN, Loading, low, high).unwrap_err();
     assert_eq!(
@@ -159,9 +159,9 @@ fn a_question_that_the_record_does_not_answer_is_refused() {
     assert!(matches!(ask(10.0, 30.0), RecordError::OutOfRange { .. }));
     assert!(matches!(ask(10.0, 10.0), RecordError::Setting { field: "range", .. }));
     assert!(matches!(ask(f64::NAN, 10.0), RecordError::Setting { field: "range", .. }));
-    let none = Specimen { length: -1.0, ..SPECIMEN };
+    let negative = Specimen { length: -1.0, ..SPECIMEN };
     assert!(matches!(
-        record.modulus(&none, Loading, 5.0, 10.0),
+        record.modulus(&negative, Loading, 5.0, 10.0),
         Err(RecordError::Setting { field: "length", .. })
     ));
 }

@@ -1,15 +1,16 @@
 //! The end force of a cable for a given end position and unstrained length.
 //!
-//! The force maximises the concave function `f·r - U*(f)`, so it is unique. Newton's method on its gradient
-//! `r - (x, z)(f)`, halving the step until it does not pass the maximum, starts from the better of two
+//! The force maximises the concave function `f·r - U*(f)`, so it is unique. Newton's method on the gradient
+//! `r - (x, z)(f)`, which halves a step until it does not pass the maximum, starts from the better of two
 //! approximations:
 //!
-//! * taut: a spring along the chord whose stretch gives back what the sag of a parabola takes, `T/EA - w² x²
-//!   L²/(24 l² T²) = (l - L)/L` (l the chord; Irvine 1981, section 2.3, inclined as in section 2.5);
+//! * taut: a spring along the chord whose elongation makes up for the sag of a parabola, `T/EA - w² x² L²/(24
+//!   l² T²) = (l - L)/L` (l the chord; Irvine 1981, section 2.3, inclined as in section 2.5);
 //! * slack: the inextensible catenary, `sinh λ/λ = sqrt(L² - z²)/x`, `fx = w x/(2λ)`, `fz = (w/2)(z coth λ +
 //!   L)`.
 //!
-//! A vertical cable (`x = 0`) is linear in each of three regimes: hanging taut, folded, pulled up from below.
+//! A vertical cable (`x = 0`) is linear in each of three regimes: it hangs taut, hangs folded, or is pulled
+//! up from below.
 
 use crate::cable::Cable;
 use crate::catenary::Catenary;
@@ -18,16 +19,16 @@ use crate::error::{CableError, check, check_length};
 use crate::law::ElasticLaw;
 use nalgebra::Vector2;
 
-/// A cable in equilibrium between two given points, with what was left open.
+/// A cable in equilibrium between two given points, with its closure residual.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution<'a> {
     /// The equilibrium.
     pub catenary: Catenary<'a>,
-    /// Position (x, z) of A that was asked for, or that follows from a given force [m].
+    /// End position (x, z) that was asked for, or that follows from a given force [m].
     pub end: Vector2<f64>,
-    /// Newton steps made; 0 for a closed form.
+    /// Iterations of Newton's method; 0 for a closed form.
     pub iterations: usize,
-    /// Distance between the end of the catenary and the wanted one [m].
+    /// Distance between the end of the catenary and the end asked for [m].
     pub residual: f64,
 }
 
@@ -39,22 +40,21 @@ impl<'a> Solution<'a> {
 
 const MAX_ITERATIONS: usize = 200;
 
-/// From a start that is not near after all, the closed-form starts are faster.
+/// After this many iterations from a start that is given as near, the closed-form starts are faster.
 const MAX_ITERATIONS_NEAR: usize = 8;
 
-/// A step below this, relative to the force at either end, is followed by one below rounding: Newton's method
-/// squares it.
+/// A step below this, relative to the force at either end, is the last one.
+///
+/// Newton's method squares the error: what is left is below rounding.
 const LAST_STEP: f64 = 1e-8;
 
 /// The force on a cable of unstrained length `unstrained_length` [m] whose end A lies at `end = (x, z)` [m],
 /// `x >= 0`.
 ///
-/// There is exactly one answer for every input: a chord longer than the cable stretches it, a shorter one
-/// lets it hang.
+/// Every input has exactly one answer: a chord longer than the cable strains it, a shorter one lets it hang.
 ///
 /// # Errors
-/// [`CableError::InvalidInput`] for values no cable can have; [`CableError::NotConverged`] with what is left
-/// open.
+/// [`CableError::InvalidInput`] for an invalid value; [`CableError::NotConverged`] with the closure residual.
 pub fn end_force<'a>(
     cable: &Cable<'a>,
     unstrained_length: f64,
@@ -91,20 +91,21 @@ pub fn end_force<'a>(
     newton(at(start), end, MAX_ITERATIONS)
 }
 
-/// The same, begun at a catenary with nearly this end position: fewer steps where `near` is near, the same
-/// answer anywhere.
+/// The answer of [`end_force`], started from a catenary with nearly this end position.
+///
+/// It takes fewer iterations where `near` is near, and gives the same answer from anywhere.
 ///
 /// # Errors
 /// As [`end_force`].
 pub fn end_force_near<'a>(near: &Catenary<'a>, end: Vector2<f64>) -> Result<Solution<'a>, CableError> {
     let regular = near.force.x > 0.0 && !near.cable.is_weightless(near.unstrained_length);
     if regular && end.x > 1e-30 * near.unstrained_length && end.x.is_finite() && end.y.is_finite() {
-        let begun = newton(*near, end, MAX_ITERATIONS_NEAR);
-        // A start so far off that it ends at a nearly folded cable, of which everything is explained by
-        // rounding, is none.
+        let solution = newton(*near, end, MAX_ITERATIONS_NEAR);
+        // From a distant start the iteration may end at a nearly folded cable, whose rounding explains any
+        // residual.
         let exact = 1e-13 * (near.unstrained_length + end.norm());
-        if begun.as_ref().is_ok_and(|solution| solution.residual <= exact) {
-            return begun;
+        if solution.as_ref().is_ok_and(|solution| solution.residual <= exact) {
+            return solution;
         }
     }
     end_force(&near.cable, near.unstrained_length, end)
@@ -119,46 +120,46 @@ pub(crate) fn check_end(end: Vector2<f64>) -> Result<(), CableError> {
 fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Result<Solution<'a>, CableError> {
     let mut now = start;
     let mut compliance = now.compliance();
-    let mut open = end - compliance.end;
+    let mut residual = end - compliance.end;
     for iteration in 1..=iterations {
         let rounding = rounding(&now, &compliance, end);
-        // What is rounding noise already is not pursued: for a stiff cable it is worth a visible force.
-        let pursued = open.zip_map(&rounding, |open, noise| if open.abs() <= noise { 0.0 } else { open });
-        let step = compliance.in_plane_stiffness() * pursued;
+        // A residual below rounding is left alone: for a stiff cable it is worth a visible force.
+        let above = residual.zip_map(&rounding, |miss, noise| if miss.abs() <= noise { 0.0 } else { miss });
+        let step = compliance.in_plane_stiffness() * above;
         let mut fraction = 1.0;
         let next = loop {
             let force = now.force + fraction * step;
-            // The horizontal force is positive, however small: never take more than nine tenths of it away.
+            // The horizontal force stays positive: a step takes nine tenths of it away at most.
             let force = Vector2::new(force.x.max(0.1 * now.force.x), force.y);
             let next = Catenary { force, ..now };
             let next_compliance = next.compliance();
-            let next_open = end - next_compliance.end;
+            let next_residual = end - next_compliance.end;
             // Not past the maximum along the step, but for rounding: then the concave function has grown. Or
             // clearly closer.
             let moved = (force - now.force).abs();
-            if next_open.dot(&(force - now.force)) >= -rounding.dot(&moved)
-                || next_open.norm() <= 0.5 * open.norm()
+            if next_residual.dot(&(force - now.force)) >= -rounding.dot(&moved)
+                || next_residual.norm() <= 0.5 * residual.norm()
             {
-                break Some((next, next_compliance, next_open));
+                break Some((next, next_compliance, next_residual));
             }
             fraction *= 0.5;
-            // A cable just as long as its chord, nearly vertical: its first useful step is a ten billionth.
+            // A nearly vertical cable as long as its chord needs steps down to a ten billionth.
             if fraction < 1e-14 {
                 break None;
             }
         };
-        let Some((next, next_compliance, next_open)) = next else {
-            // No step gains anything: rounding accuracy is reached, or nothing is.
+        let Some((next, next_compliance, next_residual)) = next else {
+            // No step gains anything: the residual is rounding, or there is no solution.
             return accept(now, end, iteration);
         };
         let moved = next.force - now.force;
-        let at_rounding = next_open.x.abs() <= rounding.x && next_open.y.abs() <= rounding.y;
-        // A full step so small: the next one is below rounding, unless the step met a kink.
+        let at_rounding = next_residual.x.abs() <= rounding.x && next_residual.y.abs() <= rounding.y;
+        // After a full step as small as this the next one is below rounding, unless the step met a kink.
         let last = fraction == 1.0
             && matches!(now.cable.law, ElasticLaw::Linear)
             && moved.x.abs() <= LAST_STEP * next.force.x
             && moved.y.abs() <= LAST_STEP * next.anchor_tension().min(next.exit_tension());
-        (now, compliance, open) = (next, next_compliance, next_open);
+        (now, compliance, residual) = (next, next_compliance, next_residual);
         if last || at_rounding {
             return accept(now, end, iteration);
         }
@@ -166,7 +167,7 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
     accept(now, end, iterations)
 }
 
-/// How far the computed end position may be off [m]: the rounding of its own sums, and of the force it is
+/// Rounding error of the computed end position [m]: that of its own sums, and that of the force it is
 /// computed from.
 fn rounding(catenary: &Catenary, compliance: &Compliance, end: Vector2<f64>) -> Vector2<f64> {
     let forces = Vector2::new(catenary.force.x, catenary.force.y.abs() + catenary.weight());
@@ -180,7 +181,7 @@ fn accept<'a>(
     iterations: usize,
 ) -> Result<Solution<'a>, CableError> {
     let solution = Solution::of(catenary, end, iterations);
-    // However much rounding may explain, an end farther off than this is none.
+    // However large the rounding may be, an end farther off than this is no solution.
     let largest = 1e-9 * (catenary.unstrained_length + end.norm());
     if solution.residual <= (16.0 * rounding(&catenary, &catenary.compliance(), end).norm()).min(largest) {
         Ok(solution)
@@ -189,7 +190,7 @@ fn accept<'a>(
     }
 }
 
-/// A cable without weight: a spring that cannot push.
+/// Force of a cable without weight, a spring that cannot push.
 fn spring_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Vector2<f64> {
     let chord = end.norm();
     if let ElasticLaw::Piecewise(_) = cable.law {
@@ -202,7 +203,7 @@ fn spring_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Vec
     end * (cable.axial_stiffness * (chord - unstrained_length) / (unstrained_length * chord))
 }
 
-/// The vertical end force of a cable with A right above or below B at height `z`.
+/// Vertical end force of a linear cable with A right above or below B at height `z`.
 fn vertical_force(cable: &Cable, unstrained_length: f64, z: f64) -> f64 {
     let weight = cable.weight_per_length * unstrained_length;
     let stiffness = cable.axial_stiffness / unstrained_length;
@@ -217,20 +218,21 @@ fn vertical_force(cable: &Cable, unstrained_length: f64, z: f64) -> f64 {
     }
 }
 
-/// The same with kinks in the law: the height grows with the force, so that Newton's method between two
-/// bounds ends at its root.
+/// The vertical cable with kinks in its law.
+///
+/// The height grows with the force, so that Newton's method between two bounds converges to the only root.
 fn vertical_newton<'a>(
     cable: &Cable<'a>,
     unstrained_length: f64,
     end: Vector2<f64>,
 ) -> Result<Solution<'a>, CableError> {
     let at = |fz| Catenary { cable: *cable, unstrained_length, force: Vector2::new(0.0, fz) };
-    let open = |fz| end.y - at(fz).end_position().y;
+    let residual = |fz| end.y - at(fz).end_position().y;
     let mut now = vertical_force(cable, unstrained_length, end.y);
     let size = now.abs() + cable.weight_per_length * unstrained_length;
     let (mut low, mut high) = (now - size, now + size);
     for _ in 0..100 {
-        if open(low) >= 0.0 && open(high) <= 0.0 {
+        if residual(low) >= 0.0 && residual(high) <= 0.0 {
             break;
         }
         (low, high) = (low - (high - low), high + (high - low));

@@ -1,4 +1,4 @@
-//! A cable in equilibrium from any two things that are known of it.
+//! The equilibrium of a cable from two known quantities.
 
 use crate::cable::Cable;
 use crate::catenary::Catenary;
@@ -38,8 +38,8 @@ pub enum Known<S = f64, V = Vector2<f64>> {
 }
 
 impl<S, V> Known<S, V> {
-    /// Sorts what is given into its case; `None` unless it is length and end, length and force, or end and
-    /// tension.
+    /// Sorts given quantities into their case; `None` unless they are length and end, length and force, or
+    /// end and tension.
     pub fn from_given(
         length: Option<S>,
         end: Option<V>,
@@ -54,7 +54,7 @@ impl<S, V> Known<S, V> {
         }
     }
 
-    /// The same with other scalars and vectors: one case of a batch.
+    /// The same case with other scalars and vectors, such as one cable of a batch.
     pub fn map<T, W>(&self, scalar: impl Fn(&S) -> T, vector: impl Fn(&V) -> W) -> Known<T, W> {
         match self {
             Self::LengthAndEnd { length, end } => {
@@ -71,7 +71,7 @@ impl<S, V> Known<S, V> {
 }
 
 impl Known {
-    /// The equilibrium of a cable of which this is known.
+    /// The equilibrium of a cable with these known quantities.
     ///
     /// # Errors
     /// Those of [`end_force`], [`Catenary::new`] and [`length_for_tension`].

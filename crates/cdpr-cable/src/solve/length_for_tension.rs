@@ -1,15 +1,15 @@
 //! The unstrained length that gives a wanted tension at the anchor point.
 //!
 //! Over a given span the tension at A falls as cable is paid out, passes a minimum, and rises again with the
-//! weight of the cable that hangs below. The answer is the shorter cable of the two. Newton's method on the
-//! direction θ of the force and the length `L`, with `f = T (cos θ, sin θ)`:
+//! weight of the cable that hangs below. The answer is the shorter of the two cables. Newton's method solves
+//! for the direction θ of the force and the length `L`, with `f = T (cos θ, sin θ)`:
 //!
 //! ```text
 //! (x, z)(f, L) = end,      d(x, z)/dθ = C (-fz, fx),      d(x, z)/dL = (fx, V0) (1/T0 + 1/EA)
 //! ```
 //!
-//! with C the flexibility; where that does not end on the falling branch, bisection of the tension over the
-//! length.
+//! C is the flexibility. Where that does not end on the falling branch, the length is found by bisection of
+//! the tension.
 
 use crate::cable::Cable;
 use crate::catenary::Catenary;
@@ -21,8 +21,8 @@ use nalgebra::{Matrix2, Vector2};
 /// A.
 ///
 /// # Errors
-/// [`CableError::InvalidInput`] for values no cable can have, [`CableError::TensionTooSmall`] where the
-/// cable's weight alone demands more, with the least tension there is.
+/// [`CableError::InvalidInput`] for an invalid value; [`CableError::TensionTooSmall`], with the least
+/// tension, where the weight of the cable alone demands more.
 pub fn length_for_tension<'a>(
     cable: &Cable<'a>,
     end: Vector2<f64>,
@@ -42,7 +42,7 @@ pub fn length_for_tension<'a>(
     }
 }
 
-/// The same, begun at a catenary with nearly this end position and tension.
+/// The answer of [`length_for_tension`], started from a catenary with nearly this end position and tension.
 ///
 /// # Errors
 /// As [`length_for_tension`].
@@ -60,16 +60,15 @@ pub fn length_for_tension_near<'a>(
     }
 }
 
-/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, whose tension at its end A is the least that
-/// any unstrained length gives.
+/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the least tension at A that any unstrained
+/// length gives.
 ///
 /// # Errors
-/// [`CableError::InvalidInput`] for values no cable can have, and for a cable without weight, which may be
-/// slack.
+/// [`CableError::InvalidInput`] for an invalid value, and for a cable without weight, which may be slack.
 pub fn least_tension<'a>(cable: &Cable<'a>, end: Vector2<f64>) -> Result<Catenary<'a>, CableError> {
     let w = cable.weight_per_length;
     check("weight_per_length", w, w >= SMALLEST, "a weight per length from 1e-30 to 1e30 [N/m]")?;
-    // Any tension that a cable can have passes.
+    // The check of the tension is met by any valid one.
     check_inputs(cable, end, 1.0)?;
     lowest(cable, end, 0.0)
 }
@@ -81,7 +80,7 @@ fn check_inputs(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<(), Ca
     check("end", end.norm(), end.norm() >= SMALLEST, "an end position away from the exit point [m]")
 }
 
-/// A straight spring, turned by half its weight and lengthened by the sag of a parabola.
+/// A straight spring, rotated by half its weight and lengthened by the sag of a parabola.
 fn taut_start<'a>(cable: &Cable<'a>, end: Vector2<f64>, tension: f64) -> Catenary<'a> {
     let chord = end.norm();
     let w = cable.weight_per_length;
@@ -100,8 +99,8 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, tension: f64) -> Option<So
     let mut now = start;
     let mut compliance = now.compliance();
     for iteration in 1..=20 {
-        let turn = compliance.flexibility * Vector2::new(-now.force.y, now.force.x);
-        let jacobian = Matrix2::from_columns(&[turn, compliance.end_per_length]);
+        let per_angle = compliance.flexibility * Vector2::new(-now.force.y, now.force.x);
+        let jacobian = Matrix2::from_columns(&[per_angle, compliance.end_per_length]);
         let step = jacobian.try_inverse()? * (end - compliance.end);
         let (sin, cos) = step.x.sin_cos();
         let (fx, fz) = (now.force.x, now.force.y);
@@ -128,7 +127,7 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, tension: f64) -> Option<So
     None
 }
 
-/// dT/dL [N/m] with both ends held: negative on the branch of the shorter cable.
+/// dT/dL [N/m] with both ends held; negative on the branch of the shorter cable.
 fn tension_slope(catenary: &Catenary) -> f64 {
     catenary.force.dot(&catenary.compliance().force_per_length()) / catenary.anchor_tension()
 }
@@ -157,7 +156,7 @@ fn bisect<'a>(cable: &Cable<'a>, end: Vector2<f64>, tension: f64) -> Result<Solu
     Ok(Solution { iterations, ..solution })
 }
 
-/// A cable short enough to carry a tension and its own weight on top [m].
+/// A length [m] so short that the tension is at least `tension` [N].
 fn short_enough(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, CableError> {
     let chord = end.norm();
     let mut short = chord / (1.0 + cable.strain(tension + cable.weight_per_length * chord));
@@ -167,10 +166,11 @@ fn short_enough(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, C
     Ok(short)
 }
 
-/// The catenary of least tension, or the first one met on the way there with no more than `enough` [N].
+/// The catenary of least tension, or the first one found on the way there with a tension of `enough` [N] at
+/// most.
 fn lowest<'a>(cable: &Cable<'a>, end: Vector2<f64>, enough: f64) -> Result<Catenary<'a>, CableError> {
     let solve = |length: f64| end_force(cable, length, end).map(|solution| solution.catenary);
-    // A cable long enough to have passed the least tension; a weightless one ends with no tension at all.
+    // A cable so long that it has passed the least tension; without weight it is slack.
     let mut long = 2.0 * end.norm();
     while cable.weight_per_length > 0.0 && tension_slope(&solve(long)?) < 0.0 {
         long *= 2.0;
