@@ -1,4 +1,5 @@
-//! Designs, effects, fits, indices and expansions over the number of observations N, for 62 uniform inputs as in the source paper.
+//! Designs, effects, fits, indices and expansions over the number of observations N, for 62 uniform inputs as
+//! in the paper.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -38,7 +39,8 @@ fn indices(group: &mut BenchmarkGroup<'_, WallTime>, blocks: usize) -> Result<()
     let sum = |x: &[f64]| Some(x.iter().sum());
     let outputs = observe(&design, sum)?;
     let found = sobol_indices(&design, &outputs, bootstrap, 0.95)?;
-    // An additive model: the indices add up to 1. With 128 points a scrambling the variance is known to some percent.
+    // An additive model: the indices add up to 1. With 128 points a scrambling the variance is known to some
+    // percent.
     let sum_of_totals = found.inputs.iter().map(|index| index.total.value).sum::<f64>();
     assert!((sum_of_totals - 1.0).abs() < 0.05, "{sum_of_totals}");
     let holding = |index: &&SobolIndex| (index.total.low..=index.total.high).contains(&(1.0 / INPUTS as f64));
@@ -52,7 +54,8 @@ fn indices(group: &mut BenchmarkGroup<'_, WallTime>, blocks: usize) -> Result<()
     Ok(())
 }
 
-/// Chaos expansion of a model of 62 linear terms, 61 products and, as 1 % of its variance, what no candidate explains.
+/// Chaos expansion of a model of 62 linear terms, 61 products and, as 1 % of its variance, what no candidate
+/// explains.
 fn chaos(group: &mut BenchmarkGroup<'_, WallTime>, points: usize) -> Result<(), SensitivityError> {
     group.throughput(Throughput::Elements(points as u64));
     let design = SobolDesign::scrambled(inputs(), points, 1)?;

@@ -1,9 +1,10 @@
-//! Ishigami's function, screened: y = sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1, x uniform on [-π, π], and an inert x4.
+//! Screening of Ishigami's function: y = sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1, x uniform on [-π, π], and an inert
+//! x4.
 //!
-//! T. Ishigami, T. Homma, *An importance quantification technique in uncertainty analysis for computer models* (1990).
-//! The exact effects are those of x1 alone, (4/π)(1 + 0.1 π⁴/5) = 3.754, and 0 of x2, x3 and x4: x2 and x3 act through
-//! even functions, of which the mean is the same in both halves. A screening by halves does not see them; it is not
-//! a variance-based index.
+//! T. Ishigami, T. Homma, *An importance quantification technique in uncertainty analysis for computer
+//! models* (1990). The exact effect of x1 is (4/π)(1 + 0.1 π⁴/5) = 3.754; those of x2, x3 and x4 are 0. x2 and x3 act
+//! through even functions, whose mean is the same in both halves. Screening by halves does not detect them, unlike a
+//! variance-based index.
 //!
 //! ```text
 //! cargo run --release -p cdpr-sensitivity --example ishigami
@@ -13,8 +14,8 @@
 use std::f64::consts::PI;
 
 use cdpr_sensitivity::{
-    Bootstrap, Input, Law, Sample, SampleDesign, SensitivityError, SobolDesign, effect_intervals, fit_all,
-    student_effects,
+    Bootstrap, Input, Law, Replicate, Sample, SampleDesign, SensitivityError, SobolDesign, effect_intervals,
+    fit_all, student_effects,
 };
 
 fn ishigami(x: &[f64]) -> Option<f64> {
@@ -42,7 +43,7 @@ fn main() -> Result<(), SensitivityError> {
     let effects = student_effects(&design, &outputs)?;
     let replicate = |seed| {
         let design = design.replicate(seed);
-        run(&design).map(|outputs| (design, outputs))
+        run(&design).map(|outputs| Replicate { design, outputs })
     };
     let replicates = (0..16).map(replicate).collect::<Result<Vec<_>, _>>()?;
     let intervals = effect_intervals(&replicates, 0.95)?;

@@ -1,6 +1,8 @@
-//! Designs of experiments. A design is a type, and an estimator takes that type: see [`SampleDesign`].
+//! Designs of experiments: at which points a model is run.
 //!
-//! Any row is had from its index alone, so that a map over the rows gives the same numbers on one thread and on many.
+//! A design is a type, and an estimator asks for the type that it can interpret: see [`SampleDesign`]. A row
+//! follows from its index alone, so that a parallel map over the rows gives the same numbers on any number of
+//! threads.
 
 pub mod correlated;
 pub mod halton;
@@ -15,32 +17,72 @@ pub mod sobol;
 use crate::design::input::{Input, Prepared};
 use crate::error::{SensitivityError, check_length, check_range};
 
-/// Points to run a model at, of any structure. Rows may be drawn from any thread.
+/// What every design has: its inputs, its size and the seed of its randomisation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layout {
+    /// Inputs, one per column.
+    pub inputs: Vec<Input>,
+    /// Number of rows, at least 1.
+    pub points: usize,
+    /// Seed of the randomisation, `None` for a deterministic design.
+    pub seed: Option<u64>,
+}
+
+impl Layout {
+    /// Checks the inputs one by one, and that there is at least one input and one row.
+    pub(crate) fn new(
+        inputs: Vec<Input>,
+        points: usize,
+        seed: Option<u64>,
+    ) -> Result<Self, SensitivityError> {
+        inputs.iter().try_for_each(Input::validate)?;
+        check_range("inputs", inputs.len() as u64, 1, u64::MAX)?;
+        check_range("points", points as u64, 1, u64::MAX)?;
+        Ok(Self { inputs, points, seed })
+    }
+
+    /// The same layout under another seed.
+    pub(crate) fn reseeded(&self, seed: u64) -> Self {
+        Self { seed: Some(seed), ..self.clone() }
+    }
+}
+
+/// Points at which a model is run. Rows may be drawn from any thread.
 ///
-/// What an estimator may conclude from them it asks for by type: [`IndependentSample`], [`JointSample`], or a design of
-/// its own such as [`crate::SaltelliDesign`].
+/// The structure of the points decides which estimators apply. An estimator therefore asks for a type:
+/// [`IndependentSample`], [`JointSample`], or a design of its own such as [`crate::SaltelliDesign`].
 pub trait SampleDesign: Sized + Sync {
-    /// Inputs, one a column.
-    fn inputs(&self) -> &[Input];
+    /// Inputs, size and seed.
+    fn layout(&self) -> &Layout;
+
+    /// Inputs, one per column.
+    fn inputs(&self) -> &[Input] {
+        &self.layout().inputs
+    }
 
     /// Number of rows.
-    fn points(&self) -> usize;
+    fn points(&self) -> usize {
+        self.layout().points
+    }
 
     /// Seed of the randomisation, `None` for a deterministic design.
-    fn seed(&self) -> Option<u64>;
+    fn seed(&self) -> Option<u64> {
+        self.layout().seed
+    }
 
-    /// A design of the same inputs and size under a randomisation of its own. Different seeds give independent ones.
+    /// Returns a design of the same inputs and size under the randomisation of `seed`. Designs of different
+    /// seeds are independent of each other.
     #[must_use]
     fn replicate(&self, seed: u64) -> Self;
 
-    /// Writes observation `index` as a point of the unit cube: for each input, the probability of its value.
+    /// Writes row `index` as a point of the unit cube: for each input, the probability of its value.
     ///
     /// # Errors
-    /// [`SensitivityError::OutOfRange`] for an index beyond the last row, [`SensitivityError::LengthMismatch`] for a
-    /// point that has not one element an input.
+    /// [`SensitivityError::OutOfRange`] for an index beyond the last row,
+    /// [`SensitivityError::LengthMismatch`] unless `point` has one element per input.
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError>;
 
-    /// Writes the values of the inputs of observation `index` into `row`.
+    /// Writes the values of the inputs in row `index` into `row`.
     ///
     /// # Errors
     /// As [`SampleDesign::unit_point`].
@@ -52,10 +94,12 @@ pub trait SampleDesign: Sized + Sync {
         Ok(())
     }
 
-    /// Writes consecutive points of the unit cube into `points`, one after the other, from that of observation `first` on.
+    /// Writes consecutive points of the unit cube into `points`, one after the other, starting with row
+    /// `first`.
     ///
     /// # Errors
-    /// As [`SampleDesign::unit_point`], and [`SensitivityError::LengthMismatch`] unless `points` holds whole points.
+    /// As [`SampleDesign::unit_point`], and [`SensitivityError::LengthMismatch`] unless `points` holds whole
+    /// points.
     fn unit_points(&self, first: usize, points: &mut [f64]) -> Result<(), SensitivityError> {
         for (index, point) in (first..).zip(points.chunks_mut(self.inputs().len())) {
             self.unit_point(index, point)?;
@@ -63,8 +107,8 @@ pub trait SampleDesign: Sized + Sync {
         Ok(())
     }
 
-    /// Writes consecutive rows from that of observation `first` on into `rows`, one after the other: those of
-    /// [`SampleDesign::row`], but faster.
+    /// Writes consecutive rows into `rows`, one after the other, starting with row `first`. They are those of
+    /// [`SampleDesign::row`], but computed faster.
     ///
     /// # Errors
     /// As [`SampleDesign::unit_points`].
@@ -80,12 +124,14 @@ pub trait SampleDesign: Sized + Sync {
     }
 }
 
-/// A design whose rows are a sample of the joint law of its inputs: regression asks for no more.
+/// A design whose rows are a sample of the joint law of its inputs. Regression needs no more.
 pub trait JointSample: SampleDesign {}
 
-/// A [`JointSample`] of independent inputs: what effects, chaos expansions and derivative-based measures rely on.
+/// A [`JointSample`] of independent inputs. Effects, chaos expansions and derivative-based measures rely on
+/// it.
 pub trait IndependentSample: JointSample {}
 
+/// Checks an index and the length of a row against a design.
 pub(crate) fn check_row(
     design: &impl SampleDesign,
     index: usize,
@@ -95,14 +141,15 @@ pub(crate) fn check_row(
     check_length("row", row.len(), design.inputs().len())
 }
 
-/// Consecutive indices of a sequence of 2^32 points.
+/// Checks that consecutive points lie within a sequence of 2^32 points.
 pub(crate) fn check_points(first_index: u32, points: usize) -> Result<(), SensitivityError> {
     check_range("points", points as u64, 1, (1_u64 << 32) - u64::from(first_index))
 }
 
-/// Point 0 of an unscrambled sequence is all zeros.
+/// Checks that point 0 of an unscrambled sequence, which is all zeros, is not used for a law that is infinite
+/// there.
 pub(crate) fn check_origin(inputs: &[Input], first_index: u32) -> Result<(), SensitivityError> {
-    match inputs.iter().find(|input| input.law.support().0 == f64::NEG_INFINITY) {
+    match inputs.iter().find(|input| input.law.support().min == f64::NEG_INFINITY) {
         Some(input) if first_index == 0 => {
             Err(SensitivityError::UnboundedAtZero { name: input.name.clone() })
         }

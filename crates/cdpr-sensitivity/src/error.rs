@@ -1,6 +1,6 @@
-//! What can be wrong with the data of a study: one small enum, each variant with the numbers a user needs.
+//! Errors of this crate: one small enum, whose variants carry the numbers that a user needs.
 
-use crate::law::family::Family;
+use crate::family::Family;
 
 /// Error of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -35,8 +35,8 @@ pub enum SensitivityError {
         /// Largest value allowed.
         maximum: u64,
     },
-    /// What a count asks for does not fit in memory.
-    #[error("{field} = {value}: expected fewer, whose points fit in memory")]
+    /// The points that a count asks for do not fit in memory.
+    #[error("{field} = {value}: their points do not fit in memory, ask for fewer")]
     OutOfMemory {
         /// Name of the count.
         field: &'static str,
@@ -63,27 +63,28 @@ pub enum SensitivityError {
         /// Value found.
         value: f64,
     },
-    /// Equal-mass steps are asked of a law that is not uniform.
+    /// Steps of equal mass are combined with a law that is not uniform.
     #[error("steps `equal_mass` are defined for a uniform law only: use `nearest`")]
     EqualMassNeedsUniform,
     /// The first point of the unscrambled sequence is all zeros, where the law of this input is infinite.
     #[error(
-        "input `{name}` is unbounded below: start at index 1 or scramble, point 0 of the sequence is all zeros"
+        "input `{name}` has no lower end, but point 0 of the sequence is 0: start at index 1 or scramble"
     )]
     UnboundedAtZero {
         /// Name of the input.
         name: String,
     },
-    /// All values of a sample are equal: no law of two parameters fits it, and no input has a share of its variance.
-    #[error("all {count} values of the sample are {value}: expected at least two different ones")]
+    /// All values of a sample are equal. No law of two parameters fits such a sample, and its variance has no
+    /// shares.
+    #[error("all {count} values of the sample are {value}: expected at least two different values")]
     ConstantSample {
-        /// The only value.
+        /// The value that all have.
         value: f64,
-        /// How often it occurs.
+        /// Number of values.
         count: usize,
     },
     /// A law of positive numbers cannot fit this sample.
-    #[error("{family:?} fits positive values only: the smallest one is {minimum}")]
+    #[error("the {family} law fits positive values only, but the smallest value is {minimum}")]
     NotPositive {
         /// Family asked for.
         family: Family,
@@ -91,16 +92,16 @@ pub enum SensitivityError {
         minimum: f64,
     },
     /// The likelihood equations did not converge.
-    #[error("{family:?}: no maximum of the likelihood after {iterations} iterations")]
+    #[error("the {family} law: no maximum of the likelihood was found in {iterations} iterations")]
     NotConverged {
         /// Family asked for.
         family: Family,
         /// Iterations made.
         iterations: usize,
     },
-    /// One half of the range of an input holds no observation, so that it has no mean.
+    /// One half of the range of an input holds no observation, so that its mean does not exist.
     #[error(
-        "input `{input}`: {above} observations above the middle, {below} below: expected one at least of each"
+        "input `{input}`: {above} observations above the middle, {below} below: expected at least one each"
     )]
     EmptyHalf {
         /// Name of the input.
@@ -110,47 +111,48 @@ pub enum SensitivityError {
         /// Observations below the middle.
         below: usize,
     },
-    /// Levels 0 and 1 are asked of an input whose law is infinite there.
-    #[error("input `{name}` is unbounded: its levels 0 and 1 are infinite, use radial points")]
+    /// Trajectories need the levels 0 and 1, where the law of an input is infinite.
+    #[error("input `{name}` is unbounded, so that its levels 0 and 1 are infinite: use radial points")]
     UnboundedLevels {
         /// Name of the input.
         name: String,
     },
-    /// A matrix is not one of correlations.
+    /// A matrix is not a correlation matrix.
     #[error("correlation[{row}][{column}] = {value}: expected {expected}")]
     NotACorrelation {
         /// Row, from 0.
         row: usize,
         /// Column, from 0.
         column: usize,
-        /// Value found; on the diagonal of a matrix that is not positive definite, the square of the pivot.
+        /// Value found. For a matrix that is not positive definite, this is the square of the failing pivot.
         value: f64,
         /// What was expected, in words.
         expected: &'static str,
     },
-    /// The values of an input follow from those before it, so that they have no coefficients of their own.
-    #[error("input `{input}`: its values are constant or a linear function of those of the inputs before it")]
+    /// The values of an input follow linearly from those of the inputs before it, so that it has no
+    /// coefficient.
+    #[error("input `{input}`: its values are constant, or a linear function of the inputs before it")]
     Collinear {
         /// Name of the input.
         input: String,
     },
     /// No input has this name.
-    #[error("input `{name}`: no input of this name")]
+    #[error("input `{name}`: no input has this name")]
     UnknownInput {
         /// Name asked for.
         name: String,
     },
-    /// The designs of an interval are not independent replicates of one another.
-    #[error("replicate {index}: {expected}")]
+    /// The designs behind an interval are not independent replicates of each other.
+    #[error("replicate {index}: expected {expected}")]
     NotAReplicate {
-        /// Which replicate, from 0.
+        /// Index of the replicate, from 0.
         index: usize,
         /// What was expected, in words.
         expected: &'static str,
     },
 }
 
-/// `Ok` when `valid`, else [`SensitivityError::InvalidParameter`].
+/// Returns [`SensitivityError::InvalidParameter`] unless `valid`.
 pub(crate) fn require(
     valid: bool,
     field: &'static str,
@@ -160,7 +162,7 @@ pub(crate) fn require(
     if valid { Ok(()) } else { Err(SensitivityError::InvalidParameter { field, value, expected }) }
 }
 
-/// `Ok` for a count within its bounds, else [`SensitivityError::OutOfRange`].
+/// Returns [`SensitivityError::OutOfRange`] for a count outside its bounds.
 pub(crate) fn check_range(
     field: &'static str,
     value: u64,
@@ -174,7 +176,7 @@ pub(crate) fn check_range(
     }
 }
 
-/// `Ok` for the length expected, else [`SensitivityError::LengthMismatch`].
+/// Returns [`SensitivityError::LengthMismatch`] for an unexpected length.
 pub(crate) fn check_length(
     field: &'static str,
     value: usize,
@@ -183,7 +185,12 @@ pub(crate) fn check_length(
     if value == expected { Ok(()) } else { Err(SensitivityError::LengthMismatch { field, value, expected }) }
 }
 
-/// `Ok` for a confidence level, else [`SensitivityError::InvalidParameter`].
+/// Returns [`SensitivityError::NotFinite`] for a value that is infinite or NaN.
+pub(crate) fn check_finite(field: &'static str, index: usize, value: f64) -> Result<(), SensitivityError> {
+    if value.is_finite() { Ok(()) } else { Err(SensitivityError::NotFinite { field, index, value }) }
+}
+
+/// Returns [`SensitivityError::InvalidParameter`] unless `level` is a confidence level, in (0, 1).
 pub(crate) fn check_level(level: f64) -> Result<(), SensitivityError> {
     require(level > 0.0 && level < 1.0, "level", level, "a number between 0 and 1")
 }

@@ -1,11 +1,10 @@
-//! Laws of one real variable: of an input, and of an output that a law is fitted to.
+//! Probability laws of one real variable. An input has a law, and a law can be fitted to an output.
 //!
-//! Densities and quantiles as in N. L. Johnson, S. Kotz, N. Balakrishnan, *Continuous univariate distributions*,
-//! 2nd ed., vol. 1 (1994) and 2 (1995). Special functions are those of `statrs`. Its error function has a relative
-//! error of 1e-10, and so have the normal laws here; the standard deviation of one truncated far from its mean loses
-//! two or three digits more.
+//! Densities and quantiles are those of N. L. Johnson, S. Kotz, N. Balakrishnan, *Continuous univariate
+//! distributions*, 2nd ed., vol. 1 (1994) and 2 (1995). The special functions come from `statrs`. Its error
+//! function has a relative error of 1e-10, which the normal laws here inherit. The standard deviation of a
+//! normal law that is truncated far from its mean loses two or three more digits.
 
-pub(crate) mod family;
 pub mod fit;
 mod likelihood;
 pub(crate) mod normal;
@@ -19,25 +18,25 @@ use statrs::function::{beta, gamma};
 use crate::error::{SensitivityError, require};
 use crate::law::normal::{Truncated, ln_normal_pdf, standard_normal_cdf, standard_normal_quantile};
 
-/// A law. In JSON: `{"uniform": {"min": -1.0, "max": 1.0}}`. Its unit is that of the variable.
+/// A probability law, in the unit of its variable. In JSON: `{"uniform": {"min": -1.0, "max": 1.0}}`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Law {
-    /// Constant density on [min, max].
+    /// Uniform law: constant density on [min, max].
     Uniform {
         /// Lower end.
         min: f64,
         /// Upper end, above `min`.
         max: f64,
     },
-    /// Gauss's law.
+    /// Normal law.
     Normal {
         /// Mean.
         mean: f64,
         /// Standard deviation, positive.
         std: f64,
     },
-    /// Gauss's law restricted to [min, max].
+    /// Normal law restricted to [min, max].
     TruncatedNormal {
         /// Mean before truncation.
         mean: f64,
@@ -48,7 +47,7 @@ pub enum Law {
         /// Upper end, above `min`.
         max: f64,
     },
-    /// Density that rises linearly from `min` to `mode` and falls linearly to `max`.
+    /// Triangular law: the density rises linearly from `min` to `mode` and falls linearly to `max`.
     Triangular {
         /// Lower end.
         min: f64,
@@ -57,7 +56,7 @@ pub enum Law {
         /// Upper end, above `min`.
         max: f64,
     },
-    /// Beta law on [min, max]: density (y - min)^(alpha - 1) (max - y)^(beta - 1) up to a factor.
+    /// Beta law on [min, max]: density (x - min)^(alpha - 1) (max - x)^(beta - 1) up to a factor.
     Beta {
         /// Shape at the lower end, positive.
         alpha: f64,
@@ -68,35 +67,35 @@ pub enum Law {
         /// Upper end, above `min`.
         max: f64,
     },
-    /// Law of a positive variable whose logarithm is normal.
+    /// Lognormal law: the logarithm of the positive variable is normal.
     LogNormal {
         /// Mean of the logarithm.
         log_mean: f64,
         /// Standard deviation of the logarithm, positive.
         log_std: f64,
     },
-    /// Law of a positive variable: F = 1 - exp(-(x / scale)^shape).
+    /// Weibull's law of a positive variable: F = 1 - exp(-(x / scale)^shape).
     Weibull {
         /// Shape, positive.
         shape: f64,
         /// Scale, positive.
         scale: f64,
     },
-    /// F = 1 / (1 + exp(-(x - location) / scale)).
+    /// Logistic law: F = 1 / (1 + exp(-(x - location) / scale)).
     Logistic {
         /// Mean.
         location: f64,
         /// Scale, positive.
         scale: f64,
     },
-    /// Law of the largest value: F = exp(-exp(-(x - location) / scale)).
+    /// Gumbel's law of the largest value: F = exp(-exp(-(x - location) / scale)).
     Gumbel {
         /// Mode.
         location: f64,
         /// Scale, positive.
         scale: f64,
     },
-    /// Two-sided exponential law: density exp(-|x - location| / scale) / (2 scale).
+    /// Laplace's two-sided exponential law: density exp(-|x - location| / scale) / (2 scale).
     Laplace {
         /// Median.
         location: f64,
@@ -105,12 +104,29 @@ pub enum Law {
     },
 }
 
+/// Interval of the values that a law allows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    /// Lower end, which may be -∞.
+    pub min: f64,
+    /// Upper end, which may be ∞.
+    pub max: f64,
+}
+
+impl Support {
+    /// Whether both ends are finite.
+    #[must_use]
+    pub fn is_bounded(&self) -> bool {
+        (self.max - self.min).is_finite()
+    }
+}
+
 impl Law {
     /// Checks the parameters. The other methods expect a valid law.
     ///
     /// # Errors
-    /// [`SensitivityError::InvalidParameter`] with the first parameter that is not finite, not positive where it has
-    /// to be, or out of order.
+    /// [`SensitivityError::InvalidParameter`] with the first parameter that is not finite, not positive
+    /// although it has to be, or out of order.
     pub fn validate(&self) -> Result<(), SensitivityError> {
         let finite = |field, value: f64| require(value.is_finite(), field, value, "a finite number");
         let positive = |field, value: f64| {
@@ -134,7 +150,12 @@ impl Law {
                 positive("std", std)?;
                 ordered(min, max)?;
                 let mass = Truncated::new(mean, std, min, max).mass;
-                require(mass > 0.0, "std", std, "one that leaves mass on [min, max] in double precision")
+                require(
+                    mass > 0.0,
+                    "std",
+                    std,
+                    "a deviation that leaves some probability between min and max",
+                )
             }
             Self::Triangular { min, mode, max } => {
                 ordered(min, max)?;
@@ -153,10 +174,10 @@ impl Law {
         }
     }
 
-    /// Ends of the support, infinite where it has none.
+    /// Support of the law. An end that does not exist is infinite.
     #[must_use]
-    pub fn support(&self) -> (f64, f64) {
-        match *self {
+    pub fn support(&self) -> Support {
+        let (min, max) = match *self {
             Self::Uniform { min, max }
             | Self::TruncatedNormal { min, max, .. }
             | Self::Triangular { min, max, .. }
@@ -165,18 +186,22 @@ impl Law {
             Self::Normal { .. } | Self::Logistic { .. } | Self::Gumbel { .. } | Self::Laplace { .. } => {
                 (f64::NEG_INFINITY, f64::INFINITY)
             }
-        }
+        };
+        Support { min, max }
     }
 
-    /// The middle of the domain: halfway between the ends of a bounded support, else the median.
+    /// Middle of the domain: halfway between the ends of a bounded support, otherwise the median.
     #[must_use]
     pub fn middle(&self) -> f64 {
-        let (min, max) = self.support();
-        if (max - min).is_finite() { min + 0.5 * (max - min) } else { self.quantile(0.5) }
+        let support = self.support();
+        let Support { min, max } = support;
+        if support.is_bounded() { min + 0.5 * (max - min) } else { self.quantile(0.5) }
     }
 
-    /// The value that is not exceeded with probability `u`; an end of the support, which may be infinite, at
-    /// u = 0 and 1; not a number for a `u` outside of [0, 1].
+    /// Quantile: the value that is not exceeded with probability `u`.
+    ///
+    /// At u = 0 and u = 1 it is an end of the support, which may be infinite. For `u` outside [0, 1] it is
+    /// NaN.
     #[must_use]
     pub fn quantile(&self, u: f64) -> f64 {
         if !(0.0..=1.0).contains(&u) {
@@ -214,7 +239,7 @@ impl Law {
         }
     }
 
-    /// Probability of a value up to `x`.
+    /// Distribution function: the probability of a value up to `x`.
     #[must_use]
     pub fn cdf(&self, x: f64) -> f64 {
         match *self {
@@ -248,11 +273,11 @@ impl Law {
         }
     }
 
-    /// Natural logarithm of the density at `x`, -∞ outside of the support.
+    /// Natural logarithm of the density at `x`. It is -∞ outside the support.
     #[must_use]
     pub fn ln_pdf(&self, x: f64) -> f64 {
-        let (low, high) = self.support();
-        if x < low || x > high {
+        let Support { min, max } = self.support();
+        if x < min || x > max {
             return f64::NEG_INFINITY;
         }
         match *self {
@@ -343,7 +368,7 @@ impl Law {
     }
 }
 
-/// p ln x, with the limit 0 for p = 0.
+/// Computes p ln x, with the limit 0 for p = 0.
 fn power_term(p: f64, x: f64) -> f64 {
     if p == 0.0 { 0.0 } else { p * x.ln() }
 }

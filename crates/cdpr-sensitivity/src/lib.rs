@@ -1,29 +1,34 @@
-//! Designs of experiments, laws, fits, effects and global sensitivity indices, for any model: plain numbers in, plain
-//! numbers out.
+//! Designs of experiments, laws, fits, effects and global sensitivity indices for any model.
+//!
+//! The crate works on plain numbers and knows no robot.
 //!
 //! | step | module |
 //! |---|---|
-//! | which inputs, with which law and steps | [`law`], [`design::input`] |
-//! | at which points to run the model | [`design`] on [`design::sobol`], [`design::latin_hypercube`], [`design::halton`], [`design::correlated`]; [`design::saltelli`], [`design::morris`] |
-//! | what the output looks like | [`sample::summary`] |
-//! | which law it follows | [`law::fit`] |
-//! | which input matters | [`measure::effect`], [`measure::morris`], [`measure::dgsm`], [`measure::regression`] |
-//! | how much of the variance it causes, alone and with others | [`measure::sobol_indices`], [`measure::expansion`] |
-//! | which tolerances to tighten for a limit | [`measure::allocation`] |
-//! | how sure that is, and how many runs would do | [`sample::interval`], [`measure::convergence`] |
+//! | choose the inputs, their laws and steps | [`law`], [`design::input`] |
+//! | choose the points at which the model runs | [`design`] and its modules |
+//! | summarise the output | [`sample::summary`] |
+//! | find the law that the output follows | [`law::fit`] |
+//! | find the inputs that matter | [`measure::effect`], [`measure::morris`], [`measure::dgsm`] |
+//! | the same by a linear model | [`measure::regression`] |
+//! | share the variance between the inputs and their interactions | [`measure::sobol_indices`] |
+//! | the same from any independent sample | [`measure::expansion`] |
+//! | tighten tolerances until a limit holds | [`measure::allocation`] |
+//! | judge the accuracy and the number of runs | [`sample::interval`], [`measure::convergence`] |
 //!
-//! What holds throughout:
+//! The following holds throughout:
 //!
-//! - a row of a design is had from its index alone: a parallel map gives the same numbers on any number of threads;
-//! - what is random has a seed, an argument without a default;
-//! - an observation that failed is `None`: counted beside the results, part of no mean;
-//! - an estimator takes the design that the outputs belong to, and no design that it would misread.
+//! - A row of a design follows from its index alone. A parallel map gives the same numbers on any number of
+//!   threads.
+//! - Whatever is random has a seed, which is an argument without a default.
+//! - A failed observation is `None`. It is counted, and no mean includes it.
+//! - An estimator takes the type of design to which the outputs belong. A design that it would misinterpret
+//!   does not compile.
 //!
 //! ```
 //! use cdpr_sensitivity::{Input, Law, Sample, SampleDesign, SobolDesign, student_effects};
 //!
 //! # fn main() -> Result<(), cdpr_sensitivity::SensitivityError> {
-//! // y = 3 x1 - x2, and an x3 that does nothing.
+//! // y = 3 x1 - x2, and x3 has no effect.
 //! let unit = Law::Uniform { min: -1.0, max: 1.0 };
 //! let inputs = ["x1", "x2", "x3"].map(|name| Input::continuous(name, unit)).to_vec();
 //! let design = SobolDesign::new(inputs, 0, 2048)?;
@@ -53,6 +58,7 @@ struct Readme;
 
 pub mod design;
 pub mod error;
+mod family;
 pub mod law;
 pub mod measure;
 pub mod sample;
@@ -66,19 +72,20 @@ pub use design::observation::observe;
 pub use design::random::RandomDesign;
 pub use design::saltelli::{Order, SaltelliDesign};
 pub use design::sobol::{Sobol, SobolDesign};
-pub use design::{IndependentSample, JointSample, SampleDesign};
+pub use design::{IndependentSample, JointSample, Layout, SampleDesign};
 pub use error::SensitivityError;
-pub use law::Law;
-pub use law::family::Family;
+pub use family::Family;
 pub use law::fit::{Fit, best, fit, fit_all, ks_distance};
+pub use law::{Law, Support};
 pub use measure::allocation::allocate;
 pub use measure::convergence::{Target, Tightened, convergence, first_tight, until_tight};
 pub use measure::dgsm::{DerivativeMeasure, DerivativeMeasures, Slopes, dgsm, poincare_constant};
 pub use measure::effect::{
-    Effect, EffectInterval, EffectSums, Effects, effect_intervals, intervals_of_effects, student_effects,
+    Effect, EffectInterval, EffectSums, Effects, Replicate, effect_intervals, intervals_of_effects,
+    student_effects,
 };
 pub use measure::expansion::polynomial::{Power, Truncation};
-pub use measure::expansion::{Expansion, Shares, Term, expansion};
+pub use measure::expansion::{Expansion, PairShare, Shares, Term, expansion};
 pub use measure::morris::{MorrisEffect, morris_effects};
 pub use measure::regression::{Coefficient, Regression, rank_correlation, rank_regression, regression};
 pub use measure::sobol_indices::{PairIndex, SobolIndex, SobolIndices, sobol_indices};

@@ -1,4 +1,4 @@
-//! Measures of sensitivity: one module an estimator, each for the design that it takes.
+//! Measures of sensitivity. Each estimator has a module and takes the type of design that it can interpret.
 
 pub mod allocation;
 pub mod convergence;

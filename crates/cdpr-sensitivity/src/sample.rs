@@ -1,4 +1,5 @@
-//! What a sample of numbers tells, and random numbers to draw one with.
+//! Samples of numbers: their summary, intervals of what is estimated from them, and random numbers to draw
+//! them.
 
 pub mod interval;
 pub(crate) mod random;

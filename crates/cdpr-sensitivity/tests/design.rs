@@ -1,4 +1,4 @@
-//! Designs: any row from its index, replicates, and what they refuse.
+//! Designs: rows from their indices, replicates, and refused arguments.
 
 use cdpr_sensitivity::{Input, Law, RandomDesign, SampleDesign, SensitivityError, SobolDesign};
 use rayon::prelude::*;
@@ -109,7 +109,7 @@ fn an_invalid_input_is_named() {
 }
 
 #[test]
-fn rows_one_after_the_other_are_those_had_one_by_one() {
+fn consecutive_rows_are_those_drawn_one_by_one() {
     let plain = SobolDesign::new(uniform(7), 5, 500).unwrap();
     let last = SobolDesign::new(uniform(3), u32::MAX - 9, 10).unwrap();
     let scrambled = SobolDesign::scrambled(uniform(7), 500, 3).unwrap();

@@ -1,9 +1,9 @@
-//! Effects of inputs: exact answers, failed observations, and the trap of significance on Sobol points.
+//! Effects of inputs: exact answers, failed observations, and why t does not show significance on Sobol' points.
 
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{
-    EffectSums, IndependentSample, Input, Law, RandomDesign, SampleDesign, SensitivityError, SobolDesign,
-    Steps, effect_intervals, student_effects,
+    EffectSums, IndependentSample, Input, Law, RandomDesign, Replicate, SampleDesign, SensitivityError,
+    SobolDesign, Steps, effect_intervals, student_effects,
 };
 
 const SLOPES: [f64; 6] = [3.0, -1.0, 0.5, 0.0, 2.0, -0.25];
@@ -142,7 +142,8 @@ fn an_output_that_never_changes_shows_no_effect() {
 
 #[test]
 fn intervals_cover_the_exact_effects_as_often_as_they_say() {
-    // y = x0 + x1² of uniform inputs on [-1, 1]: effects 1 and 0; x2 is inert. 64 points each, 5 replicates, 300 studies.
+    // y = x0 + x1² of uniform inputs on [-1, 1]: effects 1 and 0; x2 is inert. 64 points each, 5 replicates,
+    // 300 studies.
     let unit = Law::Uniform { min: -1.0, max: 1.0 };
     let inputs: Vec<Input> = (0..3).map(|i| Input::continuous(format!("x{i}"), unit)).collect();
     let model = |row: &[f64]| Some(row[0] + row[1] * row[1] + 0.5 * row[0] * row[1] * row[2]);
@@ -152,9 +153,8 @@ fn intervals_cover_the_exact_effects_as_often_as_they_say() {
         model: impl Fn(&[f64]) -> Option<f64>,
     ) -> [bool; 3] {
         let replicate = |r| {
-            let replicate = design.replicate(1000 * study + r);
-            let outputs = outputs(&replicate, &model);
-            (replicate, outputs)
+            let design = design.replicate(1000 * study + r);
+            Replicate { outputs: outputs(&design, &model), design }
         };
         let replicates: Vec<_> = (0..5).map(replicate).collect();
         let intervals = effect_intervals(&replicates, 0.9).unwrap();
@@ -179,13 +179,12 @@ fn two_replicates_give_the_interval_of_one_degree_of_freedom() {
     let input = Input::continuous("x", Law::Uniform { min: 0.0, max: 1.0 });
     let design = SobolDesign::new(vec![input], 0, 8).unwrap();
     let replicate = |seed| {
-        let replicate = design.replicate(seed);
-        let outputs = outputs(&replicate, |row| Some(row[0] * row[0]));
-        (replicate, outputs)
+        let design = design.replicate(seed);
+        Replicate { outputs: outputs(&design, |row| Some(row[0] * row[0])), design }
     };
     let replicates = [replicate(1), replicate(2)];
-    let effect = |(design, outputs): &(SobolDesign, Vec<Option<f64>>)| {
-        student_effects(design, outputs).unwrap().effects[0].effect
+    let effect = |replicate: &Replicate<SobolDesign>| {
+        student_effects(&replicate.design, &replicate.outputs).unwrap().effects[0].effect
     };
     let (one, two) = (effect(&replicates[0]), effect(&replicates[1]));
     let interval = &effect_intervals(&replicates, 0.95).unwrap()[0];
@@ -205,7 +204,7 @@ fn two_replicates_give_the_interval_of_one_degree_of_freedom() {
 }
 
 #[test]
-fn outputs_of_another_design_and_replicates_that_are_none_are_errors() {
+fn outputs_of_another_design_and_invalid_replicates_are_errors() {
     let design = SobolDesign::new(inputs(1), 0, 8).unwrap();
     let error = student_effects(&design, &[Some(1.0); 7]).unwrap_err();
     assert_eq!(error, SensitivityError::LengthMismatch { field: "outputs", value: 7, expected: 8 });
@@ -214,7 +213,8 @@ fn outputs_of_another_design_and_replicates_that_are_none_are_errors() {
     let error = student_effects(&design, &outputs).unwrap_err();
     assert_eq!(error, SensitivityError::EmptyHalf { input: "x0".into(), above: 0, below: 2 });
 
-    let of = |design: SobolDesign| (design, (0..8).map(|i| Some(f64::from(i))).collect::<Vec<_>>());
+    let of =
+        |design: SobolDesign| Replicate { design, outputs: (0..8).map(|i| Some(f64::from(i))).collect() };
     let index = |replicates: &[_]| match effect_intervals(replicates, 0.95).unwrap_err() {
         SensitivityError::NotAReplicate { index, .. } => index,
         other => panic!("{other}"),

@@ -113,7 +113,8 @@ fn each_family_is_found_again_in_a_large_sample_of_its_own() {
         assert!(fits[0].p_value > 0.01, "{:?}", fits[0]);
         assert_relative_eq!(fits[0].law.mean(), law.mean(), max_relative = 0.05);
         assert_relative_eq!(fits[0].law.std(), law.std(), max_relative = 0.05);
-        // Four thousand values tell all other families apart, but not a narrow normal law from a lognormal one.
+        // Four thousand values tell all other families apart, but not a narrow normal law from a lognormal
+        // one.
         for other in &fits[1..] {
             let neighbour = family == Family::Normal && other.family == Family::LogNormal;
             assert!(other.p_value < 0.05 || neighbour, "{family:?} {other:?}");

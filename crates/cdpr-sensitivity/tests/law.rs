@@ -1,7 +1,7 @@
 //! Laws against `scipy`'s, their JSON form, and the steps of an input.
 
 use approx::assert_relative_eq;
-use cdpr_sensitivity::{Input, Law, SensitivityError, Steps};
+use cdpr_sensitivity::{Input, Law, SensitivityError, Steps, Support};
 use proptest::prelude::*;
 
 #[derive(serde::Deserialize)]
@@ -47,7 +47,7 @@ fn quantile_distribution_density_and_moments_are_those_of_scipy() {
 #[test]
 fn the_quantiles_of_0_and_1_are_the_ends_of_the_support() {
     for row in reference() {
-        let (min, max) = row.law.support();
+        let Support { min, max } = row.law.support();
         assert_eq!((row.law.quantile(0.0), row.law.quantile(1.0)), (min, max), "{:?}", row.law);
         assert!(row.law.quantile(-0.1).is_nan() && row.law.quantile(1.1).is_nan());
         assert_eq!((row.law.cdf(min), row.law.cdf(max)), (0.0, 1.0), "{:?}", row.law);
@@ -157,7 +157,7 @@ proptest! {
             let input = Input::stepped("x", law, steps);
             let value = input.value(u);
             let level = (value - law.middle()) / step;
-            let (min, max) = law.support();
+            let Support { min, max } = law.support();
             prop_assert!((min..=max).contains(&value));
             prop_assert!((level - level.round()).abs() < 1e-6);
         }

@@ -1,6 +1,5 @@
-//! Sobol's sequence against `scipy`'s points, and what scrambling has to keep.
+//! Sobol's sequence against `scipy`'s points, and the balance that scrambling keeps.
 
-use cdpr_sensitivity::design::sobol::MAX_DIMENSIONS;
 use cdpr_sensitivity::{SensitivityError, Sobol};
 use proptest::prelude::*;
 
@@ -108,8 +107,8 @@ fn scrambling_integrates_a_smooth_function_far_better_than_random_points() {
 
 #[test]
 fn a_number_of_dimensions_outside_of_the_table_is_an_error() {
-    assert!(Sobol::new(MAX_DIMENSIONS).is_ok());
-    for value in [0, MAX_DIMENSIONS + 1] {
+    assert!(Sobol::new(Sobol::MAX_DIMENSIONS).is_ok());
+    for value in [0, Sobol::MAX_DIMENSIONS + 1] {
         let error = Sobol::new(value).unwrap_err();
         assert!(matches!(error, SensitivityError::OutOfRange { field: "dimensions", .. }), "{error}");
     }

@@ -1,4 +1,4 @@
-//! Moments, quantiles and histograms against values by hand and against `numpy`.
+//! Moments, quantiles and histograms against values computed by hand and by `numpy`.
 
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{Bins, Moments, Sample, SensitivityError};

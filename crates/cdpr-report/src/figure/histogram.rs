@@ -5,7 +5,7 @@ use crate::drawing::heading::Heading;
 use crate::drawing::style::{self, BLUE, GREEN, HEIGHT, Pen, VERMILLION};
 use crate::error::ReportError;
 use crate::text::number;
-use cdpr_sensitivity::Histogram;
+use cdpr_sensitivity::{Histogram, Support};
 use cdpr_study::{FitSummary, SamplingSummary};
 use plotters::prelude::*;
 
@@ -47,7 +47,7 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
     let curves: Vec<Vec<(f64, f64)>> = fits
         .iter()
         .map(|fit| {
-            let (first, last) = fit.parameters.support();
+            let Support { min: first, max: last } = fit.parameters.support();
             // Both sides of the ends of the support, where the density jumps.
             let ends = [first.next_down(), first, last, last.next_up()];
             let mut places: Vec<f64> =

@@ -1,17 +1,19 @@
-//! Correlated inputs: a Gaussian copula over any design of independent ones.
+//! Correlated inputs: a Gaussian copula over any design of independent inputs.
 //!
-//! With Φ the standard normal distribution function, C the matrix of correlations and L its Cholesky factor,
+//! With Φ the standard normal distribution function, C the correlation matrix and L its Cholesky factor,
 //!
 //! ```text
-//! C = L Lᵀ                                                                (1)
-//! z = L Φ⁻¹(u),   v = Φ(z),   x_j = F_j⁻¹(v_j)                            (2)
+//! C = L Lᵀ                                                                (K1)
+//! z = L Φ⁻¹(u),   v = Φ(z),   x_j = F_j⁻¹(v_j)                            (K2)
 //! ```
 //!
-//! R. L. Iman, W. J. Conover, *A distribution-free approach to inducing rank correlation among input variables* (1982);
-//! R. B. Nelsen, *An introduction to copulas* (2006). The law of each input, its steps included, is kept. C is the
-//! correlation of the normal scores z; that of normal inputs is the same, that of uniform ones is (6/π) asin(C / 2).
+//! R. L. Iman, W. J. Conover, *A distribution-free approach to inducing rank correlation among input
+//! variables* (1982); R. B. Nelsen, *An introduction to copulas* (2006). Each input keeps its law and its
+//! steps. C is the correlation of the normal scores z. It is also that of normal inputs; uniform inputs have
+//! the correlation (6/π) asin(C / 2).
 //!
-//! It is no [`IndependentSample`]: effects, chaos expansions and derivative-based measures do not take it.
+//! The design is not an [`IndependentSample`]: effects, chaos expansions and derivative-based measures do not
+//! accept it.
 //!
 //! ```compile_fail,E0277
 //! use cdpr_sensitivity::{Correlated, SobolDesign, Truncation, expansion};
@@ -27,7 +29,7 @@
 //! }
 //! ```
 //!
-//! Regression asks for a [`JointSample`] only:
+//! Regression accepts it, because it needs a [`JointSample`] only:
 //!
 //! ```
 //! use cdpr_sensitivity::{Correlated, SobolDesign, regression};
@@ -36,28 +38,27 @@
 //! }
 //! ```
 
-use crate::design::input::Input;
-use crate::design::{IndependentSample, JointSample, SampleDesign};
+use crate::design::{IndependentSample, JointSample, Layout, SampleDesign};
 use crate::error::{SensitivityError, check_length};
 use crate::law::normal::{standard_normal_cdf, standard_normal_quantile};
 
-/// The points of a design of independent inputs, correlated by Eq. (2).
+/// Points of a design of independent inputs, correlated by Eq. (K2).
 #[derive(Debug, Clone)]
 pub struct Correlated<D> {
     design: D,
-    /// L, row by row, without the zeros.
+    /// L, row by row, without its zeros.
     factor: Vec<Vec<f64>>,
 }
 
 impl<D: IndependentSample> Correlated<D> {
-    /// Correlates the inputs of `design` by a matrix given row by row.
+    /// Correlates the inputs of `design` by a correlation matrix, which is given row by row.
     ///
     /// # Errors
     /// - [`SensitivityError::LengthMismatch`] unless the matrix has a row and a column for each input;
-    /// - [`SensitivityError::NotACorrelation`] for one that is not symmetric with ones on the diagonal and positive
-    ///   definite;
-    /// - [`SensitivityError::UnboundedAtZero`] for a design that begins at the point 0 of an unscrambled sequence,
-    ///   whose normal scores are infinite.
+    /// - [`SensitivityError::NotACorrelation`] unless the matrix is symmetric and positive definite with ones
+    ///   on its diagonal;
+    /// - [`SensitivityError::UnboundedAtZero`] for a design that starts at point 0 of an unscrambled
+    ///   sequence, whose normal scores are infinite.
     pub fn new(design: D, correlation: &[Vec<f64>]) -> Result<Self, SensitivityError> {
         let inputs = design.inputs();
         check_length("correlation", correlation.len(), inputs.len())?;
@@ -75,16 +76,8 @@ impl<D: IndependentSample> Correlated<D> {
 }
 
 impl<D: IndependentSample> SampleDesign for Correlated<D> {
-    fn inputs(&self) -> &[Input] {
-        self.design.inputs()
-    }
-
-    fn points(&self) -> usize {
-        self.design.points()
-    }
-
-    fn seed(&self) -> Option<u64> {
-        self.design.seed()
+    fn layout(&self) -> &Layout {
+        self.design.layout()
     }
 
     fn replicate(&self, seed: u64) -> Self {
@@ -96,7 +89,7 @@ impl<D: IndependentSample> SampleDesign for Correlated<D> {
         for u in point.iter_mut() {
             *u = standard_normal_quantile(*u);
         }
-        // From the last input on: each needs the scores of those before it only.
+        // The last input comes first, because an input needs only the scores of those before it.
         for (j, row) in self.factor.iter().enumerate().rev() {
             let z = row.iter().zip(&*point).map(|(l, score)| l * score).sum();
             point[j] = standard_normal_cdf(z).clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON);
@@ -107,9 +100,9 @@ impl<D: IndependentSample> SampleDesign for Correlated<D> {
 
 impl<D: IndependentSample> JointSample for Correlated<D> {}
 
-/// Eq. (1).
+/// Cholesky factor of a correlation matrix, Eq. (K1).
 fn cholesky(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, SensitivityError> {
-    /// Square of a pivot that is rounding alone.
+    /// A squared pivot up to this value is rounding.
     const SINGULAR: f64 = 1e-12;
     let mut factor: Vec<Vec<f64>> = Vec::with_capacity(matrix.len());
     for (row, entries) in matrix.iter().enumerate() {

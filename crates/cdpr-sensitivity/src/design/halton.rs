@@ -1,37 +1,40 @@
-//! Halton's sequence, any point directly, plain or with scrambled digits.
+//! Halton's sequence, plain or with scrambled digits. Any point is computed directly from its index.
 //!
 //! With `p_j` the j-th prime and `d_0`, `d_1`, .. the digits of the index i in this base,
 //!
 //! ```text
-//! u_ij = Σ_k d_k p_j^-(k+1)                                               (1)
-//! u_ij = Σ_k ((a_jk d_k + c_jk) mod p_j) p_j^-(k+1)                       (2)
+//! u_ij = Σ_k d_k p_j^-(k+1)                                               (Q1)
+//! u_ij = Σ_k ((a_jk d_k + c_jk) mod p_j) p_j^-(k+1)                       (Q2)
 //! ```
 //!
-//! (1): J. H. Halton, *On the efficiency of certain quasi-random sequences of points in evaluating multi-dimensional
-//! integrals*, Numer. Math. 2 (1960). Its points in two large neighbouring bases are correlated until the index has
-//! passed their product; (2), random `a_jk` in 1 .. p - 1 and `c_jk` in 0 .. p - 1 for each digit, breaks that and makes
-//! each point uniform: the diagonal form of the random linear scrambling of J. Matoušek, *On the L2-discrepancy for
-//! anchored boxes*, J. Complexity 14 (1998). Both are taken to the digits that a double holds.
+//! (Q1): J. H. Halton, *On the efficiency of certain quasi-random sequences of points in evaluating
+//! multi-dimensional integrals*, Numer. Math. 2 (1960). Its points in two large neighbouring bases are
+//! correlated until the index has passed the product of the bases.
+//!
+//! (Q2) scrambles each digit by random `a_jk` in 1 .. p - 1 and `c_jk` in 0 .. p - 1, which removes that
+//! correlation and makes each point uniform. It is the diagonal form of the random linear scrambling of J.
+//! Matoušek, *On the L2-discrepancy for anchored boxes*, J. Complexity 14 (1998). Both use as many digits as
+//! a double holds.
 
 use rand::RngExt;
 
 use crate::design::input::Input;
-use crate::design::sobol::MAX_DIMENSIONS;
-use crate::design::{IndependentSample, JointSample, SampleDesign, check_origin, check_points, check_row};
+use crate::design::sobol::Sobol;
+use crate::design::{
+    IndependentSample, JointSample, Layout, SampleDesign, check_origin, check_points, check_row,
+};
 use crate::error::{SensitivityError, check_range};
 use crate::sample::random::stream;
 
 /// Consecutive points of Halton's sequence, plain or scrambled.
 #[derive(Debug, Clone)]
 pub struct Halton {
-    inputs: Vec<Input>,
+    layout: Layout,
     axes: Vec<Axis>,
     first_index: u32,
-    points: usize,
-    seed: Option<u64>,
 }
 
-/// One dimension: its base, and the maps (a, c) of its digits, most significant digit of u first.
+/// One dimension: its base, and the maps (a, c) of its digits, the most significant digit of u first.
 #[derive(Debug, Clone)]
 struct Axis {
     base: u64,
@@ -39,21 +42,24 @@ struct Axis {
 }
 
 impl Halton {
-    /// Points `first_index` to `first_index + points - 1` of the plain sequence (1). Point 0 is all zeros.
+    /// Makes a design of the points `first_index` to `first_index + points - 1` of (Q1). Point 0 is all
+    /// zeros.
     ///
     /// # Errors
-    /// - [`SensitivityError::InvalidInput`] for an input that is not valid;
-    /// - [`SensitivityError::OutOfRange`] for no input or more than [`MAX_DIMENSIONS`], no point, or points beyond 2^32;
-    /// - [`SensitivityError::UnboundedAtZero`] if point 0 is among them and the law of an input has no lower end.
+    /// - [`SensitivityError::InvalidInput`] for an invalid input;
+    /// - [`SensitivityError::OutOfRange`] for no input or more than [`Sobol::MAX_DIMENSIONS`], no point, or
+    ///   points beyond 2^32;
+    /// - [`SensitivityError::UnboundedAtZero`] if point 0 is among them and the law of an input has no lower
+    ///   end.
     pub fn new(inputs: Vec<Input>, first_index: u32, points: usize) -> Result<Self, SensitivityError> {
         check_origin(&inputs, first_index)?;
         Self::over(inputs, first_index, points, None)
     }
 
-    /// The first points of the scrambled sequence (2).
+    /// Makes a design of the first points of the scrambled sequence (Q2).
     ///
     /// # Errors
-    /// As [`Halton::new`], but point 0 may be among the points: it is not zero.
+    /// As [`Halton::new`], but point 0 is allowed: scrambled, it is not zero.
     pub fn scrambled(inputs: Vec<Input>, points: usize, seed: u64) -> Result<Self, SensitivityError> {
         Self::over(inputs, 0, points, Some(seed))
     }
@@ -64,35 +70,27 @@ impl Halton {
         points: usize,
         seed: Option<u64>,
     ) -> Result<Self, SensitivityError> {
-        inputs.iter().try_for_each(Input::validate)?;
-        check_range("inputs", inputs.len() as u64, 1, MAX_DIMENSIONS as u64)?;
+        let layout = Layout::new(inputs, points, seed)?;
+        check_range("inputs", layout.inputs.len() as u64, 1, Sobol::MAX_DIMENSIONS as u64)?;
         check_points(first_index, points)?;
-        let axes = axes(inputs.len(), seed);
-        Ok(Self { inputs, axes, first_index, points, seed })
+        Ok(Self { axes: axes(layout.inputs.len(), seed), layout, first_index })
     }
 }
 
 impl SampleDesign for Halton {
-    fn inputs(&self) -> &[Input] {
-        &self.inputs
-    }
-
-    fn points(&self) -> usize {
-        self.points
-    }
-
-    fn seed(&self) -> Option<u64> {
-        self.seed
+    fn layout(&self) -> &Layout {
+        &self.layout
     }
 
     fn replicate(&self, seed: u64) -> Self {
-        Self { axes: axes(self.inputs.len(), Some(seed)), seed: Some(seed), ..self.clone() }
+        let axes = axes(self.inputs().len(), Some(seed));
+        Self { axes, layout: self.layout.reseeded(seed), first_index: self.first_index }
     }
 
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
         check_row(self, index, point)?;
-        // The middle of the cell of the last digit, neither 0 nor 1, if scrambled.
-        let within = if self.seed.is_some() { 0.5 } else { 0.0 };
+        // A scrambled point is the middle of the cell of its last digit: neither 0 nor 1.
+        let within = if self.seed().is_some() { 0.5 } else { 0.0 };
         for (u, axis) in point.iter_mut().zip(&self.axes) {
             let (mut rest, mut numerator, mut cells) = (u64::from(self.first_index) + index as u64, 0, 1);
             for (a, c) in &axis.maps {
@@ -109,7 +107,7 @@ impl SampleDesign for Halton {
 impl JointSample for Halton {}
 impl IndependentSample for Halton {}
 
-/// Base and digit maps of each dimension: as many digits as fit in 52 bits.
+/// Base and digit maps of each dimension. There are as many digits as fit in 52 bits.
 fn axes(dimensions: usize, seed: Option<u64>) -> Vec<Axis> {
     let axis = |(j, base): (usize, u64)| {
         let digits = (1_u64 << 52).ilog(base);
@@ -126,6 +124,7 @@ fn axes(dimensions: usize, seed: Option<u64>) -> Vec<Axis> {
     primes(dimensions).into_iter().enumerate().map(axis).collect()
 }
 
+/// The first primes.
 fn primes(count: usize) -> Vec<u64> {
     let mut primes: Vec<u64> = Vec::with_capacity(count);
     let mut n = 2;

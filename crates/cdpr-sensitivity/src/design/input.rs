@@ -1,35 +1,38 @@
-//! An input of a model: a name, a law, and the steps that its value is rounded to.
+//! Input of a model: a name, a law, and the steps to which its value is rounded.
 //!
-//! With c the middle of the law's domain, h the step and `k_min`, `k_max` the outermost whole steps inside of the support,
+//! With c the middle of the law's domain, h the step, and `k_min` and `k_max` the outermost whole steps
+//! within the support,
 //!
 //! ```text
-//! nearest:     x = c + h round((F⁻¹(u) - c) / h),   clamped to k_min .. k_max          (1)
-//! equal mass:  x = c + h (k_min + floor(u n)),      n = k_max - k_min + 1 levels      (2)
+//! nearest:     x = c + h round((F⁻¹(u) - c) / h),   clamped to k_min .. k_max          (I1)
+//! equal mass:  x = c + h (k_min + floor(u n)),      n = k_max - k_min + 1 levels      (I2)
 //! ```
 //!
-//! (1) is the "discretisation step" of the source paper's Tables 3 and 4: where the step divides the range, the two
-//! end levels of a uniform law get half the weight of the others. (2) gives each level of a uniform law the same weight.
+//! (I1) is the "discretisation step" of Tables 3 and 4 of the paper (Baklouti, Caro, Courteille, 2017). Where
+//! the step divides the range, the two end levels of a uniform law have half the weight of the others. (I2)
+//! gives each level of a uniform law the same weight.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::{SensitivityError, require};
-use crate::law::Law;
+use crate::law::{Law, Support};
 
-/// Steps that the values of an input are rounded to, on a grid centred on the middle of its law.
+/// Steps to which the values of an input are rounded, on a grid centred on the middle of its law.
 ///
-/// A step that does not divide the range leaves a remainder at both ends that holds no level: ±0.01015 in steps of
-/// 3e-5 has 677 levels, the last one at 338 · 3e-5 = 0.01014, and takes the mass of the remainder there.
+/// A step that does not divide the range leaves a remainder without a level at both ends. For example,
+/// ±0.01015 in steps of 3e-5 has 677 levels. The last one lies at 338 · 3e-5 = 0.01014, and the probability
+/// of the remainder falls on it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Steps {
-    /// Rounding to the nearest level, Eq. (1).
+    /// Rounding to the nearest level, Eq. (I1).
     Nearest {
-        /// Distance of two levels, in the unit of the input, positive.
+        /// Distance between two levels, positive, in the unit of the input.
         step: f64,
     },
-    /// Levels of equal mass, Eq. (2): for a uniform law only.
+    /// Levels of equal mass, Eq. (I2), for a uniform law only.
     EqualMass {
-        /// Distance of two levels, in the unit of the input, positive.
+        /// Distance between two levels, positive, in the unit of the input.
         step: f64,
     },
 }
@@ -38,7 +41,7 @@ pub enum Steps {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Input {
-    /// Name, for reports.
+    /// Name, as reports show it.
     pub name: String,
     /// Law of its value.
     pub law: Law,
@@ -61,8 +64,9 @@ impl Input {
     /// Checks the law and the steps. The other methods expect a valid input.
     ///
     /// # Errors
-    /// [`SensitivityError::InvalidInput`] with what is wrong: the law, a step that is not positive or that is
-    /// longer than the distance from the middle to an end, equal-mass steps of a law that is not uniform.
+    /// [`SensitivityError::InvalidInput`] with the reason: an invalid law, a step that is not positive or
+    /// longer than the distance from the middle to an end, or steps of equal mass for a law that is not
+    /// uniform.
     pub fn validate(&self) -> Result<(), SensitivityError> {
         let check = || {
             self.law.validate()?;
@@ -85,22 +89,22 @@ impl Input {
         })
     }
 
-    /// The value at the probability `u` in [0, 1]: the law's quantile, rounded as the steps say.
+    /// Value at the probability `u` in [0, 1]: the quantile of the law, rounded to the steps.
     #[must_use]
     pub fn value(&self, u: f64) -> f64 {
         self.prepare().value(u)
     }
 
-    /// The same for many values: what does not depend on `u` is computed once.
+    /// Prepares the input for many values: whatever does not depend on `u` is computed once.
     pub(crate) fn prepare(&self) -> Prepared {
         let Some(steps) = self.steps else { return Prepared { law: self.law, levels: None } };
         let (Steps::Nearest { step } | Steps::EqualMass { step }) = steps;
-        let ((min, max), (lowest, highest)) = (self.law.support(), self.grid(step));
+        let (Support { min, max }, (lowest, highest)) = (self.law.support(), self.grid(step));
         let levels = Levels { steps, middle: self.law.middle(), min, max, lowest, highest };
         Prepared { law: self.law, levels: Some(levels) }
     }
 
-    /// Number of levels of a stepped input, infinite for an unbounded law; `None` for a continuous one.
+    /// Number of levels of a stepped input, infinite for an unbounded law. A continuous input has `None`.
     #[must_use]
     pub fn levels(&self) -> Option<f64> {
         let (Steps::Nearest { step } | Steps::EqualMass { step }) = self.steps?;
@@ -108,16 +112,18 @@ impl Input {
         Some(highest - lowest + 1.0)
     }
 
-    /// `k_min` and `k_max`. A remainder of 1e-9 steps is taken for rounding of the range: 0.015 / 0.0006 is 25 steps.
+    /// Outermost steps `k_min` and `k_max`.
+    ///
+    /// A remainder of 1e-9 steps counts as rounding of the range: 0.015 / 0.0006 is 25 steps.
     fn grid(&self, step: f64) -> (f64, f64) {
         const ROUNDING: f64 = 1e-9;
-        let (min, max) = self.law.support();
+        let Support { min, max } = self.law.support();
         let middle = self.law.middle();
         (((min - middle) / step - ROUNDING).ceil(), ((max - middle) / step + ROUNDING).floor())
     }
 }
 
-/// An input ready for many values.
+/// Input that is ready for many values.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Prepared {
     law: Law,
@@ -135,7 +141,7 @@ struct Levels {
 }
 
 impl Prepared {
-    /// Eq. (1) or (2).
+    /// Value at the probability `u`, Eq. (I1) or (I2).
     pub(crate) fn value(&self, u: f64) -> f64 {
         let Some(Levels { steps, middle, min, max, lowest, highest }) = self.levels else {
             return self.law.quantile(u);
@@ -154,13 +160,13 @@ impl Prepared {
     }
 }
 
-/// `x` clamped; no number stays none.
+/// Clamps `x`; NaN stays NaN.
 fn within(x: f64, min: f64, max: f64) -> f64 {
     let x = if x < min { min } else { x };
     if x > max { max } else { x }
 }
 
-/// `f64::round` without the call into a library that processors of the common denominator need for it.
+/// Rounds as `f64::round`, but without the library call that it makes on a baseline x86-64 processor.
 fn round(x: f64) -> f64 {
     const WHOLE: f64 = (1_u64 << 52) as f64;
     if x.abs() < WHOLE { (x + 0.5_f64.next_down().copysign(x)) as i64 as f64 } else { x }

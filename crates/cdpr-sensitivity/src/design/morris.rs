@@ -1,10 +1,13 @@
-//! Blocks of points for screening: in each of them every input is moved once.
+//! Designs for screening: blocks of points, in each of which every input is moved once.
 //!
-//! *Trajectories*: from a random point on a grid of p levels 0, 1/(p - 1), .. 1 (p even) each input is moved once, in
-//! random order, by p / (2 (p - 1)): M. D. Morris, *Factorial sampling plans for preliminary computational experiments*,
-//! Technometrics 33 (1991). *Radial*: from a point of Sobol's sequence each input is moved alone, to its value in another
-//! one: F. Campolongo, A. Saltelli, J. Cariboni, *From screening to quantitative sensitivity analysis*, Comput. Phys.
-//! Commun. 182 (2011), here with Owen's scrambling, under which the two coordinates do not coincide.
+//! *Trajectories*: the first point lies on a grid of p levels 0, 1/(p - 1), .. 1 (p even). From there each
+//! input is moved once, in random order, by p / (2 (p - 1)): M. D. Morris, *Factorial sampling plans for
+//! preliminary computational experiments*, Technometrics 33 (1991).
+//!
+//! *Radial blocks*: from a point of Sobol's sequence each input is moved alone, to its value in another
+//! point: F. Campolongo, A. Saltelli, J. Cariboni, *From screening to quantitative sensitivity analysis*,
+//! Comput. Phys. Commun. 182 (2011). The sequence has Owen's scrambling here, under which the two coordinates
+//! do not coincide.
 
 use rand::RngExt;
 use rand::seq::SliceRandom;
@@ -12,15 +15,14 @@ use rand::seq::SliceRandom;
 use crate::design::input::Input;
 use crate::design::saltelli::radial_sequence;
 use crate::design::sobol::Sobol;
-use crate::design::{SampleDesign, check_row};
+use crate::design::{Layout, SampleDesign, check_row};
 use crate::error::{SensitivityError, check_range, require};
 use crate::sample::random::stream;
 
-/// Blocks of k + 1 points, in each of which every input is moved once.
+/// Blocks of k + 1 points, in each of which every one of the k inputs is moved once.
 #[derive(Debug, Clone)]
 pub struct MorrisDesign {
-    inputs: Vec<Input>,
-    blocks: usize,
+    layout: Layout,
     plan: Plan,
 }
 
@@ -31,10 +33,10 @@ enum Plan {
 }
 
 impl MorrisDesign {
-    /// Independent random trajectories on a grid of `levels` levels.
+    /// Makes independent random trajectories on a grid of `levels` levels.
     ///
     /// # Errors
-    /// - [`SensitivityError::InvalidInput`] for an input that is not valid;
+    /// - [`SensitivityError::InvalidInput`] for an invalid input;
     /// - [`SensitivityError::OutOfRange`] for no input or fewer than two trajectories;
     /// - [`SensitivityError::InvalidParameter`] for a number of levels that is odd or zero;
     /// - [`SensitivityError::UnboundedLevels`] for an input whose law is infinite at level 0 or 1.
@@ -44,40 +46,36 @@ impl MorrisDesign {
         levels: u32,
         seed: u64,
     ) -> Result<Self, SensitivityError> {
-        inputs.iter().try_for_each(Input::validate)?;
-        check_range("inputs", inputs.len() as u64, 1, u64::MAX)?;
         check_range("trajectories", trajectories as u64, 2, u64::MAX)?;
+        let layout = layout(inputs, trajectories, seed)?;
         let even = levels > 0 && levels.is_multiple_of(2);
         require(even, "levels", f64::from(levels), "an even number from 2 on")?;
-        let unbounded = |input: &&Input| {
-            let (low, high) = input.law.support();
-            !(high - low).is_finite()
-        };
-        if let Some(input) = inputs.iter().find(unbounded) {
+        let unbounded = |input: &&Input| !input.law.support().is_bounded();
+        if let Some(input) = layout.inputs.iter().find(unbounded) {
             return Err(SensitivityError::UnboundedLevels { name: input.name.clone() });
         }
-        Ok(Self { inputs, blocks: trajectories, plan: Plan::Trajectories { levels, seed } })
+        Ok(Self { layout, plan: Plan::Trajectories { levels, seed } })
     }
 
-    /// Radial blocks on points of the scrambled Sobol sequence.
+    /// Makes radial blocks on points of the scrambled Sobol' sequence.
     ///
     /// # Errors
-    /// [`SensitivityError::InvalidInput`] for an input that is not valid, [`SensitivityError::OutOfRange`] for no input
-    /// or more than half of [`crate::design::sobol::MAX_DIMENSIONS`], or fewer than two blocks.
+    /// [`SensitivityError::InvalidInput`] for an invalid input, [`SensitivityError::OutOfRange`] for no input
+    /// or more than half of [`Sobol::MAX_DIMENSIONS`], or fewer than two blocks.
     pub fn radial(inputs: Vec<Input>, blocks: usize, seed: u64) -> Result<Self, SensitivityError> {
-        inputs.iter().try_for_each(Input::validate)?;
         check_range("blocks", blocks as u64, 2, 1 << 32)?;
-        let sequence = radial_sequence(inputs.len())?.rescrambled(seed);
-        Ok(Self { inputs, blocks, plan: Plan::Radial(sequence) })
+        let layout = layout(inputs, blocks, seed)?;
+        let sequence = radial_sequence(layout.inputs.len())?.rescrambled(seed);
+        Ok(Self { layout, plan: Plan::Radial(sequence) })
     }
 
     /// Number of trajectories or radial blocks.
     #[must_use]
     pub fn blocks(&self) -> usize {
-        self.blocks
+        self.points() / (self.inputs().len() + 1)
     }
 
-    /// The row within its block that this row, not the first one, is compared with.
+    /// Row of a block with which its row `place` is compared. The first row is not compared.
     pub(crate) fn reference(&self, place: usize) -> usize {
         match self.plan {
             Plan::Trajectories { .. } => place - 1,
@@ -87,19 +85,8 @@ impl MorrisDesign {
 }
 
 impl SampleDesign for MorrisDesign {
-    fn inputs(&self) -> &[Input] {
-        &self.inputs
-    }
-
-    fn points(&self) -> usize {
-        self.blocks * (self.inputs.len() + 1)
-    }
-
-    fn seed(&self) -> Option<u64> {
-        match &self.plan {
-            Plan::Trajectories { seed, .. } => Some(*seed),
-            Plan::Radial(sequence) => sequence.seed(),
-        }
+    fn layout(&self) -> &Layout {
+        &self.layout
     }
 
     fn replicate(&self, seed: u64) -> Self {
@@ -107,12 +94,12 @@ impl SampleDesign for MorrisDesign {
             Plan::Trajectories { levels, .. } => Plan::Trajectories { levels: *levels, seed },
             Plan::Radial(sequence) => Plan::Radial(sequence.rescrambled(seed)),
         };
-        Self { plan, ..self.clone() }
+        Self { plan, layout: self.layout.reseeded(seed) }
     }
 
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
         check_row(self, index, point)?;
-        let k = self.inputs.len();
+        let k = self.inputs().len();
         let (block, place) = (index / (k + 1), index % (k + 1));
         match &self.plan {
             Plan::Trajectories { levels, seed } => {
@@ -142,4 +129,10 @@ impl SampleDesign for MorrisDesign {
         }
         Ok(())
     }
+}
+
+/// Layout of blocks that have one row more than there are inputs.
+fn layout(inputs: Vec<Input>, blocks: usize, seed: u64) -> Result<Layout, SensitivityError> {
+    let points = blocks.saturating_mul(inputs.len() + 1);
+    Layout::new(inputs, points, Some(seed))
 }

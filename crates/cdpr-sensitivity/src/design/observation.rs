@@ -1,16 +1,18 @@
-//! From a design to the outputs of a model, and from both to the numbers that an estimator works on.
+//! From a design to the outputs of a model, and on to the numbers on which an estimator works.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
 use crate::design::SampleDesign;
-use crate::error::{SensitivityError, check_length, check_range};
+use crate::error::{SensitivityError, check_finite, check_length, check_range};
+use crate::sample::summary::check_varies;
 
-/// Runs a model at all points of a design, in parallel: one output a row, `None` where the model has none.
+/// Runs a model at all points of a design in parallel. It returns one output per row, `None` where the model
+/// failed.
 ///
 /// # Errors
-/// Those of [`SampleDesign::row`], which a sound design does not have.
+/// Those of [`SampleDesign::row`]. The designs of this crate do not return any.
 pub fn observe<D: SampleDesign>(
     design: &D,
     model: impl Fn(&[f64]) -> Option<f64> + Sync,
@@ -18,7 +20,7 @@ pub fn observe<D: SampleDesign>(
     observe_rows(design, 0..design.points(), model)
 }
 
-/// [`observe`], of some rows.
+/// Runs a model at some rows of a design, as [`observe`] does at all.
 pub(crate) fn observe_rows<D: SampleDesign>(
     design: &D,
     rows: Range<usize>,
@@ -31,29 +33,27 @@ pub(crate) fn observe_rows<D: SampleDesign>(
     rows.into_par_iter().map_init(|| vec![0.0; design.inputs().len()], output).collect()
 }
 
-/// One output a row of the design, each a finite number or `None`.
+/// Checks that there is one output per row, and that each is finite or `None`.
 pub(crate) fn check_outputs(
     design: &impl SampleDesign,
     outputs: &[Option<f64>],
 ) -> Result<(), SensitivityError> {
     check_length("outputs", outputs.len(), design.points())?;
-    match outputs.iter().enumerate().find(|(_, output)| output.is_some_and(|value| !value.is_finite())) {
-        Some((index, &Some(value))) => Err(SensitivityError::NotFinite { field: "outputs", index, value }),
-        _ => Ok(()),
-    }
+    let mut observed = outputs.iter().enumerate().filter_map(|(index, output)| Some((index, (*output)?)));
+    observed.try_for_each(|(index, value)| check_finite("outputs", index, value))
 }
 
-/// The observations of a design that gave an output.
+/// Observations of a design that gave an output.
 pub(crate) struct Observed {
-    /// Values of each input.
+    /// Values of each input, one per observation.
     pub(crate) columns: Vec<Vec<f64>>,
     pub(crate) outputs: Vec<f64>,
-    /// Observations that gave none.
+    /// Number of failed observations.
     pub(crate) failed: usize,
 }
 
 impl Observed {
-    /// At least `minimum` of them, not all equal.
+    /// Selects them. There must be at least `minimum`, and their outputs must not all be equal.
     pub(crate) fn new(
         design: &impl SampleDesign,
         outputs: &[Option<f64>],
@@ -62,7 +62,7 @@ impl Observed {
         check_outputs(design, outputs)?;
         let values: Vec<f64> = outputs.iter().copied().flatten().collect();
         check_range("observed outputs", values.len() as u64, minimum as u64, u64::MAX)?;
-        check_variance(&values)?;
+        check_varies(&values)?;
         let mut columns = vec![Vec::with_capacity(values.len()); design.inputs().len()];
         let mut row = vec![0.0; columns.len()];
         for index in (0..outputs.len()).filter(|&index| outputs[index].is_some()) {
@@ -73,12 +73,4 @@ impl Observed {
         }
         Ok(Self { columns, failed: outputs.len() - values.len(), outputs: values })
     }
-}
-
-/// At least two different values.
-pub(crate) fn check_variance(values: &[f64]) -> Result<(), SensitivityError> {
-    if values.iter().all(|value| *value == values[0]) {
-        return Err(SensitivityError::ConstantSample { value: values[0], count: values.len() });
-    }
-    Ok(())
 }

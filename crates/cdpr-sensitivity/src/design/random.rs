@@ -1,48 +1,38 @@
-//! Independent random points.
+//! Design of independent random points.
 
 use crate::design::input::Input;
-use crate::design::{IndependentSample, JointSample, SampleDesign, check_row};
-use crate::error::{SensitivityError, check_range};
+use crate::design::{IndependentSample, JointSample, Layout, SampleDesign, check_row};
+use crate::error::SensitivityError;
 use crate::sample::random::{stream, uniform};
 
-/// Independent random points. Row i is stream i of the generator `ChaCha8` (D. J. Bernstein, 2008): an input added
-/// at the end leaves the other columns as they were.
+/// Independent random points.
+///
+/// Row i is stream i of the generator `ChaCha8` (D. J. Bernstein, *ChaCha, a variant of Salsa20*, 2008). An
+/// input that is added at the end leaves the other columns unchanged.
 #[derive(Debug, Clone)]
 pub struct RandomDesign {
-    inputs: Vec<Input>,
-    points: usize,
+    layout: Layout,
     seed: u64,
 }
 
 impl RandomDesign {
-    /// `points` independent rows.
+    /// Makes a design of `points` independent rows.
     ///
     /// # Errors
-    /// [`SensitivityError::InvalidInput`] for an input that is not valid, [`SensitivityError::OutOfRange`] for no
-    /// input or no point.
+    /// [`SensitivityError::InvalidInput`] for an invalid input, [`SensitivityError::OutOfRange`] for no input
+    /// or no point.
     pub fn new(inputs: Vec<Input>, points: usize, seed: u64) -> Result<Self, SensitivityError> {
-        inputs.iter().try_for_each(Input::validate)?;
-        check_range("inputs", inputs.len() as u64, 1, u64::MAX)?;
-        check_range("points", points as u64, 1, u64::MAX)?;
-        Ok(Self { inputs, points, seed })
+        Ok(Self { layout: Layout::new(inputs, points, Some(seed))?, seed })
     }
 }
 
 impl SampleDesign for RandomDesign {
-    fn inputs(&self) -> &[Input] {
-        &self.inputs
-    }
-
-    fn points(&self) -> usize {
-        self.points
-    }
-
-    fn seed(&self) -> Option<u64> {
-        Some(self.seed)
+    fn layout(&self) -> &Layout {
+        &self.layout
     }
 
     fn replicate(&self, seed: u64) -> Self {
-        Self { seed, ..self.clone() }
+        Self { layout: self.layout.reseeded(seed), seed }
     }
 
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {

@@ -1,67 +1,69 @@
-//! The design of Saltelli: blocks of points that differ in one input each.
+//! Saltelli's design: blocks of points that differ in one input each.
 //!
-//! With a and b the first and last k coordinates of a point of Sobol's sequence in 2 k dimensions, one block holds
+//! With a and b the first and last k coordinates of a point of Sobol's sequence in 2 k dimensions, one block
+//! holds
 //!
 //! ```text
-//! a,   ab_1 .. ab_k,   [ba_1 .. ba_k,]   b                                (1)
-//! ab_i = a with the i-th coordinate of b,   ba_i = b with the i-th coordinate of a      (2)
+//! a,   ab_1 .. ab_k,   [ba_1 .. ba_k,]   b                                (B1)
+//! ab_i = a with the i-th coordinate of b,   ba_i = b with the i-th coordinate of a      (B2)
 //! ```
 //!
-//! A. Saltelli, P. Annoni, I. Azzini, F. Campolongo, M. Ratto, S. Tarantola, *Variance based sensitivity analysis of
-//! model output. Design and estimator for the total sensitivity index*, Comput. Phys. Commun. 181 (2010); the order of
-//! the rows is that of SALib. [`crate::sobol_indices()`] is its estimator.
+//! A. Saltelli, P. Annoni, I. Azzini, F. Campolongo, M. Ratto, S. Tarantola, *Variance based sensitivity
+//! analysis of model output. Design and estimator for the total sensitivity index*, Comput. Phys. Commun. 181
+//! (2010). The order of the rows is that of SALib. The estimator is [`crate::sobol_indices()`].
 //!
-//! A scrambled design takes its blocks by turns from [`REPLICATES`] independent scramblings of the sequence. What differs
-//! between them is the error of the indices, which no single sequence shows; and the first half of the blocks is the first
-//! half of each.
+//! A scrambled design takes its blocks in rotation from [`SaltelliDesign::REPLICATES`] independent
+//! scramblings of the sequence. The differences between them show the error of the indices, which a single
+//! sequence does not. The first half of the blocks consists of the first half of each scrambling.
 //!
-//! The points (a, b) are stored, 16 bytes an input and block: each serves k + 2 rows or more.
+//! The points (a, b) are stored, 16 bytes per input and block, because each of them serves k + 2 rows or
+//! more.
 
 use rand::Rng;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::input::Input;
-use crate::design::sobol::{MAX_DIMENSIONS, Sobol};
-use crate::design::{SampleDesign, check_origin, check_points, check_row};
+use crate::design::sobol::Sobol;
+use crate::design::{Layout, SampleDesign, check_origin, check_points, check_row};
 use crate::error::{SensitivityError, check_range};
 use crate::sample::random::stream;
 
-/// Which indices the blocks are for.
+/// Order of the indices that the blocks can estimate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Order {
-    /// First-order and total indices: k + 2 points a block.
+    /// First-order and total indices: k + 2 points per block.
     First,
-    /// Those of pairs of inputs as well: 2 k + 2 points a block.
+    /// Also indices of pairs of inputs: 2 k + 2 points per block.
     Second,
 }
 
-/// Number of independent scramblings of a scrambled [`SaltelliDesign`].
-pub const REPLICATES: usize = 8;
-
-/// Blocks (1). N = 2^m blocks from index 0 keep the balance of the sequence.
+/// Blocks of points (B1). N = 2^m blocks from index 0 keep the balance of the sequence.
 #[derive(Debug, Clone)]
 pub struct SaltelliDesign {
-    inputs: Vec<Input>,
-    /// Sequences of (a, b), taken by turns: the plain one, or scrambled ones.
+    layout: Layout,
+    /// Sequences of (a, b), used in rotation: the plain one, or all scrambled ones.
     sequences: Vec<Sobol>,
     first_index: u32,
-    /// (a, b) of all blocks.
-    points: Vec<f64>,
+    /// Points (a, b) of all blocks.
+    pairs: Vec<f64>,
     order: Order,
-    seed: Option<u64>,
 }
 
 impl SaltelliDesign {
-    /// `blocks` blocks over the plain sequence from `first_index` on.
+    /// Number of independent scramblings of a scrambled design.
+    pub const REPLICATES: usize = 8;
+
+    /// Makes `blocks` blocks from the plain sequence, starting at `first_index`.
     ///
     /// # Errors
-    /// - [`SensitivityError::InvalidInput`] for an input that is not valid;
-    /// - [`SensitivityError::OutOfRange`] for no input or more than half of [`MAX_DIMENSIONS`], no block, or points of
-    ///   the sequence beyond 2^32;
+    /// - [`SensitivityError::InvalidInput`] for an invalid input;
+    /// - [`SensitivityError::OutOfRange`] for no input or more than half of [`Sobol::MAX_DIMENSIONS`], no
+    ///   block, or points of the sequence beyond 2^32;
     /// - [`SensitivityError::OutOfMemory`] for more points than fit in memory;
-    /// - [`SensitivityError::UnboundedAtZero`] if point 0 is among them and the law of an input has no lower end.
+    /// - [`SensitivityError::UnboundedAtZero`] if point 0 is among them and the law of an input has no lower
+    ///   end.
     pub fn new(
         inputs: Vec<Input>,
         first_index: u32,
@@ -72,10 +74,11 @@ impl SaltelliDesign {
         Self::over(inputs, first_index, blocks, order, None)
     }
 
-    /// `blocks` blocks over the first points of [`REPLICATES`] scrambled sequences, by turns.
+    /// Makes `blocks` blocks from the first points of [`SaltelliDesign::REPLICATES`] scrambled sequences in
+    /// rotation.
     ///
     /// # Errors
-    /// As [`SaltelliDesign::new`], but point 0 may be among the points: it is not zero.
+    /// As [`SaltelliDesign::new`], but point 0 is allowed: scrambled, it is not zero.
     pub fn scrambled(
         inputs: Vec<Input>,
         blocks: usize,
@@ -92,34 +95,39 @@ impl SaltelliDesign {
         order: Order,
         seed: Option<u64>,
     ) -> Result<Self, SensitivityError> {
-        inputs.iter().try_for_each(Input::validate)?;
+        let points = blocks.saturating_mul(block_points(order, inputs.len()));
+        let layout = Layout::new(inputs, points, seed)?;
         check_points(first_index, blocks)?;
-        let plain = radial_sequence(inputs.len())?;
+        let inputs = layout.inputs.len();
+        let plain = radial_sequence(inputs)?;
         let sequences = seed.map_or_else(|| vec![plain.clone()], |seed| scramblings(&plain, seed));
-        let points = extended(room(blocks, 2 * inputs.len())?, &sequences, first_index, blocks);
-        Ok(Self { inputs, sequences, first_index, points, order, seed })
+        let pairs = extended(room(blocks, 2 * inputs)?, &sequences, first_index, blocks);
+        Ok(Self { layout, sequences, first_index, pairs, order })
     }
 
-    /// This design with another number of blocks: those that both have are the same.
+    /// Returns this design with another number of blocks. The blocks that both have are the same.
     ///
     /// # Errors
-    /// [`SensitivityError::OutOfRange`] for no block, or points of the sequence beyond 2^32; [`SensitivityError::OutOfMemory`].
+    /// [`SensitivityError::OutOfRange`] for no block, or points of the sequence beyond 2^32;
+    /// [`SensitivityError::OutOfMemory`] for more points than fit in memory.
     pub fn resized(&self, blocks: usize) -> Result<Self, SensitivityError> {
         check_points(self.first_index, blocks)?;
-        let known = &self.points[..self.points.len().min(2 * self.inputs.len() * blocks)];
-        let mut points = room(blocks, 2 * self.inputs.len())?;
-        points.extend_from_slice(known);
-        let points = extended(points, &self.sequences, self.first_index, blocks);
-        Ok(Self { points, ..self.clone() })
+        let size = 2 * self.inputs().len();
+        let known = &self.pairs[..self.pairs.len().min(size * blocks)];
+        let mut pairs = room(blocks, size)?;
+        pairs.extend_from_slice(known);
+        let pairs = extended(pairs, &self.sequences, self.first_index, blocks);
+        let layout = Layout { points: blocks * self.block_points(), ..self.layout.clone() };
+        Ok(Self { layout, sequences: self.sequences.clone(), pairs, ..*self })
     }
 
-    /// Index in the sequence of the first point; 0 of scrambled ones.
+    /// Index of the first point in the sequence. It is 0 for scrambled sequences.
     #[must_use]
     pub fn first_index(&self) -> u32 {
         self.first_index
     }
 
-    /// Number of sequences that the blocks are taken from by turns.
+    /// Number of sequences from which the blocks are taken in rotation.
     #[must_use]
     pub fn sequences(&self) -> usize {
         self.sequences.len()
@@ -128,49 +136,38 @@ impl SaltelliDesign {
     /// Number of blocks N.
     #[must_use]
     pub fn blocks(&self) -> usize {
-        self.points.len() / (2 * self.inputs.len())
+        self.points() / self.block_points()
     }
 
-    /// Which indices the blocks are for.
+    /// Order of the indices that the blocks can estimate.
     #[must_use]
     pub fn order(&self) -> Order {
         self.order
     }
 
-    /// Points of one block.
+    /// Number of points of one block.
     #[must_use]
     pub fn block_points(&self) -> usize {
-        match self.order {
-            Order::First => self.inputs.len() + 2,
-            Order::Second => 2 * self.inputs.len() + 2,
-        }
+        block_points(self.order, self.inputs().len())
     }
 }
 
 impl SampleDesign for SaltelliDesign {
-    fn inputs(&self) -> &[Input] {
-        &self.inputs
-    }
-
-    fn points(&self) -> usize {
-        self.blocks() * self.block_points()
-    }
-
-    fn seed(&self) -> Option<u64> {
-        self.seed
+    fn layout(&self) -> &Layout {
+        &self.layout
     }
 
     fn replicate(&self, seed: u64) -> Self {
         let sequences = scramblings(&self.sequences[0], seed);
-        let points = extended(Vec::new(), &sequences, self.first_index, self.blocks());
-        Self { sequences, points, seed: Some(seed), ..self.clone() }
+        let pairs = extended(Vec::new(), &sequences, self.first_index, self.blocks());
+        Self { layout: self.layout.reseeded(seed), sequences, pairs, ..*self }
     }
 
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
         check_row(self, index, point)?;
-        let k = self.inputs.len();
+        let k = self.inputs().len();
         let (block, place) = (index / self.block_points(), index % self.block_points());
-        let (a, b) = self.points[2 * k * block..2 * k * (block + 1)].split_at(k);
+        let (a, b) = self.pairs[2 * k * block..2 * k * (block + 1)].split_at(k);
         let (from, exchanged, other) = if place <= k {
             (a, place.checked_sub(1), b)
         } else if place + 1 < self.block_points() {
@@ -186,17 +183,28 @@ impl SampleDesign for SaltelliDesign {
     }
 }
 
-/// The sequence of the points (a, b).
+/// Number of points of one block for this many inputs.
+fn block_points(order: Order, inputs: usize) -> usize {
+    match order {
+        Order::First => inputs + 2,
+        Order::Second => 2 * inputs + 2,
+    }
+}
+
+/// Plain sequence of the points (a, b).
 pub(crate) fn radial_sequence(inputs: usize) -> Result<Sobol, SensitivityError> {
-    check_range("inputs", inputs as u64, 1, MAX_DIMENSIONS as u64 / 2)?;
+    check_range("inputs", inputs as u64, 1, Sobol::MAX_DIMENSIONS as u64 / 2)?;
     Sobol::new(2 * inputs)
 }
 
+/// Independent scramblings of a sequence.
 fn scramblings(sequence: &Sobol, seed: u64) -> Vec<Sobol> {
-    (0..REPLICATES as u64).map(|turn| sequence.rescrambled(stream(seed, turn).next_u64())).collect()
+    (0..SaltelliDesign::REPLICATES as u64)
+        .map(|number| sequence.rescrambled(stream(seed, number).next_u64()))
+        .collect()
 }
 
-/// Room for the points of so many blocks.
+/// Reserves memory for the points of this many blocks.
 fn room(blocks: usize, size: usize) -> Result<Vec<f64>, SensitivityError> {
     let mut points = Vec::new();
     let fits = blocks.checked_mul(size).is_some_and(|values| points.try_reserve_exact(values).is_ok());
@@ -207,15 +215,15 @@ fn room(blocks: usize, size: usize) -> Result<Vec<f64>, SensitivityError> {
     }
 }
 
-/// The points (a, b) of all blocks, of which the first ones are known.
+/// Extends known points (a, b) of the first blocks to all blocks.
 fn extended(mut points: Vec<f64>, sequences: &[Sobol], first_index: u32, blocks: usize) -> Vec<f64> {
-    let (size, turns, known) = (sequences[0].dimensions(), sequences.len(), points.len());
+    let (size, count, known) = (sequences[0].dimensions(), sequences.len(), points.len());
     let first = known / size;
     points.resize(blocks * size, 0.0);
     points[known..].par_chunks_mut(size).enumerate().for_each(|(place, point)| {
         let block = first + place;
-        // Below 2^32: `check_points` has seen to it.
-        let written = sequences[block % turns].point(first_index + (block / turns) as u32, point);
+        // `check_points` has ensured that the index is below 2^32.
+        let written = sequences[block % count].point(first_index + (block / count) as u32, point);
         debug_assert!(written.is_ok(), "a point has the dimensions of its sequence");
     });
     points

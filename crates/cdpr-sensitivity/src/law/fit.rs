@@ -1,39 +1,43 @@
 //! Laws fitted to a sample by maximum likelihood, and how well they fit.
 //!
 //! ```text
-//! AIC = 2 k - 2 ln L,   BIC = k ln n - 2 ln L,   k = 2 parameters                     (1)
-//! D = max_i max(i / n - F(x_(i)), F(x_(i)) - (i - 1) / n)                             (2)
-//! p = (1 + #{D* ≥ D}) / (R + 1)                                                       (3)
+//! AIC = 2 k - 2 ln L,   BIC = k ln n - 2 ln L,   k = 2 parameters                     (F1)
+//! D = max_i max(i / n - F(x_(i)), F(x_(i)) - (i - 1) / n)                             (F2)
+//! p = (1 + #{D* ≥ D}) / (R + 1)                                                       (F3)
 //! ```
 //!
-//! (1): H. Akaike (1974), G. Schwarz (1978). (2) is the distance of Kolmogorov and Smirnov. Its usual p-value does
-//! not hold once the parameters are fitted to the same sample (H. W. Lilliefors, 1967), so that (3) draws R samples
-//! from the fitted law, fits each of them again and compares: the parametric bootstrap (A. C. Davison, D. V. Hinkley,
-//! *Bootstrap methods and their application*, 1997, Eq. 4.11).
+//! - (F1): H. Akaike, *A new look at the statistical model identification* (1974); G. Schwarz, *Estimating
+//!   the dimension of a model* (1978).
+//! - (F2) is the distance of Kolmogorov and Smirnov. Its usual p-value does not hold once the parameters are
+//!   fitted to the same sample: H. W. Lilliefors, *On the Kolmogorov-Smirnov test for normality* (1967).
+//! - (F3) therefore draws R samples from the fitted law, fits each of them again and compares the distances.
+//!   This is the parametric bootstrap: A. C. Davison, D. V. Hinkley, *Bootstrap methods and their
+//!   application* (1997), Eq. 4.11.
 //!
-//! All families are laws of a location and a scale, of x or of its logarithm. The distribution of D* then depends on
-//! n and the family only, not on the parameters (F. N. David, N. L. Johnson, 1948): the samples are drawn from the
-//! standard law, and are the same for the normal and the lognormal family, and for Gumbel's and Weibull's.
+//! All families are laws of a location and a scale, either of x or of its logarithm. The distribution of D*
+//! then depends on n and the family only, not on the parameters (F. N. David, N. L. Johnson, *The probability
+//! integral transformation when parameters are estimated from the sample*, 1948). The samples are therefore
+//! drawn from the standard law. The normal and the lognormal family share them, and so do Gumbel's and
+//! Weibull's.
 //!
-//! Left out: laws of a free lower end (Weibull, lognormal or gamma of three parameters) and the beta law on the range
-//! of the sample, whose likelihoods are unbounded; the gamma law of two parameters, which is not of a location and a
-//! scale.
+//! Some laws are left out. The likelihood of a law with a free lower end (Weibull, lognormal or gamma with
+//! three parameters) and that of a beta law on the range of the sample are unbounded. The gamma law with two
+//! parameters is not a law of a location and a scale.
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Exp1};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::error::SensitivityError;
+use crate::error::{SensitivityError, check_range};
+use crate::family::Family;
 use crate::law::Law;
-use crate::law::family::Family;
 use crate::law::likelihood::estimate;
-use crate::sample::random::Bootstrap;
-use crate::sample::summary::Sample;
+use crate::sample::random::{Bootstrap, stream};
+use crate::sample::summary::{Sample, check_varies};
 
 impl Family {
-    /// The standard law of this family on the scale, straight or logarithmic, on which it has a location and a scale.
+    /// Standard law of this family, on the scale (of x or of its logarithm) on which it has a location and a
+    /// scale.
     fn standard(self) -> (Self, Law) {
         let (location, scale) = (0.0, 1.0);
         match self {
@@ -51,17 +55,17 @@ impl Family {
 pub struct Fit {
     /// Family of the law.
     pub family: Family,
-    /// The law of the largest likelihood.
+    /// Law of the largest likelihood in the family.
     pub law: Law,
-    /// Natural logarithm of its likelihood.
+    /// Natural logarithm of the likelihood.
     pub log_likelihood: f64,
-    /// Akaike's criterion: the smaller, the better.
+    /// Akaike's criterion AIC (F1). Smaller is better.
     pub aic: f64,
-    /// Schwarz's criterion: the smaller, the better.
+    /// Schwarz's criterion BIC (F1). Smaller is better.
     pub bic: f64,
-    /// Kolmogorov-Smirnov distance D.
+    /// Kolmogorov-Smirnov distance D (F2).
     pub ks_distance: f64,
-    /// Probability of a distance of D or more, were the sample drawn from this family.
+    /// Probability (F3) of a distance of D or more if the sample was drawn from this family.
     pub p_value: f64,
 }
 
@@ -69,10 +73,11 @@ pub struct Fit {
 ///
 /// # Errors
 /// - [`SensitivityError::OutOfRange`] for fewer than three values or no resample;
-/// - [`SensitivityError::ConstantSample`];
-/// - [`SensitivityError::NotPositive`] for a family of positive values and a sample of others;
-/// - [`SensitivityError::NotConverged`], or [`SensitivityError::InvalidParameter`] of the fitted law, for values that
-///   differ by rounding only.
+/// - [`SensitivityError::ConstantSample`] if all values are equal;
+/// - [`SensitivityError::NotPositive`] for a family of positive values if the sample has a value of 0 or
+///   less;
+/// - [`SensitivityError::NotConverged`], or [`SensitivityError::InvalidParameter`] of the fitted law, for
+///   values that differ by rounding only.
 pub fn fit(sample: &Sample, family: Family, bootstrap: Bootstrap) -> Result<Fit, SensitivityError> {
     let minimum = sample.sorted()[0];
     if family.positive() && minimum <= 0.0 {
@@ -83,7 +88,9 @@ pub fn fit(sample: &Sample, family: Family, bootstrap: Bootstrap) -> Result<Fit,
     assess(sample, family, distances.iter().map(|row| row[0]))
 }
 
-/// Fits all families that apply, by ascending [`Fit::aic`]: without those of positive values if the sample has others.
+/// Fits all families that apply and sorts them by ascending [`Fit::aic`].
+///
+/// Families of positive values are left out if the sample has a value of 0 or less.
 ///
 /// # Errors
 /// As [`fit`], but never [`SensitivityError::NotPositive`].
@@ -104,9 +111,11 @@ pub fn fit_all(sample: &Sample, bootstrap: Bootstrap) -> Result<Vec<Fit>, Sensit
     Ok(fits)
 }
 
-/// The preferred fit: that of the smallest [`Fit::aic`], or, of those within 2 of it, which the sample supports as well
-/// (K. P. Burnham, D. R. Anderson, *Model selection and multimodel inference*, 2002, section 2.6), the first in the order
-/// of [`Family::ALL`], from the most common law on. `None` of an empty list.
+/// Preferred fit: among those whose [`Fit::aic`] lies within 2 of the smallest, the most common law.
+///
+/// The sample supports all of these equally well (K. P. Burnham, D. R. Anderson, *Model selection and
+/// multimodel inference*, 2002, section 2.6). The order of [`Family::ALL`] decides which one is the most
+/// common. The preferred fit of an empty list is `None`.
 #[must_use]
 pub fn best(fits: &[Fit]) -> Option<&Fit> {
     let least = fits.iter().map(|fit| fit.aic).reduce(f64::min)?;
@@ -114,13 +123,14 @@ pub fn best(fits: &[Fit]) -> Option<&Fit> {
     Family::ALL.iter().find_map(|family| supported().find(|fit| fit.family == *family))
 }
 
-/// Kolmogorov-Smirnov distance (2) of a law and a sample.
+/// Kolmogorov-Smirnov distance (F2) of a law and a sample.
 #[must_use]
 pub fn ks_distance(law: &Law, sample: &Sample) -> f64 {
     distance(law, sample.sorted())
 }
 
-/// Estimate, criteria (1), distance (2) and its p-value (3) from the distances of the bootstrap.
+/// Estimates the law and computes its criteria (F1), its distance (F2) and its p-value (F3) from the
+/// distances of the bootstrap.
 fn assess(
     sample: &Sample,
     family: Family,
@@ -144,29 +154,21 @@ fn assess(
     })
 }
 
-/// Parameters of each family.
+/// Number of parameters of each family.
 const PARAMETERS: f64 = 2.0;
-/// One value more than there are parameters.
-const MIN_VALUES: usize = 3;
+/// Least number of values: one more than there are parameters.
+const MIN_VALUES: u64 = 3;
 
 fn check(sample: &Sample, bootstrap: Bootstrap) -> Result<(), SensitivityError> {
     let sorted = sample.sorted();
-    for (field, value, minimum) in
-        [("observed outputs", sorted.len(), MIN_VALUES), ("resamples", bootstrap.resamples, 1)]
-    {
-        if value < minimum {
-            let (value, minimum) = (value as u64, minimum as u64);
-            return Err(SensitivityError::OutOfRange { field, value, minimum, maximum: u64::MAX });
-        }
-    }
-    if sorted[0] == sorted[sorted.len() - 1] {
-        return Err(SensitivityError::ConstantSample { value: sorted[0], count: sorted.len() });
-    }
-    Ok(())
+    check_range("observed outputs", sorted.len() as u64, MIN_VALUES, u64::MAX)?;
+    check_range("resamples", bootstrap.resamples as u64, 1, u64::MAX)?;
+    check_varies(sorted)
 }
 
-/// D* of each base law, a row a resample. Resample r is stream r of the generator: one set of sorted uniform numbers
-/// for all laws.
+/// Distances D* of the base laws, one row per resample.
+///
+/// Resample r is stream r of the generator: all laws share one set of sorted uniform numbers.
 fn bootstrap_distances(
     bases: &[(Family, Law)],
     n: usize,
@@ -187,11 +189,12 @@ fn bootstrap_distances(
     (0..bootstrap.resamples).into_par_iter().map(resample).collect()
 }
 
-/// n uniform numbers in ascending order, without sorting: partial sums of n + 1 exponential numbers over their total
-/// (L. Devroye, *Non-uniform random variate generation*, 1986, section V.3.1).
-fn sorted_uniform(n: usize, seed: u64, stream: u64) -> Vec<f64> {
-    let mut generator = ChaCha8Rng::seed_from_u64(seed);
-    generator.set_stream(stream);
+/// Draws n uniform numbers in ascending order without sorting.
+///
+/// They are the partial sums of n + 1 exponential numbers over their total (L. Devroye, *Non-uniform random
+/// variate generation*, 1986, section V.3.1).
+fn sorted_uniform(n: usize, seed: u64, number: u64) -> Vec<f64> {
+    let mut generator = stream(seed, number);
     let mut total = 0.0;
     let mut sums: Vec<f64> = Vec::with_capacity(n + 1);
     for _ in 0..=n {
@@ -206,8 +209,10 @@ fn sorted_uniform(n: usize, seed: u64, stream: u64) -> Vec<f64> {
     sums
 }
 
-/// Eq. (2), exactly, by bisection of the sample: F and i / n ascend, so that their values at the ends of a part bound
-/// the distance inside of it, and most parts need no further look.
+/// Distance (F2), exactly, by bisection of the sample.
+///
+/// F and i / n ascend, so that their values at the ends of a part bound the distance within it. Most parts
+/// need no further evaluation.
 fn distance(law: &Law, sorted: &[f64]) -> f64 {
     let n = sorted.len() as f64;
     let at = |i: usize| {
@@ -238,8 +243,8 @@ mod tests {
 
     #[test]
     fn the_bootstrap_finds_the_critical_values_of_lilliefors_test() {
-        // 5 % point of D for a normal law of unknown mean and deviation: P. Molin, H. Abdi, *New tables and numerical
-        // approximation for the Kolmogorov-Smirnov/Lilliefors/Van Soest test of normality* (1998).
+        // 5 % point of D for a normal law of unknown mean and deviation: P. Molin, H. Abdi, *New tables and
+        // numerical approximation for the Kolmogorov-Smirnov/Lilliefors/Van Soest test of normality* (1998).
         for n in [20, 50, 200] {
             let size = n as f64;
             let f = (0.83 + size) / size.sqrt() - 0.01;

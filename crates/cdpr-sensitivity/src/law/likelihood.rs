@@ -1,31 +1,34 @@
 //! Maximum-likelihood estimates of laws of a location and a scale.
 //!
-//! With t = a z - b (a = 1 / scale, b = location / scale) of the standardised values z, and -h the logarithm of the
-//! standard density,
+//! Let z be the standardised values and t = a z - b, with a = 1 / scale and b = location / scale, and let -h
+//! be the logarithm of the standard density. Then
 //!
 //! ```text
-//! ln L = n ln a - Σ h(t)                                                  (1)
-//! ∂ ln L / ∂a = n / a - Σ z h'(t),    ∂ ln L / ∂b = Σ h'(t)               (2)
-//! logistic:  h' = tanh(t / 2),        h'' = (1 - h'²) / 2                 (3)
-//! Gumbel:    h' = 1 - exp(-t),        h'' = exp(-t)                       (4)
+//! ln L = n ln a - Σ h(t)                                                  (E1)
+//! ∂ ln L / ∂a = n / a - Σ z h'(t),    ∂ ln L / ∂b = Σ h'(t)               (E2)
+//! logistic:  h' = tanh(t / 2),        h'' = (1 - h'²) / 2                 (E3)
+//! Gumbel:    h' = 1 - exp(-t),        h'' = exp(-t)                       (E4)
 //! ```
 //!
-//! Where h is convex, (1) is concave in (a, b): it has one maximum, and Newton's method finds it (J. Burridge, *A note
-//! on maximum likelihood estimation for regression models using grouped data*, 1981; J. W. Pratt, *Concavity of the
-//! log likelihood*, 1981). Uniform, normal and Laplace laws have theirs in closed form. The logarithm of a lognormal
-//! variable is normal; the negative logarithm of a Weibull variable has Gumbel's law.
+//! Where h is convex, (E1) is concave in (a, b). It has one maximum, and Newton's method finds it (J.
+//! Burridge, *A note on maximum likelihood estimation for regression models using grouped data*, 1981; J. W.
+//! Pratt, *Concavity of the log likelihood*, 1981). The estimates of uniform, normal and Laplace laws have
+//! closed forms. The logarithm of a lognormal variable is normal, and the negative logarithm of a Weibull
+//! variable follows Gumbel's law.
 
 use std::f64::consts::PI;
 
 use statrs::consts::EULER_MASCHERONI;
 
 use crate::error::SensitivityError;
+use crate::family::Family;
 use crate::law::Law;
-use crate::law::family::Family;
-use crate::sample::summary::mean_and_squares;
+use crate::sample::summary::Spread;
 
-/// The member of `family` of the largest likelihood. `sorted` holds at least two different finite values, in
-/// ascending order, positive ones for the lognormal and Weibull families.
+/// Estimates the law of the largest likelihood in `family`.
+///
+/// `sorted` holds at least two different finite values in ascending order. For the lognormal and Weibull
+/// families they are positive.
 pub(crate) fn estimate(family: Family, sorted: &[f64]) -> Result<Law, SensitivityError> {
     let n = sorted.len();
     match family {
@@ -71,19 +74,21 @@ pub(crate) fn estimate(family: Family, sorted: &[f64]) -> Result<Law, Sensitivit
     }
 }
 
-/// Mean and standard deviation with n, the estimates of a normal law.
+/// Mean and standard deviation (with n), which are the estimates of a normal law.
 fn moments(values: &[f64]) -> (f64, f64) {
-    let (mean, squares) = mean_and_squares(values);
-    (mean, (squares / values.len() as f64).sqrt())
+    let spread = Spread::of(values);
+    (spread.mean, (spread.squares / values.len() as f64).sqrt())
 }
 
 const ITERATIONS: usize = 200;
-/// Relative length of the last Newton step. Convergence is quadratic: what is left after it is about its square.
+/// Relative length of the last Newton step. Convergence is quadratic: the error after it is about its square.
 const TOLERANCE: f64 = 1e-7;
 
-/// Location and scale at the maximum of (1) by Newton's method, from the (a, b) of mean 0 and deviation 1. A step is halved while a would leave its domain, or
-/// while the slope along it has turned to more than -0.9 of its first value: a concave function has then been
-/// overshot.
+/// Location and scale at the maximum of (E1) by Newton's method.
+///
+/// `moments_match` are the (a, b) of the law of mean 0 and deviation 1, from which the iteration starts. A
+/// step is halved while it makes a negative, or while the slope at its end is below -0.9 times that at its
+/// beginning: it then has overshot the maximum of the concave function.
 fn concave(
     family: Family,
     sorted: &[f64],
@@ -93,7 +98,7 @@ fn concave(
     let (mean, std) = moments(sorted);
     let z: Vec<f64> = sorted.iter().map(|x| (x - mean) / std).collect();
     let n = z.len() as f64;
-    // Gradient (2) and negative Hessian of (1), by one pass.
+    // Gradient (E2) and negative Hessian of (E1) in one pass.
     let derivatives = |a: f64, b: f64| {
         let (mut za, mut zb, mut haa, mut hab, mut hbb) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for &z in &z {
@@ -106,7 +111,7 @@ fn concave(
         }
         ([n / a - za, zb], [n / (a * a) + haa, hab, hbb])
     };
-    // Start from the law of mean 0 and deviation 1, but from no exponent beyond what a double holds.
+    // a is limited so that no exponential overflows at the start.
     let reach = z[0].abs().max(z[z.len() - 1].abs());
     let [mut a, mut b] = moments_match;
     a = a.min(20.0 / reach);

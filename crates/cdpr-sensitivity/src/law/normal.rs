@@ -1,22 +1,25 @@
-//! The normal law and the truncated one.
+//! The standard normal law, and the normal law truncated to an interval.
 //!
-//! With φ, Φ the standard normal density and distribution function, low and high the ends of the truncation in
-//! standard units,
+//! With φ and Φ the standard normal density and distribution function, and low and high the ends of the
+//! interval in standard units,
 //!
 //! ```text
-//! mass = Φ(high) - Φ(low),   F⁻¹(u) = Φ⁻¹(Φ(low) + u mass)                 (1)
-//! E z = (φ(low) - φ(high)) / mass                                         (2)
-//! Var z = 1 + (low φ(low) - high φ(high)) / mass - (E z)²                 (3)
+//! mass = Φ(high) - Φ(low),   F⁻¹(u) = Φ⁻¹(Φ(low) + u mass)                 (N1)
+//! E z = (φ(low) - φ(high)) / mass                                         (N2)
+//! Var z = 1 + (low φ(low) - high φ(high)) / mass - (E z)²                 (N3)
 //! ```
 //!
-//! N. L. Johnson, S. Kotz, N. Balakrishnan, *Continuous univariate distributions*, vol. 1 (1994), section 13.10.1.
+//! N. L. Johnson, S. Kotz, N. Balakrishnan, *Continuous univariate distributions*, vol. 1 (1994), section
+//! 13.10.1.
 
 use std::f64::consts::{PI, SQRT_2};
 
 use statrs::function::erf;
 
-/// The truncated normal law in standard units, mirrored (`sign` = -1) when its interval lies above the mean, so that
-/// the probabilities are differences of small numbers and not of numbers next to 1.
+/// Truncated normal law in standard units.
+///
+/// An interval above the mean is mirrored (`sign` = -1), so that its probabilities are differences of small
+/// numbers instead of numbers close to 1.
 pub(crate) struct Truncated {
     mean: f64,
     std: f64,
@@ -48,7 +51,7 @@ impl Truncated {
         if self.sign > 0.0 { p } else { 1.0 - p }
     }
 
-    /// Eq. (2).
+    /// Mean (N2) in standard units.
     fn standard_mean(&self) -> f64 {
         (ln_normal_pdf(self.low).exp() - ln_normal_pdf(self.high).exp()) / self.mass
     }
@@ -57,7 +60,7 @@ impl Truncated {
         self.mean + self.sign * self.std * self.standard_mean()
     }
 
-    /// Eq. (3).
+    /// Standard deviation from (N3).
     pub(crate) fn std(&self) -> f64 {
         let ends = self.low * ln_normal_pdf(self.low).exp() - self.high * ln_normal_pdf(self.high).exp();
         self.std * (1.0 + ends / self.mass - self.standard_mean().powi(2)).max(0.0).sqrt()

@@ -1,27 +1,31 @@
-//! Allocation of tolerances: how far to tighten each so that a variance is kept at the least cost.
+//! Allocation of tolerances: by how much to tighten each, so that a variance is reached at the least cost.
 //!
-//! Input j causes the part `v_j` of an output's variance; tightened to the share `s_j` of its deviation, `v_j s_j²` of it. A tolerance
-//! costs `c_j / s_j`: the reciprocal law of machining. The least cost that leaves the variance V is where Lagrange's conditions hold,
+//! Input j causes the part `v_j` of the variance of an output. Tightened to the share `s_j` of its deviation,
+//! it causes `v_j s_j²`. A tolerance costs `c_j / s_j`, the reciprocal law of machining. The least cost that
+//! leaves the variance V satisfies Lagrange's conditions:
 //!
 //! ```text
-//! min  sum c_j / s_j    subject to    sum v_j s_j² = V,    s_j <= 1                    (1)
-//! s_j = min(1, (μ c_j / v_j)^(1/3))                                                    (2)
-//! μ^(2/3) = (V - sum_kept v_j) / sum_tightened c_j^(2/3) v_j^(1/3)                      (3)
+//! min  sum c_j / s_j    subject to    sum v_j s_j² = V,    s_j <= 1                    (A1)
+//! s_j = min(1, (μ c_j / v_j)^(1/3))                                                    (A2)
+//! μ^(2/3) = (V - sum_kept v_j) / sum_tightened c_j^(2/3) v_j^(1/3)                      (A3)
 //! ```
 //!
-//! M. F. Spotts, *Allocation of tolerances to minimize cost of assembly*, J. Eng. Ind. 95 (1973); K. W. Chase, W. H. Greenwood, *Design
-//! issues in mechanical tolerance analysis*, Manufacturing Review 1 (1988). Which tolerances are kept follows from the order of `v_j / c_j`:
-//! (3) is exact after at most one turn an input.
+//! M. F. Spotts, *Allocation of tolerances to minimize cost of assembly*, J. Eng. Ind. 95 (1973); K. W.
+//! Chase, W. H. Greenwood, *Design issues in mechanical tolerance analysis*, Manufacturing Review 1 (1988).
+//! The order of `v_j / c_j` decides which tolerances are kept. (A3) is exact after at most one iteration per
+//! input.
 
 use crate::error::{SensitivityError, check_length, require};
 
-/// The factor `s_j` of each tolerance, above 0, at most 1, that leaves the variance `target` of `variances` at the least cost. All are 1 where
-/// nothing needs to be tightened.
+/// Factors `s_j` of the tolerances, in (0, 1], that leave the variance `target` at the least cost.
+///
+/// `variances` are the parts that the inputs cause, `costs` those of their tolerances. All factors are 1 if
+/// the variance is small enough already.
 ///
 /// ```
 /// use cdpr_sensitivity::allocate;
 ///
-/// // The second input causes most: it is tightened, and the third, of which nothing depends, is not.
+/// // The second input causes most of the variance and is tightened. The third causes nothing and is not.
 /// let factors = allocate(&[1.0, 8.0, 0.0], &[1.0, 1.0, 1.0], 3.0)?;
 /// let left: f64 = [1.0, 8.0].iter().zip(&factors).map(|(v, s)| v * s * s).sum();
 /// assert!((left - 3.0).abs() < 1e-12);
@@ -30,13 +34,14 @@ use crate::error::{SensitivityError, check_length, require};
 /// ```
 ///
 /// # Errors
-/// [`SensitivityError::InvalidParameter`] for a variance that is negative or not finite, a cost or target that is not positive and
-/// finite; [`SensitivityError::LengthMismatch`] unless each variance has a cost.
+/// [`SensitivityError::InvalidParameter`] for a variance that is negative or not finite, and for a cost or a
+/// target that is not positive and finite; [`SensitivityError::LengthMismatch`] unless each variance has a
+/// cost.
 pub fn allocate(variances: &[f64], costs: &[f64], target: f64) -> Result<Vec<f64>, SensitivityError> {
     check_length("costs", costs.len(), variances.len())?;
     for (&variance, &cost) in variances.iter().zip(costs) {
-        let sound = variance.is_finite() && variance >= 0.0;
-        require(sound, "variance", variance, "a finite number, zero or more")?;
+        let valid = variance.is_finite() && variance >= 0.0;
+        require(valid, "variance", variance, "a finite number, zero or more")?;
         require(cost.is_finite() && cost > 0.0, "cost", cost, "a positive finite number")?;
     }
     require(target.is_finite() && target > 0.0, "target", target, "a positive finite number")?;
@@ -63,7 +68,7 @@ pub fn allocate(variances: &[f64], costs: &[f64], target: f64) -> Result<Vec<f64
 mod tests {
     use super::*;
 
-    /// Cost (1), and the variance left.
+    /// Cost (A1), and the variance that is left.
     fn judge(factors: &[f64], variances: &[f64], costs: &[f64]) -> (f64, f64) {
         let cost = factors.iter().zip(costs).map(|(s, c)| c / s).sum();
         (cost, factors.iter().zip(variances).map(|(s, v)| v * s * s).sum())
@@ -102,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_variance_cost_or_target_is_named() {
+    fn an_invalid_variance_cost_or_target_is_named() {
         let message =
             |variance, cost, target| allocate(&[variance], &[cost], target).unwrap_err().to_string();
         assert_eq!(message(-1.0, 1.0, 1.0), "variance = -1: expected a finite number, zero or more");

@@ -1,7 +1,8 @@
-//! Sobol's indices over a growing number of blocks.
+//! Convergence of Sobol's indices over a growing number of blocks.
 //!
-//! The first blocks of a [`SaltelliDesign`] are a design themselves, so that what N outputs give for N / 8, N / 4, N / 2
-//! blocks costs no further observation, and a design that turns out to be too small is doubled, not replaced.
+//! The first blocks of a [`SaltelliDesign`] are a design themselves. The indices of N / 8, N / 4 and N / 2
+//! blocks therefore need no further observation, and a design that turns out to be too small is doubled
+//! instead of replaced.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,35 +13,35 @@ use crate::error::{SensitivityError, require};
 use crate::measure::sobol_indices::{SobolIndices, sobol_indices};
 use crate::sample::random::Bootstrap;
 
-/// When to stop.
+/// Condition on which doubling ends.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Target {
-    /// Width that no interval may exceed.
+    /// Largest width that an interval may have.
     pub width: f64,
     /// Confidence level of the intervals, in (0, 1).
     pub level: f64,
-    /// Blocks not to go beyond.
+    /// Largest number of blocks.
     pub max_blocks: usize,
 }
 
-/// What [`until_tight`] has come to.
+/// Result of [`until_tight`].
 #[derive(Debug, Clone)]
 pub struct Tightened {
-    /// The design, of as many blocks as were needed.
+    /// Design with the number of blocks at the end.
     pub design: SaltelliDesign,
-    /// All its outputs.
+    /// All outputs of the design.
     pub outputs: Vec<Option<f64>>,
-    /// The indices after each doubling.
+    /// Indices after each doubling.
     pub steps: Vec<SobolIndices>,
-    /// Whether the last of them are tight; if not, the next doubling would have gone beyond the maximum.
+    /// Whether the last indices are tight. If not, the next doubling would have exceeded the maximum.
     pub tight: bool,
 }
 
 /// Indices of the first N / 8, N / 4, N / 2 and of all N blocks.
 ///
 /// # Errors
-/// [`SensitivityError::InvalidParameter`] unless N is a power of two; those of [`sobol_indices`], which N / 8 blocks
-/// have to satisfy.
+/// [`SensitivityError::InvalidParameter`] unless N is a power of two from 8 on; those of [`sobol_indices`]
+/// for N / 8 blocks.
 pub fn convergence(
     design: &SaltelliDesign,
     outputs: &[Option<f64>],
@@ -57,17 +58,16 @@ pub fn convergence(
     [8, 4, 2, 1].into_iter().map(of_first).collect()
 }
 
-/// The first of `steps` in which no interval is wider than `width`.
+/// Finds the first of `steps` in which no interval is wider than `width`.
 #[must_use]
 pub fn first_tight(steps: &[SobolIndices], width: f64) -> Option<&SobolIndices> {
     steps.iter().find(|indices| indices.widest() <= width)
 }
 
-/// Runs a model on a design, and on twice as many blocks again and again, until no interval is wider than the target
-/// or the next doubling would exceed its maximum.
+/// Runs a model on a design and doubles its blocks until no interval is wider than the target.
 ///
-/// Looking at the intervals after each doubling makes the last ones a little optimistic: among several looks one may be
-/// tight by chance.
+/// It also ends if the next doubling would exceed the maximum of the target. The test after each doubling
+/// makes the last intervals slightly optimistic, because one of several tests may succeed by chance.
 ///
 /// # Errors
 /// Those of [`sobol_indices`]; [`SensitivityError::InvalidParameter`] for a width that is not positive.

@@ -1,23 +1,26 @@
 //! Derivative-based measures, and the bounds that they set on total indices.
 //!
-//! With C the constant of Poincaré's inequality of the law of input i, `Var g ≤ C E g'²`, and V the variance of the
-//! output,
+//! With C the constant of Poincaré's inequality for the law of input i, `Var g ≤ C E g'²`, and V the variance
+//! of the output,
 //!
 //! ```text
-//! ν_i = E (∂f/∂x_i)²                                                      (1)
-//! T_i ≤ C_i ν_i / V                                                       (2)
-//! uniform:      C = (max - min)² / π²                                     (3)
-//! normal:       C = std²                                                  (4)
-//! log-concave:  C = 1 / ρ(median)²,   ρ the density                       (5)
+//! ν_i = E (∂f/∂x_i)²                                                      (G1)
+//! T_i ≤ C_i ν_i / V                                                       (G2)
+//! uniform:      C = (max - min)² / π²                                     (G3)
+//! normal:       C = std²                                                  (G4)
+//! log-concave:  C = 1 / ρ(median)²,   ρ the density                       (G5)
 //! ```
 //!
-//! (2) to (4): I. M. Sobol', S. Kucherenko, *Derivative based global sensitivity measures and their link with global
-//! sensitivity indices*, Math. Comput. Simul. 79 (2009). (5): M. Lamboni, B. Iooss, A.-L. Popelin, F. Gamboa,
-//! *Derivative-based global sensitivity measures: general links with Sobol' indices and numerical tests*, Math. Comput.
-//! Simul. 87 (2013). (3) holds for every log-concave law on [min, max] (L. E. Payne, H. F. Weinberger, *An optimal
-//! Poincaré inequality for convex domains*, 1960) and (4) for a normal law however truncated (D. Bakry, M. Émery,
-//! *Diffusions hypercontractives*, 1985): the least of those that apply is taken. Laws that are not log-concave have none
-//! here. The steps of an input are disregarded: C is that of the continuous law.
+//! - (G2) to (G4): I. M. Sobol', S. Kucherenko, *Derivative based global sensitivity measures and their link
+//!   with global sensitivity indices*, Math. Comput. Simul. 79 (2009).
+//! - (G5): M. Lamboni, B. Iooss, A.-L. Popelin, F. Gamboa, *Derivative-based global sensitivity measures:
+//!   general links with Sobol' indices and numerical tests*, Math. Comput. Simul. 87 (2013).
+//!
+//! (G3) holds for every log-concave law on [min, max] (L. E. Payne, H. F. Weinberger, *An optimal Poincaré
+//! inequality for convex domains*, 1960), and (G4) for every truncation of a normal law (D. Bakry, M. Émery,
+//! *Diffusions hypercontractives*, 1985). The least constant that applies is used. Laws that are not
+//! log-concave have no constant here. The steps of an input are disregarded: C is the constant of the
+//! continuous law.
 
 use std::f64::consts::PI;
 
@@ -25,18 +28,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::IndependentSample;
 use crate::design::input::Input;
-use crate::design::observation::check_variance;
-use crate::error::{SensitivityError, check_length, check_level, check_range};
-use crate::law::Law;
+use crate::error::{SensitivityError, check_finite, check_length, check_level, check_range};
+use crate::law::{Law, Support};
 use crate::sample::interval::Estimate;
-use crate::sample::summary::mean_and_squares;
+use crate::sample::summary::{Spread, check_varies};
 
-/// Output of an observation and its derivatives.
+/// Output of an observation and its derivatives with respect to the inputs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Slopes {
-    /// The output.
+    /// Output.
     pub output: f64,
-    /// ∂f/∂x of each input, in the unit of the output per that of the input.
+    /// ∂f/∂x for each input, in the unit of the output per that of the input.
     pub gradient: Vec<f64>,
 }
 
@@ -45,34 +47,36 @@ pub struct Slopes {
 pub struct DerivativeMeasure {
     /// Name of the input.
     pub input: String,
-    /// ν (1), with Student's interval, in the square of the unit of the output per that of the input.
+    /// ν (G1) with Student's interval, in the square of the unit of the output per that of the input.
     pub mean_square: Estimate,
-    /// Bound (2) on the total index, `None` for a law without a known constant.
+    /// Bound (G2) on the total index, `None` for a law without a known constant.
     pub total_bound: Option<f64>,
 }
 
 /// Measures of all inputs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct DerivativeMeasures {
-    /// Observations that gave slopes.
+    /// Number of observations that gave slopes.
     pub observed: usize,
-    /// Observations that gave none.
+    /// Number of failed observations.
     pub failed: usize,
     /// Variance V of the output, in the square of its unit.
     pub variance: f64,
-    /// One an input, in the order of the design.
+    /// Measures, one per input in the order of the design.
     pub inputs: Vec<DerivativeMeasure>,
 }
 
-/// Measures from the output and gradient at each row of a design, `None` where there is none, with intervals of ν at a
-/// confidence `level` in (0, 1).
+/// Estimates the measures from the output and gradient at each row of a design, `None` for a failed
+/// observation.
+///
+/// The intervals of ν have the confidence `level` in (0, 1).
 ///
 /// # Errors
-/// - [`SensitivityError::LengthMismatch`] unless there is one element a row, with one derivative an input;
+/// - [`SensitivityError::LengthMismatch`] unless there is one element per row, with one derivative per input;
 /// - [`SensitivityError::NotFinite`] for an output or a derivative that is not finite;
 /// - [`SensitivityError::OutOfRange`] for fewer than two observations with slopes;
 /// - [`SensitivityError::ConstantSample`] if all outputs are equal;
-/// - [`SensitivityError::InvalidParameter`] for the level.
+/// - [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
 pub fn dgsm<D: IndependentSample>(
     design: &D,
     slopes: &[Option<Slopes>],
@@ -85,18 +89,14 @@ pub fn dgsm<D: IndependentSample>(
         slopes.iter().enumerate().filter_map(|(index, slopes)| Some((index, slopes.as_ref()?)))
     {
         check_length("gradient", gradient.len(), inputs.len())?;
-        if let Some(&value) = gradient.iter().find(|slope| !slope.is_finite()) {
-            return Err(SensitivityError::NotFinite { field: "gradient", index, value });
-        }
-        if !output.is_finite() {
-            return Err(SensitivityError::NotFinite { field: "outputs", index, value: *output });
-        }
+        gradient.iter().try_for_each(|&slope| check_finite("gradient", index, slope))?;
+        check_finite("outputs", index, *output)?;
     }
     let observed: Vec<&Slopes> = slopes.iter().flatten().collect();
     check_range("observed outputs", observed.len() as u64, 2, u64::MAX)?;
     let outputs: Vec<f64> = observed.iter().map(|slopes| slopes.output).collect();
-    check_variance(&outputs)?;
-    let variance = mean_and_squares(&outputs).1 / (outputs.len() as f64 - 1.0);
+    check_varies(&outputs)?;
+    let variance = Spread::of(&outputs).variance();
     let measure = |(i, input): (usize, &Input)| {
         let squares: Vec<f64> = observed.iter().map(|slopes| slopes.gradient[i].powi(2)).collect();
         let mean_square = Estimate::of_mean(&squares, level)?;
@@ -111,7 +111,7 @@ pub fn dgsm<D: IndependentSample>(
     })
 }
 
-/// The least of the constants (3) to (5) that apply to a law; `None` for one that is not log-concave.
+/// Least of the constants (G3) to (G5) that apply to a law. A law that is not log-concave has `None`.
 #[must_use]
 pub fn poincare_constant(law: &Law) -> Option<f64> {
     let log_concave = match *law {
@@ -126,7 +126,7 @@ pub fn poincare_constant(law: &Law) -> Option<f64> {
         | Law::Gumbel { .. }
         | Law::Laplace { .. } => true,
     };
-    let (min, max) = law.support();
+    let Support { min, max } = law.support();
     let on_interval = ((max - min) / PI).powi(2);
     let of_normal = match *law {
         Law::Normal { std, .. } | Law::TruncatedNormal { std, .. } => std * std,

@@ -1,79 +1,82 @@
 //! Effect of each input: outputs in the upper half of its domain against those in the lower half.
 //!
-//! With M₊, n₊ the mean and number of the outputs whose input lies above the middle of its domain, M₋, n₋ of those
-//! below it,
+//! With M₊ and n₊ the mean and number of the outputs whose input lies above the middle of its domain, and M₋
+//! and n₋ those of the outputs whose input lies below it,
 //!
 //! ```text
-//! effect = M₊ - M₋                                                        (1)
-//! t = |M₋ - M₊| / √(V_g² / n₋ + V_g² / n₊)                                (2)
-//! interval = ē ± t_(R-1, (1 + level) / 2) s_e / √R                         (3)
+//! effect = M₊ - M₋                                                        (U1)
+//! t = |M₋ - M₊| / √(V_g² / n₋ + V_g² / n₊)                                (U2)
+//! interval = ē ± t_(R-1, (1 + level) / 2) s_e / √R                         (U3)
 //! ```
 //!
-//! (2) is the "t-Student" index of the source paper, section 5.2. Its "general variance" `V_g²` is taken as the variance
-//! (n - 1) of **all** observed outputs. Student's own test has the pooled variance within the two halves instead; with
-//! N outputs, none of them on a middle, the two are tied by `t_pooled²` = t² (N - 2) / (N - 1 - t²) and nearly equal
-//! while t² is small beside N.
+//! (U2) is the "t-Student" index of the paper (Baklouti, Caro, Courteille, 2017, section 5.2). Its "general
+//! variance" `V_g²` is taken as the variance (n - 1) of **all** observed outputs. Student's own test uses the
+//! pooled variance within the two halves instead. With N outputs, none of them on a middle, `t_pooled²` = t²
+//! (N - 2) / (N - 1 - t²). The two are nearly equal while t² is small compared with N.
 //!
-//! **Student's significance is not to be read from t on a Sobol design**: it assumes independent observations, and
-//! the points of the sequence are balanced. Inputs without any effect have a mean t of √(2/π) = 0.80 on random points;
-//! on 2000 Sobol points it is 0.14 in the linear model of 62 inputs of `tests/effect.rs`. The interval (3) over
-//! independent randomisations holds on both: each replicate gives one effect e, and the R effects are independent of
-//! each other (A. B. Owen, *Monte Carlo theory, methods and examples*, 2013, section 17).
+//! **t on a Sobol' design does not show significance.** Student's test assumes independent observations, but
+//! the points of the sequence are balanced. Inputs without any effect have a mean t of √(2/π) = 0.80 on
+//! random points. On 2000 Sobol' points it is 0.14 in the linear model of 62 inputs of `tests/effect.rs`. The
+//! interval (U3) over independent randomisations holds on both. Each replicate gives one effect e, and the R
+//! effects are independent of each other (A. B. Owen, *Monte Carlo theory, methods and examples*, 2013,
+//! section 17).
 //!
 //! For y = Σ b x and uniform inputs, the expected effect of an input is b (max - min) / 2.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::design::IndependentSample;
 use crate::design::input::Input;
-use crate::error::{SensitivityError, require};
-use crate::sample::summary::{Moments, Summary, mean_and_squares};
+use crate::design::observation::check_outputs;
+use crate::error::{SensitivityError, check_length, check_level, check_range};
+use crate::sample::interval::Estimate;
+use crate::sample::summary::{Moments, Spread, Summary};
 
-/// Effect of one input, and the observations it rests on. An observation whose input lies exactly on the middle of
-/// its domain belongs to neither half.
+/// Effect of one input, and the observations on which it is based.
+///
+/// An observation whose input lies exactly on the middle of its domain belongs to neither half.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Effect {
     /// Name of the input.
     pub input: String,
-    /// Observed outputs in the upper half, n₊.
+    /// Number n₊ of observed outputs in the upper half.
     pub above: usize,
-    /// Observed outputs in the lower half, n₋.
+    /// Number n₋ of observed outputs in the lower half.
     pub below: usize,
-    /// Observed outputs on the middle.
+    /// Number of observed outputs on the middle.
     pub on_middle: usize,
-    /// Failed observations in the upper half.
+    /// Number of failed observations in the upper half.
     pub failed_above: usize,
-    /// Failed observations in the lower half.
+    /// Number of failed observations in the lower half.
     pub failed_below: usize,
-    /// M₊, in the unit of the output.
+    /// Mean M₊, in the unit of the output.
     pub mean_above: f64,
-    /// M₋, in the unit of the output.
+    /// Mean M₋, in the unit of the output.
     pub mean_below: f64,
-    /// Signed effect (1), in the unit of the output.
+    /// Signed effect (U1), in the unit of the output.
     pub effect: f64,
-    /// Index t (2). 0 for an output that never changes.
+    /// Index t (U2). It is 0 for a constant output.
     pub student: f64,
 }
 
 /// Effects of all inputs of a design.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Effects {
-    /// The outputs themselves; [`Summary::failed`] counts the observations without one.
+    /// Summary of the outputs. [`Summary::failed`] counts the failed observations.
     pub outputs: Summary,
-    /// One an input, in the order of the design.
+    /// Effects, one per input in the order of the design.
     pub effects: Vec<Effect>,
 }
 
-/// Signed effect of one input over independent replicates of a design, Eq. (3).
+/// Signed effect of one input over independent replicates of a design, Eq. (U3).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct EffectInterval {
     /// Name of the input.
     pub input: String,
-    /// Mean of the effects of the replicates, in the unit of the output.
+    /// Mean effect ē of the replicates, in the unit of the output.
     pub effect: f64,
-    /// Its standard error `s_e` / √R.
+    /// Standard error `s_e` / √R of the mean effect.
     pub standard_error: f64,
     /// Lower end of the interval.
     pub low: f64,
@@ -81,107 +84,91 @@ pub struct EffectInterval {
     pub high: f64,
 }
 
-/// Effects of all inputs on one output, one value an observation of the design, `None` where it has failed.
+/// A replicate of a design and its outputs.
+#[derive(Debug, Clone)]
+pub struct Replicate<D> {
+    /// The design, under a randomisation of its own.
+    pub design: D,
+    /// One output per row, `None` where the observation has failed.
+    pub outputs: Vec<Option<f64>>,
+}
+
+/// Estimates the effects of all inputs from one output per row of the design, `None` for a failed
+/// observation.
 ///
-/// Failed observations take part in no mean. If they gather in one half of an input ([`Effect::failed_above`],
-/// [`Effect::failed_below`]), its effect is that of the observations that did not fail only.
+/// No mean includes failed observations. If they gather in one half of an input ([`Effect::failed_above`],
+/// [`Effect::failed_below`]), its effect describes the other observations only.
 ///
 /// # Errors
-/// - [`SensitivityError::LengthMismatch`] unless there is one output a row;
+/// - [`SensitivityError::LengthMismatch`] unless there is one output per row;
 /// - [`SensitivityError::NotFinite`] for a value that is not finite;
 /// - [`SensitivityError::OutOfRange`] for fewer than two values;
-/// - [`SensitivityError::EmptyHalf`] if no value is left in one half of an input.
+/// - [`SensitivityError::EmptyHalf`] if one half of an input has no value.
 pub fn student_effects<D: IndependentSample>(
     design: &D,
     outputs: &[Option<f64>],
 ) -> Result<Effects, SensitivityError> {
-    if outputs.len() != design.points() {
-        let (value, expected) = (outputs.len(), design.points());
-        return Err(SensitivityError::LengthMismatch { field: "outputs", value, expected });
-    }
+    check_outputs(design, outputs)?;
     let mut sums = EffectSums::new(design.inputs(), outputs.iter().find_map(|output| *output).unwrap_or(0.0));
     let mut row = vec![0.0; design.inputs().len()];
     for (index, &output) in outputs.iter().enumerate() {
-        if let Some(value) = output.filter(|value| !value.is_finite()) {
-            return Err(SensitivityError::NotFinite { field: "outputs", index, value });
-        }
         design.row(index, &mut row)?;
         sums.add(&row, output);
     }
     sums.effects(design.inputs())
 }
 
-/// Interval (3) of the effect of each input at a confidence `level` in (0, 1), from at least two replicates of one
-/// design, each with its outputs.
+/// Interval (U3) of the effect of each input at a confidence `level` in (0, 1), from at least two replicates.
 ///
 /// # Errors
 /// Those of [`intervals_of_effects`] and [`student_effects`].
 pub fn effect_intervals<D: IndependentSample>(
-    replicates: &[(D, Vec<Option<f64>>)],
+    replicates: &[Replicate<D>],
     level: f64,
 ) -> Result<Vec<EffectInterval>, SensitivityError> {
-    let designs: Vec<&D> = replicates.iter().map(|(design, _)| design).collect();
+    let designs: Vec<&D> = replicates.iter().map(|replicate| &replicate.design).collect();
     check_replicates(&designs)?;
     let effects: Vec<Effects> = replicates
         .par_iter()
-        .map(|(design, outputs)| student_effects(design, outputs))
+        .map(|replicate| student_effects(&replicate.design, &replicate.outputs))
         .collect::<Result<_, _>>()?;
     intervals_of_effects(&designs, &effects, level)
 }
 
-/// The same from the effects of each replicate.
+/// Interval (U3) of the effect of each input, from the effects that are known for each replicate.
 ///
 /// # Errors
-/// - [`SensitivityError::InvalidParameter`] for the level;
+/// - [`SensitivityError::InvalidParameter`] for a level outside (0, 1);
 /// - [`SensitivityError::OutOfRange`] for fewer than two replicates;
-/// - [`SensitivityError::NotAReplicate`] for a design without a seed, with the seed of another one, or of other inputs
-///   or size;
+/// - [`SensitivityError::NotAReplicate`] for a design without a seed, with the seed of another replicate, or
+///   with other inputs or another size;
 /// - [`SensitivityError::LengthMismatch`] unless there are effects for each replicate.
 pub fn intervals_of_effects<D: IndependentSample>(
     designs: &[&D],
     replicates: &[Effects],
     level: f64,
 ) -> Result<Vec<EffectInterval>, SensitivityError> {
-    require(level > 0.0 && level < 1.0, "level", level, "a number between 0 and 1")?;
+    check_level(level)?;
     check_replicates(designs)?;
-    if replicates.len() != designs.len() {
-        let (value, expected) = (replicates.len(), designs.len());
-        return Err(SensitivityError::LengthMismatch { field: "replicates", value, expected });
-    }
-    let first = designs[0];
-    let mut effects = vec![Vec::with_capacity(replicates.len()); first.inputs().len()];
+    check_length("replicates", replicates.len(), designs.len())?;
+    let inputs = designs[0].inputs();
+    let mut effects = vec![Vec::with_capacity(replicates.len()); inputs.len()];
     for replicate in replicates {
         for (effects, effect) in effects.iter_mut().zip(&replicate.effects) {
             effects.push(effect.effect);
         }
     }
-    let freedom = replicates.len() as f64 - 1.0;
-    let factor = StudentsT::new(0.0, 1.0, freedom)
-        .map_err(|_| SensitivityError::InvalidParameter {
-            field: "replicates",
-            value: freedom + 1.0,
-            expected: "two at least",
-        })?
-        .inverse_cdf(0.5 * (1.0 + level));
     let interval = |(input, effects): (&Input, &Vec<f64>)| {
-        let (effect, squares) = mean_and_squares(effects);
-        let standard_error = (squares / freedom / (freedom + 1.0)).sqrt();
-        let half_width = factor * standard_error;
-        let input = input.name.clone();
-        EffectInterval { input, effect, standard_error, low: effect - half_width, high: effect + half_width }
+        let Estimate { value, low, high } = Estimate::of_mean(effects, level)?;
+        let standard_error = Spread::of(effects).standard_error();
+        Ok(EffectInterval { input: input.name.clone(), effect: value, standard_error, low, high })
     };
-    Ok(first.inputs().iter().zip(&effects).map(interval).collect())
+    inputs.iter().zip(&effects).map(interval).collect()
 }
 
+/// Checks that the designs are independent replicates of each other.
 fn check_replicates<D: IndependentSample>(designs: &[&D]) -> Result<(), SensitivityError> {
-    if designs.len() < 2 {
-        return Err(SensitivityError::OutOfRange {
-            field: "replicates",
-            value: designs.len() as u64,
-            minimum: 2,
-            maximum: u64::MAX,
-        });
-    }
+    check_range("replicates", designs.len() as u64, 2, u64::MAX)?;
     let first = designs[0];
     let mut seeds = std::collections::BTreeSet::new();
     for (index, design) in designs.iter().enumerate() {
@@ -199,10 +186,11 @@ fn check_replicates<D: IndependentSample>(designs: &[&D]) -> Result<(), Sensitiv
     Ok(())
 }
 
-/// What the effects of all inputs need of the observations, which come one by one and need not be kept.
+/// Sums over observations from which the effects of all inputs follow. The observations arrive one by one and
+/// are not stored.
 ///
-/// Sums of blocks of observations can be merged. The result depends on the order of observations and blocks by rounding only; where it
-/// matters, merge blocks of fixed size in the order of their indices.
+/// Sums of blocks of observations can be merged. The order of observations and blocks changes the result by
+/// rounding only. Where the last digit matters, merge blocks of a fixed size in the order of their indices.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EffectSums {
     outputs: Moments,
@@ -212,8 +200,10 @@ pub struct EffectSums {
     below: Parts,
 }
 
-/// Outputs in one part of the domain of each input: how many, how many failed, and the sum of `output - shift`. Counts are whole
-/// numbers up to 2^53.
+/// Outputs in one half of the domain of each input: their number, the failed ones, and the sum of `output -
+/// shift`.
+///
+/// The counts are whole numbers up to 2^53.
 #[derive(Debug, Clone, PartialEq)]
 struct Parts {
     count: Vec<f64>,
@@ -227,8 +217,10 @@ impl Parts {
         Self { count: zeros(), failed: zeros(), sum: zeros() }
     }
 
-    /// Adds an observation to the parts that it lies in. Sums of chosen numbers instead of branches, which on random inputs would be
-    /// foreseen half of the time, and no index to check: the loop fills a vector unit.
+    /// Adds an observation to the halves in which it lies.
+    ///
+    /// The loop adds selected numbers instead of branching, because a processor would predict such a branch
+    /// half of the time only, and it needs no bounds check. It fills a vector unit.
     fn add(
         &mut self,
         row: &[f64],
@@ -255,8 +247,10 @@ impl Parts {
 }
 
 impl EffectSums {
-    /// No observation yet. `shift` is an output that is near the others, of the nominal model say: deviations from it keep their
-    /// digits in the sums.
+    /// Starts without observations.
+    ///
+    /// `shift` is an output close to the others, such as that of the nominal model. Deviations from it keep
+    /// their digits in the sums.
     #[must_use]
     pub fn new(inputs: &[Input], shift: f64) -> Self {
         let middles: Vec<f64> = inputs.iter().map(|input| input.law.middle()).collect();
@@ -264,10 +258,10 @@ impl EffectSums {
         Self { outputs: Moments::default(), shift, middles, above: parts.clone(), below: parts }
     }
 
-    /// Adds an observation: the values of its inputs and its finite output, `None` if it failed.
+    /// Adds an observation: the values of its inputs, and its finite output or `None` if it failed.
     pub fn add(&mut self, row: &[f64], output: Option<f64>) {
         self.outputs.add(output);
-        // An observation that failed counts where it failed, with nothing to add.
+        // A failed observation counts as failed and adds nothing to the sum.
         let counted_failed_deviation = match output {
             Some(output) => [1.0, 0.0, output - self.shift],
             None => [0.0, 1.0, 0.0],
@@ -277,7 +271,7 @@ impl EffectSums {
         self.below.add(row, middles, |value, middle| value < middle, counted_failed_deviation);
     }
 
-    /// Adds the observations of other sums with the same inputs and shift.
+    /// Adds the observations of other sums, which have the same inputs and shift.
     pub fn merge(&mut self, other: &Self) {
         self.outputs.merge(&other.outputs);
         self.above.merge(&other.above);
@@ -290,11 +284,11 @@ impl EffectSums {
         &self.outputs
     }
 
-    /// Effects, Eq. (1) and (2), of the inputs these sums were made for.
+    /// Effects, Eq. (U1) and (U2). `inputs` are those for which the sums were made.
     ///
     /// # Errors
-    /// [`SensitivityError::OutOfRange`] for fewer than two values, [`SensitivityError::EmptyHalf`] if no value is left in one half of
-    /// an input.
+    /// [`SensitivityError::OutOfRange`] for fewer than two values, [`SensitivityError::EmptyHalf`] if one
+    /// half of an input has no value.
     pub fn effects(&self, inputs: &[Input]) -> Result<Effects, SensitivityError> {
         let outputs = self.outputs.summary()?;
         let effect = |(j, input): (usize, &Input)| {

@@ -1,17 +1,19 @@
-//! Sparse polynomial chaos expansion: a polynomial model of the output, and all Sobol' indices from its coefficients.
+//! Sparse polynomial chaos expansion: a polynomial model of the output, whose coefficients give all Sobol'
+//! indices.
 //!
 //! With the orthonormal products Ψ of [`crate::measure::expansion::polynomial`],
 //!
 //! ```text
-//! y = c_0 + Σ_α c_α Ψ_α(x),   V = Σ c_α²                                  (1)
-//! S_u = Σ c_α² / V over the α of the inputs u exactly                     (2)
-//! closed_u = Σ c_α² / V over the α of no input beyond u                   (3)
-//! T_u = Σ c_α² / V over the α of some input of u                          (4)
+//! y = c_0 + Σ_α c_α Ψ_α(x),   V = Σ c_α²                                  (X1)
+//! S_u = Σ c_α² / V over the α of the inputs u exactly                     (X2)
+//! closed_u = Σ c_α² / V over the α of no input beyond u                   (X3)
+//! T_u = Σ c_α² / V over the α of some input of u                          (X4)
 //! ```
 //!
-//! B. Sudret, *Global sensitivity analysis using polynomial chaos expansions*, Reliab. Eng. Syst. Saf. 93 (2008). Which
-//! terms, and up to which degree, the corrected leave-one-out error says (`pursuit`). It is the share of the
-//! variance that the model does not predict; the indices are those of the model, no nearer to the truth than that.
+//! B. Sudret, *Global sensitivity analysis using polynomial chaos expansions*, Reliab. Eng. Syst. Saf. 93
+//! (2008). The corrected leave-one-out error decides which terms are included and up to which degree (see
+//! `pursuit`). This error is the share of the variance that the model does not predict. The indices are those
+//! of the polynomial model: they are as close to those of the true model as it is.
 
 pub mod polynomial;
 mod pursuit;
@@ -26,36 +28,32 @@ use crate::error::{SensitivityError, check_length, check_range, require};
 use crate::measure::expansion::polynomial::{Power, Truncation, polynomials};
 use crate::measure::expansion::pursuit::pursue;
 
-/// Least number of outputs that an expansion is fitted to.
-pub const MIN_OUTPUTS: usize = 10;
-/// Largest degree of an expansion.
-pub const MAX_DEGREE: usize = 100;
-/// Most values of candidate terms, terms times outputs: 1 GiB.
+/// Largest number of values of candidate terms (terms times outputs): 1 GiB.
 const MAX_VALUES: usize = 1 << 27;
 
 /// One term of an expansion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Term {
-    /// α: the inputs of the product and their degrees.
+    /// α: inputs of the product and their degrees.
     pub powers: Vec<Power>,
-    /// `c_α`, in the unit of the output.
+    /// Coefficient `c_α`, in the unit of the output.
     pub coefficient: f64,
 }
 
-/// A sparse expansion (1).
+/// Sparse expansion (X1).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Expansion {
     /// Inputs, in the order of the design.
     pub inputs: Vec<Input>,
-    /// Observations that it is fitted to.
+    /// Number of observations to which the expansion is fitted.
     pub observed: usize,
-    /// Observations that failed.
+    /// Number of failed observations.
     pub failed: usize,
-    /// Degree chosen.
+    /// Chosen degree.
     pub degree: usize,
     /// Mean `c_0`, in the unit of the output.
     pub mean: f64,
-    /// Terms, in the order in which they were found.
+    /// Terms in the order in which they were found.
     pub terms: Vec<Term>,
     /// Corrected leave-one-out error, as a share of the variance of the outputs.
     pub leave_one_out: f64,
@@ -64,19 +62,30 @@ pub struct Expansion {
 /// Indices of one input, or of a group of inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Shares {
-    /// Share of the variance that the inputs cause without others: (3). Of one input, its index of the first order.
+    /// Share of the variance that the inputs cause without others, Eq. (X3). For one input it is its
+    /// first-order index.
     pub closed: f64,
-    /// Share of the variance that they take part in (4).
+    /// Share of the variance in which the inputs take part, Eq. (X4).
     pub total: f64,
 }
 
-/// Fits an expansion to one output a row, `None` where it has failed.
+/// Index of a pair of inputs.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+pub struct PairShare {
+    /// Indices of the inputs, the smaller one first.
+    pub inputs: [usize; 2],
+    /// Share of the variance that the two cause together, beyond what each causes alone, Eq. (X2).
+    pub share: f64,
+}
+
+/// Fits an expansion to one output per row of the design, `None` for a failed observation.
 ///
 /// # Errors
-/// - [`SensitivityError::InvalidParameter`] for a norm of the truncation outside of (0, 1];
-/// - [`SensitivityError::OutOfRange`] for a degree of zero or above [`MAX_DEGREE`], no interactions (1 is for none),
-///   candidate terms of more than 2^27 values, fewer than [`MIN_OUTPUTS`] outputs;
-/// - [`SensitivityError::LengthMismatch`] unless there is one output a row;
+/// - [`SensitivityError::InvalidParameter`] for a norm of the truncation outside (0, 1];
+/// - [`SensitivityError::OutOfRange`] for a degree of zero or above [`Expansion::MAX_DEGREE`], zero
+///   interactions (1 excludes products of several inputs), candidate terms of more than 2^27 values, or fewer
+///   than [`Expansion::MIN_OUTPUTS`] outputs;
+/// - [`SensitivityError::LengthMismatch`] unless there is one output per row;
 /// - [`SensitivityError::NotFinite`] for a value that is not finite;
 /// - [`SensitivityError::ConstantSample`] if all outputs are equal.
 pub fn expansion<D: IndependentSample>(
@@ -86,9 +95,9 @@ pub fn expansion<D: IndependentSample>(
 ) -> Result<Expansion, SensitivityError> {
     let Truncation { max_degree, norm, interactions } = truncation;
     require(norm > 0.0 && norm <= 1.0, "norm", norm, "a number above 0, at most 1")?;
-    check_range("degree", max_degree as u64, 1, MAX_DEGREE as u64)?;
+    check_range("degree", max_degree as u64, 1, Expansion::MAX_DEGREE as u64)?;
     check_range("interactions", interactions as u64, 1, u64::MAX)?;
-    let observed = Observed::new(design, outputs, MIN_OUTPUTS)?;
+    let observed = Observed::new(design, outputs, Expansion::MIN_OUTPUTS)?;
     let inputs = design.inputs();
     let n = observed.outputs.len();
     // values[input][observation][degree]
@@ -133,21 +142,26 @@ pub fn expansion<D: IndependentSample>(
 }
 
 impl Expansion {
-    /// Variance V (1) of the expansion, in the square of the unit of the output.
+    /// Least number of outputs that an expansion is fitted to.
+    pub const MIN_OUTPUTS: usize = 10;
+    /// Largest degree of an expansion.
+    pub const MAX_DEGREE: usize = 100;
+
+    /// Variance V of the expansion, Eq. (X1), in the square of the unit of the output.
     #[must_use]
     pub fn variance(&self) -> f64 {
         self.terms.iter().map(|term| term.coefficient * term.coefficient).sum()
     }
 
-    /// Indices of each input, in the order of the design. All are 0 if no term is better than the mean.
+    /// Indices of each input in the order of the design. All are 0 if no term improves on the mean.
     #[must_use]
     pub fn indices(&self) -> Vec<Shares> {
         (0..self.inputs.len()).map(|input| self.shares(&[input])).collect()
     }
 
-    /// Index (2) of each pair of inputs that a term has, by their indices, in ascending order.
+    /// Index (X2) of each pair of inputs that occurs in a term, in ascending order of the inputs.
     #[must_use]
-    pub fn pairs(&self) -> Vec<([usize; 2], f64)> {
+    pub fn pairs(&self) -> Vec<PairShare> {
         let variance = self.variance();
         let mut pairs = std::collections::BTreeMap::new();
         for term in &self.terms {
@@ -156,13 +170,13 @@ impl Expansion {
                 *pairs.entry([one.input, other.input]).or_insert(0.0) += share;
             }
         }
-        pairs.into_iter().collect()
+        pairs.into_iter().map(|(inputs, share)| PairShare { inputs, share }).collect()
     }
 
     /// Indices of a group of inputs, by their names.
     ///
     /// # Errors
-    /// [`SensitivityError::UnknownInput`].
+    /// [`SensitivityError::UnknownInput`] for a name that no input has.
     pub fn group(&self, names: &[&str]) -> Result<Shares, SensitivityError> {
         let index = |name: &&str| {
             let found = self.inputs.iter().position(|input| input.name == *name);
@@ -171,10 +185,10 @@ impl Expansion {
         Ok(self.shares(&names.iter().map(index).collect::<Result<Vec<_>, _>>()?))
     }
 
-    /// The expansion (1) at a row of values of the inputs.
+    /// Predicts the output by the expansion (X1) at a row of values of the inputs.
     ///
     /// # Errors
-    /// [`SensitivityError::LengthMismatch`] for a row that has not one element an input.
+    /// [`SensitivityError::LengthMismatch`] unless the row has one element per input.
     pub fn predict(&self, row: &[f64]) -> Result<f64, SensitivityError> {
         check_length("row", row.len(), self.inputs.len())?;
         let of_input = |(input, &x): (&Input, &f64)| polynomials(&input.law, x, self.degree);
@@ -186,7 +200,7 @@ impl Expansion {
         Ok(self.mean + self.terms.iter().map(of_term).sum::<f64>())
     }
 
-    /// Eq. (3) and (4).
+    /// Shares of a group of inputs, Eq. (X3) and (X4).
     fn shares(&self, group: &[usize]) -> Shares {
         let variance = self.variance();
         let (mut closed, mut total) = (0.0, 0.0);

@@ -1,7 +1,7 @@
-//! Linear least squares by Householder's QR. No other module of this crate names faer.
+//! Linear least squares by Householder's QR factorisation. No other module of this crate names faer.
 //!
 //! ```text
-//! X = Q R,   b = R⁻¹ Qᵀ y,   (Xᵀ X)⁻¹ = R⁻¹ R⁻ᵀ                            (1)
+//! X = Q R,   b = R⁻¹ Qᵀ y,   (Xᵀ X)⁻¹ = R⁻¹ R⁻ᵀ                            (W1)
 //! ```
 //!
 //! G. H. Golub, C. F. Van Loan, *Matrix computations*, 4th ed. (2013), section 5.3.
@@ -12,7 +12,7 @@ use faer::{Mat, Par};
 
 /// Solution of `min |y - X b|`.
 pub(crate) struct LeastSquares {
-    /// b, one a column.
+    /// Coefficients b, one per column.
     pub(crate) coefficients: Vec<f64>,
     /// Diagonal of `(Xᵀ X)⁻¹`.
     pub(crate) inverse_gram: Vec<f64>,
@@ -20,8 +20,11 @@ pub(crate) struct LeastSquares {
     pub(crate) residual_squares: f64,
 }
 
-/// Least squares over columns no longer than 1e10 times their distance from the space of those before them; else the
-/// index of the first that is.
+/// Solves the least-squares problem (W1).
+///
+/// # Errors
+/// The index of the first column that depends on those before it: its length is at least 1e10 times its
+/// distance from their space.
 pub(crate) fn least_squares(columns: &[Vec<f64>], y: &[f64]) -> Result<LeastSquares, usize> {
     const DEPENDENT: f64 = 1e-10;
     let (n, k) = (y.len(), columns.len());

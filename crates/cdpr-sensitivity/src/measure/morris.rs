@@ -1,18 +1,19 @@
 //! Screening by elementary effects.
 //!
-//! An elementary effect is the change of the output between two points that differ in input i alone, over the probability
-//! that lies between its two values:
+//! An elementary effect is the change of the output between two points that differ in input i alone, divided
+//! by the probability that lies between the two values of the input:
 //!
 //! ```text
-//! e_i = (y(x') - y(x)) / (F_i(x'_i) - F_i(x_i))                           (1)
-//! μ_i = mean(e_i),   μ*_i = mean(|e_i|),   σ_i² = Σ (e_i - μ_i)² / (n - 1)              (2)
+//! e_i = (y(x') - y(x)) / (F_i(x'_i) - F_i(x_i))                           (O1)
+//! μ_i = mean(e_i),   μ*_i = mean(|e_i|),   σ_i² = Σ (e_i - μ_i)² / (n - 1)              (O2)
 //! ```
 //!
-//! μ* ranks the inputs; σ tells of curvature and interactions. In a linear model of uniform inputs, e = b (max - min).
-//! Two values that steps have made one have no elementary effect.
+//! μ* ranks the inputs. A large σ shows curvature or interactions. In a linear model of uniform inputs, e = b
+//! (max - min). If steps round the two values of an input to the same level, there is no elementary effect.
 //!
-//! (1): M. D. Morris, *Factorial sampling plans for preliminary computational experiments*, Technometrics 33 (1991). μ*:
-//! F. Campolongo, J. Cariboni, A. Saltelli, *An effective screening design for sensitivity analysis of large models* (2007).
+//! (O1): M. D. Morris, *Factorial sampling plans for preliminary computational experiments*, Technometrics 33
+//! (1991). μ*: F. Campolongo, J. Cariboni, A. Saltelli, *An effective screening design for sensitivity
+//! analysis of large models* (2007).
 
 use serde::{Deserialize, Serialize};
 
@@ -22,34 +23,36 @@ use crate::design::morris::MorrisDesign;
 use crate::design::observation::check_outputs;
 use crate::error::{SensitivityError, check_level, check_range};
 use crate::sample::interval::Estimate;
-use crate::sample::summary::mean_and_squares;
+use crate::sample::summary::Spread;
 
 /// Elementary effects of one input, in the unit of the output.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct MorrisEffect {
     /// Name of the input.
     pub input: String,
-    /// Elementary effects found.
+    /// Number of elementary effects.
     pub effects: usize,
-    /// Elementary effects lost to a failed observation.
+    /// Number of elementary effects lost to failed observations.
     pub failed: usize,
-    /// μ (2).
+    /// Mean μ (O2).
     pub mean: f64,
-    /// μ* (2), with Student's interval over the blocks.
+    /// Mean μ* of the absolute values (O2) with Student's interval over the blocks.
     pub mean_absolute: Estimate,
-    /// σ (2).
+    /// Standard deviation σ (O2).
     pub std: f64,
 }
 
-/// Elementary effects (1) of all inputs and their moments (2), from one output a row, `None` where it has failed, with the
-/// interval of μ* at a confidence `level` in (0, 1).
+/// Estimates the moments (O2) of the elementary effects (O1) of all inputs.
+///
+/// `outputs` has one output per row of the design, `None` for a failed observation. The interval of μ* has
+/// the confidence `level` in (0, 1).
 ///
 /// # Errors
-/// - [`SensitivityError::LengthMismatch`] unless there is one output a row;
+/// - [`SensitivityError::LengthMismatch`] unless there is one output per row;
 /// - [`SensitivityError::NotFinite`] for a value that is not finite;
-/// - [`SensitivityError::InvalidInput`] with [`SensitivityError::OutOfRange`] for an input with fewer than two
-///   elementary effects;
-/// - [`SensitivityError::InvalidParameter`] for the level.
+/// - [`SensitivityError::InvalidInput`] with [`SensitivityError::OutOfRange`] for an input with fewer than
+///   two elementary effects;
+/// - [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
 pub fn morris_effects(
     design: &MorrisDesign,
     outputs: &[Option<f64>],
@@ -67,7 +70,7 @@ pub fn morris_effects(
         for place in 1..rows.len() {
             let reference = design.reference(place);
             let (from, to) = (&rows[reference], &rows[place]);
-            // None if steps have made the two values one.
+            // No input differs if steps have rounded the two values to the same level.
             let Some(input) = (0..inputs.len()).find(|&input| from[input] != to[input]) else {
                 continue;
             };
@@ -84,15 +87,15 @@ pub fn morris_effects(
         check_range("elementary effects", effects.len() as u64, 2, u64::MAX).map_err(|source| {
             SensitivityError::InvalidInput { name: input.name.clone(), source: Box::new(source) }
         })?;
-        let (mean, squares) = mean_and_squares(&effects);
+        let spread = Spread::of(&effects);
         let absolute: Vec<f64> = effects.iter().map(|effect| effect.abs()).collect();
         Ok(MorrisEffect {
             input: input.name.clone(),
             effects: effects.len(),
             failed,
-            mean,
+            mean: spread.mean,
             mean_absolute: Estimate::of_mean(&absolute, level)?,
-            std: (squares / (effects.len() as f64 - 1.0)).sqrt(),
+            std: spread.std(),
         })
     };
     inputs.iter().zip(found).map(summary).collect()

@@ -1,22 +1,24 @@
 //! Regression coefficients as measures of sensitivity.
 //!
-//! With the values of inputs and output standardised to mean 0 and deviation 1, or their ranks,
+//! With the values (or ranks) of inputs and output standardised to mean 0 and deviation 1,
 //!
 //! ```text
-//! y = Σ β_i x_i + r,   least Σ r²                                         (1)
-//! R² = 1 - Σ r² / Σ y²                                                    (2)
-//! p_i = β_i / √(β_i² + Σ r² g_ii),   g = (Xᵀ X)⁻¹                          (3)
+//! y = Σ β_i x_i + r,   least Σ r²                                         (R1)
+//! R² = 1 - Σ r² / Σ y²                                                    (R2)
+//! p_i = β_i / √(β_i² + Σ r² g_ii),   g = (Xᵀ X)⁻¹                          (R3)
 //! ```
 //!
-//! β (1) is the standardised regression coefficient (SRC; SRRC of ranks). For independent inputs the squares β² add up to
-//! R² but for the sample's own correlations, and are the shares of the variance of a linear model: A. Saltelli, K. Chan,
-//! E. M. Scott, *Sensitivity analysis* (2000), section 6.6.2. p (3) is the correlation of an input and the output once
-//! the other inputs are taken out of both (PCC; PRCC of ranks), from the t value of β. Ranks serve monotonic models: R. L.
-//! Iman, W. J. Conover, *The use of the rank transform in regression*, Technometrics 21 (1979); equal values share their
-//! mean rank.
+//! - β (R1) is the standardised regression coefficient (SRC; SRRC for ranks). For independent inputs the
+//!   squares β² add up to R², apart from the correlations within the sample, and are the shares of the
+//!   variance of a linear model: A. Saltelli, K. Chan, E. M. Scott, *Sensitivity analysis* (2000), section
+//!   6.6.2.
+//! - p (R3) is the correlation of an input and the output after the other inputs are removed from both (PCC;
+//!   PRCC for ranks). It follows from the t value of β.
+//! - Ranks serve monotonic models: R. L. Iman, W. J. Conover, *The use of the rank transform in regression*,
+//!   Technometrics 21 (1979). Equal values share their mean rank.
 //!
-//! Correlated inputs have coefficients like others. Their squares are no shares then: what two inputs do jointly
-//! belongs to neither.
+//! Correlated inputs have coefficients, too, but the squares are not shares of the variance: the part that
+//! two inputs cause jointly belongs to neither.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,42 +27,43 @@ use crate::design::input::Input;
 use crate::design::observation::Observed;
 use crate::error::SensitivityError;
 use crate::measure::least_squares::least_squares;
-use crate::sample::summary::mean_and_squares;
+use crate::sample::summary::Spread;
 
 /// Coefficients of one input.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Coefficient {
     /// Name of the input.
     pub input: String,
-    /// Standardised coefficient β (1).
+    /// Standardised coefficient β (R1).
     pub standardised: f64,
-    /// Its square.
+    /// Square β² of the coefficient.
     pub share: f64,
-    /// Partial correlation p (3). 0 for an input without influence in a model that is exactly linear.
+    /// Partial correlation p (R3). It is 0 for an input without influence in an exactly linear model.
     pub partial: f64,
 }
 
-/// A linear model of standardised values or ranks.
+/// Linear model of standardised values or ranks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Regression {
-    /// Observations that it rests on.
+    /// Number of observations on which the model is based.
     pub observed: usize,
-    /// Observations that failed.
+    /// Number of failed observations.
     pub failed: usize,
-    /// R² (2): the share of the variance that the linear model explains.
+    /// R² (R2): share of the variance that the linear model explains.
     pub r_squared: f64,
-    /// One an input, in the order of the design.
+    /// Coefficients, one per input in the order of the design.
     pub inputs: Vec<Coefficient>,
 }
 
-/// Coefficients of values (SRC, PCC), from one output a row, `None` where it has failed.
+/// Coefficients of values (SRC, PCC), from one output per row, `None` for a failed observation.
 ///
 /// # Errors
-/// - [`SensitivityError::LengthMismatch`] unless there is one output a row;
+/// - [`SensitivityError::LengthMismatch`] unless there is one output per row;
 /// - [`SensitivityError::NotFinite`] for a value that is not finite;
-/// - [`SensitivityError::OutOfRange`] for fewer than two outputs more than inputs;
+/// - [`SensitivityError::OutOfRange`] unless there are at least two more outputs than inputs;
 /// - [`SensitivityError::ConstantSample`] if all outputs are equal;
-/// - [`SensitivityError::Collinear`] for an input whose values do not vary, or follow linearly from the others.
+/// - [`SensitivityError::Collinear`] for an input whose values are constant or follow linearly from other
+///   inputs.
 pub fn regression<D: JointSample>(
     design: &D,
     outputs: &[Option<f64>],
@@ -68,7 +71,7 @@ pub fn regression<D: JointSample>(
     of_observed(design, outputs, |values| values)
 }
 
-/// Coefficients of ranks (SRRC, PRCC), from one output a row, `None` where it has failed.
+/// Coefficients of ranks (SRRC, PRCC), from one output per row, `None` for a failed observation.
 ///
 /// # Errors
 /// As [`regression`].
@@ -79,8 +82,7 @@ pub fn rank_regression<D: JointSample>(
     of_observed(design, outputs, |values| ranks(&values))
 }
 
-/// Spearman's rank correlation of two lists of equal length: the correlation of their ranks. `None` if the values of one do
-/// not vary.
+/// Spearman's rank correlation of two lists of equal length, or `None` if the values of one are constant.
 #[must_use]
 pub fn rank_correlation(one: &[f64], other: &[f64]) -> Option<f64> {
     let (one, other) = (standardised(ranks(one))?, standardised(ranks(other))?);
@@ -119,17 +121,17 @@ fn of_observed<D: JointSample>(
     })
 }
 
-/// To mean 0 and deviation 1; `None` for values that do not vary.
+/// Standardises values to mean 0 and deviation 1. Constant values give `None`.
 fn standardised(mut values: Vec<f64>) -> Option<Vec<f64>> {
-    let (mean, squares) = mean_and_squares(&values);
-    let std = (squares / (values.len() as f64 - 1.0)).sqrt();
+    let spread = Spread::of(&values);
+    let std = spread.std();
     for value in &mut values {
-        *value = (*value - mean) / std;
+        *value = (*value - spread.mean) / std;
     }
     (std > 0.0).then_some(values)
 }
 
-/// Ranks from 1 on.
+/// Ranks of values, starting at 1.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_unstable_by(|&i, &j| values[i].total_cmp(&values[j]));

@@ -1,29 +1,35 @@
-//! Sobol's indices of the first order, total, and of pairs of inputs, from Saltelli's blocks.
+//! Sobol's first-order indices, total indices and indices of pairs of inputs, from Saltelli's blocks.
 //!
-//! With a, b, `ab_i`, `ba_i` the outputs of a block less the mean of all outputs, and means over the blocks,
+//! With a, b, `ab_i` and `ba_i` the outputs of a block less the mean of all outputs, and with means over the
+//! blocks,
 //!
 //! ```text
-//! V = mean((a² + b²) / 2) - mean((a + b) / 2)²                            (1)
-//! S_i = mean(b (ab_i - a)) / V                                            (2)
-//! T_i = mean((a - ab_i)²) / (2 V)                                         (3)
-//! S_ij = mean(ba_i ab_j - a b) / V - S_i - S_j,   i < j                   (4)
+//! V = mean((a² + b²) / 2) - mean((a + b) / 2)²                            (V1)
+//! S_i = mean(b (ab_i - a)) / V                                            (V2)
+//! T_i = mean((a - ab_i)²) / (2 V)                                         (V3)
+//! S_ij = mean(ba_i ab_j - a b) / V - S_i - S_j,   i < j                   (V4)
 //! ```
 //!
-//! (2): A. Saltelli et al., *Variance based sensitivity analysis of model output*, Comput. Phys. Commun. 181 (2010);
-//! (3): M. J. W. Jansen, *Analysis of variance designs for model output*, Comput. Phys. Commun. 117 (1999); (4):
-//! A. Saltelli, *Making best use of model evaluations to compute sensitivity indices*, Comput. Phys. Commun. 145
-//! (2002). They are those of SALib, to rounding.
+//! - (V2): A. Saltelli et al., *Variance based sensitivity analysis of model output*, Comput. Phys. Commun.
+//!   181 (2010).
+//! - (V3): M. J. W. Jansen, *Analysis of variance designs for model output*, Comput. Phys. Commun. 117
+//!   (1999).
+//! - (V4): A. Saltelli, *Making best use of model evaluations to compute sensitivity indices*, Comput. Phys.
+//!   Commun. 145 (2002).
 //!
-//! Each index is a quotient of sums over blocks. The bootstrap draws units with replacement, and the interval is Student's
-//! ([`crate::sample::interval`], Eq. (2)). On a scrambled design the units are its independent scramblings: blocks of one sequence
-//! depend on each other, and a bootstrap over them misses what that does. With 1024 blocks of one sequence such intervals of
-//! 95 % held some indices of Morris's 20 inputs in 53 of 100 cases only, and were sixty times too wide for a linear model;
-//! those over scramblings hold all of them in 95 (`tests/global/indices.rs`). On the plain sequence, of which there is only
-//! one, the units are the blocks all the same, as in SALib: such intervals are an indication.
+//! They agree with the estimators of SALib up to rounding.
 //!
-//! **A block in which one observation has failed is left out of all indices**, and of the mean. It is as if the design did
-//! not have it: the means remain those over the same blocks for every index. What is estimated then is the model where
-//! whole blocks do not fail; if failures depend on the inputs, no estimator can know the rest.
+//! Each index is a quotient of sums over blocks. A bootstrap draws units with replacement, and the interval
+//! is Student's ([`crate::sample::interval`], Eq. (CI2)). On a scrambled design the units are its independent
+//! scramblings. Blocks of one sequence depend on each other, and a bootstrap over them misses the effect.
+//! With 1024 blocks of one sequence, intervals of 95 % held some indices of Morris's 20 inputs in only 53 of
+//! 100 cases, and were sixty times too wide for a linear model. Intervals over scramblings hold all of them
+//! in 95 cases (`tests/global/indices.rs`). A plain sequence has no scramblings, so that its units are the
+//! blocks, as in SALib: such intervals are an indication.
+//!
+//! **A block with a failed observation is left out of all indices** and of the mean, as if the design did not
+//! have it. All indices then remain means over the same blocks. They describe the model where whole blocks do
+//! not fail. If failures depend on the inputs, no estimator can recover the rest.
 
 use std::collections::BTreeMap;
 
@@ -32,23 +38,21 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::SampleDesign;
-use crate::design::observation::{check_outputs, check_variance};
+use crate::design::observation::check_outputs;
 use crate::design::saltelli::{Order, SaltelliDesign};
 use crate::error::{SensitivityError, check_level, check_range};
 use crate::sample::interval::Estimate;
 use crate::sample::random::{Bootstrap, stream};
-
-/// Least number of whole blocks that indices are estimated from.
-pub const MIN_BLOCKS: usize = 16;
+use crate::sample::summary::check_varies;
 
 /// Indices of one input.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct SobolIndex {
     /// Name of the input.
     pub input: String,
-    /// Share of the variance that it causes alone (2).
+    /// First-order index (V2): share of the variance that the input causes alone.
     pub first: Estimate,
-    /// Share of the variance that it takes part in (3).
+    /// Total index (V3): share of the variance in which the input takes part.
     pub total: Estimate,
 }
 
@@ -57,30 +61,33 @@ pub struct SobolIndex {
 pub struct PairIndex {
     /// Names of the inputs.
     pub inputs: [String; 2],
-    /// Share of the variance that the two cause together, beyond what each causes alone (4).
+    /// Index (V4): share of the variance that the two cause together, beyond what each causes alone.
     pub second: Estimate,
 }
 
 /// Indices of all inputs of a [`SaltelliDesign`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct SobolIndices {
-    /// Blocks that the indices rest on.
+    /// Number of blocks on which the indices are based.
     pub blocks: usize,
-    /// Blocks left out for a failed observation.
+    /// Number of blocks left out because of a failed observation.
     pub failed_blocks: usize,
-    /// Failed observations.
+    /// Number of failed observations.
     pub failed: usize,
-    /// Variance V (1), in the square of the unit of the output.
+    /// Variance V (V1), in the square of the unit of the output.
     pub variance: f64,
     /// Confidence level of the intervals.
     pub level: f64,
-    /// One an input, in the order of the design.
+    /// Indices, one per input in the order of the design.
     pub inputs: Vec<SobolIndex>,
-    /// One a pair, (1, 2), (1, 3), ..; empty for [`Order::First`].
+    /// Indices, one per pair (1, 2), (1, 3), .. The list is empty for [`Order::First`].
     pub pairs: Vec<PairIndex>,
 }
 
 impl SobolIndices {
+    /// Least number of whole blocks from which indices are estimated.
+    pub const MIN_BLOCKS: usize = 16;
+
     /// Width of the widest interval.
     #[must_use]
     pub fn widest(&self) -> f64 {
@@ -90,18 +97,19 @@ impl SobolIndices {
     }
 }
 
-/// Indices from one output a row of the design, `None` where it has failed, with bootstrap intervals of a confidence `level`
-/// in (0, 1).
+/// Estimates indices from one output per row of the design, `None` for a failed observation.
 ///
-/// Memory: eight bytes an index and unit, and an index and resample.
+/// The intervals are from a bootstrap and have the confidence `level` in (0, 1). The estimator needs eight
+/// bytes per index and unit, and per index and resample.
 ///
 /// # Errors
-/// - [`SensitivityError::LengthMismatch`] unless there is one output a row;
-/// - [`SensitivityError::NotFinite`] for a value that is not finite, in a block with a failed one too;
-/// - [`SensitivityError::OutOfRange`] for fewer than [`MIN_BLOCKS`] whole blocks, whole blocks of one scrambling only, or
-///   fewer than two resamples;
-/// - [`SensitivityError::ConstantSample`] if a and b of all blocks are equal;
-/// - [`SensitivityError::InvalidParameter`] for the level.
+/// - [`SensitivityError::LengthMismatch`] unless there is one output per row;
+/// - [`SensitivityError::NotFinite`] for a value that is not finite, even in a block with a failed
+///   observation;
+/// - [`SensitivityError::OutOfRange`] for fewer than [`SobolIndices::MIN_BLOCKS`] whole blocks, for whole
+///   blocks of one scrambling only, or for fewer than two resamples;
+/// - [`SensitivityError::ConstantSample`] if the outputs a and b of all blocks are equal;
+/// - [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
 pub fn sobol_indices(
     design: &SaltelliDesign,
     outputs: &[Option<f64>],
@@ -116,14 +124,14 @@ pub fn sobol_indices(
     };
     let blocks: Vec<(usize, Vec<f64>)> =
         outputs.chunks(design.block_points()).enumerate().filter_map(whole).collect();
-    check_range("whole blocks", blocks.len() as u64, MIN_BLOCKS as u64, u64::MAX)?;
+    check_range("whole blocks", blocks.len() as u64, SobolIndices::MIN_BLOCKS as u64, u64::MAX)?;
     let ends: Vec<f64> = blocks.iter().flat_map(|(_, block)| [block[0], block[block.len() - 1]]).collect();
-    check_variance(&ends)?;
+    check_varies(&ends)?;
 
     let values = blocks.iter().flat_map(|(_, block)| block);
     let mean = values.sum::<f64>() / (blocks.len() * design.block_points()) as f64;
     let k = design.inputs().len();
-    // Of one sequence each block is a unit, of several each sequence.
+    // With one sequence each block is a unit, with several each sequence.
     let mut units: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     for (place, block) in &blocks {
         let unit = if design.sequences() > 1 { place % design.sequences() } else { *place };
@@ -134,7 +142,7 @@ pub fn sobol_indices(
     let resampled: Vec<Vec<f64>> = (0..bootstrap.resamples)
         .into_par_iter()
         .map(|resample| quotients(&units, &multiplicities(units.len(), bootstrap.seed, resample)))
-        // Units drawn so that a and b do not change, but for rounding, have no indices.
+        // Drawn units whose outputs a and b are constant up to rounding have no indices.
         .filter(|(resampled, _)| *resampled > 1e-12 * variance)
         .map(|(_, indices)| indices)
         .collect();
@@ -160,11 +168,13 @@ pub fn sobol_indices(
     })
 }
 
+/// Pairs i < j of k inputs.
 fn pairs(k: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..k).flat_map(move |i| (i + 1..k).map(move |j| (i, j)))
 }
 
-/// What (1) to (4) average, of one block: its number 1, the two terms of V, then those of all `S_i`, `T_i`, `S_ij`.
+/// Terms of one block that (V1) to (V4) average: the number 1, the two terms of V, then those of all `S_i`,
+/// `T_i`, `S_ij`.
 fn terms(block: &[f64], mean: f64, k: usize, order: Order) -> Vec<f64> {
     let centred: Vec<f64> = block.iter().map(|output| output - mean).collect();
     let (a, b) = (centred[0], centred[centred.len() - 1]);
@@ -180,7 +190,7 @@ fn terms(block: &[f64], mean: f64, k: usize, order: Order) -> Vec<f64> {
     terms
 }
 
-/// Adds the terms, as often as `times` says, to sums that are empty at first.
+/// Adds the terms `times` times to sums, which may still be empty.
 fn add(sums: &mut Vec<f64>, times: u32, terms: &[f64]) {
     sums.resize(terms.len(), 0.0);
     for (sum, term) in sums.iter_mut().zip(terms) {
@@ -188,7 +198,7 @@ fn add(sums: &mut Vec<f64>, times: u32, terms: &[f64]) {
     }
 }
 
-/// V and the indices, each unit taken as often as `multiplicities` says.
+/// V and the indices, if each unit counts as often as `multiplicities` gives.
 fn quotients(units: &[Vec<f64>], multiplicities: &[u32]) -> (f64, Vec<f64>) {
     let mut sums = Vec::new();
     for (unit, &times) in units.iter().zip(multiplicities) {
@@ -199,7 +209,7 @@ fn quotients(units: &[Vec<f64>], multiplicities: &[u32]) -> (f64, Vec<f64>) {
     (variance, sums[3..].iter().map(|sum| sum / n / variance).collect())
 }
 
-/// How often each of n units is drawn in n draws.
+/// Number of times that each of n units occurs in n random draws.
 fn multiplicities(n: usize, seed: u64, resample: usize) -> Vec<u32> {
     let mut generator = stream(seed, resample as u64);
     let mut multiplicities = vec![0; n];

@@ -1,36 +1,37 @@
 //! Estimates with their confidence intervals.
 //!
 //! ```text
-//! mean ± t_(n-1, (1 + level) / 2) s / √n                                  (1)
-//! estimate ± t_(n-1, (1 + level) / 2) s* √(n / (n - 1))                    (2)
+//! mean ± t_(n-1, (1 + level) / 2) s / √n                                  (CI1)
+//! estimate ± t_(n-1, (1 + level) / 2) s* √(n / (n - 1))                    (CI2)
 //! ```
 //!
-//! (1) is Student's, of n independent values. (2) is its counterpart for an estimate that is no mean, s* being the
-//! deviation of the estimate over bootstrap resamples of n independent units: B. Efron, R. J. Tibshirani, *An introduction
-//! to the bootstrap* (1993), section 12.2 and, for the factor √(n / (n - 1)), 5.3; for a mean the two are the same but for
-//! the noise of resampling.
+//! (CI1) is Student's interval of the mean of n independent values. (CI2) is its counterpart for an estimate
+//! that is not a mean, where s* is the deviation of the estimate over bootstrap resamples of n independent
+//! units: B. Efron, R. J. Tibshirani, *An introduction to the bootstrap* (1993), section 12.2 and, for the
+//! factor √(n / (n - 1)), section 5.3. For a mean the two agree up to the noise of resampling.
 //!
-//! Of n independent values, k below a limit, with B⁻¹ the inverse of the beta and `b_q` that of the binomial distribution function,
+//! If k of n independent values lie below a limit, with B⁻¹ the inverse of the beta distribution function and
+//! `b_q` the inverse of the binomial one,
 //!
 //! ```text
-//! B⁻¹((1 - level)/2; k, n - k + 1) <= share <= B⁻¹((1 + level)/2; k + 1, n - k)       (3)
-//! x_(l) <= quantile q <= x_(u),    l = b_q((1 - level)/2),   u = b_q((1 + level)/2) + 1     (4)
+//! B⁻¹((1 - level)/2; k, n - k + 1) <= share <= B⁻¹((1 + level)/2; k + 1, n - k)       (CI3)
+//! x_(l) <= quantile q <= x_(u),    l = b_q((1 - level)/2),   u = b_q((1 + level)/2) + 1     (CI4)
 //! ```
 //!
-//! C. J. Clopper, E. S. Pearson, Biometrika 26 (1934); G. J. Hahn, W. Q. Meeker, *Statistical intervals* (1991), section 5.2. Both hold
-//! for any law.
+//! (CI3): C. J. Clopper, E. S. Pearson, *The use of confidence or fiducial limits*, Biometrika 26 (1934).
+//! (CI4): G. J. Hahn, W. Q. Meeker, *Statistical intervals* (1991), section 5.2. Both hold for any law.
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, StudentsT};
 use statrs::function::beta::inv_beta_reg;
 
-use crate::error::{SensitivityError, check_range, require};
-use crate::sample::summary::mean_and_squares;
+use crate::error::{SensitivityError, check_level, check_range, require};
+use crate::sample::summary::Spread;
 
 /// An estimate and its confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Estimate {
-    /// The estimate itself.
+    /// Estimate.
     pub value: f64,
     /// Lower end of the interval.
     pub low: f64,
@@ -45,52 +46,55 @@ impl Estimate {
         self.high - self.low
     }
 
-    /// Eq. (1), for at least two values.
+    /// Mean of at least two values with its interval, Eq. (CI1).
     pub(crate) fn of_mean(values: &[f64], level: f64) -> Result<Self, SensitivityError> {
-        let n = values.len();
-        let (mean, squares) = mean_and_squares(values);
-        Ok(Self::around(mean, student(n, level)? * (squares / (n * (n - 1)) as f64).sqrt()))
+        let spread = Spread::of(values);
+        Ok(Self::around(spread.mean, student(values.len(), level)? * spread.standard_error()))
     }
 
-    /// Eq. (2), for at least two units and two resamples.
+    /// Estimate with its interval, Eq. (CI2), from at least two units and two resamples.
     pub(crate) fn of_resamples(
         value: f64,
         resampled: &[f64],
         units: usize,
         level: f64,
     ) -> Result<Self, SensitivityError> {
-        let variance = mean_and_squares(resampled).1 / (resampled.len() as f64 - 1.0);
+        let variance = Spread::of(resampled).variance();
         let n = units as f64;
         Ok(Self::around(value, student(units, level)? * (variance * n / (n - 1.0)).sqrt()))
     }
 
-    /// Eq. (3): the share of a population, of which `count` of `n` independent draws are found.
+    /// Share of a population, estimated from `count` of `n` independent draws, with its interval (CI3).
     ///
     /// # Errors
-    /// [`SensitivityError::OutOfRange`] for no draw or a count beyond them, [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
+    /// [`SensitivityError::OutOfRange`] for no draw or a count above their number,
+    /// [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
     pub fn of_share(count: usize, n: usize, level: f64) -> Result<Self, SensitivityError> {
         check_range("draws", n as u64, 1, u64::MAX)?;
         check_range("count", count as u64, 0, n as u64)?;
-        require(level > 0.0 && level < 1.0, "level", level, "a number between 0 and 1")?;
+        check_level(level)?;
         let (k, rest, tail) = (count as f64, (n - count) as f64, 0.5 * (1.0 - level));
         let low = if count == 0 { 0.0 } else { inv_beta_reg(k, rest + 1.0, tail) };
         let high = if count == n { 1.0 } else { inv_beta_reg(k + 1.0, rest, 1.0 - tail) };
         Ok(Self { value: k / n as f64, low, high })
     }
 
-    /// Eq. (4): the quantile `q` of the law that independent values, in ascending order, are drawn from. An end that so few values do not tell is infinite.
+    /// Quantile `q` of the law of independent values, which are in ascending order, with its interval (CI4).
+    ///
+    /// An end that the number of values does not determine is infinite.
     ///
     /// # Errors
-    /// [`SensitivityError::OutOfRange`] for no value, [`SensitivityError::InvalidParameter`] for a `q` or level outside (0, 1).
+    /// [`SensitivityError::OutOfRange`] for no value, [`SensitivityError::InvalidParameter`] for a `q` or a
+    /// level outside (0, 1).
     pub fn of_quantile(ascending: &[f64], q: f64, level: f64) -> Result<Self, SensitivityError> {
         let n = ascending.len();
         check_range("values", n as u64, 1, u64::MAX)?;
         require(q > 0.0 && q < 1.0, "q", q, "a number between 0 and 1")?;
-        require(level > 0.0 && level < 1.0, "level", level, "a number between 0 and 1")?;
+        check_level(level)?;
         let wrong =
             |_| SensitivityError::InvalidParameter { field: "q", value: q, expected: "a probability" };
         let ranks = Binomial::new(q, n as u64).map_err(wrong)?;
-        // Ranks count from 1.
+        // Ranks start at 1.
         let of_rank = |rank: u64, beyond: f64| match rank.checked_sub(1).map(|k| k as usize) {
             Some(k) if k < n => ascending[k],
             _ => beyond,
@@ -110,13 +114,13 @@ impl Estimate {
 
 /// Student's factor for n values.
 fn student(n: usize, level: f64) -> Result<f64, SensitivityError> {
-    let law = StudentsT::new(0.0, 1.0, n as f64 - 1.0).map_err(|_| SensitivityError::OutOfRange {
-        field: "independent values",
-        value: n as u64,
-        minimum: 2,
-        maximum: u64::MAX,
-    })?;
-    Ok(law.inverse_cdf(0.5 * (1.0 + level)))
+    check_range("independent values", n as u64, 2, u64::MAX)?;
+    let wrong = |_| SensitivityError::InvalidParameter {
+        field: "level",
+        value: level,
+        expected: "a confidence level",
+    };
+    Ok(StudentsT::new(0.0, 1.0, n as f64 - 1.0).map_err(wrong)?.inverse_cdf(0.5 * (1.0 + level)))
 }
 
 #[cfg(test)]
@@ -129,14 +133,14 @@ mod tests {
         // Hahn and Meeker's example, section 6.2: 20 of 1000, two-sided 95 %.
         let share = Estimate::of_share(20, 1000, 0.95).unwrap();
         assert!((share.low - 0.0123).abs() < 5e-5 && (share.high - 0.0307).abs() < 5e-5, "{share:?}");
-        let none = Estimate::of_share(0, 10, 0.95).unwrap();
-        assert!(none.low == 0.0 && (none.high - (1.0 - 0.025_f64.powf(0.1))).abs() < 1e-9, "{none:?}");
+        let zero = Estimate::of_share(0, 10, 0.95).unwrap();
+        assert!(zero.low == 0.0 && (zero.high - (1.0 - 0.025_f64.powf(0.1))).abs() < 1e-9, "{zero:?}");
         assert_eq!(Estimate::of_share(10, 10, 0.95).unwrap().high, 1.0);
         assert!(Estimate::of_share(11, 10, 0.95).is_err() && Estimate::of_share(1, 10, 1.0).is_err());
     }
 
     #[test]
-    fn the_interval_of_a_quantile_holds_it_as_often_as_it_says() {
+    fn the_interval_of_a_quantile_holds_it_as_often_as_its_level() {
         let mut held = 0;
         for seed in 0..1000 {
             let mut generator = stream(seed, 0);
@@ -150,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn few_values_do_not_tell_an_outer_quantile() {
+    fn few_values_leave_the_interval_of_an_outer_quantile_open() {
         let quantile = Estimate::of_quantile(&[1.0, 2.0, 3.0], 0.99, 0.95).unwrap();
         assert_eq!((quantile.value, quantile.high), (3.0, f64::INFINITY));
     }

@@ -1,25 +1,25 @@
-//! Streams of random numbers, and how many samples a bootstrap draws from them.
+//! Streams of random numbers, and the number and seed of bootstrap samples.
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// The samples of the bootstrap, Eq. (3).
+/// How many samples a bootstrap draws, and from which seed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bootstrap {
-    /// Number R of samples drawn, at least 1. The smallest p-value possible is 1 / (R + 1).
+    /// Number R of samples, at least 1. The smallest possible p-value of a fit is 1 / (R + 1).
     pub resamples: usize,
-    /// Seed: same seed, same p-values, whatever the number of threads.
+    /// Seed. The same seed gives the same results on any number of threads.
     pub seed: u64,
 }
 
-/// Stream `number` of the generator of a seed.
+/// Stream `number` of the generator with a seed.
 pub(crate) fn stream(seed: u64, number: u64) -> ChaCha8Rng {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream(number);
     generator
 }
 
-/// The middle of a cell of 2^-52: neither 0 nor 1.
+/// Draws the middle of one of the 2^52 cells of the unit interval: it is neither 0 nor 1.
 pub(crate) fn uniform(generator: &mut ChaCha8Rng) -> f64 {
     ((generator.next_u64() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
 }

@@ -1,21 +1,24 @@
-//! What a sample looks like: moments, quantiles, histogram.
+//! Summary of a sample: moments, quantiles, histogram.
 //!
 //! ```text
-//! mean = Σ x / n,   std² = (Σ (x - mean)² - (Σ (x - mean))² / n) / (n - 1)            (1)
-//! quantile(p) = x_(j) + (h - j) (x_(j+1) - x_(j)),   h = 1 + (n - 1) p,  j = floor h   (2)
-//! bins = ceil((max - min) / (2 IQR n^(-1/3)))                                         (3)
+//! mean = Σ x / n,   std² = (Σ (x - mean)² - (Σ (x - mean))² / n) / (n - 1)            (M1)
+//! quantile(p) = x_(j) + (h - j) (x_(j+1) - x_(j)),   h = 1 + (n - 1) p,  j = floor h   (M2)
+//! bins = ceil((max - min) / (2 IQR n^(-1/3)))                                         (M3)
 //! ```
 //!
-//! (1) is the corrected two-pass algorithm: T. F. Chan et al., *Algorithms for computing the sample variance* (1983).
-//! (2) is type 7 of R. J. Hyndman, Y. Fan, *Sample quantiles in statistical packages* (1996). (3): D. Freedman,
-//! P. Diaconis, *On the histogram as a density estimator* (1981). All sums run over the sorted values: the order of
-//! the observations does not matter, not even for rounding.
+//! - (M1) is the corrected two-pass algorithm: T. F. Chan, G. H. Golub, R. J. LeVeque, *Algorithms for
+//!   computing the sample variance* (1983).
+//! - (M2) is type 7 of R. J. Hyndman, Y. Fan, *Sample quantiles in statistical packages* (1996).
+//! - (M3): D. Freedman, P. Diaconis, *On the histogram as a density estimator* (1981).
+//!
+//! All sums run over the sorted values, so that the order of the observations does not change even the last
+//! digit.
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{SensitivityError, require};
+use crate::error::{SensitivityError, check_finite, check_range, require};
 
-/// The observed outputs of a study, sorted, and how many more have failed.
+/// Observed outputs in ascending order, and the number of failed observations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sample {
     sorted: Vec<f64>,
@@ -25,13 +28,13 @@ pub struct Sample {
 /// Count, moments and extremes of a [`Sample`], in the unit of the output.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Summary {
-    /// Observations that gave a value. All other fields but `failed` are about these only.
+    /// Number of observations that gave a value. All fields but `failed` describe these only.
     pub count: usize,
-    /// Observations that failed.
+    /// Number of failed observations.
     pub failed: usize,
     /// Mean.
     pub mean: f64,
-    /// Standard deviation, with n - 1.
+    /// Standard deviation (with n - 1).
     pub std: f64,
     /// Smallest value.
     pub min: f64,
@@ -39,14 +42,15 @@ pub struct Summary {
     pub max: f64,
 }
 
-/// Moments and extremes of outputs that come one by one and need not be kept.
+/// Moments and extremes of outputs that arrive one by one and are not stored.
 ///
 /// ```text
-/// mean' = mean + (x - mean)/n,   M2' = M2 + (x - mean)(x - mean'),   std² = M2/(n - 1)      (4)
-/// mean = mean_a + δ n_b/n,   M2 = M2_a + M2_b + δ² n_a n_b/n,   δ = mean_b - mean_a           (5)
+/// mean' = mean + (x - mean)/n,   M2' = M2 + (x - mean)(x - mean'),   std² = M2/(n - 1)      (M4)
+/// mean = mean_a + δ n_b/n,   M2 = M2_a + M2_b + δ² n_a n_b/n,   δ = mean_b - mean_a           (M5)
 /// ```
 ///
-/// (4): B. P. Welford, *Note on a method for calculating corrected sums of squares and products* (1962); (5): Chan et al. (1983).
+/// (M4): B. P. Welford, *Note on a method for calculating corrected sums of squares and products* (1962).
+/// (M5): Chan et al. (1983).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moments {
     count: usize,
@@ -65,7 +69,7 @@ impl Default for Moments {
 }
 
 impl Moments {
-    /// Adds an output, `None` if the observation failed.
+    /// Adds an output, or `None` for a failed observation.
     pub fn add(&mut self, output: Option<f64>) {
         let Some(x) = output else {
             self.failed += 1;
@@ -79,7 +83,7 @@ impl Moments {
         self.max = self.max.max(x);
     }
 
-    /// Adds the outputs of others.
+    /// Adds the outputs of other moments.
     pub fn merge(&mut self, other: &Self) {
         self.failed += other.failed;
         if other.count == 0 {
@@ -94,67 +98,56 @@ impl Moments {
         self.count = count;
     }
 
-    /// What is known of the outputs so far.
+    /// Summary of the outputs added so far.
     ///
     /// # Errors
     /// [`SensitivityError::OutOfRange`] for fewer than two values.
     pub fn summary(&self) -> Result<Summary, SensitivityError> {
         let Self { count, failed, mean, squares, min, max } = *self;
-        check_count(count)?;
+        check_range("observed outputs", count as u64, 2, u64::MAX)?;
         Ok(Summary { count, failed, mean, std: (squares / (count as f64 - 1.0)).sqrt(), min, max })
     }
 }
 
-/// A sample needs two values.
-fn check_count(count: usize) -> Result<(), SensitivityError> {
-    if count >= 2 {
-        return Ok(());
-    }
-    let value = count as u64;
-    Err(SensitivityError::OutOfRange { field: "observed outputs", value, minimum: 2, maximum: u64::MAX })
-}
-
-/// Number of bins of a histogram.
+/// Rule for the number of bins of a histogram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bins {
-    /// Eq. (3), at least one and at most one a value; one if the interquartile range is zero.
+    /// Eq. (M3), limited to the number of values. There is one bin if the interquartile range is zero.
     FreedmanDiaconis,
-    /// This many.
+    /// This number of bins.
     Count(usize),
 }
 
-/// Bins of equal width from the smallest value to the largest one.
+/// Histogram with bins of equal width from the smallest to the largest value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Histogram {
-    /// Edges, one more than bins. A bin holds its lower edge and not its upper one, the last bin both.
+    /// Edges, one more than bins. A bin includes its lower edge only; the last bin includes both.
     pub edges: Vec<f64>,
-    /// Values in each bin.
+    /// Number of values in each bin.
     pub counts: Vec<usize>,
 }
 
 impl Sample {
-    /// Sample of outputs, `None` for an observation that has failed.
+    /// Makes a sample of outputs, with `None` for a failed observation.
     ///
     /// # Errors
-    /// [`SensitivityError::NotFinite`] for a value that is not finite, [`SensitivityError::OutOfRange`] for fewer
-    /// than two values.
+    /// [`SensitivityError::NotFinite`] for a value that is not finite, [`SensitivityError::OutOfRange`] for
+    /// fewer than two values.
     pub fn new(outputs: &[Option<f64>]) -> Result<Self, SensitivityError> {
         let mut sorted = Vec::with_capacity(outputs.len());
         for (index, &output) in outputs.iter().enumerate() {
             if let Some(value) = output {
-                if !value.is_finite() {
-                    return Err(SensitivityError::NotFinite { field: "outputs", index, value });
-                }
+                check_finite("outputs", index, value)?;
                 sorted.push(value);
             }
         }
-        check_count(sorted.len())?;
+        check_range("observed outputs", sorted.len() as u64, 2, u64::MAX)?;
         sorted.sort_unstable_by(f64::total_cmp);
         let failed = outputs.len() - sorted.len();
         Ok(Self { sorted, failed })
     }
 
-    /// Sample of values none of which has failed.
+    /// Makes a sample of values without failed observations.
     ///
     /// # Errors
     /// As [`Sample::new`].
@@ -163,7 +156,7 @@ impl Sample {
         Self::new(&outputs)
     }
 
-    /// The values, in ascending order.
+    /// Values in ascending order.
     #[must_use]
     pub fn sorted(&self) -> &[f64] {
         &self.sorted
@@ -173,21 +166,21 @@ impl Sample {
     #[must_use]
     pub fn summary(&self) -> Summary {
         let count = self.sorted.len();
-        let (mean, squares) = mean_and_squares(&self.sorted);
+        let spread = Spread::of(&self.sorted);
         Summary {
             count,
             failed: self.failed,
-            mean,
-            std: (squares / (count as f64 - 1.0)).sqrt(),
+            mean: spread.mean,
+            std: spread.std(),
             min: self.sorted[0],
             max: self.sorted[count - 1],
         }
     }
 
-    /// Quantile by Eq. (2).
+    /// Quantile, Eq. (M2).
     ///
     /// # Errors
-    /// [`SensitivityError::InvalidParameter`] for a `p` outside of [0, 1].
+    /// [`SensitivityError::InvalidParameter`] for a `p` outside [0, 1].
     pub fn quantile(&self, p: f64) -> Result<f64, SensitivityError> {
         require((0.0..=1.0).contains(&p), "p", p, "a probability from 0 to 1")?;
         let h = (self.sorted.len() - 1) as f64 * p;
@@ -196,10 +189,10 @@ impl Sample {
         Ok(self.sorted[j] + (h - j as f64) * (self.sorted[next] - self.sorted[j]))
     }
 
-    /// Histogram. That of a constant sample is a single bin of zero width.
+    /// Histogram. For a constant sample it is a single bin of zero width.
     ///
     /// # Errors
-    /// [`SensitivityError::OutOfRange`] for no bin, or more than there are values.
+    /// [`SensitivityError::OutOfRange`] for no bin, or for more bins than values.
     pub fn histogram(&self, bins: Bins) -> Result<Histogram, SensitivityError> {
         let n = self.sorted.len();
         let (min, max) = (self.sorted[0], self.sorted[n - 1]);
@@ -210,10 +203,7 @@ impl Sample {
                 if width > 0.0 { (((max - min) / width).ceil() as usize).clamp(1, n) } else { 1 }
             }
         };
-        if !(1..=n).contains(&bins) {
-            let (value, maximum) = (bins as u64, n as u64);
-            return Err(SensitivityError::OutOfRange { field: "bins", value, minimum: 1, maximum });
-        }
+        check_range("bins", bins as u64, 1, n as u64)?;
         if min == max {
             return Ok(Histogram { edges: vec![min, max], counts: vec![n] });
         }
@@ -226,15 +216,47 @@ impl Sample {
     }
 }
 
-/// Mean and sum of squares about it, Eq. (1).
-pub(crate) fn mean_and_squares(values: &[f64]) -> (f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let (mut squares, mut rounding) = (0.0, 0.0);
-    for value in values {
-        let deviation = value - mean;
-        squares += deviation * deviation;
-        rounding += deviation;
+/// Returns [`SensitivityError::ConstantSample`] unless at least two values differ.
+pub(crate) fn check_varies(values: &[f64]) -> Result<(), SensitivityError> {
+    if values.iter().all(|value| *value == values[0]) {
+        return Err(SensitivityError::ConstantSample { value: values[0], count: values.len() });
     }
-    (mean, (squares - rounding * rounding / n).max(0.0))
+    Ok(())
+}
+
+/// Mean of values and their spread about it, Eq. (M1).
+pub(crate) struct Spread {
+    n: f64,
+    pub(crate) mean: f64,
+    /// Sum of the squares about the mean.
+    pub(crate) squares: f64,
+}
+
+impl Spread {
+    pub(crate) fn of(values: &[f64]) -> Self {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let (mut squares, mut rounding) = (0.0, 0.0);
+        for value in values {
+            let deviation = value - mean;
+            squares += deviation * deviation;
+            rounding += deviation;
+        }
+        Self { n, mean, squares: (squares - rounding * rounding / n).max(0.0) }
+    }
+
+    /// Variance (with n - 1).
+    pub(crate) fn variance(&self) -> f64 {
+        self.squares / (self.n - 1.0)
+    }
+
+    /// Standard deviation (with n - 1).
+    pub(crate) fn std(&self) -> f64 {
+        self.variance().sqrt()
+    }
+
+    /// Standard error of the mean.
+    pub(crate) fn standard_error(&self) -> f64 {
+        (self.variance() / self.n).sqrt()
+    }
 }

@@ -1,8 +1,7 @@
-//! Sobol' indices: exact values, SALib's, and what failures, steps and too few blocks do to them.
+//! Sobol' indices against exact values and SALib's; failures, steps and too few blocks.
 
 use super::functions::{self, Function, ishigami, uniform};
 use approx::assert_abs_diff_eq;
-use cdpr_sensitivity::measure::sobol_indices::MIN_BLOCKS;
 use cdpr_sensitivity::{
     Bootstrap, Input, Law, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolIndices, Steps,
     convergence, first_tight, observe, sobol_indices,
@@ -79,7 +78,8 @@ fn intervals_of_95_percent_hold_the_exact_indices_in_95_of_100_studies() {
                 }
             }
         }
-        // A count of 100 has a deviation of 2.2 about 95: three of them below, and the mean of all counts at 93.
+        // A count of 100 has a deviation of 2.2 about 95: three of them below, and the mean of all counts at
+        // 93.
         let mean = held.iter().sum::<usize>() as f64 / held.len() as f64;
         assert!(mean >= 93.0 && held.iter().all(|&held| held >= 88), "{}: {held:?}", function.name);
     }
@@ -103,7 +103,8 @@ fn pairs_of_ishigamis_function_are_the_first_and_the_third_input_alone() {
 
 #[test]
 fn a_block_with_a_failed_observation_is_as_if_the_design_did_not_have_it() {
-    // The plain design of 96 blocks, less its first 32: on the sequence from index 32 on, nothing else changes.
+    // The plain design of 96 blocks, less its first 32: on the sequence from index 32 on, nothing else
+    // changes.
     let function = ishigami();
     let whole = SaltelliDesign::new(function.inputs.clone(), 0, 96, Order::Second).unwrap();
     let rest = SaltelliDesign::new(function.inputs.clone(), 32, 64, Order::Second).unwrap();
@@ -173,7 +174,7 @@ fn too_few_whole_blocks_a_constant_output_and_values_that_are_not_finite_are_err
 
     let mut holed = good.clone();
     (0..17).for_each(|block| holed[5 * block] = None);
-    let (value, minimum) = (15, MIN_BLOCKS as u64);
+    let (value, minimum) = (15, SobolIndices::MIN_BLOCKS as u64);
     let few = SensitivityError::OutOfRange { field: "whole blocks", value, minimum, maximum: u64::MAX };
     assert_eq!(error(&holed), few);
 

@@ -1,4 +1,4 @@
-//! Chaos expansions: polynomials that are found again, exact indices, and what they do with noise, steps and failures.
+//! Chaos expansions: polynomials that they recover, exact indices; noise, steps and failures.
 
 use super::functions::{self, Function, uniform};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
@@ -46,9 +46,9 @@ fn ishigamis_function_is_found_from_512_points() {
     assert!(found.leave_one_out < 1e-5, "{}", found.leave_one_out);
     assert_indices(&found, &function, 1e-3);
     let pairs = found.pairs();
-    let strongest = pairs.iter().max_by(|one, other| one.1.total_cmp(&other.1)).unwrap();
-    assert_eq!(strongest.0, [0, 2]);
-    assert_abs_diff_eq!(strongest.1, function.total[2], epsilon = 1e-3);
+    let strongest = pairs.iter().max_by(|one, other| one.share.total_cmp(&other.share)).unwrap();
+    assert_eq!(strongest.inputs, [0, 2]);
+    assert_abs_diff_eq!(strongest.share, function.total[2], epsilon = 1e-3);
 
     let outer = found.group(&["x1", "x3"]).unwrap();
     assert_abs_diff_eq!(outer.closed, 1.0 - function.first[1], epsilon = 1e-3);
@@ -60,7 +60,7 @@ fn ishigamis_function_is_found_from_512_points() {
 }
 
 #[test]
-fn indices_of_kinked_and_of_many_inputs_are_as_near_as_the_leave_one_out_error_says() {
+fn indices_of_kinked_and_of_many_inputs_are_as_accurate_as_the_leave_one_out_error() {
     for (function, truncation, largest) in [
         (functions::sobol_g(), Truncation { max_degree: 10, norm: 0.75, interactions: 2 }, 0.1),
         (functions::morris(), Truncation { max_degree: 4, norm: 1.0, interactions: 4 }, 0.1),
@@ -129,7 +129,7 @@ fn a_stepped_input_is_expanded_as_its_law() {
 }
 
 #[test]
-fn pure_noise_has_hardly_a_term_and_says_so() {
+fn an_expansion_of_pure_noise_has_hardly_a_term_and_a_large_error() {
     let design = SobolDesign::scrambled(uniform(10, 0.0, 1.0), 400, 1).unwrap();
     let noise = |x: &[f64]| (1e6 * x.iter().sum::<f64>()).sin();
     let found = fit(&design, FULL, noise);

@@ -1,4 +1,4 @@
-//! Regression coefficients: NumPy's, exact ones, and of correlated, stepped and collinear inputs.
+//! Regression coefficients against NumPy's and exact ones; correlated, stepped and collinear inputs.
 
 use super::functions::{self, uniform};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
@@ -78,7 +78,8 @@ fn ranks_straighten_a_monotonic_model() {
 
 #[test]
 fn correlated_inputs_have_the_coefficients_of_their_model() {
-    // y = x1 + x2 with correlation 0.8: variance 3.6, so that both have 1 / √3.6, and squares that do not add up to 1.
+    // y = x1 + x2 with correlation 0.8: variance 3.6, so that both have 1 / √3.6, and squares that do not add
+    // up to 1.
     let law = Law::Normal { mean: 0.0, std: 1.0 };
     let inputs = ["x1", "x2"].map(|name| Input::continuous(name, law)).to_vec();
     let sobol = SobolDesign::scrambled(inputs, 4096, 1).unwrap();

@@ -43,7 +43,7 @@ fn the_first_design_with_tight_intervals_is_the_last_and_no_point_is_run_twice()
 }
 
 #[test]
-fn a_run_that_reaches_its_maximum_says_so() {
+fn a_run_that_reaches_its_maximum_is_not_tight() {
     let target = Target { width: 1e-6, level: 0.95, max_blocks: 255 };
     let run = until_tight(design(), target, BOOTSTRAP, product).unwrap();
     assert!(!run.tight);

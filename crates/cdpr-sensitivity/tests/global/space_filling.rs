@@ -160,7 +160,7 @@ fn correlations_of_zero_change_nothing() {
 }
 
 #[test]
-fn a_matrix_that_is_none_of_correlations_is_an_error() {
+fn a_matrix_that_is_not_a_correlation_matrix_is_an_error() {
     let error =
         |matrix: &[Vec<f64>]| Correlated::new(RandomDesign::new(unit(2), 8, 1).unwrap(), matrix).unwrap_err();
     let place = |error| match error {

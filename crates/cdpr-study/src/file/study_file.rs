@@ -3,9 +3,7 @@
 use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
 use crate::file::value::Value;
-use cdpr_sensitivity::measure::expansion::MAX_DEGREE;
-use cdpr_sensitivity::measure::sobol_indices::MIN_BLOCKS;
-use cdpr_sensitivity::{Law, Steps, Truncation};
+use cdpr_sensitivity::{Expansion, Law, SobolIndices, Steps, Truncation};
 use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -158,11 +156,11 @@ impl SensitivitySpec {
         let Truncation { max_degree, norm, interactions } = self.expansion;
         let counts = [
             ("observations", self.observations, 3..=1 << 16),
-            ("saltelli_blocks", self.saltelli_blocks, MIN_BLOCKS..=MOST),
+            ("saltelli_blocks", self.saltelli_blocks, SobolIndices::MIN_BLOCKS..=MOST),
             ("bootstrap_resamples", self.bootstrap_resamples, 2..=MOST),
             ("morris_blocks", self.morris_blocks, 2..=MOST),
             ("derivative_points", self.derivative_points, 2..=MOST),
-            ("expansion.max_degree", max_degree, 1..=MAX_DEGREE),
+            ("expansion.max_degree", max_degree, 1..=Expansion::MAX_DEGREE),
             ("expansion.interactions", interactions, 1..=MOST),
         ];
         let count = counts.into_iter().find(|(_, value, range)| !range.contains(value));

@@ -1,20 +1,22 @@
-//! Orthonormal polynomials of the laws, and the products of them that an expansion chooses from.
+//! Orthonormal polynomials of the laws, and the products of them from which an expansion chooses.
 //!
 //! ```text
-//! uniform:  ξ = (2 x - min - max) / (max - min),   ψ_n = √(2n + 1) P_n(ξ),   (n+1) P_(n+1) = (2n+1) ξ P_n - n P_(n-1)   (1)
-//! normal:   ξ = (x - mean) / std,   √(n+1) ψ_(n+1) = ξ ψ_n - √n ψ_(n-1)    (2)
-//! others:   ξ = 2 F(x) - 1, ψ_n as in (1)                                 (3)
-//! Ψ_α(x) = Π_i ψ_α_i(ξ_i),   (Σ α_i^q)^(1/q) ≤ p                          (4)
+//! uniform:  ξ = (2 x - min - max) / (max - min),   ψ_n = √(2n + 1) P_n(ξ)                   (Y1)
+//!           (n+1) P_(n+1) = (2n+1) ξ P_n - n P_(n-1)
+//! normal:   ξ = (x - mean) / std,   √(n+1) ψ_(n+1) = ξ ψ_n - √n ψ_(n-1)                     (Y2)
+//! others:   ξ = 2 F(x) - 1,   ψ_n as in (Y1)                                                (Y3)
+//! Ψ_α(x) = Π_i ψ_α_i(ξ_i),   (Σ α_i^q)^(1/q) ≤ p                                            (Y4)
 //! ```
 //!
-//! (1), (2) are Legendre's and Hermite's polynomials, of mean square 1 under their law: D. Xiu, G. E. Karniadakis, *The
-//! Wiener-Askey polynomial chaos for stochastic differential equations*, SIAM J. Sci. Comput. 24 (2002). (3) is the
-//! isoprobabilistic transform to the uniform law. (4) is the hyperbolic truncation of G. Blatman, B. Sudret, *Adaptive
-//! sparse polynomial chaos expansion based on least angle regression*, J. Comput. Phys. 230 (2011): the smaller q, the
-//! fewer interactions.
+//! - (Y1) and (Y2) are Legendre's and Hermite's polynomials, with a mean square of 1 under their law: D. Xiu,
+//!   G. E. Karniadakis, *The Wiener-Askey polynomial chaos for stochastic differential equations*, SIAM J.
+//!   Sci. Comput. 24 (2002).
+//! - (Y3) is the isoprobabilistic transform to the uniform law.
+//! - (Y4) is the hyperbolic truncation of G. Blatman, B. Sudret, *Adaptive sparse polynomial chaos expansion
+//!   based on least angle regression*, J. Comput. Phys. 230 (2011). A smaller q gives fewer interactions.
 //!
-//! Steps are disregarded: the polynomials of a stepped input are those of its law, of which steps of h in a uniform range
-//! R change the mean squares by a relative (h / R)².
+//! Steps are disregarded: the polynomials of a stepped input are those of its continuous law. Steps of h in a
+//! uniform range R change the mean squares by a relative (h / R)².
 
 use serde::{Deserialize, Serialize};
 
@@ -25,11 +27,11 @@ use crate::law::Law;
 pub struct Power {
     /// Index of the input.
     pub input: usize,
-    /// Degree of its polynomial, 1 at least.
+    /// Degree of its polynomial, at least 1.
     pub degree: usize,
 }
 
-/// `ψ_0` .. `ψ_degree` of a law at x, Eq. (1) to (3).
+/// Polynomials `ψ_0` .. `ψ_degree` of a law at x, Eq. (Y1) to (Y3).
 pub(crate) fn polynomials(law: &Law, x: f64, degree: usize) -> Vec<f64> {
     let (xi, hermite) = match *law {
         Law::Normal { mean, std } => ((x - mean) / std, true),
@@ -51,28 +53,28 @@ pub(crate) fn polynomials(law: &Law, x: f64, degree: usize) -> Vec<f64> {
     values
 }
 
-/// Which products an expansion chooses from, Eq. (4).
+/// Set of products from which an expansion chooses, Eq. (Y4).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Truncation {
-    /// Largest degree p that is tried.
+    /// Largest degree p.
     pub max_degree: usize,
-    /// q, in (0, 1]: 1 for all products up to the total degree p.
+    /// Norm q in (0, 1]. With 1, all products up to the total degree p are included.
     pub norm: f64,
-    /// Most inputs in a product.
+    /// Largest number of inputs in a product.
     pub interactions: usize,
 }
 
 impl Truncation {
-    /// The products of this degree, without the constant one; `None` if there are more than `limit`.
+    /// Products up to this degree without the constant one, or `None` if there are more than `limit`.
     pub(crate) fn products(&self, inputs: usize, degree: usize, limit: usize) -> Option<Vec<Vec<Power>>> {
         let mut products: Vec<Vec<Power>> = vec![vec![]];
         let room = |product: &[Power]| {
-            // 1e-9: rounding of the powers.
+            // 1e-9 covers the rounding of the powers.
             let taken: f64 = product.iter().map(|power| (power.degree as f64).powf(self.norm)).sum();
             (degree as f64).powf(self.norm) - taken + 1e-9
         };
-        // Each product is that of one before it and a power of a later input.
+        // Each product extends an earlier one by a power of a later input.
         let mut done = 0;
         while done < products.len() {
             let product = products[done].clone();

@@ -1,44 +1,47 @@
-//! Sparse least squares by orthogonal matching pursuit, its size chosen by the leave-one-out error.
+//! Sparse least squares by orthogonal matching pursuit. The leave-one-out error decides the number of terms.
 //!
-//! With r the residual, the next column is that of the largest correlation with it; the chosen columns are kept
-//! factored, X = Q R, so that each step costs one pass over the candidates:
+//! With r the residual, the next column is the one with the largest correlation with r. The chosen columns
+//! are kept factored, X = Q R, so that each step costs one pass over the candidates:
 //!
 //! ```text
-//! j = argmax |x_j · r| / |x_j|                                            (1)
-//! r ← r - (q · r) q,   q = x_j less its projections on Q, normalised      (2)
-//! h_i = Σ q_i²                                                            (3)
-//! ε = mean((r_i / (1 - h_i))²) / Var y · n / (n - P) · (1 + tr (Xᵀ X)⁻¹)      (4)
-//! |x_j · r| / |x_j| ≤ √(2 ln p) |r| / √(n - P)                             (5)
+//! j = argmax |x_j · r| / |x_j|                                            (Z1)
+//! r ← r - (q · r) q,   q = x_j less its projections on Q, normalised      (Z2)
+//! h_i = Σ q_i²                                                            (Z3)
+//! ε = mean((r_i / (1 - h_i))²) / Var y · n / (n - P) · (1 + tr (Xᵀ X)⁻¹)      (Z4)
+//! |x_j · r| / |x_j| ≤ √(2 ln p) |r| / √(n - P)                             (Z5)
 //! ```
 //!
-//! (1), (2): Y. C. Pati, R. Rezaiifar, P. S. Krishnaprasad, *Orthogonal matching pursuit* (1993). (4) is the leave-one-out
-//! error of P terms from one fit, by its leverages (3), times the correction of O. Chapelle, V. Vapnik, Y. Bengio (2002)
-//! for small n, as G. Blatman and B. Sudret (2011) choose the terms of chaos expansions.
+//! - (Z1), (Z2): Y. C. Pati, R. Rezaiifar, P. S. Krishnaprasad, *Orthogonal matching pursuit* (1993).
+//! - (Z4) is the leave-one-out error of P terms, which follows from one fit by its leverages (Z3), times the
+//!   correction of O. Chapelle, V. Vapnik, Y. Bengio, *Model selection for small sample regression* (2002).
+//!   G. Blatman and B. Sudret (2011) choose the terms of chaos expansions in this way.
+//! - (Z5) ends the path: T. T. Cai, L. Wang, *Orthogonal matching pursuit for sparse signal recovery with
+//!   noise*, IEEE Trans. Inf. Theory 57 (2011).
 //!
-//! (4) does not know that the terms were looked for: the best of p candidates fits even noise, and many such terms make an
-//! ε that is too small by a third. So the path ends at (5), where the best of the p candidates is no better than that
-//! of noise would be: T. T. Cai, L. Wang, *Orthogonal matching pursuit for sparse signal recovery with noise*, IEEE Trans.
-//! Inf. Theory 57 (2011).
+//! (Z4) does not account for the choice among candidates. The best of p candidates fits even noise, and many
+//! such terms make ε too small by a third. The path therefore ends where the best of the p candidates
+//! correlates no better than the best of p candidates would with noise.
 
 use rayon::prelude::*;
 
-use crate::sample::summary::mean_and_squares;
+use crate::sample::summary::Spread;
 
-/// A sparse least-squares model.
+/// Sparse least-squares model.
 pub(crate) struct Pursuit {
     pub(crate) constant: f64,
-    /// Candidate and its coefficient.
+    /// Indices of the candidates and their coefficients.
     pub(crate) terms: Vec<(usize, f64)>,
-    /// ε (4).
+    /// Error ε (Z4).
     pub(crate) error: f64,
 }
 
-/// The model of the least ε along the path, at most half as many terms as values. `columns` are the candidates beside the
-/// constant; `y` holds at least two different values.
+/// Finds the model of the least ε along the path. It has at most half as many terms as there are values.
+///
+/// `columns` are the candidates besides the constant. `y` holds at least two different values.
 pub(crate) fn pursue(columns: &[Vec<f64>], y: &[f64]) -> Pursuit {
     let limit = columns.len().min(y.len() / 2);
-    let squares = mean_and_squares(y).1;
-    // A column of zeros is no candidate, but correlates with nothing.
+    let squares = Spread::of(y).squares;
+    // A column of zeros has no norm, but it correlates with nothing either.
     let norm = |column: &Vec<f64>| dot(column, column).sqrt().max(f64::MIN_POSITIVE);
     let norms: Vec<f64> = columns.par_iter().map(norm).collect();
     let mut open = vec![true; columns.len()];
@@ -71,14 +74,14 @@ pub(crate) fn pursue(columns: &[Vec<f64>], y: &[f64]) -> Pursuit {
     }
 }
 
-/// Eq. (1), with the correlation; `None` when no candidate is left.
+/// Next candidate (Z1) and its correlation, or `None` if no candidate is left.
 fn closest(columns: &[Vec<f64>], norms: &[f64], open: &[bool], residual: &[f64]) -> Option<(usize, f64)> {
     let correlation = |j: usize| (j, dot(&columns[j], residual).abs() / norms[j]);
     let left: Vec<_> = (0..columns.len()).into_par_iter().filter(|&j| open[j]).map(correlation).collect();
     left.into_iter().reduce(|best, other| if other.1 > best.1 { other } else { best })
 }
 
-/// In eight sums, which the processor adds at once.
+/// Dot product in eight partial sums, which the processor adds at once.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a_eights, a_rest) = a.as_chunks::<8>();
     let (b_eights, b_rest) = b.as_chunks::<8>();
@@ -91,10 +94,10 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
 }
 
-/// X = Q R of the columns chosen so far, the constant first.
+/// Factors X = Q R of the columns chosen so far, with the constant first.
 struct Path {
     q: Vec<Vec<f64>>,
-    /// Columns of R⁻¹, without the zeros.
+    /// Columns of R⁻¹ without their zeros.
     inverse: Vec<Vec<f64>>,
     /// Qᵀ y.
     projections: Vec<f64>,
@@ -115,13 +118,14 @@ impl Path {
         path
     }
 
-    /// Takes in a column, Eq. (2), unless it depends on the others.
+    /// Adds a column, Eq. (Z2), unless it depends linearly on the others.
     fn push(&mut self, column: &[f64]) -> bool {
-        /// Distance from the space of the others over length.
+        /// Least distance of a column from the space of the others, over its length.
         const DEPENDENT: f64 = 1e-8;
         let mut q = column.to_vec();
         let mut r = vec![0.0; self.q.len()];
-        // Twice is enough (W. Kahan): Gram and Schmidt's method, repeated, is as orthogonal as Householder's.
+        // Gram and Schmidt's method, applied twice, is as orthogonal as Householder's (W. Kahan: "twice is
+        // enough").
         for _ in 0..2 {
             for (r, other) in r.iter_mut().zip(&self.q) {
                 let projection = dot(&q, other);
@@ -148,12 +152,12 @@ impl Path {
         true
     }
 
-    /// `|r| / √(n - P)`.
+    /// Deviation of the residual, `|r| / √(n - P)`.
     fn noise(&self) -> f64 {
         (dot(&self.residual, &self.residual) / (self.residual.len() - self.q.len()) as f64).sqrt()
     }
 
-    /// ε (4), infinite where one value has all the leverage.
+    /// Error ε (Z4). It is infinite if one value has a leverage of 1.
     fn corrected_error(&self, squares: f64) -> f64 {
         let n = self.residual.len() as f64;
         let left_out = |(r, h): (&f64, &f64)| if *h < 1.0 { (r / (1.0 - h)).powi(2) } else { f64::INFINITY };
@@ -162,7 +166,7 @@ impl Path {
         sum / squares * n / (n - self.q.len() as f64) * (1.0 + trace)
     }
 
-    /// R⁻¹ Qᵀ y of the first `count` columns.
+    /// Coefficients R⁻¹ Qᵀ y of the first `count` columns.
     fn coefficients(&self, count: usize) -> Vec<f64> {
         let mut coefficients = vec![0.0; count];
         for (column, projection) in self.inverse[..count].iter().zip(&self.projections) {
@@ -172,7 +176,7 @@ impl Path {
     }
 }
 
-/// `sum += factor * vector`, as far as the vector goes.
+/// Adds `factor * vector` to the first elements of `sum`.
 fn add(sum: &mut [f64], factor: f64, vector: &[f64]) {
     sum.iter_mut().zip(vector).for_each(|(sum, entry)| *sum += factor * entry);
 }
@@ -183,7 +187,7 @@ mod tests {
     use crate::measure::least_squares::{LeastSquares, least_squares};
 
     #[test]
-    fn the_error_is_that_of_fits_without_each_value_and_the_coefficients_are_those_of_householder() {
+    fn the_error_is_that_of_fits_that_leave_out_each_value_and_the_coefficients_are_those_of_householder() {
         let x: Vec<f64> = (0..12).map(|i| (1.7 * f64::from(i)).sin()).collect();
         let y: Vec<f64> = x.iter().enumerate().map(|(i, x)| x + x * x + 0.3 * (i as f64).cos()).collect();
         let columns = [vec![1.0; 12], x.clone(), x.iter().map(|x| x.exp()).collect()];
@@ -199,7 +203,7 @@ mod tests {
         };
         let sum: f64 = (0..12).map(|i| left_out(i).powi(2)).sum();
         let whole = least_squares(&columns, &y).unwrap_or_else(|j| panic!("{j}"));
-        let (_, squares) = mean_and_squares(&y);
+        let squares = Spread::of(&y).squares;
         let corrected = sum / squares * 12.0 / 9.0 * (1.0 + whole.inverse_gram.iter().sum::<f64>());
         assert!((path.corrected_error(squares) / corrected - 1.0).abs() < 1e-10);
         for (one, other) in path.coefficients(3).iter().zip(&whole.coefficients) {

@@ -1,12 +1,12 @@
-//! The families of laws that can be fitted to a sample.
+//! Families of laws that can be fitted to a sample.
 
 use serde::{Deserialize, Serialize};
 
-/// A family of laws that can be fitted: the variants of [`Law`] of two parameters.
+/// A family of laws that can be fitted: the variants of [`crate::Law`] with two parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Family {
-    /// [`crate::Law::Uniform`], whose estimate is [min, max] of the sample.
+    /// [`crate::Law::Uniform`]. Its estimate spans the smallest to the largest value of the sample.
     Uniform,
     /// [`crate::Law::Normal`].
     Normal,
@@ -16,14 +16,14 @@ pub enum Family {
     Laplace,
     /// [`crate::Law::Gumbel`].
     Gumbel,
-    /// [`crate::Law::LogNormal`], of positive values only.
+    /// [`crate::Law::LogNormal`], for positive values only.
     LogNormal,
-    /// [`crate::Law::Weibull`], of positive values only.
+    /// [`crate::Law::Weibull`], for positive values only.
     Weibull,
 }
 
 impl Family {
-    /// All families.
+    /// All families, the most common ones first.
     pub const ALL: [Self; 7] = [
         Self::Uniform,
         Self::Normal,
@@ -34,7 +34,8 @@ impl Family {
         Self::Weibull,
     ];
 
-    pub(super) fn positive(self) -> bool {
+    /// Whether the family has laws of positive values only.
+    pub(crate) fn positive(self) -> bool {
         matches!(self, Self::LogNormal | Self::Weibull)
     }
 }
