@@ -8,7 +8,7 @@ use crate::output::table;
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, cycle};
 use cdpr_study::{CableLaw, law_json, open_record, write_text};
-use published::{Entry, Published};
+use published::{Entry, Published, percent};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -133,7 +133,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         dissipated_energy_j: record.dissipated_energy(),
         published: None,
     };
-    found.published = published.as_ref().map(|table| table.beside(&found));
+    let moduli = found.ranges.iter().map(|range| [range.loading.modulus_gpa, range.unloading.modulus_gpa]);
+    found.published = published.as_ref().map(|table| table.beside(moduli));
     settings.format.print(&found, |found| {
         print(found);
         if let (Some(table), Some(entries)) = (&published, &found.published) {
@@ -165,10 +166,6 @@ fn print(found: &Found) {
         rows.add_row([name].into_iter().chain(cells(&range.loading)).chain(cells(&range.unloading)));
     }
     println!("{rows}\nthe loop dissipates {:.4} J", found.dissipated_energy_j);
-}
-
-fn percent(from: f64, to: f64) -> String {
-    format!("{from} to {to}")
 }
 
 fn write_law(

@@ -1,5 +1,6 @@
 //! `cdpr derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
+use crate::answer::decimal;
 use crate::arguments::{LoadArguments, RobotAtPose};
 use crate::error::ProgramError;
 use crate::output::table;
@@ -92,15 +93,14 @@ fn print(heading: &str, found: &Derivatives, slopes: &Slopes) {
         (slopes.rms_mm[*j] * other).abs().total_cmp(&(slopes.rms_mm[*i] * one).abs())
     });
     let mut lines = table(&header);
-    for (place, (unit, step)) in rows {
-        // Without the sign of a zero.
-        let micrometres = |slope: f64| format!("{:.5}", (1e8 * slope * step).round() / 1e5 + 0.0);
-        let [dx, dy, dz] = slopes.deflection_mm[place].map(micrometres);
-        let lengths = slopes.unstrained_lengths[place].iter();
+    for (i, (unit, step)) in rows {
+        let micrometres = |slope: f64| decimal(1e3 * slope * step, 5);
+        let [dx, dy, dz] = slopes.deflection_mm[i].map(micrometres);
+        let lengths = slopes.unstrained_lengths[i].iter();
         let largest = lengths.fold(0.0, |size: f64, slope| size.max(slope.abs()));
         lines.add_row([
-            slopes.parameters[place].clone(),
-            micrometres(slopes.rms_mm[place]),
+            slopes.parameters[i].clone(),
+            micrometres(slopes.rms_mm[i]),
             unit.to_owned(),
             dx,
             dy,

@@ -1,5 +1,6 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
+use crate::answer::vector;
 use crate::arguments::{self, Format, number, payload};
 use crate::error::ProgramError;
 use crate::output::table;
@@ -167,14 +168,9 @@ fn print(found: &Found) {
             (format!("{:.2}", cable.modulus_gpa), format!("{:.4}", 1e3 * cable.dissipated_j));
         rows.add_row([(i + 1).to_string(), a, b, c, modulus, energy]);
     }
-    // Without the sign of a zero.
-    let [dx, dy, dz] = found.deflection_mm.map(|d| format!("{:.4}", (1e4 * d).round() / 1e4 + 0.0));
-    let [rx, ry, rz] = found.residual_mm.map(|d| format!("{:.5}", (1e5 * d).round() / 1e5 + 0.0));
-    println!(
-        "{rows}\n\
-         displaced by the payload  ({dx}, {dy}, {dz}) mm\n\
-         left when it is gone      ({rx}, {ry}, {rz}) mm"
-    );
+    println!("{rows}");
+    println!("displaced by the payload  {} mm", vector(&found.deflection_mm, 4));
+    println!("left when it is gone      {} mm", vector(&found.residual_mm, 5));
     println!(
         "energy: {:.4} mJ given by the payload, {:.4} mJ in the loops of the cables",
         1e3 * found.payload_work_j,

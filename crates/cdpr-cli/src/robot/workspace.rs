@@ -54,18 +54,13 @@ pub(crate) struct Settings {
 #[derive(Clone, Copy)]
 struct Plane {
     normal: Axis,
-    place: f64,
+    coordinate: f64,
 }
 
 fn plane(text: &str) -> Result<Plane, String> {
-    let parts = text.split_once('=').and_then(|(name, place)| {
-        let normal = match name.trim() {
-            "x" => Axis::X,
-            "y" => Axis::Y,
-            "z" => Axis::Z,
-            _ => return None,
-        };
-        Some(Plane { normal, place: arguments::number(place).ok()? })
+    let parts = text.split_once('=').and_then(|(name, coordinate)| {
+        let normal = Axis::from_letter(name.trim())?;
+        Some(Plane { normal, coordinate: arguments::number(coordinate).ok()? })
     });
     parts.ok_or_else(|| "expected x=, y= or z= a coordinate [m], such as z=1.75".to_owned())
 }
@@ -84,7 +79,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let robot = open_robot(&settings.robot)?;
     let grid = match (&settings.within, settings.plane) {
         (Some(grid), _) => *grid,
-        (None, Some(Plane { normal, place })) => Grid::over_frame(&robot, normal, place, settings.grid)?,
+        (None, Some(Plane { normal, coordinate })) => {
+            Grid::over_frame(&robot, normal, coordinate, settings.grid)?
+        }
         (None, None) => return Err(ProgramError::Usage("expected --plane or --box".to_owned())),
     };
     let tolerances = settings.tolerances(&robot)?;

@@ -106,7 +106,7 @@ impl Robot {
         let held = |row: usize| poses[row].outcome.as_ref().ok();
         let loaded = |row: usize| held(row).filter(|_| workspace.load != Load::none());
         Ok(Workspace {
-            shape: [Axis::X, Axis::Y, Axis::Z].map(|axis| grid.axis(axis).points).into(),
+            shape: Axis::ALL.map(|axis| grid.axis(axis).points).into(),
             positions: vectors(&|row| Some(poses[row].pose.position.into()))?,
             status: rows.iter().map(|row| row.status.to_owned()).collect(),
             reasons: rows.iter().map(|row| row.reason.clone()).collect(),
@@ -138,14 +138,8 @@ fn places(name: &str, numbers: &Numbers) -> Answer<GridAxis> {
 }
 
 fn normal(axis: &str) -> Answer<Axis> {
-    match axis {
-        "x" => Ok(Axis::X),
-        "y" => Ok(Axis::Y),
-        "z" => Ok(Axis::Z),
-        _ => Err(Raised::Input(format!(
-            "plane is {axis}: expected x, y or z with a coordinate, such as (\"z\", 1.75)"
-        ))),
-    }
+    let expected = "expected x, y or z with a coordinate, such as (\"z\", 1.75)";
+    Axis::from_letter(axis).ok_or_else(|| Raised::Input(format!("plane is {axis}: {expected}")))
 }
 
 /// Normal deviations of the parameters that are named, by themselves or by their group.

@@ -1,6 +1,5 @@
 //! A published table of moduli, compared with those that follow from a record.
 
-use super::{Found, percent};
 use crate::arguments::read;
 use crate::error::ProgramError;
 use crate::output::table;
@@ -57,24 +56,24 @@ impl Published {
         Ok(found)
     }
 
-    /// Compares every entry with the modulus found for its range.
-    pub(super) fn beside(&self, found: &Found) -> Vec<Entry> {
-        let of_range = self.ranges.iter().enumerate().flat_map(|(k, &(from_percent, to_percent))| {
-            let range = &found.ranges[k];
-            [
-                ("loading", &self.loading_gpa, &range.loading),
-                ("unloading", &self.unloading_gpa, &range.unloading),
-            ]
-            .map(|(phase, published, computed)| {
-                let (published_gpa, computed_gpa) =
-                    (published[k].as_f64().unwrap_or(f64::NAN), computed.modulus_gpa);
+    /// Compares every entry with the moduli [GPa] found for its range, while loading and unloading.
+    pub(super) fn beside(&self, found: impl Iterator<Item = [f64; 2]>) -> Vec<Entry> {
+        let of_range = |(k, (&(from_percent, to_percent), computed)): (usize, (&(f64, f64), [f64; 2]))| {
+            let published = [("loading", &self.loading_gpa[k]), ("unloading", &self.unloading_gpa[k])];
+            published.into_iter().zip(computed).map(move |((phase, published), computed_gpa)| {
+                let published_gpa = published.as_f64().unwrap_or(f64::NAN);
                 let off = (computed_gpa - published_gpa).abs();
-                let consistent = off <= half_a_digit(&published[k]) + ROUNDING;
+                let consistent = off <= half_a_digit(published) + ROUNDING;
                 Entry { from_percent, to_percent, phase, published_gpa, computed_gpa, consistent }
             })
-        });
-        of_range.collect()
+        };
+        self.ranges.iter().zip(found).enumerate().flat_map(of_range).collect()
     }
+}
+
+/// A range of load in words.
+pub(super) fn percent(from: f64, to: f64) -> String {
+    format!("{from} to {to}")
 }
 
 /// Half of the last printed digit: 0.05 for 83.2, 0.5 for 115.
