@@ -2,9 +2,9 @@
 //!
 //! After a change, `INSTA_UPDATE=always cargo test -p cdpr-cli --test bad_input` writes the snapshot anew; read its difference.
 
+use crate::common::{cdpr_in, data_text as data, text};
 use std::fmt::Write;
 use std::path::Path;
-use std::process::Command;
 use tempfile::TempDir;
 
 /// Files made from CAROCA's robot and study by replacing text.
@@ -33,10 +33,6 @@ const STUDIES: [(&str, &str, &str); 7] = [
     ("study_model.json", r#""error_model": ""#, r#""error_model": "x"#),
     ("study_unknown.json", r#""seed""#, r#""sead""#),
 ];
-
-fn data(file: &str) -> String {
-    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file)).unwrap()
-}
 
 fn prepare(folder: &Path) {
     let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
@@ -195,9 +191,8 @@ fn every_kind_of_bad_input_is_refused_with_place_value_and_remedy() {
         if line.ends_with("--lengths") {
             arguments.push(LENGTHS);
         }
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-        let output = command.current_dir(folder.path()).args(&arguments).output().unwrap();
-        let error = String::from_utf8(output.stderr).unwrap();
+        let output = cdpr_in(folder.path(), &arguments);
+        let error = text(output.stderr);
         let code = output.status.code().unwrap();
         assert!(code == 1 || code == 2, "{what}: {code}: {error}");
         assert!(output.stdout.is_empty(), "{what}");

@@ -1,29 +1,22 @@
 //! `cdpr calibration` as a user meets it.
 
+use crate::common::{answered, cdpr, data_path, text};
 use serde_json::Value;
-use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 use tempfile::TempDir;
 
 const UNCERTAINTY: [&str; 2] = ["--uncertainty", "a=0.002,b=0.002,youngs_modulus=5e9,mass=1,dt=5,b1.x=0.01"];
 const NOISE: [&str; 2] = ["--noise", "position=1e-4,rotation=1e-4"];
 
 fn run(arguments: &[&str]) -> Output {
-    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/caroca.json");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-    command.arg("calibration").arg(robot).args(arguments).output().unwrap()
+    cdpr(&[&["calibration", &data_path("robots/caroca.json")], arguments].concat())
 }
 
 #[test]
 fn a_grid_of_poses_tells_geometry_but_no_offset_of_a_tension() {
     let arguments = [&["--grid=-2:2:3,-1:1:3,1:9:2"][..], &UNCERTAINTY, &NOISE].concat();
     let output = run(&[&arguments[..], &["--choose", "4", "--format", "json"]].concat());
-    assert!(
-        output.status.success() && output.stderr.is_empty(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let json: Value = serde_json::from_str(&answered(output)).unwrap();
     assert_eq!((json["poses"].as_u64(), json["refused"]["infeasible_tension"].as_u64()), (Some(9), Some(9)));
     let untold: Vec<_> =
         json["untold"].as_array().unwrap().iter().map(|part| &part["weights"][0][0]).collect();
@@ -34,7 +27,7 @@ fn a_grid_of_poses_tells_geometry_but_no_offset_of_a_tension() {
     assert_eq!(json["best_poses"].as_array().unwrap().len(), 4);
     assert_eq!(json["best_poses"][0]["pose"].as_array().unwrap().len(), 7);
 
-    let text = String::from_utf8(run(&arguments).stdout).unwrap();
+    let text = text(run(&arguments).stdout);
     for words in
         ["CAROCA: measured at 9 poses", "9 poses left out: infeasible_tension", "+1.00 dt8", "adds [bit]"]
     {
@@ -52,7 +45,7 @@ fn a_file_of_poses_is_read_line_by_line() {
     let json: Value = serde_json::from_slice(&run(&arguments).stdout).unwrap();
     assert_eq!(json["poses"], 2);
     std::fs::write(&path, "0,0,1.75\n1,0.5\n").unwrap();
-    let error = String::from_utf8(run(&arguments).stderr).unwrap();
+    let error = text(run(&arguments).stderr);
     assert!(
         error.starts_with("error: --poses ") && error.contains("line 2: 2 numbers: expected x,y,z"),
         "{error}"
@@ -95,7 +88,7 @@ fn bad_input_is_named_with_what_would_be_right() {
         ),
     ] {
         let output = run(&arguments);
-        let text = String::from_utf8(output.stderr).unwrap();
+        let text = text(output.stderr);
         assert_ne!(output.status.code(), Some(0), "{text}");
         assert!(text.contains(words) && !text.contains("panicked"), "`{words}` is not in: {text}");
     }

@@ -1,6 +1,6 @@
 //! Every command has an example in docs/COMMANDS.md; `book.rs` runs them.
 
-use std::process::Command;
+use crate::common::{answered, cdpr};
 
 const DOCUMENT: &str = include_str!("../../../docs/COMMANDS.md");
 
@@ -11,8 +11,7 @@ fn examples() -> Vec<&'static str> {
 
 #[test]
 fn every_command_has_an_example() {
-    let help = Command::new(env!("CARGO_BIN_EXE_cdpr")).arg("--help").output().unwrap();
-    let help = String::from_utf8(help.stdout).unwrap();
+    let help = answered(cdpr(&["--help"]));
     let commands = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
     for command in commands.lines().map(|line| line.split_whitespace().next().unwrap()) {
         let has_one = examples().iter().any(|line| line.starts_with(&format!("cdpr {command} ")));

@@ -1,22 +1,18 @@
 //! `cdpr derivatives` as a user meets it: the numbers of the library, and every kind of bad input.
 
+use crate::common::{cdpr, data, text};
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{Load, derivatives};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 fn caroca() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/caroca.json")
+    data("robots/caroca.json")
 }
 
 fn run(robot: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-    command.arg("derivatives").arg(robot).args(arguments).output().unwrap()
-}
-
-fn text(bytes: Vec<u8>) -> String {
-    String::from_utf8(bytes).unwrap()
+    cdpr(&[&["derivatives", robot.to_str().unwrap()], arguments].concat())
 }
 
 #[test]

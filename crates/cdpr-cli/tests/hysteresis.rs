@@ -1,16 +1,13 @@
 //! `cdpr hysteresis` as a user meets it.
 
+use crate::common::{answered, cdpr, data_path, text};
 use serde_json::Value;
-use std::process::{Command, Output};
-
-const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data");
+use std::process::Output;
 
 fn hysteresis(more: &[&str]) -> Output {
-    let (robot, record) =
-        (format!("{DATA}/robots/caroca.json"), format!("{DATA}/cables/caroca-4mm-record.csv"));
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-    command.args(["hysteresis", &robot, "--record", &record, "--length", "1", "--pose", "0,0,1.75"]);
-    command.args(more).output().unwrap()
+    let (robot, record) = (data_path("robots/caroca.json"), data_path("cables/caroca-4mm-record.csv"));
+    let given = ["hysteresis", &robot, "--record", &record, "--length", "1", "--pose", "0,0,1.75"];
+    cdpr(&[&given[..], more].concat())
 }
 
 #[test]
@@ -19,12 +16,7 @@ fn the_cycle_of_the_paper_s_payload_ends_below_where_it_began() {
     let figure = folder.path().join("cycle.svg");
     let more = ["--payload", "50", "--format", "json", "--figure"];
     let output = hysteresis(&[&more[..], &[figure.to_str().unwrap()]].concat());
-    assert!(
-        output.status.success() && output.stderr.is_empty(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found: Value = serde_json::from_str(&answered(output)).unwrap();
     let number = |path: &str| found.pointer(path).and_then(Value::as_f64).unwrap();
     let (down, stays) = (number("/deflection_mm/2"), number("/residual_mm/2"));
     assert!(down < stays && stays < 0.0, "{down} {stays}");
@@ -39,9 +31,8 @@ fn the_cycle_of_the_paper_s_payload_ends_below_where_it_began() {
 
 fn json(arguments: &[&str]) -> Value {
     let common = ["--pose", "0,0,1.75", "--payload", "50", "--format", "json"];
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-    let output = command.arg("hysteresis").args(arguments).args(common).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = cdpr(&[&["hysteresis"], arguments, &common].concat());
+    assert!(output.status.success(), "{}", text(output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
@@ -49,15 +40,11 @@ fn down_and_left(found: &Value) -> [f64; 2] {
     ["/deflection_mm/2", "/residual_mm/2"].map(|path| found.pointer(path).and_then(Value::as_f64).unwrap())
 }
 
-fn data(file: &str) -> String {
-    format!("{DATA}/{file}")
-}
-
 #[test]
 fn a_law_file_says_what_its_record_says() {
-    let robot = data("robots/caroca.json");
-    let of_record = json(&[&robot, "--record", &data("cables/caroca-4mm-record.csv"), "--length", "1"]);
-    let of_law = json(&[&robot, "--law", &data("cables/caroca-4mm-law.json")]);
+    let robot = data_path("robots/caroca.json");
+    let of_record = json(&[&robot, "--record", &data_path("cables/caroca-4mm-record.csv"), "--length", "1"]);
+    let of_law = json(&[&robot, "--law", &data_path("cables/caroca-4mm-law.json")]);
     for (one, other) in down_and_left(&of_record).into_iter().zip(down_and_left(&of_law)) {
         // Moduli of the file are rounded to six digits.
         assert!((one / other - 1.0).abs() < 1e-5, "{one} {other}");
@@ -66,7 +53,7 @@ fn a_law_file_says_what_its_record_says() {
 
 #[test]
 fn the_laws_of_a_robot_file_lose_no_energy() {
-    let found = json(&[&data("robots/caroca-law.json")]);
+    let found = json(&[&data_path("robots/caroca-law.json")]);
     let [down, left] = down_and_left(&found);
     assert!((down + 1.6317).abs() < 1e-4 && left.abs() < 1e-9, "{down} {left}");
     assert!(found["dissipated_j"].as_f64().unwrap().abs() < 1e-9);
@@ -78,15 +65,15 @@ fn cables_of_other_moduli_follow_the_record_and_those_of_other_sections_its_stre
     let path = folder.path().join("robot.json");
     let file = path.to_str().unwrap();
     let mut robot: Value =
-        serde_json::from_str(&std::fs::read_to_string(data("robots/caroca.json")).unwrap()).unwrap();
+        serde_json::from_str(&std::fs::read_to_string(data_path("robots/caroca.json")).unwrap()).unwrap();
     let mut write = |change: &dyn Fn(&mut Value)| {
         let mut other = robot["cable"].clone();
         change(&mut other);
         robot["cables"][2]["cable"] = other;
         std::fs::write(&path, robot.to_string()).unwrap();
     };
-    let record = ["--record", &data("cables/caroca-4mm-record.csv"), "--length", "1"];
-    let even = json(&[&[data("robots/caroca.json").as_str()], &record[..]].concat());
+    let record = ["--record", &data_path("cables/caroca-4mm-record.csv"), "--length", "1"];
+    let even = json(&[&[data_path("robots/caroca.json").as_str()], &record[..]].concat());
     write(&|cable| cable["youngs_modulus"] = 0.5e11.into());
     let other_modulus = json(&[&[file], &record[..]].concat());
     for (one, other) in down_and_left(&even).into_iter().zip(down_and_left(&other_modulus)) {
@@ -95,22 +82,20 @@ fn cables_of_other_moduli_follow_the_record_and_those_of_other_sections_its_stre
     write(&|cable| cable["section"] = 2.4e-5.into());
     let section = ["--section", "1.2566370614e-5"];
     let thicker = json(&[&[file], &record[..], &section].concat());
-    let by_law = json(&[file, "--law", &data("cables/caroca-4mm-law.json")]);
+    let by_law = json(&[file, "--law", &data_path("cables/caroca-4mm-law.json")]);
     let ([down, _], [even, _], [by_law, _]) =
         (down_and_left(&thicker), down_and_left(&even), down_and_left(&by_law));
     assert!((down / by_law - 1.0).abs() < 1e-5 && down.abs() < 0.98 * even.abs(), "{down} {by_law} {even}");
     let arguments = [&["hysteresis", file], &record[..], &["--pose", "0,0,1.75", "--payload", "50"]].concat();
-    let refused = Command::new(env!("CARGO_BIN_EXE_cdpr")).args(arguments).output().unwrap();
-    assert!(
-        String::from_utf8(refused.stderr).unwrap().contains("differ in their section: expected --section")
-    );
+    let refused = cdpr(&arguments);
+    assert!(text(refused.stderr).contains("differ in their section: expected --section"));
 }
 
 #[test]
 fn a_loop_that_gives_energy_is_said_to_do_so() {
     let output = hysteresis(&["--payload", "50", "--unloading", "same-tension"]);
     assert!(output.status.success());
-    let warning = String::from_utf8(output.stderr).unwrap();
+    let warning = text(output.stderr);
     assert!(warning.contains("runs the wrong way round"), "{warning}");
 }
 

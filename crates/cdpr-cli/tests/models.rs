@@ -1,45 +1,25 @@
 //! `cdpr catenary`, `inverse`, `direct`, `deflection`, `stiffness`, `check` and `completions` as a user meets them: the numbers of the
 //! library and of the references in 40-digit arithmetic.
 
+use crate::common::{answered, cdpr, data_path, data_text, text};
 use cdpr_robot::{
     CableProperties, Platform, Pose, Robot, RobotCable, TensionLimits, UnitQuaternion, Vector3, Wrench,
 };
 use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse};
 use serde_json::{Value, json};
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
-fn data(file: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file);
-    path.to_str().unwrap().to_owned()
-}
-
-fn read(file: &str) -> String {
-    std::fs::read_to_string(data(file)).unwrap()
-}
-
 fn caroca() -> Robot {
-    Robot::from_json(&read("robots/caroca.json")).unwrap()
+    Robot::from_json(&data_text("robots/caroca.json")).unwrap()
 }
 
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_cdpr")).args(arguments).output().unwrap()
-}
-
-/// The standard output of a run that must do all that was asked for.
-fn text(arguments: &[&str]) -> String {
-    let output = run(arguments);
-    assert!(
-        output.status.success() && output.stderr.is_empty(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    String::from_utf8(output.stdout).unwrap()
+fn printed(arguments: &[&str]) -> String {
+    answered(cdpr(arguments))
 }
 
 fn answer(arguments: &[&str]) -> Value {
-    serde_json::from_str(&text(&[arguments, &["--format", "json"]].concat())).unwrap()
+    serde_json::from_str(&printed(&[arguments, &["--format", "json"]].concat())).unwrap()
 }
 
 fn number(value: &Value) -> f64 {
@@ -67,7 +47,7 @@ fn close(a: f64, b: f64, relative: f64) -> bool {
 
 #[test]
 fn a_cable_is_that_of_40_digit_arithmetic_whichever_two_of_its_values_are_known() {
-    let cases: Vec<Value> = serde_json::from_str(&read("reference/catenary.json")).unwrap();
+    let cases: Vec<Value> = serde_json::from_str(&data_text("reference/catenary.json")).unwrap();
     for case in cases.iter().take(24) {
         let of = |key: &str| number(&case[key]);
         let (length, end) = (of("unstrained_length"), joined(&[of("x"), of("z")]));
@@ -104,13 +84,14 @@ fn a_cable_is_that_of_40_digit_arithmetic_whichever_two_of_its_values_are_known(
             );
         }
     }
-    let printed = text(&["catenary", "--weight", "2", "--stiffness", "1e6", "--length", "6", "--end", "5,0"]);
+    let printed =
+        printed(&["catenary", "--weight", "2", "--stiffness", "1e6", "--length", "6", "--end", "5,0"]);
     assert!(printed.contains("anchor point       (5.000000, 0.000000) m"), "{printed}");
 }
 
 #[test]
 fn the_inverse_model_prints_the_library_s_numbers_to_the_last_bit() {
-    let robot = data("robots/caroca.json");
+    let robot = data_path("robots/caroca.json");
     let arguments = [
         "inverse",
         &robot,
@@ -135,7 +116,7 @@ fn the_inverse_model_prints_the_library_s_numbers_to_the_last_bit() {
         assert_eq!(numbers(force), exact.as_slice());
     }
     assert_eq!(number(&found["report"]["residual"]["force"]), exact.residual.force);
-    assert!(text(&arguments).contains(&format!("{:.3}", exact.tensions[2])));
+    assert!(printed(&arguments).contains(&format!("{:.3}", exact.tensions[2])));
 }
 
 /// A robot of the references, its case for `--from`, and what is to be found.
@@ -180,7 +161,7 @@ fn reference(case: &Value) -> (Robot, Value) {
 fn the_direct_model_finds_the_equilibria_of_40_digit_arithmetic_from_a_file() {
     let folder = TempDir::new().unwrap();
     let [robot_path, case_path] = ["robot.json", "case.json"].map(|name| folder.path().join(name));
-    let cases: Vec<Value> = serde_json::from_str(&read("reference/equilibria.json")).unwrap();
+    let cases: Vec<Value> = serde_json::from_str(&data_text("reference/equilibria.json")).unwrap();
     for expected in cases.iter().take(12) {
         let (robot, case) = reference(expected);
         std::fs::write(&robot_path, robot.to_json()).unwrap();
@@ -217,7 +198,7 @@ fn the_direct_model_finds_the_equilibria_of_40_digit_arithmetic_from_a_file() {
 fn a_case_without_answer_keeps_its_place_among_the_others() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("cases.json");
-    let robot = data("robots/caroca.json");
+    let robot = data_path("robots/caroca.json");
     let held = inverse(&caroca(), &Pose::at(0.3, 0.2, 1.4), &Load::none(), None).unwrap();
     let case = |lengths: &[f64], mass: f64| json!({ "lengths": lengths, "mass": mass });
     let short = [1.0; 8];
@@ -228,7 +209,7 @@ fn a_case_without_answer_keeps_its_place_among_the_others() {
         case(&held.lengths, 230.0)
     ]);
     std::fs::write(&path, cases.to_string()).unwrap();
-    let output = run(&["direct", &robot, "--from", path.to_str().unwrap(), "--format", "json"]);
+    let output = cdpr(&["direct", &robot, "--from", path.to_str().unwrap(), "--format", "json"]);
     assert_eq!(output.status.code(), Some(3));
     let found: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(found.len(), 4);
@@ -245,25 +226,25 @@ fn a_case_without_answer_keeps_its_place_among_the_others() {
         direct(&heavier, &held.lengths, &Load::none(), Start::Pose(&Pose::at(0.3, 0.2, 1.4))).unwrap();
     let apart = vector(&found[3]["position"]) - exact.equilibrium.pose.position;
     assert!(apart.norm() < 1e-12, "{apart}");
-    let text = String::from_utf8(run(&["direct", &robot, "--from", path.to_str().unwrap()]).stdout).unwrap();
+    let text = text(cdpr(&["direct", &robot, "--from", path.to_str().unwrap()]).stdout);
     assert!(text.contains("case 2\nno answer: cable ") && text.contains("case 4\nposition  (0.3"), "{text}");
 }
 
 #[test]
 fn the_deflection_is_that_of_the_paper_s_nominal_robot() {
-    let robot = data("robots/caroca.json");
+    let robot = data_path("robots/caroca.json");
     let arguments = ["deflection", &robot, "--pose", "0,0,1.75", "--payload", "50"];
     let found = answer(&arguments);
     let exact = deflection(&caroca(), &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0)).unwrap();
     assert_eq!(number(&found["rms_mm"]), 1e3 * exact.rms());
     assert_eq!(numbers(&found["deflection_mm"]), (1e3 * exact.displacement()).as_slice());
     assert_eq!(numbers(&found["loaded"]["tensions"]), exact.loaded.equilibrium.tensions());
-    assert!(text(&arguments).contains("dp = (0.00000, 0.00000, -1.33125) mm, |dp| = 1.33125 mm"));
+    assert!(printed(&arguments).contains("dp = (0.00000, 0.00000, -1.33125) mm, |dp| = 1.33125 mm"));
 }
 
 #[test]
 fn the_stiffness_predicts_the_displacement_under_a_small_force() {
-    let robot = data("robots/caroca.json");
+    let robot = data_path("robots/caroca.json");
     let arguments = ["stiffness", &robot, "--pose", "0.4,0.2,1.5"];
     let found = answer(&arguments);
     let rows: Vec<Vec<f64>> = found["stiffness"].as_array().unwrap().iter().map(numbers).collect();
@@ -282,22 +263,22 @@ fn the_stiffness_predicts_the_displacement_under_a_small_force() {
         found["eigenvalues"].as_array().unwrap().iter().map(|v| number(&v["stiffness"])).collect();
     assert!(values.is_sorted() && values[0] > 0.0 && found["stable"] == true);
     assert!(close(values[0], number(&found["least_stiffness"]), 1e-12));
-    assert!(text(&arguments).contains("stable; least stiffness"));
+    assert!(printed(&arguments).contains("stable; least stiffness"));
 }
 
 #[test]
 fn a_check_ends_with_its_own_code_where_it_warns() {
-    let notes = text(&["check", &data("robots/caroca.json")]);
+    let notes = printed(&["check", &data_path("robots/caroca.json")]);
     assert!(notes.contains(
         "note: cables[2].exit_point is [-3.5, 2.0, 3.5] m: the same place as cables[0].exit_point"
     ));
     assert!(notes.ends_with("CAROCA: 8 cables, 0 warnings, 5 notes\n"), "{notes}");
-    assert_eq!(answer(&["check", &data("robots/cogiro.json")]), json!([]));
+    assert_eq!(answer(&["check", &data_path("robots/cogiro.json")]), json!([]));
 
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("robot.json");
-    std::fs::write(&path, read("robots/cogiro.json").replace("1.0e11", "100")).unwrap();
-    let output = run(&["check", path.to_str().unwrap(), "--format", "json"]);
+    std::fs::write(&path, data_text("robots/cogiro.json").replace("1.0e11", "100")).unwrap();
+    let output = cdpr(&["check", path.to_str().unwrap(), "--format", "json"]);
     assert_eq!(output.status.code(), Some(3));
     let findings: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(findings[0]["severity"], "warning");
@@ -309,8 +290,8 @@ fn a_check_ends_with_its_own_code_where_it_warns() {
 #[test]
 fn a_reader_that_goes_away_is_no_failure() {
     for arguments in [
-        vec!["derivatives", &data("robots/caroca.json"), "--pose", "0,0,1.75", "--payload", "50"],
-        vec!["check", &data("robots/caroca.json")],
+        vec!["derivatives", &data_path("robots/caroca.json"), "--pose", "0,0,1.75", "--payload", "50"],
+        vec!["check", &data_path("robots/caroca.json")],
         vec!["completions", "bash"],
     ] {
         let mut child = Command::new(env!("CARGO_BIN_EXE_cdpr"))
@@ -328,7 +309,7 @@ fn a_reader_that_goes_away_is_no_failure() {
 #[test]
 fn every_shell_gets_completions_of_every_command() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let script = text(&["completions", shell]);
+        let script = printed(&["completions", shell]);
         for word in ["catenary", "workspace", "certify"] {
             assert!(script.contains(word), "{shell}: {word}");
         }

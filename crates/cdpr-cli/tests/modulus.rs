@@ -1,12 +1,11 @@
 //! `cdpr modulus` and `cdpr linear-density` as a user meets them.
 
+use crate::common::{cdpr, data_path, text};
 use serde_json::Value;
-use std::process::{Command, Output};
+use std::process::Output;
 
-const RECORD: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/cables/caroca-4mm-record.csv");
-
-fn cdpr(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_cdpr")).args(arguments).output().unwrap()
+fn record() -> String {
+    data_path("cables/caroca-4mm-record.csv")
 }
 
 fn modulus(record: &str, more: &[&str]) -> Output {
@@ -20,8 +19,8 @@ fn moduli_of_several_ranges_come_as_json_and_the_loop_as_a_picture() {
     let figure = folder.path().join("loop.svg");
     let more =
         ["--range", "5-10", "--range", "10-20", "--format", "json", "--figure", figure.to_str().unwrap()];
-    let output = modulus(RECORD, &more);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = modulus(&record(), &more);
+    assert!(output.status.success(), "{}", text(output.stderr));
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     let number = |path: &str| found.pointer(path).and_then(Value::as_f64).unwrap();
     assert!((number("/ranges/0/loading/modulus_gpa") - 83.2).abs() < 1e-6);
@@ -35,9 +34,9 @@ fn moduli_of_several_ranges_come_as_json_and_the_loop_as_a_picture() {
 fn a_published_table_stands_beside_the_record_and_its_inconsistent_entry_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let law = folder.path().join("law.json");
-    let table = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/cables/caroca-4mm.json");
-    let with = ["modulus", RECORD, "--published", table, "--length", "1", "--law", law.to_str().unwrap()];
-    let text = String::from_utf8(cdpr(&with).stdout).unwrap();
+    let (record, table) = (record(), data_path("cables/caroca-4mm.json"));
+    let with = ["modulus", &record, "--published", &table, "--length", "1", "--law", law.to_str().unwrap()];
+    let text = text(cdpr(&with).stdout);
     assert!(text.contains("E_10-30 while loading: 102.2 GPa is published, 101.5 GPa follows"), "{text}");
     let output = cdpr(&[&with[..], &["--format", "json"]].concat());
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -65,13 +64,13 @@ fn what_cannot_be_answered_ends_with_an_error_that_says_why() {
     )
     .unwrap();
     for (record, range, words) in [
-        (RECORD, "30-40", "the range 30 to 40 % of the breaking force is not in the record"),
-        (RECORD, "30-10", "range is 10: expected an upper end above the lower one"),
+        (&record(), "30-40", "the range 30 to 40 % of the breaking force is not in the record"),
+        (&record(), "30-10", "range is 10: expected an upper end above the lower one"),
         (bad.to_str().unwrap(), "5-10", "bad.csv: line 3: force_n is 1: expected more than 1 of line 2"),
         ("no-such-file.csv", "5-10", "cannot read no-such-file.csv"),
     ] {
         let output = modulus(record, &["--range", range]);
-        let message = String::from_utf8(output.stderr).unwrap();
+        let message = text(output.stderr);
         assert!(!output.status.success() && output.stdout.is_empty() && message.contains(words), "{message}");
     }
 }
@@ -85,5 +84,5 @@ fn a_weighing_gives_the_linear_density_with_its_error() {
     assert!((found["error"].as_f64().unwrap() - 5.5075e-4).abs() < 1e-12);
     let refused = cdpr(&["linear-density", "--mass", "1", "--length", "0"]);
     assert!(!refused.status.success());
-    assert!(String::from_utf8(refused.stderr).unwrap().contains("length is 0: expected a length"));
+    assert!(text(refused.stderr).contains("length is 0: expected a length"));
 }

@@ -1,24 +1,20 @@
 //! `cdpr robustness` as a user meets it: results, and every kind of bad input.
 
+use crate::common::{cdpr_in, data_path, json_file, text};
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 use tempfile::TempDir;
 
 fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/cogiro.json");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-    command.current_dir(folder).arg("robustness");
-    if !arguments.contains(&"--robot") {
-        command.arg("--robot").arg(robot);
-    }
-    command.args(arguments).output().unwrap()
+    let robot = data_path("robots/cogiro.json");
+    let given = if arguments.contains(&"--robot") { &[][..] } else { &["--robot", &robot] };
+    cdpr_in(folder, &[&["robustness"], given, arguments].concat())
 }
 
 /// The summary without its times.
 fn summary(folder: &Path) -> Value {
-    let mut summary: Value =
-        serde_json::from_str(&std::fs::read_to_string(folder.join("robustness.json")).unwrap()).unwrap();
+    let mut summary = json_file(folder.join("robustness.json"));
     for protocol in summary["protocols"].as_object_mut().unwrap().values_mut() {
         protocol["total"]["microseconds"].take();
         for row in protocol["rows"].as_array_mut().unwrap() {
@@ -32,8 +28,8 @@ fn summary(folder: &Path) -> Value {
 fn a_run_writes_a_table_figures_and_a_summary() {
     let folder = TempDir::new().unwrap();
     let output = run(folder.path(), &["--poses", "25", "--out", "out"]);
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = text(output.stdout);
+    assert!(output.status.success(), "{}", text(output.stderr));
     assert!(output.stderr.is_empty(), "progress is silent when not on a terminal");
     for words in ["E: 35 GPa; seed 2017", "25 poses of", "WireX", "22 of 30", "25 of 30", "results in out"] {
         assert!(text.contains(words), "{words}: {text}");
@@ -94,7 +90,7 @@ fn bad_input_is_refused_before_anything_is_made() {
         (["--robot", "robot.json"], "error: robot.json: "),
     ] {
         let output = run(folder.path(), &arguments);
-        let text = String::from_utf8(output.stderr).unwrap();
+        let text = text(output.stderr);
         assert_ne!(output.status.code(), Some(0), "{text}");
         assert!(text.contains(words) && !text.contains("panicked"), "`{words}` is not in: {text}");
     }
@@ -107,5 +103,5 @@ fn a_folder_that_cannot_be_written_is_refused_before_anything_runs() {
     std::fs::write(folder.path().join("out"), "a file").unwrap();
     let output = run(folder.path(), &["--out", "out"]);
     assert!(!output.status.success());
-    assert!(String::from_utf8_lossy(&output.stderr).starts_with("error: cannot write out: "));
+    assert!(text(output.stderr).starts_with("error: cannot write out: "));
 }

@@ -1,38 +1,23 @@
 //! Studies in blocks on disk: whatever happens to a run, what comes out in the end is what one that nothing happened to writes.
 
+use crate::common::{Bench, assert_same_files, cdpr, data, text};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-use tempfile::TempDir;
 
 /// Observations of a block.
 const BLOCK: usize = 16_384;
 
-fn data(file: &str) -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file);
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-/// A folder with CAROCA and a study of two samplings, of several blocks each.
-struct Bench {
-    folder: TempDir,
-}
-
-impl Bench {
-    fn new(observations: usize) -> Self {
-        let mut study = data("studies/caroca.json");
-        study["robot"] = json!("caroca.json");
+/// CAROCA and a study of two samplings, of several blocks each.
+fn bench(observations: usize) -> Bench {
+    Bench::new("caroca.json", |study| {
         study["replicates"] = json!(2);
-        study["bootstrap_resamples"] = json!(2);
         study["comparison"] = json!([]);
         // Few inputs: scrambled rows of many would take longer than the mechanics.
         for model in study["error_models"].as_object_mut().unwrap().values_mut() {
-            model
-                .as_object_mut()
-                .unwrap()
-                .retain(|name, _| ["mass", "youngs_modulus", "cog"].contains(&name.as_str()));
+            let model = model.as_object_mut().unwrap();
+            model.retain(|name, _| ["mass", "youngs_modulus", "cog"].contains(&name.as_str()));
         }
         study["samplings"].as_object_mut().unwrap().remove("geometrical");
         study["surfaces"].as_object_mut().unwrap().remove("surface_rho_m");
@@ -41,115 +26,42 @@ impl Bench {
         for sampling in study["samplings"].as_object_mut().unwrap().values_mut() {
             sampling["observations"] = json!(observations);
         }
-        let bench = Self { folder: TempDir::new().unwrap() };
-        std::fs::write(bench.path("caroca.json"), data("robots/caroca.json").to_string()).unwrap();
-        bench.write_study(&study);
-        bench
-    }
+    })
+}
 
-    /// The same with measures of sensitivity: Morris's design in a block, Saltelli's in two.
-    fn with_measures(observations: usize) -> Self {
-        let bench = Self::new(observations);
-        let mut study = bench.study();
+/// The same with measures of sensitivity: Morris's design in a block, Saltelli's in two.
+fn bench_with_measures(observations: usize) -> Bench {
+    let bench = bench(observations);
+    bench.change("study.json", |study| {
         study["sensitivity"] = json!({
             "observations": 200, "saltelli_blocks": 2400, "bootstrap_resamples": 20, "morris_blocks": 16,
             "derivative_points": 8, "expansion": {"max_degree": 2, "norm": 1.0, "interactions": 2}
         });
-        bench.write_study(&study);
-        bench
-    }
+    });
+    bench
+}
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
+/// Checks that two folders hold the same results, tables and figures among them; blocks may differ.
+fn assert_same(bench: &Bench, one: &str, other: &str) {
+    let [one, other] = [one, other].map(|out| bench.results(out));
+    for name in ["mechanical.csv", "mechanical.svg", "surface_E_rho.csv"] {
+        assert!(one.contains_key(name), "{name}");
     }
+    assert_same_files(&one, &other);
+}
 
-    fn study(&self) -> Value {
-        serde_json::from_str(&std::fs::read_to_string(self.path("my-study.json")).unwrap()).unwrap()
-    }
-
-    fn write_study(&self, study: &Value) {
-        std::fs::write(self.path("my-study.json"), study.to_string()).unwrap();
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-        command.current_dir(self.folder.path()).arg("study").args(arguments);
-        for variable in ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID"] {
-            command.env_remove(variable);
-        }
-        command
-    }
-
-    fn cdpr(&self, arguments: &[&str]) -> Output {
-        self.command(arguments).output().unwrap()
-    }
-
-    /// Standard error of a command that must succeed.
-    fn done(&self, arguments: &[&str]) -> String {
-        let output = self.cdpr(arguments);
-        let text = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.success(), "{arguments:?}: {text}");
-        text
-    }
-
-    /// Message of a command that must fail with code 1, without panicking.
-    fn refused(&self, arguments: &[&str]) -> String {
-        self.failed(1, arguments)
-    }
-
-    /// The same with code 2: the arguments are wrong.
-    fn misused(&self, arguments: &[&str]) -> String {
-        self.failed(2, arguments)
-    }
-
-    fn failed(&self, code: i32, arguments: &[&str]) -> String {
-        let output = self.cdpr(arguments);
-        let text = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {text}");
-        text
-    }
-
-    fn run(&self, out: &str, arguments: &[&str]) -> String {
-        self.done(&[&["run", "my-study.json", "--out", out], arguments].concat())
-    }
-
-    /// Results by name, but for times.
-    fn results(&self, out: &str) -> BTreeMap<String, Vec<u8>> {
-        let entries = std::fs::read_dir(self.path(out)).unwrap().map(|entry| entry.unwrap());
-        let files = entries.filter(|entry| entry.file_type().unwrap().is_file());
-        let named = files.map(|entry| (entry.file_name().into_string().unwrap(), entry.path()));
-        named
-            .filter(|(name, _)| !["timings.json", "report.html"].contains(&name.as_str()))
-            .map(|(name, path)| (name, std::fs::read(path).unwrap()))
-            .collect()
-    }
-
-    fn assert_same(&self, one: &str, other: &str) {
-        let [one, other] = [one, other].map(|out| self.results(out));
-        assert_eq!(one.keys().collect::<Vec<_>>(), other.keys().collect::<Vec<_>>());
-        assert!(
-            ["summary.json", "mechanical.csv", "mechanical.svg", "surface_E_rho.csv"]
-                .iter()
-                .all(|name| one.contains_key(*name))
-        );
-        for (name, text) in &one {
-            assert!(*text == other[name], "{name} differs");
+/// Blocks on disk.
+fn block_files(bench: &Bench, out: &str) -> Vec<PathBuf> {
+    let mut folders = vec![bench.path(out).join("blocks")];
+    let mut blocks = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).into_iter().flatten() {
+            let path = entry.unwrap().path();
+            if path.is_dir() { folders.push(path) } else { blocks.push(path) }
         }
     }
-
-    /// Blocks on disk.
-    fn blocks(&self, out: &str) -> Vec<PathBuf> {
-        let mut folders = vec![self.path(out).join("blocks")];
-        let mut blocks = Vec::new();
-        while let Some(folder) = folders.pop() {
-            for entry in std::fs::read_dir(folder).into_iter().flatten() {
-                let path = entry.unwrap().path();
-                if path.is_dir() { folders.push(path) } else { blocks.push(path) }
-            }
-        }
-        blocks.sort();
-        blocks
-    }
+    blocks.sort();
+    blocks
 }
 
 /// Pseudo-random numbers in 0 .. 1, the same in every run of the test (Marsaglia's xorshift).
@@ -166,16 +78,16 @@ impl Random {
 
 #[test]
 fn a_study_killed_at_ten_random_moments_and_resumed_equals_one_that_was_not() {
-    let bench = Bench::with_measures(BLOCK + 1000);
+    let bench = bench_with_measures(BLOCK + 1000);
     let clock = Instant::now();
     bench.run("whole", &["--threads", "2"]);
     let whole = clock.elapsed();
     let mut random = Random(2017);
     let (mut kills, mut finished) = (0, 0);
-    let mut arguments = vec!["run", "my-study.json", "--out", "killed", "--threads", "1"];
+    let mut arguments = vec!["run", "study.json", "--out", "killed", "--threads", "1"];
     while kills < 10 {
         let mut child =
-            bench.command(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+            bench.study_command(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         // Early moments hit the blocks, late ones the analysis and what it writes.
         std::thread::sleep(Duration::from_secs_f64(1.2 * random.next() * whole.as_secs_f64()));
         child.kill().unwrap();
@@ -183,7 +95,7 @@ fn a_study_killed_at_ten_random_moments_and_resumed_equals_one_that_was_not() {
         match output.status.code() {
             None => kills += 1,
             Some(code) => {
-                assert_eq!(code, 0, "{}", String::from_utf8_lossy(&output.stderr));
+                assert_eq!(code, 0, "{}", text(output.stderr));
                 finished += 1;
             }
         }
@@ -193,20 +105,24 @@ fn a_study_killed_at_ten_random_moments_and_resumed_equals_one_that_was_not() {
     }
     println!("{kills} killed, {finished} finished before, {whole:.1?} a whole run");
     bench.run("killed", &["--resume", "--threads", "1"]);
-    bench.assert_same("whole", "killed");
+    assert_same(&bench, "whole", "killed");
     // Of each sampling its own design, two replicates, Saltelli's and Morris's.
-    assert_eq!(bench.blocks("whole").len(), 2 * (2 + 2 * 2 + 2 + 1));
-    assert_eq!(bench.blocks("killed").len(), bench.blocks("whole").len(), "nothing unfinished is left");
+    assert_eq!(block_files(&bench, "whole").len(), 2 * (2 + 2 * 2 + 2 + 1));
+    assert_eq!(
+        block_files(&bench, "killed").len(),
+        block_files(&bench, "whole").len(),
+        "nothing unfinished is left"
+    );
 }
 
 #[test]
 fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there() {
-    let bench = Bench::with_measures(BLOCK + 1000);
+    let bench = bench_with_measures(BLOCK + 1000);
     bench.run("whole", &[]);
     let merge = ["merge", "shards"];
     // Two at once, in a folder that neither has made.
     let begin = |shard| {
-        let mut command = bench.command(&["run", "my-study.json", "--out", "shards", "--shard", shard]);
+        let mut command = bench.study_command(&["run", "study.json", "--out", "shards", "--shard", shard]);
         command.stdout(Stdio::null()).spawn().unwrap()
     };
     let children = ["3/3", "1/3"].map(begin);
@@ -219,7 +135,7 @@ fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there()
         "{message}"
     );
     assert!(!bench.path("shards/summary.json").exists());
-    let output = bench.cdpr(&["status", "shards", "--format", "json"]);
+    let output = bench.study(&["status", "shards", "--format", "json"]);
     let status: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(status["complete"], false);
     let count = |key: &str| -> u64 {
@@ -229,31 +145,30 @@ fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there()
     };
     assert_eq!((count("blocks_done"), count("blocks_missing")), (12, 6));
     // The last third, as a job array of Slurm has it.
-    let mut command = bench.command(&["run", "my-study.json", "--out", "shards", "--shard", "auto/3"]);
+    let mut command = bench.study_command(&["run", "study.json", "--out", "shards", "--shard", "auto/3"]);
     assert!(command.env("SLURM_ARRAY_TASK_ID", "2").output().unwrap().status.success());
     bench.done(&merge);
-    bench.assert_same("whole", "shards");
+    assert_same(&bench, "whole", "shards");
     // A task that a scheduler runs again leaves what has been analysed as it is.
     bench.run("shards", &["--shard", "2/3"]);
-    bench.assert_same("whole", "shards");
+    assert_same(&bench, "whole", "shards");
     // One that makes a block does not: the summary may be of another.
-    std::fs::remove_file(&bench.blocks("shards")[0]).unwrap();
+    std::fs::remove_file(&block_files(&bench, "shards")[0]).unwrap();
     for shard in ["1/3", "2/3", "3/3"] {
         bench.run("shards", &["--shard", shard]);
     }
     assert!(!bench.path("shards/summary.json").exists());
-    let report =
-        Command::new(env!("CARGO_BIN_EXE_cdpr")).arg("report").arg(bench.path("shards")).output().unwrap();
+    let report = cdpr(&["report", bench.path("shards").to_str().unwrap()]);
     assert_eq!(report.status.code(), Some(1));
-    let message = String::from_utf8(report.stderr).unwrap();
+    let message = text(report.stderr);
     assert!(message.contains("has no summary.json: analyse it with cdpr study merge"), "{message}");
     bench.done(&merge);
-    bench.assert_same("whole", "shards");
+    assert_same(&bench, "whole", "shards");
 }
 
 #[test]
 fn a_study_extended_twice_equals_one_run_of_its_last_size_and_keeps_its_blocks() {
-    let bench = Bench::new(500);
+    let bench = bench(500);
     bench.run("extended", &[]);
     bench.done(&["extend", "extended", "--observations", "16800"]);
     let first = bench.path("extended/blocks/mechanical/sampling/000000.block");
@@ -261,17 +176,17 @@ fn a_study_extended_twice_equals_one_run_of_its_last_size_and_keeps_its_blocks()
     bench.done(&["extend", "extended", "--observations", "17000", "--threads", "1"]);
     assert_eq!(std::fs::metadata(&first).unwrap().modified().unwrap(), written, "a full block is left alone");
     bench.run("whole", &["--observations", "17000"]);
-    bench.assert_same("whole", "extended");
+    assert_same(&bench, "whole", "extended");
     let message = bench.misused(&["extend", "extended", "--observations", "16999"]);
     assert!(message.contains("--observations is 16999: expected at least 17000"), "{message}");
 }
 
 #[test]
 fn damaged_blocks_are_named_and_made_again() {
-    let bench = Bench::new(300);
+    let bench = bench(300);
     bench.run("whole", &[]);
     bench.run("out", &[]);
-    let blocks = bench.blocks("out");
+    let blocks = block_files(&bench, "out");
     let mut bytes = std::fs::read(&blocks[0]).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
@@ -280,27 +195,27 @@ fn damaged_blocks_are_named_and_made_again() {
     std::fs::write(&blocks[2], b"").unwrap();
     let message = bench.refused(&["merge", "out"]);
     assert!(message.contains("out lacks 3 of 6 blocks"), "{message}");
-    let text = String::from_utf8(bench.cdpr(&["status", "out"]).stdout).unwrap();
-    assert_eq!(text.matches("damaged, will be made again").count(), 3, "{text}");
-    let warnings = bench.run("out", &["--resume"]);
+    let status = bench.done(&["status", "out"]);
+    assert_eq!(status.matches("damaged, will be made again").count(), 3, "{status}");
+    let warnings = text(bench.study(&["run", "study.json", "--out", "out", "--resume"]).stderr);
     for block in &blocks[..3] {
         let name = block.strip_prefix(bench.path("")).unwrap().display().to_string();
         assert!(warnings.contains(&format!("warning: {name} is damaged: ")), "{warnings}");
     }
     assert_eq!(warnings.lines().count(), 3, "{warnings}");
-    bench.assert_same("whole", "out");
+    assert_same(&bench, "whole", "out");
 }
 
 #[test]
 fn blocks_of_another_study_are_refused_with_both_hashes() {
-    let bench = Bench::new(300);
+    let bench = bench(300);
     bench.run("out", &[]);
-    let blocks = bench.blocks("out");
-    let mut study = bench.study();
-    study["payload"] = json!(51.0);
-    study["name"] = json!("Another payload");
-    bench.write_study(&study);
-    let run = ["run", "my-study.json", "--out", "out"];
+    let blocks = block_files(&bench, "out");
+    bench.change("study.json", |study| {
+        study["payload"] = json!(51.0);
+        study["name"] = json!("Another payload");
+    });
+    let run = ["run", "study.json", "--out", "out"];
     for options in [&[][..], &["--resume"], &["--shard", "1/2"]] {
         let message = bench.refused(&[&run[..], options].concat());
         assert!(
@@ -314,11 +229,11 @@ fn blocks_of_another_study_are_refused_with_both_hashes() {
         assert!(hashes.len() == 2 && hashes[0] != hashes[1], "{message}");
     }
     bench.run("other", &[]);
-    std::fs::copy(&blocks[0], &bench.blocks("other")[0]).unwrap();
-    let message = bench.refused(&["run", "my-study.json", "--out", "other", "--resume"]);
+    std::fs::copy(&blocks[0], &block_files(&bench, "other")[0]).unwrap();
+    let message = bench.refused(&["run", "study.json", "--out", "other", "--resume"]);
     assert!(message.contains("000000.block is of study ") && message.contains("expected"), "{message}");
     // Nor is a block read in the place of another.
-    std::fs::copy(&bench.blocks("other")[2], &bench.blocks("other")[0]).unwrap();
+    std::fs::copy(&block_files(&bench, "other")[2], &block_files(&bench, "other")[0]).unwrap();
     let message = bench.refused(&["merge", "other"]);
     assert!(message.contains("is of design sampling: expected replicate-1"), "{message}");
     // It is told to.
@@ -328,34 +243,33 @@ fn blocks_of_another_study_are_refused_with_both_hashes() {
 
 #[test]
 fn titles_and_numbers_of_observations_make_no_other_study() {
-    let bench = Bench::new(300);
+    let bench = bench(300);
     bench.run("out", &[]);
-    let mut study = bench.study();
-    study["name"] = json!("Another name");
-    study["samplings"]["mechanical"]["title"] = json!("Another title");
-    study["bootstrap_resamples"] = json!(3);
-    bench.write_study(&study);
+    bench.change("study.json", |study| {
+        study["name"] = json!("Another name");
+        study["samplings"]["mechanical"]["title"] = json!("Another title");
+        study["bootstrap_resamples"] = json!(3);
+    });
     // Without a table: that of the larger run would not be of this one.
     bench.run("out", &["--resume", "--observations", "200", "--table", "none"]);
     assert!(!bench.path("out/mechanical.csv").exists());
     bench.run("out", &["--resume", "--observations", "200"]);
     bench.run("whole", &["--observations", "200"]);
-    bench.assert_same("whole", "out");
+    assert_same(&bench, "whole", "out");
 }
 
 #[test]
 fn a_folder_in_use_is_refused_and_nothing_of_it_touched() {
-    let bench = Bench::new(300);
+    let bench = bench(300);
     bench.run("out", &[]);
     let before = bench.results("out");
-    let message = bench.refused(&["run", "my-study.json", "--out", "out"]);
+    let message = bench.refused(&["run", "study.json", "--out", "out"]);
     assert_eq!(
         message,
         "error: out holds 6 blocks of this study: --resume goes on with them, --overwrite begins anew\n"
     );
     assert_eq!(bench.results("out"), before);
     // A study file that no run has written, the very one to run among them.
-    std::fs::rename(bench.path("my-study.json"), bench.path("study.json")).unwrap();
     let message = bench.refused(&["run", "study.json", "--out", "."]);
     assert!(message.contains("study.json was not written by a run"), "{message}");
     // One that a run has written goes on in its own folder.
@@ -365,7 +279,7 @@ fn a_folder_in_use_is_refused_and_nothing_of_it_touched() {
 
 #[test]
 fn files_that_no_run_has_written_stay_whatever_folder_they_are_in() {
-    let bench = Bench::new(300);
+    let bench = bench(300);
     let mine = |out: &str| {
         std::fs::create_dir_all(bench.path(out).join("blocks/mechanical")).unwrap();
         ["blocks/data.txt", "blocks/mechanical/data.txt"].map(|file| {
@@ -381,8 +295,8 @@ fn files_that_no_run_has_written_stay_whatever_folder_they_are_in() {
     }
     // A folder called `blocks` makes no results of a study that stands beside it.
     mine("other");
-    std::fs::copy(bench.path("my-study.json"), bench.path("other/study.json")).unwrap();
-    std::fs::copy(bench.path("caroca.json"), bench.path("other/caroca.json")).unwrap();
+    std::fs::copy(bench.path("study.json"), bench.path("other/study.json")).unwrap();
+    std::fs::copy(bench.path("robot.json"), bench.path("other/robot.json")).unwrap();
     let before = bench.results("other");
     for options in [&[][..], &["--overwrite"], &["--resume"], &["--shard", "1/1"]] {
         let message = bench.refused(&[&["run", "other/study.json", "--out", "other"], options].concat());
@@ -393,21 +307,21 @@ fn files_that_no_run_has_written_stay_whatever_folder_they_are_in() {
 
 #[test]
 fn a_folder_whose_blocks_are_gone_is_known_and_run_again() {
-    let bench = Bench::new(300);
+    let bench = bench(300);
     bench.run("whole", &[]);
     bench.run("out", &[]);
     for option in ["--resume", "--overwrite"] {
         std::fs::remove_dir_all(bench.path("out/blocks")).unwrap();
         bench.run("out", &[option]);
-        bench.assert_same("whole", "out");
+        assert_same(&bench, "whole", "out");
     }
 }
 
 #[test]
 fn shards_that_are_none_and_folders_without_a_study_are_refused() {
-    let bench = Bench::new(300);
+    let bench = bench(300);
     for shard in ["0/4", "5/4", "x", "auto"] {
-        let message = bench.misused(&["run", "my-study.json", "--shard", shard]);
+        let message = bench.misused(&["run", "study.json", "--shard", shard]);
         assert!(message.starts_with(&format!("error: --shard is {shard}: expected i/n")), "{message}");
     }
     assert!(!bench.path("results").exists());
@@ -421,13 +335,12 @@ fn shards_that_are_none_and_folders_without_a_study_are_refused() {
 
 #[test]
 fn a_new_study_of_ones_own_robot_runs_as_it_is() {
-    let bench = Bench::new(300);
+    let bench = bench(300);
     std::fs::create_dir(bench.path("mine")).unwrap();
-    std::fs::write(bench.path("mine/robot-1.json"), data("robots/cogiro.json").to_string()).unwrap();
+    std::fs::write(bench.path("mine/robot-1.json"), std::fs::read(data("robots/cogiro.json")).unwrap())
+        .unwrap();
     let new = ["new", "--robot", "mine/robot-1.json", "--out", "mine/study-1.json"];
-    let output = bench.cdpr(&new);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let notes = String::from_utf8(output.stdout).unwrap();
+    let notes = bench.done(&new);
     assert!(notes.contains("error_models") && notes.contains("cdpr study run FILE"), "{notes}");
     bench.done(&["run", "mine/study-1.json", "--out", "out", "--observations", "64"]);
     assert!(bench.path("out/all_sensitivity.svg").exists());
@@ -444,44 +357,43 @@ mod unix {
 
     #[test]
     fn an_interrupted_run_says_how_to_go_on_and_exits_with_130() {
-        let bench = Bench::new(400_000);
+        let bench = bench(400_000);
         let out = "my results";
         let arguments =
-            ["run", "my-study.json", "--out", out, "--table", "none", "--threads", "2", "--format", "json"];
-        let child = bench.command(&arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+            ["run", "study.json", "--out", out, "--table", "none", "--threads", "2", "--format", "json"];
+        let child =
+            bench.study_command(&arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
         let clock = Instant::now();
-        while bench.blocks(out).is_empty() && clock.elapsed() < Duration::from_secs(60) {
+        while block_files(&bench, out).is_empty() && clock.elapsed() < Duration::from_secs(60) {
             std::thread::sleep(Duration::from_millis(5));
         }
         assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130));
-        let text = String::from_utf8(output.stderr).unwrap();
+        let text = text(output.stderr);
         let (_, command) =
             text.split_once("interrupted: what is done is in my results; go on with: cdpr ").unwrap();
         let expected =
             [&["run", "my results/study.json"][..], &arguments[2..4], &["--resume"], &arguments[4..]];
         let words = ["study"].into_iter().chain(expected.into_iter().flatten().copied());
         assert_eq!(shlex::split(command).unwrap(), words.collect::<Vec<_>>(), "{text}");
-        assert!(!bench.blocks(out).is_empty());
+        assert!(!block_files(&bench, out).is_empty());
     }
 
     #[test]
     fn a_disk_that_is_full_is_named_and_the_blocks_before_it_are_kept() {
-        let bench = Bench::new(2 * BLOCK);
+        let bench = bench(2 * BLOCK);
         bench.run("whole", &[]);
         // Files of at most 2 MB: the table does not fit, blocks do.
-        let limited =
-            "trap '' XFSZ; ulimit -f 2000; exec \"$0\" study run my-study.json --out out --threads 1";
-        let mut command = Command::new("bash");
-        command.current_dir(bench.folder.path()).args(["-c", limited, env!("CARGO_BIN_EXE_cdpr")]);
-        let output = command.output().unwrap();
-        let text = String::from_utf8(output.stderr).unwrap();
+        let limited = "trap '' XFSZ; ulimit -f 2000; exec \"$0\" study run study.json --out out --threads 1";
+        let mut command = bench.command("bash");
+        let output = command.args(["-c", limited, env!("CARGO_BIN_EXE_cdpr")]).output().unwrap();
+        let text = text(output.stderr);
         assert_eq!(output.status.code(), Some(1), "{text}");
         assert!(text.starts_with("error: cannot write out/mechanical.csv: File too large"), "{text}");
         assert!(!bench.path("out/mechanical.csv").exists(), "half a table looks like a whole one");
-        assert_eq!(bench.blocks("out").len(), 1);
+        assert_eq!(block_files(&bench, "out").len(), 1);
         bench.run("out", &["--resume"]);
-        bench.assert_same("whole", "out");
+        assert_same(&bench, "whole", "out");
     }
 }

@@ -323,7 +323,7 @@ fn where_one_pose_is_wanted_several_are_refused_with_their_names() {
         ("plane/0015", "samplings.plane is plane/0015: expected one pose"),
         ("plan", "samplings.plan is missing: expected one of plane"),
     ] {
-        let message = String::from_utf8(throughput(name).stderr).unwrap();
+        let message = text(throughput(name).stderr);
         assert!(message.contains(expected), "{message}");
     }
 }

@@ -1,26 +1,12 @@
 //! `cdpr study run` as a user meets it: results, and every kind of bad input.
 
+use crate::common::{Bench, cdpr_in, text};
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-use tempfile::TempDir;
+use std::process::Output;
 
-fn data(file: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file);
-    std::fs::read_to_string(path).unwrap()
-}
-
-/// A folder with CAROCA and a small study of it, to be spoiled.
-struct Bench {
-    folder: TempDir,
-    robot: Value,
-    study: Value,
-}
-
-impl Bench {
-    fn new() -> Self {
-        let mut study: Value = serde_json::from_str(&data("studies/caroca.json")).unwrap();
-        study["robot"] = json!("robot.json");
+/// CAROCA and a small study of it, to be spoiled.
+fn bench() -> Bench {
+    Bench::new("caroca.json", |study| {
         study["replicates"] = json!(2);
         study["bootstrap_resamples"] = json!(10);
         for sampling in study["samplings"].as_object_mut().unwrap().values_mut() {
@@ -30,53 +16,60 @@ impl Bench {
             surface["x"]["points"] = json!(5);
             surface["y"]["points"] = json!(4);
         }
-        let robot = serde_json::from_str(&data("robots/caroca.json")).unwrap();
-        Self { folder: TempDir::new().unwrap(), robot, study }
-    }
+    })
+}
 
-    /// Asks for the measures of sensitivity, from so few observations that those of regressions fail.
-    fn measure(&mut self) {
-        self.study["sensitivity"] = json!({
+/// Asks for the measures of sensitivity, from so few observations that those of regressions fail.
+fn measure(bench: &Bench) {
+    bench.change("study.json", |study| {
+        study["sensitivity"] = json!({
             "observations": 20, "saltelli_blocks": 16, "morris_blocks": 4, "derivative_points": 4,
             "expansion": {"max_degree": 1, "norm": 1.0, "interactions": 1}
         });
-    }
+    });
+}
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
+/// Takes out the pose that tight limits of tension do not hold.
+fn leave_out_the_asymmetric_pose(bench: &Bench) {
+    bench.change("study.json", |study| {
+        study["samplings"].as_object_mut().unwrap().remove("geometrical_asymmetric");
+        study["comparison"] = json!([]);
+    });
+}
 
-    fn run(&self, arguments: &[&str]) -> Output {
-        std::fs::write(self.path("robot.json"), format!("{:#}", self.robot)).unwrap();
-        std::fs::write(self.path("study.json"), format!("{:#}", self.study)).unwrap();
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-        command
-            .current_dir(self.folder.path())
-            .args(["study", "run", "study.json", "--out", "out"])
-            .args(arguments);
-        command.output().unwrap()
-    }
+fn run(bench: &Bench, arguments: &[&str]) -> Output {
+    bench.study(&[&["run", "study.json", "--out", "out"], arguments].concat())
+}
 
-    /// The message of a run that must fail, without panicking.
-    fn refusal(&self, arguments: &[&str]) -> String {
-        let output = self.run(arguments);
-        let text = String::from_utf8(output.stderr).unwrap();
-        assert_ne!(output.status.code(), Some(0), "{text}");
-        assert!(!text.contains("panicked"), "{text}");
-        text
-    }
+/// Standard output of a run that must succeed.
+fn printed(bench: &Bench, arguments: &[&str]) -> String {
+    let output = run(bench, arguments);
+    assert!(output.status.success(), "{}", text(output.stderr));
+    text(output.stdout)
+}
+
+/// The message of a run that must fail, without panicking.
+fn refusal(bench: &Bench, arguments: &[&str]) -> String {
+    let output = run(bench, arguments);
+    let text = text(output.stderr);
+    assert_ne!(output.status.code(), Some(0), "{text}");
+    assert!(!text.contains("panicked"), "{text}");
+    text
+}
+
+fn read(bench: &Bench, file: &str) -> String {
+    std::fs::read_to_string(bench.path(file)).unwrap()
 }
 
 #[test]
 fn a_study_writes_tables_figures_and_a_summary() {
-    let bench = Bench::new();
-    let output = bench.run(&[]);
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(output.stderr.is_empty(), "progress is silent when not on a terminal");
+    let bench = bench();
+    let output = run(&bench, &[]);
+    let (text, errors) = (text(output.stdout), text(output.stderr));
+    assert!(output.status.success(), "{errors}");
+    assert!(errors.is_empty(), "progress is silent when not on a terminal");
     assert!(text.contains("not reproduced") && text.contains("surface_E_rho"));
-    let summary: Value =
-        serde_json::from_str(&std::fs::read_to_string(bench.path("out/summary.json")).unwrap()).unwrap();
+    let summary = bench.json("out/summary.json");
     let mechanical = &summary["studies"]["mechanical"];
     assert_eq!(mechanical["observations"], 64);
     assert_eq!(mechanical["failed"]["infeasible_tension"], 0);
@@ -91,13 +84,13 @@ fn a_study_writes_tables_figures_and_a_summary() {
             .iter()
             .all(|row| { row["verdict"] == "reproduced" || row["verdict"] == "not reproduced" })
     );
-    let table = std::fs::read_to_string(bench.path("out/mechanical.csv")).unwrap();
+    let table = read(&bench, "out/mechanical.csv");
     let mut lines = table.lines();
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();
     assert_eq!(header.len(), 1 + 62 + 4 + 2);
     assert_eq!((header[1], header[62], header[66], header[67]), ("d_mass", "d_dt8", "rms_mm", "status"));
     assert_eq!(lines.count(), 64);
-    assert_eq!(std::fs::read_to_string(bench.path("out/surface_E_rho.csv")).unwrap().lines().count(), 1 + 20);
+    assert_eq!(read(&bench, "out/surface_E_rho.csv").lines().count(), 1 + 20);
     for figure in [
         "robot",
         "mechanical",
@@ -107,19 +100,19 @@ fn a_study_writes_tables_figures_and_a_summary() {
         "anchor_points",
         "exit_points",
     ] {
-        let svg = std::fs::read_to_string(bench.path(&format!("out/{figure}.svg"))).unwrap();
+        let svg = read(&bench, &format!("out/{figure}.svg"));
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"), "{figure}");
     }
-    let printed = bench.run(&["--resume", "--format", "json"]).stdout;
+    let printed = run(&bench, &["--resume", "--format", "json"]).stdout;
     assert_eq!(serde_json::from_slice::<Value>(&printed).unwrap(), summary);
 }
 
 #[test]
 fn the_files_are_the_same_on_any_number_of_threads() {
-    let mut bench = Bench::new();
-    bench.measure();
+    let bench = bench();
+    measure(&bench);
     let files = |threads: &str| -> Vec<Vec<u8>> {
-        assert!(bench.run(&["--overwrite", "--threads", threads]).status.success());
+        assert!(run(&bench, &["--overwrite", "--threads", threads]).status.success());
         ["summary.json", "geometrical_asymmetric.csv"]
             .map(|file| std::fs::read(bench.path("out").join(file)).unwrap())
             .into()
@@ -129,23 +122,20 @@ fn the_files_are_the_same_on_any_number_of_threads() {
 
 #[test]
 fn measures_of_sensitivity_have_a_table_a_figure_a_part_of_the_summary_and_a_table_on_the_terminal() {
-    let mut bench = Bench::new();
-    bench.measure();
-    let output = bench.run(&[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).unwrap();
+    let bench = bench();
+    measure(&bench);
+    let text = printed(&bench, &[]);
     for words in ["Sobol' T", "sum of all", "first 10 of every measure: ", "left out: regression: "] {
         assert!(text.contains(words), "`{words}` is not in: {text}");
     }
-    let summary: Value =
-        serde_json::from_str(&std::fs::read_to_string(bench.path("out/summary.json")).unwrap()).unwrap();
+    let summary = bench.json("out/summary.json");
     for name in ["mechanical", "geometrical", "geometrical_asymmetric"] {
-        let table = std::fs::read_to_string(bench.path(&format!("out/{name}_sensitivity.csv"))).unwrap();
+        let table = read(&bench, &format!("out/{name}_sensitivity.csv"));
         let (header, rows) = table.split_once('\n').unwrap();
         assert!(header.starts_with("input,t_student,signed_effect_mm,derivative_share,regression_share,"));
         assert!(header.ends_with(",sobol_total,sobol_total_low,sobol_total_high"));
         assert_eq!((rows.lines().count(), &rows[..5]), (62, "mass,"));
-        let figure = std::fs::read_to_string(bench.path(&format!("out/{name}_sensitivity.svg"))).unwrap();
+        let figure = read(&bench, &format!("out/{name}_sensitivity.svg"));
         assert!(figure.starts_with("<svg"));
         let sensitivity = &summary["studies"][name]["sensitivity"];
         assert_eq!(sensitivity["methods"]["sobol"]["observations"], 16 * 64);
@@ -157,31 +147,29 @@ fn measures_of_sensitivity_have_a_table_a_figure_a_part_of_the_summary_and_a_tab
 
 #[test]
 fn a_folder_of_results_runs_again_and_gives_the_same_summary() {
-    let bench = Bench::new();
-    assert!(bench.run(&["--observations", "40"]).status.success());
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-    command.current_dir(bench.folder.path()).args(["study", "run", "out/study.json", "--out", "again"]);
-    assert!(command.status().unwrap().success());
+    let bench = bench();
+    assert!(run(&bench, &["--observations", "40"]).status.success());
+    bench.done(&["run", "out/study.json", "--out", "again"]);
     for file in ["study.json", "robot.json", "summary.json", "mechanical.csv"] {
         let [first, again] =
             ["out", "again"].map(|folder| std::fs::read(bench.path(folder).join(file)).unwrap());
         assert!(first == again, "{file}");
     }
-    let text = std::fs::read_to_string(bench.path("out/study.json")).unwrap();
-    let study: Value = serde_json::from_str(&text).unwrap();
+    let study = bench.json("out/study.json");
     assert_eq!(study["robot"], "robot.json");
     assert_eq!(study["samplings"]["mechanical"]["observations"], 40);
-    let text = std::fs::read_to_string(bench.path("out/timings.json")).unwrap();
-    let timings: Value = serde_json::from_str(&text).unwrap();
+    let timings = bench.json("out/timings.json");
     assert!(timings["all"].as_f64().unwrap() >= timings["seconds"]["surface_E_rho"].as_f64().unwrap());
 }
 
 /// Spoils one value of the robot or the study and expects the message to hold all the given words.
 fn refused(spoil: impl Fn(&mut Value, &mut Value), words: &[&str]) {
-    let mut bench = Bench::new();
-    let Bench { robot, study, .. } = &mut bench;
-    spoil(robot, study);
-    let message = bench.refusal(&[]);
+    let bench = bench();
+    let (mut robot, mut study) = (bench.json("robot.json"), bench.json("study.json"));
+    spoil(&mut robot, &mut study);
+    bench.change("robot.json", |content| *content = robot);
+    bench.change("study.json", |content| *content = study);
+    let message = refusal(&bench, &[]);
     for word in words {
         assert!(message.contains(word), "`{word}` is not in: {message}");
     }
@@ -262,55 +250,50 @@ fn bad_studies_are_refused_with_file_field_value_and_remedy() {
 
 #[test]
 fn bad_arguments_are_refused() {
-    let bench = Bench::new();
-    assert!(bench.refusal(&["--observations", "1"]).contains("observations is 1: expected at least 3"));
-    assert!(bench.refusal(&["--observations", "many"]).contains("invalid value 'many' for '--observations"));
-    assert!(bench.refusal(&["--threads", "0"]).contains("0 is not in 1"));
+    let bench = bench();
+    assert!(refusal(&bench, &["--observations", "1"]).contains("observations is 1: expected at least 3"));
+    assert!(
+        refusal(&bench, &["--observations", "many"]).contains("invalid value 'many' for '--observations")
+    );
+    assert!(refusal(&bench, &["--threads", "0"]).contains("0 is not in 1"));
 }
 
 #[test]
 fn a_folder_that_cannot_be_written_is_refused_before_anything_runs() {
-    let bench = Bench::new();
+    let bench = bench();
     std::fs::write(bench.path("out"), "a file").unwrap();
-    assert!(bench.refusal(&[]).starts_with("error: cannot write out: "));
+    assert!(refusal(&bench, &[]).starts_with("error: cannot write out: "));
 }
 
 #[test]
 fn observations_that_fail_stop_nothing() {
-    let mut bench = Bench::new();
+    let bench = bench();
     // Tension limits so tight that most perturbed robots have no distribution; the nominal one has.
-    bench.robot["tension_limits"] = json!({"min": 500.0, "max": 650.0});
-    let output = bench.run(&[]);
-    let text = String::from_utf8(output.stdout).unwrap();
+    bench.change("robot.json", |robot| robot["tension_limits"] = json!({"min": 500.0, "max": 650.0}));
+    let output = run(&bench, &[]);
+    let text = text(output.stdout);
     // At the non-symmetric pose even the nominal robot has none: that is said before anything runs.
     assert!(!output.status.success(), "{text}");
-    bench.study["samplings"].as_object_mut().unwrap().remove("geometrical_asymmetric");
-    bench.study["comparison"] = json!([]);
-    let output = bench.run(&[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let summary: Value =
-        serde_json::from_str(&std::fs::read_to_string(bench.path("out/summary.json")).unwrap()).unwrap();
+    leave_out_the_asymmetric_pose(&bench);
+    printed(&bench, &[]);
+    let summary = bench.json("out/summary.json");
     let failed = summary["studies"]["mechanical"]["failed"]["infeasible_tension"].as_u64().unwrap();
     assert!(failed > 0 && failed < 64, "{failed}");
-    let table = std::fs::read_to_string(bench.path("out/mechanical.csv")).unwrap();
+    let table = read(&bench, "out/mechanical.csv");
     assert_eq!(table.lines().filter(|line| line.contains(",infeasible_tension,")).count() as u64, failed);
 }
 
 #[test]
 fn what_cannot_be_computed_from_the_observations_left_is_noted_and_the_rest_written() {
-    let mut bench = Bench::new();
+    let bench = bench();
     // Every heavier platform fails: no mean over the upper half of the mass.
-    bench.robot["tension_limits"] = json!({"min": 1.0, "max": 578.5});
-    bench.study["samplings"].as_object_mut().unwrap().remove("geometrical_asymmetric");
-    bench.study["comparison"] = json!([]);
+    bench.change("robot.json", |robot| robot["tension_limits"] = json!({"min": 1.0, "max": 578.5}));
+    leave_out_the_asymmetric_pose(&bench);
     std::fs::create_dir(bench.path("out")).unwrap();
     std::fs::write(bench.path("out/summary.json"), "of an earlier run").unwrap();
-    let output = bench.run(&[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = printed(&bench, &[]);
     assert!(text.contains("mechanical: t_student: input `mass`: 0 observations above the middle"), "{text}");
-    let summary: Value =
-        serde_json::from_str(&std::fs::read_to_string(bench.path("out/summary.json")).unwrap()).unwrap();
+    let summary = bench.json("out/summary.json");
     let mechanical = &summary["studies"]["mechanical"];
     assert!(mechanical["rms_mm"]["mean"].as_f64().unwrap() > 1.0);
     assert_eq!(mechanical["t_student"], json!({}));
@@ -329,9 +312,9 @@ fn an_unbounded_law_at_the_first_point_of_the_sequence_names_the_field_to_change
 
 #[test]
 fn a_run_writes_a_report_and_so_does_its_folder_alone() {
-    let bench = Bench::new();
-    assert!(bench.run(&[]).status.success());
-    let written = std::fs::read_to_string(bench.path("out/report.html")).unwrap();
+    let bench = bench();
+    assert!(run(&bench, &[]).status.success());
+    let written = read(&bench, "out/report.html");
     assert!(written.starts_with("<!DOCTYPE html>") && written.contains("id=\"figure-mechanical\""));
     // The folder is complete by itself.
     let moved = bench.path("moved");
@@ -339,22 +322,15 @@ fn a_run_writes_a_report_and_so_does_its_folder_alone() {
     for file in ["study.json", "robot.json"] {
         std::fs::remove_file(bench.path(file)).unwrap();
     }
-    let report = |arguments: &[&str]| {
-        Command::new(env!("CARGO_BIN_EXE_cdpr"))
-            .current_dir(bench.folder.path())
-            .arg("report")
-            .args(arguments)
-            .output()
-            .unwrap()
-    };
+    let report = |arguments: &[&str]| cdpr_in(&bench.path("."), &[&["report"], arguments].concat());
     let output = report(&["moved", "--out", "again.html"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    assert_eq!(String::from_utf8(output.stdout).unwrap(), "report in again.html\n");
-    assert!(std::fs::read_to_string(bench.path("again.html")).unwrap() == written);
+    assert!(output.status.success(), "{}", text(output.stderr));
+    assert_eq!(text(output.stdout), "report in again.html\n");
+    assert!(read(&bench, "again.html") == written);
 
     let refusal = |expected: &str| {
         let output = report(&["moved"]);
-        let text = String::from_utf8(output.stderr).unwrap();
+        let text = text(output.stderr);
         assert!(!output.status.success() && text.contains(expected) && !text.contains("panicked"), "{text}");
     };
     let table = std::fs::read_to_string(moved.join("surface_E_rho.csv")).unwrap();

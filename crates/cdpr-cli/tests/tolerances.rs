@@ -1,18 +1,17 @@
 //! `cdpr tolerances` as a user meets it.
 
+use crate::common::{cdpr, data_path, text};
 use serde_json::Value;
-use std::process::{Command, Output};
+use std::process::Output;
 
 fn tolerances(arguments: &[&str]) -> Output {
-    let study = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-    command.args(["tolerances", study, "--sampling", "mechanical"]).args(arguments).output().unwrap()
+    let study = data_path("studies/caroca.json");
+    cdpr(&[&["tolerances", &study, "--sampling", "mechanical"], arguments].concat())
 }
 
 #[test]
 fn the_budget_is_printed_as_a_table_and_as_json() {
-    let text = tolerances(&["--limit", "1.4", "--observations", "2000"]);
-    let text = String::from_utf8(text.stdout).unwrap();
+    let text = text(tolerances(&["--limit", "1.4", "--observations", "2000"]).stdout);
     let modulus = text.lines().find(|line| line.contains("youngs_modulus")).unwrap();
     assert!(modulus.contains("99.45") && text.contains("95 % of the robots at most 1.4 mm"), "{text}");
 
@@ -40,7 +39,7 @@ fn what_is_wrong_is_named_and_the_exit_code_is_not_zero() {
         (&["--limit", "far"], "`far` is not a finite number"),
     ] {
         let output = tolerances(arguments);
-        let message = String::from_utf8(output.stderr).unwrap();
+        let message = text(output.stderr);
         assert!(!output.status.success() && message.contains(words), "{message}");
     }
 }

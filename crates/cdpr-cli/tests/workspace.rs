@@ -1,26 +1,15 @@
 //! `cdpr workspace` as a user meets it: the table, the summary, the maps.
 
+use crate::common::{answered, cdpr_in, data, data_path, json_file, text};
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
 use cdpr_statics::{Load, deflection};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 use tempfile::TempDir;
 
-fn data(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file)
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
-    command.current_dir(folder).arg("workspace").arg(data("robots/caroca.json")).args(arguments);
-    let output = command.output().unwrap();
-    assert!(
-        output.status.success() && output.stderr.is_empty(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    output
+/// Standard output of a workspace of CAROCA that must succeed.
+fn run(folder: &Path, arguments: &[&str]) -> String {
+    answered(cdpr_in(folder, &[&["workspace", &data_path("robots/caroca.json")], arguments].concat()))
 }
 
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
@@ -45,7 +34,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
         "--uncertainty",
         "a=0.002,youngs_modulus=5e9",
     ];
-    let text = run(folder.path(), &[&arguments[..], &["--threads", "1", "--out", "one"]].concat()).stdout;
+    let text = run(folder.path(), &[&arguments[..], &["--threads", "1", "--out", "one"]].concat());
     let json = run(
         folder.path(),
         &[&arguments[..], &["--threads", "2", "--out", "two", "--format", "json"]].concat(),
@@ -64,9 +53,9 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
             "workspace.json"
         ]
     );
-    assert!(String::from_utf8(text).unwrap().contains("63 positions, payload 50 kg"));
+    assert!(text(text).contains("63 positions, payload 50 kg"));
 
-    let summary: Value = serde_json::from_slice(&json.stdout).unwrap();
+    let summary: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(summary, serde_json::from_slice::<Value>(&written[5].1).unwrap());
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 25);
     let robot = Robot::from_json(&std::fs::read_to_string(data("robots/caroca.json")).unwrap()).unwrap();
@@ -80,7 +69,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
         (&"infeasible_tension".into(), &Value::Null)
     );
 
-    let table = String::from_utf8(written[4].1.clone()).unwrap();
+    let table = text(written[4].1.clone());
     let lines: Vec<_> = table.lines().collect();
     assert_eq!(lines.len(), 64);
     assert!(lines[0].starts_with("x,y,z,status,least_tension,greatest_tension,dx_mm"));
@@ -108,7 +97,7 @@ fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
         "out",
     ];
     let summary: Value =
-        serde_json::from_slice(&run(folder.path(), &[&arguments[..], &["--format", "json"]].concat()).stdout)
+        serde_json::from_str(&run(folder.path(), &[&arguments[..], &["--format", "json"]].concat()))
             .unwrap();
     assert_eq!(summary["rows"].as_array().unwrap().len(), 6);
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 62);
@@ -129,7 +118,7 @@ fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_d
     let place = "--box=-0.5:0.5:3,-0.5:0.5:3,1.75:1.75:1";
     let summary = |arguments: &[&str]| {
         let arguments = [&[place, "--format", "json", "--out", "out"], arguments].concat();
-        serde_json::from_slice::<Value>(&run(folder.path(), &arguments).stdout).unwrap()
+        serde_json::from_str::<Value>(&run(folder.path(), &arguments)).unwrap()
     };
     let turned = summary(&["--rotation", "1,0,0,0.05", "--force", "0,200,0", "--moment", "0,0,10"]);
     let robot = Robot::from_json(&std::fs::read_to_string(data("robots/caroca.json")).unwrap()).unwrap();
