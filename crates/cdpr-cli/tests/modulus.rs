@@ -64,8 +64,8 @@ fn what_cannot_be_answered_ends_with_an_error_that_says_why() {
     )
     .unwrap();
     for (record, range, words) in [
-        (&record(), "30-40", "the range 30 to 40 % of the breaking force is not in the record"),
-        (&record(), "30-10", "range is 10: expected an upper end above the lower one"),
+        (record().as_str(), "30-40", "the range 30 to 40 % of the breaking force is not in the record"),
+        (record().as_str(), "30-10", "range is 10: expected an upper end above the lower one"),
         (bad.to_str().unwrap(), "5-10", "bad.csv: line 3: force_n is 1: expected more than 1 of line 2"),
         ("no-such-file.csv", "5-10", "cannot read no-such-file.csv"),
     ] {

@@ -1,6 +1,6 @@
 //! Samplings at several poses: each says what a sampling at that pose alone says, and those that nothing holds are data.
 
-use crate::common::Bench;
+use crate::common::{Bench, text};
 use serde_json::{Value, json};
 
 /// CAROCA over a plane of 5 x 3 positions, of which the outer ones are not held.

@@ -1,6 +1,6 @@
 //! `cdpr workspace` as a user meets it: the table, the summary, the maps.
 
-use crate::common::{answered, cdpr_in, data, data_path, json_file, text};
+use crate::common::{answered, cdpr_in, data, data_path, text};
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
 use cdpr_statics::{Load, deflection};
 use serde_json::Value;
@@ -34,7 +34,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
         "--uncertainty",
         "a=0.002,youngs_modulus=5e9",
     ];
-    let text = run(folder.path(), &[&arguments[..], &["--threads", "1", "--out", "one"]].concat());
+    let printed = run(folder.path(), &[&arguments[..], &["--threads", "1", "--out", "one"]].concat());
     let json = run(
         folder.path(),
         &[&arguments[..], &["--threads", "2", "--out", "two", "--format", "json"]].concat(),
@@ -53,7 +53,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
             "workspace.json"
         ]
     );
-    assert!(text(text).contains("63 positions, payload 50 kg"));
+    assert!(printed.contains("63 positions, payload 50 kg"));
 
     let summary: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(summary, serde_json::from_slice::<Value>(&written[5].1).unwrap());
@@ -97,8 +97,7 @@ fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
         "out",
     ];
     let summary: Value =
-        serde_json::from_str(&run(folder.path(), &[&arguments[..], &["--format", "json"]].concat()))
-            .unwrap();
+        serde_json::from_str(&run(folder.path(), &[&arguments[..], &["--format", "json"]].concat())).unwrap();
     assert_eq!(summary["rows"].as_array().unwrap().len(), 6);
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 62);
     // A uniform law of half width 18 kg.

@@ -40,8 +40,8 @@ pub struct InverseSolution {
     pub active: Vec<Option<Bound>>,
     /// The pose with the cables' forces.
     pub equilibrium: Equilibrium,
-    /// Turns of distribution and Newton's method: 1 unless the active bounds had to be looked for.
-    pub turns: usize,
+    /// Iterations of distribution and Newton's method: 1 unless the active bounds had to be looked for.
+    pub iterations: usize,
     /// Residuals of all equations.
     pub residual: Residual,
 }
@@ -119,11 +119,11 @@ impl<'a> Inverse<'a> {
         catenaries: &[Catenary],
         tensions: Vec<f64>,
         active: Vec<Option<Bound>>,
-        turns: usize,
+        iterations: usize,
     ) -> Result<InverseSolution, StaticsError> {
         let (lengths, equilibrium) = lengths_and_forces(self.pose, catenaries);
         let residual = Residual::of(&DirectProblem::new(self.robot, &lengths, self.load)?, &equilibrium);
-        Ok(InverseSolution { lengths, tensions, active, equilibrium, turns, residual })
+        Ok(InverseSolution { lengths, tensions, active, equilibrium, iterations, residual })
     }
 
     fn solve(&self) -> Result<InverseSolution, StaticsError> {
@@ -170,7 +170,7 @@ impl<'a> Inverse<'a> {
             }
         }
         Err(StaticsError::InverseNotConverged {
-            turns: MAX_TURNS,
+            iterations: MAX_TURNS,
             force: open.fixed_rows::<3>(0).norm(),
             moment: open.fixed_rows::<3>(3).norm(),
         })

@@ -374,10 +374,10 @@ impl<'py, 'a, T> Columns<'py, 'a, T> {
     }
 
     /// A word for each case, `None` where there is no answer; a list unless there is a single case.
-    pub(crate) fn words(&self, word: impl Fn(&T) -> &'static str) -> PyResult<Py<PyAny>> {
-        let words: Vec<Option<&str>> = self.rows.iter().map(|row| row.map(&word)).collect();
+    pub(crate) fn words(&self, word: impl Fn(&T) -> String) -> PyResult<Py<PyAny>> {
+        let words: Vec<Option<String>> = self.rows.iter().map(|row| row.map(&word)).collect();
         let object = if self.single {
-            words[0].into_pyobject(self.py)?.into_any()
+            words[0].as_deref().into_pyobject(self.py)?.into_any()
         } else {
             words.into_pyobject(self.py)?
         };

@@ -5,7 +5,7 @@ use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
 use crate::convert::error::Answer;
 use crate::convert::threads::each;
 use crate::robot::Robot;
-use cdpr_statics::{DirectMethod, Start, StaticsError, direct, rough_pose};
+use cdpr_statics::{Start, StaticsError, direct, rough_pose};
 use pyo3::prelude::*;
 
 answer! {
@@ -127,11 +127,7 @@ impl DirectSolution {
                 let residual = &found.solution.report.residual;
                 [residual.closure, residual.force, residual.moment]
             })?,
-            method: all.words(|found| match found.solution.report.method {
-                DirectMethod::Newton => "newton",
-                DirectMethod::TrustRegion => "trust_region",
-                DirectMethod::Continuation => "continuation",
-            })?,
+            method: all.words(|found| found.solution.report.method.to_string())?,
             iterations: all.array(0, &[], |found, out: &mut [i64]| {
                 out[0] = found.solution.report.iterations as i64;
             })?,
