@@ -19,7 +19,7 @@ pub(crate) enum ProgramError {
     Record(#[from] RecordError),
     #[error(transparent)]
     Statics(#[from] StaticsError),
-    #[error(transparent)]
+    #[error("{}", with_options(.0))]
     Study(#[from] StudyError),
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -76,4 +76,22 @@ impl ProgramError {
             _ => 1,
         }
     }
+}
+
+/// The sentence of the library with the options of the program that it is about, or that help.
+fn with_options(error: &StudyError) -> String {
+    let help = match error {
+        StudyError::Setting { field, .. } => {
+            let is_option = ["observations", "position", "shard"].contains(&field.as_str());
+            return format!("{}{error}", if is_option { "--" } else { "" });
+        }
+        StudyError::ForeignFolder { .. } => ", or --overwrite what is there",
+        StudyError::FolderInUse { .. } => ": --resume goes on with them, --overwrite begins anew",
+        StudyError::MissingBlocks { .. } => ": run the rest with --resume or --shard",
+        StudyError::NotAnalysed { .. } => {
+            ": analyse it with cdpr study merge, or cdpr study run --resume where blocks are missing"
+        }
+        _ => "",
+    };
+    format!("{error}{help}")
 }

@@ -200,7 +200,7 @@ def test_settings_that_are_none_are_refused_before_anything_is_removed(study, tm
         ({"threads": -1}, cdpr.InputError, "threads is -1: expected one or more"),
         ({"tasks": 0}, cdpr.InputError, "tasks is 0: expected one or more"),
         ({"progress": 3}, TypeError, "progress is 3: expected a function"),
-        ({"observations": 2}, cdpr.InputError, "--observations is 2: expected at least 3"),
+        ({"observations": 2}, cdpr.InputError, "observations is 2: expected at least 3"),
         ({"observations": -2}, cdpr.InputError, "observations is -2: expected a whole number from 0"),
     ):
         with pytest.raises(error) as raised:

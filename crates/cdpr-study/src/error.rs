@@ -107,7 +107,7 @@ pub enum StudyError {
     /// A folder with the blocks of another study.
     #[error(
         "{folder} holds study {found}, and this is study {expected} (version {version}): expected the same robot, error models, \
-         poses, payload, seed and version; use another folder, or --overwrite what is there"
+         poses, payload, seed and version; use another folder"
     )]
     ForeignFolder {
         /// The folder.
@@ -120,9 +120,7 @@ pub enum StudyError {
         version: &'static str,
     },
     /// A folder with blocks, and nobody has said what is to become of them.
-    #[error(
-        "{folder} holds {blocks} blocks of this study: --resume goes on with them, --overwrite begins anew"
-    )]
+    #[error("{folder} holds {blocks} blocks of this study")]
     FolderInUse {
         /// The folder.
         folder: PathBuf,
@@ -139,9 +137,7 @@ pub enum StudyError {
         path: PathBuf,
     },
     /// A study cannot be analysed yet.
-    #[error(
-        "{folder} lacks {missing} of {blocks} blocks, the first one {first}: run the rest with --resume or --shard"
-    )]
+    #[error("{folder} lacks {missing} of {blocks} blocks, the first one {first}")]
     MissingBlocks {
         /// The folder.
         folder: PathBuf,
@@ -153,9 +149,7 @@ pub enum StudyError {
         first: PathBuf,
     },
     /// The results of a study that nothing has analysed yet.
-    #[error(
-        "{folder} has no summary.json: analyse it with cdpr study merge, or cdpr study run --resume where blocks are missing"
-    )]
+    #[error("{folder} has no summary.json")]
     NotAnalysed {
         /// The folder.
         folder: PathBuf,

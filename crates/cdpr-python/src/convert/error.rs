@@ -123,7 +123,14 @@ impl From<SensitivityError> for Raised {
 
 impl From<StudyError> for Raised {
     fn from(error: StudyError) -> Self {
-        let message = error.to_string();
+        let help = match &error {
+            StudyError::ForeignFolder { .. } => ", or overwrite=True",
+            StudyError::FolderInUse { .. } => ": resume=True goes on with them, overwrite=True begins anew",
+            StudyError::MissingBlocks { .. } => ": run the rest with resume=True",
+            StudyError::NotAnalysed { .. } => ": analyse it with resume=True",
+            _ => "",
+        };
+        let message = format!("{error}{help}");
         match kind(&error) {
             Some(kind) => Self::NoSolution { kind, message },
             None if is_of_files(&error) => Self::File(message),

@@ -42,7 +42,7 @@ pub fn template(
             Ok(tension) => (position, tension),
             Err(error) => {
                 let expected = format!("a position that the robot holds with {payload} kg: {error}");
-                return Err(StudyError::setting("--position", format!("{position:?}"), expected));
+                return Err(StudyError::setting("position", format!("{position:?}"), expected));
             }
         },
         None => candidates(robot)
@@ -51,7 +51,7 @@ pub fn template(
             .ok_or_else(|| {
                 let expected =
                     "x,y,z [m], for the robot holds none of those tried in the middle of its exit points";
-                StudyError::setting("--position", "missing", expected)
+                StudyError::setting("position", "missing", expected)
             })?,
     };
     let cable = &robot.cables[0].properties;
@@ -194,7 +194,7 @@ mod tests {
         let error =
             template(&robot.unwrap(), "caroca.json", Some([0.0, 0.0, 9.0]), None).unwrap_err().to_string();
         assert!(
-            error.starts_with("--position is [0.0, 0.0, 9.0]: expected a position that the robot holds"),
+            error.starts_with("position is [0.0, 0.0, 9.0]: expected a position that the robot holds"),
             "{error}"
         );
     }

@@ -47,7 +47,7 @@ impl Study {
     pub fn set_observations(&mut self, observations: usize) -> Result<(), StudyError> {
         if observations < FEWEST_OBSERVATIONS {
             let expected = format!("at least {FEWEST_OBSERVATIONS}");
-            return Err(StudyError::setting("--observations", observations, expected));
+            return Err(StudyError::setting("observations", observations, expected));
         }
         self.file.samplings.values_mut().for_each(|sampling| sampling.observations = observations);
         self.validate()
@@ -64,7 +64,7 @@ impl Study {
         };
         if observations < most {
             let expected = format!("at least {most}, as many as there are");
-            return Err(StudyError::setting("--observations", observations, expected));
+            return Err(StudyError::setting("observations", observations, expected));
         }
         self.set_observations(observations)
     }

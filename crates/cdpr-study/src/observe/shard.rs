@@ -24,7 +24,7 @@ impl Shard {
     /// # Errors
     /// [`StudyError::Setting`] for anything else, of the variable for a task that is none of `n`.
     pub fn parse(text: &str, variable: impl Fn(&str) -> Option<String>) -> Result<Self, StudyError> {
-        let refused = || StudyError::setting("--shard", text, EXPECTED);
+        let refused = || StudyError::setting("shard", text, EXPECTED);
         let (place, count) = text.split_once('/').ok_or_else(refused)?;
         let count: usize = count.parse().ok().filter(|count| *count > 0).ok_or_else(refused)?;
         let shard = |index: &str| {
@@ -36,9 +36,9 @@ impl Shard {
         }
         let Some((name, task)) = TASK.iter().find_map(|name| Some((*name, variable(name)?))) else {
             let expected = format!("i/{count} where neither {} is set", TASK.join(" nor "));
-            return Err(StudyError::setting("--shard", text, expected));
+            return Err(StudyError::setting("shard", text, expected));
         };
-        let expected = || format!("a task from 1 to {count}, as --shard is {text}");
+        let expected = || format!("a task from 1 to {count}, as shard is {text}");
         shard(&task).ok_or_else(|| StudyError::setting(name, format!("`{task}`"), expected()))
     }
 
@@ -104,7 +104,7 @@ mod tests {
             ["0/4", "5/4", "x", "1", "1/0", "1/4/2", "-1/4", "", "auto", "auto/x", "auto/0", "auto/-1"]
         {
             let error = parse(text, &[("SLURM_ARRAY_TASK_ID", "1")]).unwrap_err();
-            assert_eq!(error, format!("--shard is {text}: expected {EXPECTED}"));
+            assert_eq!(error, format!("shard is {text}: expected {EXPECTED}"));
         }
         let error = parse("auto/4", &[]).unwrap_err();
         assert!(error.contains("neither HQ_TASK_ID nor SLURM_ARRAY_TASK_ID is set"), "{error}");
