@@ -4,12 +4,12 @@ use crate::convert::arrays::whole;
 use crate::convert::error::{Answer, Raised};
 use crate::convert::json::to_json;
 use crate::convert::threads::{run, watched};
-use cdpr_report::{Watcher, report};
+use cdpr_report::{draw, report_with};
 use cdpr_robot::Vector3;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
-    Existing, Part, Plan, Results, Session, Shard, Study, StudyError, TableFormat, check_complete,
-    check_observed, observe_into, observe_shard, write_text,
+    Existing, Part, Plan, REPORT_NAME, Run, Session, Shard, Study, StudyError, TableFormat, Watcher,
+    check_complete, check_observed, observe_into, observe_shard, write_text,
 };
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -47,7 +47,7 @@ pub(crate) fn begin(
         if let Some(observations) = observations {
             study.set_observations(observations)?;
         }
-        let size = (Plan::new(&study)?.blocks(), observations_of(&study)?);
+        let size = (Plan::new(&study)?.blocks(), study.all_observations()?);
         cdpr_study::begin(&out, &study, existing)?;
         Ok(size)
     };
@@ -129,9 +129,9 @@ pub(crate) fn carry_out(
             note: &note,
             stop: &|| stop.load(Ordering::Relaxed),
         };
-        cdpr_report::run(&study, &out, &blocks, format, watcher)?;
-        let page = report(&Results::read(&out)?).map_err(|error| Raised::Input(error.to_string()))?;
-        write_text(&out.join("report.html"), &page)?;
+        let Run { results, figures } = cdpr_study::run(&study, &out, &blocks, format, &draw, watcher)?;
+        let page = report_with(&results, &figures).map_err(|error| Raised::Input(error.to_string()))?;
+        write_text(&out.join(REPORT_NAME), &page)?;
         Ok(())
     })??;
     tell(py)?;
@@ -204,13 +204,4 @@ fn format_of(table: Option<&str>) -> Answer<Option<TableFormat>> {
         Some("none") => Ok(Some(TableFormat::None)),
         Some(table) => Err(Raised::Input(format!("table is {table}: expected csv or none"))),
     }
-}
-
-/// Number of observations and points of a whole run, including replicates and measures of sensitivity.
-fn observations_of(study: &Study) -> Result<usize, StudyError> {
-    let of_sampling = |name: &String| study.observations(name);
-    let samplings: usize = study.file.samplings.keys().map(of_sampling).sum::<Result<_, _>>()?;
-    let surfaces: usize =
-        study.file.surfaces.values().map(|surface| surface.x.points * surface.y.points).sum();
-    Ok(samplings + surfaces)
 }

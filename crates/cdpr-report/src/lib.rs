@@ -1,5 +1,6 @@
 //! Figures of study results, ready for a paper: one function a figure, results in, SVG text out. And [`report()`], which puts all of
-//! them into one HTML file beside the robot in space. [`run()`] carries out a whole study in its folder; nothing else here reads or writes files.
+//! them into one HTML file beside the robot in space. [`draw()`] gives the figures of a run to
+//! [`cdpr_study::run`]. Nothing here reads or writes files.
 //!
 //! | figure of the paper | function |
 //! |---|---|
@@ -33,15 +34,16 @@
 //! # }
 //! ```
 
+mod draw;
 mod drawing;
 mod error;
 mod figure;
 mod page;
 mod parameters;
-mod run;
 mod scene;
 mod text;
 
+pub use draw::{draw, figures};
 pub use error::ReportError;
 pub use figure::cycle::{Cycle, cycle};
 pub use figure::heat_map::{MapQuantity, heat_map, tolerance_map, workspace_maps};
@@ -53,5 +55,4 @@ pub use figure::robustness::{found_poses, success_share};
 pub use figure::shares::shares;
 pub use figure::signed_effects::signed_effects;
 pub use figure::surface::surface;
-pub use page::report;
-pub use run::{Watcher, run};
+pub use page::{report, report_with};

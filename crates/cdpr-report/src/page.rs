@@ -14,12 +14,13 @@ mod robot;
 mod run;
 mod setup;
 
+use crate::draw::figures;
 use crate::error::ReportError;
 use crate::page::elements::Section;
 use crate::scene::Scene;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use cdpr_study::Results;
+use cdpr_study::{Figure, Results};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -40,6 +41,14 @@ struct Data<'a> {
 /// # Errors
 /// [`ReportError::Drawing`] if the data of the page cannot be written as JSON.
 pub fn report(results: &Results) -> Result<String, ReportError> {
+    report_with(results, &figures(results))
+}
+
+/// The same with figures that are drawn already, by [`crate::draw()`].
+///
+/// # Errors
+/// As [`report`].
+pub fn report_with(results: &Results, figures: &[Figure]) -> Result<String, ReportError> {
     let scene = Scene::new(&results.study);
     let data = Data { robot: scene.as_ref().ok(), surfaces: results::in_space(results) };
     let json =
@@ -47,12 +56,12 @@ pub fn report(results: &Results) -> Result<String, ReportError> {
     let sections: Vec<Section> = [
         Some(robot::section(&results.study.robot, &scene)),
         Some(setup::section(results)),
-        results::distributions(results),
-        results::surfaces(results),
-        poses::section(results),
-        results::points(results),
-        results::effects(results),
-        results::measures(results),
+        results::distributions(results, figures),
+        results::surfaces(results, figures),
+        poses::section(results, figures),
+        results::points(results, figures),
+        results::effects(results, figures),
+        results::measures(results, figures),
         comparison::section(&results.summary),
         Some(run::observations(results)),
         Some(run::again(results)),

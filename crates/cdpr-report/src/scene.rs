@@ -78,24 +78,24 @@ impl Scene {
             };
         for (name, spec) in &study.file.samplings {
             if spec.pose.is_some() {
-                let sampling = study.sampling(name)?;
-                add(name, sampling.pose, &sampling.nominal);
+                let found = study.nominal(name)?;
+                add(name, found.pose, &found.deflection);
                 continue;
             }
             // Of many poses the first that is held stands for all.
             let prefix = format!("{name}/");
             let mut names = study.sampling_names().filter(|name| name.starts_with(&prefix));
-            if let Some(sampling) = names.find_map(|name| study.sampling(&name).ok()) {
-                add(&sampling.name, sampling.pose, &sampling.nominal);
+            if let Some((found, name)) = names.find_map(|name| Some((study.nominal(&name).ok()?, name))) {
+                add(&name, found.pose, &found.deflection);
             }
         }
         for name in study.file.surfaces.keys() {
-            let surface = study.surface(name)?;
-            add(name, surface.pose, &surface.nominal);
+            let found = study.nominal(name)?;
+            add(name, found.pose, &found.deflection);
         }
         if let (true, Some(name)) = (poses.is_empty(), study.sampling_names().next()) {
             // The reason why there is nothing to draw.
-            study.sampling(&name)?;
+            study.nominal(&name)?;
         }
         let exits: Vec<[f64; 3]> = study.robot.cables.iter().map(|cable| cable.exit_point.into()).collect();
         let lowest = exits.iter().map(|exit| exit[2]).fold(f64::INFINITY, f64::min);

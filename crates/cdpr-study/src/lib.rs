@@ -36,6 +36,7 @@ mod model;
 mod names;
 mod observe;
 mod results;
+mod run;
 mod store;
 
 pub use analysis::comparison::{ComparisonRow, Verdict};
@@ -68,7 +69,7 @@ pub use model::cable_law::open_law;
 pub use model::error_model::{ErrorModel, Term, uncertainties};
 pub use model::grid::{Grid, frame, letter};
 pub use model::observed::{Failure, Observed};
-pub use model::study::{Sampling, Study, Surface};
+pub use model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis};
 pub use names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME};
 pub use observe::observation::{FITTED, KEPT, Part, Session, Tally, observe, observe_into, observe_rows};
 pub use observe::plan::{BlockMaker, Plan, observe_shard};
@@ -81,6 +82,7 @@ pub use results::table::{ObservationTable, Rows, TableFormat};
 pub use results::write::{
     Timings, write_figure, write_poses, write_sensitivity, write_summary, write_surface, write_timings,
 };
+pub use run::{Draw, Drawable, Figure, Run, Watcher, run};
 pub use store::block::BLOCK;
 pub use store::blocks::Blocks;
 pub use store::folder::{Existing, begin, open_results};

@@ -5,6 +5,7 @@ pub(crate) mod designs;
 pub(crate) mod error_model;
 pub(crate) mod grid;
 pub(crate) mod hash;
+pub(crate) mod nominal;
 pub(crate) mod observed;
 pub(crate) mod open;
 pub(crate) mod operating_point;

@@ -3,13 +3,14 @@
 //! A process that ends at any moment loses no more than the block under way, so that Ctrl-C only ends it.
 
 use super::common::Common;
-use super::{print, report};
+use super::print;
 use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::progress;
-use cdpr_report::Watcher;
+use cdpr_report::{draw, report_with};
 use cdpr_study::{
-    Blocks, Plan, REPORT_NAME, STUDY_NAME, Session, Shard, Study, StudyError, TableFormat, observe_shard,
+    Blocks, Plan, REPORT_NAME, Run, STUDY_NAME, Session, Shard, Study, StudyError, TableFormat, Watcher,
+    observe_shard, write_text,
 };
 use clap::ValueEnum;
 use indicatif::ProgressBar;
@@ -54,7 +55,7 @@ pub(super) fn whole(
     common: &Common,
     first: impl FnOnce(&Session) -> Result<(), ProgramError>,
 ) -> Result<(), ProgramError> {
-    let progress = progress(observations(study)?, "observations");
+    let progress = progress(study.all_observations()?, "observations");
     leave_when_interrupted(&progress, out, format!("go on with: {}", resumed(out, common)))?;
     let watcher = Watcher {
         begin: &|name| progress.set_message(name.to_owned()),
@@ -67,11 +68,12 @@ pub(super) fn whole(
     first(&Session { blocks: Some(blocks), tick, warn, stop })?;
     progress.reset();
     let format = common.table.map(TableFormat::from);
-    let (summary, timings) = cdpr_report::run(study, out, blocks, format, watcher)?;
+    let Run { results, figures } = cdpr_study::run(study, out, blocks, format, &draw, watcher)?;
     progress.finish_and_clear();
-    common.format.print(&summary, |summary| print::print(summary, &timings))?;
+    let timings = results.timings.clone().unwrap_or_default();
+    common.format.print(&results.summary, |summary| print::print(summary, &timings))?;
     let path = out.join(REPORT_NAME);
-    report::write(out, &path)?;
+    write_text(&path, &report_with(&results, &figures)?)?;
     if common.format == Format::Text {
         println!("\nresults in {}\nreport in {}", out.display(), path.display());
     }
@@ -114,12 +116,4 @@ fn resumed(out: &Path, common: &Common) -> String {
 
 fn warn(progress: &ProgressBar) -> impl Fn(&StudyError) + Sync {
     |damage| progress.suspend(|| eprintln!("warning: {damage}; it is made again"))
-}
-
-/// Number of observations and grid points of a whole run.
-fn observations(study: &Study) -> Result<usize, StudyError> {
-    let file = &study.file;
-    let samplings = file.samplings.keys().map(|name| study.observations(name)).sum::<Result<usize, _>>()?;
-    let surfaces = file.surfaces.values().map(|s| s.x.points * s.y.points).sum::<usize>();
-    Ok(samplings + surfaces)
 }

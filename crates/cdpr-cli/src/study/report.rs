@@ -3,9 +3,9 @@
 use crate::arguments::Format;
 use crate::error::ProgramError;
 use cdpr_report::report;
-use cdpr_study::{Results, write_text};
+use cdpr_study::{REPORT_NAME, Results, write_text};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The folder and the file.
 #[derive(clap::Args)]
@@ -27,13 +27,8 @@ struct Written {
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { folder, out, format } = settings;
-    let path = out.clone().unwrap_or_else(|| folder.join("report.html"));
-    write(folder, &path)?;
+    let path = out.clone().unwrap_or_else(|| folder.join(REPORT_NAME));
+    write_text(&path, &report(&Results::read(folder)?)?)?;
     let text = |written: &Written| println!("report in {}", written.report.display());
     Ok(format.print(&Written { report: path }, text)?)
-}
-
-/// Writes the report of the results in `folder`.
-pub(crate) fn write(folder: &Path, path: &Path) -> Result<(), ProgramError> {
-    Ok(write_text(path, &report(&Results::read(folder)?)?)?)
 }

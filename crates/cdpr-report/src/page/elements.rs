@@ -1,7 +1,7 @@
 //! What the sections of the page are made of: figures, tables, numbers.
 
-use crate::error::ReportError;
 use crate::text;
+use cdpr_study::Figure;
 use maud::{Markup, PreEscaped, html};
 
 /// A part of the report.
@@ -18,9 +18,16 @@ impl Section {
     }
 }
 
+/// The text of a figure, or why there is none.
+pub(crate) fn svg<'a>(figures: &'a [Figure], name: &str) -> Result<&'a str, &'a str> {
+    let found = figures.iter().find(|figure| figure.name == name);
+    let svg = found.map(|figure| figure.svg.as_deref().map_err(String::as_str));
+    svg.unwrap_or(Err("it was not drawn"))
+}
+
 /// A figure drawn by this crate, or why there is none.
-pub(crate) fn figure(name: &str, alt: &str, svg: Result<String, ReportError>, caption: &Markup) -> Markup {
-    match svg {
+pub(crate) fn figure(name: &str, alt: &str, figures: &[Figure], caption: &Markup) -> Markup {
+    match svg(figures, name) {
         Ok(svg) => html! {
             figure id={ "figure-" (name) } {
                 div.drawing role="img" aria-label=(alt) tabindex="0" { (PreEscaped(svg)) }

@@ -4,28 +4,26 @@
 use crate::page::elements::{Section, cell, figure, numeric, table};
 use crate::page::glance;
 use crate::parameters;
-use crate::pose_maps;
 use crate::text;
-use cdpr_study::{Extremes, HELD, PosesSummary, Results};
+use cdpr_study::{Extremes, Figure, HELD, PosesSummary, Results};
 use maud::{Markup, html};
 
 /// Parameters named as dominant.
 const LEADING: usize = 12;
 
-pub(crate) fn section(results: &Results) -> Option<Section> {
-    let all: Vec<_> = glance::poses(&results.summary)
-        .filter_map(|(name, summary)| Some((name, summary, results.poses.get(name)?)))
-        .collect();
+pub(crate) fn section(results: &Results, figures: &[Figure]) -> Option<Section> {
+    let all: Vec<_> =
+        glance::poses(&results.summary).filter(|(name, _)| results.poses.contains_key(*name)).collect();
     let body = html! {
-        @for (name, summary, rows) in &all {
+        @for (name, summary) in &all {
             h3 { (summary.title) }
             p { (held(summary)) " A row each stands in " code { (name) ".csv" } "." }
-            @let maps = pose_maps(&results.study.robot, summary, rows);
+            @let maps = maps_of(name, figures);
             @if maps.is_empty() { p.note { "No maps: the poses are on no plane or box." } }
-            @for (map, svg) in maps {
+            @for map in maps {
                 @let file = format!("{name}_{map}");
                 @let alt = format!("Map of the workspace, {}, of {name}", map.replace('_', " "));
-                @let drawn = figure(&file, &alt, svg, &caption(&map));
+                @let drawn = figure(&file, &alt, figures, &caption(map));
                 // The layers of a box are many.
                 @if map.contains("_z") { details { summary { (file) } (drawn) } } @else { (drawn) }
             }
@@ -34,6 +32,13 @@ pub(crate) fn section(results: &Results) -> Option<Section> {
         }
     };
     (!all.is_empty()).then(|| Section::new("workspace", "Over the workspace", body))
+}
+
+/// The maps of a sampling, by what their files have behind its name.
+fn maps_of<'a>(name: &str, figures: &'a [Figure]) -> Vec<&'a str> {
+    let behind = |figure: &'a Figure| figure.name.strip_prefix(name)?.strip_prefix('_');
+    let is_map = |map: &&str| matches!(map.split('_').next(), Some("mean" | "std" | "dominant"));
+    figures.iter().filter_map(behind).filter(is_map).collect()
 }
 
 /// How many poses are held, and why others are not.

@@ -1,18 +1,14 @@
 //! What came out: distributions, surfaces, effects, measures of sensitivity.
 
+use crate::draw::LEADING;
 use crate::page::comparison;
-use crate::page::elements::{Section, cell, figure, numeric, table};
+use crate::page::elements::{Section, cell, figure, numeric, svg, table};
 use crate::page::glance::{samplings, surfaces as all_surfaces};
 use crate::parameters::{self, axis_of};
 use crate::text;
-use crate::{Points, histogram, point_effects, shares, signed_effects, surface};
-use cdpr_study::{InputMeasures, Results, SamplingSummary, SensitivitySummary, Statistic};
+use cdpr_study::{Figure, InputMeasures, Results, SamplingSummary, SensitivitySummary, Statistic};
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
-
-/// Bars of signed effects, inputs among the measures of sensitivity.
-const EFFECTS: usize = 20;
-const LEADING: usize = 12;
 
 /// A surface for the page's script.
 #[derive(Serialize)]
@@ -55,13 +51,13 @@ fn beside(results: &Results, name: &str) -> String {
     })
 }
 
-pub(crate) fn distributions(results: &Results) -> Option<Section> {
+pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Section> {
     let all: Vec<_> = samplings(&results.summary).collect();
     let body = html! {
         @for (name, sampling) in &all {
             h3 { (sampling.title) }
             @let alt = format!("Histogram of the RMS of the static deflection of {name} with fitted laws");
-            (figure(name, &alt, histogram(sampling), &html! {
+            (figure(name, &alt, figures, &html! {
                 "Density of the RMS of the static deflection over " (sampling.observations) " observations, with the laws that "
                 "fit best by Akaike's criterion; dashed: the nominal robot." (beside(results, name))
             }))
@@ -87,14 +83,13 @@ fn fits(sampling: &SamplingSummary) -> Markup {
     html! { @if !rows.is_empty() { (table("Fitted laws; p by parametric bootstrap, on Sobol points an indication", &head, &rows)) } }
 }
 
-pub(crate) fn surfaces(results: &Results) -> Option<Section> {
-    let all: Vec<_> = all_surfaces(&results.summary)
-        .filter_map(|(name, summary)| Some((name, summary, results.surfaces.get(name)?)))
-        .collect();
+pub(crate) fn surfaces(results: &Results, figures: &[Figure]) -> Option<Section> {
+    let all: Vec<_> =
+        all_surfaces(&results.summary).filter(|(name, _)| results.surfaces.contains_key(*name)).collect();
     let body = html! {
-        @for (name, summary, result) in &all {
+        @for (name, summary) in &all {
             h3 { (summary.title) }
-            @match surface(summary, result) {
+            @match svg(figures, name) {
                 Err(error) => p.note { "No figure " code { (name) } ": " (error) "." },
                 Ok(svg) => {
                     figure id={ "figure-" (name) } data-surface=(name) {
@@ -119,29 +114,15 @@ pub(crate) fn surfaces(results: &Results) -> Option<Section> {
     (!all.is_empty()).then(|| Section::new("surfaces", "Two parameters at a time", body))
 }
 
-pub(crate) fn points(results: &Results) -> Option<Section> {
+pub(crate) fn points(results: &Results, figures: &[Figure]) -> Option<Section> {
     let kinds = [
-        (
-            "anchor_points",
-            "a1.x",
-            "anchor",
-            Points::Anchor,
-            [Statistic::AnchorPointEquality, Statistic::DominantAnchorPoints],
-        ),
-        (
-            "exit_points",
-            "b1.x",
-            "exit",
-            Points::Exit,
-            [Statistic::ExitPointEquality, Statistic::DominantExitPoints],
-        ),
+        ("anchor_points", "anchor", [Statistic::AnchorPointEquality, Statistic::DominantAnchorPoints]),
+        ("exit_points", "exit", [Statistic::ExitPointEquality, Statistic::DominantExitPoints]),
     ];
     let drawn: Vec<Markup> = kinds
         .into_iter()
-        .filter_map(|(name, letter, kind, points, statistics)| {
-            let with: Vec<_> =
-                samplings(&results.summary).filter(|(_, s)| s.t_student.contains_key(letter)).collect();
-            if with.is_empty() {
+        .filter_map(|(name, kind, statistics)| {
+            if !figures.iter().any(|figure| figure.name == name) {
                 return None;
             }
             let alt = format!("Bars of the t-Student index of each coordinate of the {kind} points, in the plan of the robot");
@@ -150,19 +131,19 @@ pub(crate) fn points(results: &Results) -> Option<Section> {
                 "point seen from above. \u{d7} marks the platform's reference point P. The larger the index, the more the coordinate matters."
                 (comparison::counterpart(&results.study.file.comparison, |row| statistics.contains(&row.statistic)))
             };
-            Some(figure(name, &alt, point_effects(&results.study.robot, &with, points), &caption))
+            Some(figure(name, &alt, figures, &caption))
         })
         .collect();
     let body = html! { @for figure in &drawn { (figure) } };
     (!drawn.is_empty()).then(|| Section::new("points", "Anchor and exit points", body))
 }
 
-pub(crate) fn effects(results: &Results) -> Option<Section> {
+pub(crate) fn effects(results: &Results, figures: &[Figure]) -> Option<Section> {
     let with: Vec<_> = samplings(&results.summary).filter(|(_, s)| !s.signed_effects_mm.is_empty()).collect();
     let body = html! {
         @for (name, sampling) in &with {
             @let alt = format!("Bars of the largest signed effects of {name} with their intervals");
-            (figure(&format!("{name}_effects"), &alt, signed_effects(sampling, EFFECTS), &html! {
+            (figure(&format!("{name}_effects"), &alt, figures, &html! {
                 "Signed effects [mm]: how much the mean RMS changes from the lower to the upper half of a parameter's range. Lines are "
                 "intervals of " (text::digits(100.0 * sampling.confidence, 4)) " % confidence; grey bars cannot be told from zero."
             }))
@@ -171,7 +152,7 @@ pub(crate) fn effects(results: &Results) -> Option<Section> {
     (!with.is_empty()).then(|| Section::new("effects", "Signed effects", body))
 }
 
-pub(crate) fn measures(results: &Results) -> Option<Section> {
+pub(crate) fn measures(results: &Results, figures: &[Figure]) -> Option<Section> {
     let with: Vec<_> = samplings(&results.summary)
         .filter_map(|(name, s)| Some((name, s, s.sensitivity.as_ref()?)))
         .collect();
@@ -179,7 +160,7 @@ pub(crate) fn measures(results: &Results) -> Option<Section> {
         @for (name, sampling, found) in &with {
             h3 { (sampling.title) }
             @let alt = format!("Shares of the variance of the RMS of {name} by each measure of sensitivity");
-            (figure(&format!("{name}_sensitivity"), &alt, shares(sampling, LEADING), &html! {
+            (figure(&format!("{name}_sensitivity"), &alt, figures, &html! {
                 "Shares of the variance of the RMS [%] that the leading parameters have by each measure; lines are intervals."
             }))
             (side_by_side(found))

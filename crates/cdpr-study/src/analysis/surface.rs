@@ -1,7 +1,7 @@
 //! Surfaces: the deflection over a grid of two parameters.
 
 use crate::model::observed::{count_failed, rms_mm};
-use crate::model::study::Surface;
+use crate::model::study::{Surface, SurfaceAxis};
 use cdpr_robot::Parameter;
 use cdpr_statics::StaticsError;
 use rayon::prelude::*;
@@ -52,16 +52,15 @@ pub struct SurfaceRms {
 /// Runs a surface in parallel; `tick` is told how many more points are done.
 pub fn compute_surface(surface: &Surface, tick: &(dyn Fn(usize) + Sync)) -> SurfaceResult {
     let parameters = Parameter::all(surface.robot.cables.len()).len();
-    let (x, x_place, x_deviations) = &surface.x;
-    let (y, y_place, y_deviations) = &surface.y;
-    let columns = y_deviations.len();
-    let rms_mm = (0..x_deviations.len() * columns)
+    let Surface { x, y, .. } = surface;
+    let columns = y.deviations.len();
+    let rms_mm = (0..x.deviations.len() * columns)
         .into_par_iter()
         .fold_chunks(columns, Vec::new, |mut rows, k| {
             let first = rows.len();
             rows.resize(first + parameters, 0.0);
-            rows[first + *x_place] += x_deviations[k / columns];
-            rows[first + *y_place] += y_deviations[k % columns];
+            rows[first + x.index] += x.deviations[k / columns];
+            rows[first + y.index] += y.deviations[k % columns];
             rows
         })
         .flat_map_iter(|rows| {
@@ -70,10 +69,19 @@ pub fn compute_surface(surface: &Surface, tick: &(dyn Fn(usize) + Sync)) -> Surf
             outcomes.map(|outcome| outcome.map(|observation| rms_mm(observation.rms())))
         })
         .collect();
-    let values = |parameter: &Parameter, deviations: &[f64]| {
-        deviations.iter().map(|deviation| parameter.nominal(surface.robot) + deviation).collect()
+    let values = |axis: &SurfaceAxis| {
+        axis.deviations.iter().map(|deviation| axis.parameter.nominal(surface.robot) + deviation).collect()
     };
-    SurfaceResult { x: values(x, x_deviations), y: values(y, y_deviations), rms_mm }
+    SurfaceResult { x: values(x), y: values(y), rms_mm }
+}
+
+impl SurfaceResult {
+    /// The result with the kind of each failure, as a table has it.
+    pub fn by_kind(self) -> SurfaceResult<String> {
+        let Self { x, y, rms_mm } = self;
+        let rms_mm = rms_mm.into_iter().map(|rms| rms.map_err(|error| error.kind().to_owned())).collect();
+        SurfaceResult { x, y, rms_mm }
+    }
 }
 
 impl SurfaceSummary {
@@ -88,7 +96,7 @@ impl SurfaceSummary {
             quaternion: surface.pose.quaternion(),
             observations: result.rms_mm.len(),
             failed,
-            parameters: [surface.x.0.to_string(), surface.y.0.to_string()],
+            parameters: [&surface.x, &surface.y].map(|axis| axis.parameter.to_string()),
             rms_mm: SurfaceRms {
                 min: succeeded().reduce(f64::min),
                 max: succeeded().reduce(f64::max),

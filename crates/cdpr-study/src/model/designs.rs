@@ -92,6 +92,16 @@ impl Study {
         })
     }
 
+    /// Observations of all samplings and points of all surfaces: how much a whole run has to make.
+    ///
+    /// # Errors
+    /// As [`Study::observations`].
+    pub fn all_observations(&self) -> Result<usize, StudyError> {
+        let samplings = self.file.samplings.keys().map(|name| self.observations(name));
+        let surfaces = self.file.surfaces.values().map(|surface| surface.x.points * surface.y.points);
+        Ok(samplings.sum::<Result<usize, _>>()? + surfaces.sum::<usize>())
+    }
+
     /// All designs of a sampling and their numbers of points. At several poses there is its own alone.
     pub(crate) fn designs(
         &self,

@@ -4,6 +4,7 @@ use crate::error::StudyError;
 use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic, StudyFile};
 use crate::file::value::Value;
 use crate::fs::files::{open_robot, read};
+use crate::model::nominal::Nominals;
 use crate::model::prepare::FEWEST_OBSERVATIONS;
 use crate::model::study::Study;
 use crate::names::BLOCKS_NAME;
@@ -31,13 +32,18 @@ impl Study {
     /// # Errors
     /// As [`Study::open`].
     pub fn from_json(text: &str, path: &Path) -> Result<Self, StudyError> {
+        let study = Self::unchecked(text, path)?;
+        study.validate().map_err(|error| error.placed(text))?;
+        Ok(study)
+    }
+
+    /// A study and its robot whose values together are not checked yet: enough to know them by their hash.
+    pub(crate) fn unchecked(text: &str, path: &Path) -> Result<Self, StudyError> {
         let file: StudyFile =
             from_json(text).map_err(|source| StudyError::Format { path: path.to_owned(), source })?;
         let robot_path = path.parent().unwrap_or(Path::new(".")).join(&file.robot);
         let robot = open_robot(&robot_path)?;
-        let study = Self { path: path.to_owned(), file, robot };
-        study.validate().map_err(|error| error.placed(text))?;
-        Ok(study)
+        Ok(Self { path: path.to_owned(), file, robot, nominals: Nominals::default() })
     }
 
     /// Gives every sampling this number of observations.
@@ -163,7 +169,8 @@ impl Study {
     fn check_sampling(&self, name: &str, spec: &SamplingSpec) -> Result<(), StudyError> {
         let set = self.poses(name, spec)?;
         if set.several().is_none() {
-            return self.sampling(name).map(|_| ());
+            let nominal = self.nominal(name)?.deflection;
+            return self.design(name, spec, &[&nominal]).map(|_| ());
         }
         if name == BLOCKS_NAME {
             let expected = "another name for a sampling at several poses: its tables have a folder of that name, and the blocks, too";

@@ -5,10 +5,10 @@ use crate::file::study_file::{AxisSpec, InputSpec, SamplingSpec};
 use crate::model::error_model::{ErrorModel, Wrong};
 use crate::model::operating_point::{Moduli, resolved};
 use crate::model::pose_set::Located;
-use crate::model::study::{Sampling, Study, Surface, keys};
+use crate::model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis, keys};
 use cdpr_robot::{Parameter, Pose};
 use cdpr_sensitivity::SobolDesign;
-use cdpr_statics::{Deflection, Load, Observer, deflection};
+use cdpr_statics::{Deflection, Load, Observer, StaticsError};
 use indexmap::IndexMap;
 
 /// Points of one axis of a surface, which is held in memory as a whole.
@@ -26,7 +26,9 @@ impl Study {
     pub fn sampling(&self, name: &str) -> Result<Sampling<'_>, StudyError> {
         let Located { name, entry, spec, pose, field } = self.located(name)?;
         let load = Load::payload(self.file.payload);
-        let (nominal, observer) = self.nominal(field, &pose, &load)?;
+        let nominal = self.deflection(&field, &pose)?;
+        let observer = Observer::new(&self.robot, &pose, &load);
+        let observer = observer.map_err(|source| self.not_held(&field, &pose, source))?;
         let (errors, operating_moduli, design) = self.design(entry, spec, &[&nominal])?;
         Ok(Sampling {
             name,
@@ -90,7 +92,10 @@ impl Study {
         let load = Load::payload(self.file.payload);
         let x = self.axis(&format!("{field}.x"), &spec.x)?;
         let y = self.axis(&format!("{field}.y"), &spec.y)?;
-        let (nominal, observer) = self.nominal(format!("{field}.pose.position"), &pose, &load)?;
+        let field = format!("{field}.pose.position");
+        let nominal = self.deflection(&field, &pose)?;
+        let observer = Observer::new(&self.robot, &pose, &load);
+        let observer = observer.map_err(|source| self.not_held(&field, &pose, source))?;
         Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal, observer })
     }
 
@@ -135,11 +140,11 @@ impl Study {
         Ok((found, moduli))
     }
 
-    fn axis(&self, field: &str, spec: &AxisSpec) -> Result<(Parameter, usize, Vec<f64>), StudyError> {
+    fn axis(&self, field: &str, spec: &AxisSpec) -> Result<SurfaceAxis, StudyError> {
         let parameters = Parameter::all(self.robot.cables.len());
         let known =
             spec.parameter.parse().ok().and_then(|p| Some((p, parameters.iter().position(|q| *q == p)?)));
-        let Some((parameter, place)) = known else {
+        let Some((parameter, index)) = known else {
             return Err(self.invalid(
                 &format!("{field}.parameter"),
                 &spec.parameter,
@@ -157,26 +162,36 @@ impl Study {
         let last = (spec.points - 1) as f64;
         // Weighted ends: the distance between them need not be a number, and the last point is `max` itself.
         let point = |k: usize| spec.min * ((last - k as f64) / last) + spec.max * (k as f64 / last);
-        Ok((parameter, place, (0..spec.points).map(point).collect()))
+        Ok(SurfaceAxis { parameter, index, deviations: (0..spec.points).map(point).collect() })
     }
 
-    fn nominal(
-        &self,
-        field: String,
-        pose: &Pose,
-        load: &Load,
-    ) -> Result<(Deflection, Observer<'_>), StudyError> {
-        let no_offsets = vec![0.0; self.robot.cables.len()];
-        let nominal = || {
-            let deflection = deflection(&self.robot, pose, &no_offsets, load)?;
-            Ok((deflection, Observer::new(&self.robot, pose, load)?))
+    /// The nominal robot at the pose of a surface or of a sampling by its name, without preparing to observe it.
+    ///
+    /// # Errors
+    /// As [`Study::sampling`].
+    pub fn nominal(&self, name: &str) -> Result<NominalPose, StudyError> {
+        let (pose, field) = match self.file.surfaces.get(name) {
+            Some(spec) => {
+                let field = format!("surfaces.{name}.pose");
+                (self.pose(&field, &spec.pose)?, format!("{field}.position"))
+            }
+            None => self.located(name).map(|found| (found.pose, found.field))?,
         };
-        nominal().map_err(|source| StudyError::Nominal {
+        Ok(NominalPose { pose, deflection: self.deflection(&field, &pose)? })
+    }
+
+    fn deflection(&self, field: &str, pose: &Pose) -> Result<Deflection, StudyError> {
+        let found = self.nominals.deflection(&self.robot, pose, &Load::payload(self.file.payload));
+        found.map_err(|source| self.not_held(field, pose, source))
+    }
+
+    fn not_held(&self, field: &str, pose: &Pose, source: StaticsError) -> StudyError {
+        StudyError::Nominal {
             path: self.path.clone(),
-            field,
+            field: field.to_owned(),
             value: format!("{:?}", pose.position.as_slice()),
             source: Box::new(source),
-        })
+        }
     }
 }
 
@@ -191,7 +206,7 @@ mod tests {
         let study = Study::open(path).unwrap();
         for (min, max) in [(-0.3, 0.1), (f64::MIN, f64::MAX), (-5e-324, 5e-324)] {
             let spec = AxisSpec { parameter: "mass".to_owned(), min, max, points: 7 };
-            let (_, _, points) = study.axis("x", &spec).unwrap();
+            let points = study.axis("x", &spec).unwrap().deviations;
             assert_eq!((points[0], points[6]), (min, max));
             assert!(points.is_sorted() && points.iter().all(|point| point.is_finite()), "{points:?}");
         }

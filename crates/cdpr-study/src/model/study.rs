@@ -3,6 +3,7 @@
 use crate::error::StudyError;
 use crate::file::study_file::StudyFile;
 use crate::model::error_model::ErrorModel;
+use crate::model::nominal::Nominals;
 use cdpr_robot::{Parameter, Pose, Robot};
 use cdpr_sensitivity::{SensitivityError, SobolDesign};
 use cdpr_statics::{Deflection, Load, Observer};
@@ -18,6 +19,16 @@ pub struct Study {
     pub file: StudyFile,
     /// The nominal robot.
     pub robot: Robot,
+    pub(crate) nominals: Nominals,
+}
+
+/// The nominal robot at a pose of a study.
+#[derive(Clone, Debug)]
+pub struct NominalPose {
+    /// The wanted pose.
+    pub pose: Pose,
+    /// The deflection there.
+    pub deflection: Deflection,
 }
 
 /// One sampling of a study, ready to run.
@@ -47,6 +58,17 @@ pub struct Sampling<'a> {
     pub study: &'a Study,
 }
 
+/// One axis of a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceAxis {
+    /// The parameter that deviates.
+    pub parameter: Parameter,
+    /// Its index in [`Parameter::all`].
+    pub index: usize,
+    /// Its deviations from the nominal value, in its SI unit.
+    pub deviations: Vec<f64>,
+}
+
 /// One surface of a study, ready to run.
 #[derive(Clone, Debug)]
 pub struct Surface<'a> {
@@ -60,10 +82,10 @@ pub struct Surface<'a> {
     pub pose: Pose,
     /// The load whose effect is observed.
     pub load: Load,
-    /// First axis: place in [`Parameter::all`] and deviations.
-    pub x: (Parameter, usize, Vec<f64>),
+    /// First axis.
+    pub x: SurfaceAxis,
     /// Second axis.
-    pub y: (Parameter, usize, Vec<f64>),
+    pub y: SurfaceAxis,
     /// The nominal robot's deflection.
     pub nominal: Deflection,
     /// Observes the robot with deviations of its parameters.

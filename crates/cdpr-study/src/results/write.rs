@@ -22,8 +22,12 @@ pub fn write_surface(
     surface: &Surface,
     result: &SurfaceResult,
 ) -> Result<PathBuf, StudyError> {
-    let header =
-        vec![surface.x.0.to_string(), surface.y.0.to_string(), "rms_mm".to_owned(), "status".to_owned()];
+    let header = vec![
+        surface.x.parameter.to_string(),
+        surface.y.parameter.to_string(),
+        "rms_mm".to_owned(),
+        "status".to_owned(),
+    ];
     let columns = result.y.len();
     let rows = result.rms_mm.iter().enumerate().map(|(k, rms)| {
         let (value, status) = match rms {

@@ -1,0 +1,80 @@
+//! All figures of the results of a study, by the names of their files.
+
+use crate::error::ReportError;
+use crate::figure::points::{Points, point_effects};
+use crate::{histogram, pose_maps, robot_view, shares, signed_effects, surface};
+use cdpr_study::{Drawable, Figure, IndexMap, Results, Study, StudySummary};
+
+/// Bars of signed effects.
+const EFFECTS: usize = 20;
+/// Inputs among the measures of sensitivity.
+pub(crate) const LEADING: usize = 12;
+
+/// Draws the figures of one part of a study, or those of the study as a whole: what [`cdpr_study::run`] calls.
+pub fn draw(study: &Study, of: Drawable) -> Vec<Figure> {
+    match of {
+        Drawable::Sampling { name, summary } => {
+            let mut drawn = vec![figure(name.to_owned(), histogram(summary))];
+            if !summary.signed_effects_mm.is_empty() {
+                drawn.push(figure(format!("{name}_effects"), signed_effects(summary, EFFECTS)));
+            }
+            if summary.sensitivity.is_some() {
+                drawn.push(figure(format!("{name}_sensitivity"), shares(summary, LEADING)));
+            }
+            drawn
+        }
+        Drawable::Poses { name, summary, rows } => {
+            let maps = pose_maps(&study.robot, summary, rows).into_iter();
+            maps.map(|(map, svg)| figure(format!("{name}_{map}"), svg)).collect()
+        }
+        Drawable::Surface { name, summary, result } => {
+            vec![figure(name.to_owned(), surface(summary, result))]
+        }
+        Drawable::Whole { studies } => {
+            let mut drawn = effects_of_points(study, studies);
+            drawn.push(figure("robot".to_owned(), robot_view(study)));
+            drawn
+        }
+    }
+}
+
+/// Draws all figures of results that were read back.
+pub fn figures(results: &Results) -> Vec<Figure> {
+    let Results { study, summary, surfaces, poses, .. } = results;
+    let of_part = |(name, part): (&String, &StudySummary)| match part {
+        StudySummary::Sampling(summary) => draw(study, Drawable::Sampling { name, summary }),
+        StudySummary::Poses(summary) => {
+            let rows = poses.get(name).map(Vec::as_slice).unwrap_or_default();
+            draw(study, Drawable::Poses { name, summary, rows })
+        }
+        StudySummary::Surface(summary) => {
+            let result = surfaces.get(name);
+            result.map_or_else(Vec::new, |result| draw(study, Drawable::Surface { name, summary, result }))
+        }
+    };
+    let whole = Drawable::Whole { studies: &summary.studies };
+    summary.studies.iter().flat_map(of_part).chain(draw(study, whole)).collect()
+}
+
+/// The effects of anchor and exit points of all samplings that have them, one panel each.
+fn effects_of_points(study: &Study, studies: &IndexMap<String, StudySummary>) -> Vec<Figure> {
+    let kinds = [("anchor_points", "a1.x", Points::Anchor), ("exit_points", "b1.x", Points::Exit)];
+    let drawn = kinds.into_iter().filter_map(|(name, parameter, points)| {
+        let samplings: Vec<_> = studies
+            .iter()
+            .filter_map(|(name, study)| match study {
+                StudySummary::Sampling(sampling) if sampling.t_student.contains_key(parameter) => {
+                    Some((name.as_str(), sampling.as_ref()))
+                }
+                _ => None,
+            })
+            .collect();
+        (!samplings.is_empty())
+            .then(|| figure(name.to_owned(), point_effects(&study.robot, &samplings, points)))
+    });
+    drawn.collect()
+}
+
+fn figure(name: String, svg: Result<String, ReportError>) -> Figure {
+    Figure { name, svg: svg.map_err(|error| error.to_string()) }
+}

@@ -1,0 +1,47 @@
+//! The nominal robot at the poses of a study, solved once for each.
+
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{Deflection, Load, StaticsError, deflection};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Poses that are kept: those of single samplings and of surfaces, and the first ones of a sampling at several.
+const MOST: usize = 64;
+
+/// Deflections of the nominal robot, shared by all copies of a study: its check, its run and its figures ask for the same.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Nominals(Arc<Mutex<Vec<Nominal>>>);
+
+/// A deflection and what it is of.
+#[derive(Clone, Debug)]
+struct Nominal {
+    robot: Robot,
+    pose: Pose,
+    load: Load,
+    deflection: Deflection,
+}
+
+impl Nominals {
+    /// The deflection of a robot without offsets of its tensions.
+    ///
+    /// # Errors
+    /// As [`deflection`].
+    pub(crate) fn deflection(
+        &self,
+        robot: &Robot,
+        pose: &Pose,
+        load: &Load,
+    ) -> Result<Deflection, StaticsError> {
+        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = |of: &&Nominal| of.pose == *pose && of.load == *load && of.robot == *robot;
+        if let Some(found) = known().iter().find(same) {
+            return Ok(found.deflection.clone());
+        }
+        let found = deflection(robot, pose, &vec![0.0; robot.cables.len()], load)?;
+        let mut known = known();
+        if known.len() < MOST {
+            let (robot, deflection) = (robot.clone(), found.clone());
+            known.push(Nominal { robot, pose: *pose, load: *load, deflection });
+        }
+        Ok(found)
+    }
+}
