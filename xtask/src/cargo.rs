@@ -8,15 +8,15 @@ pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
-/// Builds and runs the program.
+/// Builds and runs the program, as one of the default members: with the features of dependencies that the tests have, too.
 pub(crate) fn cdpr(command: &[&str], rest: &[String]) -> ExitCode {
     let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-    cargo(&[&["run", "--package", "cdpr-cli", "--"], command, &rest].concat())
+    cargo(&[&["run", "--bin", "cdpr", "--"], command, &rest].concat())
 }
 
 /// The same, to be started by the caller, without what cargo says.
 pub(crate) fn cdpr_command(command: &[&str]) -> Command {
-    cargo_command(&[&["run", "--quiet", "--package", "cdpr-cli", "--"], command].concat())
+    cargo_command(&[&["run", "--quiet", "--bin", "cdpr", "--"], command].concat())
 }
 
 /// Whether cargo succeeds with a subcommand and its arguments.

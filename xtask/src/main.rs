@@ -146,8 +146,8 @@ fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>)
 }
 
 fn schemas() -> ExitCode {
-    for (package, example) in [("cdpr-robot", "robot_schema"), ("cdpr-study", "study_schema")] {
-        let code = cargo(&["run", "--quiet", "--package", package, "--example", example]);
+    for example in ["robot_schema", "study_schema"] {
+        let code = cargo(&["run", "--quiet", "--example", example]);
         if code != ExitCode::SUCCESS {
             return code;
         }

@@ -142,7 +142,7 @@ fn compare() -> Result<f64, String> {
     let problem = root().join(PROBLEM);
     eprintln!("cdpr: building and running");
     let path = problem.display().to_string();
-    let example = ["run", "--quiet", "--package", "cdpr-statics", "--example", "peer_problem"];
+    let example = ["run", "--quiet", "--example", "peer_problem"];
     if cargo(&[&example[..], &["--", &path]].concat()) != ExitCode::SUCCESS {
         return Err("the example peer_problem of cdpr-statics has failed".to_owned());
     }
