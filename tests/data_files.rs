@@ -51,7 +51,8 @@ fn the_schemas_in_the_docs_are_those_of_the_code() {
 fn the_caroca_file_holds_table_1_of_the_paper() {
     let robot =
         Robot::from_json(&std::fs::read_to_string(root().join("data/robots/caroca.json")).unwrap()).unwrap();
-    // Every exit point is a corner of the frame at 3.5 m, every anchor point a corner of the platform, each of those once.
+    // Every exit point is a corner of the frame at 3.5 m, every anchor point a corner of the platform, each
+    // of those once.
     for cable in &robot.cables {
         assert_eq!(cable.exit_point.abs().as_slice(), [3.5, 2.0, 3.5]);
         assert_eq!(cable.anchor_point.abs().as_slice(), [0.2, 0.15, 0.125]);

@@ -1,4 +1,5 @@
-//! The layers that docs/ARCHITECTURE.md draws are those that cargo builds, and the modules of a crate are imported in its order.
+//! The layers that docs/ARCHITECTURE.md draws are those that cargo builds, and the modules of a crate are
+//! imported in its order.
 
 mod floors;
 mod modules;

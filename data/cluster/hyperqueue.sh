@@ -1,5 +1,6 @@
 #!/bin/bash
-# A study shared by the tasks of a HyperQueue task array, and its analysis when all are done (options of `cdpr study run` may follow):
+# A study shared by the tasks of a HyperQueue task array, and its analysis when all are done (options of `cdpr
+# study run` may follow):
 #
 #   data/cluster/hyperqueue.sh 32 16 my-study.json results --observations 100000000
 #

@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Which modules import from which.
 type Graph = BTreeMap<Module, BTreeSet<Module>>;
 
-/// Number of the floor of each entry, from the top of its folder. The file that has the name of a folder stands in it as `FOLDER::`.
+/// Number of the floor of each entry, from the top of its folder. The file that has the name of a folder
+/// stands in it as `FOLDER::`.
 pub(crate) struct Floors {
     floors: BTreeMap<Module, usize>,
     /// Files of one floor that may import from each other.
@@ -17,7 +18,8 @@ impl Floors {
     /// Reads floors, one a line or between `|`.
     pub(crate) fn parse(text: &str) -> Self {
         let (mut floors, mut pairs) = (BTreeMap::new(), BTreeSet::new());
-        // Folders that are open, with the number of the floor within each; above the first floor stands the folder's own file.
+        // Folders that are open, with the number of the floor within each; above the first floor stands the
+        // folder's own file.
         let mut folder = Module::new();
         let mut numbers = vec![1];
         let mut last = Module::new();

@@ -1,7 +1,7 @@
 //! The modules of a crate, as its sources import from each other.
 //!
-//! An import points to the file that defines the item, through any number of re-exports. Tests are left out, and so are
-//! re-exports of what the file itself does not use.
+//! An import points to the file that defines the item, through any number of re-exports. Tests are left out,
+//! and so are re-exports of what the file itself does not use.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};

@@ -8,13 +8,15 @@ pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
-/// Builds and runs the program, as one of the default members: with the features of dependencies that the tests have, too.
+/// Builds and runs the program.
+///
+/// Cargo chooses it among all default members, so that its dependencies have the features that tests need.
 pub(crate) fn cdpr(command: &[&str], rest: &[String]) -> ExitCode {
     let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
     cargo(&[&["run", "--bin", "cdpr", "--"], command, &rest].concat())
 }
 
-/// The same, to be started by the caller, without what cargo says.
+/// Returns the same command, without the messages of cargo, for the caller to start.
 pub(crate) fn cdpr_command(command: &[&str]) -> Command {
     cargo_command(&[&["run", "--quiet", "--bin", "cdpr", "--"], command].concat())
 }
