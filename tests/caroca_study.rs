@@ -1,5 +1,4 @@
-//! The study of the paper: the figures that an independent model found, and what must not depend on how it is
-//! run.
+//! The study of the paper reproduces the figures of an independent model, on any number of threads.
 //!
 //! The expected values and tolerances are those of an independent program of about 200 lines, run with 200
 //! 000 random observations (docs/VALIDATION.md).

@@ -1,4 +1,4 @@
-//! The data files are what they say they are, and the schemas in the docs are those of the code.
+//! Data files are valid, have a source, and match the paper; schemas in the docs are those of the code.
 
 use cdpr_robot::{Pose, Robot};
 use cdpr_study::Study;
