@@ -1,4 +1,4 @@
-//! The layers that docs/ARCHITECTURE.md draws are those that cargo builds, and the modules of a crate are imported in its order.
+//! Crates depend on each other, and modules import from each other, as docs/ARCHITECTURE.md says.
 
 mod floors;
 mod modules;
