@@ -67,7 +67,7 @@ fn main() -> Result<(), Error> {
         };
         // The peers take tensions without bounds: none may be active.
         let held = inverse(&robot.perturbed(deviation)?.robot, &pose, &Load::none(), None)?;
-        if held.active.iter().any(Option::is_some) || held.turns != 1 {
+        if held.active.iter().any(Option::is_some) || held.iterations != 1 {
             return Err("an observation has a tension on its bound: choose another seed".into());
         }
         displacements.push(observe()?);

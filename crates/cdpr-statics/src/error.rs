@@ -39,14 +39,14 @@ pub enum StaticsError {
     },
     /// Tensions and cable directions did not settle together.
     #[error(
-        "inverse model: after {turns} turns the platform's wrench is still open by {force:e} N and {moment:e} N m"
+        "inverse model: after {iterations} iterations the platform's wrench is still unbalanced by {force:e} N and {moment:e} N m"
     )]
     InverseNotConverged {
-        /// Turns of distribution and Newton's method made.
-        turns: usize,
-        /// Open force [N].
+        /// Iterations of distribution and Newton's method.
+        iterations: usize,
+        /// Unbalanced force [N].
         force: f64,
-        /// Open moment [N m].
+        /// Unbalanced moment [N m].
         moment: f64,
     },
     /// The equilibrium found strains a cable by more than 10 %, where a linear, small-strain cable describes nothing.

@@ -37,7 +37,7 @@ struct Answer {
 #[derive(Serialize)]
 struct Report {
     /// Iterations of distribution and Newton's method.
-    turns: usize,
+    iterations: usize,
     /// The bound that each tension rests on, `min` or `max`; `null` where it rests on none.
     active: Vec<Option<&'static str>>,
     residual: Residual,
@@ -56,7 +56,7 @@ impl Answer {
             tensions: solution.tensions.clone(),
             cable_forces: answer::forces(&solution.equilibrium),
             report: Report {
-                turns: solution.turns,
+                iterations: solution.iterations,
                 active: solution.active.iter().map(bound).collect(),
                 residual: Residual::new(&solution.residual),
             },

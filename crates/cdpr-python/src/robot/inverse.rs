@@ -26,7 +26,7 @@ answer! {
         /// Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,).
         residual: Py<PyAny>,
         /// Iterations of distribution and Newton's method; 0 where there is no answer.
-        turns: Py<PyAny>,
+        iterations: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
@@ -85,7 +85,7 @@ impl Robot {
             })?,
             residual: all
                 .vector(|found| [found.residual.closure, found.residual.force, found.residual.moment])?,
-            turns: all.array(0, &[], |found, out: &mut [i64]| out[0] = found.turns as i64)?,
+            iterations: all.array(0, &[], |found, out: &mut [i64]| out[0] = found.iterations as i64)?,
             reasons: all.reasons(),
             kinds: all.kinds(),
         })
