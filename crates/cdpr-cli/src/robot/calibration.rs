@@ -181,6 +181,6 @@ fn print(robot: &Robot, output: &Output) {
 }
 
 /// Names of parameters with their numbers.
-fn pairs(values: &[ParameterValue]) -> Vec<(String, f64)> {
+fn pairs<C: FromIterator<(String, f64)>>(values: &[ParameterValue]) -> C {
     values.iter().map(|of| (of.parameter.to_string(), of.value)).collect()
 }
