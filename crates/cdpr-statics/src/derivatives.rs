@@ -46,7 +46,7 @@ use crate::loading::{Deflection, Wound, deflection_from, wind};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_cable::least_tension;
-use cdpr_robot::{Matrix6xX, Pose, Robot, Vector3};
+use cdpr_robot::{Matrix6xX, ParameterLayout, Pose, Robot, Vector3};
 use cdpr_tension::Bound;
 use nalgebra::{DMatrix, Matrix3xX, Matrix6, Vector6};
 
@@ -95,7 +95,7 @@ pub struct VarianceBudget {
 ///
 /// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
 /// let found = derivatives(&robot, &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0))?;
-/// let modulus = found.inputs.parameters.iter().position(|p| *p == Parameter::YoungsModulus);
+/// let modulus = found.inputs.column(Parameter::YoungsModulus);
 /// let rms = found.rms()?; // [m per SI unit]
 /// assert!(modulus.is_some_and(|column| (1e12 * rms[column] + 0.01289).abs() < 1e-5)); // [mm/GPa]
 /// # Ok::<(), cdpr_statics::StaticsError>(())
@@ -280,14 +280,14 @@ impl Stage<'_> {
         let which: Vec<usize> = (0..n).filter(|i| demanded(i) || raised(i)).collect();
         let bounds = self.least_tensions(&which)?;
         let mut rows = self.tensions(&bounds)?;
-        let first_offset = self.inputs.payload() - n;
+        let layout = ParameterLayout::new(n);
         for i in 0..n {
             if raised(&i) {
                 rows.set_row(i, &bounds.row(i));
             } else if wanted.tensions[i] + tension_offsets[i] <= least {
                 rows.row_mut(i).fill(0.0);
             } else {
-                rows[(i, first_offset + i)] += 1.0;
+                rows[(i, layout.tension_offset(i))] += 1.0;
             }
         }
         Ok(rows)

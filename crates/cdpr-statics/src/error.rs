@@ -39,14 +39,14 @@ pub enum StaticsError {
     },
     /// Tensions and cable directions did not settle together.
     #[error(
-        "inverse model: no convergence after {iterations} iterations, with residuals of {force:e} N and {moment:e} N m"
+        "inverse model: after {iterations} iterations the platform's wrench is still unbalanced by {force:e} N and {moment:e} N m"
     )]
     InverseNotConverged {
         /// Iterations of distribution and Newton's method.
         iterations: usize,
-        /// Residual force [N].
+        /// Unbalanced force [N].
         force: f64,
-        /// Residual moment [N m].
+        /// Unbalanced moment [N m].
         moment: f64,
     },
     /// The equilibrium found strains a cable by more than 10 %, where a linear, small-strain cable describes nothing.

@@ -6,14 +6,14 @@
 //! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
 //! | and for the next lengths and load, in a microsecond or two? | [`Tracker`] |
 //! | does it stay there, how far is it from not staying? | [`DirectSolution::stability`] |
-//! | how exact is that, proved? | [`certify`] |
-//! | where else could it stand? | [`direct_all`], [`direct_any`] |
+//! | how exact is that, proved? | [`DirectProblem::certify`] |
+//! | where else could it stand? | [`DirectProblem::direct_all`], [`DirectProblem::direct_any`] |
 //! | where does it go while cables are wound or loads change, and where does it jump? | [`follow`] |
 //! | how far does it give under a load (Eq. (4))? | [`deflection`], [`deflections`] |
 //! | where does it end when a payload comes and goes, on cables that dissipate? | [`load_cycle`] |
 //! | and with other parameters, a million times? | [`Observer`] |
 //! | which parameter changes lengths, tensions, poses and deflection, and by how much? | [`derivatives`] |
-//! | how stiff is it, how do lengths and loads move it? | [`Tangent`] |
+//! | how stiff is it, how do lengths and loads move it? | [`stiffness_at`], [`DirectProblem::linearize`] |
 //!
 //! The equations are (1)-(4) of Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
 //! Cable-Driven Parallel Robots* (CableCon 2017), with Irvine's catenary of crate `cdpr-cable` as (2). An equilibrium is a
@@ -22,7 +22,7 @@
 //!
 //! ```
 //! use cdpr_robot::{Pose, Robot};
-//! use cdpr_statics::{Load, certify, deflection};
+//! use cdpr_statics::{DirectProblem, Load, deflection};
 //!
 //! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
 //! let pose = Pose::at(0.0, 0.0, 1.75);
@@ -32,7 +32,7 @@
 //!
 //! // Does it stay there, and how exactly is that known?
 //! let loaded = &deflection.loaded;
-//! let proof = certify(&robot, &deflection.lengths, &Load::payload(50.0), loaded)?;
+//! let proof = DirectProblem::new(&robot, &deflection.lengths, &Load::payload(50.0))?.certify(loaded)?;
 //! assert!(loaded.stability.is_stable() && proof.is_stable());
 //! println!("exact to {:.0e} m, softest motion {:.0} N/m", proof.position, loaded.stability.least_stiffness());
 //! # Ok::<(), cdpr_statics::StaticsError>(())
@@ -50,7 +50,7 @@ mod loading;
 mod problem;
 mod state;
 
-pub use calibration::{Calibration, ChosenPose, Combination, Identifiability, Measurement};
+pub use calibration::{Calibration, ChosenPose, Combination, Identifiability, Measurement, ParameterValue};
 pub use certificate::Certificate;
 pub use derivatives::{Derivatives, EquilibriumDerivatives, VarianceBudget, derivatives};
 pub use direct::{
@@ -59,13 +59,15 @@ pub use direct::{
 };
 pub use equations::{Inputs, Linearization};
 pub use error::StaticsError;
-pub use inverse::{InverseSolution, inverse, lengths_for_tensions};
+pub use inverse::{HeldPose, InverseSolution, inverse, lengths_for_tensions};
 pub use lanes::{Observation, Observer, Tracker};
 pub use loading::{
-    Deflection, HysteresisLaw, LoadCycle, PoseDeflections, PoseStiffness, Unloading, deflection,
+    CycleStep, Deflection, HysteresisLaw, LoadCycle, PoseDeflections, PoseStiffness, Unloading, deflection,
     deflection_from, deflections, follow, load_cycle, stiffness_at, wound_lengths,
 };
 pub use problem::DirectProblem;
 pub use state::{Equilibrium, Load, Residual};
 
+pub use cdpr_robot::{Matrix6xX, Vector2, Vector3, Vector6};
 pub use cdpr_tension::Bound;
+pub use nalgebra::{DMatrix, Matrix3xX, Matrix6};

@@ -8,5 +8,5 @@ mod stiffness;
 pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections, wound_lengths};
 pub(crate) use deflection::{Wound, wind};
 pub use follow::follow;
-pub use hysteresis::{HysteresisLaw, LoadCycle, Unloading, load_cycle};
+pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 pub use stiffness::{PoseStiffness, stiffness_at};

@@ -1,7 +1,9 @@
 //! What a calibration can tell, against perturbed robots.
 
 use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
-use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement, Start, direct, inverse};
+use cdpr_statics::{
+    Calibration, Combination, Identifiability, Load, Measurement, ParameterValue, Start, direct, inverse,
+};
 
 fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
@@ -44,35 +46,47 @@ fn calibration(payloads: &[f64], measurements: &[Measurement]) -> Calibration {
 }
 
 fn print(title: &str, found: &Identifiability) {
-    println!("{title}: {} combinations told, {} not", found.told.len(), found.untold.len());
-    for combination in found.told.iter().take(2).chain(found.told.iter().rev().take(2)).chain(&found.untold) {
-        let parts =
-            combination.weights.iter().take(4).map(|(parameter, weight)| format!("{weight:+.2} {parameter}"));
+    println!(
+        "{title}: {} combinations identifiable, {} not",
+        found.identifiable.len(),
+        found.not_identifiable.len()
+    );
+    for combination in found
+        .identifiable
+        .iter()
+        .take(2)
+        .chain(found.identifiable.iter().rev().take(2))
+        .chain(&found.not_identifiable)
+    {
+        let parts = combination.weights.iter().take(4).map(|of| format!("{:+.2} {}", of.value, of.parameter));
         println!("  {:9.2e}: {}", combination.signal_to_noise, parts.collect::<Vec<_>>().join(" "));
     }
 }
 
 #[test]
-fn poses_tell_neither_offsets_of_tensions_nor_with_one_payload_the_scale_of_all_forces() {
+fn poses_identify_neither_offsets_of_tensions_nor_with_one_payload_the_scale_of_all_forces() {
     let robot = caroca();
     let uncertainties = uncertainties();
     let all = Parameter::all(8);
     for payloads in [&[0.0][..], &[50.0], &[0.0, 50.0]] {
         let found = calibration(payloads, &[NOISE]).identify(0..54);
         print(&format!("poses under {payloads:?} kg"), &found);
-        let weights = |combination: &Combination| -> Vec<(Parameter, f64)> {
-            combination.weights.iter().copied().filter(|(_, weight)| weight.abs() > 1e-4).collect()
+        let weights = |combination: &Combination| -> Vec<ParameterValue> {
+            combination.weights.iter().copied().filter(|weight| weight.value.abs() > 1e-4).collect()
         };
-        let (offsets, scale): (Vec<_>, Vec<_>) =
-            found.untold.iter().map(weights).partition(|weights| weights[0].0.group() == "dt");
+        let (offsets, scale): (Vec<_>, Vec<_>) = found
+            .not_identifiable
+            .iter()
+            .map(weights)
+            .partition(|weights| weights[0].parameter.group() == "dt");
         assert!(offsets.len() == 8 && offsets.iter().all(|weights| weights.len() == 1));
         // One payload acts as a part of the platform's mass; two tell the scale of all weights and forces.
         assert_eq!(scale.len(), 2 - payloads.len());
         for weights in scale {
-            let relative = weights.iter().map(|(parameter, weight)| {
-                let place = all.iter().position(|other| other == parameter).unwrap();
+            let relative = weights.iter().map(|ParameterValue { parameter, value }| {
+                let index = all.iter().position(|other| other == parameter).unwrap();
                 let known = if *parameter == Parameter::Mass { payloads[0] } else { 0.0 };
-                weight * uncertainties[place] / (parameter.nominal(&robot) + known)
+                value * uncertainties[index] / (parameter.nominal(&robot) + known)
             });
             let relative: Vec<f64> = relative.collect();
             assert_eq!(relative.len(), 3);
@@ -89,7 +103,7 @@ fn a_change_along_a_combination_shows_as_its_signal_says() {
     let found = calibration.identify(0..27);
     let uncertainties = uncertainties();
     let all = Parameter::all(8);
-    for combination in [&found.told[0], &found.told[30], &found.told[45]] {
+    for combination in [&found.identifiable[0], &found.identifiable[30], &found.identifiable[45]] {
         let change = 1e-3;
         let mut squares = 0.0;
         for pose in poses() {
@@ -97,9 +111,9 @@ fn a_change_along_a_combination_shows_as_its_signal_says() {
             let nominal = direct(&robot, &lengths, &load, Start::Pose(&pose)).unwrap().equilibrium;
             let stands = |sign: f64| {
                 let mut deviations = vec![0.0; all.len()];
-                for (parameter, weight) in &combination.weights {
-                    let place = all.iter().position(|other| other == parameter).unwrap();
-                    deviations[place] = sign * change * weight * uncertainties[place];
+                for ParameterValue { parameter, value } in &combination.weights {
+                    let index = all.iter().position(|other| other == parameter).unwrap();
+                    deviations[index] = sign * change * value * uncertainties[index];
                 }
                 let moved = robot.perturbed(&deviations).unwrap().robot;
                 direct(&moved, &lengths, &load, Start::Near(&nominal)).unwrap().equilibrium.pose
@@ -120,18 +134,19 @@ fn measuring_more_leaves_less() {
         .identify(0..27);
     print("poses, tensions and lengths", &all);
     for ((few, many), all) in few.remaining.iter().zip(&many.remaining).zip(&all.remaining) {
-        assert!(many.1 <= few.1 + 1e-9 && all.1 <= many.1 + 1e-9 && few.1 <= 1.0 + 1e-9);
+        let [few, many, all] = [few, many, all].map(|parameter| parameter.value);
+        assert!(many <= few + 1e-9 && all <= many + 1e-9 && few <= 1.0 + 1e-9);
     }
-    assert!(all.untold.is_empty() && many.untold.len() == 9);
-    assert!(calibration(&[50.0], &[NOISE]).identify([]).told.is_empty());
+    assert!(all.not_identifiable.is_empty() && many.not_identifiable.len() == 9);
+    assert!(calibration(&[50.0], &[NOISE]).identify([]).identifiable.is_empty());
 }
 
 #[test]
-fn the_best_poses_tell_more_than_the_first_and_their_information_adds_up() {
+fn the_best_poses_identify_more_than_the_first_and_their_information_adds_up() {
     let calibration = calibration(&[50.0], &[NOISE]);
     let bits = |poses: &[usize]| {
         let found = calibration.identify(poses.iter().copied());
-        found.told.iter().map(|c| 0.5 * (1.0 + c.signal_to_noise.powi(2)).log2()).sum::<f64>()
+        found.identifiable.iter().map(|c| 0.5 * (1.0 + c.signal_to_noise.powi(2)).log2()).sum::<f64>()
     };
     let best = calibration.best_poses(6);
     let numbers: Vec<usize> = best.iter().map(|chosen| chosen.pose).collect();

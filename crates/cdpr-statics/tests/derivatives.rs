@@ -4,8 +4,8 @@ use cdpr_robot::{
     Parameter, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Vector6, Wrench,
 };
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, EquilibriumDerivatives, Load, StaticsError, deflection_from,
-    derivatives, inverse, lengths_for_tensions,
+    Deflection, Derivatives, DirectProblem, EquilibriumDerivatives, HeldPose, Load, StaticsError,
+    deflection_from, derivatives, inverse, lengths_for_tensions,
 };
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
@@ -86,7 +86,8 @@ impl Case {
         let wanted = inverse(&self.robot, &self.pose, &Load::none(), None)?;
         let limits = self.robot.tension_limits;
         let set_points = cdpr_tension::offset(&wanted.tensions, &self.offsets, limits);
-        let (lengths, held) = lengths_for_tensions(&self.robot, &self.pose, &set_points)?;
+        let HeldPose { lengths, equilibrium: held } =
+            lengths_for_tensions(&self.robot, &self.pose, &set_points)?;
         let found = deflection_from(&self.robot, lengths, &self.load, &held)?;
         let regime = (0..set_points.len())
             .map(|i| {

@@ -2,8 +2,8 @@
 
 use cdpr_robot::{Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
-    DirectMethod, DirectProblem, Equilibrium, Load, Start, StaticsError, deflection, deflections, direct,
-    inverse, lengths_for_tensions,
+    DirectMethod, DirectProblem, Equilibrium, HeldPose, Load, Start, StaticsError, deflection, deflections,
+    direct, inverse, lengths_for_tensions,
 };
 use proptest::prelude::*;
 
@@ -150,7 +150,7 @@ fn inputs_that_are_none_are_named() {
 fn a_tension_below_what_the_span_demands_is_raised_to_it() {
     let robot = caroca();
     let pose = Pose::at(3.2, 1.7, 3.0);
-    let (lengths, equilibrium) = lengths_for_tensions(&robot, &pose, &[1.0; 8]).unwrap();
+    let HeldPose { lengths, equilibrium } = lengths_for_tensions(&robot, &pose, &[1.0; 8]).unwrap();
     assert!(equilibrium.tensions()[0] > 4.0 && equilibrium.tensions()[0] < 6.0);
     // There is no less: paying out more cable raises the tension again.
     let mut longer = lengths;

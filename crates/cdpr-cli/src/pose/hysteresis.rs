@@ -6,7 +6,7 @@ use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_report::{Cycle, cycle};
 use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable, Segment};
-use cdpr_statics::{DirectSolution, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 use cdpr_study::{CableLaw, open_law, open_record, open_robot, write_text};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -179,11 +179,9 @@ fn print(found: &Found) {
 }
 
 fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<(), ProgramError> {
-    let begin = ran.loading.first().map_or(0.0, |(_, solution)| solution.equilibrium.pose.position.z);
-    let points = |way: &[(f64, DirectSolution)]| {
-        let at = |(mass, solution): &(f64, DirectSolution)| {
-            (1e3 * (begin - solution.equilibrium.pose.position.z), *mass)
-        };
+    let begin = ran.loading.first().map_or(0.0, |step| step.solution.equilibrium.pose.position.z);
+    let points = |way: &[CycleStep]| {
+        let at = |step: &CycleStep| (1e3 * (begin - step.solution.equilibrium.pose.position.z), step.payload);
         way.iter().map(at).collect::<Vec<_>>()
     };
     let branches = [

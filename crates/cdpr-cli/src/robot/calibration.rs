@@ -4,7 +4,7 @@ use crate::arguments::{self, Format, Named};
 use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement};
+use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement, ParameterValue};
 use cdpr_study::{Grid, open_robot};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -130,13 +130,13 @@ impl Output {
     ) -> Self {
         let part = |combination: &Combination| Part {
             signal_to_noise: combination.signal_to_noise,
-            weights: combination.weights.iter().map(|(p, weight)| (p.to_string(), *weight)).collect(),
+            weights: pairs(&combination.weights),
         };
         Self {
             refused,
-            told: found.told.iter().map(part).collect(),
-            untold: found.untold.iter().map(part).collect(),
-            remaining: found.remaining.iter().map(|(p, ratio)| (p.to_string(), *ratio)).collect(),
+            told: found.identifiable.iter().map(part).collect(),
+            untold: found.not_identifiable.iter().map(part).collect(),
+            remaining: pairs(&found.remaining),
             best_poses: calibration
                 .best_poses(choose)
                 .iter()
@@ -178,4 +178,9 @@ fn print(robot: &Robot, output: &Output) {
         rows.add_row([pose, format!("{:.2}", best.information_bits)]);
     }
     println!("{rows}");
+}
+
+/// Names of parameters with their numbers.
+fn pairs<C: FromIterator<(String, f64)>>(values: &[ParameterValue]) -> C {
+    values.iter().map(|of| (of.parameter.to_string(), of.value)).collect()
 }

@@ -49,7 +49,7 @@ impl Linearised {
         let mut cables = Vec::with_capacity(problem.cables());
         for (i, force) in state.cable_forces.iter().enumerate() {
             let cable = SpannedCable::of(problem.robot, &state.pose, i, &problem.catenary(i, *force));
-            closure = closure.max(Vector2::from(cable.misclosure(problem.lengths[i])).norm());
+            closure = closure.max(Vector2::from(cable.misclosure()).norm());
             let (plane, arm) = (cable.span.plane, cable.anchor_arm);
             let Some(linearized) = cable.linearized() else {
                 let limp = LinearizedCable {

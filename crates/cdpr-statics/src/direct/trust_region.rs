@@ -23,7 +23,7 @@ use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
 use cdpr_cable::{end_force, end_force_near};
 use cdpr_robot::{Pose, Vector2, Vector6};
-use nalgebra::{Matrix6, SymmetricEigen, UnitQuaternion};
+use nalgebra::{Matrix6, SymmetricEigen};
 
 const MAX_ITERATIONS: usize = 3000;
 
@@ -88,11 +88,8 @@ impl Point {
     /// The point a step (dp, l dφ) away. `None` where a cable has no answer.
     fn moved(&self, problem: &DirectProblem, step: &Vector6<f64>) -> Option<Self> {
         let motion = step.component_mul(&scale(problem));
-        let mut pose =
+        let pose =
             self.equilibrium.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
-        // Thousands of products of rotations are none any more; nor is the quaternion of such a matrix a unit.
-        let quaternion = UnitQuaternion::from_rotation_matrix(&pose.rotation).into_inner();
-        pose.rotation = UnitQuaternion::new_normalize(quaternion).to_rotation_matrix();
         let solve = |(i, force): (usize, &Vector2<f64>)| {
             let mut near = problem.catenary(i, *force);
             let [before, end] =

@@ -90,7 +90,7 @@ pub(crate) fn residual<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
             *balance -= wrench;
         }
         // Eq. (2a) and (2b)
-        let misclosure = Vector2::from(cable.misclosure(problem.lengths[i]));
+        let misclosure = Vector2::from(cable.misclosure());
         residual.fixed_rows_mut::<2>(6 + 2 * i).copy_from(&misclosure);
     }
     residual

@@ -114,12 +114,10 @@ impl<T: Field> LinearizedCable<T> {
     /// Linearises about `force`, to which the cable answers with `response`.
     #[inline(always)]
     pub(crate) fn new(span: &Span<T>, force: [T; 2], response: &Response<T>) -> Self {
-        let [xx, xz, zz] = response.flexibility;
-        let inverse = response.determinant.recip();
         let linearized = Self {
             plane: span.plane,
             predicted: force,
-            stiffness: [zz * inverse, -xz * inverse, xx * inverse],
+            stiffness: response.in_plane_stiffness(),
             lateral_stiffness: response.lateral_flexibility.recip(),
         };
         let predicted = linearized.answer(force, span.misclosure(response.end));

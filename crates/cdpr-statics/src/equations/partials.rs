@@ -45,6 +45,11 @@ impl Inputs {
         Self { parameters: Parameter::all(cables) }
     }
 
+    /// Column of a parameter, per SI unit; `None` for a cable that the robot does not have.
+    pub fn column(&self, parameter: Parameter) -> Option<usize> {
+        self.parameters.iter().position(|column| *column == parameter)
+    }
+
     /// Column of the payload, per [kg].
     pub fn payload(&self) -> usize {
         self.parameters.len()
@@ -74,7 +79,7 @@ impl Inputs {
             None => return Ok(()),
         };
         let expected = format!("a finite number, zero or more, for each of the {count} parameters");
-        Err(StaticsError::Invalid { field: format!("{field}{place}"), value, expected })
+        Err(StaticsError::invalid(format!("{field}{place}"), value, expected))
     }
 }
 

@@ -4,7 +4,7 @@ use crate::equations::cable::{LinearizedCable, Span, between};
 use crate::equations::vector::wrench;
 use crate::problem::DirectProblem;
 use cdpr_cable::Catenary;
-use cdpr_cable::kernel::{Real, Response, response};
+use cdpr_cable::kernel::{Real, Response, closure_of_limp, response};
 use cdpr_robot::{Pose, Robot, Vector2};
 
 /// A cable with a force that need not fit its two points.
@@ -17,6 +17,8 @@ pub(crate) struct SpannedCable<T> {
     pub(crate) force: [T; 2],
     /// How its end answers to forces; `None` for a slack cable without weight, which has no shape.
     pub(crate) response: Option<Response<T>>,
+    /// Length without tension and weight [m].
+    length_at_rest: f64,
 }
 
 impl SpannedCable<f64> {
@@ -30,6 +32,7 @@ impl SpannedCable<f64> {
             span: Span::new(between(&pose.position.into(), &anchor_arm, &robot.cables[i].exit_point.into())),
             force: catenary.force.into(),
             response: (!catenary.is_limp()).then(|| catenary.response()),
+            length_at_rest: catenary.length_at_rest(),
         }
     }
 }
@@ -61,6 +64,7 @@ impl<T: Real> SpannedCable<T> {
             span: Span::new(between(&position, &anchor_arm, &<[f64; 3]>::from(cable.exit_point).map(T::of))),
             force,
             response: (!catenary.is_limp()).then(answer),
+            length_at_rest: catenary.length_at_rest(),
         }
     }
 
@@ -76,20 +80,12 @@ impl<T: Real> SpannedCable<T> {
         wrench(&self.anchor_arm, &self.force_on_platform())
     }
 
-    /// Misclosure [m] of a cable of this unstrained length: from its end to its anchor point.
+    /// Misclosure [m]: from the end of the cable to its anchor point.
     #[inline]
-    pub(crate) fn misclosure(&self, length: f64) -> [T; 2] {
+    pub(crate) fn misclosure(&self) -> [T; 2] {
         match &self.response {
             Some(response) => self.span.misclosure(response.end),
-            None => {
-                // It is open by what it is too short.
-                let ([h, z], chord) = (self.span.end, self.span.chord());
-                if chord.value() <= length {
-                    return [T::of(0.0); 2];
-                }
-                let short = T::of(1.0) - T::of(length) / chord;
-                [h * short, z * short]
-            }
+            None => closure_of_limp(self.span.end, T::of(self.length_at_rest)),
         }
     }
 

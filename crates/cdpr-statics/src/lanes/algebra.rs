@@ -4,24 +4,27 @@ use crate::equations::vector::wrench;
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::Field;
 
+/// A vector in a cable's vertical plane: along e_h, along e_z.
+pub(crate) type Lanes2<S> = [Lanes<S>; 2];
+
 /// A point or a vector in the base frame.
-pub(crate) type Space<S> = [Lanes<S>; 3];
+pub(crate) type Lanes3<S> = [Lanes<S>; 3];
 
 /// Force and moment about P, or translation and rotation.
-pub(crate) type Wrench<S> = [Lanes<S>; 6];
+pub(crate) type Lanes6<S> = [Lanes<S>; 6];
 
 /// Six rows of six.
-pub(crate) type Matrix<S> = [[Lanes<S>; 6]; 6];
+pub(crate) type Lanes6x6<S> = [[Lanes<S>; 6]; 6];
 
 /// L U of a matrix that needs no pivoting: that of tensions that are distributed.
-pub(crate) struct Factored<S: Simd> {
-    lu: Matrix<S>,
+pub(crate) struct GeneralFactors<S: Simd> {
+    lu: Lanes6x6<S>,
     pivots_inv: [Lanes<S>; 6],
 }
 
-impl<S: Simd> Factored<S> {
+impl<S: Simd> GeneralFactors<S> {
     #[inline(always)]
-    pub(crate) fn new(matrix: Matrix<S>) -> Self {
+    pub(crate) fn new(matrix: Lanes6x6<S>) -> Self {
         let mut lu = matrix;
         let mut pivots_inv = [lu[0][0]; 6];
         for k in 0..6 {
@@ -37,7 +40,7 @@ impl<S: Simd> Factored<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn solve(&self, right: &Wrench<S>) -> Wrench<S> {
+    pub(crate) fn solve(&self, right: &Lanes6<S>) -> Lanes6<S> {
         let mut x = *right;
         for row in 1..6 {
             for column in 0..row {
@@ -56,21 +59,21 @@ impl<S: Simd> Factored<S> {
 
 /// Uᵀ D U of a symmetric matrix, U with ones on its diagonal.
 #[derive(Clone, Copy)]
-pub(crate) struct Symmetric<S: Simd> {
+pub(crate) struct SymmetricFactors<S: Simd> {
     /// U above the diagonal; what else is there means nothing.
-    upper: Matrix<S>,
+    upper: Lanes6x6<S>,
     /// 1/D.
     pivots_inv: [Lanes<S>; 6],
     /// Whether the matrix is positive definite.
     pub(crate) positive: Mask<S>,
 }
 
-impl<S: Simd> Symmetric<S> {
+impl<S: Simd> SymmetricFactors<S> {
     /// Of `matrix` the diagonal and what is above it are read.
     // Indices as in the formula.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    pub(crate) fn new(matrix: Matrix<S>) -> Self {
+    pub(crate) fn new(matrix: Lanes6x6<S>) -> Self {
         let mut upper = matrix;
         let mut pivots_inv = [upper[0][0]; 6];
         let tiny = upper[0][0].all(f64::MIN_POSITIVE);
@@ -104,7 +107,7 @@ impl<S: Simd> Symmetric<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn solve(&self, right: &Wrench<S>) -> Wrench<S> {
+    pub(crate) fn solve(&self, right: &Lanes6<S>) -> Lanes6<S> {
         let mut x = *right;
         for row in 1..6 {
             for column in 0..row {
@@ -123,23 +126,23 @@ impl<S: Simd> Symmetric<S> {
 
 // `std::array::from_fn` is no part of what is compiled for the vector unit.
 #[inline(always)]
-pub(crate) fn three<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Space<S> {
+pub(crate) fn three<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Lanes3<S> {
     [component(0), component(1), component(2)]
 }
 
 #[inline(always)]
-pub(crate) fn six<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Wrench<S> {
+pub(crate) fn six<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Lanes6<S> {
     [component(0), component(1), component(2), component(3), component(4), component(5)]
 }
 
 #[inline(always)]
-pub(crate) fn halves<S: Simd>(wrench: &Wrench<S>) -> (Space<S>, Space<S>) {
+pub(crate) fn halves<S: Simd>(wrench: &Lanes6<S>) -> (Lanes3<S>, Lanes3<S>) {
     (three(|k| wrench[k]), three(|k| wrench[3 + k]))
 }
 
 /// Adds [F; s x F].
 #[inline(always)]
-pub(crate) fn add<S: Simd>(sum: &mut Wrench<S>, arm: &Space<S>, force: &Space<S>) {
+pub(crate) fn add<S: Simd>(sum: &mut Lanes6<S>, arm: &Lanes3<S>, force: &Lanes3<S>) {
     let wrench = wrench(arm, force);
     for k in 0..6 {
         sum[k] += wrench[k];

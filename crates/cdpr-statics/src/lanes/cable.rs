@@ -1,45 +1,42 @@
 //! One taut cable in lanes: where it runs, how it answers, and what it is linearised.
 
 use crate::equations::{LinearizedCable, Span, between};
-use crate::lanes::algebra::{Space, three};
+use crate::lanes::algebra::{Lanes2, Lanes3, three};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::{Response, TautEnd, taut_end, taut_response};
 
-/// A vector in a cable's vertical plane: along the azimuth, upwards.
-pub(crate) type Plane<S> = [Lanes<S>; 2];
-
 /// A cable of every robot, or several cables of one.
-pub(crate) struct Cable<S: Simd> {
+pub(crate) struct TautCable<S: Simd> {
     /// Weight per length [N/m].
-    pub(crate) weight: Lanes<S>,
+    pub(crate) weight_per_length: Lanes<S>,
     /// 1/EA [1/N].
-    pub(crate) stretch: Lanes<S>,
+    pub(crate) axial_flexibility: Lanes<S>,
     /// Exit point [m].
-    pub(crate) exit: Space<S>,
+    pub(crate) exit_point: Lanes3<S>,
     /// s = R a [m].
-    pub(crate) arm: Space<S>,
+    pub(crate) anchor_arm: Lanes3<S>,
     /// Unstrained length [m].
     pub(crate) length: Lanes<S>,
     /// Force at A [N].
-    pub(crate) force: Plane<S>,
+    pub(crate) force: Lanes2<S>,
 }
 
-impl<S: Simd> Cable<S> {
+impl<S: Simd> TautCable<S> {
     #[inline(always)]
     pub(crate) fn end(&self) -> TautEnd<Lanes<S>> {
-        taut_end(self.weight, self.stretch, self.length, self.force)
+        taut_end(self.weight_per_length, self.axial_flexibility, self.length, self.force)
     }
 
     /// The span of the cable with the platform at `position`.
     #[inline(always)]
-    pub(crate) fn span(&self, position: &Space<S>) -> Span<Lanes<S>> {
+    pub(crate) fn span(&self, position: &Lanes3<S>) -> Span<Lanes<S>> {
         // Eq. (1)
-        Span::oblique(between(position, &self.arm, &self.exit))
+        Span::oblique(between(position, &self.anchor_arm, &self.exit_point))
     }
 
     #[inline(always)]
     pub(crate) fn response(&self) -> Response<Lanes<S>> {
-        taut_response(self.weight, self.stretch, self.length, self.force)
+        taut_response(self.weight_per_length, self.axial_flexibility, self.length, self.force)
     }
 }
 

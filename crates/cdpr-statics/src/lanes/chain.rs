@@ -22,24 +22,24 @@
 
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
-use crate::lanes::algebra::{Factored, Space, Wrench, six, three};
-use crate::lanes::cable::{Cable, Plane};
-use crate::lanes::newton::{Load, MAX_ITERATIONS, Open, Robots, Scale, Tangent};
+use crate::lanes::algebra::{GeneralFactors, Lanes2, Lanes3, Lanes6, six, three};
+use crate::lanes::cable::TautCable;
+use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots, Scale};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::{Field, Response, TAUT};
 
 /// Robots at their wanted pose, with starts of lengths and forces.
-pub(crate) struct Beginning<S: Simd> {
+pub(crate) struct ChainStart<S: Simd> {
     pub(crate) robots: Robots<S>,
     /// Offset of the tension set-point of each cable [N].
     pub(crate) offsets: Vec<Lanes<S>>,
     /// λ, a start.
-    pub(crate) multipliers: Wrench<S>,
+    pub(crate) multipliers: Lanes6<S>,
 }
 
 /// What all robots have in common.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Settings {
+pub(crate) struct Shared {
     /// Limits of the tensions [N].
     pub(crate) least: f64,
     pub(crate) greatest: f64,
@@ -58,9 +58,9 @@ pub(crate) struct Outcome<S: Simd> {
     /// Lanes with an answer: converged to rounding, stable, all cables taut, all tensions within their limits.
     pub(crate) valid: Mask<S>,
     /// dp [m].
-    pub(crate) displacement: Space<S>,
-    pub(crate) unloaded: Open<S>,
-    pub(crate) loaded: Open<S>,
+    pub(crate) displacement: Lanes3<S>,
+    pub(crate) unloaded: LaneResidual<S>,
+    pub(crate) loaded: LaneResidual<S>,
 }
 
 /// A change below this, relative to the longest cable or the sum of tensions, is the last one of lengths and forces at the wanted pose.
@@ -71,8 +71,8 @@ const LAST_DISTRIBUTION: f64 = 3e-6;
 
 /// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at the wanted pose.
 #[inline(always)]
-pub(crate) fn observe<S: Simd>(begin: Beginning<S>, settings: &Settings) -> Outcome<S> {
-    let Beginning { mut robots, offsets, multipliers } = begin;
+pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome<S> {
+    let ChainStart { mut robots, offsets, multipliers } = begin;
     let robots = &mut robots;
     let zero = robots.weight.all(0.0);
     let mut spans = Vec::with_capacity(robots.cables.len());
@@ -80,64 +80,65 @@ pub(crate) fn observe<S: Simd>(begin: Beginning<S>, settings: &Settings) -> Outc
         spans.push(cable.span(&robots.position));
     }
     let mut set_points = offsets;
-    let within = distribute(robots, multipliers, &mut set_points, &spans, settings);
-    let mut tangent = Tangent::new(zero, spans.len());
-    let held = hold(robots, &mut tangent, &set_points, &spans, settings);
+    let within = distribute(robots, multipliers, &mut set_points, &spans, shared);
+    let mut platform = LinearizedPlatform::new(zero, spans.len());
+    let held = hold(robots, &mut platform, &set_points, &spans, shared);
 
-    let own = Load { weight: robots.weight, force: [zero; 3] };
-    robots.assemble(&own, &mut tangent, zero.less_or_equal(zero));
-    let (standing, unloaded) = robots.settle(&own, &mut tangent, &settings.scale, within & held);
+    let own = PlatformLoad { weight: robots.weight, force: [zero; 3] };
+    robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
+    let (standing, unloaded) = robots.settle(&own, &mut platform, &shared.scale, within & held);
     let stood = robots.position;
 
-    let payload = Load { weight: zero.all(settings.payload), force: three(|k| zero.all(settings.force[k])) };
-    let load = Load { weight: own.weight + payload.weight, force: payload.force };
+    let payload =
+        PlatformLoad { weight: zero.all(shared.payload), force: three(|k| zero.all(shared.force[k])) };
+    let load = PlatformLoad { weight: own.weight + payload.weight, force: payload.force };
     // The first step follows the linearisation at hand.
     let added = payload.wrench(&robots.center);
-    tangent.gradient = six(|k| tangent.gradient[k] - added[k]);
-    let (valid, loaded) = robots.settle(&load, &mut tangent, &settings.scale, standing);
+    platform.gradient = six(|k| platform.gradient[k] - added[k]);
+    let (valid, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
     Outcome { valid, displacement: three(|k| robots.position[k] - stood[k]), unloaded, loaded }
 }
 
 /// A cable at its held ends, equation (a).
 #[derive(Clone, Copy)]
-struct Held<S: Simd> {
+struct HeldCable<S: Simd> {
     tension: Lanes<S>,
     /// q².
     slackness: Lanes<S>,
     /// û.
-    along: Plane<S>,
+    along: Lanes2<S>,
     alpha: Lanes<S>,
     beta: Lanes<S>,
     gamma: Lanes<S>,
     delta: Lanes<S>,
 }
 
-impl<S: Simd> Held<S> {
+impl<S: Simd> HeldCable<S> {
     #[inline(always)]
-    fn new(cable: &Cable<S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
+    fn new(cable: &TautCable<S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
         let [fx, fz] = cable.force;
         let [xx, xz, zz] = response.flexibility;
         let along = response.direction;
         let miss = span.misclosure(response.end);
-        let turn = [xz * fx - xx * fz, zz * fx - xz * fz];
+        let rotation = [xz * fx - xx * fz, zz * fx - xz * fz];
         let give = [xx * along[0] + xz * along[1], xz * along[0] + zz * along[1]];
         let longer = response.end_per_length;
-        let area = |a: &Plane<S>, b: &Plane<S>| a[0] * b[1] - a[1] * b[0];
-        let inverse = area(&turn, &longer).recip();
+        let area = |a: &Lanes2<S>, b: &Lanes2<S>| a[0] * b[1] - a[1] * b[0];
+        let inverse = area(&rotation, &longer).recip();
         Self {
             tension: response.tension,
             slackness: response.slackness,
             along,
             alpha: area(&miss, &longer) * inverse,
             beta: -area(&give, &longer) * inverse,
-            gamma: area(&turn, &miss) * inverse,
-            delta: -area(&turn, &give) * inverse,
+            gamma: area(&rotation, &miss) * inverse,
+            delta: -area(&rotation, &give) * inverse,
         }
     }
 
     /// Changes the tension by `dt` where `going`. Returns the largest relative change made.
     #[inline(always)]
-    fn change(&self, cable: &mut Cable<S>, dt: Lanes<S>, going: Mask<S>, settings: &Settings) -> Lanes<S> {
+    fn change(&self, cable: &mut TautCable<S>, dt: Lanes<S>, going: Mask<S>, shared: &Shared) -> Lanes<S> {
         let across = (self.alpha + self.beta * dt) * self.tension;
         let longer = self.gamma + self.delta * dt;
         let [ux, uz] = self.along;
@@ -145,8 +146,8 @@ impl<S: Simd> Held<S> {
         cable.force =
             [going.select(fx + ux * dt - uz * across, fx), going.select(fz + uz * dt + ux * across, fz)];
         cable.length = going.select(cable.length + longer, cable.length);
-        let force = (dt.abs() + across.abs()) * (1.0 / settings.tension);
-        force.max(longer.abs() * (1.0 / settings.scale.size))
+        let force = (dt.abs() + across.abs()) * (1.0 / shared.tension);
+        force.max(longer.abs() * (1.0 / shared.scale.size))
     }
 }
 
@@ -155,15 +156,15 @@ impl<S: Simd> Held<S> {
 #[inline(always)]
 fn distribute<S: Simd>(
     robots: &mut Robots<S>,
-    mut multipliers: Wrench<S>,
+    mut multipliers: Lanes6<S>,
     offsets: &mut [Lanes<S>],
     spans: &[Span<Lanes<S>>],
-    settings: &Settings,
+    shared: &Shared,
 ) -> Mask<S> {
     let zero = robots.weight.all(0.0);
-    let (least, greatest) = (zero.all(settings.least), zero.all(settings.greatest));
+    let (least, greatest) = (zero.all(shared.least), zero.all(shared.greatest));
     let last_change = zero.all(LAST_DISTRIBUTION);
-    let weight = Load { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
+    let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
     let mut going = zero.less_or_equal(zero);
     let mut within = going;
     let mut linear = Vec::with_capacity(spans.len());
@@ -172,27 +173,27 @@ fn distribute<S: Simd>(
         let mut matrix = [[zero; 6]; 6];
         let mut right = weight;
         for (span, cable) in spans.iter().zip(&robots.cables) {
-            let held = Held::new(cable, span, &cable.response());
+            let held = HeldCable::new(cable, span, &cable.response());
             let [ux, uz] = held.along;
-            let pull = wrench(&cable.arm, &span.plane.force_on_platform(held.along));
-            let turn = wrench(&cable.arm, &span.plane.force_on_platform([-uz, ux]));
-            let turned = dot(&turn, &multipliers);
-            let d_inv = (held.beta * turned + 1.0).recip();
-            let left = held.tension + dot(&pull, &multipliers) + held.alpha * turned;
+            let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(held.along));
+            let rotation = wrench(&cable.anchor_arm, &span.plane.force_on_platform([-uz, ux]));
+            let rotated = dot(&rotation, &multipliers);
+            let d_inv = (held.beta * rotated + 1.0).recip();
+            let left = held.tension + dot(&pull, &multipliers) + held.alpha * rotated;
             for k in 0..6 {
-                let c = (pull[k] + turn[k] * (held.tension * held.beta)) * d_inv;
-                right[k] += (pull[k] + turn[k] * held.alpha) * held.tension - c * left;
+                let c = (pull[k] + rotation[k] * (held.tension * held.beta)) * d_inv;
+                right[k] += (pull[k] + rotation[k] * held.alpha) * held.tension - c * left;
                 for l in 0..6 {
                     matrix[k][l] += c * pull[l];
                 }
             }
             linear.push((held, pull, left, d_inv));
         }
-        let step = Factored::new(matrix).solve(&right);
+        let step = GeneralFactors::new(matrix).solve(&right);
         let mut moved = zero;
         for ((held, pull, left, d_inv), cable) in linear.iter().zip(&mut robots.cables) {
             let dt = -(*left + dot(pull, &step)) * *d_inv;
-            moved = moved.max(held.change(cable, dt, going, settings));
+            moved = moved.max(held.change(cable, dt, going, shared));
         }
         multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
         let last = going & moved.less_or_equal(last_change);
@@ -206,8 +207,8 @@ fn distribute<S: Simd>(
                 within = within & (sound | !last);
                 let set_point = (tension + *offset).max(least);
                 *offset = last.select(set_point, *offset);
-                let closed = Held { alpha: zero, gamma: zero, ..*held };
-                closed.change(cable, set_point - tension, last, settings);
+                let closed = HeldCable { alpha: zero, gamma: zero, ..*held };
+                closed.change(cable, set_point - tension, last, shared);
             }
         }
         going = going & !last;
@@ -222,28 +223,28 @@ fn distribute<S: Simd>(
 #[inline(always)]
 fn hold<S: Simd>(
     robots: &mut Robots<S>,
-    tangent: &mut Tangent<S>,
+    platform: &mut LinearizedPlatform<S>,
     set_points: &[Lanes<S>],
     spans: &[Span<Lanes<S>>],
-    settings: &Settings,
+    shared: &Shared,
 ) -> Mask<S> {
     let zero = robots.weight.all(0.0);
     let mut all = zero.less_or_equal(zero);
-    let cables = robots.cables.iter_mut().zip(&mut tangent.cables);
-    for ((span, set_point), (cable, linear)) in spans.iter().zip(set_points).zip(cables) {
+    let cables = robots.cables.iter_mut().zip(&mut platform.cables);
+    for ((span, set_point), (cable, linearized)) in spans.iter().zip(set_points).zip(cables) {
         let mut going = all;
         for _ in 0..MAX_ITERATIONS {
             let response = cable.response();
-            let held = Held::new(cable, span, &response);
-            linear.replace(&LinearizedCable::new(span, cable.force, &response), going);
-            let moved = held.change(cable, *set_point - held.tension, going, settings);
+            let held = HeldCable::new(cable, span, &response);
+            linearized.replace(&LinearizedCable::new(span, cable.force, &response), going);
+            let moved = held.change(cable, *set_point - held.tension, going, shared);
             going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
             if !going.any() {
                 break;
             }
         }
         // The last change closes to rounding.
-        linear.predicted = cable.force;
+        linearized.predicted = cable.force;
         // A root with a cable of negative length is none.
         all = all & !going & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
     }

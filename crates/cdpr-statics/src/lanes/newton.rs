@@ -6,8 +6,8 @@
 use crate::direct::MAX_STRAIN;
 use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable};
-use crate::lanes::algebra::{Matrix, Space, Symmetric, Wrench, add, halves, six, three};
-use crate::lanes::cable::Cable;
+use crate::lanes::algebra::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, six, three};
+use crate::lanes::cable::TautCable;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_cable::kernel::{Field, TAUT, TautEnd};
 use smallvec::{SmallVec, smallvec};
@@ -26,18 +26,18 @@ const INLINE: usize = 4;
 /// Robots, in an equilibrium or near one.
 pub(crate) struct Robots<S: Simd> {
     pub(crate) layout: Layout<S>,
-    pub(crate) cables: SmallVec<[Cable<S>; INLINE]>,
+    pub(crate) cables: SmallVec<[TautCable<S>; INLINE]>,
     /// Position of the platform [m].
-    pub(crate) position: Space<S>,
+    pub(crate) position: Lanes3<S>,
     /// R c, the arm of the centre of mass [m].
-    pub(crate) center: Space<S>,
+    pub(crate) center: Lanes3<S>,
     /// Other vectors that turn with the platform.
-    pub(crate) frame: SmallVec<[Space<S>; 3]>,
+    pub(crate) frame: SmallVec<[Lanes3<S>; 3]>,
     /// Weight of the platform [N].
     pub(crate) weight: Lanes<S>,
 }
 
-impl<S: Simd> Open<S> {
+impl<S: Simd> LaneResidual<S> {
     /// Norms of force [N] and moment [N m], one a lane.
     #[inline(always)]
     pub(crate) fn norms(&self) -> [[f64; MAX_LANES]; 2] {
@@ -52,18 +52,18 @@ pub(crate) struct Scale {
     /// The longest cable.
     pub(crate) size: f64,
     /// What makes rotations comparable with translations.
-    pub(crate) arm: f64,
+    pub(crate) characteristic_length: f64,
     /// Rounding of a closure.
     pub(crate) rounding: f64,
 }
 
 /// What an equilibrium leaves open.
 #[derive(Clone, Copy)]
-pub(crate) struct Open<S: Simd> {
+pub(crate) struct LaneResidual<S: Simd> {
     /// Largest distance of a cable's end from its anchor point, squared [m²].
     pub(crate) closure: Lanes<S>,
     /// Force [N] and moment [N m] on the platform.
-    pub(crate) wrench: Wrench<S>,
+    pub(crate) wrench: Lanes6<S>,
 }
 
 pub(crate) const MAX_ITERATIONS: usize = 8;
@@ -76,29 +76,29 @@ const SMALL_STEP: f64 = 1e-7;
 const FORCE_ROUNDING: f64 = 1e-12;
 
 /// What acts on a platform: a weight at its centre of mass and a force at P.
-pub(crate) struct Load<S: Simd> {
+pub(crate) struct PlatformLoad<S: Simd> {
     pub(crate) weight: Lanes<S>,
-    pub(crate) force: Space<S>,
+    pub(crate) force: Lanes3<S>,
 }
 
-impl<S: Simd> Load<S> {
+impl<S: Simd> PlatformLoad<S> {
     #[inline(always)]
-    pub(crate) fn wrench(&self, center: &Space<S>) -> Wrench<S> {
+    pub(crate) fn wrench(&self, center: &Lanes3<S>) -> Lanes6<S> {
         let [x, y, z] = self.force;
         [x, y, z - self.weight, -center[1] * self.weight, center[0] * self.weight, self.weight.all(0.0)]
     }
 }
 
 /// The platform between linearised cables.
-pub(crate) struct Tangent<S: Simd> {
+pub(crate) struct LinearizedPlatform<S: Simd> {
     pub(crate) cables: SmallVec<[LinearizedCable<Lanes<S>>; INLINE]>,
     /// Gradient of the potential with the predicted forces.
-    pub(crate) gradient: Wrench<S>,
+    pub(crate) gradient: Lanes6<S>,
     /// Its derivative, factored.
-    factored: Symmetric<S>,
+    factored: SymmetricFactors<S>,
 }
 
-impl<S: Simd> Tangent<S> {
+impl<S: Simd> LinearizedPlatform<S> {
     /// A place for one, all zero.
     #[inline(always)]
     pub(crate) fn new(zero: Lanes<S>, cables: usize) -> Self {
@@ -111,7 +111,7 @@ impl<S: Simd> Tangent<S> {
         Self {
             cables: smallvec![cable; cables],
             gradient: [zero; 6],
-            factored: Symmetric::new([[zero; 6]; 6]),
+            factored: SymmetricFactors::new([[zero; 6]; 6]),
         }
     }
 }
@@ -119,13 +119,18 @@ impl<S: Simd> Tangent<S> {
 impl<S: Simd> Robots<S> {
     /// Linearises the lanes that are `going`.
     #[inline(always)]
-    pub(crate) fn linearise(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) {
-        for (cable, linear) in self.cables.iter().zip(&mut tangent.cables) {
+    pub(crate) fn linearise(
+        &self,
+        load: &PlatformLoad<S>,
+        platform: &mut LinearizedPlatform<S>,
+        going: Mask<S>,
+    ) {
+        for (cable, linearized) in self.cables.iter().zip(&mut platform.cables) {
             let span = cable.span(&self.position);
             let response = cable.response();
-            linear.replace(&LinearizedCable::new(&span, cable.force, &response), going);
+            linearized.replace(&LinearizedCable::new(&span, cable.force, &response), going);
         }
-        self.assemble(load, tangent, going);
+        self.assemble(load, platform, going);
     }
 
     /// Puts the platform between its linearised cables in the lanes that are `going`.
@@ -135,20 +140,28 @@ impl<S: Simd> Robots<S> {
     // Indices as in the formula.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    pub(crate) fn assemble(&self, load: &Load<S>, tangent: &mut Tangent<S>, going: Mask<S>) {
+    pub(crate) fn assemble(
+        &self,
+        load: &PlatformLoad<S>,
+        platform: &mut LinearizedPlatform<S>,
+        going: Mask<S>,
+    ) {
         let zero = self.weight.all(0.0);
         let (mut gradient, mut hessian) = ([zero; 6], [[zero; 6]; 6]);
-        for (i, (cable, linear)) in self.cables.iter().zip(&tangent.cables).enumerate() {
+        for (i, (cable, linearized)) in self.cables.iter().zip(&platform.cables).enumerate() {
             let counted = LinearizedCable {
-                plane: linear.plane,
-                predicted: [self.counted(i, linear.predicted[0]), self.counted(i, linear.predicted[1])],
-                stiffness: three(|j| self.counted(i, linear.stiffness[j])),
-                lateral_stiffness: self.counted(i, linear.lateral_stiffness),
+                plane: linearized.plane,
+                predicted: [
+                    self.counted(i, linearized.predicted[0]),
+                    self.counted(i, linearized.predicted[1]),
+                ],
+                stiffness: three(|j| self.counted(i, linearized.stiffness[j])),
+                lateral_stiffness: self.counted(i, linearized.lateral_stiffness),
             };
             // -F_i
             let force = counted.plane.lift(counted.predicted);
-            add(&mut gradient, &cable.arm, &force);
-            add_stiffness(&mut hessian, &cable.arm, &force, &counted.stiffness_in_space());
+            add(&mut gradient, &cable.anchor_arm, &force);
+            add_stiffness(&mut hessian, &cable.anchor_arm, &force, &counted.stiffness_in_space());
         }
         if let Layout::Cables(_) = self.layout {
             for row in 0..6 {
@@ -165,8 +178,8 @@ impl<S: Simd> Robots<S> {
         hessian[3][5] += load.weight * cx * 0.5;
         hessian[4][5] += load.weight * cy * 0.5;
         let wrench = load.wrench(&self.center);
-        tangent.gradient = six(|k| going.select(gradient[k] - wrench[k], tangent.gradient[k]));
-        tangent.factored.replace(&Symmetric::new(hessian), going);
+        platform.gradient = six(|k| going.select(gradient[k] - wrench[k], platform.gradient[k]));
+        platform.factored.replace(&SymmetricFactors::new(hessian), going);
     }
 
     /// The value where lanes of cable `i` are cables, else zero.
@@ -213,45 +226,46 @@ impl<S: Simd> Robots<S> {
     #[inline(always)]
     fn revise(
         &self,
-        load: &Load<S>,
+        load: &PlatformLoad<S>,
         scale: &Scale,
-        tangent: &mut Tangent<S>,
+        platform: &mut LinearizedPlatform<S>,
         near: Mask<S>,
-    ) -> (Open<S>, Mask<S>) {
+    ) -> (LaneResidual<S>, Mask<S>) {
         let zero = self.weight.all(0.0);
         let wrench = load.wrench(&self.center);
-        let mut open = Open { closure: zero, wrench: [zero; 6] };
+        let mut residual = LaneResidual { closure: zero, wrench: [zero; 6] };
         let mut gradient = [zero; 6];
         let (mut tensions, mut failed) = (zero, zero);
-        for (i, (cable, linear)) in self.cables.iter().zip(&mut tangent.cables).enumerate() {
+        for (i, (cable, linearized)) in self.cables.iter().zip(&mut platform.cables).enumerate() {
             let span = cable.span(&self.position);
             let TautEnd { end, tension, slackness } = cable.end();
             let miss = span.misclosure(end);
-            open.closure = open.closure.max(dot(&miss, &miss));
-            let predicted = linear.answer(cable.force, miss);
-            let moved = LinearizedCable { plane: span.plane, predicted, ..*linear };
+            residual.closure = residual.closure.max(dot(&miss, &miss));
+            let predicted = linearized.answer(cable.force, miss);
+            let moved = LinearizedCable { plane: span.plane, predicted, ..*linearized };
             let [fx, fz] = [self.counted(i, cable.force[0]), self.counted(i, cable.force[1])];
             let [x, z] = [self.counted(i, moved.predicted[0]), self.counted(i, moved.predicted[1])];
-            add(&mut open.wrench, &cable.arm, &moved.plane.lift([fx, fz]));
-            add(&mut gradient, &cable.arm, &moved.plane.lift([x, z]));
-            linear.replace(&moved, near);
+            add(&mut residual.wrench, &cable.anchor_arm, &moved.plane.lift([fx, fz]));
+            add(&mut gradient, &cable.anchor_arm, &moved.plane.lift([x, z]));
+            linearized.replace(&moved, near);
             tensions += self.counted(i, tension);
-            let strain = (tension + cable.weight * cable.length) * cable.stretch;
+            let strain = (tension + cable.weight_per_length * cable.length) * cable.axial_flexibility;
             let sound = zero.less_or_equal(fx)
                 & slackness.less_or_equal(zero.all(TAUT))
                 & strain.less_or_equal(zero.all(MAX_STRAIN));
             failed = failed.max((!sound).select(zero.all(1.0), zero));
         }
-        open.closure = self.largest(open.closure);
-        open.wrench = six(|k| self.total(open.wrench[k]) - wrench[k]);
-        tangent.gradient = six(|k| near.select(self.total(gradient[k]) - wrench[k], tangent.gradient[k]));
+        residual.closure = self.largest(residual.closure);
+        residual.wrench = six(|k| self.total(residual.wrench[k]) - wrench[k]);
+        platform.gradient = six(|k| near.select(self.total(gradient[k]) - wrench[k], platform.gradient[k]));
         tensions = self.total(tensions) + load.weight;
-        let (force, moment) = halves(&open.wrench);
-        let unbalanced = dot(&force, &force).sqrt() + dot(&moment, &moment).sqrt() * (1.0 / scale.arm);
+        let (force, moment) = halves(&residual.wrench);
+        let unbalanced =
+            dot(&force, &force).sqrt() + dot(&moment, &moment).sqrt() * (1.0 / scale.characteristic_length);
         let holds = self.largest(failed).less_or_equal(zero)
-            & open.closure.less_or_equal(zero.all(scale.rounding * scale.rounding))
+            & residual.closure.less_or_equal(zero.all(scale.rounding * scale.rounding))
             & unbalanced.less_or_equal(tensions * FORCE_ROUNDING);
-        (open, holds)
+        (residual, holds)
     }
 
     /// Newton's method on the direct model from a linearisation, in the lanes `alive`. Returns the lanes that found a stable equilibrium,
@@ -259,50 +273,51 @@ impl<S: Simd> Robots<S> {
     #[inline(always)]
     pub(crate) fn settle(
         &mut self,
-        load: &Load<S>,
-        tangent: &mut Tangent<S>,
+        load: &PlatformLoad<S>,
+        platform: &mut LinearizedPlatform<S>,
         scale: &Scale,
         alive: Mask<S>,
-    ) -> (Mask<S>, Open<S>) {
+    ) -> (Mask<S>, LaneResidual<S>) {
         let square = |length: f64| self.weight.all(length * length);
         let (farthest, turned_most) = (square(0.3 * scale.size), square(0.1));
         let small_step = square(SMALL_STEP * scale.size);
         let (mut going, mut found) = (alive, alive & !alive);
-        let mut open = Open { closure: small_step, wrench: tangent.gradient };
+        let mut residual = LaneResidual { closure: small_step, wrench: platform.gradient };
         for _ in 0..MAX_ITERATIONS {
-            let gradient = six(|k| -tangent.gradient[k]);
-            let step = tangent.factored.solve(&gradient);
+            let gradient = six(|k| -platform.gradient[k]);
+            let step = platform.factored.solve(&gradient);
             let (translation, rotation) = halves(&step);
             let turned = dot(&rotation, &rotation);
-            let moved = dot(&translation, &translation) + turned * (scale.arm * scale.arm);
+            let moved = dot(&translation, &translation)
+                + turned * (scale.characteristic_length * scale.characteristic_length);
             // Farther than this the linearisation means nothing, and no number is farther.
             going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
-            self.apply(&translation, &rotation, turned, &tangent.cables, going);
+            self.apply(&translation, &rotation, turned, &platform.cables, going);
             let near = going & moved.less_or_equal(small_step);
             if near.any() {
-                let (left, holds) = self.revise(load, scale, tangent, near);
-                let done = near & holds & tangent.factored.positive;
-                open = left;
+                let (left, holds) = self.revise(load, scale, platform, near);
+                let done = near & holds & platform.factored.positive;
+                residual = left;
                 (found, going) = (found | done, going & !done);
             }
             let far = going & !near;
             if far.any() {
-                self.linearise(load, tangent, far);
+                self.linearise(load, platform, far);
             } else if !going.any() {
                 break;
             }
         }
-        (found, open)
+        (found, residual)
     }
 
     /// Moves the platforms and the forces of their cables where `going`.
     #[inline(always)]
     fn apply(
         &mut self,
-        translation: &Space<S>,
-        rotation: &Space<S>,
+        translation: &Lanes3<S>,
+        rotation: &Lanes3<S>,
         square: Lanes<S>,
-        linear: &[LinearizedCable<Lanes<S>>],
+        linearized: &[LinearizedCable<Lanes<S>>],
         going: Mask<S>,
     ) {
         // sin φ/φ and (1 - cos φ)/φ² to rounding for φ up to 0.1.
@@ -313,15 +328,15 @@ impl<S: Simd> Robots<S> {
         let b =
             (((x * (1.0 / 90.0) + 1.0) * x * (1.0 / 56.0) + 1.0) * x * (1.0 / 30.0) + 1.0) * x * (1.0 / 24.0)
                 + 0.5;
-        for (cable, linear) in self.cables.iter_mut().zip(linear) {
-            let (swung, arm) = turn(&cable.arm, rotation, a, b);
+        for (cable, linearized) in self.cables.iter_mut().zip(linearized) {
+            let (swung, arm) = rotate(&cable.anchor_arm, rotation, a, b);
             let r = three(|k| translation[k] + swung[k]);
-            let force = linear.force_after(r);
+            let force = linearized.force_after(r);
             cable.force = [going.select(force[0], cable.force[0]), going.select(force[1], cable.force[1])];
-            cable.arm = three(|k| going.select(arm[k], cable.arm[k]));
+            cable.anchor_arm = three(|k| going.select(arm[k], cable.anchor_arm[k]));
         }
         for vector in self.frame.iter_mut().chain([&mut self.center]) {
-            let (_, turned) = turn(vector, rotation, a, b);
+            let (_, turned) = rotate(vector, rotation, a, b);
             *vector = three(|k| going.select(turned[k], vector[k]));
         }
         self.position = three(|k| going.select(self.position[k] + translation[k], self.position[k]));
@@ -330,7 +345,7 @@ impl<S: Simd> Robots<S> {
 
 /// φ x v, and v + a φ x v + b φ x (φ x v).
 #[inline(always)]
-fn turn<S: Simd>(v: &Space<S>, rotation: &Space<S>, a: Lanes<S>, b: Lanes<S>) -> (Space<S>, Space<S>) {
+fn rotate<S: Simd>(v: &Lanes3<S>, rotation: &Lanes3<S>, a: Lanes<S>, b: Lanes<S>) -> (Lanes3<S>, Lanes3<S>) {
     let once = cross(rotation, v);
     let twice = cross(rotation, &once);
     (once, three(|k| v[k] + a * once[k] + b * twice[k]))
@@ -338,7 +353,7 @@ fn turn<S: Simd>(v: &Space<S>, rotation: &Space<S>, a: Lanes<S>, b: Lanes<S>) ->
 
 /// Adds a cable of stiffness K with force F at the arm s to the diagonal and what is above it.
 #[inline(always)]
-fn add_stiffness<S: Simd>(hessian: &mut Matrix<S>, s: &Space<S>, f: &Space<S>, k: &[Space<S>; 3]) {
+fn add_stiffness<S: Simd>(hessian: &mut Lanes6x6<S>, s: &Lanes3<S>, f: &Lanes3<S>, k: &[Lanes3<S>; 3]) {
     let [sx, sy, sz] = *s;
     // K [s], row by row: k x s.
     let ks = [cross(&k[0], s), cross(&k[1], s), cross(&k[2], s)];

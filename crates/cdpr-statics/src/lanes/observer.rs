@@ -7,15 +7,15 @@ use crate::equations::Span;
 use crate::error::StaticsError;
 use crate::inverse::inverse;
 use crate::lanes::algebra::{six, three};
-use crate::lanes::cable::Cable;
-use crate::lanes::chain::{Beginning, Settings, observe};
-use crate::lanes::newton::{Layout, Open, Robots, Scale};
+use crate::lanes::cable::TautCable;
+use crate::lanes::chain::{ChainStart, Shared, observe};
+use crate::lanes::newton::{LaneResidual, Layout, Robots, Scale};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::deflection;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
 use cdpr_cable::kernel::Field;
-use cdpr_robot::{Parameter, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{ParameterLayout, Pose, Robot, Vector3, Vector6};
 use nalgebra::DVector;
 use smallvec::SmallVec;
 use std::array::from_fn;
@@ -55,7 +55,7 @@ struct Nominal {
     equilibrium: Equilibrium,
     lengths: Vec<f64>,
     multipliers: Vector6<f64>,
-    settings: Settings,
+    shared: Shared,
 }
 
 impl<'a> Observer<'a> {
@@ -66,7 +66,7 @@ impl<'a> Observer<'a> {
     pub fn new(robot: &'a Robot, pose: &Pose, load: &Load) -> Result<Self, StaticsError> {
         robot.validate()?;
         load.validate()?;
-        let parameters = Parameter::all(robot.cables.len()).len();
+        let parameters = ParameterLayout::new(robot.cables.len()).count();
         Ok(Self { robot, pose: *pose, load: *load, parameters, nominal: Nominal::new(robot, pose, load) })
     }
 
@@ -119,7 +119,7 @@ impl Nominal {
         let multipliers = -(&w * w.transpose()).lu().solve(&(&w * &tensions))?;
         let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
-        let settings = Settings {
+        let shared = Shared {
             least: robot.tension_limits.min,
             greatest: robot.tension_limits.max,
             payload: load.payload * robot.gravity,
@@ -127,11 +127,11 @@ impl Nominal {
             tension: tensions.sum(),
             scale: Scale {
                 size: problem.size(),
-                arm: problem.characteristic_length(),
+                characteristic_length: problem.characteristic_length(),
                 rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
             },
         };
-        Some(Self { equilibrium: solution.equilibrium, lengths: solution.lengths, multipliers, settings })
+        Some(Self { equilibrium: solution.equilibrium, lengths: solution.lengths, multipliers, shared })
     }
 }
 
@@ -153,11 +153,11 @@ impl WithSimd for Batch<'_> {
         for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows { simd, rows, parameters: *parameters };
-            let (beginning, sound) = rows.robots(robot, pose, nominal);
-            let outcome = observe(beginning, &nominal.settings);
+            let (start, sound) = rows.robots(robot, pose, nominal);
+            let outcome = observe(start, &nominal.shared);
             let valid = (outcome.valid & sound).to_array();
             let displacement = outcome.displacement.map(Lanes::to_array);
-            let (unloaded, loaded) = (residuals(&outcome.unloaded), residuals(&outcome.loaded));
+            let (unloaded, loaded) = (norms(&outcome.unloaded), norms(&outcome.loaded));
             found.extend((0..count).map(|lane| {
                 valid[lane].then(|| Observation {
                     displacement: Vector3::from_fn(|k, _| displacement[k][lane]),
@@ -205,18 +205,18 @@ impl<S: Simd> Rows<'_, S> {
 
     /// The perturbed robots, and the lanes whose robot is one.
     #[inline(always)]
-    fn robots(&self, robot: &Robot, pose: &Pose, nominal: &Nominal) -> (Beginning<S>, Mask<S>) {
+    fn robots(&self, robot: &Robot, pose: &Pose, nominal: &Nominal) -> (ChainStart<S>, Mask<S>) {
         let n = robot.cables.len();
-        let [anchors, exits, center, offsets] = [3, 3 + 3 * n, 3 + 6 * n, 6 + 6 * n];
+        let layout = ParameterLayout::new(n);
         let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
-        let mass = self.parameter(0, robot.platform.mass);
+        let mass = self.parameter(layout.mass(), robot.platform.mass);
         let mut sound = tiny.less_or_equal(mass);
-        let mut beginning = Beginning {
+        let mut start = ChainStart {
             robots: Robots {
                 layout: Layout::Robots,
                 cables: SmallVec::new(),
                 position: three(|k| self.all(pose.position[k])),
-                center: rotate(pose, &self.point(center, &robot.platform.center_of_mass)),
+                center: rotate(pose, &self.point(layout.center_of_mass(), &robot.platform.center_of_mass)),
                 frame: SmallVec::new(),
                 weight: mass * robot.gravity,
             },
@@ -224,26 +224,26 @@ impl<S: Simd> Rows<'_, S> {
             multipliers: six(|k| self.all(nominal.multipliers[k])),
         };
         for (i, cable) in robot.cables.iter().enumerate() {
-            let density = self.parameter(1, cable.properties.linear_density);
-            let modulus = self.parameter(2, cable.properties.youngs_modulus);
-            let offset = self.parameter(offsets + i, 0.0);
+            let density = self.parameter(layout.linear_density(), cable.properties.linear_density);
+            let modulus = self.parameter(layout.youngs_modulus(), cable.properties.youngs_modulus);
+            let offset = self.parameter(layout.tension_offset(i), 0.0);
             // No number is not even itself.
             sound = sound
                 & zero.less_or_equal(density)
                 & tiny.less_or_equal(modulus)
                 & offset.less_or_equal(offset);
             let force = nominal.equilibrium.cable_forces[i];
-            beginning.offsets.push(offset);
-            beginning.robots.cables.push(Cable {
-                weight: density * robot.gravity,
-                stretch: (modulus * cable.properties.section).recip(),
-                exit: self.point(exits + 3 * i, &cable.exit_point),
-                arm: rotate(pose, &self.point(anchors + 3 * i, &cable.anchor_point)),
+            start.offsets.push(offset);
+            start.robots.cables.push(TautCable {
+                weight_per_length: density * robot.gravity,
+                axial_flexibility: (modulus * cable.properties.section).recip(),
+                exit_point: self.point(layout.exit_point(i), &cable.exit_point),
+                anchor_arm: rotate(pose, &self.point(layout.anchor_point(i), &cable.anchor_point)),
                 length: self.all(nominal.lengths[i]),
                 force: [self.all(force.x), self.all(force.y)],
             });
         }
-        (beginning, sound)
+        (start, sound)
     }
 }
 
@@ -255,9 +255,9 @@ fn rotate<S: Simd>(pose: &Pose, v: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
 }
 
 #[inline(always)]
-fn residuals<S: Simd>(open: &Open<S>) -> [Residual; MAX_LANES] {
-    let closure = open.closure.to_array();
-    let [force, moment] = open.norms();
+fn norms<S: Simd>(residual: &LaneResidual<S>) -> [Residual; MAX_LANES] {
+    let closure = residual.closure.to_array();
+    let [force, moment] = residual.norms();
     from_fn(|lane| Residual { closure: closure[lane].sqrt(), force: force[lane], moment: moment[lane] })
 }
 

@@ -2,12 +2,12 @@
 
 use crate::direct::{Start, direct};
 use crate::error::StaticsError;
-use crate::lanes::cable::Cable;
-use crate::lanes::newton::{self as taut, Layout, Robots, Scale, Tangent};
+use crate::lanes::cable::TautCable;
+use crate::lanes::newton::{Layout, LinearizedPlatform, PlatformLoad, Robots, Scale};
 use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
-use cdpr_robot::{Matrix3, Robot, Rotation3, Vector3};
+use cdpr_robot::{Matrix3, Robot, Vector3, orthonormalized};
 use smallvec::SmallVec;
 
 /// Follows the stable equilibrium of a robot while its cables are wound and its load changes.
@@ -99,7 +99,7 @@ impl WithSimd for Update<'_, '_> {
         let (count, zero) = (Lanes::<S>::COUNT, Lanes::splat(simd, 0.0));
         let in_last = n - (n - 1) / count * count;
         let last = Lanes::from_fn(simd, |lane| lane as f64).less_or_equal(zero.all(in_last as f64 - 0.5));
-        let mut platform = Robots {
+        let mut robots = Robots {
             layout: Layout::Cables(last),
             cables: SmallVec::new(),
             position: vector(simd, &pose.position),
@@ -108,7 +108,7 @@ impl WithSimd for Update<'_, '_> {
             weight: zero.all(robot.platform.mass * robot.gravity),
         };
         for k in 0..3 {
-            platform.frame.push(vector(simd, &pose.rotation.matrix().column(k).into()));
+            robots.frame.push(vector(simd, &pose.rotation.matrix().column(k).into()));
         }
         for first in (0..n).step_by(count) {
             let mut values = [[0.0; MAX_LANES]; 11];
@@ -117,10 +117,10 @@ impl WithSimd for Update<'_, '_> {
                 let i = (first + lane).min(n - 1);
                 let (cable, force) = (problem.cable(i), equilibrium.cable_forces[i]);
                 let (exit, arm) = (robot.cables[i].exit_point, robot.anchor_arm(pose, i));
-                let (weight, stretch) = (cable.weight_per_length, 1.0 / cable.axial_stiffness);
+                let (weight, flexibility) = (cable.weight_per_length, 1.0 / cable.axial_stiffness);
                 let cable = [
                     weight,
-                    stretch,
+                    flexibility,
                     exit.x,
                     exit.y,
                     exit.z,
@@ -136,40 +136,40 @@ impl WithSimd for Update<'_, '_> {
                 }
             }
             let column = |k: usize| Lanes::from_array(simd, &values[k]);
-            platform.cables.push(Cable {
-                weight: column(0),
-                stretch: column(1),
-                exit: [column(2), column(3), column(4)],
-                arm: [column(5), column(6), column(7)],
+            robots.cables.push(TautCable {
+                weight_per_length: column(0),
+                axial_flexibility: column(1),
+                exit_point: [column(2), column(3), column(4)],
+                anchor_arm: [column(5), column(6), column(7)],
                 length: column(8),
                 force: [column(9), column(10)],
             });
         }
-        let load = taut::Load {
-            weight: platform.weight + problem.load.payload * robot.gravity,
+        let load = PlatformLoad {
+            weight: robots.weight + problem.load.payload * robot.gravity,
             force: vector(simd, &problem.load.wrench.force),
         };
         let size = problem.size();
         let rounding = rounding_of_closure(size, pose.position.norm() + *farthest);
-        let scale = Scale { size, arm: problem.characteristic_length(), rounding };
+        let scale = Scale { size, characteristic_length: problem.characteristic_length(), rounding };
         let everywhere = zero.less_or_equal(zero);
-        let mut tangent = Tangent::new(zero, platform.cables.len());
-        platform.linearise(&load, &mut tangent, everywhere);
-        let (found, open) = platform.settle(&load, &mut tangent, &scale, everywhere);
+        let mut linearized = LinearizedPlatform::new(zero, robots.cables.len());
+        robots.linearise(&load, &mut linearized, everywhere);
+        let (found, left) = robots.settle(&load, &mut linearized, &scale, everywhere);
         if !found.any() {
             return false;
         }
-        pose.position = back(&platform.position);
-        let columns = [back(&platform.frame[0]), back(&platform.frame[1]), back(&platform.frame[2])];
-        pose.rotation = nearest_rotation(&Matrix3::from_columns(&columns));
-        for (forces, cable) in equilibrium.cable_forces.chunks_mut(count).zip(&platform.cables) {
+        pose.position = back(&robots.position);
+        let columns = [back(&robots.frame[0]), back(&robots.frame[1]), back(&robots.frame[2])];
+        pose.rotation = orthonormalized(&Matrix3::from_columns(&columns));
+        for (forces, cable) in equilibrium.cable_forces.chunks_mut(count).zip(&robots.cables) {
             let [x, z] = [cable.force[0].to_array(), cable.force[1].to_array()];
             for (lane, force) in forces.iter_mut().enumerate() {
                 (force.x, force.y) = (x[lane], z[lane]);
             }
         }
-        let [force, moment] = open.norms();
-        *residual = Residual { closure: open.closure.first().sqrt(), force: force[0], moment: moment[0] };
+        let [force, moment] = left.norms();
+        *residual = Residual { closure: left.closure.first().sqrt(), force: force[0], moment: moment[0] };
         true
     }
 }
@@ -184,11 +184,4 @@ fn vector<S: Simd>(simd: S, v: &Vector3<f64>) -> [Lanes<S>; 3] {
 #[inline(always)]
 fn back<S: Simd>(v: &[Lanes<S>; 3]) -> Vector3<f64> {
     Vector3::new(v[0].first(), v[1].first(), v[2].first())
-}
-
-/// A rotation from a matrix that is one but for rounding: Newton's step `R (3 - Rᵀ R)/2` to the nearest one.
-#[inline(always)]
-fn nearest_rotation(matrix: &Matrix3<f64>) -> Rotation3<f64> {
-    let excess = matrix.transpose() * matrix;
-    Rotation3::from_matrix_unchecked(matrix * (Matrix3::from_diagonal_element(1.5) - excess * 0.5))
 }

@@ -6,7 +6,7 @@
 
 use crate::direct::{DirectSolution, Start, direct};
 use crate::error::StaticsError;
-use crate::inverse::{InverseSolution, inverse, lengths_for_tensions};
+use crate::inverse::{HeldPose, InverseSolution, inverse, lengths_for_tensions};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
@@ -86,15 +86,11 @@ pub fn wound_lengths(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Res
 pub(crate) fn wind(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Result<Wound, StaticsError> {
     StaticsError::one_per_cable("tension_offsets", tension_offsets, robot.cables.len())?;
     if let Some((i, offset)) = tension_offsets.iter().enumerate().find(|(_, offset)| !offset.is_finite()) {
-        return Err(StaticsError::Invalid {
-            field: format!("tension_offsets[{i}]"),
-            value: offset.to_string(),
-            expected: "a finite offset [N]".to_owned(),
-        });
+        return Err(StaticsError::invalid(format!("tension_offsets[{i}]"), offset, "a finite offset [N]"));
     }
     let wanted = inverse(robot, pose, &Load::none(), None)?;
     let set_points = offset(&wanted.tensions, tension_offsets, robot.tension_limits);
-    let (lengths, held) = lengths_for_tensions(robot, pose, &set_points)?;
+    let HeldPose { lengths, equilibrium: held } = lengths_for_tensions(robot, pose, &set_points)?;
     Ok(Wound { wanted, set_points, lengths, held })
 }
 

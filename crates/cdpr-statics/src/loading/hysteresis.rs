@@ -50,16 +50,25 @@ pub enum Unloading {
 pub struct LoadCycle {
     /// Unstrained lengths [m].
     pub lengths: Vec<f64>,
-    /// Equilibria from own weight to the whole payload, with the payload of each [kg].
-    pub loading: Vec<(f64, DirectSolution)>,
-    /// Equilibria back to own weight; begins with the last one of loading.
-    pub unloading: Vec<(f64, DirectSolution)>,
+    /// Steps from own weight to the whole payload.
+    pub loading: Vec<CycleStep>,
+    /// Steps back to own weight; the first is the last one of loading.
+    pub unloading: Vec<CycleStep>,
     /// Tension at the middle of each cable under own weight, with the payload, and without it again [N].
     pub tensions: Vec<[f64; 3]>,
     /// Energy dissipated by each cable [J]: the area of its loop.
     pub dissipated: Vec<f64>,
     /// Energy that the payload gave [J].
     pub payload_work: f64,
+}
+
+/// One equilibrium of a load cycle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CycleStep {
+    /// Payload [kg].
+    pub payload: f64,
+    /// The equilibrium.
+    pub solution: DirectSolution,
 }
 
 impl LoadCycle {
@@ -73,9 +82,9 @@ impl LoadCycle {
         self.ends(&self.loading)
     }
 
-    fn ends(&self, way: &[(f64, DirectSolution)]) -> Vector3<f64> {
-        let position = |at: Option<&(f64, DirectSolution)>| {
-            at.map_or_else(Vector3::zeros, |(_, solution)| solution.equilibrium.pose.position)
+    fn ends(&self, way: &[CycleStep]) -> Vector3<f64> {
+        let position = |at: Option<&CycleStep>| {
+            at.map_or_else(Vector3::zeros, |step| step.solution.equilibrium.pose.position)
         };
         position(way.last()) - position(self.loading.first())
     }
@@ -124,7 +133,7 @@ pub fn load_cycle(
     steps: usize,
 ) -> Result<LoadCycle, StaticsError> {
     let invalid = |field: &str, value: String, expected: &str| {
-        Err(StaticsError::Invalid { field: field.to_owned(), value, expected: expected.to_owned() })
+        Err(StaticsError::invalid(field.to_owned(), value, expected))
     };
     if !(payload.is_finite() && payload > 0.0) {
         return invalid("payload", payload.to_string(), "a finite, positive mass [kg]");
@@ -143,8 +152,8 @@ pub fn load_cycle(
     let mut middles = Vec::with_capacity(3);
     let mut energies = vec![0.0; n];
     let first = direct(&robot, &lengths, &Load::none(), Start::Near(&wound.held))?;
-    let mut here = (0.0, first);
-    middles.push(middle_tensions(&robot, &lengths, &here.1.equilibrium)?);
+    let mut here = CycleStep { payload: 0.0, solution: first };
+    middles.push(middle_tensions(&robot, &lengths, &here.solution.equilibrium)?);
     for up in [true, false] {
         let from = &middles[middles.len() - 1];
         let turned = laws
@@ -155,13 +164,13 @@ pub fn load_cycle(
         let mut way = vec![here];
         for step in 1..=steps {
             let share = step as f64 / steps as f64;
-            let mass = payload * if up { share } else { 1.0 - share };
-            let near = &way[way.len() - 1].1.equilibrium;
-            let next = direct(&robot, &lengths, &Load::payload(mass), Start::Near(near))?;
-            way.push((mass, next));
+            let payload = payload * if up { share } else { 1.0 - share };
+            let near = &way[way.len() - 1].solution.equilibrium;
+            let solution = direct(&robot, &lengths, &Load::payload(payload), Start::Near(near))?;
+            way.push(CycleStep { payload, solution });
         }
         here = way[way.len() - 1].clone();
-        let to = middle_tensions(&robot, &lengths, &here.1.equilibrium)?;
+        let to = middle_tensions(&robot, &lengths, &here.solution.equilibrium)?;
         for i in 0..n {
             // ∫ T dε = [T ε] - ∫ ε dT, in multiples of 1/EA
             let law = law_of(&robot, i, &laws[i]);
@@ -187,8 +196,8 @@ pub fn load_cycle(
         .iter()
         .flat_map(|way| way.windows(2))
         .map(|pair| {
-            let [(m0, s0), (m1, s1)] = [&pair[0], &pair[1]];
-            0.5 * (m0 + m1) * robot.gravity * (height(s0) - height(s1))
+            let [a, b] = [&pair[0], &pair[1]];
+            0.5 * (a.payload + b.payload) * robot.gravity * (height(&a.solution) - height(&b.solution))
         })
         .sum();
     let tensions = (0..n).map(|i| [middles[0][i], middles[1][i], middles[2][i]]).collect();
