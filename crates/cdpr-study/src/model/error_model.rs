@@ -3,8 +3,8 @@
 //! A *cause* is an input whose value x is added to one parameter or, with a factor f, to several:
 //!
 //! ```text
-//! deviation_p = sum over the causes c of p:  f_cp x_c                      (1)
-//! d y / d x_c = sum over the parameters p of c:  f_cp dy/dp                 (2)
+//! deviation_p = sum over the causes c of p:  f_cp x_c                      (M1)
+//! d y / d x_c = sum over the parameters p of c:  f_cp dy/dp                (M2)
 //! ```
 //!
 //! Two exit points on one pulley block share the error of the block, a cause of both, beside the error that each has of its own. Their deviations are
@@ -30,7 +30,7 @@ pub struct ErrorModel {
     parameters: usize,
 }
 
-/// A term of equation (1).
+/// A term of equation (M1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
     /// Number of the input.
@@ -159,7 +159,7 @@ impl ErrorModel {
         self.parameters
     }
 
-    /// Equation (1): the deviation of each parameter for each of `rows`, vectors one after the other.
+    /// Equation (M1): the deviation of each parameter for each of `rows`, vectors one after the other.
     pub fn deviations(&self, rows: &[f64]) -> Vec<f64> {
         let inputs = self.inputs.len();
         let mut deviations = vec![0.0; rows.len() / inputs * self.parameters];
@@ -171,7 +171,7 @@ impl ErrorModel {
         deviations
     }
 
-    /// Equation (2): derivatives with respect to the inputs from those with respect to the parameters.
+    /// Equation (M2): derivatives with respect to the inputs from those with respect to the parameters.
     pub fn gradient(&self, slopes: &[f64]) -> Vec<f64> {
         let mut gradient = vec![0.0; self.inputs.len()];
         for Term { input, place, factor } in &self.terms {
