@@ -7,8 +7,9 @@
 //! d y / d x_c = sum over the parameters p of c:  f_cp dy/dp                (M2)
 //! ```
 //!
-//! Two exit points on one pulley block share the error of the block, a cause of both, beside the error that each has of its own. Their deviations are
-//! correlated by `var_block / (var_block + var_own)`, while the causes stay independent: every measure of sensitivity holds for them, and names what an
+//! Two exit points on one pulley block share the error of the block, which is a cause of both, beside an
+//! error of their own. Their deviations are correlated by `var_block / (var_block + var_own)`, whereas the
+//! causes are independent. Therefore every measure of sensitivity holds for the causes, and names what an
 //! engineer can change.
 
 use crate::error::StudyError;
@@ -20,11 +21,12 @@ use indexmap::IndexMap;
 /// The causes of an error model, for robots with a given number of cables.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorModel {
-    /// One a cause: parameters in the order of the parameter vector, then causes of several parameters in that of the file.
+    /// One input for each cause: parameters in the order of the parameter vector, then causes of several
+    /// parameters in the order of the file.
     pub inputs: Vec<Input>,
     /// Entry of the error model that each input comes from.
     pub entries: Vec<String>,
-    /// What the inputs are added to.
+    /// The parameters to which the inputs are added.
     pub terms: Vec<Term>,
     /// Length of the parameter vector.
     parameters: usize,
