@@ -1,7 +1,7 @@
-//! The study of the paper: the figures that an independent model found, and what must not depend on how it is run.
+//! The study of the paper reproduces the figures of an independent model, on any number of threads.
 //!
-//! The expected values and tolerances are those of an independent program of about 200 lines, run with 200 000 random
-//! observations (docs/VALIDATION.md).
+//! The expected values and tolerances are those of an independent program of about 200 lines, run with 200
+//! 000 random observations (docs/VALIDATION.md).
 
 use cdpr_study::{
     Part, SamplingSummary, Session, Study, SurfaceSummary, analyse, compute_surface, observe, observe_into,
@@ -72,8 +72,8 @@ fn geometrical_study_at_the_symmetric_pose() {
 fn geometrical_study_at_the_non_symmetric_pose() {
     let (parts, summary) = run("geometrical_asymmetric");
     within(rms(&summary).nominal, 0.82217, 1e-4);
-    // Two exit points and the anchor points of their cables dominate: t of 8 to 13 and of 4 to 7 in the independent model, the
-    // others about 1 or less. From 2000 observations t itself is known to about 1.5.
+    // Two exit points and the anchor points of their cables dominate: t of 8 to 13 and of 4 to 7 in the
+    // independent model, the others about 1 or less. From 2000 observations t itself is known to about 1.5.
     let largest = |letter: char, i: usize| {
         ['x', 'y', 'z'].map(|axis| t(&summary, letter, &[i], axis)[0]).into_iter().fold(0.0, f64::max)
     };

@@ -1,4 +1,4 @@
-//! The data files are what they say they are, and the schemas in the docs are those of the code.
+//! Data files are valid, have a source, and match the paper; schemas in the docs are those of the code.
 
 use cdpr_robot::{Pose, Robot};
 use cdpr_study::Study;
@@ -51,7 +51,8 @@ fn the_schemas_in_the_docs_are_those_of_the_code() {
 fn the_caroca_file_holds_table_1_of_the_paper() {
     let robot =
         Robot::from_json(&std::fs::read_to_string(root().join("data/robots/caroca.json")).unwrap()).unwrap();
-    // Every exit point is a corner of the frame at 3.5 m, every anchor point a corner of the platform, each of those once.
+    // Every exit point is a corner of the frame at 3.5 m, every anchor point a corner of the platform, each
+    // of those once.
     for cable in &robot.cables {
         assert_eq!(cable.exit_point.abs().as_slice(), [3.5, 2.0, 3.5]);
         assert_eq!(cable.anchor_point.abs().as_slice(), [0.2, 0.15, 0.125]);

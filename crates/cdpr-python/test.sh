@@ -11,9 +11,9 @@ target=${CARGO_TARGET_DIR:-$PWD/target}
 environment=$target/python-tests
 trap 'rm -rf "$environment"' EXIT
 
-cargo build --release --quiet --package cdpr-cli
+cargo build --quiet --bin cdpr
 python3 -m venv --clear "$environment"
 "$environment/bin/pip" install --quiet ./crates/cdpr-python pytest pandas matplotlib mypy "$@"
 cd crates/cdpr-python
-CDPR=$target/release/cdpr "$environment/bin/python" -m pytest -q -rs -p no:cacheprovider tests
+CDPR=$target/debug/cdpr "$environment/bin/python" -m pytest -q -rs -p no:cacheprovider tests
 "$environment/bin/python" -m mypy.stubtest cdpr --mypy-config-file pyproject.toml

@@ -1,9 +1,10 @@
 #!/bin/bash
-# A study shared by the tasks of a HyperQueue task array, and its analysis when all are done (options of `cdpr study run` may follow):
+# Shares a study among the tasks of a HyperQueue task array and analyses it when all are done; options of
+# `cdpr study run` may follow:
 #
 #   data/cluster/hyperqueue.sh 32 16 my-study.json results --observations 100000000
 #
-# runs 32 tasks on 16 cores each. Ended by whatever, the same command goes on.
+# runs 32 tasks on 16 cores each. After an interruption, the same command goes on.
 set -euo pipefail
 usage='usage: hyperqueue.sh TASKS CORES STUDY FOLDER [OPTIONS]'
 tasks=${1:?$usage}

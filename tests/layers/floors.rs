@@ -1,4 +1,4 @@
-//! The floors of a crate as docs/ARCHITECTURE.md lists them, and the imports that break their order.
+//! The floors of a crate, as docs/ARCHITECTURE.md lists them, and the imports that break their order.
 
 use super::modules::{Imports, Module};
 use std::collections::{BTreeMap, BTreeSet};
@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Which modules import from which.
 type Graph = BTreeMap<Module, BTreeSet<Module>>;
 
-/// Number of the floor of each entry, from the top of its folder. The file that has the name of a folder stands in it as `FOLDER::`.
+/// Number of the floor of each entry, from the top of its folder. The file that has the name of a folder
+/// stands in it as `FOLDER::`.
 pub(crate) struct Floors {
     floors: BTreeMap<Module, usize>,
     /// Files of one floor that may import from each other.
@@ -17,7 +18,8 @@ impl Floors {
     /// Reads floors, one a line or between `|`.
     pub(crate) fn parse(text: &str) -> Self {
         let (mut floors, mut pairs) = (BTreeMap::new(), BTreeSet::new());
-        // Folders that are open, with the number of the floor within each; above the first floor stands the folder's own file.
+        // Folders that are open, with the number of the floor within each; above the first floor stands the
+        // folder's own file.
         let mut folder = Module::new();
         let mut numbers = vec![1];
         let mut last = Module::new();
@@ -84,7 +86,7 @@ pub(crate) fn circles(imports: &Imports) -> Vec<String> {
     circles.map(report).collect()
 }
 
-/// The floors that the imports of today make, as the list has them; what closes a circle stands on one.
+/// The floors that follow from the imports, as the list writes them; entries of a circle share a floor.
 pub(crate) fn suggestion(folder: &Module, modules: &BTreeSet<Module>, imports: &Imports) -> String {
     let mut graph = Graph::new();
     let own = entry(folder, "");
@@ -122,7 +124,7 @@ pub(crate) fn suggestion(folder: &Module, modules: &BTreeSet<Module>, imports: &
         floors
             .push(floor.iter().map(|group| group.iter().map(word).collect::<Vec<_>>().join("<->")).collect());
     }
-    // The file of a folder stands on top where nothing is said.
+    // The file of a folder stands above it unless the list names it.
     if !graph.values().any(|below| below.contains(&own)) {
         let name = folder.last().map_or("lib", String::as_str);
         floors.iter_mut().for_each(|floor| floor.retain(|entry| entry != name));

@@ -1,7 +1,7 @@
-//! The modules of a crate, as its sources import from each other.
+//! The modules of a crate and the imports between them.
 //!
-//! An import points to the file that defines the item, through any number of re-exports. Tests are left out, and so are
-//! re-exports of what the file itself does not use.
+//! An import points to the file that defines the item, through any number of re-exports. Tests are left out,
+//! and so are re-exports of what the file itself does not use.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,7 +13,7 @@ pub(crate) type Module = Vec<String>;
 /// The names that a module imports from another one, by module.
 pub(crate) type Imports = BTreeMap<(Module, Module), BTreeSet<String>>;
 
-/// What a file says.
+/// The names in a file.
 #[derive(Default)]
 struct Source {
     items: BTreeSet<String>,
@@ -35,7 +35,7 @@ pub(crate) struct Crate {
 }
 
 impl Crate {
-    /// Reads all files under `src`; none is left out but those of tests.
+    /// Reads all files under `src` but those of tests.
     pub(crate) fn read(src: &Path) -> Self {
         let mut sources = BTreeMap::new();
         for file in rust_files(src) {
@@ -46,7 +46,7 @@ impl Crate {
                 sources.insert(module(file.strip_prefix(src).unwrap()), source);
             }
         }
-        // A file that only a test module names, or that no module names, is no module.
+        // A file is a module if its parent declares it outside tests.
         let declared = |module: &Module| {
             module.split_last().is_none_or(|(name, parent)| {
                 sources.get(parent).is_some_and(|s: &Source| s.children.contains(name))
@@ -134,7 +134,7 @@ impl Crate {
             }
             at.push(name.clone());
         }
-        // A whole module is imported for the paths that begin with it.
+        // The import of a whole module counts where a path begins with its name.
         None
     }
 
@@ -148,7 +148,7 @@ impl Crate {
 }
 
 impl Source {
-    /// Takes in what the tokens of a file, or of a group within it, say; `false` if the file is a test.
+    /// Reads the tokens of a file or of a group within it; returns `false` if the file is a test.
     fn scan(&mut self, tokens: TokenStream, is_top: bool) -> bool {
         let tokens: Vec<_> = tokens.into_iter().collect();
         let (mut i, mut is_public) = (0, false);
@@ -215,7 +215,7 @@ impl Source {
         true
     }
 
-    /// Takes in the path that begins at a word; the index of its last segment.
+    /// Reads the path that begins at a word; returns the index of its last segment.
     fn path(&mut self, tokens: &[TokenTree], mut i: usize) -> usize {
         let mut path = vec![tokens[i].to_string()];
         while is_punct(tokens.get(i + 1), ':') && is_punct(tokens.get(i + 2), ':') {
@@ -227,7 +227,7 @@ impl Source {
         i
     }
 
-    /// Takes in the names of a `use`, behind a prefix.
+    /// Reads the names of a `use` below a prefix.
     fn import(&mut self, tokens: &[TokenTree], prefix: &[String], is_public: bool) {
         for tree in tokens.split(|token| is_punct(Some(token), ',')) {
             let (mut path, mut alias) = (prefix.to_vec(), None);

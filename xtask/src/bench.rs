@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: medians of all criterion benchmarks, their instruction counts, and what became slower since the baseline.
+//! `cargo xtask bench`: medians and instruction counts of all criterion benchmarks, compared with a baseline.
 
 #![allow(clippy::print_stdout)]
 
@@ -8,10 +8,10 @@ use crate::cargo::root;
 use measure::{BenchError, Benchmark, Run, measure, read};
 use std::process::ExitCode;
 
-/// A median is slower where the 95 % intervals are apart and it is worse by more than this.
+/// A median is slower if the 95 % intervals do not overlap and it grew by more than this.
 const TIME_NOISE: f64 = 0.10;
 
-/// A count is worse where it grew by more than this.
+/// A count is worse if it grew by more than this.
 const COUNT_NOISE: f64 = 0.01;
 
 const BASELINE: &str = "data/benchmarks/baseline.json";
@@ -40,14 +40,14 @@ impl Change {
         self.beyond_noise && self.ratio > 1.0
     }
 
-    /// In percent; in brackets where it is noise.
+    /// Text in percent, in brackets if it is noise.
     fn text(self) -> String {
         let percent = format!("{:+.1} %", 100.0 * (self.ratio - 1.0));
         if self.beyond_noise { percent } else { format!("({percent})") }
     }
 }
 
-/// A benchmark, its counterpart in the baseline and what changed.
+/// A benchmark, its counterpart in the baseline and the changes.
 struct Row<'a> {
     now: &'a Benchmark,
     then: Option<&'a Benchmark>,
@@ -85,14 +85,14 @@ impl<'a> Row<'a> {
     }
 }
 
-/// Whether a slower median, beside a larger count, is a failure.
+/// Whether a slower median is a failure, as a larger count always is.
 #[derive(Clone, Copy, PartialEq)]
 enum Times {
-    Told,
+    Reported,
     Strict,
 }
 
-/// Options of its own, then those of criterion.
+/// Runs the benchmarks; `rest` holds options of this task, then those of criterion.
 pub(crate) fn run(mut rest: Vec<String>) -> ExitCode {
     let mut take = |option: &str| {
         let before = rest.len();
@@ -100,10 +100,10 @@ pub(crate) fn run(mut rest: Vec<String>) -> ExitCode {
         rest.len() < before
     };
     let save = take("--save-baseline");
-    let times = if take("--strict") { Times::Strict } else { Times::Told };
+    let times = if take("--strict") { Times::Strict } else { Times::Reported };
     if save && !rest.is_empty() {
         eprintln!(
-            "error: --save-baseline with `{}`: expected no further arguments, a baseline is of all benchmarks",
+            "error: --save-baseline with `{}`: expected no further arguments, a baseline holds all benchmarks",
             rest.join(" ")
         );
         return ExitCode::FAILURE;
@@ -118,7 +118,7 @@ pub(crate) fn run(mut rest: Vec<String>) -> ExitCode {
     })
 }
 
-/// Prints the table and what is beyond the noise.
+/// Prints the table, and the changes that are larger than noise.
 fn compare(now: &Run, times: Times) -> Result<ExitCode, BenchError> {
     let path = root().join(BASELINE);
     let baseline: Option<Run> = if path.exists() { Some(read(&path)?) } else { None };
@@ -167,12 +167,12 @@ fn write_baseline(run: &Run) -> Result<(), BenchError> {
     Ok(())
 }
 
-/// With a unit, three digits from 1 ns on.
+/// Duration with a unit and three digits, from 1 ns on.
 fn duration(ns: f64) -> String {
     let units = [(1e9, "s"), (1e6, "ms"), (1e3, "µs"), (1.0, "ns")];
     let (size, unit) = units.into_iter().find(|(size, _)| ns >= *size).unwrap_or((1.0, "ns"));
     let value = ns / size;
-    // 9.996 is 10.0.
+    // 9.996 is printed as 10.0.
     let digits = if value < 9.995 { 2 } else { usize::from(value < 99.95) };
     format!("{value:.digits$} {unit}")
 }

@@ -1,5 +1,7 @@
-//! `cargo xtask caroca-study`, the cable as it is (sections 4.2.1 to 4.2.3 of the paper): Table 2 beside what follows from its record, a payload that comes
-//! and goes, and how far the paper's deflections move where the modulus is that of the cables' tensions.
+//! The part of `cargo xtask caroca-study` on real cables (sections 4.2.1 to 4.2.3 of the paper).
+//!
+//! It prints Table 2 beside the moduli that follow from its record, runs a cycle of the payload, and compares
+//! the paper's deflections with those of a modulus that depends on the tension.
 
 #![allow(clippy::print_stdout)]
 
@@ -9,7 +11,7 @@ use std::fmt::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Where each row of the table of deflections comes from, and its words.
+/// Summary that each row of the table of deflections is read from, and its label.
 const ROWS: [(&str, &str); 3] = [
     ("summary.json", "E = 102.2 GPa ± 2 GPa, as in the paper"),
     ("cable/operating-point/summary.json", "E of the cables' law at their tensions ± 2 GPa"),
@@ -17,7 +19,7 @@ const ROWS: [(&str, &str); 3] = [
 ];
 const STUDIES: [&str; 2] = ["operating-point", "law"];
 
-/// Adds to the results in `out`; `settings` are those of `cdpr study run` but for its folder.
+/// Adds to the results in `out`; `settings` are options of `cdpr study run` other than its folder.
 pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
     let folder = out.join("cable");
     std::fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
@@ -48,7 +50,7 @@ pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
         ]
         .concat();
         if cdpr(&["study", "run", &file], &arguments) != ExitCode::SUCCESS {
-            return Err(format!("{file} has not run"));
+            return Err(format!("{file} has failed"));
         }
     }
     write!(text, "{}", moved(out)?).map_err(|error| error.to_string())?;
@@ -59,7 +61,7 @@ pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
-/// How far the deflections of Fig. 5a move.
+/// Table of the deflections of Fig. 5a, and how far they move.
 fn moved(out: &Path) -> Result<String, String> {
     let mut text = format!(
         "static deflection under 50 kg, ranges of Table 4\n{:<50} {:>22} {:>22}\n",
@@ -77,7 +79,7 @@ fn moved(out: &Path) -> Result<String, String> {
             let number = |name: &str| {
                 summary.pointer(&format!("/studies/{sampling}/rms_mm/{name}")).and_then(Value::as_f64)
             };
-            // Too few observations have no deviation.
+            // A sampling of too few observations has no standard deviation.
             cells.push(
                 number("mean")
                     .zip(number("std"))
@@ -96,7 +98,7 @@ fn moved(out: &Path) -> Result<String, String> {
     Ok(text + "mean ± standard deviation, and how far the mean moves\n")
 }
 
-/// What the program prints.
+/// Standard output of the program.
 fn output(command: &[&str]) -> Result<String, String> {
     let output = cdpr_command(command).output().map_err(|error| error.to_string())?;
     if output.status.success() {

@@ -9,14 +9,16 @@ pub(crate) fn root() -> &'static Path {
 }
 
 /// Builds and runs the program.
+///
+/// Cargo chooses it among all default members, so that its dependencies have the features that tests need.
 pub(crate) fn cdpr(command: &[&str], rest: &[String]) -> ExitCode {
     let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-    cargo(&[&["run", "--package", "cdpr-cli", "--"], command, &rest].concat())
+    cargo(&[&["run", "--bin", "cdpr", "--"], command, &rest].concat())
 }
 
-/// The same, to be started by the caller, without what cargo says.
+/// Returns the same command, without the messages of cargo, for the caller to start.
 pub(crate) fn cdpr_command(command: &[&str]) -> Command {
-    cargo_command(&[&["run", "--quiet", "--package", "cdpr-cli", "--"], command].concat())
+    cargo_command(&[&["run", "--quiet", "--bin", "cdpr", "--"], command].concat())
 }
 
 /// Whether cargo succeeds with a subcommand and its arguments.

@@ -1,10 +1,10 @@
-//! `cargo xtask fuzz`: every fuzz target for a while, and how much each has tried.
+//! `cargo xtask fuzz`: runs every fuzz target for some time and counts its executions.
 
 use crate::cargo::root;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, ExitCode, Stdio};
 
-/// A fuzz target, the folder of `data` that it starts from besides its own corpus, and its arguments.
+/// A fuzz target with the folder of `data` that it reads besides its own corpus, and its arguments.
 struct Target {
     name: &'static str,
     seeds: Option<&'static str>,
@@ -57,7 +57,7 @@ pub(crate) fn run(rest: &[String]) -> ExitCode {
 }
 
 struct Outcome {
-    /// As libFuzzer counts them; none if it did not come so far.
+    /// Number of executions that libFuzzer reports, if it ran to its end.
     executions: Option<String>,
     failed: bool,
 }

@@ -1,4 +1,6 @@
-//! Tasks of this repository: `cargo xtask TASK`. Spawns what it runs; links no numerics.
+//! Tasks of this repository: `cargo xtask TASK`.
+//!
+//! A task spawns the programs that it needs; this program links no numerics.
 
 #![allow(clippy::print_stderr)]
 
@@ -18,23 +20,26 @@ usage: cargo xtask TASK
 
 tasks:
   caroca-study [--out DIR] [--observations N] [--threads N] [--resume]
-                 the study of Baklouti, Caro, Courteille (CableCon 2017) beside its figures, all measures of its sensitivity in
-                 DIR/sensitivity, and the hysteresis of its cables in DIR/cable; DIR is target/caroca-study. Begins anew, or with --resume goes on with what was interrupted
+                 runs the study of Baklouti, Caro, Courteille (CableCon 2017) and prints it beside their figures; all
+                 measures of its sensitivity go to DIR/sensitivity, the hysteresis of its cables to DIR/cable; DIR is
+                 target/caroca-study. Begins anew, or goes on with an interrupted run with --resume
   robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
-                 how often the direct model finds CoGiRo's true pose from a wrong start, by the protocol of Mahnke and Caverly
-                 (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
+                 counts how often the direct model finds CoGiRo's true pose from a wrong start, by the protocol of
+                 Mahnke and Caverly (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
   throughput [--observations N] [--threads N]
-                 a sampling of the paper's size and more, without tables: time, memory and results in one line (N = 1000000)
+                 runs a sampling of the paper's size or larger, without tables, and prints time, memory and results
+                 in one line (N = 1000000)
   scaling [--observations N]
-                 the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads: docs/PERFORMANCE.md
+                 runs the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads: docs/PERFORMANCE.md
   bench [--strict] [--save-baseline] [ARGS]
-                 all criterion benchmarks, or those that ARGS choose (a part of a name and other options of criterion), and their
-                 instruction counts where valgrind is installed, beside data/benchmarks/baseline.json: fails where a count grew,
-                 with --strict also where a median did
-  bench-peers    the direct model and an observation beside SciPy, Octave and Ceres, where installed: docs/PEERS.md
-  fuzz [SECONDS] every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
-  schemas        write the JSON Schemas of the file formats to docs/schemas
-  help           this text";
+                 runs all criterion benchmarks, or those that ARGS choose (a part of a name and other options of
+                 criterion), counts their instructions where valgrind is installed, and prints both beside
+                 data/benchmarks/baseline.json: fails where a count grew, with --strict also where a median did
+  bench-peers    solves the direct model and an observation with cdpr, and with SciPy, Octave and Ceres where these
+                 are installed: docs/PEERS.md
+  fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
+  schemas        writes the JSON Schemas of the file formats to docs/schemas
+  help           prints this text";
 
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
@@ -71,7 +76,7 @@ fn main() -> ExitCode {
 fn caroca_study(mut rest: Vec<String>) -> ExitCode {
     default(&mut rest, "--out", "target/caroca-study");
     let study = |file: &str| root().join("data/studies").join(file).display().to_string();
-    // What another state of the code has observed is not gone on with, unless the user says so.
+    // Results of another state of the code are not continued, unless the user asks for it.
     if !rest.iter().any(|argument| argument == "--resume") {
         rest.push("--overwrite".to_owned());
     }
@@ -109,7 +114,9 @@ fn throughput(rest: &[String]) -> ExitCode {
     cdpr(&["study", "throughput", &study, "--sampling", "mechanical"], rest)
 }
 
-/// Adds `option` with a path in the repository, unless the user gives one: that is relative to where the user is.
+/// Adds `option` with a path in the repository, unless the user gives one.
+///
+/// A path of the user is relative to the current folder.
 fn default(arguments: &mut Vec<String>, option: &str, path: &str) {
     let given = format!("{option}=");
     if !arguments.iter().any(|argument| argument == option || argument.starts_with(&given)) {
@@ -129,7 +136,7 @@ fn within(arguments: &mut [String], option: &str, folder: &str) {
     }
 }
 
-/// The value of `option`, empty without one, and the other arguments.
+/// Returns the value of `option`, empty if it is missing, and the other arguments.
 fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>) {
     let given = format!("{option}=");
     let (mut value, mut rest, mut is_value) = ("", Vec::new(), false);
@@ -146,8 +153,8 @@ fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>)
 }
 
 fn schemas() -> ExitCode {
-    for (package, example) in [("cdpr-robot", "robot_schema"), ("cdpr-study", "study_schema")] {
-        let code = cargo(&["run", "--quiet", "--package", package, "--example", example]);
+    for example in ["robot_schema", "study_schema"] {
+        let code = cargo(&["run", "--quiet", "--example", example]);
         if code != ExitCode::SUCCESS {
             return code;
         }

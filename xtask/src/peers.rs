@@ -1,7 +1,8 @@
-//! `cargo xtask bench-peers`: the same direct problem and the same observations solved by cdpr and by other solvers.
+//! `cargo xtask bench-peers`: the same direct problem and observations, solved by cdpr and by other programs.
 //!
-//! `crates/cdpr-statics/examples/peer_problem.rs` writes the problem with cdpr's answers and times; each program in
-//! `xtask/peers` reads it and answers `{version, solver, direct_us, direct_position, observation_us, displacements}`.
+//! `crates/cdpr-statics/examples/peer_problem.rs` writes the problem with the answers and times of cdpr. Each
+//! program in `xtask/peers` reads it and prints `version`, `solver`, `direct_us`, `direct_position`,
+//! `observation_us` and `displacements` as JSON.
 
 #![allow(clippy::print_stdout)]
 
@@ -10,23 +11,23 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-/// Largest accepted distance between a peer's position and cdpr's [mm].
+/// Largest accepted distance between the positions of a peer and of cdpr [mm].
 const AGREEMENT_MM: f64 = 1e-6;
 
 /// A way to solve the problem outside of cdpr.
 struct Peer {
     /// Name of the program in the result file.
     name: &'static str,
-    /// What to install.
+    /// Packages to install.
     packages: &'static str,
-    /// Succeeds where all of that is installed.
+    /// Command that succeeds if these are installed.
     probe: &'static [&'static str],
-    /// Makes the program, if it needs that.
+    /// Command that builds the program, empty if there is nothing to build.
     build: &'static [&'static str],
     run: &'static [&'static str],
 }
 
-/// What a peer found.
+/// The answer of a peer.
 struct Answer {
     direct_us: f64,
     observation_us: f64,
@@ -81,7 +82,7 @@ const OCTAVE: &str = "octave-cli";
 const PROBLEM: &str = "target/peers/problem.json";
 const RESULT: &str = "target/bench-peers.json";
 
-/// All solvers; the result file holds the first of each name.
+/// All peers; of several with one name, the result file holds the first that is installed.
 const PEERS: [Peer; 5] = [
     Peer {
         name: "ceres",
@@ -94,7 +95,7 @@ const PEERS: [Peer; 5] = [
         name: "ceres",
         packages: CERES_PACKAGES,
         probe: &CERES_PROBE,
-        // Built already.
+        // The peer before has built it.
         build: &[],
         run: &[CERES, PROBLEM],
     },
@@ -135,14 +136,15 @@ pub(crate) fn bench() -> ExitCode {
     }
 }
 
-/// Runs all that is installed, prints the table, writes the result file; the largest difference [mm].
+/// Runs all installed peers, prints the table and writes the result file; returns the largest difference
+/// [mm].
 fn compare() -> Result<f64, String> {
     let folder = root().join("target/peers");
     std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let problem = root().join(PROBLEM);
     eprintln!("cdpr: building and running");
     let path = problem.display().to_string();
-    let example = ["run", "--quiet", "--package", "cdpr-statics", "--example", "peer_problem"];
+    let example = ["run", "--quiet", "--example", "peer_problem"];
     if cargo(&[&example[..], &["--", &path]].concat()) != ExitCode::SUCCESS {
         return Err("the example peer_problem of cdpr-statics has failed".to_owned());
     }
@@ -197,7 +199,7 @@ fn compare() -> Result<f64, String> {
     failure.map_or(Ok(agreement), Err)
 }
 
-/// A line of the table: `answer` and how many times `ours` its times are.
+/// A line of the table: the times of `answer`, also as multiples of `ours`.
 fn row(name: &str, answer: &Value, ours: &Value, difference: Option<f64>) -> Result<String, String> {
     let (direct, observation) = (number(answer, "direct_us")?, number(answer, "observation_us")?);
     Ok(format!(
@@ -228,7 +230,7 @@ fn distance(a: &Value, b: &Value) -> Result<f64, String> {
     let mut squares = 0.0;
     for k in 0..3 {
         let (Some(a), Some(b)) = (a[k].as_f64(), b[k].as_f64()) else {
-            return Err(format!("{a} beside {b}, where two points belong"));
+            return Err(format!("{a} beside {b}, expected two points"));
         };
         squares += (a - b) * (a - b);
     }
@@ -239,7 +241,7 @@ fn number(answer: &Value, field: &str) -> Result<f64, String> {
     answer[field].as_f64().ok_or_else(|| format!("no number `{field}` in {answer}"))
 }
 
-/// To the nanosecond.
+/// Time rounded to a nanosecond.
 fn rounded(microseconds: f64) -> Value {
     json!((1e3 * microseconds).round() / 1e3)
 }
@@ -249,10 +251,10 @@ fn read(path: &Path) -> Result<Value, String> {
     serde_json::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// What a command prints, run in the repository on one thread.
+/// Standard output of a command that runs in the repository on one thread.
 fn output(command: &[&str]) -> Result<String, String> {
     let (program, arguments) = command.split_first().ok_or("no command")?;
-    // A path with a folder is one of the repository; a plain name is looked up.
+    // A path with a folder is relative to the repository; the system looks up a plain name.
     let program = if program.contains('/') { root().join(program) } else { program.into() };
     let mut command = Command::new(&program);
     command.args(arguments).current_dir(root());

@@ -1,4 +1,5 @@
-//! `cargo xtask scaling`: time and memory of `cdpr study throughput` over the number of observations and of threads.
+//! `cargo xtask scaling`: time and memory of `cdpr study throughput` over the number of observations and of
+//! threads.
 
 #![allow(clippy::print_stdout)]
 
@@ -9,10 +10,10 @@ use std::process::{ExitCode, Stdio};
 
 const RESULT: &str = "target/scaling.json";
 
-/// From here on a study has as many blocks under way, and keeps as many outputs, as it ever will.
+/// Number of observations from which on a larger study needs no more memory.
 const STEADY: u64 = 100_000;
 
-/// Largest accepted peak memory beside that of [`STEADY`] observations.
+/// Largest accepted ratio of peak memory to that of [`STEADY`] observations.
 const GROWTH: f64 = 1.1;
 
 /// The line that `cdpr study throughput` prints.
@@ -88,8 +89,10 @@ fn measure(most: u64) -> Result<Vec<Vec<Run>>, String> {
     Ok(all)
 }
 
-/// A line of the table. What the observations beyond those of the run `before` take is free of the fits of laws, which take the same
-/// time for any larger number.
+/// Prints a line of the table.
+///
+/// The time of each added observation is the difference to the run `before`: it does not contain the fits of
+/// laws, which take the same time for any larger number.
 fn print(run: &Run, before: Option<&Run>) {
     let Run { observations, threads, wall_s, us_per_observation_core, peak_memory_mib, .. } = run;
     let added = before.map(|before| {
@@ -102,7 +105,7 @@ fn print(run: &Run, before: Option<&Run>) {
     );
 }
 
-/// The largest peak memory from [`STEADY`] observations on, beside that of [`STEADY`] observations.
+/// Largest peak memory of more than [`STEADY`] observations, relative to that of [`STEADY`] observations.
 fn growth(runs: &[Run]) -> Option<f64> {
     let mut memories =
         runs.iter().filter(|run| run.observations >= STEADY).filter_map(|run| run.peak_memory_mib);
@@ -140,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn memory_grows_only_where_it_does_beyond_the_steady_state() {
+    fn growth_is_the_ratio_of_peak_memory_beyond_the_steady_state() {
         assert_eq!(growth(&[run(1_000, 1.0), run(STEADY, 4.0), run(10 * STEADY, 5.0)]), Some(1.25));
         assert_eq!(growth(&[run(1_000, 1.0), run(STEADY, 4.0)]), None);
     }

@@ -3,6 +3,7 @@
 use cdpr_report::{Points, histogram, point_effects, report, shares, signed_effects, surface};
 use cdpr_study::{Results, StudySummary};
 use serde_json::json;
+use std::collections::{BTreeMap, BTreeSet};
 
 const PLOTLY: &str = include_str!("../vendor/plotly/plotly-gl3d.min.js");
 
@@ -22,24 +23,32 @@ fn attributes<'a>(html: &'a str, name: &str) -> Vec<&'a str> {
 fn every_figure_of_the_study_is_in_the_report_with_the_bytes_of_its_file() {
     let results = crate::common::caroca(|_, _| ());
     let html = page(&results);
-    let mut samplings = Vec::new();
+    let (mut samplings, mut drawn) = (Vec::new(), BTreeMap::new());
     for (name, study) in &results.summary.studies {
         match study {
             StudySummary::Sampling(sampling) => {
-                assert!(html.contains(&histogram(sampling).unwrap()), "{name}");
-                assert!(html.contains(&signed_effects(sampling, 20).unwrap()), "{name}_effects");
-                assert!(html.contains(&shares(sampling, 12).unwrap()), "{name}_sensitivity");
+                drawn.insert(name.clone(), histogram(sampling).unwrap());
+                drawn.insert(format!("{name}_effects"), signed_effects(sampling, 20).unwrap());
+                drawn.insert(format!("{name}_sensitivity"), shares(sampling, 12).unwrap());
                 samplings.push((name.as_str(), sampling.as_ref()));
             }
             StudySummary::Surface(summary) => {
-                assert!(html.contains(&surface(summary, &results.surfaces[name]).unwrap()), "{name}");
+                drawn.insert(name.clone(), surface(summary, &results.surfaces[name]).unwrap());
             }
             StudySummary::Poses(_) => unreachable!("CAROCA's study has none"),
         }
     }
-    for points in [Points::Anchor, Points::Exit] {
-        assert!(html.contains(&point_effects(&results.study.robot, &samplings, points).unwrap()));
+    for (name, points) in [("anchor_points", Points::Anchor), ("exit_points", Points::Exit)] {
+        drawn.insert(name.to_owned(), point_effects(&results.study.robot, &samplings, points).unwrap());
     }
+    for (name, svg) in &drawn {
+        assert!(svg.starts_with("<svg") && html.contains(svg.as_str()), "{name}");
+    }
+    // Three figures of each sampling, two surfaces, both sets of points; the robot is drawn in space.
+    assert_eq!(drawn.len(), 3 * 3 + 2 + 2);
+    let named: BTreeSet<_> =
+        attributes(&html, "id").into_iter().filter_map(|id| id.strip_prefix("figure-")).collect();
+    assert_eq!(named, drawn.keys().map(String::as_str).chain(["robot"]).collect());
     assert!(html.contains("id=\"plot-robot\"") && html.contains("id=\"plot-surface_E_rho\""));
 }
 

@@ -16,7 +16,8 @@ pub fn end_force([weight_per_length, axial_stiffness, length, x, z]: [f64; 5]) {
     }
 }
 
-/// `w, EA, L, x, z, T_1, κ_0, κ_1`: an equilibrium on a law of two pieces with an honest residual, or a typed error.
+/// `w, EA, L, x, z, T_1, κ_0, κ_1`: an equilibrium on a law of two pieces with an honest residual, or a typed
+/// error.
 pub fn law([weight_per_length, axial_stiffness, length, x, z, kink, soft, stiff]: [f64; 8]) {
     let segments = [Segment { tension: 0.0, ratio: soft }, Segment { tension: kink, ratio: stiff }];
     let law = match PiecewiseLaw::new(0.0, &segments) {
@@ -97,8 +98,8 @@ pub fn catenary([weight_per_length, axial_stiffness, unstrained_length, fx, fz, 
     }
 }
 
-/// Magnitudes (SI) between which no product of a few overflows and no quotient: what is asked of a catenary has an
-/// answer there. Beyond, the functions that check their inputs refuse them.
+/// Magnitudes (SI) between which no product of a few overflows and no quotient: what is asked of a catenary
+/// has an answer there. Beyond, the functions that check their inputs refuse them.
 const SMALLEST: f64 = 1e-30;
 const LARGEST: f64 = 1e30;
 
@@ -116,7 +117,8 @@ fn honest(solution: &Solution, cable: &Cable, end: Vector2<f64>) {
         );
         return;
     }
-    // What the sums of the end position are made of: the cable, its stretch by tension and weight, the wanted end.
+    // What the sums of the end position are made of: the cable, its stretch by tension and weight, the wanted
+    // end.
     let strain = (catenary.anchor_tension() + catenary.weight()) / cable.axial_stiffness;
     let size = catenary.unstrained_length * (1.0 + strain) + end.norm();
     let open = (catenary.end_position() - end).norm();

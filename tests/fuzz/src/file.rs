@@ -10,7 +10,8 @@ use std::path::Path;
 /// More cables than this make a robot file slow to answer for, not wrong.
 const MOST_CABLES: usize = 24;
 
-/// A robot file is refused, or holds a robot that writes itself, and that the models answer for in numbers or in words.
+/// A robot file is refused, or holds a robot that writes itself, and that the models answer for in numbers or
+/// in words.
 pub fn robot(text: &str) {
     let robot = match Robot::from_json(text) {
         Ok(robot) => robot,

@@ -51,7 +51,8 @@ const MARKS: [f64; 16] = [
     1e-300,
 ];
 
-/// Varies `N` doubles in place: a case of the references instead, or one to three numbers scaled, nudged, copied, redrawn.
+/// Varies `N` doubles in place: a case of the references instead, or one to three numbers scaled, nudged,
+/// copied, redrawn.
 pub fn numbers<const N: usize>(
     data: &mut [u8],
     size: usize,

@@ -1,7 +1,8 @@
-//! The figures of one run: what criterion has written, and what callgrind counts.
+//! The figures of one run: times that criterion has written, and instruction counts by callgrind.
 //!
-//! Times depend on what else the machine does. Instruction counts do not: callgrind counts, in criterion's test mode, what a benchmark's
-//! one call of its function `counted` executes. Valgrind knows no AVX-512, so the lanes are counted on AVX2.
+//! Times depend on the load of the machine. Instruction counts do not: in criterion's test mode each
+//! benchmark calls its function `counted` once, and callgrind counts the instructions of that call. Valgrind
+//! does not support AVX-512, so the lanes are counted on AVX2.
 
 use crate::cargo::{cargo_command, root};
 use serde::de::DeserializeOwned;
@@ -27,9 +28,7 @@ pub(crate) enum BenchError {
     Json { path: PathBuf, source: serde_json::Error },
     #[error("no benchmark has run: arguments are those of criterion, such as a part of a name")]
     NothingRun,
-    #[error(
-        "{target}: {benchmarks} benchmarks, but {counts} calls of `counted`: each benchmark has to call it once"
-    )]
+    #[error("{target}: {benchmarks} benchmarks, but {counts} calls of `counted`: each has to call it once")]
     Uncounted { target: String, benchmarks: usize, counts: usize },
 }
 
@@ -41,7 +40,7 @@ pub(crate) struct Run {
     pub(crate) benchmarks: Vec<Benchmark>,
 }
 
-/// What figures depend on besides the program.
+/// The circumstances that figures depend on besides the program.
 #[derive(Debug, Deserialize, Serialize)]
 pub(crate) struct Machine {
     date: String,
@@ -67,7 +66,7 @@ pub(crate) struct Benchmark {
     pub(crate) instructions: Option<u64>,
 }
 
-/// Runs all benchmarks that the arguments choose.
+/// Runs the benchmarks that the arguments choose.
 pub(crate) fn measure(arguments: &[String]) -> Result<Run, BenchError> {
     let machine = Machine::this();
     let begin = SystemTime::now();
@@ -98,7 +97,7 @@ pub(crate) fn measure(arguments: &[String]) -> Result<Run, BenchError> {
     Ok(Run { machine, benchmarks })
 }
 
-/// Adds what criterion has written below `folder` since `begin`, each with its time of writing.
+/// Adds the results that criterion has written below `folder` since `begin`, each with its time of writing.
 fn read_results(
     folder: &Path,
     begin: SystemTime,
@@ -158,7 +157,7 @@ fn read_results(
     Ok(())
 }
 
-/// Benchmarks and the instructions of one call, by callgrind.
+/// Counts the instructions of one call of each benchmark by callgrind.
 fn count_instructions(arguments: &[String]) -> Result<Vec<(String, u64)>, BenchError> {
     let build = ["bench", "--workspace", "--bench", "*", "--no-run", "--quiet", "--message-format", "json"];
     let messages = output("cargo", &mut cargo_command(&build))?;
@@ -183,7 +182,7 @@ fn count_instructions(arguments: &[String]) -> Result<Vec<(String, u64)>, BenchE
         command.env_clear().env("PATH", "/usr/local/bin:/usr/bin:/bin").env("CRITERION_HOME", &folder);
         let printed = output("valgrind", command.arg(executable).args(arguments))?;
         let names: Vec<&str> = printed.lines().filter_map(|line| line.strip_prefix("Testing ")).collect();
-        // One numbered file a call.
+        // Each call has a numbered file.
         let mut parts = Vec::new();
         for part in (1..).map(|number| folder.join(format!("{target}.{number}"))) {
             if !part.exists() {
@@ -200,7 +199,7 @@ fn count_instructions(arguments: &[String]) -> Result<Vec<(String, u64)>, BenchE
     Ok(counts)
 }
 
-/// All instructions of a file of callgrind.
+/// Number of instructions in a file of callgrind.
 fn total(file: &str) -> Option<u64> {
     file.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok())
 }
@@ -239,7 +238,7 @@ pub(crate) fn read<T: DeserializeOwned>(path: &Path) -> Result<T, BenchError> {
     serde_json::from_str(&text).map_err(|source| BenchError::Json { path: path.to_owned(), source })
 }
 
-/// What a command prints.
+/// Standard output of a command.
 fn output(program: &'static str, command: &mut Command) -> Result<String, BenchError> {
     let output = command.output().map_err(|source| BenchError::Start { program, source })?;
     if output.status.success() {
