@@ -63,6 +63,8 @@ fn sources() -> BTreeMap<String, PathBuf> {
 fn documented_floors() -> BTreeMap<String, String> {
     let block =
         ARCHITECTURE.split("\n## Modules\n").nth(1).and_then(|rest| rest.split("```").nth(1)).unwrap();
+    // A floor may go on in lines that are indented further.
+    let block = block.replace("\n        ", " ");
     let mut floors: BTreeMap<String, String> = BTreeMap::new();
     let mut name = "";
     for line in block.lines().skip(1) {
@@ -82,9 +84,7 @@ fn no_more_than_two_files_of_a_crate_import_from_each_other_in_a_circle() {
         let circles = floors::circles(&Crate::read(folder).imports());
         circles.iter().map(|circle| format!("{name} has {circle}\n")).collect::<String>()
     };
-    let documented = documented_floors();
-    let found: String =
-        sources().iter().filter(|(name, _)| documented.contains_key(*name)).map(circles).collect();
+    let found: String = sources().iter().map(circles).collect();
     assert!(found.is_empty(), "{found}");
 }
 
@@ -97,8 +97,7 @@ fn each_module_imports_from_the_floors_below_it_alone() {
         let (modules, imports) = (sources.modules(), sources.imports());
         let breaches = match documented.get(&name) {
             Some(list) => Floors::parse(list).breaches(&modules, &imports),
-            // Its list is still to come.
-            None => continue,
+            None => vec!["docs/ARCHITECTURE.md has no list of its modules".to_owned()],
         };
         if !breaches.is_empty() {
             let today = floors::suggestion(&Module::new(), &modules, &imports).replace('\n', "\n    ");
@@ -114,9 +113,7 @@ fn each_module_imports_from_the_floors_below_it_alone() {
 #[test]
 fn at_most_sixteen_files_stand_side_by_side() {
     let mut files: BTreeMap<PathBuf, usize> = BTreeMap::new();
-    let documented = documented_floors();
-    let crates = sources().into_iter().filter(|(name, _)| documented.contains_key(name));
-    for file in crates.flat_map(|(_, folder)| rust_files(&folder)) {
+    for file in sources().values().flat_map(|folder| rust_files(folder)) {
         *files.entry(file.parent().unwrap().to_owned()).or_default() += 1;
     }
     files.retain(|_, count| *count > 16);

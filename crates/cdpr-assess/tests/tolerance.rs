@@ -69,7 +69,7 @@ fn tension_offsets_alone_move_the_platform_in_proportion() {
     assert!(wide.least_mm < 1e-6 && wide.now.quantile_mm.low > 0.05, "{wide:?}");
     let ratio = wide.now.quantile_mm.value / narrow.now.quantile_mm.value;
     assert!((ratio - 2.0).abs() < 1e-3, "{ratio}");
-    // What equation (2) predicts from exact derivatives is what a narrower sample reaches.
+    // A narrower sample reaches what equation (B2) predicts from exact derivatives.
     assert!((wide.tolerances[0].halved_mm / narrow.now.quantile_mm.value - 1.0).abs() < 0.03, "{wide:?}");
 }
 

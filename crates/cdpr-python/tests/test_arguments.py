@@ -159,7 +159,7 @@ def test_what_does_not_fit_in_memory_raises():
         SobolDesign(many, 2**32).rows()
     with pytest.raises(MemoryError, match="does not fit in memory"):
         MorrisDesign(dict(list(many.items())[:1000]), 2**32, seed=1).rows()
-    message = "blocks = 4294967296: expected fewer, whose points fit in memory"
+    message = "blocks = 4294967296: their points do not fit in memory, ask for fewer"
     with pytest.raises(cdpr.InputError, match=message):
         SaltelliDesign(dict(list(many.items())[:1000]), 2**32)
 

@@ -68,7 +68,7 @@ pub enum SensitivityError {
     EqualMassNeedsUniform,
     /// The first point of the unscrambled sequence is all zeros, where the law of this input is infinite.
     #[error(
-        "input `{name}` has no lower end, but point 0 of the sequence is 0: start at index 1 or scramble"
+        "input `{name}` is unbounded below, but point 0 of the sequence is 0: start at index 1 or scramble"
     )]
     UnboundedAtZero {
         /// Name of the input.

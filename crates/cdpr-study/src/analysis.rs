@@ -1,4 +1,4 @@
-//! What observations say.
+//! Analysis of observations: statistics, laws, effects, comparison with published figures.
 
 pub(crate) mod comparison;
 pub(crate) mod extremes;

@@ -1,4 +1,4 @@
-//! What can go wrong with a study.
+//! Errors of studies.
 
 use crate::names::MARK_NAME;
 use cdpr_cable::RecordError;
@@ -7,7 +7,7 @@ use cdpr_sensitivity::SensitivityError;
 use cdpr_statics::StaticsError;
 use std::path::PathBuf;
 
-/// Why a study could not be read, run or written. A failed observation is none of these: it is a result.
+/// Why a study could not be read, run or written. A failed observation is not an error but a result.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// A file could not be read.
@@ -15,10 +15,10 @@ pub enum StudyError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         source: std::io::Error,
     },
-    /// A file could not be written, or a folder not made.
+    /// A file could not be written, or a folder could not be made.
     #[error("cannot write {path}: {source}: expected a place where files can be made")]
     Write {
         /// The file or folder.
@@ -26,7 +26,7 @@ pub enum StudyError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// The text is no study file.
+    /// The text is not a study file.
     #[error("{path}: {source}")]
     Format {
         /// The file.
@@ -34,7 +34,7 @@ pub enum StudyError {
         /// Place and reason.
         source: JsonError,
     },
-    /// The robot file is none.
+    /// The robot file is invalid.
     #[error("{path}: {source}")]
     Robot {
         /// The file.
@@ -42,7 +42,7 @@ pub enum StudyError {
         /// Place and reason.
         source: RobotError,
     },
-    /// The text is no load-elongation record.
+    /// The text is not a load-elongation record.
     #[error("{path}: {source}")]
     Record {
         /// The file.
@@ -50,17 +50,17 @@ pub enum StudyError {
         /// Line and reason.
         source: RecordError,
     },
-    /// A failure of these, with its place in the study file.
+    /// One of these errors, with its place in the study file.
     #[error("{source} (line {line}, column {column})")]
     At {
         /// Line in the file, from 1.
         line: usize,
         /// Column in that line.
         column: usize,
-        /// What is wrong there.
+        /// The error at this place.
         source: Box<StudyError>,
     },
-    /// A value that no study can have.
+    /// An invalid value in a study.
     #[error("{path}: {field} is {value}: expected {expected}")]
     Invalid {
         /// The file.
@@ -84,24 +84,24 @@ pub enum StudyError {
         /// The reason.
         source: Box<StaticsError>,
     },
-    /// A block that is not what was written: it is made again where a study runs.
+    /// A damaged block. A run makes it again.
     #[error("{path} is damaged: {reason}")]
     DamagedBlock {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The damage.
         reason: String,
     },
-    /// A block of another study, or of another place in this one.
+    /// A block of another study, or from another place in this one.
     #[error("{path} is of {field} {found}: expected {expected}; remove it, or use another folder")]
     ForeignBlock {
         /// The file.
         path: PathBuf,
-        /// What tells them apart.
+        /// The field that differs.
         field: &'static str,
-        /// What the block says.
+        /// Its value in the block.
         found: String,
-        /// What belongs there.
+        /// The expected value.
         expected: String,
     },
     /// A folder with the blocks of another study.
@@ -119,7 +119,7 @@ pub enum StudyError {
         /// Version of this program, which is part of the hash.
         version: &'static str,
     },
-    /// A folder with blocks, and nobody has said what is to become of them.
+    /// A folder with blocks, without instructions to resume or to overwrite them.
     #[error("{folder} holds {blocks} blocks of this study")]
     FolderInUse {
         /// The folder.
@@ -127,7 +127,7 @@ pub enum StudyError {
         /// Blocks in it.
         blocks: usize,
     },
-    /// A file that no run has written stands where one would write.
+    /// A file that no run has written is in the way.
     #[error(
         "{path} was not written by a run, which would write over it: choose another folder (one of results has a file {})",
         MARK_NAME
@@ -141,23 +141,23 @@ pub enum StudyError {
     MissingBlocks {
         /// The folder.
         folder: PathBuf,
-        /// Blocks that are not there.
+        /// Number of missing blocks.
         missing: usize,
         /// Blocks of the whole study.
         blocks: usize,
-        /// The first that is not there.
+        /// The first missing block.
         first: PathBuf,
     },
-    /// The results of a study that nothing has analysed yet.
+    /// The results have not been analysed yet.
     #[error("{folder} has no summary.json")]
     NotAnalysed {
         /// The folder.
         folder: PathBuf,
     },
-    /// It was asked to end.
+    /// The run was asked to end.
     #[error("stopped: blocks of a study that are done are kept, and a run that resumes goes on with them")]
     Stopped,
-    /// A law, its steps or a design that is none.
+    /// An invalid law, step or design.
     #[error("{path}: {field}: {source}")]
     Statistics {
         /// The file.
@@ -167,7 +167,7 @@ pub enum StudyError {
         /// The reason.
         source: SensitivityError,
     },
-    /// A setting that no run or test can have.
+    /// An invalid setting of a run or test.
     #[error("{field} is {value}: expected {expected}")]
     Setting {
         /// The setting.
@@ -187,7 +187,7 @@ pub enum StudyError {
         /// The error that is reached [mm].
         reached_mm: f64,
     },
-    /// A quantile of an error that too many robots do not have.
+    /// A quantile of an error that too many robots fail to have.
     #[error("no equilibrium at the wanted pose for {what}: expected tolerances under which robots hold it{}", because(source.as_deref()))]
     Unobservable {
         /// The robots.
@@ -195,7 +195,7 @@ pub enum StudyError {
         /// The reason, of a single robot.
         source: Option<Box<StaticsError>>,
     },
-    /// The robot holds hardly any pose of a region.
+    /// The robot has feasible tensions at hardly any pose of a region.
     #[error(
         "poses is {wanted}: expected at most as many as the robot holds, but of {drawn} poses drawn {found} are held in a stable \
          equilibrium, {infeasible} are infeasible and {unstable} unstable"
@@ -207,9 +207,9 @@ pub enum StudyError {
         found: usize,
         /// Poses drawn.
         drawn: usize,
-        /// Those that the inverse model has no answer for.
+        /// Poses without an answer of the inverse model.
         infeasible: usize,
-        /// Those whose equilibrium the direct model does not stay at.
+        /// Poses from whose equilibrium the direct model moves away.
         unstable: usize,
     },
 }
@@ -219,12 +219,12 @@ fn because(source: Option<&StaticsError>) -> String {
 }
 
 impl StudyError {
-    /// Whether what was asked for is wrong, and no file.
+    /// Whether the error is in the settings and not in a file.
     pub fn is_argument(&self) -> bool {
         matches!(self, Self::Setting { .. })
     }
 
-    /// With the place of the field in the study file's text, where it has one.
+    /// The error with the place of its field in the study file's text, if it has one.
     pub(crate) fn placed(self, text: &str) -> Self {
         let place = match &self {
             Self::Invalid { field, .. } | Self::Nominal { field, .. } | Self::Statistics { field, .. } => {
@@ -238,7 +238,7 @@ impl StudyError {
         }
     }
 
-    /// A setting that no run or test can have: its name, its value and what would be right.
+    /// An invalid setting of a run or test: its name, its value, and what is expected.
     pub fn setting(field: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Self {
         Self::Setting { field: field.into(), value: value.to_string(), expected: expected.into() }
     }

@@ -18,5 +18,5 @@ pub(crate) const TIMINGS_NAME: &str = "timings.json";
 /// Name of the report in a folder of results.
 pub const REPORT_NAME: &str = "report.html";
 
-/// Name of the file by which a folder of results is known: what is called `study.json` elsewhere is a user's own.
+/// Name of the file that marks a folder of results. In any other folder a `study.json` belongs to the user.
 pub(crate) const MARK_NAME: &str = "cdpr-results.txt";

@@ -1,4 +1,4 @@
-//! Observations: made, shared out and counted.
+//! Making, sharing out and counting observations.
 
 pub(crate) mod observation;
 pub(crate) mod plan;

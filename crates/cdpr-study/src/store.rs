@@ -1,4 +1,4 @@
-//! What has been observed, kept on disk block by block.
+//! Observations on disk, block by block.
 
 pub(crate) mod block;
 pub(crate) mod blocks;

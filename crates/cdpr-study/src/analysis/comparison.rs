@@ -1,7 +1,7 @@
 //! Published figures beside the computed ones.
 //!
-//! The rule: a number is *reproduced* if it lies within half of the published figure's last digit plus 1 % of it; a word if it
-//! is the same. Nothing else decides.
+//! The rule: a number is *reproduced* if it lies within half of the published figure's last digit plus 1 % of
+//! it; a word is reproduced if it is the same. There is no other criterion.
 
 use crate::analysis::part::StudySummary;
 use crate::analysis::sampling::SamplingSummary;
@@ -12,7 +12,7 @@ use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Whether a published figure comes out.
+/// Whether a published figure is reproduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// Within the rule.
@@ -37,19 +37,19 @@ impl fmt::Display for Verdict {
 pub struct ComparisonRow {
     /// Where it is published.
     pub figure: String,
-    /// What it is, in words.
+    /// The quantity, in words.
     pub quantity: String,
     /// Name of the sampling or surface it was computed from.
     pub study: String,
     /// The published figure.
     pub paper: Value,
-    /// Ours.
+    /// The computed figure.
     pub computed: Value,
     /// Unit of both; empty for a word.
     pub unit: String,
     /// Whether they agree.
     pub verdict: Verdict,
-    /// What the study file says of it.
+    /// Note from the study file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Extremes over the positions that are held, and where they are [m].
+/// Extremes over the positions with feasible tensions, and the positions of the extremes [m].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// Least value.
@@ -16,7 +16,7 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Of values and their positions; none of none.
+    /// The extremes of values with their positions; `None` without values.
     pub fn of(values: impl Iterator<Item = (f64, [f64; 3])>) -> Option<Self> {
         values.fold(None, |found, (value, at)| {
             let mut all = found.unwrap_or(Self { min: value, min_at: at, max: value, max_at: at });

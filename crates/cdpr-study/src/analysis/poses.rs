@@ -1,5 +1,6 @@
-//! What a sampling at several poses says: a row a pose, and what they say together. Laws, replicates and measures of sensitivity, which a
-//! sampling at one pose has, would take longer than the observations and are not made.
+//! Analysis of a sampling at several poses: a row for each pose, and a summary of all. Laws, replicates and
+//! measures of sensitivity, which a sampling at one pose has, would take longer than the observations and are
+//! not computed.
 
 use crate::analysis::extremes::Extremes;
 use crate::error::StudyError;
@@ -14,10 +15,11 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// [`PoseRow::status`] of a pose that the nominal robot holds.
+/// [`PoseRow::status`] of a pose at which the nominal robot has feasible tensions.
 pub const HELD: &str = "held";
 
-/// A pose as it stands in `NAME.csv`: position [m], rotation as a unit quaternion, RMS [mm]. What does not exist is empty.
+/// A row of `NAME.csv`: position [m], rotation as a unit quaternion, RMS [mm]. Values that do not exist are
+/// empty.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs)]
 pub struct PoseRow {
@@ -32,7 +34,7 @@ pub struct PoseRow {
     pub qz: f64,
     /// [`HELD`], or the kind of failure of the nominal robot.
     pub status: String,
-    /// Observations, failed ones included; none of a pose that is not held.
+    /// Number of observations, failed ones included; 0 for a pose without feasible tensions.
     pub observations: usize,
     pub failed: usize,
     /// Of the nominal robot.
@@ -49,11 +51,12 @@ pub struct PoseRow {
     pub dominant_t: Option<f64>,
     /// Mean RMS in the upper half of its range minus that in the lower half [mm].
     pub dominant_effect_mm: Option<f64>,
-    /// Why the pose is not held.
+    /// Why the nominal robot has no feasible tensions there.
     pub reason: Option<String>,
 }
 
-/// What all poses of a sampling say; serialised into `summary.json`, beside which `NAME.csv` has a row a pose.
+/// Summary of all poses of a sampling, serialised into `summary.json`. `NAME.csv` beside it has a row for
+/// each pose.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PosesSummary {
@@ -61,15 +64,15 @@ pub struct PosesSummary {
     pub title: String,
     /// Number of poses.
     pub poses: usize,
-    /// The grid they are on, if it is one.
+    /// The grid of the poses, if they are on one.
     pub grid: Option<Grid>,
     /// Number of poses by status.
     pub status: BTreeMap<String, usize>,
-    /// Observations of all poses that are held, failed ones included.
+    /// Observations of all poses with feasible tensions, failed ones included.
     pub observations: usize,
     /// Failed observations by kind.
     pub failed: BTreeMap<String, usize>,
-    /// Mean of the RMS [mm]; this and the next are absent where no pose has one.
+    /// Mean of the RMS [mm]; this and the next are absent if no pose has one.
     pub mean_mm: Option<Extremes>,
     /// Its standard deviation [mm].
     pub std_mm: Option<Extremes>,
@@ -77,14 +80,16 @@ pub struct PosesSummary {
     pub dominant: BTreeMap<String, usize>,
 }
 
-/// Poses that are under way at a time: more than there are threads, for poses of few observations; few enough to be held in memory.
+/// Poses that are under way at a time: more than threads, for poses with few observations, but few enough for
+/// the memory.
 const AT_A_TIME: usize = 64;
 
-/// Makes what is missing of a sampling at several poses and summarises it; rows are in the order of the poses. `observe` makes the
-/// observations of one of them: [`crate::observe`], say. A pose that the nominal robot does not hold is a row with the reason.
+/// Makes the missing observations of a sampling at several poses and summarises them; rows are in the order
+/// of the poses. `observe`, such as [`crate::observe`], makes the observations of one pose. A pose at which
+/// the nominal robot has no feasible tensions is a row with the reason.
 ///
 /// # Errors
-/// Those of `observe`; [`StudyError::Invalid`] for a sampling that has not several poses.
+/// Those of `observe`; [`StudyError::Invalid`] for a sampling without several poses.
 pub fn observe_poses(
     study: &Study,
     name: &str,
@@ -160,7 +165,7 @@ impl PosesSummary {
         }
     }
 
-    /// Poses that the nominal robot holds.
+    /// Poses at which the nominal robot has feasible tensions.
     pub fn held(&self) -> usize {
         self.status.get(HELD).copied().unwrap_or(0)
     }

@@ -1,4 +1,4 @@
-//! What a sampling says: summary, fitted laws, effects.
+//! Analysis of a sampling: summary, fitted laws, effects.
 
 use crate::analysis::sensitivity::{SensitivitySummary, measure};
 use crate::error::StudyError;
@@ -35,9 +35,10 @@ pub struct SamplingSummary {
     /// Least and greatest modulus of the cables' law at the tensions of pose and load [GPa], where the error model asks for them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub operating_moduli_gpa: Option<[f64; 2]>,
-    /// Fitted laws by ascending AIC; none where they cannot be fitted.
+    /// Fitted laws by ascending AIC; empty where they cannot be fitted.
     pub fits: Vec<FitSummary>,
-    /// Family preferred by AIC: the least, or the most common of those that the sample supports alike (within 2).
+    /// Family preferred by AIC: the one of least AIC, or the most common one of those whose AIC is within 2
+    /// of it.
     pub best_fit: Option<Family>,
     /// Histogram of the RMS [mm].
     pub histogram: Option<Histogram>,
@@ -145,12 +146,13 @@ impl From<Fit> for FitSummary {
     }
 }
 
-/// Analyses the observations of a sampling. The replicates behind the intervals of signed effects and the measures of
-/// sensitivity are run here, in the same session. What cannot be computed from too few observations is left out and named in
-/// [`SamplingSummary::notes`]; so is how many observations quantiles, histogram and laws rest on, where these are not all.
+/// Analyses the observations of a sampling. The replicates for the intervals of signed effects and the
+/// measures of sensitivity run here, in the same session. Statistics that need more observations are left
+/// out; [`SamplingSummary::notes`] names them, and says on how many observations quantiles, histogram and
+/// laws rest if these are not all.
 ///
 /// # Errors
-/// Those of the session's blocks; none of a session in memory.
+/// Those of the session's blocks; a session in memory has no errors.
 pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<SamplingSummary, StudyError> {
     let settings = &sampling.study.file;
     let mut notes = Vec::new();
@@ -226,7 +228,7 @@ impl RmsSummary {
     }
 }
 
-/// Signed effects, or why there are none: an error of the statistics is a note, one of the session ends the run.
+/// Signed effects, or a note that explains why they cannot be computed. An error of the session ends the run.
 fn signed_effects(
     sampling: &Sampling,
     session: &Session,

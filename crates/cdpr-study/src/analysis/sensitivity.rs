@@ -1,5 +1,5 @@
-//! Measures of sensitivity beside each other: what each says of every input of a sampling, what it rests on, and what they
-//! agree on. The output is the RMS of the static deflection [mm].
+//! Measures of sensitivity beside each other: the value of each for every input of a sampling, the
+//! observations on which it rests, and where they agree. The output is the RMS of the static deflection [mm].
 //!
 //! | method | says | rests on |
 //! |---|---|---|
@@ -34,19 +34,19 @@ use std::time::Instant;
 /// Measures of all inputs of a sampling; serialised into `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SensitivitySummary {
-    /// What the measures say, one an input, in the order of the parameter vector.
+    /// Values of the measures for each input, in the order of the parameter vector.
     pub inputs: Vec<InputMeasures>,
-    /// What each method rests on; without those of which a note says why they have failed.
+    /// The basis of each method; methods that failed are named in the notes instead.
     pub methods: IndexMap<String, MethodSummary>,
     /// Sums of each share of the variance over the inputs of a group (`a`, `b`, `mass`, ...), and over all of them (`all`).
     pub sums: IndexMap<String, IndexMap<String, f64>>,
-    /// What the measures agree on.
+    /// Where the measures agree.
     pub agreement: Agreement,
     /// What could not be measured, and why.
     pub notes: Vec<String>,
 }
 
-/// What the measures say of one input; `None` of a method that has failed.
+/// Values of the measures for one input; `None` for a method that has failed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InputMeasures {
     /// Name of the input.
@@ -65,7 +65,7 @@ pub struct InputMeasures {
     pub morris_mean_absolute_mm: Option<f64>,
     /// Deviation of its elementary effects [mm].
     pub morris_std_mm: Option<f64>,
-    /// Bound on its total index from derivatives; none for a law without a known constant.
+    /// Bound on its total index from derivatives; `None` for a law without a known constant.
     pub dgsm_total_bound: Option<f64>,
     /// Index of the first order of the chaos expansion.
     pub expansion_first: Option<f64>,
@@ -85,7 +85,7 @@ pub struct InputMeasures {
     pub sobol_total_high: Option<f64>,
 }
 
-/// What a method rests on, and how well it explains the output.
+/// The observations on which a method rests, and how well it explains the output.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MethodSummary {
     /// Observations made, failed ones included; each with its derivatives for `derivatives` and `dgsm`.
@@ -113,7 +113,7 @@ pub struct Agreement {
     pub first: usize,
     /// Inputs that every measure below puts above zero and among its `first` largest.
     pub inputs: Vec<String>,
-    /// The measures compared: one of each method that has not failed.
+    /// The measures compared, one for each method that has not failed.
     pub measures: Vec<String>,
     /// Spearman's rank correlation over all inputs, of each of these measures with each; `None` with one that does not vary.
     pub rank_correlation: Vec<Vec<Option<f64>>>,
@@ -122,7 +122,7 @@ pub struct Agreement {
 /// A measure by the name of its field.
 pub type Measure = (&'static str, fn(&InputMeasures) -> Option<f64>);
 
-/// What inputs are ranked by, one a method.
+/// The measures by which inputs are ranked, one for each method.
 pub const RANKED: [Measure; 8] = [
     ("t_student", |input| input.t_student),
     ("derivative_share", |input| input.derivative_share),
@@ -148,7 +148,7 @@ pub const SHARES: [Measure; 7] = [
 /// Most inputs that count as leading.
 const LEADING: usize = 10;
 
-/// What a method needs.
+/// The data of a method.
 struct Run<'a> {
     sampling: &'a Sampling<'a>,
     spec: &'a SensitivitySpec,
@@ -157,7 +157,7 @@ struct Run<'a> {
     session: &'a Session<'a>,
 }
 
-/// Fills in its fields of all inputs, unless it fails.
+/// Fills in the fields of a method for all inputs, unless it fails.
 type Method = fn(&Run, &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>>;
 
 const METHODS: [(&str, Method); 8] = [
@@ -179,7 +179,7 @@ const METHODS: [(&str, Method); 8] = [
 /// named in [`SensitivitySummary::notes`].
 ///
 /// # Errors
-/// Those of the session's blocks; none of a session in memory.
+/// Those of the session's blocks; a session in memory has no errors.
 pub fn measure(
     sampling: &Sampling,
     spec: &SensitivitySpec,
@@ -199,7 +199,7 @@ pub fn measure(
                     MethodSummary { seconds: clock.elapsed().as_secs_f64(), ..summary },
                 );
             }
-            // What keeps observations from being made is nothing to be noted: the run ends.
+            // An error that prevents observations is not a note: it ends the run.
             Err(error) => match error.downcast::<StudyError>() {
                 Ok(error) => return Err(*error),
                 Err(error) => notes.push(format!("{name}: {error}")),

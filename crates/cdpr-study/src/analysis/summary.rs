@@ -1,4 +1,4 @@
-//! Everything that a study found.
+//! All results of a study.
 
 use crate::analysis::comparison::{ComparisonRow, compare};
 use crate::analysis::part::StudySummary;
@@ -6,7 +6,7 @@ use crate::model::study::Study;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
-/// Everything a study found; `summary.json`.
+/// All results of a study; `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Name of the study.
@@ -26,7 +26,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Of a study whose samplings and surfaces gave these results.
+    /// The summary of a study from the results of its samplings and surfaces.
     pub fn new(study: &Study, studies: IndexMap<String, StudySummary>) -> Self {
         Self {
             study: study.file.name.clone(),

@@ -150,7 +150,7 @@ impl Default for SensitivitySpec {
 }
 
 impl SensitivitySpec {
-    /// The first setting that is none: field, value, and what would be right.
+    /// The first invalid setting: field, value, and what is expected.
     pub(crate) fn invalid(&self) -> Option<(&'static str, String, String)> {
         const MOST: usize = 1 << 20;
         let Truncation { max_degree, norm, interactions } = self.expansion;

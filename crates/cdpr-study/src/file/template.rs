@@ -1,4 +1,4 @@
-//! A study of one's own robot to begin with: a file that runs as it is, whose numbers are for the user to replace.
+//! The first study of a user's own robot: a file that runs as it is, and whose numbers the user replaces.
 
 use crate::error::StudyError;
 use cdpr_robot::{Pose, Robot, Vector3};
@@ -24,11 +24,13 @@ The study runs as it is. Replace by what you know of your robot:
   seed                   same seed, same numbers
 All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE --out results";
 
-/// A study file for `robot`, which its text calls `robot_path`. Without a position, one above the middle of the exit points that the
-/// robot holds; without a payload, a tenth of its mass [kg].
+/// A study file for `robot`, in which `robot_path` names the robot file. Without a position it takes one on
+/// the vertical through the middle of the exit points, with feasible tensions; without a payload it takes a
+/// tenth of the platform's mass [kg].
 ///
 /// # Errors
-/// [`StudyError::Setting`] for a position that the robot does not hold with the payload, or if none was found.
+/// [`StudyError::Setting`] for a position without feasible tensions under the payload, or if no position was
+/// found.
 pub fn template(
     robot: &Robot,
     robot_path: &str,
@@ -115,10 +117,12 @@ pub fn template(
     ))
 }
 
-/// Writes text of [`template`] to a new file; `text` is told how the file has to call the robot's.
+/// Writes the text of [`template`] to a new file; `text` gets the path by which the file names the robot
+/// file.
 ///
 /// # Errors
-/// [`StudyError::Write`], of a file that is there among others; [`StudyError::Read`] of the robot's; those of `text`.
+/// [`StudyError::Write`], also if the file exists already; [`StudyError::Read`] of the robot file; those of
+/// `text`.
 pub fn write_template(
     path: &Path,
     robot: &Path,
@@ -154,7 +158,8 @@ fn candidates(robot: &Robot) -> Vec<[f64; 3]> {
     shares.map(|share| [middle.x, middle.y, low + share * (high - low)].map(centimetres)).into()
 }
 
-/// Mean tension [N] of the nominal robot at a position, if it holds it with and without the payload [kg].
+/// Mean tension [N] of the nominal robot at a position, if tensions are feasible with and without the payload
+/// [kg].
 fn tension(robot: &Robot, position: [f64; 3], payload: f64) -> Result<f64, cdpr_statics::StaticsError> {
     let [x, y, z] = position;
     let offsets = vec![0.0; robot.cables.len()];

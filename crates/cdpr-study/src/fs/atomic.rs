@@ -1,4 +1,4 @@
-//! Files that are whole or not there: written beside their place under a name of their own, then renamed.
+//! Files that are either whole or absent: written under a temporary name beside their place, then renamed.
 
 use crate::error::StudyError;
 use crate::fs::files::remove_stale;
@@ -8,11 +8,12 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
-/// How the names of files begin that are being written.
+/// Prefix of the names of unfinished files.
 const UNFINISHED: &str = ".cdpr-";
 
-/// A file that takes its name when it is finished; one that is not leaves nothing behind, unless the process is killed. It is locked
-/// meanwhile, by which other processes tell what is being written from what was left.
+/// A file that takes its name when it is finished. An unfinished one leaves nothing behind, unless the
+/// process is killed. It is locked while it is written: other processes recognise leftovers by the missing
+/// lock.
 pub(crate) struct AtomicFile {
     path: PathBuf,
     file: BufWriter<NamedTempFile>,
@@ -39,7 +40,7 @@ impl AtomicFile {
         }
     }
 
-    /// What a failure to write to it is.
+    /// The error of a failure to write to the file.
     pub(crate) fn unwritten(&self, source: std::io::Error) -> StudyError {
         StudyError::Write { path: self.path.clone(), source }
     }
@@ -60,7 +61,7 @@ impl AtomicFile {
         }
     }
 
-    /// The same, and it is on the disk when this returns.
+    /// The same, and the file is on the disk when this returns.
     ///
     /// # Errors
     /// [`StudyError::Write`].
@@ -93,7 +94,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Whether a file is one that is being written, or was when its process was killed.
+/// Whether a file is unfinished: being written, or left by a killed process.
 pub(crate) fn is_unfinished(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(UNFINISHED))
 }
@@ -103,7 +104,7 @@ pub(crate) fn is_unfinished(path: &Path) -> bool {
 /// # Errors
 /// [`StudyError::Write`].
 pub(crate) fn remove_unfinished(path: PathBuf) -> Result<(), StudyError> {
-    // One that cannot be opened may be somebody else's.
+    // A file that cannot be opened may belong to somebody else.
     let Ok(file) = File::options().write(true).open(&path) else { return Ok(()) };
     if file.try_lock().is_err() {
         return Ok(());

@@ -16,7 +16,7 @@ pub fn check_folder(folder: &Path) -> Result<(), StudyError> {
     tempfile::tempfile_in(folder).map_err(write).map(|_| ())
 }
 
-/// Removes a file of an earlier run, which what is to come would no longer belong to, if there is one.
+/// Removes a file of an earlier run, if it exists, because it would not belong to the new results.
 ///
 /// # Errors
 /// [`StudyError::Write`].
@@ -88,7 +88,7 @@ pub(crate) fn read(path: &Path) -> Result<String, StudyError> {
 /// Reads and checks a robot file.
 ///
 /// # Errors
-/// [`StudyError::Read`]; [`StudyError::Robot`] naming file, field, value and what would be right.
+/// [`StudyError::Read`]; [`StudyError::Robot`] naming file, field, value and what is expected.
 pub fn open_robot(path: &Path) -> Result<Robot, StudyError> {
     let robot = Robot::from_json(&read(path)?);
     robot.map_err(|source| StudyError::Robot { path: path.to_owned(), source })

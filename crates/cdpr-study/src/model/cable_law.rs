@@ -23,7 +23,7 @@ impl CableLaw {
         Ok(Self { section, loading: segments(Phase::Loading)?, unloading: Some(unloading) })
     }
 
-    /// The first value that no law has: field, value, and what would be right.
+    /// The first invalid value: field, value, and what is expected.
     pub(crate) fn invalid(&self) -> Option<(String, String, &'static str)> {
         let positive = |field: String, value: f64, expected| {
             let sound = value.is_finite() && value > 0.0;
@@ -55,7 +55,8 @@ impl CableLaw {
     /// Both curves of a cable, in proportion to its modulus.
     ///
     /// # Errors
-    /// [`CableError::InvalidInput`] for tensions or moduli that no law has, or that are out of all proportion to the cable's.
+    /// [`CableError::InvalidInput`] for invalid tensions or moduli, and for moduli out of proportion to the
+    /// cable's.
     pub fn curves(&self, cable: &CableProperties, from: Unloading) -> Result<HysteresisLaw, CableError> {
         let Self { section, loading, unloading } = self;
         let scale = cable.section / section;
@@ -80,7 +81,7 @@ impl CableLaw {
 /// Reads and checks a law file.
 ///
 /// # Errors
-/// [`StudyError::Read`], [`StudyError::Format`]; [`StudyError::Invalid`] for a law that no cable can have.
+/// [`StudyError::Read`], [`StudyError::Format`]; [`StudyError::Invalid`] for an invalid law.
 pub fn open_law(path: &Path) -> Result<CableLaw, StudyError> {
     let text = read(path)?;
     let file: LawFile =

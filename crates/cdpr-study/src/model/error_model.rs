@@ -3,12 +3,13 @@
 //! A *cause* is an input whose value x is added to one parameter or, with a factor f, to several:
 //!
 //! ```text
-//! deviation_p = sum over the causes c of p:  f_cp x_c                      (1)
-//! d y / d x_c = sum over the parameters p of c:  f_cp dy/dp                 (2)
+//! deviation_p = sum over the causes c of p:  f_cp x_c                      (M1)
+//! d y / d x_c = sum over the parameters p of c:  f_cp dy/dp                (M2)
 //! ```
 //!
-//! Two exit points on one pulley block share the error of the block, a cause of both, beside the error that each has of its own. Their deviations are
-//! correlated by `var_block / (var_block + var_own)`, while the causes stay independent: every measure of sensitivity holds for them, and names what an
+//! Two exit points on one pulley block share the error of the block, which is a cause of both, beside an
+//! error of their own. Their deviations are correlated by `var_block / (var_block + var_own)`, whereas the
+//! causes are independent. Therefore every measure of sensitivity holds for the causes, and names what an
 //! engineer can change.
 
 use crate::error::StudyError;
@@ -20,17 +21,18 @@ use indexmap::IndexMap;
 /// The causes of an error model, for robots with a given number of cables.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorModel {
-    /// One a cause: parameters in the order of the parameter vector, then causes of several parameters in that of the file.
+    /// One input for each cause: parameters in the order of the parameter vector, then causes of several
+    /// parameters in the order of the file.
     pub inputs: Vec<Input>,
     /// Entry of the error model that each input comes from.
     pub entries: Vec<String>,
-    /// What the inputs are added to.
+    /// The parameters to which the inputs are added.
     pub terms: Vec<Term>,
     /// Length of the parameter vector.
     parameters: usize,
 }
 
-/// A term of equation (1).
+/// A term of equation (M1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
     /// Number of the input.
@@ -159,7 +161,7 @@ impl ErrorModel {
         self.parameters
     }
 
-    /// Equation (1): the deviation of each parameter for each of `rows`, vectors one after the other.
+    /// Equation (M1): the deviation of each parameter for each of `rows`, vectors one after the other.
     pub fn deviations(&self, rows: &[f64]) -> Vec<f64> {
         let inputs = self.inputs.len();
         let mut deviations = vec![0.0; rows.len() / inputs * self.parameters];
@@ -171,7 +173,7 @@ impl ErrorModel {
         deviations
     }
 
-    /// Equation (2): derivatives with respect to the inputs from those with respect to the parameters.
+    /// Equation (M2): derivatives with respect to the inputs from those with respect to the parameters.
     pub fn gradient(&self, slopes: &[f64]) -> Vec<f64> {
         let mut gradient = vec![0.0; self.inputs.len()];
         for Term { input, place, factor } in &self.terms {

@@ -19,14 +19,14 @@ const MOST: usize = 4_000_000;
 /// Exit points that differ by less than this share of the frame's size along an axis lie in a plane across it.
 const FLAT: f64 = 0.1;
 
-/// What is wrong with the places along an axis, or with all of them: axis, value, what would be right.
+/// An invalid axis or grid: axis, value, what is expected.
 pub(crate) type Wrong = (Option<char>, String, String);
 
 impl Grid {
     /// From the places along x, y and z.
     ///
     /// # Errors
-    /// [`StudyError::Setting`] for places that are none, and for more positions than fit in memory.
+    /// [`StudyError::Setting`] for invalid coordinates, and for more positions than fit in memory.
     pub fn new([x, y, z]: [GridAxis; 3]) -> Result<Self, StudyError> {
         Self::of(&GridSpec { x, y, z }).map_err(|(axis, value, expected)| {
             let field = axis.map_or("grid".to_owned(), |axis| format!("grid along {axis}"));
@@ -96,7 +96,7 @@ impl Grid {
         }
     }
 
-    /// The axis across, if the grid is a plane: the only one with one place.
+    /// The normal axis if the grid is a plane: the only axis with a single coordinate.
     pub fn normal(&self) -> Option<Axis> {
         let mut across = [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|axis| self.axis(*axis).points == 1);
         across.next().filter(|_| across.next().is_none())
@@ -107,7 +107,7 @@ impl Grid {
         self.x.points * self.y.points * self.z.points
     }
 
-    /// The level pose at a position, by its number from 0 on.
+    /// The level pose at a position, by its index.
     pub fn pose(&self, number: usize) -> Pose {
         let (column, k) = (number / self.z.points, number % self.z.points);
         Pose::at(self.x.place(column / self.y.points), self.y.place(column % self.y.points), self.z.place(k))

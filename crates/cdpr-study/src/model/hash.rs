@@ -1,15 +1,15 @@
-//! What tells one study from another.
+//! The hash by which a study is recognised.
 
 use crate::error::StudyError;
 use crate::model::study::Study;
 use cdpr_robot::Robot;
 
 impl Study {
-    /// Hash of everything that decides what is observed: robot, error models, poses, payload, seed, version of the program. Names, titles, the
-    /// numbers of observations and what is made of them leave it as it is.
+    /// Hash of everything that determines the observations: robot, error models, poses, payload, seed,
+    /// version of the program. Names, titles, numbers of observations and statistics do not enter.
     ///
     /// # Errors
-    /// None that a study which was read can have.
+    /// A study that was read successfully has no errors here.
     pub fn hash(&self) -> Result<String, StudyError> {
         let mut file = self.file.clone();
         (file.name, file.source, file.robot) = Default::default();

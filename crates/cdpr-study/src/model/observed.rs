@@ -1,10 +1,10 @@
-//! What an observation gives: a displacement, or the reason why there is none.
+//! The result of an observation: a displacement, or the reason of its failure.
 
 use cdpr_robot::Vector3;
 use cdpr_statics::StaticsError;
 use std::collections::BTreeMap;
 
-/// The displacement dp [m] of an observation, or why there is none.
+/// The displacement dp [m] of an observation, or the reason of its failure.
 pub type Observed = Result<Vector3<f64>, Failure>;
 
 /// Why an observation failed.

@@ -1,14 +1,15 @@
-//! Young's modulus where a robot works: that of its cables' law between their tensions under own weight and with the load.
+//! Young's modulus at the operating point: the secant modulus of the cables' law between the tensions under
+//! own weight and with the load.
 //!
-//! Tensions differ from cable to cable, and a law from its way there to its way back: with E_i that of the robot file for cable i, the deviation
-//! from it lies between
+//! Tensions differ from cable to cable, and a law differs between loading and unloading. With E_i the modulus
+//! of cable i in the robot file, the deviation from it lies between
 //!
 //! ```text
 //! min over i and both ways of E_i(T_own weight .. T_load) - E_i     and the greatest of these,
 //! ```
 //!
-//! where E_i(..) is the secant modulus between the two tensions, that of the way back at the same tensions. The uniform law of an entry, that of the measurement,
-//! is added to both ends.
+//! where E_i(..) is the secant modulus between the two tensions, for unloading at the same tensions. The
+//! uniform law of an entry, which stands for the measurement, is added to both ends.
 
 use crate::file::study_file::InputSpec;
 use crate::model::error_model::Wrong;
@@ -20,8 +21,8 @@ use indexmap::IndexMap;
 /// Least and greatest secant modulus of all cables [Pa].
 pub(crate) type Moduli = [f64; 2];
 
-/// The error model whose deviations are all from the robot file, and the moduli at the operating point where an entry asks for
-/// them. Without a deflection of the nominal robot entries are looked at alone.
+/// The error model with all deviations relative to the robot file, and the moduli at the operating point if
+/// an entry asks for them. Without a deflection of the nominal robot the entries are only checked.
 pub(crate) fn resolved(
     model: &IndexMap<String, InputSpec>,
     robot: &Robot,

@@ -1,5 +1,5 @@
-//! Samplings at several poses. Each pose is a sampling of its own, `NAME/0000`, `NAME/0001`, ..., with blocks and a table of its own; what
-//! they say together is in [`crate::PosesSummary`].
+//! Samplings at several poses. Each pose is a sampling of its own, `NAME/0000`, `NAME/0001`, ..., with blocks
+//! and a table of its own; [`crate::PosesSummary`] summarises them.
 
 use crate::error::StudyError;
 use crate::file::study_file::{PoseSpec, PosesSpec, SamplingSpec};
@@ -16,7 +16,7 @@ pub(crate) enum PoseSet<'a> {
 }
 
 impl PoseSet<'_> {
-    /// Number of poses; none of a sampling at one.
+    /// Number of poses; `None` for a sampling at one pose.
     pub(crate) fn several(&self) -> Option<usize> {
         match self {
             Self::One(_) => None,
@@ -65,7 +65,7 @@ impl Study {
     /// The poses of a sampling.
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for none, or no grid.
+    /// [`StudyError::Invalid`] for an empty list or an invalid grid.
     pub(crate) fn poses<'a>(&self, name: &str, spec: &'a SamplingSpec) -> Result<PoseSet<'a>, StudyError> {
         let field = format!("samplings.{name}");
         match (&spec.pose, &spec.poses) {
@@ -97,10 +97,10 @@ impl Study {
         }
     }
 
-    /// Looks up what a sampling is called in the study file, what stands there, its pose, and the field of that.
+    /// Looks up a sampling in the study file: its name there, its entry, its pose, and the field of the pose.
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for a name or pose that is none.
+    /// [`StudyError::Invalid`] for an unknown name or an invalid pose.
     pub(crate) fn located(&self, name: &str) -> Result<Located<'_>, StudyError> {
         let (entry, suffix) = name.split_once('/').map_or((name, None), |(entry, rest)| (entry, Some(rest)));
         let (entry, spec) = self.entry(entry)?;
@@ -133,7 +133,7 @@ impl Study {
         })
     }
 
-    /// Each pose is one; that there is an equilibrium is another question.
+    /// Each pose is valid; whether it has an equilibrium is another question.
     pub(crate) fn check_poses(&self, name: &str, set: &PoseSet) -> Result<(), StudyError> {
         let PoseSet::List(list) = set else { return Ok(()) };
         let field = |number| format!("samplings.{name}.poses.list[{number}]");

@@ -4,9 +4,10 @@
 //! its tensions are offset by dt_i and the unstrained lengths computed for the offset tensions; the direct model runs on the
 //! perturbed robot with those lengths, under its own weight and with the payload added; dp is the difference (Eq. (4)).
 //!
-//! Observations are made in blocks of consecutive indices, which a [`Session`] may keep on disk, and these in parts, one a thread. What
-//! is kept of a part in memory are sums, which are merged in the order of the indices: memory does not grow with the observations, and
-//! the numbers depend neither on the threads nor on what was on disk already.
+//! Observations are made in blocks of consecutive indices, which a [`Session`] may keep on disk, and blocks
+//! in parts, one for each thread. Only the sums of a part stay in memory; they are merged in the order of the
+//! indices. Memory does not grow with the observations, and the numbers depend neither on the threads nor on
+//! the blocks that existed before.
 
 use crate::error::StudyError;
 use crate::model::designs::{OWN, Points};
@@ -22,10 +23,11 @@ use std::ops::Range;
 /// Observations of a part of a block.
 const PART: usize = 256;
 
-/// Outputs that are kept for quantiles and histogram: the first ones.
+/// Number of outputs, from the first on, that are kept for quantiles and histogram.
 pub const KEPT: usize = 1 << 16;
 
-/// Outputs that laws are fitted to, the first ones: each of the bootstrap's resamples is as long.
+/// Number of outputs, from the first on, to which laws are fitted; each resample of the bootstrap has as
+/// many.
 pub const FITTED: usize = 1 << 13;
 
 /// Consecutive observations with their inputs.
@@ -35,31 +37,31 @@ pub struct Part {
     pub first: usize,
     /// Values of the inputs of each observation, one after the other.
     pub rows: Vec<f64>,
-    /// For each observation what was observed, or why nothing was.
+    /// Result of each observation.
     pub outcomes: Vec<Observed>,
 }
 
-/// Where observations are kept, and who is told of them.
+/// Where observations are kept, and who is notified of them.
 #[derive(Clone, Copy)]
 pub struct Session<'a> {
-    /// Blocks on disk: what is there is not made again, what is made is kept. `None` keeps nothing.
+    /// Blocks on disk: existing ones are not made again, new ones are kept. `None` keeps nothing.
     pub blocks: Option<&'a Blocks>,
-    /// Told how many more observations are there.
+    /// Called with the number of new observations.
     pub tick: &'a (dyn Fn(usize) + Sync),
-    /// Told of each damaged block, which is made again.
+    /// Called for each damaged block, which is made again.
     pub warn: &'a (dyn Fn(&StudyError) + Sync),
-    /// Asked before each block whether to end there.
+    /// Called before each block; true ends the run.
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Session<'static> {
-    /// Nothing is kept and nobody told.
+    /// A session that keeps nothing and notifies nobody.
     pub fn in_memory() -> Self {
         Self { blocks: None, tick: &|_| (), warn: &|_| (), stop: &|| false }
     }
 }
 
-/// What all observations of a sampling add up to.
+/// The sums over all observations of a sampling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tally {
     /// Sums behind moments and effects of the RMS [mm].
@@ -105,12 +107,13 @@ impl Tally {
 /// Makes all observations of a sampling in parallel.
 ///
 /// # Errors
-/// Those of the session's blocks; [`StudyError::Stopped`]; none of a session in memory.
+/// Those of the session's blocks, and [`StudyError::Stopped`]; a session in memory has no others.
 pub fn observe(sampling: &Sampling, session: &Session) -> Result<Tally, StudyError> {
     observe_into(sampling, session, |_| (), |()| Ok(()))
 }
 
-/// The same, and hands what `each` makes of every part, in parallel, to `sink` in the order of the indices. Ends where `sink` fails.
+/// The same. `each` runs on every part in parallel, and its results go to `sink` in the order of the indices.
+/// Ends if `sink` fails.
 ///
 /// # Errors
 /// As [`observe`], and that of `sink`.
@@ -164,7 +167,8 @@ pub(crate) fn observe_rms(
     Ok(all)
 }
 
-/// What `observed` says of each row of a design, in parallel and in the order of the rows, from some rows at a time that follow one another.
+/// The result of `observed` for each row of a design, computed in parallel for some consecutive rows at a
+/// time, in the order of the rows.
 pub fn observe_rows<T: Send>(
     design: &impl SampleDesign,
     observed: impl Fn(&mut [f64]) -> Vec<T> + Sync,
@@ -188,7 +192,8 @@ fn observe_design<T: Send>(
     Ok(())
 }
 
-/// What `each` makes of the parts of a block. Observations that are on disk are taken from there; if there are others, the block is written.
+/// The results of `each` for the parts of a block. Observations on disk are read; if others have to be made,
+/// the block is written.
 pub(crate) fn observe_block<T: Send>(
     sampling: &Sampling,
     (name, design): (&str, &dyn Points),
@@ -221,7 +226,7 @@ pub(crate) fn observe_block<T: Send>(
     Ok(made)
 }
 
-/// A part of a design, the first observations of which may be known.
+/// A part of a design, whose first observations may be known already.
 fn observe_part(sampling: &Sampling, design: &dyn Points, range: Range<usize>, known: &[Observed]) -> Part {
     let rows = draw(design, range.clone());
     let unknown = &rows[known.len() * sampling.errors.inputs.len()..];

@@ -1,4 +1,4 @@
-//! The blocks of a study in their order: what shards and the processes of a parallel run share out.
+//! The blocks of a study in their order, which shards and the processes of a parallel run share out.
 
 use crate::error::StudyError;
 use crate::model::designs::{Design, Points};
@@ -10,8 +10,9 @@ use crate::store::block;
 use crate::store::blocks::Place;
 use std::ops::Range;
 
-/// All blocks of a study, numbered from 0 on: of each design of each pose of each sampling in turn. Those of poses that nothing holds are
-/// numbered, too, and empty: that such a pose is one need not be known to share the others out.
+/// All blocks of a study, numbered from 0: those of each design, for each pose, for each sampling in turn.
+/// Blocks of poses without feasible tensions are numbered, too, and stay empty: the blocks can be shared out
+/// without solving any pose.
 #[derive(Clone, Debug)]
 pub struct Plan<'a> {
     study: &'a Study,
@@ -25,7 +26,7 @@ struct PlanPart<'a> {
     name: &'a str,
     poses: PoseSet<'a>,
     designs: Vec<(Design, usize)>,
-    /// Number of its first block.
+    /// Index of its first block.
     first: usize,
     /// Blocks of each pose.
     of_pose: usize,
@@ -38,7 +39,7 @@ pub(crate) struct Planned<'a> {
     /// Name of the sampling at one pose.
     pub(crate) sampling: String,
     pub(crate) design: Design,
-    /// Number in the design.
+    /// Index in the design.
     pub(crate) number: usize,
     /// Indices of its observations.
     pub(crate) range: Range<usize>,
@@ -48,7 +49,7 @@ impl<'a> Plan<'a> {
     /// The plan of a study.
     ///
     /// # Errors
-    /// None that a study which was read can have.
+    /// A study that was read successfully has no errors here.
     pub fn new(study: &'a Study) -> Result<Self, StudyError> {
         let mut plan = Self { study, parts: Vec::new(), blocks: 0 };
         for (name, spec) in &study.file.samplings {
@@ -70,12 +71,12 @@ impl<'a> Plan<'a> {
         self.of_shard(shard).filter_map(|block| self.block(block)).map(|block| block.range.len()).sum()
     }
 
-    /// Numbers of the blocks of a shard.
+    /// Indices of the blocks of a shard.
     fn of_shard(&self, shard: Shard) -> impl Iterator<Item = usize> {
         (0..self.blocks).filter(move |block| shard.has(*block))
     }
 
-    /// The block of a number.
+    /// The block with an index.
     pub(crate) fn block(&self, block: usize) -> Option<Planned<'a>> {
         let part = self.parts.iter().rfind(|part| part.first <= block)?;
         let (pose, mut rest) = ((block - part.first) / part.of_pose, (block - part.first) % part.of_pose);
@@ -92,26 +93,27 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Makes blocks, in any order; what neighbours have in common is kept from one to the next.
+/// Makes blocks in any order. Data that neighbours share are kept from one to the next.
 pub struct BlockMaker<'a> {
     plan: &'a Plan<'a>,
     session: Session<'a>,
-    /// None where nothing holds its pose.
+    /// `None` for a pose without feasible tensions.
     sampling: Option<(String, Option<Sampling<'a>>)>,
     design: Option<(Design, Box<dyn Points>)>,
 }
 
 impl<'a> BlockMaker<'a> {
-    /// For the blocks of a plan.
+    /// A maker of the blocks of a plan.
     pub fn new(plan: &'a Plan<'a>, session: Session<'a>) -> Self {
         Self { plan, session, sampling: None, design: None }
     }
 
-    /// Makes a block, by its number in the plan, unless it is on disk. Of a pose that nothing holds there is none.
+    /// Makes a block, by its index in the plan, unless it is on disk. A pose without feasible tensions has no
+    /// blocks.
     ///
     /// # Errors
-    /// [`StudyError::Setting`] for a number that is none, those of the session's blocks; [`StudyError::Statistics`] for a design that cannot
-    /// be made.
+    /// [`StudyError::Setting`] for an index outside the plan, those of the session's blocks;
+    /// [`StudyError::Statistics`] for a design that cannot be made.
     pub fn make(&mut self, block: usize) -> Result<(), StudyError> {
         let Some(Planned { sampling: name, design: kind, number, range, .. }) = self.plan.block(block) else {
             let expected = format!("less than {}, the number of blocks", self.plan.blocks);

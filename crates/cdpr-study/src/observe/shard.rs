@@ -11,18 +11,19 @@ pub struct Shard {
 
 const EXPECTED: &str = "i/n with i from 1 to n, or auto/n in task i of an array of n";
 
-/// Where schedulers tell a task its number. HyperQueue's tasks run within jobs of Slurm.
+/// Variables in which schedulers number their tasks. HyperQueue's tasks run within jobs of Slurm.
 const TASK: [&str; 2] = ["HQ_TASK_ID", "SLURM_ARRAY_TASK_ID"];
 
 impl Shard {
-    /// `i/n`, the `i`-th of `n` shards, from 1 on; or `auto/n`, of which a variable of the environment says `i`: `HQ_TASK_ID` of HyperQueue's
-    /// task arrays or `SLURM_ARRAY_TASK_ID` of Slurm's job arrays, with tasks from 1 to `n`.
+    /// Parses `i/n`, the `i`-th of `n` shards, counted from 1; or `auto/n`, for which a variable of the
+    /// environment gives `i`: `HQ_TASK_ID` of HyperQueue's task arrays or `SLURM_ARRAY_TASK_ID` of Slurm's
+    /// job arrays, with tasks from 1 to `n`.
     ///
-    /// How many there are is always said: an array of the tasks that have to be repeated knows of those alone. A variable alone makes no
-    /// shard: a run within a job is a whole run unless it is told otherwise.
+    /// The number `n` is always explicit, because an array of repeated tasks counts only these. A variable
+    /// alone makes no shard: a run within a job is a whole run unless a shard is requested.
     ///
     /// # Errors
-    /// [`StudyError::Setting`] for anything else, of the variable for a task that is none of `n`.
+    /// [`StudyError::Setting`] for any other text; it names the variable if the task is not one of `n`.
     pub fn parse(text: &str, variable: impl Fn(&str) -> Option<String>) -> Result<Self, StudyError> {
         let refused = || StudyError::setting("shard", text, EXPECTED);
         let (place, count) = text.split_once('/').ok_or_else(refused)?;
@@ -42,15 +43,15 @@ impl Shard {
         shard(&task).ok_or_else(|| StudyError::setting(name, format!("`{task}`"), expected()))
     }
 
-    /// Whether a block is in it, by its number in the whole study from 0 on.
+    /// Whether the shard has a block, by its index in the whole study.
     pub(crate) fn has(self, block: usize) -> bool {
         let (round, place) = (block / self.count, block % self.count);
         (place + mixed(round as u64) as usize % self.count) % self.count == self.index - 1
     }
 }
 
-/// A number without any pattern (splitmix64). Each round of blocks begins with another shard: else one of ten would have the top layer of all
-/// poses of a box with ten layers, of which perhaps none is held.
+/// A number without pattern (splitmix64). Each round of blocks begins with another shard. Otherwise one shard
+/// of ten would get the top layer of a box with ten layers, perhaps entirely without feasible tensions.
 fn mixed(number: u64) -> u64 {
     let z = number.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

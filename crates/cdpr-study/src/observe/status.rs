@@ -1,4 +1,4 @@
-//! How far a study in a folder of results is.
+//! Progress of a study in a folder of results.
 
 use crate::error::StudyError;
 use crate::model::designs::Design;
@@ -12,45 +12,47 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// How far a study is.
+/// Progress of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
     /// Name of the study.
     pub study: String,
     /// Its hash.
     pub hash: String,
-    /// Whether all blocks are there, so that it can be merged.
+    /// Whether all blocks exist, so that the study can be merged.
     pub complete: bool,
     /// Its samplings by name.
     pub samplings: IndexMap<String, SamplingStatus>,
 }
 
-/// How far a sampling is.
+/// Progress of a sampling.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SamplingStatus {
-    /// Its designs by name: its own, `sampling`, and those of replicates and measures. Of all poses, if it has several.
+    /// Its designs by name: its own, `sampling`, and those of replicates and measures; summed over all poses,
+    /// if it has several.
     pub designs: IndexMap<String, DesignStatus>,
-    /// Poses of several that the nominal robot does not hold: they have no blocks.
+    /// Poses at which the nominal robot has no feasible tensions, and which therefore have no blocks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poses_not_held: Option<usize>,
-    /// What its own observations that are there say of the RMS, wherever they are; none for fewer than two, or several poses.
+    /// Moments of the RMS over the existing observations of its own design; `None` for fewer than two, or for
+    /// several poses.
     pub provisional_rms_mm: Option<Provisional>,
 }
 
-/// How far a design is.
+/// Progress of a design.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct DesignStatus {
-    /// Blocks that are there and whole.
+    /// Blocks that exist and are whole.
     pub blocks_done: usize,
-    /// Blocks that are not, damaged ones among them.
+    /// Missing blocks, damaged ones included.
     pub blocks_missing: usize,
     /// Damaged blocks: each will be made again.
     pub damaged: Vec<PathBuf>,
-    /// Observations that are there.
+    /// Existing observations.
     pub observed: usize,
     /// Observations of the whole design.
     pub observations: usize,
-    /// Failed ones of those that are there, by kind.
+    /// Failed ones among the existing observations, by kind.
     pub failed: BTreeMap<String, usize>,
 }
 
@@ -63,7 +65,7 @@ pub struct Provisional {
     pub std: f64,
 }
 
-/// Reads all blocks of a study and says which are there.
+/// Reads all blocks of a study and reports its progress.
 ///
 /// # Errors
 /// [`StudyError::Read`]; [`StudyError::ForeignBlock`].
@@ -115,7 +117,7 @@ pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
     Ok(Status { study: study.file.name.clone(), hash: study.hash()?, complete, samplings })
 }
 
-/// Sees to it that all blocks of the study in `folder` are there.
+/// Checks that all blocks of the study in `folder` exist.
 ///
 /// # Errors
 /// [`StudyError::MissingBlocks`], damaged ones counted; as [`status`].
@@ -123,7 +125,8 @@ pub fn check_complete(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(
     check(folder, study, blocks, |_| true)
 }
 
-/// The same of the observations of one sampling, at one pose: neither others nor replicates and measures of sensitivity are looked at.
+/// The same for the observations of one sampling, at one pose; other samplings, replicates and measures of
+/// sensitivity do not matter.
 ///
 /// # Errors
 /// As [`check_complete`].
@@ -159,11 +162,12 @@ fn check(
     }
 }
 
-/// A block of a study and what of it is on disk.
+/// A block of a study and its state on disk.
 struct Seen<'a> {
     block: Planned<'a>,
     path: PathBuf,
-    /// What is there, or why it is damaged; none where nothing holds the pose, so that nothing is missing.
+    /// Its content, or why it is damaged; `None` for a pose without feasible tensions, where nothing is
+    /// missing.
     outcomes: Option<Result<Vec<Observed>, StudyError>>,
 }
 
@@ -175,7 +179,8 @@ fn visit(
     mut see: impl FnMut(Seen),
 ) -> Result<(), StudyError> {
     let plan = Plan::new(study)?;
-    // Of a pose that nothing holds no block is missing: looked at once a pose, and only where one is not there.
+    // A pose without feasible tensions lacks no block. This is checked once for each pose, and only if a
+    // block is missing.
     let mut held = (String::new(), true);
     let mut is_held = |block: &Planned| {
         if block.sampling != held.0 {

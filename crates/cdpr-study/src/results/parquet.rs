@@ -17,10 +17,10 @@ use parquet::schema::types::{Type, TypePtr};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Rows of a row group, which is in memory as a whole: those of four blocks.
+/// Rows of a row group, which is held in memory: those of four blocks.
 const GROUP: usize = 1 << 16;
 
-/// What is observed, beside status and reason.
+/// The observed quantities, beside status and reason.
 const OBSERVED: [&str; 4] = ["dx_mm", "dy_mm", "dz_mm", "rms_mm"];
 
 /// `NAME.parquet`, being written.
@@ -28,7 +28,7 @@ pub(crate) struct ParquetTable {
     path: PathBuf,
     writer: SerializedFileWriter<AtomicFile>,
     inputs: usize,
-    /// Rows of the group to come.
+    /// Rows of the next group.
     parts: Vec<Part>,
 }
 
@@ -103,11 +103,11 @@ fn schema(sampling: &Sampling) -> Result<TypePtr> {
     Type::group_type_builder("observations").with_fields(columns).build().map(Arc::new)
 }
 
-/// What the table is of, and the unit of each column that has one.
+/// The study of the table, and the unit of each column that has one.
 fn provenance(sampling: &Sampling, hash: String) -> Vec<KeyValue> {
     let parameters = Parameter::all(sampling.robot.cables.len());
     let inputs = sampling.design.inputs().iter().enumerate().filter_map(|(number, input)| {
-        // A cause of parameters in several units has none.
+        // A cause of parameters in different units has no unit.
         let mut terms = sampling.errors.terms.iter().filter(|term| term.input == number);
         let unit = parameters[terms.next()?.place].unit();
         let same = terms.all(|term| parameters[term.place].unit() == unit);

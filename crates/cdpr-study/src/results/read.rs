@@ -1,4 +1,4 @@
-//! A folder of results read back, for what is made of it afterwards.
+//! A folder of results read back, for reports and comparisons.
 
 use crate::analysis::part::StudySummary;
 use crate::analysis::poses::{PoseRow, PosesSummary};
@@ -14,7 +14,7 @@ use indexmap::IndexMap;
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
-/// Everything that a folder of results holds, but the observations.
+/// The content of a folder of results, except the observations.
 #[derive(Clone, Debug)]
 pub struct Results {
     /// The study with its robot, from `study.json`.
@@ -37,7 +37,7 @@ impl Results {
     /// Reads the folder that a run of a study has written.
     ///
     /// # Errors
-    /// [`StudyError`] naming the file that is missing or is none, with field and reason.
+    /// [`StudyError`] naming the missing or invalid file, with field and reason.
     pub fn read(folder: &Path) -> Result<Self, StudyError> {
         let path = folder.join(STUDY_NAME);
         let study_json = read(&path)?;

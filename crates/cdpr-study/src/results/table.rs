@@ -1,5 +1,5 @@
-//! Tables of the observations of a sampling: one row each, with the deviation of every parameter from its nominal value, dp, RMS,
-//! status and reason.
+//! Tables of the observations of a sampling. Each observation is a row with the deviation of every parameter
+//! from its nominal value, dp, RMS, status and reason.
 
 use crate::error::StudyError;
 use crate::fs::atomic::AtomicFile;
@@ -11,7 +11,7 @@ use cdpr_sensitivity::SampleDesign;
 use std::io::Write;
 use std::path::Path;
 
-/// What a table is written as.
+/// Format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableFormat {
     /// `NAME.csv`, for people and all programs.
@@ -44,7 +44,7 @@ enum Table {
 }
 
 impl TableFormat {
-    /// Rows of a part: in parallel, for it takes longer than the mechanics.
+    /// Rows of a part. They are formatted in parallel, because this takes longer than the mechanics.
     pub fn rows(self, part: &Part) -> Rows {
         Rows(match self {
             Self::Csv => Content::Csv(csv_rows(part)),
@@ -121,7 +121,7 @@ impl ObservationTable {
     }
 }
 
-/// Lines of text. Numbers need no quotes; what is said of a failure may.
+/// Lines of text. Numbers need no quotes; reasons of failures may need them.
 fn csv_rows(part: &Part) -> std::io::Result<Vec<u8>> {
     let mut text = Vec::new();
     let inputs = (part.rows.len() / part.outcomes.len().max(1)).max(1);

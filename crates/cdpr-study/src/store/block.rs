@@ -1,5 +1,5 @@
-//! The file of a block, `cdpr-block/1`: what was observed at consecutive indices of a design. The inputs are not in it: they follow
-//! from the design.
+//! The file of a block, `cdpr-block/1`: the observations at consecutive indices of a design. The inputs are
+//! not in it, because they follow from the design.
 //!
 //! ```text
 //! cdpr-block/1 CHECKSUM        BLAKE3, in hexadecimal digits, of all that follows this line
@@ -17,13 +17,13 @@ use std::ops::Range;
 /// Name and version of the format.
 pub(crate) const BLOCK_FORMAT: &str = "cdpr-block/1";
 
-/// Observations of a block, but for the last one of a design: the unit of work, of checkpoint and of reduction.
+/// Observations of a block, except the last one of a design: the unit of work, of saving and of summing.
 pub const BLOCK: usize = 16_384;
 
 /// Bytes of a displacement.
 const DISPLACEMENT: usize = 24;
 
-/// What a block is of.
+/// The header of a block.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BlockHeader {
@@ -43,17 +43,17 @@ pub(crate) struct BlockHeader {
     pub(crate) failed: BTreeMap<String, usize>,
 }
 
-/// The blocks of a design of so many points: number and range of indices.
+/// The blocks of a design with so many points: index of the block and indices of its points.
 pub(crate) fn blocks(points: usize) -> impl Iterator<Item = (usize, Range<usize>)> {
     (0..count(points)).map(move |number| (number, range(points, number)))
 }
 
-/// Number of blocks of a design of so many points.
+/// Number of blocks of a design with so many points.
 pub(crate) fn count(points: usize) -> usize {
     points.div_ceil(BLOCK)
 }
 
-/// Indices in the block of that number.
+/// Indices of the points in a block.
 pub(crate) fn range(points: usize, number: usize) -> Range<usize> {
     number * BLOCK..points.min((number + 1) * BLOCK)
 }
@@ -61,7 +61,7 @@ pub(crate) fn range(points: usize, number: usize) -> Range<usize> {
 /// The file of a block.
 ///
 /// # Errors
-/// Those of `serde_json`, which numbers and texts do not have.
+/// Those of `serde_json`, which do not occur for numbers and texts.
 pub(crate) fn encode(header: &BlockHeader, outcomes: &[Observed]) -> Result<Vec<u8>, serde_json::Error> {
     let mut body = serde_json::to_vec(header)?;
     body.push(b'\n');
@@ -82,7 +82,7 @@ pub(crate) fn encode(header: &BlockHeader, outcomes: &[Observed]) -> Result<Vec<
     Ok(file)
 }
 
-/// What the file of a block says, or why it is damaged.
+/// The content of a block's file, or why it is damaged.
 pub(crate) fn decode(file: &[u8]) -> Result<(BlockHeader, Vec<Observed>), String> {
     let (first, body) = line(file).ok_or("no line in it")?;
     let checksum = std::str::from_utf8(first)

@@ -11,7 +11,7 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// Where the blocks of a study are.
+/// The folder of a study's blocks.
 #[derive(Clone, Debug)]
 pub struct Blocks {
     /// Folder of the results.
@@ -19,11 +19,11 @@ pub struct Blocks {
     /// Folder of the blocks in it.
     folder: PathBuf,
     study: String,
-    /// Folders of tables of several poses, beside.
+    /// Folders of the tables of several poses, beside it.
     tables: Vec<PathBuf>,
 }
 
-/// Which block.
+/// Identity of a block.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<'a> {
     pub(crate) sampling: &'a str,
@@ -48,10 +48,10 @@ impl Blocks {
         folder.join(format!("{:06}.block", place.number))
     }
 
-    /// What is known of a block, from its first observation on. A damaged one is warned of, and nothing is known of it.
+    /// The known observations of a block, from the first on. A damaged block causes a warning and has none.
     ///
     /// # Errors
-    /// [`StudyError::Read`]; [`StudyError::ForeignBlock`] for one that belongs elsewhere.
+    /// [`StudyError::Read`]; [`StudyError::ForeignBlock`] for a block that belongs elsewhere.
     pub(crate) fn known(
         &self,
         place: &Place,
@@ -82,7 +82,7 @@ impl Blocks {
             found: found.to_owned(),
             expected: expected.to_owned(),
         };
-        // The version is looked at first: another one makes another hash, too.
+        // The version is compared first, because another version also changes the hash.
         for (field, found, expected) in [
             ("version", &header.version, &wanted.version),
             ("study", &header.study, &wanted.study),
@@ -104,7 +104,8 @@ impl Blocks {
         Ok(outcomes)
     }
 
-    /// Writes a block in place of what is known of it, unless another process has meanwhile. A summary that knows of less goes first.
+    /// Writes a block over its shorter version, unless another process has done so meanwhile. A summary that
+    /// is then out of date is removed first.
     ///
     /// # Errors
     /// [`StudyError::Write`].
@@ -122,12 +123,12 @@ impl Blocks {
         Ok(())
     }
 
-    /// Number of blocks on disk, whatever they are of.
+    /// Number of blocks on disk, of any study.
     pub(crate) fn count(&self) -> Result<usize, StudyError> {
         Ok(files(&self.folder)?.iter().filter(|path| is_block(path)).count())
     }
 
-    /// Removes all blocks, whatever they are of, and folders that are empty then. What else is there stays.
+    /// Removes all blocks, of any study, and the folders that are empty then. Other files stay.
     ///
     /// # Errors
     /// [`StudyError::Write`].
@@ -136,7 +137,7 @@ impl Blocks {
         removed.map_err(|source| StudyError::Write { path: self.folder.clone(), source })
     }
 
-    /// Removes the summary of an analysis that what is to come does not belong to.
+    /// Removes the summary of an earlier analysis, because new blocks make it out of date.
     ///
     /// # Errors
     /// [`StudyError::Write`].
@@ -144,13 +145,13 @@ impl Blocks {
         remove_stale(self.results.join(SUMMARY_NAME))
     }
 
-    /// Removes what killed processes have left unfinished, of blocks and beside them.
+    /// Removes unfinished files of killed processes, among the blocks and beside them.
     ///
     /// # Errors
     /// [`StudyError::Read`], [`StudyError::Write`].
     pub fn remove_unfinished(&self) -> Result<(), StudyError> {
         let mut all = files(&self.folder)?;
-        // Beside the blocks, not below: the folder of results may be one that holds much else.
+        // Only directly beside the blocks: the folder of results may hold much else.
         for folder in [&self.results].into_iter().chain(&self.tables).filter(|folder| folder.is_dir()) {
             let read = |source| StudyError::Read { path: folder.clone(), source };
             for entry in fs::read_dir(folder).map_err(read)? {
@@ -183,7 +184,7 @@ fn remove_blocks(folder: &Path) -> io::Result<()> {
         let path = entry.path();
         if entry.file_type()?.is_dir() {
             remove_blocks(&path)?;
-            // One that still holds something stays.
+            // A folder that is not empty stays.
             let _ = fs::remove_dir(&path);
         } else if is_block(&path) || is_unfinished(&path) {
             fs::remove_file(&path)?;
@@ -192,7 +193,7 @@ fn remove_blocks(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// All files below a folder; none where there is none.
+/// All files below a folder; none if the folder does not exist.
 fn files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
     let mut folders: Vec<_> = [folder.to_owned()].into_iter().filter(|folder| folder.is_dir()).collect();
     let mut files = Vec::new();
@@ -245,7 +246,7 @@ mod tests {
         let mut written = Vec::new();
         for folder in &folders {
             fs::create_dir_all(folder).unwrap();
-            // As a killed process leaves it: locked by nobody.
+            // As a killed process leaves it, without a lock.
             fs::write(folder.join(".cdpr-left.tmp"), "half").unwrap();
             let mut file = AtomicFile::new(folder.join("written")).unwrap();
             file.write_all(b"whole").unwrap();
