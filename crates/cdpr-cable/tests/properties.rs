@@ -3,8 +3,10 @@
 use cdpr_cable::{Cable, CableError, Catenary, Vector2, end_force, length_for_tension};
 use proptest::prelude::*;
 
-/// A cable, its unstrained length, and an end position between right below or above the exit point and level
-/// with it; the chord is between a hundredth of the length (folded) and a strain of a percent.
+/// A cable, its unstrained length, and an end position.
+///
+/// The end lies between level with the exit point and right below or above it. The chord is between a
+/// hundredth of the length (folded) and one percent more than the length.
 fn any_span() -> impl Strategy<Value = (Cable<'static>, f64, Vector2<f64>)> {
     (
         -5.0..2.5f64,
@@ -59,8 +61,8 @@ proptest! {
                 // One unit in the last place of the length is worth EA epsilon newtons.
                 let rounding = 8.0 * f64::EPSILON * cable.axial_stiffness;
                 prop_assert!((found.anchor_tension() - tension).abs() < 1e-9 * tension + rounding);
-                let open = (found.end_position() - end).norm();
-                prop_assert!(open < 1e-12 * (end.norm() + found.unstrained_length), "{open:e}");
+                let residual = (found.end_position() - end).norm();
+                prop_assert!(residual < 1e-12 * (end.norm() + found.unstrained_length), "{residual:e}");
             }
             // At the very bottom of the tension curve, rounding decides on which side the tension lies.
             Err(CableError::TensionTooSmall { least, .. }) => prop_assert!(least < tension * (1.0 + 1e-9)),
