@@ -1,4 +1,4 @@
-//! What figures are drawn with: pens, headings, axes, grids of colours, planes of the workspace.
+//! Tools for drawing figures: pens, headings, axes, maps in colour, planes of the workspace.
 
 pub(crate) mod axis;
 pub(crate) mod color_map;

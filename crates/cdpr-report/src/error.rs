@@ -1,28 +1,28 @@
-//! Errors of figures.
+//! Errors of figures and reports.
 
-/// Why there is no figure.
+/// Reason why a figure or a report cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReportError {
-    /// There is nothing to draw.
+    /// The results hold nothing to draw.
     #[error("nothing to draw: {what}")]
     Empty {
         /// What is missing.
         what: &'static str,
     },
-    /// A value that has no place in the figure.
+    /// A value cannot be drawn.
     #[error("{field} is {value}: expected {expected}")]
     Invalid {
         /// Path of the field.
         field: String,
-        /// What was given.
+        /// Value found.
         value: String,
-        /// What is expected.
+        /// What was expected, in words.
         expected: &'static str,
     },
     /// The drawing library failed.
     #[error("cannot draw: {reason}")]
     Drawing {
-        /// Message of the drawing library.
+        /// Its message.
         reason: String,
     },
 }
@@ -32,7 +32,7 @@ impl ReportError {
         Self::Invalid { field: field.into(), value: value.to_string(), expected }
     }
 
-    /// `value` if it is finite; no other value has a position on an axis.
+    /// Returns `value` if it is finite. No other value can be drawn.
     pub(crate) fn finite(field: &str, value: f64) -> Result<f64, Self> {
         if value.is_finite() { Ok(value) } else { Err(Self::invalid(field, &value, "a finite number")) }
     }

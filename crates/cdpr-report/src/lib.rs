@@ -45,7 +45,7 @@ mod text;
 
 pub use draw::{draw, figures};
 pub use error::ReportError;
-pub use figure::cycle::{Cycle, cycle};
+pub use figure::cycle::{Cycle, CycleBranch, cycle};
 pub use figure::heat_map::{MapQuantity, heat_map, tolerance_map, workspace_maps};
 pub use figure::histogram::histogram;
 pub use figure::points::{Points, point_effects};

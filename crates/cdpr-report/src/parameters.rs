@@ -1,9 +1,9 @@
-//! Words, symbols and units of a robot's parameters, for readers.
+//! Words, symbols and units for the parameters of a robot.
 
 use crate::error::ReportError;
 use cdpr_robot::{Axis, Parameter};
 
-/// A parameter or group of parameters in words, with its symbol.
+/// Words for a parameter or a group of parameters, with its symbol.
 pub(crate) fn parameter(name: &str) -> String {
     let words = match name {
         "mass" => "mass of the platform m",
@@ -18,7 +18,7 @@ pub(crate) fn parameter(name: &str) -> String {
     words.to_owned()
 }
 
-/// Symbol of a parameter: `E`, `\u{3c1}`, `m`, or its own name.
+/// Shortest name of a parameter: `E`, `\u{3c1}`, `m`, or its own name.
 pub(crate) fn symbol(name: &str) -> &str {
     match name {
         "mass" => "m",
@@ -28,7 +28,7 @@ pub(crate) fn symbol(name: &str) -> &str {
     }
 }
 
-/// Unit in which a parameter or a group is shown, and how many of it make one SI unit.
+/// Unit in which a parameter or a group of parameters is shown, and how many of it make one SI unit.
 pub(crate) fn reading_unit(name: &str) -> (&'static str, f64) {
     let parameter = match name {
         "a" => Some(Parameter::AnchorPoint(0, Axis::X)),
@@ -46,7 +46,7 @@ pub(crate) fn reading_unit(name: &str) -> (&'static str, f64) {
     }
 }
 
-/// Label of a parameter's axis, and the factor from SI units to the unit in the label.
+/// Label of the axis of a parameter, and how many of the unit in the label make one SI unit.
 pub(crate) fn axis_of(name: &str) -> Result<(String, f64), ReportError> {
     let parameter: Parameter =
         name.parse().map_err(|_| ReportError::invalid("parameters", &name, "a parameter of a robot"))?;

@@ -1,21 +1,22 @@
-//! Texts of numbers and names, for readers.
+//! Numbers, points, laws and steps as text.
 
 use cdpr_sensitivity::{Law, Steps};
 use serde::Serialize;
 use serde_json::Value;
 
-/// The number with so many significant digits, without zeros at its end; powers of ten where it is very large or small.
+/// Number with this many significant digits, without zeros at its end. Very large and very small numbers have
+/// a power of ten.
 pub(crate) fn digits(value: f64, digits: usize) -> String {
     let text = figures(value, digits);
     if !text.contains('.') {
         return text;
     }
-    // The zeros stand before a power of ten, if there is one.
+    // The zeros stand before the power of ten, if there is one.
     let (mantissa, power) = text.split_at(text.find('\u{d7}').unwrap_or(text.len()));
     mantissa.trim_end_matches('0').trim_end_matches('.').to_owned() + power
 }
 
-/// The same with its zeros, for columns of numbers.
+/// Number with this many significant digits, with zeros at its end, as columns of numbers need.
 pub(crate) fn figures(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };
@@ -30,7 +31,7 @@ pub(crate) fn figures(value: f64, digits: usize) -> String {
     number(value, usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0))
 }
 
-/// The number with so many decimals, with a true minus sign.
+/// Number with this many decimals. It has a minus sign instead of a hyphen, and no negative zero.
 pub(crate) fn number(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -40,6 +41,7 @@ pub(crate) fn number(value: f64, decimals: usize) -> String {
     }
 }
 
+/// Exponent in superscript digits.
 fn superscript(exponent: i32) -> String {
     let raised = |c: char| match c {
         '-' => '\u{207b}',
@@ -51,13 +53,13 @@ fn superscript(exponent: i32) -> String {
     exponent.to_string().chars().map(raised).collect()
 }
 
-/// A point: `(0, 0, 1.75)`.
+/// Coordinates of a point, as in `(0, 0, 1.75)`.
 pub(crate) fn point(coordinates: &[f64]) -> String {
     let coordinates: Vec<String> = coordinates.iter().map(|value| digits(*value, 5)).collect();
     format!("({})", coordinates.join(", "))
 }
 
-/// A law in words, its parameters times `scale`.
+/// Law in words. Its parameters are multiplied by `scale`.
 pub(crate) fn law(law: &Law, scale: f64) -> String {
     match *law {
         Law::Uniform { min, max } if min == -max => format!("uniform, \u{b1}{}", digits(scale * max, 4)),
@@ -71,12 +73,13 @@ pub(crate) fn law(law: &Law, scale: f64) -> String {
     }
 }
 
-/// Whether [`law`] scales the parameters of a law; shapes and logarithms have no unit to change.
+/// Whether [`law`] multiplies the parameters of a law. Shapes and logarithms have no unit that could be
+/// changed.
 pub(crate) fn is_scaled(law: &Law) -> bool {
     matches!(law, Law::Uniform { .. } | Law::Normal { .. })
 }
 
-/// Steps in words, times `scale`.
+/// Steps in words. They are multiplied by `scale`.
 pub(crate) fn steps(steps: Option<&Steps>, scale: f64) -> String {
     match steps {
         None => "continuous".to_owned(),
@@ -85,9 +88,10 @@ pub(crate) fn steps(steps: Option<&Steps>, scale: f64) -> String {
     }
 }
 
-/// `{"beta": {"min": 1.0, ..}}` as `beta: min 1, ..`; a plain word as it is.
+/// Fields of a value in words: `{"beta": {"min": 1.0, ..}}` becomes `beta: min 1, ..`, and a plain word
+/// stays.
 pub(crate) fn fields(value: &impl Serialize) -> String {
-    let said = |value: &Value| match value {
+    let text_of = |value: &Value| match value {
         Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), |value| digits(value, 5)),
         Value::String(text) => text.clone(),
         other => other.to_string(),
@@ -97,14 +101,14 @@ pub(crate) fn fields(value: &impl Serialize) -> String {
             let parts = map.iter().map(|(name, value)| match value {
                 Value::Object(inner) => {
                     let inner: Vec<_> =
-                        inner.iter().map(|(name, value)| format!("{name} {}", said(value))).collect();
+                        inner.iter().map(|(name, value)| format!("{name} {}", text_of(value))).collect();
                     format!("{}: {}", name.replace('_', " "), inner.join(", "))
                 }
-                value => format!("{name} {}", said(value)),
+                value => format!("{name} {}", text_of(value)),
             });
             parts.collect::<Vec<_>>().join("; ")
         }
-        Ok(value) => said(&value),
+        Ok(value) => text_of(&value),
         Err(error) => error.to_string(),
     }
 }
@@ -114,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_have_the_digits_that_say_something() {
+    fn numbers_have_significant_digits_only() {
         let cases =
             [(0.0, "0"), (1.33125, "1.331"), (-0.015, "\u{2212}0.015"), (102.2, "102.2"), (730.0, "730")];
         for (value, text) in cases {
@@ -128,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn laws_are_said_in_words() {
+    fn laws_are_written_in_words() {
         assert_eq!(law(&Law::Uniform { min: -1.8e10, max: 1.8e10 }, 1e-9), "uniform, \u{b1}18");
         assert_eq!(law(&Law::Uniform { min: 0.0, max: 0.5 }, 1.0), "uniform, 0 to 0.5");
         let triangular = Law::Triangular { min: 0.0, mode: 0.25, max: 1.0 };

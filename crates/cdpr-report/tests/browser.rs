@@ -1,7 +1,8 @@
-//! The report in a real browser: Chromium without a window, driven over its debugging socket (Chrome DevTools Protocol).
+//! The report in a real browser: Chromium without a window, driven over its debugging socket (Chrome DevTools
+//! Protocol).
 //!
-//! Screenshots for a person to look at are left in `target/report-screenshots`. `.ci/run` runs this test by its name; a plain `cargo test`
-//! leaves it out, because it needs Chromium.
+//! Screenshots for a person to look at are left in `target/report-screenshots`. `.ci/run` runs this test by
+//! its name; a plain `cargo test` leaves it out, because it needs Chromium.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 

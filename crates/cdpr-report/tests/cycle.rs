@@ -1,8 +1,8 @@
-//! The figure of a cycle.
+//! Figure of a load cycle.
 
-use cdpr_report::{Cycle, ReportError, cycle};
+use cdpr_report::{Cycle, CycleBranch, ReportError, cycle};
 
-fn figure(branches: &[(String, Vec<(f64, f64)>)]) -> Result<String, ReportError> {
+fn figure(branches: &[CycleBranch]) -> Result<String, ReportError> {
     cycle(&Cycle {
         title: "Loop",
         lines: &["dissipates <1 J".to_owned()],
@@ -12,11 +12,15 @@ fn figure(branches: &[(String, Vec<(f64, f64)>)]) -> Result<String, ReportError>
     })
 }
 
+fn branch(name: &str, points: &[(f64, f64)]) -> CycleBranch {
+    CycleBranch { name: name.to_owned(), points: points.to_vec() }
+}
+
 #[test]
 fn each_sample_of_a_loop_has_its_dot() {
     let branches = [
-        ("loading".to_owned(), vec![(0.0, 0.0), (1.0, 10.0), (2.0, 30.0)]),
-        ("unloading".to_owned(), vec![(2.0, 30.0), (0.5, 1.0)]),
+        branch("loading", &[(0.0, 0.0), (1.0, 10.0), (2.0, 30.0)]),
+        branch("unloading", &[(2.0, 30.0), (0.5, 1.0)]),
     ];
     let svg = figure(&branches).unwrap();
     assert_eq!(svg.matches("<circle").count(), 5);
@@ -24,8 +28,8 @@ fn each_sample_of_a_loop_has_its_dot() {
 }
 
 #[test]
-fn a_cycle_without_points_or_with_one_that_is_none_has_no_figure() {
+fn a_cycle_without_points_or_with_a_point_that_is_not_finite_has_no_figure() {
     assert!(matches!(figure(&[]), Err(ReportError::Empty { .. })));
-    let nowhere = [("loading".to_owned(), vec![(0.0, f64::NAN)])];
+    let nowhere = [branch("loading", &[(0.0, f64::NAN)])];
     assert!(matches!(figure(&nowhere), Err(ReportError::Invalid { .. })));
 }

@@ -1,4 +1,4 @@
-//! What has to be in each figure, and what has no figure.
+//! Contents of each figure, and results without a figure.
 
 use cdpr_assess::{Answer, Protocol, ProtocolSummary, RobustnessResult, Solve};
 use cdpr_report::{
@@ -199,7 +199,8 @@ fn a_histogram_has_a_bar_for_each_bin_and_names_the_best_law() {
     for text in [
         "RMS of the static deflection [mm]",
         "density [1/mm]",
-        "mean 1.350, standard deviation 0.138, min 1.100, max 1.600, nominal 1.330 mm; 101 observations, 1 failed",
+        "mean 1.350, standard deviation 0.138, min 1.100, max 1.600, nominal 1.330 mm; 101 observations, 1 \
+            failed",
         "uniform (preferred)",
         "normal (AIC +15)",
         "nominal",
@@ -210,7 +211,8 @@ fn a_histogram_has_a_bar_for_each_bin_and_names_the_best_law() {
 
 #[test]
 fn the_bars_of_a_histogram_are_a_density() {
-    // Heights in units of the picture; the bin of 20 of 100 in 0.1 mm is 2 / mm high, just as the uniform law.
+    // Heights in units of the picture; the bin of 20 of 100 in 0.1 mm is 2 / mm high, just as the uniform
+    // law.
     let svg = histogram(&sampling()).unwrap();
     let height = |bar: usize| -> f64 {
         let rect = svg.split("<rect ").nth(bar + 2).unwrap();
@@ -246,7 +248,7 @@ fn a_surface_has_a_cell_for_each_point_and_shows_the_failed_ones() {
 }
 
 #[test]
-fn points_have_three_bars_each_and_a_panel_a_sampling() {
+fn points_have_three_bars_each_and_a_panel_per_sampling() {
     let sampling = sampling();
     let svg =
         point_effects(&robot(), &[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap();
@@ -309,7 +311,7 @@ fn the_share_of_found_poses_has_a_cell_for_each_start_offset() {
 }
 
 #[test]
-fn without_solves_or_with_distances_that_are_none_robustness_has_no_figure() {
+fn without_solves_or_with_invalid_distances_robustness_has_no_figure() {
     let mut result = robustness();
     result.solves[0].start_distance = f64::NAN;
     assert!(matches!(found_poses(&result), Err(ReportError::Invalid { .. })));
@@ -341,7 +343,7 @@ fn without_data_there_is_no_figure() {
 }
 
 #[test]
-fn what_has_no_place_on_an_axis_is_refused() {
+fn a_value_that_cannot_be_drawn_is_refused() {
     let invalid = |figure: Result<String, ReportError>| matches!(figure, Err(ReportError::Invalid { .. }));
     let change = |change: fn(&mut SamplingSummary)| {
         let mut summary = sampling();

@@ -1,4 +1,4 @@
-//! Maps of a plane: what is in them, and what is no plane.
+//! Maps of a plane, and workspaces that are not a plane.
 
 use cdpr_assess::{Workspace, WorkspaceRow, WorkspaceSummary, compute_workspace};
 use cdpr_report::{MapQuantity, ReportError, heat_map, tolerance_map};
@@ -33,7 +33,8 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
     assert!(not_held > 0 && not_held < 63);
     for quantity in MapQuantity::ALL {
         let svg = heat_map(&robot, &summary, quantity).unwrap();
-        // The paper, 63 cells, 128 steps of the colour bar; grey for a cell without value and for the key's bar as a line.
+        // The paper, 63 cells, 128 steps of the colour bar; grey for a cell without value and for the key's
+        // bar as a line.
         assert_eq!(count(&svg, "<rect"), 1 + 63 + 128, "{quantity:?}");
         assert_eq!(count(&svg, "fill=\"#B0B0B0\""), not_held);
         assert_eq!(count(&svg, "<circle"), 8);

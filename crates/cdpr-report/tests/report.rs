@@ -1,4 +1,4 @@
-//! What the report holds, and that nothing in it breaks out or is loaded.
+//! Contents of the report; hostile text stays text, and nothing is loaded from outside.
 
 use cdpr_report::{Points, histogram, point_effects, report, shares, signed_effects, surface};
 use cdpr_study::{Results, StudySummary};
@@ -53,7 +53,7 @@ fn every_figure_of_the_study_is_in_the_report_with_the_bytes_of_its_file() {
 }
 
 #[test]
-fn the_report_says_what_is_reproduced_what_is_not_and_why() {
+fn the_report_lists_what_is_reproduced_what_is_not_and_why() {
     let results =
         crate::common::caroca(|study, _| study["comparison"][6]["note"] = json!("no load explains it"));
     let html = page(&results);
@@ -130,7 +130,7 @@ fn every_robot_and_every_part_of_a_study_has_a_report() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_said_in_its_place() {
+fn the_reason_stands_in_the_place_of_a_figure_that_cannot_be_drawn() {
     let mut results = crate::common::cogiro();
     let Some(StudySummary::Sampling(sampling)) = results.summary.studies.get_mut("all") else {
         panic!("no sampling")

@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}, column {column}: {field}: {message}")]
 pub struct JsonError {
-    /// Path of the field, such as `cables[2].exit_point`; `the whole text` if there is none in particular.
+    /// Path of the field, such as `cables[2].exit_point`; `the whole text` if no field in particular is
+    /// wrong.
     pub field: String,
     /// Line in the text, from 1.
     pub line: usize,

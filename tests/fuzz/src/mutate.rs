@@ -98,7 +98,7 @@ fn read<const N: usize>(data: &[u8]) -> [f64; N] {
     numbers
 }
 
-/// Replaces one number of a JSON text by another. `None` if there is none, or no room.
+/// Replaces one number of a JSON text by another. `None` if the text has no number, or no room for it.
 pub fn number_in_text(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> Option<usize> {
     let mut random = Random::new(seed);
     let of_number = |byte: &u8| matches!(byte, b'0'..=b'9' | b'.' | b'-' | b'+' | b'e' | b'E');

@@ -6,7 +6,7 @@ use crate::arguments::{Format, number};
 use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
-use cdpr_report::{Cycle, cycle};
+use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_study::{CableLaw, law_json, open_record, write_text};
 use published::{Entry, Published, percent};
 use serde::Serialize;
@@ -184,7 +184,7 @@ fn write_law(
 fn draw(record: &Record, found: &Found, path: &Path) -> Result<(), ProgramError> {
     let branches = [Phase::Loading, Phase::Unloading].map(|phase| {
         let points = record.samples(phase).iter().map(|sample| (1e3 * sample.elongation, sample.force));
-        (phase.name().to_owned(), points.collect())
+        CycleBranch { name: phase.name().to_owned(), points: points.collect() }
     });
     let figure = cycle(&Cycle {
         title: "Load over elongation",

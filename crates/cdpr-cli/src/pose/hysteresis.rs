@@ -4,7 +4,7 @@ use crate::answer::vector;
 use crate::arguments::{self, Format, number, payload};
 use crate::error::ProgramError;
 use crate::output::table;
-use cdpr_report::{Cycle, cycle};
+use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable, Segment};
 use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 use cdpr_study::{CableLaw, open_law, open_record, open_robot, write_text};
@@ -185,8 +185,8 @@ fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<()
         way.iter().map(at).collect::<Vec<_>>()
     };
     let branches = [
-        ("payload put on".to_owned(), points(&ran.loading)),
-        ("payload taken off".to_owned(), points(&ran.unloading)),
+        CycleBranch { name: "payload put on".to_owned(), points: points(&ran.loading) },
+        CycleBranch { name: "payload taken off".to_owned(), points: points(&ran.unloading) },
     ];
     let figure = cycle(&Cycle {
         title: &format!("{}: payload over the way down", robot.name),

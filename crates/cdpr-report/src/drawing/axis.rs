@@ -9,7 +9,7 @@ use std::ops::Range;
 
 pub(crate) type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Axis, Axis>>;
 
-/// Lines across a chart at the ticks of one axis.
+/// Grid lines of a chart, at the ticks of one axis.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Grid {
     None,
@@ -19,7 +19,7 @@ pub(crate) enum Grid {
     Vertical,
 }
 
-/// A chart with both axes drawn, ready for its data.
+/// Draws both axes of a chart and returns it, ready for its data.
 pub(crate) fn chart<'a>(area: &Area<'a>, x: &Axis, y: &Axis, grid: Grid) -> Result<Chart<'a>, DrawingError> {
     let mut chart = ChartBuilder::on(area)
         .margin(px(MARGIN))
@@ -46,7 +46,7 @@ pub(crate) fn chart<'a>(area: &Area<'a>, x: &Axis, y: &Axis, grid: Grid) -> Resu
     Ok(chart)
 }
 
-/// An axis: its range, its ticks with their texts, and its label.
+/// Axis with its range, its ticks with their texts, and its label.
 #[derive(Clone)]
 pub(crate) struct Axis {
     pub range: Range<f64>,
@@ -55,8 +55,8 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// An axis of numbers, with at most `most` ticks at round values. A range whose width is only rounding is
-    /// widened.
+    /// Makes an axis of numbers with at most `most` ticks at round values. An empty range is widened, also
+    /// one that is empty up to rounding.
     pub(crate) fn numbers(range: Range<f64>, most: usize, label: impl Into<String>) -> Self {
         let size = range.start.abs().max(range.end.abs());
         let half = if range.end - range.start > 1e-9 * size { 0.0 } else { 1e-3 * size.max(1.0) };
@@ -69,13 +69,13 @@ impl Axis {
         Self { range, ticks, label: label.into() }
     }
 
-    /// An axis of names at 1, 2, ...
+    /// Makes an axis of names at 1, 2, ...
     pub(crate) fn names(names: impl Iterator<Item = String>, label: impl Into<String>) -> Self {
         let ticks: Vec<_> = names.enumerate().map(|(i, name)| ((i + 1) as f64, name)).collect();
         Self { range: 0.5..ticks.len() as f64 + 0.5, ticks, label: label.into() }
     }
 
-    /// Width that the axis needs beside a chart [px].
+    /// Width of the axis beside a chart [px].
     pub(crate) fn room(&self) -> f64 {
         let longest = self.ticks.iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
         let label = if self.label.is_empty() { 0.0 } else { LINE_HEIGHT };
@@ -83,7 +83,7 @@ impl Axis {
     }
 }
 
-/// The linear scale of plotters with ticks and their texts as given.
+/// The linear scale of plotters, with the ticks of the axis and their texts.
 impl Ranged for Axis {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
@@ -107,6 +107,7 @@ impl ValueFormatter<f64> for Axis {
     }
 }
 
+/// Whether a value is whole up to rounding.
 fn is_whole(value: f64) -> bool {
     (value - value.round()).abs() < 1e-6 * value.abs().max(1e-3)
 }

@@ -1,24 +1,24 @@
-//! A value over a grid of two quantities: cells, contour lines, colour bar.
+//! Map in colour of a value over a grid of two quantities, with contour lines and a colour bar.
 
 use crate::drawing::axis::Axis;
 use crate::drawing::style::{self, Area, DrawingError, GREY, MARGIN, Pen, X_AXIS, px};
 use crate::error::ReportError;
 use plotters::prelude::*;
 
-/// Room of the colour bar with its axis [px].
+/// Width of the colour bar with its axis [px].
 pub(crate) const COLOR_BAR: f64 = 96.0;
 const COLORS: usize = 128;
-/// Least distance of hatching lines along an axis [px].
+/// Least distance between hatching lines along an axis [px].
 const HATCH: f64 = 8.0;
 
-/// One axis of the grid, in the unit that its label names.
+/// Nodes of the grid along one axis, in the unit of its label.
 pub(crate) struct Nodes {
     pub(crate) label: String,
     values: Vec<f64>,
 }
 
 impl Nodes {
-    /// Two or more ascending values.
+    /// Checks that there are two or more ascending values.
     pub(crate) fn new(field: &str, label: String, values: Vec<f64>) -> Result<Self, ReportError> {
         let ascending = values.windows(2).all(|pair| pair[0] < pair[1]);
         if values.len() < 2 || !ascending || !(values[values.len() - 1] - values[0]).is_finite() {
@@ -27,19 +27,20 @@ impl Nodes {
         Ok(Self { label, values })
     }
 
-    /// Edge between the cells of node `k - 1` and `k`: halfway between them; the cells at both ends stop at their nodes.
+    /// Edge between the cells of nodes `k - 1` and `k`, halfway between them. The outer cells end at their
+    /// nodes.
     fn edge(&self, k: usize) -> f64 {
         let last = self.values.len() - 1;
         0.5 * (self.values[k.saturating_sub(1)] + self.values[k.min(last)])
     }
 
-    /// A pixel or two past that edge, but not past the last one.
+    /// One or two pixels beyond that edge, but not beyond the last one.
     fn past_edge(&self, k: usize) -> f64 {
         let (first, last) = (self.edge(0), self.edge(self.values.len()));
         last.min(self.edge(k) + 4e-3 * (last - first))
     }
 
-    /// From the first to the last value.
+    /// Range from the first to the last value.
     pub(crate) fn range(&self) -> std::ops::Range<f64> {
         self.edge(0)..self.edge(self.values.len())
     }
@@ -49,16 +50,16 @@ impl Nodes {
     }
 }
 
-/// The cells of a grid; the cell of node i, j has the index `i * y.len() + j`.
+/// Cells of a grid. The cell of node i, j has index `i * y.len() + j`.
 pub(crate) struct Cells {
     pub(crate) x: Nodes,
     pub(crate) y: Nodes,
 }
 
-/// Values over a grid.
+/// Values over a grid, which colours show.
 pub(crate) struct ColorMap {
     pub(crate) cells: Cells,
-    /// Value of each cell; `None` for a cell without a value.
+    /// Value of each cell, or `None` for a cell without a value.
     pub(crate) values: Vec<Option<f64>>,
     pub(crate) least: f64,
     pub(crate) greatest: f64,
@@ -71,7 +72,7 @@ impl Cells {
         self.x.values.len() * self.y.values.len()
     }
 
-    /// Draws all cells, those without a colour in grey.
+    /// Draws all cells. Those without a colour are grey.
     pub(crate) fn draw<C>(
         &self,
         plot: &DrawingArea<SVGBackend, C>,
@@ -84,7 +85,7 @@ impl Cells {
         for place in 0..self.count() {
             let (i, j) = (place / rows, place % rows);
             let from = (self.x.edge(i), self.y.edge(j));
-            // Each cell extends a pixel or two below the cells drawn after it, so that no white shows between
+            // Each cell overlaps those drawn after it by one or two pixels, so that no white shows between
             // them.
             let below = (self.x.past_edge(i + 1), self.y.past_edge(j + 1));
             plot.draw(&Rectangle::new([from, below], color(place).unwrap_or(GREY).filled()))?;
@@ -92,7 +93,7 @@ impl Cells {
         Ok(())
     }
 
-    /// Hatches the cells for which `hatched` holds: diagonals through all of them, no closer than some pixels.
+    /// Hatches the cells for which `hatched` holds, by diagonals at a distance of a few pixels.
     pub(crate) fn hatch<C>(
         &self,
         plot: &DrawingArea<SVGBackend, C>,
@@ -116,7 +117,7 @@ impl Cells {
 }
 
 impl ColorMap {
-    /// `field` names the values in errors, `label` on the colour bar.
+    /// Makes a map. `field` names the values in errors, and `label` names them on the colour bar.
     pub(crate) fn new(
         cells: Cells,
         values: Vec<Option<f64>>,
@@ -138,7 +139,7 @@ impl ColorMap {
         Ok(Self { cells, values, least, greatest, color_axis })
     }
 
-    /// Draws all cells and contour lines at the ticks of the colour bar. A cell without value is grey.
+    /// Draws all cells, and contour lines at the ticks of the colour bar. A cell without a value is grey.
     pub(crate) fn draw<C>(&self, plot: &DrawingArea<SVGBackend, C>) -> Result<(), DrawingError>
     where
         C: plotters::coord::CoordTranslate<From = (f64, f64)>,
@@ -182,23 +183,26 @@ impl ColorMap {
             .draw()
     }
 
-    /// Position of a value on the colour bar, from 0 to 1.
-    fn place(&self, value: f64) -> f64 {
+    /// Position of a value on the colour bar, 0 to 1.
+    fn position(&self, value: f64) -> f64 {
         let range = &self.color_axis.range;
         ((value - range.start) / (range.end - range.start)).clamp(0.0, 1.0)
     }
 
     fn color(&self, value: f64) -> RGBColor {
-        ViridisRGB::get_color(self.place(value))
+        ViridisRGB::get_color(self.position(value))
     }
 
-    /// White on the dark half of viridis and black on the bright half. Both are slightly off, so that a page
-    /// that swaps black and white in the dark leaves lines on viridis as they are.
+    /// Colour of a contour line: white on the dark half of viridis, black on the bright half.
+    ///
+    /// Both differ by one unit from pure white and black. A dark page swaps these two, but leaves contour
+    /// lines unchanged.
     fn line_color(&self, value: f64) -> RGBColor {
-        if self.place(value) < 0.5 { RGBColor(254, 254, 254) } else { RGBColor(1, 1, 1) }
+        if self.position(value) < 0.5 { RGBColor(254, 254, 254) } else { RGBColor(1, 1, 1) }
     }
 
-    /// Segments of the line where the value, interpolated along the edges of the grid, is `level` (marching squares).
+    /// Segments of the contour line at `level`, by marching squares: values are interpolated along the edges
+    /// of the grid.
     fn contour(&self, level: f64) -> Vec<[(f64, f64); 2]> {
         let (x, y) = (&self.cells.x.values, &self.cells.y.values);
         let mut segments = Vec::new();

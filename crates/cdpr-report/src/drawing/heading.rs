@@ -1,21 +1,21 @@
-//! The heading above the charts of a figure: title, lines, key.
+//! Heading of a figure: title, lines and key above the charts.
 
 use crate::drawing::style::{Area, CHARACTER, DrawingError, LINE_HEIGHT, MARGIN, Pen, TEXT, WIDTH, px, text};
 
 const TITLE: f64 = 15.0;
-/// Text of a key that is smaller is hard to read.
+/// Smallest readable text of a key [px].
 const SMALL: f64 = 9.0;
-/// Line of an entry of a key, gap to its name, and both with the gap to the next entry [px].
+/// Line of an entry of a key, its gap to the name, and the room of both with the gap to the next entry [px].
 const KEY_LINE: f64 = 24.0;
 const KEY_GAP: f64 = 5.0;
 const KEY_ENTRY: f64 = KEY_LINE + KEY_GAP + 12.0;
 
-/// The heading above the charts.
+/// Heading above the charts.
 pub(crate) struct Heading<'a> {
     pub title: &'a str,
-    /// Lines below the title.
+    /// Lines of text below the title.
     pub lines: &'a [String],
-    /// Names of the lines and bars; none for no key.
+    /// Names and pens of the lines and bars. It is empty for a figure without a key.
     pub key: &'a [(String, Pen)],
 }
 
@@ -26,7 +26,7 @@ impl Heading<'_> {
         MARGIN + LINE_HEIGHT * rows as f64 + 4.0
     }
 
-    /// Draws the heading, and returns the rest of the area.
+    /// Draws the heading and returns the rest of the area.
     pub(crate) fn draw<'a>(&self, area: &Area<'a>) -> Result<Area<'a>, DrawingError> {
         let (head, rest) = area.split_vertically(px(self.height()));
         let mut y = MARGIN + 0.5 * LINE_HEIGHT;
@@ -48,14 +48,14 @@ impl Heading<'_> {
         Ok(rest)
     }
 
-    /// The key in one row, or in two where its text would be too small.
+    /// Splits the key into two rows if its text would be too small in one.
     fn key_rows(&self) -> impl Iterator<Item = &[(String, Pen)]> {
         let rows = if key_size(self.key) < SMALL { 2 } else { 1 };
         self.key.chunks(self.key.len().div_ceil(rows).max(1))
     }
 }
 
-/// Size of the text of a row of a key.
+/// Size of the text in a row of a key [px].
 fn key_size(row: &[(String, Pen)]) -> f64 {
     let characters: usize = row.iter().map(|(name, _)| name.chars().count()).sum();
     let room = WIDTH - 2.0 * MARGIN - KEY_ENTRY * row.len() as f64;

@@ -1,4 +1,4 @@
-//! A name at each position of a plane, by its colour.
+//! Map of names over a plane, each name with its colour.
 
 use crate::drawing::heading::Heading;
 use crate::drawing::plane::{self, Paint, Plane};
@@ -8,13 +8,14 @@ use cdpr_robot::Robot;
 use plotters::style::RGBColor;
 use std::cmp::Reverse;
 
-/// The colours of names, and the colour of all other names. The colours of the frame and of positions without
-/// feasible tensions are not among them.
+/// Colours of the most frequent names, and the colour of all others. The colours of the frame and of poses
+/// that are not held are not among them.
 const COLORS: [RGBColor; 5] =
     [BLUE, RGBColor(0x56, 0xB4, 0xE9), GREEN, RGBColor(0xF0, 0xE4, 0x42), RGBColor(0xCC, 0x79, 0xA7)];
 const OTHERS: RGBColor = RGBColor(0x50, 0x50, 0x50);
 
-/// Draws the map. The most frequent names have colours of their own; a position without a name is hatched.
+/// Draws a name at each position of a plane. The most frequent names have colours of their own, and positions
+/// without a name are hatched.
 pub(crate) fn name_map(
     plane: &Plane,
     robot: &Robot,

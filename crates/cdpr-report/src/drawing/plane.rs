@@ -1,4 +1,4 @@
-//! Planes of positions in the robot's frame, and what all maps of them share.
+//! Planes of positions in the base frame, and the maps over them.
 
 use crate::drawing::axis::{Axis, Grid as Lines, chart};
 use crate::drawing::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
@@ -10,42 +10,43 @@ use cdpr_study::{Grid, frame};
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// Room around a map for the frame, as a share of its extent.
+/// Margin around a map for the frame, as a share of its extent.
 const ROOM: f64 = 0.04;
-/// Heights of a map [px]; both axes have the same scale between them.
+/// Least and greatest height of a map [px]. Between them both axes have the same scale.
 const HEIGHTS: Range<f64> = 160.0..760.0;
-/// The rectangle around the exit points.
+/// Pen of the rectangle around the exit points.
 const FRAME: Pen = Pen { color: VERMILLION, width: 1.5, dash: Some(6.0) };
 
-/// A plane of a grid of positions.
+/// Plane of a grid of positions.
 pub(crate) struct Plane {
     normal: Direction,
     /// Index of the plane along its normal, if the grid is a box.
     pub(crate) layer: Option<usize>,
     /// Coordinate of the plane along its normal [m].
     place: f64,
-    /// Axes and the coordinates along them [m].
+    /// Axes of the plane with the coordinates of the positions [m].
     axes: [(Direction, Vec<f64>); 2],
-    /// Indices of its positions in the grid; the second axis runs faster.
+    /// Indices of its positions in the grid. The second axis runs faster.
     pub(crate) positions: Vec<usize>,
 }
 
-/// What is shown over a plane.
+/// Content of a map.
 pub(crate) enum Paint {
     /// Values, with a colour bar.
     Values(ColorMap),
-    /// A colour for each cell, which the key explains.
+    /// One colour per cell, which the key explains.
     Colors(Cells, Vec<Option<RGBColor>>),
 }
 
-/// The key of every map.
+/// Entries that the key of every map has.
 pub(crate) fn key() -> [(String, Pen); 3] {
     [("frame of the exit points", FRAME), ("exit points", Pen::bar(ORANGE)), ("not held", Pen::bar(GREY))]
         .map(|(name, pen)| (name.to_owned(), pen))
 }
 
 impl Plane {
-    /// The grid itself if it is a plane, the layers of a box from below, and nothing for a line.
+    /// Planes of a grid: the grid itself if it is a plane, or the layers of a box from below. A line has
+    /// none.
     pub(crate) fn of(grid: &Grid) -> Vec<Self> {
         let points = |axis| grid.axis(axis).points;
         let all = [Direction::X, Direction::Y, Direction::Z];
@@ -59,7 +60,7 @@ impl Plane {
             Direction::Y => [Direction::X, Direction::Z],
             Direction::Z => [Direction::X, Direction::Y],
         };
-        // Numbers of positions between neighbours along an axis: z runs fastest, x slowest.
+        // Difference between the indices of neighbours along an axis: z runs fastest, x slowest.
         let step = |axis| match axis {
             Direction::X => points(Direction::Y) * points(Direction::Z),
             Direction::Y => points(Direction::Z),
@@ -79,16 +80,17 @@ impl Plane {
         grid.axis(normal).places().into_iter().enumerate().map(layer).collect()
     }
 
-    /// Suffix of the file of a layer of a box: `_z00`.
+    /// Suffix of the file of a layer of a box, such as `_z00`.
     pub(crate) fn suffix(&self) -> String {
         self.layer.map(|layer| format!("_z{layer:02}")).unwrap_or_default()
     }
 
-    /// `z = 1.75 m`.
+    /// Words such as `z = 1.75 m`.
     pub(crate) fn words(&self) -> String {
         format!("{} = {} m", self.normal, self.place)
     }
 
+    /// Cells of the map.
     pub(crate) fn cells(&self) -> Result<Cells, ReportError> {
         let nodes = |(axis, places): &(Direction, Vec<f64>)| {
             Nodes::new("grid", format!("{axis} [m]"), places.clone())
@@ -96,8 +98,8 @@ impl Plane {
         Ok(Cells { x: nodes(&self.axes[0])?, y: nodes(&self.axes[1])? })
     }
 
-    /// The map as a figure, with frame and exit points. `hatched` says of a position's index whether it is
-    /// hatched.
+    /// Draws the map with the frame and the exit points. `hatched` decides by the index of a position in the
+    /// map.
     pub(crate) fn figure(
         &self,
         robot: &Robot,
@@ -130,7 +132,7 @@ impl Plane {
         })
     }
 
-    /// The rectangle around the exit points and the points, as far as they lie in the figure.
+    /// Draws the exit points and the rectangle around them, as far as they lie in the figure.
     fn draw_frame<C>(
         &self,
         plot: &DrawingArea<SVGBackend, C>,
@@ -165,6 +167,7 @@ impl Plane {
     }
 }
 
+/// Axis of a map, with margins.
 fn widened(nodes: &Nodes) -> Axis {
     let Range { start, end } = nodes.range();
     let room = ROOM * (end - start);

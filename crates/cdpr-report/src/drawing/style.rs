@@ -1,4 +1,4 @@
-//! What all figures share: size, fonts, colours, lines.
+//! Style of all figures: size, fonts, colours, lines.
 
 use crate::error::ReportError;
 use plotters::coord::{CoordTranslate, Shift};
@@ -13,38 +13,39 @@ pub(crate) type DrawingError = DrawingAreaErrorKind<std::io::Error>;
 pub(crate) const WIDTH: f64 = 700.0;
 /// Height of a figure of one chart [px].
 pub(crate) const HEIGHT: f64 = 450.0;
-/// Room of a horizontal axis with its label below a chart [px].
+/// Height of a horizontal axis with its label below a chart [px].
 pub(crate) const X_AXIS: f64 = 42.0;
 /// Margin around a figure [px].
 pub(crate) const MARGIN: f64 = 14.0;
 
-// M. Okabe, K. Ito, Color universal design (2008).
+// Colours of M. Okabe, K. Ito, *Color universal design* (2008).
 pub(crate) const ORANGE: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
 pub(crate) const GREEN: RGBColor = RGBColor(0x00, 0x9E, 0x73);
 pub(crate) const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xB2);
 pub(crate) const VERMILLION: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
-/// Colour of values that could not be computed or cannot be distinguished from zero.
+/// Colour of values that could not be computed, or whose interval contains zero.
 pub(crate) const GREY: RGBColor = RGBColor(0xB0, 0xB0, 0xB0);
 
 pub(crate) const TEXT: f64 = 12.0;
 pub(crate) const LINE_HEIGHT: f64 = 20.0;
-/// Mean width of a character over the size of its font, on the safe side: the fonts that will show the figure are unknown.
+/// Mean width of a character over the size of its font. It is an upper estimate, because the font of the
+/// reader is unknown.
 pub(crate) const CHARACTER: f64 = 0.58;
-/// plotters rounds coordinates to integers: they count tenths of a pixel.
+/// Units per pixel. plotters rounds coordinates to integers, which therefore count tenths of a pixel.
 const UNITS: f64 = 10.0;
 
-/// Pixels in the integers that plotters takes.
+/// Converts pixels to the integers that plotters takes.
 pub(crate) fn px(pixels: f64) -> i32 {
     (pixels * UNITS).round() as i32
 }
 
-/// A line's look.
+/// Colour, width and dashes of a line.
 #[derive(Clone, Copy)]
 pub(crate) struct Pen {
     pub color: RGBColor,
     /// Width [px].
     pub width: f64,
-    /// Length of a dash [px]; `None` for a solid line.
+    /// Length of a dash [px], or `None` for a solid line.
     pub dash: Option<f64>,
 }
 
@@ -53,7 +54,7 @@ impl Pen {
         Self { color, width, dash: None }
     }
 
-    /// The pen for filled bars in a key.
+    /// Pen that stands for filled bars in a key.
     pub(crate) const fn bar(color: RGBColor) -> Self {
         Self::solid(color, 9.0)
     }
@@ -75,7 +76,7 @@ impl Pen {
     }
 }
 
-/// Draws a figure of this height [px].
+/// Draws a figure of this height [px] and returns its SVG text.
 pub(crate) fn figure(
     height: f64,
     draw: impl FnOnce(&Area) -> Result<(), DrawingError>,
@@ -88,18 +89,18 @@ pub(crate) fn figure(
         let drawn = area.fill(&WHITE).and_then(|()| draw(&area)).and_then(|()| area.present());
         drawn.map_err(|error| ReportError::Drawing { reason: error.to_string() })?;
     }
-    // The view box stays in tenths of a pixel; the size is in pixels.
+    // The view box stays in tenths of a pixel, but the size is in pixels.
     let drawn = format!("width=\"{width_units}\" height=\"{height_units}\"");
     Ok(svg.replacen(&drawn, &format!("width=\"{WIDTH}\" height=\"{height}\""), 1))
 }
 
-/// Writes text from (x, y) [px] to the right, centred on its height; smaller if it is too long.
+/// Writes text from (x, y) [px] to the right, centred on its height. Text that is too long is made smaller.
 pub(crate) fn text(area: &Area, text: &str, size: f64, (x, y): (f64, f64)) -> Result<(), DrawingError> {
     let room = (WIDTH - MARGIN - x) / (CHARACTER * text.chars().count().max(1) as f64);
     area.draw_text(text, &font(size.min(room)).pos(Pos::new(HPos::Left, VPos::Center)), (px(x), px(y)))
 }
 
-/// Sans-serif of this size [px].
+/// Sans-serif font of this size [px].
 pub(crate) fn font(size: f64) -> TextStyle<'static> {
     // The SVG backend divides the size by 1.24.
     ("sans-serif", 1.24 * size * UNITS).into_font().color(&BLACK)

@@ -13,34 +13,44 @@ const PENS: [Pen; 4] = [
     Pen { color: ORANGE, width: 2.0, dash: Some(2.5) },
 ];
 
-/// What is drawn.
+/// Load cycle with its labels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle<'a> {
     /// Title of the figure.
     pub title: &'a str,
-    /// Lines below the title.
+    /// Lines of text below the title.
     pub lines: &'a [String],
     /// Label of the horizontal axis, with its unit.
     pub x: &'a str,
     /// Label of the vertical axis, with its unit.
     pub y: &'a str,
-    /// Name and points of each branch: loading, unloading.
-    pub branches: &'a [(String, Vec<(f64, f64)>)],
+    /// Branches: loading, unloading.
+    pub branches: &'a [CycleBranch],
 }
 
-/// The branches of a cycle, with a dot at each point.
+/// CycleBranch of a load cycle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CycleBranch {
+    /// Name in the key of the figure.
+    pub name: String,
+    /// Points, in the units of the two axes.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Draws the branches of a cycle as lines with a dot at each point.
 ///
 /// # Errors
-/// [`ReportError::Empty`] without points, [`ReportError::Invalid`] for a point that is not finite or more than four branches.
+/// [`ReportError::Empty`] without points, [`ReportError::Invalid`] for a point that is not finite or for
+/// more than four branches.
 pub fn cycle(cycle: &Cycle) -> Result<String, ReportError> {
-    let points = || cycle.branches.iter().flat_map(|(_, points)| points);
+    let points = || cycle.branches.iter().flat_map(|branch| &branch.points);
     if points().next().is_none() {
         return Err(ReportError::Empty { what: "a cycle without points" });
     }
     if cycle.branches.len() > PENS.len() {
         return Err(ReportError::invalid("branches", &cycle.branches.len(), "4 branches at most"));
     }
-    for (name, points) in cycle.branches {
+    for CycleBranch { name, points } in cycle.branches {
         for (x, y) in points {
             ReportError::finite(&format!("{name}, horizontal"), *x)?;
             ReportError::finite(&format!("{name}, vertical"), *y)?;
@@ -54,12 +64,13 @@ pub fn cycle(cycle: &Cycle) -> Result<String, ReportError> {
     };
     let x = Axis::numbers(range(|point| point.0), 9, cycle.x);
     let y = Axis::numbers(range(|point| point.1), 7, cycle.y);
-    let key: Vec<_> = cycle.branches.iter().zip(PENS).map(|((name, _), pen)| (name.clone(), pen)).collect();
+    let key: Vec<_> =
+        cycle.branches.iter().zip(PENS).map(|(branch, pen)| (branch.name.clone(), pen)).collect();
     let heading = Heading { title: cycle.title, lines: cycle.lines, key: &key };
     style::figure(HEIGHT, |area| {
         let chart = chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
         let plot = chart.plotting_area();
-        for ((_, points), pen) in cycle.branches.iter().zip(PENS) {
+        for (CycleBranch { points, .. }, pen) in cycle.branches.iter().zip(PENS) {
             pen.draw(plot, points.clone())?;
             for point in points {
                 plot.draw(&Circle::new(*point, style::px(2.5), pen.color.filled()))?;

@@ -10,10 +10,10 @@ use crate::text::number;
 use cdpr_assess::{WorkspaceRow, WorkspaceSummary};
 use cdpr_robot::Robot;
 
-/// What is drawn over the plane.
+/// Quantity that is drawn over the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapQuantity {
-    /// |dp| under the load.
+    /// Deflection |dp| under the load.
     Deflection,
     /// Stiffness of the softest motion.
     LeastStiffness,
@@ -22,7 +22,7 @@ pub enum MapQuantity {
 }
 
 impl MapQuantity {
-    /// All of them.
+    /// All quantities.
     pub const ALL: [Self; 3] = [Self::Deflection, Self::LeastStiffness, Self::GreatestTension];
 
     /// Name of its figure file.
@@ -34,7 +34,7 @@ impl MapQuantity {
         }
     }
 
-    /// Words for the title, label of the colour bar, unit.
+    /// Words for the title, label of the colour bar, and unit.
     fn words(self) -> (&'static str, &'static str, &'static str) {
         match self {
             Self::Deflection => ("static deflection", "|dp|", "mm"),
@@ -43,7 +43,7 @@ impl MapQuantity {
         }
     }
 
-    /// In the unit of the label.
+    /// Value in the unit of the label.
     fn value(self, row: &WorkspaceRow) -> Option<f64> {
         match self {
             Self::Deflection => row.rms_mm,
@@ -53,12 +53,14 @@ impl MapQuantity {
     }
 }
 
-/// Heat map of a quantity over a plane, with the exit points and the rectangle around them. Positions without
-/// feasible tensions are hatched in grey, positions at which the load takes a tension out of its limits are
-/// hatched in colour.
+/// Draws a quantity over a plane in colour, with the exit points and the rectangle around them.
+///
+/// Positions without feasible tensions are hatched in grey. Positions at which the load takes a tension out
+/// of its limits are hatched in colour.
 ///
 /// # Errors
-/// [`ReportError::Invalid`] for a workspace that is no plane, [`ReportError::Empty`] where the platform is held nowhere.
+/// [`ReportError::Invalid`] for a workspace that is not a plane, [`ReportError::Empty`] if no position has
+/// feasible tensions.
 pub fn heat_map(
     robot: &Robot,
     summary: &WorkspaceSummary,
@@ -82,7 +84,8 @@ fn values(
     let heading = Heading {
         title: &format!("{}: {words} at {}, {}", summary.robot, plane.words(), summary.conditions()),
         lines: &[format!(
-            "{} {unit} to {} {unit}; {held} of {} positions held with all tensions within limits, the others are hatched",
+            "{} {unit} to {} {unit}; {held} of {} positions held with all tensions within limits, the others \
+                are hatched",
             number(map.least, 3),
             number(map.greatest, 3),
             rows.len()
@@ -92,11 +95,11 @@ fn values(
     plane.figure(robot, &heading, &Paint::Values(map), hatched)
 }
 
-/// Map of the tolerance that contributes most to the variance of |dp| over a plane. Positions without
+/// Draws, over a plane, the tolerance that contributes most to the variance of |dp|. Positions without
 /// feasible tensions are hatched.
 ///
 /// # Errors
-/// As [`heat_map`]; [`ReportError::Empty`] also for a workspace without tolerances.
+/// As [`heat_map`], and [`ReportError::Empty`] for a workspace without tolerances.
 pub fn tolerance_map(robot: &Robot, summary: &WorkspaceSummary) -> Result<String, ReportError> {
     names(&plane_of(summary)?, robot, summary)
 }
@@ -118,12 +121,12 @@ fn names(plane: &Plane, robot: &Robot, summary: &WorkspaceSummary) -> Result<Str
     name_map(plane, robot, &title, line, &names)
 }
 
-/// All maps of a workspace that is a plane, or of each layer of a box: by the names of their files, with `_z00`, ... for layers.
+/// Draws all maps of a plane, or of each layer of a box. The names of layers end in `_z00`, ...
 pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary) -> Vec<NamedMap> {
     let mut maps = Vec::new();
     for plane in Plane::of(&summary.grid) {
         let name = |quantity: &str| format!("{quantity}{}", plane.suffix());
-        // Without a load nothing is displaced.
+        // Without a load there is no deflection.
         let deflection = summary.rows.iter().any(|row| row.rms_mm.is_some());
         let shown = MapQuantity::ALL.into_iter().filter(|of| deflection || *of != MapQuantity::Deflection);
         maps.extend(shown.map(|of| (name(of.name()), values(&plane, robot, summary, of))));

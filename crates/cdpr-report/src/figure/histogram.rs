@@ -9,31 +9,33 @@ use cdpr_sensitivity::{Histogram, Support};
 use cdpr_study::{FitSummary, SamplingSummary};
 use plotters::prelude::*;
 
-/// Sky blue halfway to white: the laws are drawn over it.
+/// Colour of the bars, sky blue halfway to white, because the laws are drawn over it.
 const BARS: RGBColor = RGBColor(0xAB, 0xDA, 0xF4);
 const NOMINAL: Pen = Pen { color: BLACK, width: 1.4, dash: Some(2.5) };
-/// The three best laws, best first.
+/// Pens of the three best laws, best first.
 const LAWS: [Pen; 3] = [
     Pen::solid(VERMILLION, 2.6),
     Pen { color: BLUE, width: 1.5, dash: Some(8.0) },
     Pen { color: GREEN, width: 1.5, dash: Some(4.0) },
 ];
-/// Points of a curve, about one a pixel.
+/// Number of points of a curve, about one per pixel.
 const POINTS: usize = 600;
 
-/// Histogram of the RMS as a density, the densities of the preferred law and the two of least AIC beside it, and the nominal robot's
-/// RMS as a vertical line.
+/// Draws the histogram of the RMS as a density, with the densities of fitted laws.
+///
+/// The laws are the preferred one and the two others with the least AIC. A vertical line shows the RMS of the
+/// nominal robot.
 ///
 /// # Errors
-/// [`ReportError::Empty`] without counts, [`ReportError::Invalid`] for bins without width, not one edge more than bins, or a
-/// value that is not finite.
+/// [`ReportError::Empty`] without counts, [`ReportError::Invalid`] for bins without width, unless there is
+/// one edge more than bins, or for a value that is not finite.
 pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
     let empty = ReportError::Empty { what: "histogram" };
     let (Some(histogram), Some(rms)) = (&summary.histogram, &summary.rms_mm) else { return Err(empty) };
     let bars = densities(histogram)?;
     let nominal = ReportError::finite("rms_mm.nominal", rms.nominal)?;
     let mut fits: Vec<&FitSummary> = summary.fits.iter().collect();
-    // The preferred law first, then by AIC.
+    // The preferred law comes first, then the others by AIC.
     fits.sort_by(|one, other| {
         let place = |fit: &FitSummary| (Some(fit.law) != summary.best_fit, fit.aic);
         place(one).partial_cmp(&place(other)).unwrap_or(std::cmp::Ordering::Equal)
@@ -48,7 +50,7 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
         .iter()
         .map(|fit| {
             let Support { min: first, max: last } = fit.parameters.support();
-            // Both sides of the ends of the support, where the density jumps.
+            // Both sides of the ends of the support, because the density may jump there.
             let ends = [first.next_down(), first, last, last.next_up()];
             let mut places: Vec<f64> =
                 (0..=POINTS).map(|k| low + (high - low) * k as f64 / POINTS as f64).collect();
@@ -91,7 +93,7 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
                 .draw(plot, vec![(from, 0.0), (from, density), (to, density), (to, 0.0)])?;
         }
         NOMINAL.draw(plot, vec![(nominal, 0.0), (nominal, y.range.end)])?;
-        // The best one last, over the others.
+        // The best law comes last, over the others.
         for (curve, pen) in curves.into_iter().zip(LAWS).rev() {
             pen.draw(plot, curve)?;
         }
@@ -120,6 +122,7 @@ fn densities(histogram: &Histogram) -> Result<Vec<(f64, f64, f64)>, ReportError>
     .collect()
 }
 
+/// Entry of a law in the key.
 fn legend(fit: &FitSummary, preferred: &FitSummary) -> String {
     if fit == preferred {
         format!("{} (preferred)", fit.law)

@@ -1,4 +1,5 @@
-//! Effects of the points' coordinates, each at its place in the plan of the robot: Fig. 5b and 5c of the paper.
+//! Effects of the coordinates of anchor and exit points, in the plan of the robot: Fig. 5b and 5c of the
+//! paper.
 
 use crate::drawing::axis::Axis;
 use crate::drawing::heading::Heading;
@@ -10,24 +11,24 @@ use cdpr_study::SamplingSummary;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Bars of x, y and z.
+/// Names and colours of the bars of x, y and z.
 const COORDINATES: [(&str, RGBColor); 3] = [("x", BLUE), ("y", ORANGE), ("z", GREEN)];
 /// Height of a panel with its title [px].
 const PANEL: f64 = 286.0;
 const PANEL_TITLE: f64 = 22.0;
-/// The plan: where the feet of the bars may stand [px].
+/// Ranges of the plan in which the feet of the bars lie [px].
 const PLAN: [(f64, f64); 2] = [(30.0, 450.0), (98.0, 252.0)];
-/// Height of the longest bar, width of a bar, room of a point's bars with their names [px].
+/// Height of the longest bar, width of a bar, and size of the bars of a point with their names [px].
 const LONGEST: f64 = 62.0;
 const BAR: f64 = 9.0;
 const ROOM: (f64, f64) = (35.0, 90.0);
-/// Left edges of the scale and of the list of the largest [px].
+/// Left edges of the scale and of the list of the largest indices [px].
 const SCALE: f64 = 520.0;
 const LIST: f64 = 560.0;
 const LISTED: usize = 8;
 const SMALL: f64 = 10.0;
 
-/// Which points of a robot.
+/// Kind of points of a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Points {
     /// Anchor points `A_i` on the platform.
@@ -37,7 +38,15 @@ pub enum Points {
 }
 
 impl Points {
-    /// The point, counted from 0, and the coordinate that a parameter stands for.
+    /// Name of the points in text.
+    pub(crate) fn kind(self) -> &'static str {
+        match self {
+            Self::Anchor => "anchor points",
+            Self::Exit => "exit points",
+        }
+    }
+
+    /// Index of the point and coordinate of a parameter, if it is a coordinate of such a point.
     fn coordinate(self, parameter: &str) -> Option<(usize, Coordinate)> {
         match (self, parameter.parse().ok()?) {
             (Self::Anchor, Parameter::AnchorPoint(i, axis)) | (Self::Exit, Parameter::ExitPoint(i, axis)) => {
@@ -55,9 +64,12 @@ impl Points {
     }
 }
 
-/// The t-Student index of each coordinate of each anchor or exit point as bars at the point's place in the plan of the robot,
-/// seen from above: one panel a sampling, headed by the given name and the sampling's title, all with the same scale. Points
-/// whose bars would cover each other stand side by side.
+/// Draws the t-Student index of each coordinate of each anchor or exit point as bars in the plan of the
+/// robot.
+///
+/// The bars of a point stand at its position, seen from above. There is one panel per sampling, with its name
+/// and title, and all panels have the same scale. Points whose bars would cover each other are drawn side by
+/// side.
 ///
 /// # Errors
 /// [`ReportError::Empty`] if no sampling has such a coordinate among its parameters, [`ReportError::Invalid`]
@@ -76,13 +88,11 @@ pub fn point_effects(
     }
     let greatest = panels.iter().flat_map(|panel| &panel.effects).map(|effect| effect.2).fold(0.0, f64::max);
     let scale = Axis::numbers(0.0..if greatest > 0.0 { greatest } else { 1.0 }, 5, "");
-    let kind = match points {
-        Points::Anchor => "anchor points A\u{1d62}",
-        Points::Exit => "exit points B\u{1d62}",
-    };
+    let kind = format!("{} {}\u{1d62}", points.kind(), points.letter());
     let heading = Heading {
         title: &format!("Effect of the coordinates of the {kind} on the RMS of the static deflection"),
-        lines: &["t-Student index [-] of each coordinate, at the point's place in the plan; figures: the largest of a point"
+        lines: &["t-Student index [-] of each coordinate, at the point's place in the plan; figures: the \
+            largest of a point"
             .to_owned()],
         key: &COORDINATES.map(|(name, color)| (name.to_owned(), Pen::bar(color))),
     };
@@ -92,13 +102,13 @@ pub fn point_effects(
     })
 }
 
-/// A sampling.
+/// Panel of one sampling.
 struct Panel {
     title: String,
-    /// P and the points in the plan [m].
+    /// Reference point P and the other points in the plan [m].
     center: [f64; 2],
     places: Vec<[f64; 2]>,
-    /// Point, coordinate, t-Student index.
+    /// Index of the point, index of the coordinate, t-Student index.
     effects: Vec<(usize, usize, f64)>,
 }
 
@@ -170,7 +180,7 @@ impl Panel {
         self.draw_largest(area, letter)
     }
 
-    /// The scale of the bars.
+    /// Draws the scale of the bars.
     fn draw_scale(&self, area: &Area, scale: &Axis) -> Result<(), DrawingError> {
         let foot = PLAN[1].0 + 20.0;
         let place = |t: f64| foot - LONGEST * t / scale.range.end;
@@ -195,7 +205,7 @@ impl Panel {
         Ok(())
     }
 
-    /// The coordinates with the largest index.
+    /// Lists the coordinates with the largest index.
     fn draw_largest(&self, area: &Area, letter: char) -> Result<(), DrawingError> {
         let mut effects = self.effects.clone();
         effects.sort_by(|one, other| other.2.total_cmp(&one.2));
@@ -212,7 +222,7 @@ impl Panel {
     }
 }
 
-/// From metres in the plan to pixels.
+/// Projection from metres in the plan to pixels.
 struct Plan {
     scale: f64,
     middle: [f64; 2],
@@ -227,7 +237,7 @@ impl Plan {
             })
         });
         let room = |axis: usize| (PLAN[axis].1 - PLAN[axis].0) / (bounds[axis].1 - bounds[axis].0).max(1e-9);
-        // Room for the bars of points at the left and right edge.
+        // The factor leaves room for the bars of points at the left and right edge.
         let scale = (0.8 * room(0)).min(room(1));
         Self { scale, middle: bounds.map(|(low, high)| 0.5 * (low + high)) }
     }
@@ -237,7 +247,7 @@ impl Plan {
         (middle[0] + self.scale * (x - self.middle[0]), middle[1] - self.scale * (y - self.middle[1]))
     }
 
-    /// Closed line through all points, around their middle.
+    /// Closed line through all points in the order of their angle around their middle.
     fn outline(&self, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
         let middle =
             [0, 1].map(|axis| places.iter().map(|place| place[axis]).sum::<f64>() / places.len() as f64);
@@ -248,7 +258,7 @@ impl Plan {
         corners.into_iter().map(|place| self.place(place)).collect()
     }
 
-    /// Where the bars of each point stand: at its place, or in a row with those that they would cover.
+    /// Feet of the bars of each point: at its position, or in a row with points whose bars would cover them.
     fn feet(&self, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
         let step = ROOM.0.min((PLAN[0].1 - PLAN[0].0) / places.len() as f64);
         let mut rows: Vec<Vec<usize>> = (0..places.len()).map(|point| vec![point]).collect();
@@ -273,7 +283,7 @@ impl Plan {
         }
         let mut feet = vec![(0.0, 0.0); places.len()];
         for row in &mut rows {
-            // From left to right, as the points do.
+            // The bars are in the order of the points, from left to right.
             row.sort_by(|one, other| places[*one][0].total_cmp(&places[*other][0]).then(one.cmp(other)));
             let half = 0.5 * step * row.len() as f64;
             let (x, y) = middle(row);

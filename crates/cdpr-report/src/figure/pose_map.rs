@@ -10,12 +10,14 @@ use crate::text::number;
 use cdpr_robot::Robot;
 use cdpr_study::{PoseRow, PosesSummary};
 
-/// A map by its name, `mean`, `std` or `dominant`, with `_z00`, ... for the layers of a box; or why it cannot be drawn.
+/// A map by its name, or the reason why it cannot be drawn.
 pub type NamedMap = (String, Result<String, ReportError>);
 
-/// All maps of a sampling at the poses of a grid. A pose is grey and hatched if the nominal robot has no
-/// feasible tensions there, or if hardly any observation has succeeded. A list of poses, or a line, has no
-/// map.
+/// Draws all maps of a sampling at the poses of a grid. They are named `mean`, `std` and `dominant`, with
+/// `_z00`, ... for the layers of a box.
+///
+/// A position is grey and hatched where the nominal robot does not hold the pose, or where too few
+/// observations have succeeded. A list of poses and a line have no map.
 pub fn pose_maps(robot: &Robot, summary: &PosesSummary, rows: &[PoseRow]) -> Vec<NamedMap> {
     let planes = summary.grid.as_ref().map(Plane::of).unwrap_or_default();
     let maps = planes.iter().flat_map(|plane| {

@@ -1,4 +1,4 @@
-//! The robot with its sagging cables at the poses of a study, seen from above one corner: a parallel projection, to scale.
+//! The robot with its sagging cables at the poses of a study, in a parallel projection to scale.
 
 use crate::drawing::heading::Heading;
 use crate::drawing::style::{
@@ -11,16 +11,16 @@ use cdpr_robot::Axis;
 use cdpr_study::Study;
 use plotters::prelude::*;
 
-/// Where the viewer stands: angle from the x axis around z, and above the horizon [rad].
+/// Direction of the viewer: angle from the x axis around z, and angle above the horizon [rad].
 const AZIMUTH: f64 = -1.05;
 const ELEVATION: f64 = 0.42;
-/// Poses that are drawn, each in a colour of its own.
+/// Colours of the poses that are drawn.
 const COLORS: [RGBColor; 4] = [BLUE, VERMILLION, GREEN, ORANGE];
 const FRAME: Pen = Pen { color: GREY, width: 1.2, dash: None };
 /// Length of the axes of the base frame, as a share of the smallest side of the frame.
 const AXES: f64 = 0.15;
 
-/// The robot of a study under its load, at the first four of the study's poses.
+/// Draws the robot of a study under its load at the first four poses of the study.
 ///
 /// # Errors
 /// [`ReportError::Empty`] if the nominal robot has feasible tensions at no pose.
@@ -55,24 +55,24 @@ pub fn robot_view(study: &Study) -> Result<String, ReportError> {
     })
 }
 
-/// The projection from the base frame to pixels.
+/// Projection from the base frame to pixels.
 struct Projection {
-    /// Pixels a metre.
+    /// Pixels per metre.
     scale: f64,
-    /// The projected point [m] at the middle of the picture.
+    /// Projected point [m] at the middle of the picture.
     middle: (f64, f64),
-    /// Length of the drawn axes [m].
+    /// Length of the axes of the base frame [m].
     axes: f64,
 }
 
-/// To the right and up in the picture [m].
+/// Projects a point to its coordinates to the right and upwards in the picture [m].
 fn seen([x, y, z]: [f64; 3]) -> (f64, f64) {
     let ((sin, cos), (sin_up, cos_up)) = (AZIMUTH.sin_cos(), ELEVATION.sin_cos());
     (y * cos - x * sin, z * cos_up - (x * cos + y * sin) * sin_up)
 }
 
 impl Projection {
-    /// The whole scene fits.
+    /// Makes a projection in which the whole scene fits.
     fn of(scene: &Scene) -> Self {
         let feet = scene.exits.iter().map(|exit| [exit[0], exit[1], scene.floor]);
         let cables = scene.poses.iter().flat_map(|pose| &pose.loaded.cables);
@@ -112,7 +112,7 @@ impl Projection {
         area.draw(&Circle::new((px(x), px(y)), px(2.6) as u32, color.filled()))
     }
 
-    /// Posts from the floor to the exit points, beams between these, and the axes of the base frame.
+    /// Draws posts from the floor to the exit points, beams between these, and the axes of the base frame.
     fn frame(&self, area: &Area, scene: &Scene) -> Result<(), DrawingError> {
         let corner = |i: usize| scene.exits[scene.ring[i % scene.ring.len()]];
         let foot = |[x, y, _]: [f64; 3]| [x, y, scene.floor];
@@ -131,7 +131,7 @@ impl Projection {
         Ok(())
     }
 
-    /// Cables, and the platform as the outline of its anchor points.
+    /// Draws the cables, and the platform as the outline of its anchor points.
     fn state(&self, area: &Area, state: &State, color: RGBColor) -> Result<(), DrawingError> {
         for cable in &state.cables {
             self.line(area, Pen::solid(color, 1.1), cable.points.iter().copied())?;
@@ -143,17 +143,18 @@ impl Projection {
     }
 }
 
-/// Convex hull in the plane (A. M. Andrew, 1979).
+/// Convex hull in the plane (A. M. Andrew, *Another efficient algorithm for convex hulls in two dimensions*,
+/// 1979).
 fn outline(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     points.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
     let half = |points: &mut dyn Iterator<Item = (f64, f64)>| {
         let mut chain: Vec<(f64, f64)> = Vec::new();
         for point in points {
-            let turns = |a: (f64, f64), b: (f64, f64)| {
+            let is_left_turn = |a: (f64, f64), b: (f64, f64)| {
                 (b.0 - a.0) * (point.1 - a.1) - (b.1 - a.1) * (point.0 - a.0) > 0.0
             };
             while let [.., a, b] = chain[..]
-                && !turns(a, b)
+                && !is_left_turn(a, b)
             {
                 chain.pop();
             }

@@ -1,4 +1,5 @@
-//! Robustness of the direct model: how far it ends from the true pose, and from which starts it finds it.
+//! Robustness of the direct model: the distance of its answers from the true pose, and the starts from which
+//! it finds it.
 
 use crate::drawing::axis::{Axis, Grid, chart};
 use crate::drawing::heading::Heading;
@@ -9,7 +10,7 @@ use cdpr_assess::{Outcome, ProtocolSummary, RobustnessResult, RobustnessRow};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Outcomes with their names and colours; the rare ones are drawn last, over the others.
+/// Outcomes with their names and colours. The rare ones are drawn last, over the others.
 const OUTCOMES: [(Outcome, &str, RGBColor); 3] = [
     (Outcome::TruePose, "true pose", BLUE),
     (Outcome::OtherEquilibrium, "another stable equilibrium", ORANGE),
@@ -17,7 +18,7 @@ const OUTCOMES: [(Outcome, &str, RGBColor); 3] = [
 ];
 /// Radius of a mark [px].
 const MARK: f64 = 1.8;
-/// True poses drawn at most: more would hide one another.
+/// Largest number of true poses that are drawn. More would hide each other.
 const MOST_TRUE_POSES: usize = 2000;
 /// Distance below which differences are rounding [m]; nearer answers are drawn at this distance.
 const NEAREST: f64 = 1e-16;
@@ -26,8 +27,10 @@ const ROW: f64 = 46.0;
 /// The dark end of the colours is the least share of the grid, but at most this value.
 const BRIGHTEST_DARK: f64 = 0.99;
 
-/// Every solve of a test: how far the answer is from the true pose, over how far the start was from it, both as the root mean
-/// square distance of the anchor points, coloured by outcome. Of many true poses every k-th is drawn.
+/// Draws every solve of a test: the distance of its answer from the true pose over the distance of its start.
+///
+/// Both are root mean square distances over the anchor points. The colour shows the outcome. If there are
+/// many true poses, every k-th is drawn.
 ///
 /// # Errors
 /// [`ReportError::Empty`] without solves, [`ReportError::Invalid`] for a distance that is not finite.
@@ -85,7 +88,7 @@ pub fn found_poses(result: &RobustnessResult) -> Result<String, ReportError> {
     })
 }
 
-/// An axis of decimal logarithms from decade to decade, with the powers at its ticks.
+/// Axis of decimal logarithms over whole decades, with the powers at its ticks.
 fn decades(range: std::ops::Range<f64>, label: &str) -> Axis {
     let step = ((range.end - range.start) / 8.0).ceil().max(1.0) as i32;
     let ticks = (range.start as i32..=range.end as i32)
@@ -95,11 +98,11 @@ fn decades(range: std::ops::Range<f64>, label: &str) -> Axis {
     Axis { range, ticks, label: label.to_owned() }
 }
 
-/// Share of starts that lead to the true pose, over the grid of start distances and angles.
+/// Draws the share of starts that lead to the true pose, over the grid of start distances and angles.
 ///
 /// # Errors
-/// [`ReportError::Empty`] without solves, [`ReportError::Invalid`] for a row without distance and angle, or with numbers that
-/// are not finite.
+/// [`ReportError::Empty`] without solves, [`ReportError::Invalid`] for a row without distance and angle, or
+/// with numbers that are not finite.
 pub fn success_share(summary: &ProtocolSummary) -> Result<String, ReportError> {
     let mut cells = Vec::new();
     for row in &summary.rows {

@@ -1,4 +1,4 @@
-//! Shares of the variance of the RMS by every measure that has them.
+//! Shares of the variance of the RMS by all measures of sensitivity that estimate them.
 
 use crate::drawing::axis::{Axis, Grid, chart};
 use crate::drawing::heading::Heading;
@@ -8,7 +8,7 @@ use crate::text::number;
 use cdpr_study::{InputMeasures, SamplingSummary, SensitivitySummary};
 use plotters::prelude::*;
 
-/// Lines of dots, from top to bottom: name, colour, value, ends of its interval.
+/// Lines of dots from top to bottom.
 const MEASURES: [Line; 6] = [
     ("derivatives", BLUE, |input| input.derivative_share, |_| None),
     ("SRC\u{b2}", ORANGE, |input| input.regression_share, |_| None),
@@ -33,26 +33,27 @@ type Line =
 
 /// Height of an input with all its lines [px].
 const ROW: f64 = 44.0;
-/// Distance of the lines of an input; inputs are 1 apart.
+/// Distance between the lines of an input. The distance between inputs is 1.
 const STEP: f64 = 0.14;
 /// Radius of a dot [px].
 const DOT: f64 = 2.6;
 /// Least share drawn; smaller shares lie on the left edge.
 const LEAST: f64 = 1e-4;
 
-/// Shares of the variance of the `most` leading inputs on a logarithmic axis, one line of dots an input and measure, with
-/// the intervals of Sobol' indices.
+/// Draws the shares of the variance of the `most` leading inputs on a logarithmic axis.
+///
+/// There is one line per input and measure. Sobol' indices have their intervals.
 ///
 /// # Errors
-/// [`ReportError::Empty`] for a study without such measures, or if no input is wanted, [`ReportError::Invalid`] for a share
-/// that is not finite.
+/// [`ReportError::Empty`] for a study without such measures or if `most` is zero, [`ReportError::Invalid`]
+/// for a share that is not finite.
 pub fn shares(summary: &SamplingSummary, most: usize) -> Result<String, ReportError> {
     let Some(sensitivity) = &summary.sensitivity else {
         return Err(ReportError::Empty { what: "sensitivity" });
     };
     let mut inputs = sensitivity.leading();
     inputs.truncate(most);
-    // The leading one on top.
+    // The leading input is on top.
     inputs.reverse();
     let measured = |line: &&Line| inputs.iter().any(|input| line.2(input).is_some());
     let lines: Vec<&Line> = MEASURES.iter().filter(measured).collect();
@@ -103,7 +104,8 @@ fn subtitle(summary: &SamplingSummary, sensitivity: &SensitivitySummary, shown: 
     vec![
         format!("{shown} of {all} parameters; what is below {least} % lies on the left edge"),
         format!(
-            "first-order shares by every measure, total Sobol' indices; lines: intervals of {confidence} % confidence"
+            "first-order shares by every measure, total Sobol' indices; lines: intervals of {confidence} % \
+                confidence"
         ),
     ]
 }

@@ -1,4 +1,4 @@
-//! The largest signed effects and their intervals.
+//! Largest signed effects with their intervals.
 
 use crate::drawing::axis::{Axis, Grid, chart};
 use crate::drawing::heading::Heading;
@@ -9,16 +9,17 @@ use plotters::prelude::*;
 
 /// Height of a row [px].
 const ROW: f64 = 18.0;
-/// Height of a bar and of the ends of its interval; rows are 1 apart.
+/// Height of a bar and of the ends of its interval. The distance between rows is 1.
 const BAR: f64 = 0.66;
 const CAP: f64 = 0.3;
 
-/// The `most` largest signed effects as horizontal bars, largest on top, with their intervals. Bars are grey where the interval
-/// contains zero.
+/// Draws the `most` largest signed effects as horizontal bars with their intervals, the largest on top.
+///
+/// Bars are grey if the interval contains zero.
 ///
 /// # Errors
-/// [`ReportError::Empty`] if there are no effects (a study without replicates) or none are wanted, [`ReportError::Invalid`]
-/// for a value that is not finite.
+/// [`ReportError::Empty`] for a study without replicates or if `most` is zero, [`ReportError::Invalid`] for a
+/// value that is not finite.
 pub fn signed_effects(summary: &SamplingSummary, most: usize) -> Result<String, ReportError> {
     let mut effects: Vec<(&String, &SignedEffect)> = summary.signed_effects_mm.iter().collect();
     for (name, effect) in &effects {
@@ -28,7 +29,7 @@ pub fn signed_effects(summary: &SamplingSummary, most: usize) -> Result<String, 
     }
     effects.sort_by(|one, other| other.1.effect.abs().total_cmp(&one.1.effect.abs()));
     effects.truncate(most);
-    // The largest one on top.
+    // The largest effect is on top.
     effects.reverse();
     if effects.is_empty() {
         return Err(ReportError::Empty { what: "signed_effects_mm" });
@@ -48,7 +49,8 @@ pub fn signed_effects(summary: &SamplingSummary, most: usize) -> Result<String, 
     let heading = Heading {
         title: &summary.title,
         lines: &[
-            "signed effect: mean of the RMS over the upper half of a parameter's range minus that over the lower half"
+            "signed effect: mean of the RMS over the upper half of a parameter's range minus that over the \
+                lower half"
                 .to_owned(),
             format!(
                 "{} of {} parameters; intervals of {} % confidence from {} replicates",

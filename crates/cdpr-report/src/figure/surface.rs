@@ -1,4 +1,4 @@
-//! The RMS over two parameters: Fig. 4b and 4c of the paper.
+//! RMS over two parameters: Fig. 4b and 4c of the paper.
 
 use crate::drawing::axis::{Grid, chart};
 use crate::drawing::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
@@ -9,7 +9,9 @@ use crate::parameters::axis_of;
 use crate::text::number;
 use cdpr_study::{SurfaceResult, SurfaceSummary};
 
-/// Heat map of the RMS with contour lines at the ticks of its colour bar. A cell that failed is grey and struck through.
+/// Draws the RMS over two parameters in colour, with contour lines at the ticks of the colour bar.
+///
+/// A failed cell is grey and struck through.
 ///
 /// # Errors
 /// [`ReportError::Empty`] if every cell failed, [`ReportError::Invalid`] for an invalid grid, an unknown
@@ -24,7 +26,8 @@ pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result
     let heading = Heading {
         title: &summary.title,
         lines: &[format!(
-            "RMS of the static deflection: min {} mm, max {} mm, nominal {} mm; {} grid points, {failed} failed",
+            "RMS of the static deflection: min {} mm, max {} mm, nominal {} mm; {} grid points, {failed} \
+                failed",
             number(map.least, 4),
             number(map.greatest, 4),
             number(ReportError::finite("rms_mm.nominal", summary.rms_mm.nominal)?, 4),
@@ -43,7 +46,7 @@ pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result
     })
 }
 
-/// The values of a parameter in the unit that its label names.
+/// Values of a parameter in the unit of its label.
 fn nodes(field: &str, name: &str, values: &[f64]) -> Result<Nodes, ReportError> {
     let (label, scale) = axis_of(name)?;
     Nodes::new(field, label, values.iter().map(|value| scale * value).collect())

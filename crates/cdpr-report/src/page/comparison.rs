@@ -5,7 +5,7 @@ use crate::text;
 use cdpr_study::{ComparisonRow, ComparisonSpec, Summary, Value, Verdict};
 use maud::{Markup, html};
 
-/// None for a study without published figures.
+/// Section of the comparison. A study without published figures has none.
 pub(crate) fn section(summary: &Summary) -> Option<Section> {
     if summary.comparison.is_empty() {
         return None;
@@ -15,10 +15,13 @@ pub(crate) fn section(summary: &Summary) -> Option<Section> {
     let head = ["Figure", "Quantity", "Published", "Computed", "Unit", "Difference", "Verdict"];
     let body = html! {
         p {
-            (rows.len() - missed) " of " (rows.len()) " published figures are reproduced; " (missed) " are not, and are shown as such. "
-            "A number is reproduced if it lies within half of the published figure's last digit plus 1 % of it, a word if it is the "
-            "same. Points are ranked by the largest t-Student index of their coordinates; nearly equal means that the largest is "
-            "at most 1.5 times the smallest."
+            (rows.len() - missed) " of " (rows.len()) " published figures are reproduced, " (missed)
+                " are not. "
+            "A number is reproduced if it differs from the published one by at most half of its last digit \
+                plus 1 %. A word is "
+            "reproduced if it is the same. Points are ranked by the largest t-Student index of their \
+                coordinates. \"Nearly equal\" "
+            "means that the largest is at most 1.5 times the smallest."
         }
         (table("Published and computed figures", &head, &rows))
     };
@@ -43,7 +46,8 @@ fn row(row: &ComparisonRow) -> Vec<Markup> {
     };
     vec![
         cell(&row.figure),
-        html! { (row.quantity) span.detail { (row.study) } @if let Some(note) = &row.note { span.detail { (note) } } },
+        html! { (row.quantity) span.detail { (row.study) } @if let Some(note) = &row.note { span.detail {
+        (note) } } },
         value(&row.paper, text::digits),
         value(&row.computed, text::figures),
         cell(&row.unit),
@@ -52,7 +56,8 @@ fn row(row: &ComparisonRow) -> Vec<Markup> {
     ]
 }
 
-/// Published figures that statistics of a study are compared with: `The published counterpart is Fig. 4a.`, or nothing.
+/// Sentence on the published figures with which statistics are compared, such as `The published counterpart
+/// is Fig. 4a.`. It is empty if there are none.
 pub(crate) fn counterpart(rows: &[ComparisonSpec], is_meant: impl Fn(&ComparisonSpec) -> bool) -> String {
     let mut figures: Vec<&str> = Vec::new();
     for row in rows.iter().filter(|row| is_meant(row)) {

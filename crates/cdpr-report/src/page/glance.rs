@@ -1,4 +1,4 @@
-//! Title and main figures.
+//! Title of the page, its main figures, and the overview of all parts of the study.
 
 use crate::page::elements::{cell, numeric, table};
 use crate::parameters;
@@ -6,7 +6,7 @@ use crate::text;
 use cdpr_study::{PosesSummary, Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict};
 use maud::{Markup, html};
 
-/// Most parameters named as dominant, and the least share of the largest index that makes one so.
+/// Largest number of dominant parameters, and the least share of the largest index that such a parameter has.
 const DOMINANT: usize = 3;
 const LEAST: f64 = 0.25;
 
@@ -19,10 +19,11 @@ pub(crate) fn header(results: &Results) -> Markup {
             p.kicker { "Static deflection of a cable-driven parallel robot" }
             h1 { (summary.study) }
             p.lead {
-                "How far " (summary.robot) " gives when " (text::digits(summary.payload, 4)) " kg are added to its platform"
+                "How far the platform of " (summary.robot) " moves when " (text::digits(summary.payload, 4))
+                    " kg are added to it"
                 @if observations > 0 {
-                    ", and how that depends on what is not exactly known: " (observations) " observations at "
-                    (summary.studies.len()) @if summary.studies.len() == 1 { " setting" } @else { " settings" }
+                    ", and how the uncertain parameters change that: " (observations) " observations at "
+                    (summary.studies.len()) " setting" @if summary.studies.len() != 1 { "s" }
                 }
                 "."
             }
@@ -32,7 +33,7 @@ pub(crate) fn header(results: &Results) -> Markup {
     }
 }
 
-/// The samplings of a summary.
+/// Samplings at one pose of a summary.
 pub(crate) fn samplings(summary: &Summary) -> impl Iterator<Item = (&str, &SamplingSummary)> {
     summary.studies.iter().filter_map(|(name, study)| match study {
         StudySummary::Sampling(sampling) => Some((name.as_str(), sampling.as_ref())),
@@ -40,7 +41,7 @@ pub(crate) fn samplings(summary: &Summary) -> impl Iterator<Item = (&str, &Sampl
     })
 }
 
-/// The surfaces of a summary.
+/// Surfaces of a summary.
 pub(crate) fn surfaces(summary: &Summary) -> impl Iterator<Item = (&str, &SurfaceSummary)> {
     summary.studies.iter().filter_map(|(name, study)| match study {
         StudySummary::Surface(surface) => Some((name.as_str(), surface)),
@@ -48,7 +49,7 @@ pub(crate) fn surfaces(summary: &Summary) -> impl Iterator<Item = (&str, &Surfac
     })
 }
 
-/// The samplings of a summary at several poses.
+/// Samplings at several poses of a summary.
 pub(crate) fn poses(summary: &Summary) -> impl Iterator<Item = (&str, &PosesSummary)> {
     summary.studies.iter().filter_map(|(name, study)| match study {
         StudySummary::Poses(poses) => Some((name.as_str(), poses)),
@@ -56,7 +57,7 @@ pub(crate) fn poses(summary: &Summary) -> impl Iterator<Item = (&str, &PosesSumm
     })
 }
 
-/// The parameters with the largest t-Student index, largest first, without those that are far behind.
+/// Dominant parameters: those with the largest t-Student index, the largest first.
 fn dominant(sampling: &SamplingSummary) -> Vec<(&str, f64)> {
     let mut effects: Vec<_> = sampling.t_student.iter().map(|(name, t)| (name.as_str(), *t)).collect();
     effects.sort_by(|one, other| other.1.total_cmp(&one.1));
@@ -75,7 +76,8 @@ fn cards(summary: &Summary) -> Markup {
     html! {
         dl.cards {
             @if let Some(rms) = first.and_then(|(_, sampling)| sampling.rms_mm) {
-                (card("Nominal deflection", &text::figures(rms.nominal, 4), "mm", &first.map_or_else(String::new, |(name, _)| name.to_owned())))
+                (card("Nominal deflection", &text::figures(rms.nominal, 4), "mm",
+                    &first.map_or_else(String::new, |(name, _)| name.to_owned())))
                 (card("Mean \u{b1} std. deviation",
                     &format!("{} \u{b1} {}", text::figures(rms.mean, 4), text::figures(rms.std, 2)), "mm",
                     &format!("{} to {} mm", text::figures(rms.min, 4), text::figures(rms.max, 4))))
@@ -84,16 +86,18 @@ fn cards(summary: &Summary) -> Markup {
             }
             @if let Some((_, sampling)) = first {
                 @let effects = dominant(sampling);
+                @let symbols: Vec<_> = effects.iter().map(|effect| parameters::symbol(effect.0)).collect();
+                @let indices: Vec<_> = effects.iter().map(|effect| text::figures(effect.1, 3)).collect();
                 @if !effects.is_empty() {
                     (card("Dominant parameters",
-                        &effects.iter().map(|effect| parameters::symbol(effect.0)).collect::<Vec<_>>().join(", "), "",
-                        &format!("t = {}", effects.iter().map(|effect| text::figures(effect.1, 3)).collect::<Vec<_>>().join(", "))))
+                        &symbols.join(", "), "", &format!("t = {}", indices.join(", "))))
                 }
             }
             @if all > 0 {
-                (card("Published figures reproduced", &reproduced.to_string(), &format!("of {all}"), "within the last digit and 1\u{a0}%"))
+                (card("Published figures reproduced", &reproduced.to_string(), &format!("of {all}"),
+                    "within half of the last digit and 1\u{a0}%"))
             } @else {
-                (card("Failed observations", &failed.to_string(), "", "counted, and left out of statistics"))
+                (card("Failed observations", &failed.to_string(), "", "counted, in no statistic"))
             }
         }
     }
@@ -108,7 +112,7 @@ fn card(name: &str, value: &str, unit: &str, note: &str) -> Markup {
     }
 }
 
-/// One row a sampling and surface.
+/// Overview with one row per sampling and surface.
 fn overview(summary: &Summary) -> Markup {
     let rows: Vec<Vec<Markup>> = summary
         .studies
@@ -154,5 +158,5 @@ fn overview(summary: &Summary) -> Markup {
         })
         .collect();
     let head = ["Setting", "Nominal", "Mean", "Std. dev.", "Least", "Greatest", "Law", "Dominant"];
-    table("RMS of the static deflection [mm], that is the length of the displacement", &head, &rows)
+    table("RMS of the static deflection [mm]: the length of the displacement of the platform", &head, &rows)
 }

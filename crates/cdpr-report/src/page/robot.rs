@@ -1,4 +1,4 @@
-//! The robot in space, and its cables in figures.
+//! The robot in space, and tables of its cables.
 
 use crate::page::elements::{Section, cell, numeric, table};
 use crate::scene::{Scene, ScenePose};
@@ -17,7 +17,7 @@ pub(crate) fn section(robot: &Robot, scene: &Result<Scene, StudyError>) -> Secti
 
 fn view(robot: &Robot, scene: &Scene) -> Markup {
     let alt = format!(
-        "{} in three dimensions with its {} sagging cables; the tables below say the same in figures",
+        "{} in three dimensions with its {} sagging cables; the tables below hold its numbers",
         robot.name,
         robot.cables.len()
     );
@@ -33,15 +33,17 @@ fn view(robot: &Robot, scene: &Scene) -> Markup {
                     label { input type="radio" name="state" value="loaded" checked; " with payload" }
                 }
                 label { "Sag drawn " output id="sag-times" for="sag" { "\u{d7}1" }
-                    input type="range" id="sag" min="0" max="9" step="1" value="0" aria-describedby="robot-note"; }
+                    input type="range" id="sag" min="0" max="9" step="1" value="0"
+                        aria-describedby="robot-note"; }
                 label { "Deflection drawn " output id="motion-times" for="motion" { "\u{d7}1" }
                     input type="range" id="motion" min="0" max="9" step="1" value="0"; }
             }
             div.plot id="plot-robot" role="img" aria-label=(alt) tabindex="0" {}
-            noscript { p.note { "The view in space needs JavaScript; all else does not." } }
+            noscript { p.note { "Only the view in space needs JavaScript." } }
             figcaption {
-                span id="robot-note" {} " Cables coloured by their tension at the platform. Grey posts and ring: the frame, as "
-                "the exit points have it; a robot file knows no other. Drag to turn; click, then wheel or pinch to zoom; with the "
+                span id="robot-note" {} " The colour of a cable shows its tension at the platform. Grey posts "
+                "and ring: a frame through the exit points, because a robot file describes no other. Drag to "
+                "rotate; click, then wheel or pinch to zoom; with the "
                 "keyboard: arrows, + and \u{2212}."
             }
         }
@@ -75,9 +77,13 @@ fn cables(scene: &Scene) -> Markup {
     html! {
         @for pose in &scene.poses {
             details {
-                summary { "Cables at " (pose.name) ": deflection " (text::digits(pose.deflection_mm, 4)) " mm, greatest sag "
+                summary { "Cables at " (pose.name) ": deflection " (text::digits(pose.deflection_mm, 4))
+                    " mm, greatest sag "
                     (text::digits(pose.unloaded.greatest_sag_mm(), 3)) " mm" }
-                (table(&format!("Cables of the nominal robot at {}; tensions at the platform, sag across the chord", pose.name), &head, &rows(pose)))
+                @let caption = format!(
+                    "Cables of the nominal robot at {}; tensions at the platform, sag across the chord", pose.name
+                );
+                (table(&caption, &head, &rows(pose)))
             }
         }
     }

@@ -1,4 +1,4 @@
-//! How the run went, and how to run it again.
+//! Failed observations, notes and timings of the run, and how to repeat it.
 
 use crate::page::elements::{Section, cell, numeric, table};
 use crate::text;
@@ -38,8 +38,8 @@ pub(crate) fn observations(results: &Results) -> Section {
     let body = html! {
         @if failed.is_empty() { p { "No observation failed." } }
         @else {
-            p { "A failed observation is data: it is counted by kind, its reason stands in the table of the observations, and it is absent "
-                "from every statistic." }
+            p { "A failed observation is counted by kind, and the table of the observations gives its \
+                reason. No statistic includes it." }
             (table("Failed observations", &["Setting", "Kind", "Number", "Share"], &failed))
         }
         @if !notes.is_empty() {
@@ -72,7 +72,7 @@ fn times(timings: &Timings) -> Markup {
 pub(crate) fn again(results: &Results) -> Section {
     let (summary, robot) = (&results.summary, &results.study.file.robot);
     let body = html! {
-        p { "The same version, study, robot and seed give the same numbers, on any number of threads." }
+        p { "The same version, study, robot and seed give the same numbers on any number of threads." }
         pre { code { "cdpr study run study.json --out results" } }
         dl.facts {
             dt { "Version" } dd { "cdpr " (summary.version) }
@@ -85,7 +85,7 @@ pub(crate) fn again(results: &Results) -> Section {
     Section::new("again", "Run it again", body)
 }
 
-/// A file, folded away, to be looked at or saved.
+/// A file that can be unfolded or saved.
 fn file(name: &str, text: &str) -> Markup {
     let address = format!("data:application/json;base64,{}", BASE64_STANDARD.encode(text));
     html! {

@@ -1,4 +1,4 @@
-//! What was studied: robot, settings, poses, error models.
+//! The study: robot, settings, poses, error models.
 
 use crate::page::elements::{Section, cell, table};
 use crate::parameters;
@@ -23,13 +23,18 @@ fn settings(results: &Results) -> Markup {
         @if let Some(source) = &file.source { p { (source) } }
         dl.facts {
             dt { "Robot" }
-            dd { (robot.name) ", " (robot.cables.len()) " cables, platform of " (text::digits(robot.platform.mass, 5)) " kg"
+            dd { (robot.name) ", " (robot.cables.len()) " cables, platform of "
+                (text::digits(robot.platform.mass, 5)) " kg"
                 @if let Some(source) = &robot.source { span.detail { (source) } } }
             dt { "Cable 1" }
-            dd { "E = " (text::digits(1e-9 * cable.youngs_modulus, 4)) " GPa, section " (text::digits(1e6 * cable.section, 4))
+            dd { "E = " (text::digits(1e-9 * cable.youngs_modulus, 4)) " GPa, section "
+                (text::digits(1e6 * cable.section, 4))
                 " mm\u{b2}, " (text::digits(1e3 * cable.linear_density, 4)) " g/m" }
             dt { "Tension limits" }
-            dd { (text::digits(robot.tension_limits.min, 5)) " N to " (text::digits(robot.tension_limits.max, 5)) " N" }
+            dd {
+                (text::digits(robot.tension_limits.min, 5)) " N to "
+                (text::digits(robot.tension_limits.max, 5)) " N"
+            }
             dt { "Load" }
             dd { (text::digits(file.payload, 5)) " kg added at the platform's centre of mass" }
             dt { "Design" }
@@ -37,7 +42,8 @@ fn settings(results: &Results) -> Markup {
             dt { "Intervals" }
             dd {
                 @if file.replicates == 0 { "none: no replicates" }
-                @else { (text::digits(100.0 * file.confidence, 4)) " % confidence from " (file.replicates) " scrambled replicates" }
+                @else { (text::digits(100.0 * file.confidence, 4)) " % confidence from " (file.replicates)
+                    " scrambled replicates" }
                 "; p-values from " (file.bootstrap_resamples) " resamples"
             }
             dt { "Seed" }
@@ -49,9 +55,9 @@ fn settings(results: &Results) -> Markup {
 fn parts(results: &Results) -> Markup {
     let file = &results.study.file;
     let pose = |pose: &PoseSpec| {
-        let turned = pose.quaternion[1..].iter().any(|component| *component != 0.0);
+        let is_rotated = pose.quaternion[1..].iter().any(|component| *component != 0.0);
         html! { span.number { (text::point(&pose.position)) }
-        @if turned { span.detail { "quaternion " (text::point(&pose.quaternion)) } } }
+        @if is_rotated { span.detail { "quaternion " (text::point(&pose.quaternion)) } } }
     };
     let mut rows = Vec::new();
     for (name, sampling) in &file.samplings {
@@ -70,7 +76,8 @@ fn parts(results: &Results) -> Markup {
                     if axis.points == 1 { ends[0].clone() } else { ends.join(" \u{2026} ") }
                 });
                 let [x, y, z] = [x, y, z].map(|axis| axis.points);
-                html! { "(" (ends.join(", ")) ")" span.detail { "grid of " (x) " \u{d7} " (y) " \u{d7} " (z) } }
+                html! { "(" (ends.join(", ")) ")" span.detail { "grid of " (x) " \u{d7} " (y) " \u{d7} " (z) }
+                }
             }
             (None, None) => cell(""),
         };
@@ -78,9 +85,10 @@ fn parts(results: &Results) -> Markup {
             html! { (sampling.title) span.detail { (name) } },
             place,
             html! { "error model " code { (sampling.error_model) }
-                @if let Some([least, greatest]) = moduli {
-                    span.detail { "E at the operating point " (text::digits(least, 4)) " to " (text::digits(greatest, 4)) " GPa" }
-                } },
+            @if let Some([least, greatest]) = moduli {
+                span.detail { "E at the operating point " (text::digits(least, 4)) " to "
+                    (text::digits(greatest, 4)) " GPa" }
+            } },
             cell(format!("{count} observations")),
         ]);
     }
@@ -98,7 +106,7 @@ fn parts(results: &Results) -> Markup {
 
 fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec>) -> Markup {
     let parameters = Parameter::all(results.study.robot.cables.len());
-    // A parameter's own entry goes before its group's.
+    // The entry of a parameter takes precedence over that of its group.
     let of_entry = |key: &str| -> Vec<&Parameter> {
         let is_of = |parameter: &&Parameter| {
             let own = parameter.to_string();
@@ -121,7 +129,9 @@ fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec
                 html! { (parameters::parameter(key)) span.detail { (tied.as_ref().unwrap_or(key)) } },
                 cell(if tied.is_some() { 1 } else { of.len() }.to_string()),
                 html! { (text::law(&spec.law, scale))
-                    @if spec.operating_point.is_some() { span.detail { "from the modulus at the operating point" } } },
+                @if spec.operating_point.is_some() {
+                    span.detail { "from the modulus at the operating point" }
+                } },
                 cell(text::steps(spec.steps.as_ref(), scale)),
                 cell(unit),
             ]
@@ -133,7 +143,7 @@ fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec
     table(&caption, &["Parameter", "Inputs", "Law of the deviation", "Steps", "Unit"], &rows)
 }
 
-/// `added to b1.x, b3.x`, of a cause of several parameters.
+/// Words for a cause of several parameters, such as `added to b1.x, b3.x`.
 fn tied(parameters: &IndexMap<String, f64>) -> String {
     let term = |(name, factor): (&String, &f64)| match factor {
         1.0 => name.clone(),
