@@ -21,7 +21,7 @@ pub fn write_robustness(folder: &Path, summary: &RobustnessSummary) -> Result<Pa
 /// # Errors
 /// [`StudyError::Write`].
 pub fn write_solves(folder: &Path, results: &[RobustnessResult]) -> Result<PathBuf, StudyError> {
-    let pose = |name: &str| ["x", "y", "z", "rx", "ry", "rz"].map(|axis| format!("{name}_{axis}"));
+    let pose = |name: &str| Pose::COORDINATES.map(|axis| format!("{name}_{axis}"));
     let header = ["protocol", "draw", "start_distance_m", "start_angle_deg", "start_anchor_distance_m"];
     let header = header
         .into_iter()
@@ -82,7 +82,7 @@ pub fn write_solves(folder: &Path, results: &[RobustnessResult]) -> Result<PathB
 /// # Errors
 /// [`StudyError::Write`].
 pub fn write_refused(folder: &Path, results: &[RobustnessResult]) -> Result<PathBuf, StudyError> {
-    let header = ["protocol", "draw", "x", "y", "z", "rx", "ry", "rz", "status", "reason"];
+    let header = ["protocol", "draw"].into_iter().chain(Pose::COORDINATES).chain(["status", "reason"]);
     let rows = results.iter().flat_map(|result| {
         result.refused.iter().map(|refused| {
             let reason = match &refused.refusal {
@@ -96,7 +96,7 @@ pub fn write_refused(folder: &Path, results: &[RobustnessResult]) -> Result<Path
             record
         })
     });
-    write_csv(folder.join("refused.csv"), header.map(str::to_owned).into(), rows)
+    write_csv(folder.join("refused.csv"), header.map(str::to_owned).collect(), rows)
 }
 
 /// Writes `workspace.csv`, one row for each position, and `workspace.json`, the same with settings and

@@ -2,7 +2,7 @@
 
 use crate::text;
 use cdpr_cable::Catenary;
-use cdpr_robot::{Matrix3, Pose, Robot, Vector3};
+use cdpr_robot::{Axis, Matrix3, Pose, Robot, Vector3};
 use cdpr_statics::{Deflection, Equilibrium};
 use cdpr_study::{Study, StudyError};
 use serde::Serialize;
@@ -178,7 +178,7 @@ fn flat(points: &[[f64; 3]]) -> Option<&'static str> {
     let eigen = spread.symmetric_eigen();
     let (least, normal) = (eigen.eigenvalues.imin(), eigen.eigenvalues.min());
     let is_flat = normal < 1e-6 * eigen.eigenvalues.max();
-    is_flat.then(|| ["x", "y", "z"][eigen.eigenvectors.column(least).iamax()])
+    is_flat.then(|| Axis::ALL[eigen.eigenvectors.column(least).iamax()].letter())
 }
 
 #[cfg(test)]

@@ -12,6 +12,9 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// Names of the six coordinates: position, then rotation vector.
+    pub const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
     /// The pose at (x, y, z) [m], not rotated.
     pub fn at(x: f64, y: f64, z: f64) -> Self {
         Self { position: Vector3::new(x, y, z), rotation: Rotation3::identity() }

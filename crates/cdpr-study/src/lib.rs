@@ -66,7 +66,7 @@ pub use fs::files::{check_folder, open_robot, write_csv, write_rows, write_text}
 pub use indexmap::IndexMap;
 pub use model::cable_law::open_law;
 pub use model::error_model::{ErrorModel, Term, uncertainties};
-pub use model::grid::{Grid, frame, letter};
+pub use model::grid::{Grid, frame};
 pub use model::observed::{Failure, Observed};
 pub use model::study::{Sampling, Study, Surface};
 pub use names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME};

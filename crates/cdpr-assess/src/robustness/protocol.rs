@@ -1,6 +1,6 @@
 //! Settings of a test of robustness, and the two protocols for which results of other programs are published.
 
-use cdpr_robot::Robot;
+use cdpr_robot::{Axis, Robot};
 use cdpr_sensitivity::{Input, Law, RandomDesign};
 use cdpr_study::StudyError;
 use serde::Serialize;
@@ -164,10 +164,10 @@ impl Protocol {
     pub(super) fn design(&self) -> Result<RandomDesign, StudyError> {
         let PoseRegion { low, high, max_angle } = self.region;
         let input = |name: &str, min, max| Input::continuous(name, Law::Uniform { min, max });
-        let mut inputs: Vec<Input> = ["x", "y", "z"]
+        let mut inputs: Vec<Input> = Axis::ALL
             .iter()
             .zip(low.iter().zip(high))
-            .map(|(name, (a, b))| input(name, *a, b))
+            .map(|(axis, (a, b))| input(axis.letter(), *a, b))
             .collect();
         inputs.push(input("angle", 0.0, max_angle));
         for name in ["axis", "start direction", "start axis"] {

@@ -6,7 +6,7 @@ use crate::convert::error::Answer;
 use crate::convert::threads::each;
 use crate::robot::Robot;
 use crate::robot::deflection::{Deflection, Given};
-use cdpr_robot::Parameter;
+use cdpr_robot::{Parameter, Pose};
 use cdpr_statics::{StaticsError, derivatives};
 use pyo3::prelude::*;
 
@@ -91,8 +91,8 @@ impl Robot {
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
         let parameters = Parameter::all(cables);
-        let of_pose = ["payload", "x", "y", "z", "rx", "ry", "rz"].map(str::to_owned);
-        let inputs: Vec<String> = parameters.iter().map(ToString::to_string).chain(of_pose).collect();
+        let others = ["payload"].into_iter().chain(Pose::COORDINATES).map(str::to_owned);
+        let inputs: Vec<String> = parameters.iter().map(ToString::to_string).chain(others).collect();
         let count = inputs.len();
         let matrix = |rows: usize, matrix: fn(&Slopes) -> &[f64]| {
             all.numbers(&[rows, count], |slopes: &Slopes, out| out.copy_from_slice(matrix(slopes)))

@@ -6,7 +6,7 @@ use crate::drawing::heading::Heading;
 use crate::drawing::style::{self, DrawingError, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
 use crate::error::ReportError;
 use cdpr_robot::{Axis as Direction, Robot};
-use cdpr_study::{Grid, frame, letter};
+use cdpr_study::{Grid, frame};
 use plotters::prelude::*;
 use std::ops::Range;
 
@@ -87,13 +87,13 @@ impl Plane {
 
     /// Words such as `z = 1.75 m`.
     pub(crate) fn words(&self) -> String {
-        format!("{} = {} m", letter(self.normal), self.place)
+        format!("{} = {} m", self.normal, self.place)
     }
 
     /// Cells of the map.
     pub(crate) fn cells(&self) -> Result<Cells, ReportError> {
         let nodes = |(axis, places): &(Direction, Vec<f64>)| {
-            Nodes::new("grid", format!("{} [m]", letter(*axis)), places.clone())
+            Nodes::new("grid", format!("{axis} [m]"), places.clone())
         };
         Ok(Cells { x: nodes(&self.axes[0])?, y: nodes(&self.axes[1])? })
     }

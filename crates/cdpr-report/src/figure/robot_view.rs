@@ -7,6 +7,7 @@ use crate::drawing::style::{
 use crate::error::ReportError;
 use crate::scene::{Scene, State};
 use crate::text::number;
+use cdpr_robot::Axis;
 use cdpr_study::Study;
 use plotters::prelude::*;
 
@@ -120,12 +121,12 @@ impl Projection {
             self.line(area, FRAME, [foot(corner(i)), foot(corner(i + 1))].into_iter())?;
         }
         scene.exits.iter().try_for_each(|exit| self.dot(area, *exit, BLACK))?;
-        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        for axis in Axis::ALL {
             let mut end = [0.0; 3];
-            end[axis] = self.axes;
+            end[axis.index()] = self.axes;
             self.line(area, Pen::solid(BLACK, 1.2), [[0.0; 3], end].into_iter())?;
             let (x, y) = self.place(end);
-            text(area, name, style::TEXT, (x + 3.0, y - 4.0))?;
+            text(area, axis.letter(), style::TEXT, (x + 3.0, y - 4.0))?;
         }
         Ok(())
     }

@@ -8,6 +8,7 @@ use crate::analysis::sampling::SamplingSummary;
 use crate::analysis::surface::SurfaceSummary;
 use crate::file::study_file::{ComparisonSpec, Statistic};
 use crate::file::value::Value;
+use cdpr_robot::Axis;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -138,8 +139,7 @@ fn point_effects(sampling: &SamplingSummary, letter: char) -> Vec<(String, f64)>
     (1..)
         .map_while(|i| {
             let point = format!("{letter}{i}");
-            let t =
-                ["x", "y", "z"].iter().filter_map(|axis| sampling.t_student.get(&format!("{point}.{axis}")));
+            let t = Axis::ALL.iter().filter_map(|axis| sampling.t_student.get(&format!("{point}.{axis}")));
             t.copied().reduce(f64::max).map(|t| (point, t))
         })
         .collect()

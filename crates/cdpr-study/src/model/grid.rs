@@ -20,7 +20,7 @@ const MOST: usize = 4_000_000;
 const FLAT: f64 = 0.1;
 
 /// An invalid axis or grid: axis, value, what is expected.
-pub(crate) type Wrong = (Option<char>, String, String);
+pub(crate) type Wrong = (Option<Axis>, String, String);
 
 impl Grid {
     /// From the places along x, y and z.
@@ -37,7 +37,7 @@ impl Grid {
     /// The same of a study file.
     pub(crate) fn of(&GridSpec { x, y, z }: &GridSpec) -> Result<Self, Wrong> {
         let axes = [x, y, z];
-        if let Some((axis, name)) = axes.iter().zip(['x', 'y', 'z']).find(|(axis, _)| !axis.is_sound()) {
+        if let Some((axis, name)) = axes.iter().zip(Axis::ALL).find(|(axis, _)| !axis.is_sound()) {
             let GridAxis { min, max, points } = axis;
             let expected =
                 "min:max:points in [m], min below max and two points or more, or one point at min = max";
@@ -66,7 +66,7 @@ impl Grid {
         let size = frame.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
         let mut points = points.into_iter();
         let mut axes = [GridAxis { min: place, max: place, points: 1 }; 3];
-        for (axis, [low, high]) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip(frame) {
+        for (axis, [low, high]) in Axis::ALL.into_iter().zip(frame) {
             if axis == normal {
                 continue;
             }
@@ -75,11 +75,8 @@ impl Grid {
             if max - min < FLAT * size {
                 return Err(StudyError::setting(
                     "plane",
-                    format!("{}={place}", letter(normal)),
-                    format!(
-                        "a plane that the exit points span: along {} they do not; give a box",
-                        letter(axis)
-                    ),
+                    format!("{normal}={place}"),
+                    format!("a plane that the exit points span: along {axis} they do not; give a box"),
                 ));
             }
             axes[axis as usize] = GridAxis { min, max, points: points.next().unwrap_or(1) };
@@ -98,7 +95,7 @@ impl Grid {
 
     /// The normal axis if the grid is a plane: the only axis with a single coordinate.
     pub fn normal(&self) -> Option<Axis> {
-        let mut across = [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|axis| self.axis(*axis).points == 1);
+        let mut across = Axis::ALL.into_iter().filter(|axis| self.axis(*axis).points == 1);
         across.next().filter(|_| across.next().is_none())
     }
 
@@ -125,15 +122,6 @@ pub fn frame(robot: &Robot) -> [[f64; 2]; 3] {
         let places = || robot.cables.iter().map(|cable| cable.exit_point[axis]);
         [places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max)]
     })
-}
-
-/// The letter of an axis.
-pub fn letter(axis: Axis) -> char {
-    match axis {
-        Axis::X => 'x',
-        Axis::Y => 'y',
-        Axis::Z => 'z',
-    }
 }
 
 #[cfg(test)]
