@@ -1,5 +1,4 @@
-//! Forces and sag of a cable over a span of 4.1 m, 1.7 m down, that is paid out from taut to hanging in a
-//! loop.
+//! Forces and sag of a cable over a span of 4.1 m, 1.7 m down, from taut to hanging in a loop.
 
 #![allow(clippy::print_stdout)]
 

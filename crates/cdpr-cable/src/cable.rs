@@ -15,8 +15,7 @@ pub struct Cable<'a> {
 }
 
 impl Cable<'_> {
-    /// A linear cable, whose strain is T/EA, of this weight per unstrained length [N/m] and axial stiffness
-    /// [N].
+    /// A linear cable of this weight per unstrained length [N/m] and axial stiffness EA [N].
     pub const fn linear(weight_per_length: f64, axial_stiffness: f64) -> Self {
         Self { weight_per_length, axial_stiffness, law: ElasticLaw::Linear }
     }
@@ -68,8 +67,7 @@ impl Cable<'_> {
         }
     }
 
-    /// Whether the weight of this length vanishes beside the stiffness, and its square below the smallest
-    /// number.
+    /// Whether the weight of this length vanishes beside the stiffness, and its square underflows.
     pub(crate) fn is_weightless(&self, unstrained_length: f64) -> bool {
         self.weight_per_length * unstrained_length <= 1e-100 * self.axial_stiffness
     }

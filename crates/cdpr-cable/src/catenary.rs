@@ -1,5 +1,6 @@
-//! A cable in equilibrium, as a plain type. What follows from the force at its end is in the modules of this
-//! folder.
+//! A cable in equilibrium, as a plain type.
+//!
+//! What follows from the force at its end is in the modules of this folder.
 
 pub(crate) mod compliance;
 mod mechanics;
@@ -65,8 +66,9 @@ impl<'a> Catenary<'a> {
         self.cable.weight_per_length * self.unstrained_length
     }
 
-    /// Length of the cable without tension and weight [m], `L (1 + ε(0))`: a piecewise law may have kept some
-    /// strain.
+    /// Length of the cable without tension and weight [m], `L (1 + ε(0))`.
+    ///
+    /// It differs from L where a piecewise law has kept a strain.
     #[inline]
     pub fn length_at_rest(&self) -> f64 {
         self.unstrained_length * (1.0 + self.cable.strain(0.0))

@@ -13,8 +13,7 @@ pub enum CableError {
         /// What would be right.
         expected: &'static str,
     },
-    /// No unstrained length gives so small a tension, because the weight of the cable alone demands more over
-    /// this span.
+    /// The weight of the cable alone demands more tension over this span than is asked for.
     #[error(
         "a tension of {tension} N at the anchor point is too small: over this span the weight of the cable \
          alone demands {least} N; raise the tension"

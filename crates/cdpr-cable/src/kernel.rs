@@ -1,5 +1,6 @@
-//! The equations of one cable in its vertical plane, over any kind of number: doubles, intervals, dual
-//! numbers, lanes.
+//! The equations of one cable in its vertical plane, over any kind of number.
+//!
+//! The kinds are doubles, intervals, dual numbers and the lanes of a vector unit.
 //!
 //! Solvers that evaluate a cable with numbers of their own build on these functions. For doubles the methods
 //! of

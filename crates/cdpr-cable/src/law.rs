@@ -112,8 +112,9 @@ impl PiecewiseLaw {
         self.at(tension).segment.ratio
     }
 
-    /// Stiffness of the secant between two tensions [N] over the cable's; [`PiecewiseLaw::ratio`] where they
-    /// are the same.
+    /// Stiffness of the secant between two tensions [N] over the cable's.
+    ///
+    /// Where the two are the same it is [`PiecewiseLaw::ratio`].
     pub fn secant_ratio(&self, from: f64, to: f64) -> f64 {
         if from == to {
             self.ratio(to)

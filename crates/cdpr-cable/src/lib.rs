@@ -1,7 +1,7 @@
 //! Statics of one sagging elastic cable between two points (Irvine's elastic catenary).
 //!
-//! Frame: the vertical plane of the cable, exit point B at the origin, anchor point A at `(x, z)`, `z` up, `x
-//! >= 0`. Force: `(fx, fz)` [N] is the force applied *to the cable at A*; whatever hangs on the cable
+//! Frame: the vertical plane of the cable, exit point B at the origin, anchor point A at `(x, z)`, `z` up,
+//! `x >= 0`. Force: `(fx, fz)` [N] is the force applied *to the cable at A*; whatever hangs on the cable
 //! receives its opposite.
 //!
 //! | question | item |

@@ -1,5 +1,4 @@
-//! A load-elongation record of a cable: moduli over ranges of load with their uncertainty, and the energy
-//! that a loop dissipates.
+//! A load-elongation record of a cable: moduli with their uncertainty, and the energy that a loop dissipates.
 //!
 //! A test bench loads a piece of cable of length `L_c` to some force and unloads it again. With x_p the
 //! elongation at p percent of the breaking force, interpolated between the samples of one phase, the secant

@@ -1,5 +1,4 @@
-//! Every derivative of the catenary against dual numbers: the same equations over a number that carries its
-//! derivative.
+//! Every derivative of the catenary against dual numbers: the same equations over a number with derivative.
 
 use cdpr_cable::kernel::{Field, Real, response};
 use cdpr_cable::{Cable, Catenary, Vector2, least_tension, length_for_tension};

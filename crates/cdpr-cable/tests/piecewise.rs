@@ -1,5 +1,7 @@
-//! Cables with a piecewise linear law, against the linear cable, numerical integration
-//! (`data/reference/piecewise.py`) and differences.
+//! Cables with a piecewise linear law.
+//!
+//! They are held against the linear cable, numerical integration (`data/reference/piecewise.py`) and
+//! differences.
 
 use approx::assert_relative_eq;
 use cdpr_cable::{

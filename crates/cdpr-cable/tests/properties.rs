@@ -3,8 +3,10 @@
 use cdpr_cable::{Cable, CableError, Catenary, Vector2, end_force, length_for_tension};
 use proptest::prelude::*;
 
-/// A cable, its unstrained length, and an end position between right below or above the exit point and level
-/// with it; the chord is between a hundredth of the length (folded) and a strain of a percent.
+/// A cable, its unstrained length, and an end position.
+///
+/// The end lies between level with the exit point and right below or above it. The chord is between a
+/// hundredth of the length (folded) and one percent more than the length.
 fn any_span() -> impl Strategy<Value = (Cable<'static>, f64, Vector2<f64>)> {
     (
         -5.0..2.5f64,

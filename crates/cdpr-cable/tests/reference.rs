@@ -2,8 +2,9 @@
 
 use cdpr_cable::{Cable, Catenary, Matrix2, Vector2, end_force, length_for_tension};
 
-/// Error that rounding the inputs to double precision alone causes, times a small count of operations: the
-/// end position is known to `epsilon (|r| + L)`, so the force to that times the stiffness.
+/// The error that rounding of the inputs alone causes, times a small count of operations.
+///
+/// The end position is known to `epsilon (|r| + L)`, and the force to that times the stiffness.
 fn conditioned_bound(catenary: &Catenary, end: Vector2<f64>) -> f64 {
     let stiffness: Matrix2<f64> = catenary.in_plane_stiffness();
     4.0 * f64::EPSILON * stiffness.norm() * (end.norm() + catenary.unstrained_length)
@@ -95,8 +96,9 @@ fn the_length_for_a_tension_is_the_inverse_of_the_end_force() {
     assert!(on_shorter_branch >= 40, "{on_shorter_branch}");
 }
 
-/// Values that other programs publish, recomputed in 40-digit arithmetic: x, z, L, EA, w, H, tension force at
-/// the top.
+/// Values that other programs publish, recomputed in 40-digit arithmetic.
+///
+/// The columns are x, z, L, EA, w, H and the tension at the top.
 #[test]
 fn published_cases_of_other_programs() {
     let moorpy = [

@@ -4,8 +4,7 @@ use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 
-/// Where a JSON text differs from what was expected: a missing, misspelt or mistyped field, or no JSON at
-/// all.
+/// Where a JSON text differs from what was expected: a missing, misspelt or mistyped field, or no JSON.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}, column {column}: {field}: {message}")]
 pub struct JsonError {

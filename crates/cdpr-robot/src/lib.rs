@@ -1,5 +1,7 @@
-//! A cable-driven parallel robot as data: exit points, anchor points, platform, cables, tension limits; its
-//! pose, the wrench on it, its wrench matrix; and the vector of its uncertain parameters.
+//! A cable-driven parallel robot as data.
+//!
+//! The robot has exit points, anchor points, a platform, cables and limits of tension. With a pose come its
+//! spans, the wrench on it and its wrench matrix. Its uncertain parameters form one vector.
 //!
 //! Frames: the base frame `F_b` has `z` up, gravity acts along `-z`; the platform frame `F_p` sits at the
 //! platform's reference point P. Units are SI throughout. Signs and symbols: `docs/NOTATION.md` of the

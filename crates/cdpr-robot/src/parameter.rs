@@ -1,5 +1,4 @@
-//! The uncertain parameters of a robot as one vector: section 4 of Baklouti, Caro, Courteille (CableCon
-//! 2017).
+//! The uncertain parameters of a robot as one vector (section 4 of Baklouti, Caro, Courteille 2017).
 //!
 //! For n cables there are `6 + 7n` parameters (62 for 8 cables): the platform's mass, the cables' linear
 //! density and modulus, the coordinates of every anchor and exit point, the centre of mass, and an offset of

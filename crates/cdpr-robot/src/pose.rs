@@ -35,8 +35,7 @@ impl Pose {
         [quaternion.w, quaternion.i, quaternion.j, quaternion.k].map(|component| sign * component + 0.0)
     }
 
-    /// The pose moved by `translation` [m] and rotated by the vector `rotation` [rad], both in the base
-    /// frame.
+    /// The pose moved by `translation` [m] and rotated by the vector `rotation` [rad] in the base frame.
     ///
     /// The new position is `p + dp`, the new rotation `exp(dphi) R`. A pose that is moved many times keeps a
     /// rotation to rounding: see [`orthonormalized`].
@@ -46,8 +45,7 @@ impl Pose {
         Self { position: self.position + translation, rotation: orthonormalized(product.matrix()) }
     }
 
-    /// The motion (dp, dphi) [m, rad] from this pose to another, in the base frame: the inverse of
-    /// [`Pose::moved`].
+    /// The motion (dp, dphi) [m, rad] from this pose to another: the inverse of [`Pose::moved`].
     #[inline]
     pub fn motion_to(&self, other: &Self) -> Vector6<f64> {
         let translation = other.position - self.position;

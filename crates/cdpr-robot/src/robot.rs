@@ -128,8 +128,7 @@ impl Robot {
         Wrench::of_force_at(&(pose.rotation * self.platform.center_of_mass), force)
     }
 
-    /// Wrench matrix W of Eq. (3), 6 x n: column i is the wrench on the platform of a unit tension in cable
-    /// i.
+    /// Wrench matrix W of Eq. (3), 6 x n: column i is the wrench of a unit tension in cable i.
     ///
     /// Cable i pulls the platform along the unit vector `pulls[i]` in the base frame. For a sagging cable
     /// that is its end tangent, away from the platform.

@@ -1,5 +1,4 @@
-//! The solution of a distribution problem: the closed form, and the active-set method where bounds are
-//! active.
+//! The solution of a distribution problem, in closed form or with active bounds.
 
 use crate::problem::{Bound, Problem, TensionError};
 use crate::quadratic_program::{Outcome, least_residual, solve};
@@ -30,8 +29,7 @@ pub struct Distribution {
     pub method: DistributionMethod,
 }
 
-/// A tension beyond its bound by less than this, relative to the largest tension, is on the bound but for
-/// rounding.
+/// A tension beyond its bound by less than this share of the largest tension is on the bound.
 const ROUNDING: f64 = 1e-11;
 
 /// A residual wrench below this, relative to tensions and wrench, is the rounding of a solved system.
@@ -94,8 +92,7 @@ struct Bounded {
 /// Solution of the optimality conditions (T3) for given active bounds.
 struct Stationary {
     tensions: Vec<f64>,
-    /// Slope `t_i - t_ref,i + w_i·λ` of the objective with respect to each tension, zero for a free cable
-    /// [N].
+    /// Slope `t_i - t_ref,i + w_i·λ` of the objective over each tension, zero for a free cable [N].
     slopes: Vec<f64>,
 }
 

@@ -52,8 +52,7 @@ pub(crate) fn solve(problem: &Problem) -> Result<Outcome, TensionError> {
     }
 }
 
-/// The tensions within the bounds with the least residual wrench `|W t + w|`, where 1 N counts as much as 1 N
-/// m.
+/// The tensions within the bounds with the least residual wrench `|W t + w|`; 1 N counts as much as 1 N m.
 ///
 /// The residual `e = W t + w` takes part as six further unknowns: P is the identity for e and zero for t, but
 /// for 1e-9 that makes the tensions unique.

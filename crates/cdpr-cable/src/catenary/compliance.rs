@@ -16,8 +16,7 @@ pub struct Compliance {
     pub determinant: f64,
     /// Stiffness `fx/x` across the cable's plane [N/m]; regular for a vertical cable, where `fx = x = 0`.
     pub lateral_stiffness: f64,
-    /// Derivative of the end position with respect to the unstrained length at constant force at A [m/m],
-    /// (C9).
+    /// Derivative of the end position with respect to the length at constant force at A [m/m], (C9).
     ///
     /// It is the unit tangent at B times `1 + T0/EA`, because cable that is paid out enters there.
     pub end_per_length: Vector2<f64>,

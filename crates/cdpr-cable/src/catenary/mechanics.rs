@@ -19,8 +19,7 @@ impl Catenary<'_> {
         }
     }
 
-    /// Closure residual [m] of an anchor point at `end = (x, z)` [m]: the distance from the computed end to
-    /// it, as a vector.
+    /// Closure residual [m] of an anchor point at `end = (x, z)` [m]: the vector from the computed end to it.
     ///
     /// A slack cable without weight has no end position; its residual is what it is too short
     /// ([`closure_of_limp`]).

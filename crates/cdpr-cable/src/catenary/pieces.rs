@@ -1,5 +1,4 @@
-//! A cable whose stiffness changes with its tension, as a sum of pieces that each stay within one segment of
-//! its law.
+//! A cable with a piecewise linear law, as a sum of pieces that each stay within one segment of the law.
 //!
 //! Each element points along its force and is strained by ε(T):
 //!

@@ -1,7 +1,7 @@
 //! The shape of a cable in equilibrium, along its unstrained arc length `s` from the exit point B.
 //!
-//! The piece of cable between B and `s` is itself a catenary of unstrained length `s` that carries `(fx, V0 +
-//! w s)` at its end: every point comes from the same equations (C1)-(C2) as the end.
+//! The piece of cable between B and `s` is itself a catenary of unstrained length `s` that carries
+//! `(fx, V0 + w s)` at its end: every point comes from the same equations (C1)-(C2) as the end.
 
 use crate::catenary::Catenary;
 use nalgebra::Vector2;
@@ -30,8 +30,7 @@ impl<'a> Catenary<'a> {
         (0..=last).map(|k| self.point(self.unstrained_length * k as f64 / last as f64)).collect()
     }
 
-    /// Unstrained arc length [m] from B to the lowest point of the cable: where it is level, or its lower
-    /// end.
+    /// Unstrained arc length [m] from B to the lowest point: where the cable is level, or its lower end.
     pub fn lowest_arc_length(&self) -> f64 {
         let (w, v0) = (self.cable.weight_per_length, self.exit_vertical_force());
         if w > 0.0 {
@@ -48,8 +47,7 @@ impl<'a> Catenary<'a> {
         self.point(self.lowest_arc_length())
     }
 
-    /// Sag [m]: the greatest distance of the cable from its chord, measured across the chord (Irvine 1981,
-    /// section 2.5).
+    /// Sag [m]: the greatest distance of the cable across its chord (Irvine 1981, section 2.5).
     pub fn sag(&self) -> f64 {
         let end = self.end_position();
         let chord = end.norm();
@@ -75,8 +73,7 @@ impl<'a> Catenary<'a> {
         }
     }
 
-    /// The point at which a cable with weight is parallel to its chord from the origin to `end`: there V/fx =
-    /// z/x.
+    /// The point where a cable with weight is parallel to its chord from the origin to `end`: V/fx = z/x.
     fn parallel_point(&self, end: Vector2<f64>) -> Vector2<f64> {
         let v = if end.x > 0.0 { self.force.x * end.y / end.x } else { 0.0 };
         self.point((v - self.exit_vertical_force()) / self.cable.weight_per_length)

@@ -37,8 +37,9 @@ pub trait Real: Field {
     /// Natural logarithm of a positive number.
     fn ln(self) -> Self;
 
-    /// This number, known to within `error` only, as the remainder of a series. Kinds that do not bound
-    /// errors ignore it.
+    /// This number, known to within `error` only, as the remainder of a series.
+    ///
+    /// Kinds of number that do not bound errors ignore it.
     fn within(self, error: f64) -> Self;
 }
 

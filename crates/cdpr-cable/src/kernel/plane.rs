@@ -20,14 +20,13 @@ pub fn in_plane_stiffness<T: Field>([xx, xz, zz]: [T; 3], determinant: T) -> [T;
     [zz * inverse, -xz * inverse, xx * inverse]
 }
 
-/// Closure residual of a slack cable without weight whose anchor point lies at `end = (x, z)` [m] from its
-/// exit point.
+/// Closure residual of a slack cable without weight, from `end = (x, z)` [m] of its anchor point.
 ///
-/// Such a cable has no shape: it closes any distance up to its length at rest `L (1 + ε(0))` [m], the
-/// argument `rest` ([`crate::Catenary::length_at_rest`]). What it is too short for a longer one stays open
-/// along the chord.
+/// Such a cable has no shape: it spans any distance up to its length at rest `rest`, `L (1 + ε(0))` [m]
+/// ([`crate::Catenary::length_at_rest`]). For a longer one the residual is what it is too short, along the
+/// chord.
 pub fn closure_of_limp<T: Real>([x, z]: [T; 2], rest: T) -> [T; 2] {
     let chord = (x * x + z * z).sqrt();
-    let open = if chord.value() > rest.value() { T::of(1.0) - rest / chord } else { T::of(0.0) };
-    [x * open, z * open]
+    let share = if chord.value() > rest.value() { T::of(1.0) - rest / chord } else { T::of(0.0) };
+    [x * share, z * share]
 }

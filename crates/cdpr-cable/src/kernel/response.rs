@@ -70,16 +70,16 @@
 //! d(x, z)/dEA = -(L/EA²) (fx, fz - wL/2)                                                (C11)
 //! ```
 //!
-//! Where `fz V0 < 0` (the cable dips below both ends) `T T0 + fz V0` is computed as `fx² (fx² + fz² + V0²)/(T
-//! T0 - fz V0)`, so that nothing cancels for a cable that hangs folded (`fx -> 0`). A taut cable, `q² <=
-//! 0.02`, does not need the choice: there `-fz V0 <= (w L/2)² = q² s²/4`, a fiftieth of `T T0`.
+//! Where `fz V0 < 0` (the cable dips below both ends) `T T0 + fz V0` is computed as
+//! `fx² (fx² + fz² + V0²)/(T T0 - fz V0)`, so that nothing cancels for a cable that hangs folded (`fx -> 0`).
+//! A taut cable, `q² <= 0.02`, does not need the choice: there `-fz V0 <= (w L/2)² = q² s²/4`, a fiftieth of
+//! `T T0`.
 
 use super::field::{Field, Real};
 use super::series::{SERIES_LIMIT, TAUT, psi_of_slack, psi_of_taut};
 use nalgebra::Vector2;
 
-/// End position of a cable for a force at its end, and how it changes with force and length, over any kind of
-/// number.
+/// End position of a cable for a force at its end, with its derivatives, over any kind of number.
 #[derive(Clone, Copy, Debug)]
 pub struct Response<T> {
     /// End position (x, z) [m], (C1) and (C2).

@@ -48,8 +48,7 @@ const MAX_STRAIN: f64 = 0.1;
 const MODULI: std::ops::RangeInclusive<f64> = 1e9..=1e12;
 
 impl Record {
-    /// Secant modulus E_{p-q} while loading or unloading, from `low` to `high` percent of the breaking force,
-    /// Eq. (5).
+    /// Secant modulus E_{p-q} of a phase, from `low` to `high` percent of the breaking force, Eq. (5).
     ///
     /// # Errors
     /// [`RecordError::Setting`] for an invalid specimen or range; [`RecordError::OutOfRange`];

@@ -4,10 +4,11 @@
 //! `r - (x, z)(f)`, which halves a step until it does not pass the maximum, starts from the better of two
 //! approximations:
 //!
-//! * taut: a spring along the chord whose elongation makes up for the sag of a parabola, `T/EA - w² x² L²/(24
-//!   l² T²) = (l - L)/L` (l the chord; Irvine 1981, section 2.3, inclined as in section 2.5);
-//! * slack: the inextensible catenary, `sinh λ/λ = sqrt(L² - z²)/x`, `fx = w x/(2λ)`, `fz = (w/2)(z coth λ +
-//!   L)`.
+//! * taut: a spring along the chord whose elongation makes up for the sag of a parabola,
+//!   `T/EA - w² x² L²/(24 l² T²) = (l - L)/L` with l the chord (Irvine 1981, section 2.3, inclined as in
+//!   section 2.5);
+//! * slack: the inextensible catenary, `sinh λ/λ = sqrt(L² - z²)/x`, `fx = w x/(2λ)`,
+//!   `fz = (w/2)(z coth λ + L)`.
 //!
 //! A vertical cable (`x = 0`) is linear in each of three regimes: it hangs taut, hangs folded, or is pulled
 //! up from below.
@@ -48,8 +49,7 @@ const MAX_ITERATIONS_NEAR: usize = 8;
 /// Newton's method squares the error: what is left is below rounding.
 const LAST_STEP: f64 = 1e-8;
 
-/// The force on a cable of unstrained length `unstrained_length` [m] whose end A lies at `end = (x, z)` [m],
-/// `x >= 0`.
+/// The force on a cable of this unstrained length [m] whose end A lies at `end = (x, z)` [m], `x >= 0`.
 ///
 /// Every input has exactly one answer: a chord longer than the cable strains it, a shorter one lets it hang.
 ///
@@ -167,8 +167,7 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
     accept(now, end, iterations)
 }
 
-/// Rounding error of the computed end position [m]: that of its own sums, and that of the force it is
-/// computed from.
+/// Rounding error of the computed end position [m]: of its own sums and of the force it is computed from.
 fn rounding(catenary: &Catenary, compliance: &Compliance, end: Vector2<f64>) -> Vector2<f64> {
     let forces = Vector2::new(catenary.force.x, catenary.force.y.abs() + catenary.weight());
     let sums = Vector2::new(8.0 * end.x, 2.0 * (catenary.unstrained_length + end.norm()));

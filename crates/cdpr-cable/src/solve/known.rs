@@ -7,8 +7,7 @@ use crate::solve::end_force::{Solution, end_force};
 use crate::solve::length_for_tension::length_for_tension;
 use nalgebra::Vector2;
 
-/// What is known of a cable in equilibrium: two of its unstrained length, end position, end force and
-/// tension.
+/// Two known quantities of a cable in equilibrium: its length, end position, end force or tension.
 ///
 /// `S` stands for a scalar and `V` for a vector of the cable's plane: one cable has numbers, a batch of
 /// cables arrays.
@@ -38,8 +37,9 @@ pub enum Known<S = f64, V = Vector2<f64>> {
 }
 
 impl<S, V> Known<S, V> {
-    /// Sorts given quantities into their case; `None` unless they are length and end, length and force, or
-    /// end and tension.
+    /// Sorts given quantities into their case.
+    ///
+    /// `None` unless they are length and end, length and force, or end and tension.
     pub fn from_given(
         length: Option<S>,
         end: Option<V>,

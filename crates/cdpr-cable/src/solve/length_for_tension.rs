@@ -17,8 +17,7 @@ use crate::error::{CableError, SMALLEST, check};
 use crate::solve::end_force::{Solution, check_end, end_force};
 use nalgebra::{Matrix2, Vector2};
 
-/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, that has the tension `tension` [N] at its end
-/// A.
+/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the tension `tension` [N] at A.
 ///
 /// # Errors
 /// [`CableError::InvalidInput`] for an invalid value; [`CableError::TensionTooSmall`], with the least
@@ -60,8 +59,7 @@ pub fn length_for_tension_near<'a>(
     }
 }
 
-/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the least tension at A that any unstrained
-/// length gives.
+/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the least tension of all lengths at A.
 ///
 /// # Errors
 /// [`CableError::InvalidInput`] for an invalid value, and for a cable without weight, which may be slack.
@@ -166,8 +164,7 @@ fn short_enough(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, C
     Ok(short)
 }
 
-/// The catenary of least tension, or the first one found on the way there with a tension of `enough` [N] at
-/// most.
+/// The catenary of least tension, or the first one found on the way with at most `enough` [N].
 fn lowest<'a>(cable: &Cable<'a>, end: Vector2<f64>, enough: f64) -> Result<Catenary<'a>, CableError> {
     let solve = |length: f64| end_force(cable, length, end).map(|solution| solution.catenary);
     // A cable so long that it has passed the least tension; without weight it is slack.
