@@ -92,8 +92,8 @@ proptest! {
         prop_assert!((p.lateral_stiffness / l.lateral_stiffness - 1.0).abs() < 1e-12);
         prop_assert!((p.end_per_length - l.end_per_length).norm() < 1e-12 * l.end_per_length.norm());
         let weights = (pieces.end_per_weight() - linear.end_per_weight()).norm();
-        let turned = l.flexibility.norm() * unstrained_length;
-        prop_assert!(weights < 1e-12 * (linear.end_per_weight().norm() + turned));
+        let rotated = l.flexibility.norm() * unstrained_length;
+        prop_assert!(weights < 1e-12 * (linear.end_per_weight().norm() + rotated));
         let stiffness = linear.end_per_stiffness();
         let size = stiffness.norm() + force.norm() * unstrained_length / (ea * ea);
         let error = (pieces.end_per_stiffness() - stiffness).norm();

@@ -61,8 +61,8 @@ proptest! {
                 // One unit in the last place of the length is worth EA epsilon newtons.
                 let rounding = 8.0 * f64::EPSILON * cable.axial_stiffness;
                 prop_assert!((found.anchor_tension() - tension).abs() < 1e-9 * tension + rounding);
-                let open = (found.end_position() - end).norm();
-                prop_assert!(open < 1e-12 * (end.norm() + found.unstrained_length), "{open:e}");
+                let residual = (found.end_position() - end).norm();
+                prop_assert!(residual < 1e-12 * (end.norm() + found.unstrained_length), "{residual:e}");
             }
             // At the very bottom of the tension curve, rounding decides on which side the tension lies.
             Err(CableError::TensionTooSmall { least, .. }) => prop_assert!(least < tension * (1.0 + 1e-9)),

@@ -62,7 +62,7 @@ fn end_forces_match_40_digit_arithmetic() {
         }
         println!("{:20} {relative:9.1e} relative, {} iterations", case.kind, solution.iterations);
     }
-    println!("beyond 1e-10, where a stiff cable's stretch is itself known to fewer digits: {beyond:?}");
+    println!("beyond 1e-10, where a stiff cable's elongation is itself known to fewer digits: {beyond:?}");
     assert!(beyond.iter().all(|(kind, _)| kind == "stiff_light"), "{beyond:?}");
 }
 

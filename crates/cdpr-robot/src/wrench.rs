@@ -18,10 +18,10 @@ impl Wrench {
         Self { force: Vector3::zeros(), moment: Vector3::zeros() }
     }
 
-    /// The wrench [F; s x F] about P of a force F [N] at a point with the arm s [m] from P.
+    /// The wrench [F; s x F] about P of a force F [N] at a point with the lever s [m] from P.
     #[inline]
-    pub fn of_force_at(arm: &Vector3<f64>, force: Vector3<f64>) -> Self {
-        Self { force, moment: arm.cross(&force) }
+    pub fn of_force_at(lever: &Vector3<f64>, force: Vector3<f64>) -> Self {
+        Self { force, moment: lever.cross(&force) }
     }
 
     /// (force, moment) as one vector [N, N m].

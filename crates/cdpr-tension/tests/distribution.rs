@@ -1,4 +1,4 @@
-//! Distributions against their optimality conditions, and what an infeasible or invalid problem is told.
+//! Distributions against their optimality conditions, and the errors of infeasible and invalid problems.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 

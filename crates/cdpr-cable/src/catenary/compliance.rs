@@ -41,14 +41,14 @@ impl Compliance {
     #[inline]
     pub fn stiffness(&self, azimuth: Vector2<f64>) -> Matrix3<f64> {
         let k = self.in_plane_stiffness();
-        let lateral = self.lateral_stiffness;
+        let across = self.lateral_stiffness;
         let (c, s) = (azimuth.x, azimuth.y);
         Matrix3::new(
-            c * c * k.m11 + s * s * lateral,
-            c * s * (k.m11 - lateral),
+            c * c * k.m11 + s * s * across,
+            c * s * (k.m11 - across),
             c * k.m12,
-            c * s * (k.m11 - lateral),
-            s * s * k.m11 + c * c * lateral,
+            c * s * (k.m11 - across),
+            s * s * k.m11 + c * c * across,
             s * k.m12,
             c * k.m21,
             s * k.m21,

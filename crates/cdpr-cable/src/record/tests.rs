@@ -55,9 +55,9 @@ fn uncertainties_are_those_of_perturbed_records() {
     let base = modulus(&specimen, &LOOP);
     let h = 1e-3;
     let mut shares = Vec::new();
-    for place in [1, 2] {
+    for index in [1, 2] {
         let mut rows = LOOP;
-        rows[place].1 += h * 0.03;
+        rows[index].1 += h * 0.03;
         shares.push((modulus(&specimen, &rows) - base) / h);
     }
     for (length, section) in [(1e-3, 0.0), (0.0, 1e-8)] {
@@ -90,9 +90,9 @@ fn a_turning_point_may_be_given_twice() {
 
 #[test]
 fn a_bad_record_is_refused_with_its_line() {
-    let with = |place: usize, row: (f64, f64, Phase)| {
+    let with = |index: usize, row: (f64, f64, Phase)| {
         let mut rows = LOOP;
-        rows[place] = row;
+        rows[index] = row;
         record(&rows).unwrap_err().to_string()
     };
     for (message, words) in [
