@@ -236,7 +236,7 @@ fn blocks_of_another_study_are_refused_with_both_hashes() {
     std::fs::copy(&block_files(&bench, "other")[2], &block_files(&bench, "other")[0]).unwrap();
     let message = bench.refused(&["merge", "other"]);
     assert!(message.contains("is of design sampling: expected replicate-1"), "{message}");
-    // It is told to.
+    // With `--overwrite` it begins anew.
     bench.run("out", &["--overwrite"]);
     assert!(bench.path("out/summary.json").exists());
 }

@@ -122,7 +122,7 @@ mod mpi {
     /// `mpirun -n 2 cdpr study run ...`
     fn ranks(bench: &Bench, arguments: &[&str]) -> Command {
         let mut command = bench.command("mpirun");
-        // Open MPI refuses root and more ranks than cores unless it is told otherwise.
+        // Open MPI refuses root and more ranks than cores without these options.
         for variable in ["ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_rmaps_base_oversubscribe"] {
             command.env(format!("OMPI_{variable}"), "1");
         }

@@ -79,7 +79,7 @@ pub enum Drawable<'a> {
 pub struct Figure {
     /// Name of its file, without the ending.
     pub name: String,
-    /// Text of the file, or why there is none.
+    /// Text of the file, or why it cannot be written.
     pub svg: Result<String, String>,
 }
 
@@ -239,7 +239,7 @@ impl<'a> Running<'a> {
         Ok(tally)
     }
 
-    /// Writes figures, or notes why there is none: results that cannot be drawn are results nevertheless.
+    /// Writes figures, or notes why one cannot be drawn; such results remain valid.
     fn figures(&mut self, drawn: Vec<Figure>) -> Result<(), StudyError> {
         for Figure { name, svg } in &drawn {
             match svg {

@@ -44,7 +44,7 @@ fn pool(threads: Option<usize>) -> Answer<Arc<ThreadPool>> {
 
 /// Runs `work` on a pool without Python's lock, while this thread looks after signals and calls `poll`.
 ///
-/// If one of them raises, the work is told to stop and is waited for.
+/// If one of them raises, the work is asked to stop, and its end is awaited.
 pub(crate) fn watched<T: Send>(
     py: Python,
     threads: Option<usize>,

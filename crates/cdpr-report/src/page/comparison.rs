@@ -57,7 +57,7 @@ fn row(row: &ComparisonRow) -> Vec<Markup> {
 }
 
 /// Sentence on the published figures with which statistics are compared, such as `The published counterpart
-/// is Fig. 4a.`. It is empty if there are none.
+/// is Fig. 4a.`. It is empty without such figures.
 pub(crate) fn counterpart(rows: &[ComparisonSpec], is_meant: impl Fn(&ComparisonSpec) -> bool) -> String {
     let mut figures: Vec<&str> = Vec::new();
     for row in rows.iter().filter(|row| is_meant(row)) {

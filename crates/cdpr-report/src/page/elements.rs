@@ -18,14 +18,14 @@ impl Section {
     }
 }
 
-/// The text of a figure, or why there is none.
+/// The text of a figure, or why it cannot be drawn.
 pub(crate) fn svg<'a>(figures: &'a [Figure], name: &str) -> Result<&'a str, &'a str> {
     let found = figures.iter().find(|figure| figure.name == name);
     let svg = found.map(|figure| figure.svg.as_deref().map_err(String::as_str));
     svg.unwrap_or(Err("it was not drawn"))
 }
 
-/// A figure drawn by this crate, or why there is none.
+/// A figure drawn by this crate, or why it cannot be drawn.
 pub(crate) fn figure(name: &str, alt: &str, figures: &[Figure], caption: &Markup) -> Markup {
     match svg(figures, name) {
         Ok(svg) => html! {
@@ -64,7 +64,7 @@ pub(crate) fn cell(text: impl AsRef<str>) -> Markup {
     html! { (text.as_ref()) }
 }
 
-/// A cell of a number with so many significant digits; a dash where there is none.
+/// A cell of a number with so many significant digits; a dash without a number.
 pub(crate) fn numeric(value: impl Into<Option<f64>>, digits: usize) -> Markup {
     let value = value.into();
     html! { span.number { @match value { Some(value) => (text::figures(value, digits)), None => "\u{2013}" } } }

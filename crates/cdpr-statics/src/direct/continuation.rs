@@ -62,7 +62,8 @@ pub struct Loss {
     pub kind: LossKind,
     /// The last stable equilibrium before.
     pub before: Box<DirectSolution>,
-    /// The stable equilibrium downhill, a millionth of the change later: the platform jumps there. Why there is none otherwise.
+    /// The stable equilibrium downhill, a millionth of the change later, to which the platform jumps; or the
+    /// error if it has none.
     pub after: Result<Box<DirectSolution>, StaticsError>,
 }
 

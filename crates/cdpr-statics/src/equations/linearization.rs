@@ -48,7 +48,7 @@ impl DirectProblem<'_> {
 }
 
 impl Linearization {
-    /// Cartesian stiffness matrix K, 6 x 6, of (dp, dφ) in the base frame about P [N/m, N/rad, N, N m/rad].
+    /// Cartesian stiffness matrix H, 6 x 6, of (dp, dφ) in the base frame about P [N/m, N/rad, N, N m/rad].
     ///
     /// It is the Hessian of the potential, with sag and weight of the cables: symmetric, and positive definite where the equilibrium is
     /// stable. A moment M of constant components has no potential. Its unsymmetric part [M]/2, which depends on how rotations are

@@ -15,7 +15,7 @@ pub struct SurfaceResult<E = StaticsError> {
     pub x: Vec<f64>,
     /// Values of the second parameter.
     pub y: Vec<f64>,
-    /// RMS [mm] at `x[i], y[j]`, in place `i * y.len() + j`; or why there is none.
+    /// RMS [mm] at `x[i], y[j]`, with index `i * y.len() + j`, or the reason of a failure.
     pub rms_mm: Vec<Result<f64, E>>,
 }
 
@@ -49,7 +49,7 @@ pub struct SurfaceRms {
     pub nominal: f64,
 }
 
-/// Runs a surface in parallel; `tick` is told how many more points are done.
+/// Runs a surface in parallel; `tick` is called with the number of further points that are done.
 pub fn compute_surface(surface: &Surface, tick: &(dyn Fn(usize) + Sync)) -> SurfaceResult {
     let parameters = Parameter::all(surface.robot.cables.len()).len();
     let Surface { x, y, .. } = surface;

@@ -82,7 +82,7 @@ impl Study {
     /// are taken.
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for a name that is none.
+    /// [`StudyError::Invalid`] for an unknown name.
     pub fn observations(&self, name: &str) -> Result<usize, StudyError> {
         let spec = self.entry(name)?.1;
         let of_designs = self.designs(name, spec)?.into_iter().map(|(_, points)| points).sum::<usize>();

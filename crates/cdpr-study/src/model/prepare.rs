@@ -21,7 +21,8 @@ impl Study {
     /// Prepares the sampling called `name`; at several poses, that at one of them: `NAME/0000`, ....
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for a name or setting that is none, [`StudyError::Nominal`] where the nominal robot cannot
+    /// [`StudyError::Invalid`] for an unknown name or an invalid setting, [`StudyError::Nominal`] where the
+    /// nominal robot cannot
     /// hold the pose.
     pub fn sampling(&self, name: &str) -> Result<Sampling<'_>, StudyError> {
         let Located { name, entry, spec, pose, field } = self.located(name)?;
@@ -102,7 +103,8 @@ impl Study {
     /// The error model called `name`, of deviations from the robot file.
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for a name that is none, and for an operating point: that of a sampling is known from its pose and load.
+    /// [`StudyError::Invalid`] for an unknown name, and for an operating point, which only the pose and load
+    /// of a sampling determine.
     pub fn tolerances(&self, name: &str) -> Result<ErrorModel, StudyError> {
         let Some(model) = self.file.error_models.get(name) else {
             return Err(self.invalid("error_models", name, &keys(&self.file.error_models)));
