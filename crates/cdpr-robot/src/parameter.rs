@@ -181,7 +181,7 @@ impl fmt::Display for Parameter {
         match self {
             Self::AnchorPoint(i, axis) => write!(f, "a{}.{}", i + 1, axis),
             Self::ExitPoint(i, axis) => write!(f, "b{}.{}", i + 1, axis),
-            Self::CenterOfMass(axis) => write!(f, "cog.{}", axis),
+            Self::CenterOfMass(axis) => write!(f, "cog.{axis}"),
             Self::TensionOffset(i) => write!(f, "dt{}", i + 1),
             scalar => f.write_str(scalar.group()),
         }
