@@ -1,4 +1,5 @@
-//! Assessments of a robot: where it can work, which tolerances matter, how surely its pose is found, and what is odd about it.
+//! Assessments of a robot: where it can work, which tolerances matter, how reliably its pose is found, and
+//! which values of its file look wrong.
 //!
 //! | question | function |
 //! |---|---|

@@ -1,10 +1,12 @@
 //! Robustness of the direct model: how often it finds the true pose from a wrong start.
 //!
-//! A test draws poses from a region and keeps those that the robot holds in a stable equilibrium. The inverse model gives the
-//! lengths of each; the direct model is asked for the pose that belongs to them, from a start that is off by a given
-//! distance and angle in random directions. Distance and angle make up [`StartOffset`]; what came of it is a [`Solve`].
+//! A test draws poses from a region and keeps those that the robot holds in a stable equilibrium. The inverse
+//! model gives the lengths of each; the direct model is asked for the pose that belongs to them, from a start
+//! that is off by a given distance and angle in random directions. Distance and angle make up
+//! [`StartOffset`]; what came of it is a [`Solve`].
 //!
-//! Pose and start follow from the index of the draw alone. Poses are drawn in parallel, solved and timed one by one.
+//! Pose and start follow from the index of the draw alone. Poses are drawn in parallel, solved and timed one
+//! by one.
 
 mod protocol;
 mod summary;
@@ -175,7 +177,8 @@ pub fn anchor_distance(robot: &Robot, one: &Pose, other: &Pose) -> f64 {
 /// Runs a test; `tick` is called after each pose collected and after each solve.
 ///
 /// # Errors
-/// [`StudyError::Setting`]; [`StudyError::TooFewPoses`] where hardly any pose is held. A failed solve is a result.
+/// [`StudyError::Setting`]; [`StudyError::TooFewPoses`] where hardly any pose is held. A failed solve is a
+/// result.
 pub fn run_robustness(
     robot: &Robot,
     protocol: &Protocol,

@@ -1,8 +1,9 @@
-//! Tolerance budgets: which tolerances to tighten so that a quantile of an error stays below a limit, and by how much.
+//! Tolerance budgets: which tolerances to tighten so that a quantile of an error stays below a limit, and by
+//! how much.
 //!
-//! A *tolerance* is an entry of a sampling's error model: one for all exit points if the model has one law for them. Tightened to the
-//! share s, deviations keep their law about its mean at s times the distance. With y the error, `y0` that of the robot whose
-//! deviations are the means, and J its exact derivatives there,
+//! A *tolerance* is an entry of a sampling's error model: one for all exit points if the model has one law
+//! for them. Tightened to the share s, deviations keep their law about its mean at s times the distance. With
+//! y the error, `y0` that of the robot whose deviations are the means, and J its exact derivatives there,
 //!
 //! ```text
 //! v_j = sum over the inputs i of tolerance j:  |J_i|² var_i                            (B1)
@@ -42,7 +43,8 @@ pub struct Limit {
     pub limit_mm: f64,
     /// Share of the robots that are to keep it, between 0 and 1.
     pub quantile: f64,
-    /// Cost of each tolerance by the name of its entry, as it is now; halved it costs twice as much. 1 for those left out.
+    /// Cost of each tolerance by the name of its entry, as it is now; halved it costs twice as much. 1 for
+    /// those left out.
     pub costs: IndexMap<String, f64>,
     /// Independent robots that the budget is verified with.
     pub verified_with: usize,

@@ -1,4 +1,5 @@
-//! Where a robot can work, and how well: tensions, deflection, stiffness and the tolerance that matters most, pose by pose.
+//! Where a robot can work, and how well: tensions, deflection, stiffness and the tolerance that matters most,
+//! pose by pose.
 
 use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{Deflection, Derivatives, Load, StaticsError, deflection, derivatives};

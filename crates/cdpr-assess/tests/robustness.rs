@@ -1,4 +1,5 @@
-//! The test of robustness: what it counts, that its numbers follow from the seed, and which settings it refuses.
+//! The test of robustness: what it counts, that its numbers follow from the seed, and which settings it
+//! refuses.
 
 use cdpr_assess::{Outcome, Protocol, ProtocolSummary, RobustnessResult, anchor_distance, run_robustness};
 use cdpr_robot::{Pose, Robot, Vector3};

@@ -1,4 +1,5 @@
-//! Figures of CAROCA's study, with few observations: `cargo run --release -p cdpr-report --example figures -- FOLDER`.
+//! Figures of CAROCA's study, with few observations:
+//! `cargo run --release -p cdpr-report --example figures -- FOLDER`.
 //!
 //! A second argument is the number of observations of each sampling.
 

@@ -10,7 +10,8 @@ const EFFECTS: usize = 20;
 /// Inputs among the measures of sensitivity.
 pub(crate) const LEADING: usize = 12;
 
-/// Draws the figures of one part of a study, or those of the study as a whole: what [`cdpr_study::run`] calls.
+/// Draws the figures of one part of a study, or those of the study as a whole: what [`cdpr_study::run`]
+/// calls.
 pub fn draw(study: &Study, of: Drawable) -> Vec<Figure> {
     match of {
         Drawable::Sampling { name, summary } => {

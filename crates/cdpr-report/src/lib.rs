@@ -1,6 +1,6 @@
-//! Figures of study results, ready for a paper: one function a figure, results in, SVG text out. And [`report()`], which puts all of
-//! them into one HTML file beside the robot in space. [`draw()`] gives the figures of a run to
-//! [`cdpr_study::run`]. Nothing here reads or writes files.
+//! Figures of study results, ready for a paper: one function a figure, results in, SVG text out. And
+//! [`report()`], which puts all of them into one HTML file beside the robot in space. [`draw()`] gives the
+//! figures of a run to [`cdpr_study::run`]. Nothing here reads or writes files.
 //!
 //! | figure of the paper | function |
 //! |---|---|
@@ -17,9 +17,9 @@
 //! | none: what a sampling at many poses says over the workspace | [`pose_maps`] |
 //! | none: answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
-//! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of Cable-Driven Parallel
-//! Robots*, 2017. All figures are 700 px wide on white; colours are those of Okabe and Ito and viridis, both safe for the
-//! colour-blind. The same results give the same bytes.
+//! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
+//! Cable-Driven Parallel Robots*, 2017. All figures are 700 px wide on white; colours are those of Okabe and
+//! Ito and viridis, both safe for the colour-blind. The same results give the same bytes.
 //!
 //! ```no_run
 //! use cdpr_study::{Session, Study, analyse, observe, write_figure};

@@ -1,9 +1,10 @@
-//! The report: one HTML file that tells what was studied and what came out, with all figures, and needs nothing else.
+//! The report: one HTML file that tells what was studied and what came out, with all figures, and needs
+//! nothing else.
 //!
-//! Static figures are the SVG of this crate, put in as they are. The robot and the surfaces in space are drawn by plotly.js
-//! (`vendor/plotly`) from data that the page carries as JSON. Everything that comes from files is escaped by maud; the data stands in
-//! a `script` element that no browser runs, without a `<`. A content security policy names the two scripts by their hashes and
-//! forbids all others and every connection.
+//! Static figures are the SVG of this crate, put in as they are. The robot and the surfaces in space are
+//! drawn by plotly.js (`vendor/plotly`) from data that the page carries as JSON. Everything that comes from
+//! files is escaped by maud; the data stands in a `script` element that no browser runs, without a `<`. A
+//! content security policy names the two scripts by their hashes and forbids all others and every connection.
 
 mod comparison;
 mod elements;

@@ -65,7 +65,8 @@ pub(crate) struct SceneCable {
 }
 
 impl Scene {
-    /// Every pose of the study once, in the order of its samplings and surfaces; one of a sampling at several.
+    /// Every pose of the study once, in the order of its samplings and surfaces; one of a sampling at
+    /// several.
     ///
     /// # Errors
     /// As [`Study::sampling`].

@@ -1,10 +1,10 @@
-//! Screening of Ishigami's function: y = sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1, x uniform on [-π, π], and an inert
-//! x4.
+//! Screening of Ishigami's function: y = sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1, x uniform on [-π, π], and an
+//! inert x4.
 //!
 //! T. Ishigami, T. Homma, *An importance quantification technique in uncertainty analysis for computer
-//! models* (1990). The exact effect of x1 is (4/π)(1 + 0.1 π⁴/5) = 3.754; those of x2, x3 and x4 are 0. x2 and x3 act
-//! through even functions, whose mean is the same in both halves. Screening by halves does not detect them, unlike a
-//! variance-based index.
+//! models* (1990). The exact effect of x1 is (4/π)(1 + 0.1 π⁴/5) = 3.754; those of x2, x3 and x4 are 0. x2
+//! and x3 act through even functions, whose mean is the same in both halves. Screening by halves does not
+//! detect them, unlike a variance-based index.
 //!
 //! ```text
 //! cargo run --release -p cdpr-sensitivity --example ishigami

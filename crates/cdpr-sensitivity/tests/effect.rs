@@ -1,4 +1,5 @@
-//! Effects of inputs: exact answers, failed observations, and why t does not show significance on Sobol' points.
+//! Effects of inputs: exact answers, failed observations, and why t does not show significance on Sobol'
+//! points.
 
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{

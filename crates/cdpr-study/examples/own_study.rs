@@ -1,4 +1,5 @@
-//! A study of one's own: CoGiRo in the middle of its workspace, exit points known to 5 mm and anchor points to 2 mm.
+//! A study of one's own: CoGiRo in the middle of its workspace, exit points known to 5 mm and anchor points
+//! to 2 mm.
 
 #![allow(clippy::print_stdout)]
 

@@ -1,7 +1,8 @@
 //! Whole runs: a study carried out in its folder of results.
 //!
-//! Each part is written as soon as it is done, so that nothing computed is lost with what fails after it. A process that ends
-//! at any moment loses the block under way and no more. Figures are drawn by a function of the caller, once each.
+//! Each part is written as soon as it is done, so that nothing computed is lost with what fails after it. A
+//! process that ends at any moment loses the block under way and no more. Figures are drawn by a function of
+//! the caller, once each.
 
 use crate::analysis::part::StudySummary;
 use crate::analysis::poses::{PoseRow, PosesSummary, observe_poses};
@@ -95,8 +96,8 @@ pub struct Run {
     pub figures: Vec<Figure>,
 }
 
-/// Makes what is missing of a study in the folder `out`, analyses the whole, and writes tables, figures, `summary.json` and
-/// `timings.json`. Without a format, samplings at one pose have tables as CSV.
+/// Makes what is missing of a study in the folder `out`, analyses the whole, and writes tables, figures,
+/// `summary.json` and `timings.json`. Without a format, samplings at one pose have tables as CSV.
 ///
 /// # Errors
 /// Those of files and blocks; [`StudyError::Stopped`].
@@ -178,8 +179,8 @@ impl<'a> Running<'a> {
         Ok(())
     }
 
-    /// A sampling at several poses. Tables of their observations are written only if they are asked for: those of all poses
-    /// may be more than a disk holds.
+    /// A sampling at several poses. Tables of their observations are written only if they are asked for:
+    /// those of all poses may be more than a disk holds.
     fn at_poses(&mut self, name: &str) -> Result<(), StudyError> {
         let clock = Instant::now();
         let session = self.session();

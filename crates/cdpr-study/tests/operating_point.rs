@@ -38,7 +38,8 @@ fn range(study: &Study, sampling: &str) -> [f64; 2] {
 #[test]
 fn the_range_is_that_of_both_ways_at_the_tensions_of_pose_and_load() {
     let study = study(|_| ()).unwrap();
-    // All tensions lie between 5 and 10 % of the breaking force: 83.2 GPa loading, 82.3 GPa unloading, of 102.2 GPa.
+    // All tensions lie between 5 and 10 % of the breaking force: 83.2 GPa loading, 82.3 GPa unloading, of
+    // 102.2 GPa.
     let [low, high] = range(&study, "geometrical");
     assert!(
         (low - (82.3 - 102.2 - 2.0)).abs() < 1e-6 && (high - (83.2 - 102.2 + 2.0)).abs() < 1e-6,

@@ -58,7 +58,8 @@ fn the_columns_of_table_2_follow_from_each_other_but_for_one() {
 
 #[test]
 fn two_gigapascals_are_the_uncertainty_of_a_specimen_longer_than_the_range_asks() {
-    // Elongations, known to 0.03 mm, decide: of 1 m the modulus over 10-30 % is known to 2.7 GPa, over 5-10 % to 7 GPa.
+    // Elongations, known to 0.03 mm, decide: of 1 m the modulus over 10-30 % is known to 2.7 GPa, over 5-10 %
+    // to 7 GPa.
     let of_one_metre = |low, high| record().modulus(&specimen(), Phase::Loading, low, high).unwrap();
     assert!((of_one_metre(10.0, 30.0).standard / 1e9 - 2.67).abs() < 0.01);
     assert!((of_one_metre(5.0, 10.0).standard / 1e9 - 7.18).abs() < 0.01);

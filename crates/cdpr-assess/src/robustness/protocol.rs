@@ -75,8 +75,8 @@ const MOST_POSES: usize = 10_000_000;
 const DRAWS_PER_POSE: usize = 100;
 
 impl Protocol {
-    /// The test of Mahnke and Caverly for the forward kinematics of CoGiRo with sagging cables: E = 35 GPa, poses all over the
-    /// room with rotations up to 30 degrees, starts up to 1 m and 40 degrees away.
+    /// The test of Mahnke and Caverly for the forward kinematics of CoGiRo with sagging cables: E = 35 GPa,
+    /// poses all over the room with rotations up to 30 degrees, starts up to 1 m and 40 degrees away.
     pub fn mahnke_caverly(poses: usize, seed: u64) -> Self {
         let distances = [0.0, 0.25, 0.5, 0.75, 1.0];
         let start = |distance| {
@@ -98,7 +98,8 @@ impl Protocol {
         }
     }
 
-    /// Thirty poses of CoGiRo with its own modulus, each from 0.5 m and 0.25 rad, and from 0.2 m and 0.1 rad away.
+    /// Thirty poses of CoGiRo with its own modulus, each from 0.5 m and 0.25 rad, and from 0.2 m and 0.1 rad
+    /// away.
     pub fn thirty_poses(seed: u64) -> Self {
         let start = |distance, angle, found| {
             let published = Some(Published { program: "WireX", found, of: 30 });

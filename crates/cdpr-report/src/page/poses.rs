@@ -1,5 +1,5 @@
-//! Samplings at several poses: maps over the workspace, extremes, which parameters matter where. However many poses there are, there is
-//! a section for all of them; a row each stands in the table beside the report.
+//! Samplings at several poses: maps over the workspace, extremes, which parameters matter where. However many
+//! poses there are, there is a section for all of them; a row each stands in the table beside the report.
 
 use crate::page::elements::{Section, cell, figure, numeric, table};
 use crate::page::glance;

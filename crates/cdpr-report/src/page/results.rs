@@ -145,7 +145,8 @@ pub(crate) fn effects(results: &Results, figures: &[Figure]) -> Option<Section> 
             @let alt = format!("Bars of the largest signed effects of {name} with their intervals");
             (figure(&format!("{name}_effects"), &alt, figures, &html! {
                 "Signed effects [mm]: how much the mean RMS changes from the lower to the upper half of a parameter's range. Lines are "
-                "intervals of " (text::digits(100.0 * sampling.confidence, 4)) " % confidence; grey bars: the interval contains zero."
+                "intervals of " (text::digits(100.0 * sampling.confidence, 4))
+                " % confidence; grey bars: the interval contains zero."
             }))
         }
     };

@@ -32,7 +32,8 @@ pub struct SamplingSummary {
     pub rms_mm: Option<RmsSummary>,
     /// The nominal robot at this pose.
     pub nominal: NominalSummary,
-    /// Least and greatest modulus of the cables' law at the tensions of pose and load [GPa], where the error model asks for them.
+    /// Least and greatest modulus of the cables' law at the tensions of pose and load [GPa], where the error
+    /// model asks for them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub operating_moduli_gpa: Option<[f64; 2]>,
     /// Fitted laws by ascending AIC; empty where they cannot be fitted.
@@ -42,10 +43,11 @@ pub struct SamplingSummary {
     pub best_fit: Option<Family>,
     /// Histogram of the RMS [mm].
     pub histogram: Option<Histogram>,
-    /// The paper's t-Student index by parameter (section 5.2). On Sobol points its significance levels do not hold.
+    /// The paper's t-Student index by parameter (section 5.2). On Sobol points its significance levels do not
+    /// hold.
     pub t_student: IndexMap<String, f64>,
-    /// Signed effect by parameter: mean RMS in the upper half of its range minus that in the lower half, with an interval
-    /// from scrambled replicates.
+    /// Signed effect by parameter: mean RMS in the upper half of its range minus that in the lower half, with
+    /// an interval from scrambled replicates.
     pub signed_effects_mm: IndexMap<String, SignedEffect>,
     /// Scrambled replicates behind those intervals.
     pub replicates: usize,
@@ -111,8 +113,8 @@ pub struct FitSummary {
     pub bic: f64,
     /// Kolmogorov-Smirnov distance.
     pub ks: f64,
-    /// p-value of that distance for fitted parameters, by parametric bootstrap: at least 1/(resamples + 1), and for
-    /// independent observations; on Sobol points it is an indication.
+    /// p-value of that distance for fitted parameters, by parametric bootstrap: at least 1/(resamples + 1),
+    /// and for independent observations; on Sobol points it is an indication.
     pub p_value: f64,
 }
 

@@ -8,7 +8,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The deflection over a grid. `E` says why a point has none: the error itself, or its kind as read back from a table.
+/// The deflection over a grid. `E` says why a point has none: the error itself, or its kind as read back from
+/// a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceResult<E = StaticsError> {
     /// Values of the first parameter (nominal value plus deviation), in its SI unit.

@@ -1,4 +1,5 @@
-//! Names of tables and figures in a folder of results: which are of a study, and that no two parts of it write the same.
+//! Names of tables and figures in a folder of results: which are of a study, and that no two parts of it
+//! write the same.
 
 use crate::error::StudyError;
 use crate::file::study_file::{SamplingSpec, StudyFile};

@@ -27,7 +27,8 @@ impl AtomicFile {
     pub(crate) fn new(path: PathBuf) -> Result<Self, StudyError> {
         let mut builder = Builder::new();
         builder.prefix(UNFINISHED).suffix(".tmp");
-        // The mask of the user applies, as to any other file: results in a shared folder are for others to read.
+        // The mask of the user applies, as to any other file: results in a shared folder are for others to
+        // read.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         match builder.tempfile_in(folder_of(&path)) {

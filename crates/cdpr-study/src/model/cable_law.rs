@@ -1,4 +1,5 @@
-//! The elastic law of a cable as a file, `cdpr-law/1` (JSON, SI units): moduli over tension while it is loaded and unloaded.
+//! The elastic law of a cable as a file, `cdpr-law/1` (JSON, SI units): moduli over tension while it is
+//! loaded and unloaded.
 
 use crate::error::StudyError;
 use crate::file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve};

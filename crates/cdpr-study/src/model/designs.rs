@@ -1,5 +1,6 @@
-//! The designs that a sampling is observed at: its own, scrambled replicates of it, and those of the measures of sensitivity. A row
-//! follows from its index alone, so that blocks of a design stay what they are when it grows.
+//! The designs that a sampling is observed at: its own, scrambled replicates of it, and those of the measures
+//! of sensitivity. A row follows from its index alone, so that blocks of a design stay what they are when it
+//! grows.
 
 use crate::error::StudyError;
 use crate::file::study_file::SamplingSpec;
@@ -23,7 +24,8 @@ pub(crate) trait Points: Sync {
     /// Number of inputs, one a column.
     fn columns(&self) -> usize;
 
-    /// Writes consecutive rows, one after the other, from that of observation `first` on: whole ones of the design.
+    /// Writes consecutive rows, one after the other, from that of observation `first` on: whole ones of the
+    /// design.
     fn fill(&self, first: usize, rows: &mut [f64]);
 }
 
@@ -78,8 +80,8 @@ pub(crate) fn replicate_name(number: usize) -> String {
 }
 
 impl Study {
-    /// Observations that a run makes of a sampling of the study file, at all its poses: those of all designs, and those whose derivatives
-    /// are taken.
+    /// Observations that a run makes of a sampling of the study file, at all its poses: those of all designs,
+    /// and those whose derivatives are taken.
     ///
     /// # Errors
     /// [`StudyError::Invalid`] for an unknown name.

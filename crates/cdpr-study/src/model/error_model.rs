@@ -55,11 +55,12 @@ pub(crate) enum Wrong {
 const PARAMETERS: &str =
     "a parameter (mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...)";
 
-/// The standard deviation of each parameter of a robot [SI units], in the order of [`Parameter::all`], from those that have names: its own,
-/// else that of its group, else none.
+/// The standard deviation of each parameter of a robot [SI units], in the order of [`Parameter::all`], from
+/// those that have names: its own, else that of its group, else none.
 ///
 /// # Errors
-/// [`StudyError::Setting`] for a name that is neither a parameter nor a group, and a number that is not positive and finite.
+/// [`StudyError::Setting`] for a name that is neither a parameter nor a group, and a number that is not
+/// positive and finite.
 pub fn uncertainties(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<f64>, StudyError> {
     let parameters = Parameter::all(robot.cables.len());
     let known = |name: &str| parameters.iter().any(|p| p.group() == name || p.to_string() == name);
@@ -120,8 +121,8 @@ impl ErrorModel {
         Ok(found)
     }
 
-    /// Independent normal deviations with these standard deviations (SI units, in the order of [`Parameter::all`]); a parameter with zero
-    /// is known.
+    /// Independent normal deviations with these standard deviations (SI units, in the order of
+    /// [`Parameter::all`]); a parameter with zero is known.
     pub fn normal(deviations: &[f64]) -> Self {
         let names: Vec<String> =
             Parameter::all(deviations.len().saturating_sub(6) / 7).iter().map(ToString::to_string).collect();

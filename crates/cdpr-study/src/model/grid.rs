@@ -16,7 +16,8 @@ pub struct Grid {
 /// Positions of a grid, whose results are held in memory as a whole.
 const MOST: usize = 4_000_000;
 
-/// Exit points that differ by less than this share of the frame's size along an axis lie in a plane across it.
+/// Exit points that differ by less than this share of the frame's size along an axis lie in a plane across
+/// it.
 const FLAT: f64 = 0.1;
 
 /// An invalid axis or grid: axis, value, what is expected.
@@ -51,8 +52,9 @@ impl Grid {
         Ok(Self { x, y, z })
     }
 
-    /// The plane in which the coordinate `normal` is `place` [m], over the frame: the ranges of the exit points' other two coordinates,
-    /// with so many points each. Where all exit points are at about one height, heights begin at the floor of the base frame, z = 0.
+    /// The plane in which the coordinate `normal` is `place` [m], over the frame: the ranges of the exit
+    /// points' other two coordinates, with so many points each. Where all exit points are at about one
+    /// height, heights begin at the floor of the base frame, z = 0.
     ///
     /// # Errors
     /// [`StudyError::Setting`] where the exit points do not span the plane, and as [`Grid::new`].

@@ -4,10 +4,12 @@ use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{Deflection, Load, StaticsError, deflection};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Poses that are kept: those of single samplings and of surfaces, and the first ones of a sampling at several.
+/// Poses that are kept: those of single samplings and of surfaces, and the first ones of a sampling at
+/// several.
 const MOST: usize = 64;
 
-/// Deflections of the nominal robot, shared by all copies of a study: its check, its run and its figures ask for the same.
+/// Deflections of the nominal robot, shared by all copies of a study: its check, its run and its figures ask
+/// for the same.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Nominals(Arc<Mutex<Vec<Nominal>>>);
 

@@ -52,7 +52,8 @@ fn digits(poses: usize) -> usize {
 }
 
 impl Study {
-    /// The names of all samplings at one pose each: `NAME` itself, or `NAME/0000`, `NAME/0001`, ... for one at several poses.
+    /// The names of all samplings at one pose each: `NAME` itself, or `NAME/0000`, `NAME/0001`, ... for one
+    /// at several poses.
     pub fn sampling_names(&self) -> impl Iterator<Item = String> {
         self.file.samplings.iter().flat_map(|(name, spec)| {
             // Checked when the study was read.

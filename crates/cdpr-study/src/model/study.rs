@@ -48,7 +48,8 @@ pub struct Sampling<'a> {
     pub design: SobolDesign,
     /// What each input of the design acts on.
     pub errors: ErrorModel,
-    /// Least and greatest modulus of the cables' law at the tensions of pose and load [Pa], where the error model asks for them.
+    /// Least and greatest modulus of the cables' law at the tensions of pose and load [Pa], where the error
+    /// model asks for them.
     pub operating_moduli: Option<[f64; 2]>,
     /// The nominal robot's deflection.
     pub nominal: Deflection,

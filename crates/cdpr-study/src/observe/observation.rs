@@ -1,8 +1,9 @@
 //! Observations: the deflection of perturbed robots.
 //!
-//! One observation perturbs all parameters of the robot; the inverse model runs on the *perturbed* robot at the wanted pose;
-//! its tensions are offset by dt_i and the unstrained lengths computed for the offset tensions; the direct model runs on the
-//! perturbed robot with those lengths, under its own weight and with the payload added; dp is the difference (Eq. (4)).
+//! One observation perturbs all parameters of the robot; the inverse model runs on the *perturbed* robot at
+//! the wanted pose; its tensions are offset by dt_i and the unstrained lengths computed for the offset
+//! tensions; the direct model runs on the perturbed robot with those lengths, under its own weight and with
+//! the payload added; dp is the difference (Eq. (4)).
 //!
 //! Observations are made in blocks of consecutive indices, which a [`Session`] may keep on disk, and blocks
 //! in parts, one for each thread. Only the sums of a part stay in memory; they are merged in the order of the

@@ -1,4 +1,5 @@
-//! Tables of observations as Parquet: the columns of the CSV with types, units and provenance in the file's metadata.
+//! Tables of observations as Parquet: the columns of the CSV with types, units and provenance in the file's
+//! metadata.
 
 use crate::error::StudyError;
 use crate::fs::atomic::AtomicFile;

@@ -56,7 +56,8 @@ impl TableFormat {
 }
 
 impl ObservationTable {
-    /// Begins the table of a sampling, and removes one of an earlier run: `d_mass`, ... in SI units, `dx_mm`, ..., `rms_mm`, `status` and `reason`.
+    /// Begins the table of a sampling, and removes one of an earlier run: `d_mass`, ... in SI units, `dx_mm`,
+    /// ..., `rms_mm`, `status` and `reason`.
     ///
     /// # Errors
     /// [`StudyError::Write`].

@@ -39,8 +39,8 @@ pub fn write_surface(
     write_csv(folder.join(format!("{}.csv", surface.name)), header, rows)
 }
 
-/// Writes `NAME_sensitivity.csv`: one row an input, with what each measure says of it; shares and indices have no unit, a method
-/// that has failed leaves its cells empty.
+/// Writes `NAME_sensitivity.csv`: one row an input, with what each measure says of it; shares and indices
+/// have no unit, a method that has failed leaves its cells empty.
 ///
 /// # Errors
 /// [`StudyError::Write`].

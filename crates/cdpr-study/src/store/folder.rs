@@ -1,6 +1,7 @@
-//! The folder of a study's results, complete by itself: beside tables, figures and `summary.json` it holds the study as it was run
-//! (`study.json`), the robot (`robot.json`), what was observed (`blocks`), and how long it took (`timings.json`, apart from the
-//! summary, which is the same from run to run). A file of its own tells it from a folder in which somebody keeps a study.
+//! The folder of a study's results, complete by itself: beside tables, figures and `summary.json` it holds
+//! the study as it was run (`study.json`), the robot (`robot.json`), what was observed (`blocks`), and how
+//! long it took (`timings.json`, apart from the summary, which is the same from run to run). A file of its
+//! own tells it from a folder in which somebody keeps a study.
 
 use crate::error::StudyError;
 use crate::file::names::remove_files;
@@ -28,11 +29,13 @@ pub enum Existing {
     Overwrite,
 }
 
-/// Makes the folder for the results of a study, or goes on with one: before anything is computed. Several processes may do so at once.
+/// Makes the folder for the results of a study, or goes on with one: before anything is computed. Several
+/// processes may do so at once.
 ///
 /// # Errors
-/// [`StudyError::Write`]; [`StudyError::FolderInUse`] and [`StudyError::ForeignFolder`] for blocks of this study and of others,
-/// [`StudyError::NoResults`] for a study or robot file that stands there and is not of a run.
+/// [`StudyError::Write`]; [`StudyError::FolderInUse`] and [`StudyError::ForeignFolder`] for blocks of this
+/// study and of others, [`StudyError::NoResults`] for a study or robot file that stands there and is not of a
+/// run.
 pub fn begin(folder: &Path, study: &Study, existing: Existing) -> Result<Blocks, StudyError> {
     check_folder(folder)?;
     let blocks = Blocks::new(folder, study)?;
@@ -87,8 +90,8 @@ fn check_study(folder: &Path, study: &Study) -> Result<(), StudyError> {
     Err(StudyError::ForeignFolder { folder: folder.to_owned(), found, expected, version })
 }
 
-/// Writes the study and its robot into a folder of results: [`Study::open`] reads them there. A summary is of the study beside it: it goes
-/// when that changes, and only then.
+/// Writes the study and its robot into a folder of results: [`Study::open`] reads them there. A summary is of
+/// the study beside it: it goes when that changes, and only then.
 fn write_study(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(), StudyError> {
     let file = StudyFile { robot: ROBOT_NAME.to_owned(), ..study.file.clone() };
     for (name, text) in
@@ -108,7 +111,8 @@ fn write_study(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(), Stud
     Ok(())
 }
 
-/// Removes what runs have written into a folder of results, but for the study, which another one takes the place of. Not what else is there.
+/// Removes what runs have written into a folder of results, but for the study, which another one takes the
+/// place of. Not what else is there.
 fn remove_results(folder: &Path, blocks: &Blocks) -> Result<(), StudyError> {
     let path = folder.join(STUDY_NAME);
     // Without a study file it was begun only.
