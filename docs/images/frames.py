@@ -4,16 +4,23 @@ import math
 from pathlib import Path
 
 WIDTH, HEIGHT = 960, 430
+TITLE = (
+    "Base frame, platform frame, points P, G, A and B, the vectors of cable i, "
+    "and the plane of the cable with its forces"
+)
 STYLE = """
-.page { fill: #ffffff } .ink { stroke: #24292f; fill: none } .thin { stroke: #8c959f; fill: none }
+.page { fill: #ffffff } .ink { stroke: #24292f; fill: none }
+.thin { stroke: #8c959f; fill: none }
 .solid { fill: #d0d7de; fill-opacity: .45; stroke: #57606a } .cable { stroke: #0969da; fill: none }
 .force { stroke: #bc4c00; fill: none } .dot { fill: #24292f }
-text { fill: #24292f; font: 15px Georgia, 'Times New Roman', serif } .note { font: 12.5px Helvetica, Arial, sans-serif }
+text { fill: #24292f; font: 15px Georgia, 'Times New Roman', serif }
+.note { font: 12.5px Helvetica, Arial, sans-serif }
 .force-text { fill: #bc4c00 } .cable-text { fill: #0969da }
 #ink path { fill: #24292f } #force path { fill: #bc4c00 } #thin path { fill: #8c959f }
 @media (prefers-color-scheme: dark) {
   .page { fill: #0d1117 } .ink { stroke: #e6edf3 } .thin { stroke: #7d8590 }
-  .solid { fill: #30363d; stroke: #8d96a0 } .cable { stroke: #58a6ff } .force { stroke: #f0883e } .dot { fill: #e6edf3 }
+  .solid { fill: #30363d; stroke: #8d96a0 } .cable { stroke: #58a6ff }
+  .force { stroke: #f0883e } .dot { fill: #e6edf3 }
   text { fill: #e6edf3 } .force-text { fill: #f0883e } .cable-text { fill: #58a6ff }
   #ink path { fill: #e6edf3 } #force path { fill: #f0883e } #thin path { fill: #7d8590 }
 }
@@ -25,7 +32,9 @@ def symbol(text):
     """`b_i` as italics with a subscript."""
     base, _, index = text.partition("_")
     italic = f'<tspan font-style="italic">{base}</tspan>'
-    return italic + (f'<tspan font-size="11" dy="4">{index}</tspan><tspan dy="-4">&#8203;</tspan>' if index else "")
+    return italic + (
+        f'<tspan font-size="11" dy="4">{index}</tspan><tspan dy="-4">&#8203;</tspan>' if index else ""
+    )
 
 
 def label(at, text, kind="", anchor="middle"):
@@ -70,7 +79,9 @@ def platform():
     a, g = add(p, arm), add(p, center)
     corner = {
         (i, j, k): project(add(p, rotated((0.62 * i, 0.35 * j, 0.3 * k))))
-        for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)
+        for i in (-1, 1)
+        for j in (-1, 1)
+        for k in (-1, 1)
     }
     faces = [
         [(-1, -1, -1), (1, -1, -1), (1, -1, 1), (-1, -1, 1)],
@@ -80,11 +91,19 @@ def platform():
     for face in faces:
         points = " ".join("{:.1f},{:.1f}".format(*corner[key]) for key in face)
         parts.append(f'<polygon points="{points}" class="solid"/>')
-    for axis, name, shift in [((1, 0, 0), "x_b", (14, 6)), ((0, 1.1, 0), "y_b", (12, 0)), ((0, 0, 1), "z_b", (-14, 4))]:
+    for axis, name, shift in [
+        ((1, 0, 0), "x_b", (14, 6)),
+        ((0, 1.1, 0), "y_b", (12, 0)),
+        ((0, 0, 1), "z_b", (-14, 4)),
+    ]:
         line(project(o), project(axis))
         label(add(project(axis), shift), symbol(name))
     label(add(project(o), (-4, 20)), symbol("O"))
-    for axis, name, shift in [((0.95, 0, 0), "x_p", (16, 8)), ((0, 0.95, 0), "y_p", (14, 2)), ((0, 0, 0.8), "z_p", (14, 0))]:
+    for axis, name, shift in [
+        ((0.95, 0, 0), "x_p", (16, 8)),
+        ((0, 0.95, 0), "y_p", (14, 2)),
+        ((0, 0, 0.8), "z_p", (14, 0)),
+    ]:
         end = add(p, rotated(axis))
         line(project(p), project(end), width=1.3)
         label(add(project(end), shift), symbol(name))
@@ -105,7 +124,12 @@ def platform():
     label(add(project(force), (-12, 26)), symbol("F_i"), "force-text")
     line(project(g), project(add(g, (0, 0, -0.75))), "force", 2.4)
     label(add(project(add(g, (0, 0, -0.75))), (20, 4)), symbol("m g"), "force-text")
-    for point, name, shift in [(p, "P", (3, 19)), (g, "G", (14, 12)), (a, "A_i", (8, -12)), (b, "B_i", (-2, -12))]:
+    for point, name, shift in [
+        (p, "P", (3, 19)),
+        (g, "G", (14, 12)),
+        (a, "A_i", (8, -12)),
+        (b, "B_i", (-2, -12)),
+    ]:
         dot(project(point))
         label(add(project(point), shift), symbol(name))
     label((70, 26), "The platform and cable i in space", "note", "start")
@@ -146,7 +170,23 @@ def plane():
     label((a[0] + 8, (a[1] + b[1]) / 2), "(" + symbol("x, z") + ")", "", "start")
     label((590, 26), "The plane of cable i: forces on the cable", "note", "start")
     label((590, 372), "The force on the platform is the opposite one:", "note", "start")
-    label((590, 396), " ".join([symbol("F_i"), "= &#8722;(", symbol("f_x"), symbol("e_h"), "+", symbol("f_z"), symbol("e_z"), ")"]), "", "start")
+    label(
+        (590, 396),
+        " ".join(
+            [
+                symbol("F_i"),
+                "= &#8722;(",
+                symbol("f_x"),
+                symbol("e_h"),
+                "+",
+                symbol("f_z"),
+                symbol("e_z"),
+                ")",
+            ]
+        ),
+        "",
+        "start",
+    )
 
 
 platform()
@@ -157,7 +197,7 @@ markers = "".join(
     for kind in ("ink", "force", "thin")
 )
 svg = f"""<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" role="img">
-<title>Base frame, platform frame, points P, G, A and B, the vectors of cable i, and the plane of the cable with its forces</title>
+<title>{TITLE}</title>
 <style>{STYLE}</style>
 <defs>{markers}</defs>
 <rect class="page" width="{WIDTH}" height="{HEIGHT}" rx="8"/>
