@@ -123,7 +123,7 @@ fn a_workspace_ends_where_it_is_told_to() {
     };
     let found = compute_workspace(&workspace, &tick, &|| done.load(Ordering::Relaxed) > 0);
     assert!(matches!(found, Err(StudyError::Stopped)));
-    // Each thread may have begun one before it was told.
+    // Each thread may have begun one position before the stop.
     assert!((1..=rayon::current_num_threads()).contains(&done.into_inner()));
 }
 
