@@ -1,5 +1,5 @@
-//! Observations of perturbed robots: one by the scalar chain, many in the lanes of the vector unit, over their number and over the
-//! number of cables.
+//! Observations of perturbed robots: one by the scalar chain, many in the lanes of the vector unit, over
+//! their number and over the number of cables.
 
 #![allow(clippy::unwrap_used)]
 
@@ -11,7 +11,8 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use problems::{caroca, counted, ring, settings};
 use std::hint::black_box;
 
-/// Rows of deviations: sawtooths through the ranges of Table 3 of Baklouti, Caro, Courteille (CableCon 2017), one a parameter.
+/// Rows of deviations: sawtooths through the ranges of Table 3 of Baklouti, Caro, Courteille (CableCon 2017),
+/// one a parameter.
 fn deviations(cables: usize, robots: usize) -> Vec<f64> {
     let parameters = Parameter::all(cables);
     let half_range = |parameter: &Parameter| match parameter {

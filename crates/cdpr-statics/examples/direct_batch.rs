@@ -1,4 +1,5 @@
-//! Seconds for 10^5 direct solves on all cores, each from 1 cm away along each axis, and the sum of all heights: what `crates/cdpr-python/benches/direct_batch.py` is compared with.
+//! Seconds for 10^5 direct solves on all cores, each from 1 cm away along each axis, and the sum of all
+//! heights: what `crates/cdpr-python/benches/direct_batch.py` is compared with.
 //!
 //! ```text
 //! cargo run --release -p cdpr-statics --example direct_batch

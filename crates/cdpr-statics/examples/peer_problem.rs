@@ -1,4 +1,5 @@
-//! The problems that `cargo xtask bench-peers` gives to other solvers, with this crate's own answers and times, as JSON.
+//! The problems that `cargo xtask bench-peers` gives to other solvers, with this crate's own answers and
+//! times, as JSON.
 //!
 //! `peer_problem FILE` writes
 //!
@@ -7,12 +8,12 @@
 //! parameters           nominal value of every uncertain parameter, in the order of `Parameter::all`
 //! position             wanted position of P [m]; the wanted rotation is the identity
 //! payload              mass added at the centre of mass [kg]
-//! lengths, forces      direct problem: unstrained lengths [m]; (fx, fz) of every cable [N] at the start, where the platform
-//!                      rests at `position` without the payload
+//! lengths, forces      direct problem: unstrained lengths [m]; (fx, fz) of every cable [N] at the start, where the
+//!                      platform rests at `position` without the payload
 //! deviations           observations: what is added to `parameters`, one row each
 //! repeats              how often to solve, for a median time
-//! cdpr                 direct_us, direct_position [m], observation_us, displacements [m]: solves one after the other by `Tracker`,
-//!                      observations in batches by `Observer`
+//! cdpr                 direct_us, direct_position [m], observation_us, displacements [m]: solves one after the
+//!                      other by `Tracker`, observations in batches by `Observer`
 //! cdpr_alone           the same, each solve and observation alone
 //! ```
 
@@ -45,7 +46,8 @@ fn main() -> Result<(), Error> {
     let solve = || direct(black_box(&robot), black_box(&wanted.lengths), &load, Start::Near(start));
     let loaded = solve()?;
     let direct_us = median((0..REPEATS).map(|_| microseconds(solve)).collect());
-    // The tracker begins where the platform rests without the payload; every second solve takes it back there.
+    // The tracker begins where the platform rests without the payload; every second solve takes it back
+    // there.
     let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), start)?;
     let mut tracked = Vec::new();
     for _ in 0..REPEATS {
@@ -117,7 +119,8 @@ fn main() -> Result<(), Error> {
     Ok(())
 }
 
-/// Half of the range of Table 3 of Baklouti, Caro, Courteille (CableCon 2017); for the centre of mass that of the anchors.
+/// Half of the range of Table 3 of Baklouti, Caro, Courteille (CableCon 2017); for the centre of mass that of
+/// the anchors.
 fn half_range(parameter: &Parameter) -> f64 {
     match parameter {
         Parameter::Mass => 18.0,
@@ -140,7 +143,8 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// Steele, Lea, Flood, *Fast splittable pseudorandom number generators* (OOPSLA 2014): the same numbers everywhere.
+/// Steele, Lea, Flood, *Fast splittable pseudorandom number generators* (OOPSLA 2014): the same numbers
+/// everywhere.
 struct SplitMix(u64);
 
 impl SplitMix {

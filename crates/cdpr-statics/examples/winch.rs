@@ -1,4 +1,5 @@
-//! CAROCA holds 50 kg in the middle of its workspace while cable 2 is paid out: the platform moves, then cables go slack.
+//! CAROCA holds 50 kg in the middle of its workspace while cable 2 is paid out: the platform moves, then
+//! cables go slack.
 
 #![allow(clippy::print_stdout)]
 

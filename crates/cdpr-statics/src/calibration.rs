@@ -1,15 +1,17 @@
 //! Which combinations of a robot's parameters a calibration identifies, and which poses identify most.
 //!
-//! Let the parameters be `θ = θ_0 + U x` with their uncertainties on the diagonal of U and x of unit variance, and the measurements
-//! `y = y_0 + J U x + N e` with their noise on the diagonal of N. All that matters is the matrix
+//! Let the parameters be `θ = θ_0 + U x` with their uncertainties on the diagonal of U and x of unit
+//! variance, and the measurements `y = y_0 + J U x + N e` with their noise on the diagonal of N. All that
+//! matters is the matrix
 //!
 //! ```text
 //! A = N⁻¹ J U = sum s_k w_k v_kᵀ                                                                  (K1)
 //! ```
 //!
-//! of all poses, one below the other. The combination `v_k·x` of parameters shows in the measurements with the ratio `s_k` of signal to
-//! noise: its standard deviation falls from 1 to `1/sqrt(1 + s_k²)`. Where `s_k = 0` the combination is not identifiable: no measurement
-//! of this kind shows it, however exact. The uncertainty that remains has the covariance
+//! of all poses, one below the other. The combination `v_k·x` of parameters shows in the measurements with
+//! the ratio `s_k` of signal to noise: its standard deviation falls from 1 to `1/sqrt(1 + s_k²)`. Where
+//! `s_k = 0` the combination is not identifiable: no measurement of this kind shows it, however exact. The
+//! uncertainty that remains has the covariance
 //!
 //! ```text
 //! C = (1 + AᵀA)⁻¹ = sum v_k v_kᵀ/(1 + s_k²)                                                       (K2)
@@ -21,8 +23,8 @@
 //! ½ log2 det(1 + B C Bᵀ),      C - C Bᵀ (1 + B C Bᵀ)⁻¹ B C                                        (K3)
 //! ```
 //!
-//! Taking the pose that adds most, one after the other, comes within 1 - 1/e of the information of the best choice (D-optimal design;
-//! Nemhauser, Wolsey, Fisher 1978: the information is submodular).
+//! Taking the pose that adds most, one after the other, comes within 1 - 1/e of the information of the best
+//! choice (D-optimal design; Nemhauser, Wolsey, Fisher 1978: the information is submodular).
 
 use crate::derivatives::derivatives;
 use crate::equations::Inputs;
@@ -44,7 +46,8 @@ pub enum Measurement {
     },
     /// The same, but the tensions at the platform are measured; noise [N].
     Tensions(f64),
-    /// The platform is held at the pose with the set-points of the inverse model; the unstrained lengths are measured; noise [m].
+    /// The platform is held at the pose with the set-points of the inverse model; the unstrained lengths are
+    /// measured; noise [m].
     Lengths(f64),
 }
 
@@ -73,8 +76,8 @@ pub struct ParameterValue {
 pub struct Combination {
     /// s_k: signal of a change by its uncertainty over noise; zero where the combination is not identifiable.
     pub signal_to_noise: f64,
-    /// Parameters with their weights, each in units of its uncertainty, the largest first; the sum of squares is 1. Weights
-    /// below 1e-8 of the largest, rounding, are left out.
+    /// Parameters with their weights, each in units of its uncertainty, the largest first; the sum of squares
+    /// is 1. Weights below 1e-8 of the largest, rounding, are left out.
     pub weights: Vec<ParameterValue>,
 }
 
@@ -117,7 +120,8 @@ impl Calibration {
     /// Adds a pose at which `measurements` are made under the platform's weight and `load`.
     ///
     /// # Errors
-    /// Those of [`derivatives`]: the pose is not added; [`StaticsError::Invalid`] for noise that is not positive.
+    /// Those of [`derivatives`]: the pose is not added; [`StaticsError::Invalid`] for noise that is not
+    /// positive.
     pub fn add(
         &mut self,
         pose: &Pose,
@@ -164,7 +168,8 @@ impl Calibration {
     /// What the measurements at the poses with these indices identify, equations (K1) and (K2).
     pub fn identify(&self, poses: impl IntoIterator<Item = usize>) -> Identifiability {
         let n = self.indices.len();
-        // The triangular factor has the singular values and right vectors of the whole; a row of zeros adds nothing.
+        // The triangular factor has the singular values and right vectors of the whole; a row of zeros adds
+        // nothing.
         let triangle = poses.into_iter().filter_map(|pose| self.poses.get(pose)).fold(
             DMatrix::zeros(n, n),
             |above: DMatrix<f64>, block| {
@@ -201,7 +206,8 @@ impl Calibration {
         Combination { signal_to_noise, weights }
     }
 
-    /// The `count` poses that identify most together, each the one that adds most to those before it, equation (K3).
+    /// The `count` poses that identify most together, each the one that adds most to those before it,
+    /// equation (K3).
     pub fn best_poses(&self, count: usize) -> Vec<ChosenPose> {
         let mut covariance = DMatrix::identity(self.indices.len(), self.indices.len());
         let mut left: Vec<usize> = (0..self.poses.len()).collect();
@@ -231,7 +237,8 @@ fn identity(size: usize) -> DMatrix<f64> {
     DMatrix::identity(size, size)
 }
 
-/// Combines the rows, by Gauss and Jordan with complete pivoting, so that each has a column that is zero in all others.
+/// Combines the rows, by Gauss and Jordan with complete pivoting, so that each has a column that is zero in
+/// all others.
 fn own_parameters(rows: &mut DMatrix<f64>) {
     for k in 0..rows.nrows() {
         let below = rows.rows(k, rows.nrows() - k).iamax_full();

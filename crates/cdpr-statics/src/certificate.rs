@@ -1,16 +1,16 @@
 //! Proof, in floating point, that an exact equilibrium lies within a stated distance of a computed one.
 //!
-//! With the `6 + 2n` equations `g(x) = 0`, an approximate inverse `Y` of their Jacobian and a box `X = x̃ + [-r, r]`, Krawczyk's
-//! operator
+//! With the `6 + 2n` equations `g(x) = 0`, an approximate inverse `Y` of their Jacobian and a box
+//! `X = x̃ + [-r, r]`, Krawczyk's operator
 //!
 //! ```text
 //! K(X) = x̃ - Y g(x̃) + (I - Y g'(X)) (X - x̃)
 //! ```
 //!
-//! maps the box into its own interior only if X holds exactly one solution, which then lies in K(X) (Krawczyk 1969; Moore,
-//! Kearfott, Cloud 2009, theorem 8.2). `g(x̃)` and `g'(X)` are evaluated with the intervals of `interval`, rounded outwards, from
-//! the same source as the equations themselves: the proof is about the catenary, not about an approximation of it. The inputs, as
-//! doubles, are taken as exact.
+//! maps the box into its own interior only if X holds exactly one solution, which then lies in K(X) (Krawczyk
+//! 1969; Moore, Kearfott, Cloud 2009, theorem 8.2). `g(x̃)` and `g'(X)` are evaluated with intervals that are
+//! rounded outwards, by the same code as the equations themselves: the proof is about the catenary, not about
+//! an approximation of it. The inputs, as doubles, are taken as exact.
 //!
 //! Rotations near R̃ are `R = cay(δ) R̃` with Cayley's map
 //!
@@ -18,11 +18,12 @@
 //! cay(δ) = I + ([δ] + [δ]²/2)/(1 + |δ|²/4),      dφ = (I + [δ]/2) dδ/(1 + |δ|²/4)
 //! ```
 //!
-//! which needs no angle functions; |δ| is never less than the angle. R̃ is the exact rotation of the quaternion in doubles.
+//! which needs no angle functions; |δ| is never less than the angle. R̃ is the exact rotation of the
+//! quaternion in doubles.
 //!
-//! The Hessian H of the potential over the box, `A + B C⁻¹ Bᵀ` from the blocks of g', gives the stability. With any matrix M, such as
-//! the inverse factor of the middle of H, `|M H Mᵀ - I| <= η < 1` over the box makes H positive definite, its eigenvalues no less
-//! than `(1 - η)/λ_max(MᵀM)`.
+//! The Hessian H of the potential over the box, `A + B C⁻¹ Bᵀ` from the blocks of g', gives the stability.
+//! With any matrix M, such as the inverse factor of the middle of H, `|M H Mᵀ - I| <= η < 1` over the box
+//! makes H positive definite, its eigenvalues no less than `(1 - η)/λ_max(MᵀM)`.
 
 mod interval;
 
@@ -36,8 +37,8 @@ use cdpr_robot::{Matrix3, Vector3};
 use interval::Interval;
 use nalgebra::{DMatrix, DVector, Matrix6, UnitQuaternion, Vector2};
 
-/// A proved statement: the `6 + 2n` equations have exactly one solution in a box around the computed one, and it is no farther
-/// from it than this.
+/// Proof that the `6 + 2n` equations have exactly one solution in a box around the computed one, with bounds
+/// on its distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate {
     /// Bound on the distance of P [m].
@@ -46,8 +47,8 @@ pub struct Certificate {
     pub rotation: f64,
     /// Bound on the error of every cable's end force (fx, fz) in its own plane [N].
     pub force: f64,
-    /// Lower bound of the smallest eigenvalue of the stiffness at the exact equilibrium [N/m], in the scaling of
-    /// [`crate::Stability`]. Above zero the equilibrium is proved stable.
+    /// Lower bound of the smallest eigenvalue of the stiffness at the exact equilibrium [N/m], in the scaling
+    /// of [`crate::Stability`]. Above zero the equilibrium is proved stable.
     pub least_stiffness: f64,
 }
 
@@ -65,8 +66,8 @@ impl DirectProblem<'_> {
     ///
     /// # Errors
     /// - [`StaticsError::Invalid`] unless the solution is finite and has one force for each cable.
-    /// - [`StaticsError::NotCertified`] where no box could be proved to hold an equilibrium: a cable that hangs vertically or folded, or
-    ///   stiffnesses so different that rounding hides the equilibrium.
+    /// - [`StaticsError::NotCertified`] where no box could be proved to hold an equilibrium: a cable that
+    ///   hangs vertically or folded, or stiffnesses so different that rounding hides the equilibrium.
     pub fn certify(&self, solution: &DirectSolution) -> Result<Certificate, StaticsError> {
         self.check("solution.equilibrium", &solution.equilibrium)?;
         if !self.robot.is_linear() {
@@ -159,7 +160,8 @@ fn enclose(state: &State<f64>, rotation: &Matrix3<Interval>, radius: &DVector<f6
     }
 }
 
-/// The rotation matrix of the quaternion nearest to `rotation`, exactly: of any quaternion, divided by its own square.
+/// The rotation matrix of the quaternion nearest to `rotation`, exactly: of any quaternion, divided by its
+/// own square.
 fn exact_rotation(rotation: &Matrix3<f64>) -> Matrix3<Interval> {
     let matrix = cdpr_robot::Rotation3::from_matrix_unchecked(*rotation);
     let q = UnitQuaternion::from_rotation_matrix(&matrix);
@@ -179,7 +181,7 @@ fn exact_rotation(rotation: &Matrix3<f64>) -> Matrix3<Interval> {
     )
 }
 
-/// What the equations cannot be enclosed for.
+/// Why the equations cannot be enclosed, if they cannot.
 fn degenerate(problem: &DirectProblem, state: &State<Interval>) -> Option<&'static str> {
     for (i, force) in state.forces.iter().enumerate() {
         let middle = Vector2::new(force.x.value(), force.y.value());
@@ -213,9 +215,9 @@ impl Multiplier {
         Self { magnitudes: matrix.abs(), matrix }
     }
 
-    /// Middles and error bounds of Y times a matrix of intervals: the product of the middles in ordinary arithmetic, and
-    /// `|Y| (radii + (n + 2) ε |middles|)`, which covers the radii and its rounding in whatever order it sums (Rump 1999). The bound is
-    /// raised by its own rounding.
+    /// Middles and error bounds of Y times a matrix of intervals: the product of the middles in ordinary
+    /// arithmetic, and `|Y| (radii + (n + 2) ε |middles|)`, which covers the radii and its rounding in
+    /// whatever order it sums (Rump 1999). The bound is raised by its own rounding.
     fn times(&self, factor: &DMatrix<Interval>) -> (DMatrix<f64>, DMatrix<f64>) {
         let share = (self.matrix.nrows() + 2) as f64 * f64::EPSILON;
         let middles = factor.map(Interval::value);
@@ -273,8 +275,8 @@ fn least_stiffness(problem: &DirectProblem, state: &State<Interval>, jacobian: &
     });
     match by_factor {
         Some(bound) if bound > 0.0 => bound,
-        // Weyl: the eigenvalues differ from those of the middle by no more than the norm of the radii; those are computed to
-        // within 64 roundings of the norm.
+        // Weyl: the eigenvalues differ from those of the middle by no more than the norm of the radii; those
+        // are computed to within 64 roundings of the norm.
         _ => {
             let radii = row_norm(&(symmetric - middle.map(Interval::of)));
             middle.symmetric_eigenvalues().min() - radii - 64.0 * f64::EPSILON * middle.norm()

@@ -1,27 +1,31 @@
-//! Exact derivatives of a deflection and of all that leads to it: the implicit function theorem on the equations of
-//! [`crate::inverse`], of the set-points, and of both equilibria.
+//! Exact derivatives of a deflection and of all that leads to it, by the implicit function theorem.
+//!
+//! The theorem is applied to the equations of the inverse model, of the set-points and of both equilibria.
 //!
 //! Cables answer to their inputs by (D1)-(D4) of `equations/partials.rs`.
 //!
-//! **Inverse model.** With the unit wrenches `w_i = [u_i; s_i x u_i]`, the multipliers `λ = (λ_p, λ_r)` of the balance make a twist that
-//! moves anchor point A_i by `μ_i = λ_p + λ_r x s_i`: `w_i·λ = u_i·μ_i`. Tensions without active bound and the balance of the platform
-//! are equation (I1) of `inverse.rs` and Eq. (3),
+//! **Inverse model.** With the unit wrenches `w_i = [u_i; s_i x u_i]`, the multipliers `λ = (λ_p, λ_r)` of
+//! the balance make a twist that moves anchor point A_i by `μ_i = λ_p + λ_r x s_i`: `w_i·λ = u_i·μ_i`.
+//! Tensions without active bound and the balance of the platform are equation (I1) of `inverse.rs` and Eq.
+//! (3),
 //!
 //! ```text
 //! t_i - t_ref,i + u_i·μ_i = 0,      G = sum w_i t_i + w_ex = 0                                    (D5)
 //! ```
 //!
-//! λ follows from the tensions of the free cables. A tension changes the direction it pulls in: `du_i = (dF_i - u_i dt_i)/t_i`
-//! with dF_i by (D3). Differentiated, with `D_i = 1 + μ_i·(v_i - u_i)/t_i` and partial derivatives ∂ at constant t and λ,
+//! λ follows from the tensions of the free cables. A tension changes the direction it pulls in:
+//! `du_i = (dF_i - u_i dt_i)/t_i` with dF_i by (D3). Differentiated, with `D_i = 1 + μ_i·(v_i - u_i)/t_i` and
+//! partial derivatives ∂ at constant t and λ,
 //!
 //! ```text
 //! dt_i = -( ∂ρ_i + w_i·dλ )/D_i,      ∂ρ_i = μ_i·∂F_i/t_i + u_i·(λ_r x ∂s_i)                      (D6)
 //! [ sum_free [v; s x v] w_iᵀ/D_i ] dλ = ∂G - sum_free [v; s x v] ∂ρ_i/D_i + sum_active [v; s x v] dt_i
 //! ```
 //!
-//! **Active bounds stay active.** On the robot's own limits `dt_i = 0`. A cable whose weight demands more rests on the constant
-//! [`ABOVE_LEAST`] times the least tension over its span. That least tension, a minimum over the length, changes as if the length at
-//! which it is taken were held: `dt_i = ABOVE_LEAST u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary.
+//! **Active bounds stay active.** On the robot's own limits `dt_i = 0`. A cable whose weight demands more
+//! rests on the constant [`ABOVE_LEAST`] times the least tension over its span. That least tension, a minimum
+//! over the length, changes as if the length at which it is taken were held:
+//! `dt_i = ABOVE_LEAST u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary.
 //!
 //! **Set-points** are `t_i + dt_i`, or the bounds above where that is less: then the offset changes nothing.
 //!
@@ -34,10 +38,12 @@
 //! **Equilibria.** With `∂G/∂(p, φ)`, minus the stiffness of the platform,
 //!
 //! ```text
-//! ∂G/∂(p, φ) d(p, φ) = -∂G - sum [k_L; s x k_L] dL_i,   dt_i = u_i·(∂F_i - K3_i (dp + dφ x s_i) + k_L dL_i)   (D8)
+//! ∂G/∂(p, φ) d(p, φ) = -∂G - sum [k_L; s x k_L] dL_i,
+//! dt_i = u_i·( ∂F_i - K3_i (dp + dφ x s_i) + k_L dL_i )                                           (D8)
 //! ```
 //!
-//! Nothing larger than 6 x 6 is factored: the cables are eliminated, as in Newton's method of the direct model.
+//! Nothing larger than 6 x 6 is factored: the cables are eliminated, as in Newton's method of the direct
+//! model.
 
 use crate::equations::{CableDerivatives, Inputs, Partials, Reading, Span, solve, tensions, wrench};
 use crate::error::StaticsError;
@@ -50,44 +56,46 @@ use cdpr_robot::{Matrix6xX, ParameterLayout, Pose, Robot, Vector3};
 use cdpr_tension::Bound;
 use nalgebra::{DMatrix, Matrix3xX, Matrix6, Vector6};
 
-/// A deflection with its derivatives. Each matrix has a column for every input ([`Inputs`]): the parameters of the robot, the
-/// payload, the wanted pose.
+/// A deflection with its derivatives. Each matrix has a column for every input ([`Inputs`]): the parameters
+/// of the robot, the payload, the wanted pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivatives {
     /// The deflection that is differentiated.
     pub deflection: Deflection,
     /// What the columns stand for.
     pub inputs: Inputs,
-    /// Of the tension set-points, offsets included, n x count [N per unit].
+    /// Derivatives of the tension set-points, offsets included, n x count [N per unit].
     pub set_points: DMatrix<f64>,
-    /// Of the unstrained lengths, n x count [m per unit].
+    /// Derivatives of the unstrained lengths, n x count [m per unit].
     pub lengths: DMatrix<f64>,
-    /// Of the equilibrium under the platform's own weight.
+    /// Derivatives of the equilibrium under the platform's own weight.
     pub unloaded: EquilibriumDerivatives,
-    /// Of the equilibrium with the load added.
+    /// Derivatives of the equilibrium with the load added.
     pub loaded: EquilibriumDerivatives,
 }
 
 /// Derivatives of an equilibrium; columns as in [`Derivatives`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquilibriumDerivatives {
-    /// Of the pose: (dp, dφ) in the base frame, `R <- exp(dφ) R`, 6 x count [m, rad per unit].
+    /// Derivatives of the pose: (dp, dφ) in the base frame, `R <- exp(dφ) R`, 6 x count [m, rad per unit].
     pub pose: Matrix6xX<f64>,
-    /// Of the tensions at the platform, n x count [N per unit].
+    /// Derivatives of the tensions at the platform, n x count [N per unit].
     pub tensions: DMatrix<f64>,
 }
 
-/// How much of the variance of |dp| comes from which parameter, to first order and for independent parameters.
+/// Share of each parameter in the variance of |dp|, to first order and for independent parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VarianceBudget {
-    /// Share of each parameter, 0 to 1, in the order of [`Inputs::parameters`]; they add up to 1, or are zero where nothing varies.
+    /// Share of each parameter, 0 to 1, in the order of [`Inputs::parameters`]; they add up to 1, or are zero
+    /// where nothing varies.
     pub shares: Vec<f64>,
     /// Predicted standard deviation of |dp| [m].
     pub std: f64,
 }
 
-/// The deflection under `load` at the wanted pose `pose` with `tension_offsets` [N], as [`crate::deflection`] gives it, and its
-/// derivatives. At the edge of a bound they are those of the side on which the bound is active.
+/// The deflection at a wanted pose as [`crate::deflection`] gives it, with its derivatives.
+///
+/// At the edge of a bound they are those of the side on which the bound is active.
 ///
 /// ```
 /// use cdpr_robot::{Parameter, Pose, Robot};
@@ -102,8 +110,8 @@ pub struct VarianceBudget {
 /// ```
 ///
 /// # Errors
-/// Those of [`crate::deflection`]; [`StaticsError::NoDerivative`] where an equilibrium or the tension distribution is at the border of
-/// its existence.
+/// Those of [`crate::deflection`]; [`StaticsError::NoDerivative`] where an equilibrium or the tension
+/// distribution is at the border of its existence.
 pub fn derivatives(
     robot: &Robot,
     pose: &Pose,
@@ -127,15 +135,16 @@ pub fn derivatives(
 }
 
 impl Derivatives {
-    /// Of the deflection dp, 3 x count [m per unit].
+    /// Derivatives of the deflection dp, 3 x count [m per unit].
     pub fn displacement(&self) -> Matrix3xX<f64> {
         self.loaded.pose.fixed_rows::<3>(0) - self.unloaded.pose.fixed_rows::<3>(0)
     }
 
-    /// Of |dp| [m per unit], one for each input: `(dp/|dp|)·d(dp)`.
+    /// Derivatives of |dp| [m per unit], one for each input: `(dp/|dp|)·d(dp)`.
     ///
     /// # Errors
-    /// [`StaticsError::NoDerivative`] where |dp| is so small that rounding decides its direction: a norm has no derivative at zero.
+    /// [`StaticsError::NoDerivative`] where |dp| is so small that rounding decides its direction: a norm has
+    /// no derivative at zero.
     pub fn rms(&self) -> Result<Vec<f64>, StaticsError> {
         let dp = self.deflection.displacement();
         let size = self.deflection.lengths.iter().fold(0.0, |size: f64, length| size.max(*length));
@@ -146,10 +155,12 @@ impl Derivatives {
         Ok((dp.normalize().transpose() * self.displacement()).as_slice().to_vec())
     }
 
-    /// Variance of |dp| from that of each parameter (squared SI units), to first order: `sum (d|dp|/dθ_j)² var_j`.
+    /// Variance of |dp| from that of each parameter (squared SI units), to first order:
+    /// `sum (d|dp|/dθ_j)² var_j`.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] unless there is one finite variance, not negative, for each parameter; as [`Derivatives::rms`].
+    /// [`StaticsError::Invalid`] unless there is one finite variance, not negative, for each parameter; as
+    /// [`Derivatives::rms`].
     pub fn variance_budget(&self, variances: &[f64]) -> Result<VarianceBudget, StaticsError> {
         self.inputs.check("variances", variances)?;
         let parts = self.rms()?.into_iter().zip(variances).map(|(slope, variance)| slope * slope * variance);
@@ -161,12 +172,12 @@ impl Derivatives {
 }
 
 impl DirectProblem<'_> {
-    /// Derivatives of an equilibrium for *given* lengths, which do not change with the parameters: neither tension offsets nor the wanted
-    /// pose matter.
+    /// Derivatives of an equilibrium for *given* lengths, which do not change with the parameters: neither
+    /// tension offsets nor the wanted pose matter.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable; [`StaticsError::NoDerivative`] at the
-    /// border of stability.
+    /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable;
+    /// [`StaticsError::NoDerivative`] at the border of stability.
     pub fn derivatives(&self, equilibrium: &Equilibrium) -> Result<EquilibriumDerivatives, StaticsError> {
         self.check("equilibrium", equilibrium)?;
         EquilibriumDerivatives::new(self, &Inputs::new(self.cables()), equilibrium, None)
@@ -222,7 +233,8 @@ impl Stage<'_> {
         Ok(CableDerivatives::all(&problem, self.pose, &equilibrium.cable_forces))
     }
 
-    /// Of the tensions of the inverse model, equation (D6); `bounds` has a row for each active bound.
+    /// Derivatives of the tensions of the inverse model, equation (D6); `bounds` has a row for each active
+    /// bound.
     fn tensions(&self, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
         let InverseSolution { lengths, active, equilibrium, .. } = &self.wound.wanted;
         let mut cables = self.cables(lengths, equilibrium)?;
@@ -269,7 +281,7 @@ impl Stage<'_> {
         Ok(rows)
     }
 
-    /// Of the set-points.
+    /// Derivatives of the set-points.
     fn set_points(&self, tension_offsets: &[f64]) -> Result<DMatrix<f64>, StaticsError> {
         let Wound { wanted, set_points, held, .. } = self.wound;
         let least = self.robot.tension_limits.min;
@@ -293,7 +305,8 @@ impl Stage<'_> {
         Ok(rows)
     }
 
-    /// Of the tensions that the weights of the cables in `which` demand; zero rows for all others.
+    /// Derivatives of the tensions that the weights of the cables in `which` demand; zero rows for all
+    /// others.
     fn least_tensions(&self, which: &[usize]) -> Result<DMatrix<f64>, StaticsError> {
         let mut rows = self.inputs.zeros(self.wound.set_points.len());
         if which.is_empty() {
@@ -310,7 +323,7 @@ impl Stage<'_> {
         Ok(rows)
     }
 
-    /// Of the lengths, equation (D7).
+    /// Derivatives of the lengths, equation (D7).
     fn lengths(&self, set_points: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
         let cables = self.cables(&self.wound.lengths, &self.wound.held)?;
         let mut rows = tensions(&self.inputs, self.pose, &cables);

@@ -1,14 +1,14 @@
-//! What can go wrong on the way to an equilibrium.
+//! Errors of the models.
 
 use crate::state::Residual;
 use cdpr_cable::CableError;
 use cdpr_robot::{Pose, RobotError};
 use cdpr_tension::TensionError;
 
-/// Why there is no answer.
+/// Why a model has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StaticsError {
-    /// The robot or its perturbation is none.
+    /// The robot or its perturbation is invalid.
     #[error(transparent)]
     Robot(#[from] RobotError),
     /// No tensions hold the pose, or their problem could not be solved.
@@ -19,27 +19,28 @@ pub enum StaticsError {
         /// The reason.
         source: TensionError,
     },
-    /// A cable cannot do what is asked of it.
+    /// A cable has no equilibrium for what it is given.
     #[error("cable {}: {source}", index + 1)]
     Cable {
-        /// Number of the cable, from 0.
+        /// Index of the cable, from 0.
         index: usize,
         /// The reason.
         source: CableError,
     },
-    /// An input is not a number that it can be, or not one per cable.
+    /// A value of an input is invalid, or there is not one for each cable.
     #[error("{field} is {value}: expected {expected}")]
     Invalid {
-        /// The input.
+        /// Name of the input.
         field: String,
-        /// What was given.
+        /// Its value.
         value: String,
-        /// What would be right.
+        /// Values that are valid.
         expected: String,
     },
     /// Tensions and cable directions did not settle together.
     #[error(
-        "inverse model: after {iterations} iterations the platform's wrench is still unbalanced by {force:e} N and {moment:e} N m"
+        "inverse model: after {iterations} iterations the wrench on the platform is still unbalanced by {force:e} N \
+         and {moment:e} N m"
     )]
     InverseNotConverged {
         /// Iterations of distribution and Newton's method.
@@ -49,14 +50,15 @@ pub enum StaticsError {
         /// Unbalanced moment [N m].
         moment: f64,
     },
-    /// The equilibrium found strains a cable by more than 10 %, where a linear, small-strain cable describes nothing.
+    /// The equilibrium found strains a cable by more than 10 %, beyond which the law of a linear,
+    /// small-strain cable is invalid.
     #[error(
-        "cable {}: {length} m of it, {distance:.4} m between its points, are strained by {:.1} % at the equilibrium found: too short or \
-         too soft for this load",
+        "cable {}: its {length} m, with {distance:.4} m between its points, are strained by {:.1} % at the \
+         equilibrium found: too short or too soft for this load",
         index + 1, 100.0 * strain
     )]
     Overstrained {
-        /// Number of the cable, from 0.
+        /// Index of the cable, from 0.
         index: usize,
         /// Its unstrained length [m].
         length: f64,
@@ -65,7 +67,8 @@ pub enum StaticsError {
         /// Its largest strain: the larger of its two end tensions over EA.
         strain: f64,
     },
-    /// No stable equilibrium was found under the load's moment, and the one without it disappears while the moment is raised.
+    /// No stable equilibrium was found under the load's moment, and the one without it disappears while the
+    /// moment is raised.
     #[error(
         "direct model: the equilibrium at ({:.4}, {:.4}, {:.4}) m is lost at {:.3} % of the load's moment",
         pose.position.x, pose.position.y, pose.position.z, 100.0 * share
@@ -80,10 +83,11 @@ pub enum StaticsError {
     },
     /// The distance to the exact equilibrium could not be bounded.
     #[error(
-        "not certified: {reason} (closest attempt: the enclosing box maps to {growth:.3e} times itself, below 1 is a proof)"
+        "not certified: {reason} (closest attempt: the enclosing box maps to {growth:.3e} times itself, below 1 is \
+         a proof)"
     )]
     NotCertified {
-        /// What stood in the way.
+        /// Why.
         reason: &'static str,
         /// Size of the image of the last box, relative to the box.
         growth: f64,
@@ -91,12 +95,13 @@ pub enum StaticsError {
     /// A derivative that does not exist.
     #[error("{quantity} has no derivative: {reason}")]
     NoDerivative {
-        /// What was to be differentiated.
+        /// Quantity that was to be differentiated.
         quantity: &'static str,
-        /// Why it cannot be.
+        /// Why it has no derivative.
         reason: &'static str,
     },
-    /// Nothing determines the pose: every pose near this one is an equilibrium, as without weight on slack cables without weight.
+    /// Nothing determines the pose: every pose near this one is an equilibrium, as for a platform and slack
+    /// cables without weight.
     #[error(
         "direct model: nothing determines the pose; every one near ({:.4}, {:.4}, {:.4}) m is an equilibrium",
         pose.position.x, pose.position.y, pose.position.z
@@ -105,9 +110,10 @@ pub enum StaticsError {
         /// One of the poses.
         pose: Box<Pose>,
     },
-    /// No equilibrium was found; where the search ended.
+    /// No equilibrium was found; the error holds the pose where the search ended.
     #[error(
-        "direct model: no equilibrium found in {iterations} iterations; where the search ended, at ({:.4}, {:.4}, {:.4}) m, {:e} N and {:e} N m stay open",
+        "direct model: no equilibrium found in {iterations} iterations; the search ended at ({:.4}, {:.4}, {:.4}) m \
+         with a residual of {:e} N and {:e} N m",
         pose.position.x, pose.position.y, pose.position.z, residual.force, residual.moment
     )]
     DirectNotConverged {
@@ -115,13 +121,13 @@ pub enum StaticsError {
         iterations: usize,
         /// The pose where the search ended.
         pose: Box<Pose>,
-        /// What stays open there.
+        /// The residual there.
         residual: Residual,
     },
 }
 
 impl StaticsError {
-    /// Name of the kind of failure, for counting: `infeasible_tension`, `tension_too_small`, ...
+    /// Name of the kind of failure, for counting: `infeasible_tension`, `tension_too_small` and others.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Robot(_) => "invalid_robot",

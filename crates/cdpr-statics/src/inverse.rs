@@ -1,26 +1,28 @@
 //! Inverse elasto-geometrical model (IEGM, section 3.1 of the paper): unstrained lengths that hold a pose.
 //!
-//! Eq. (1) to (3) hold together: the tension distribution needs the directions of the cables at the platform, which the sag changes,
-//! and the sag follows from the tensions. With `w_i(t_i) = [u_i; s_i x u_i]` the wrench of a unit tension along the end tangent of
-//! cable i,
+//! Eq. (1) to (3) hold together: the tension distribution needs the directions of the cables at the platform,
+//! which the sag changes, and the sag follows from the tensions. With `w_i(t_i) = [u_i; s_i x u_i]` the
+//! wrench of a unit tension along the end tangent of cable i,
 //!
 //! ```text
 //! t_i = t_ref,i - w_i·λ,      sum w_i t_i + w_ex = 0                                              (I1)
 //! ```
 //!
-//! is the distribution without active bounds. Newton's method on (t, λ) needs `w_i' = dw_i/dt_i` from the catenary between
-//! its held ends. With `D_i = 1 + w_i'·λ`, `c_i = w_i + t_i w_i'` and the residuals `R1_i = t_i - t_ref,i + w_i·λ` and
-//! `R2 = sum w_i t_i + w_ex` of (I1), a step is
+//! is the distribution without active bounds. Newton's method on (t, λ) needs `w_i' = dw_i/dt_i` from the
+//! catenary between its held ends. With `D_i = 1 + w_i'·λ`, `c_i = w_i + t_i w_i'` and the residuals
+//! `R1_i = t_i - t_ref,i + w_i·λ` and `R2 = sum w_i t_i + w_ex` of (I1), a step is
 //!
 //! ```text
 //! [ sum c_i w_iᵀ/D_i ] dλ = R2 - sum c_i R1_i/D_i,      dt_i = -(R1_i + w_i·dλ)/D_i               (I2)
 //! ```
 //!
-//! A cable that rests on a bound keeps its tension and leaves (I2). Which cables do is found by iteration: a distribution for the
-//! directions at hand, then Newton's method with its active bounds. Where that does not end at an optimum within the bounds, its
-//! directions, or those of the distribution's tensions, start the next iteration.
+//! A cable that rests on a bound keeps its tension and leaves (I2). Which cables do is found by iteration: a
+//! distribution for the directions at hand, then Newton's method with its active bounds. Where that does not
+//! end at an optimum within the bounds, its directions, or those of the distribution's tensions, start the
+//! next iteration.
 //!
-//! The least tension of a cable is the robot's, or what its own weight demands over its span where that is more.
+//! The least tension of a cable is the robot's, or what its own weight demands over its span where that is
+//! more.
 
 use crate::equations::{Span, wrench};
 use crate::error::StaticsError;
@@ -56,14 +58,16 @@ pub(crate) const ABOVE_LEAST: f64 = 1.001;
 
 /// The unstrained lengths with which the platform rests at `pose` under its weight and `load`.
 ///
-/// Within the robot's limits the tensions are as near as possible to `reference` [N], one for each cable; `None` asks for the
-/// least-norm tensions.
+/// Within the robot's limits the tensions are as near as possible to `reference` [N], one for each cable;
+/// `None` asks for the least-norm tensions.
 ///
 /// # Errors
 /// - [`StaticsError::Tension`] where no tensions within the limits hold the pose.
 /// - [`StaticsError::Cable`] where a cable's own weight demands more than the greatest tension.
-/// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, or a reference of another number of cables.
-/// - [`StaticsError::InverseNotConverged`] where tensions and directions of the cables do not settle together.
+/// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, or a reference of another
+///   number of cables.
+/// - [`StaticsError::InverseNotConverged`] where tensions and directions of the cables do not settle
+///   together.
 pub fn inverse(
     robot: &Robot,
     pose: &Pose,
@@ -303,8 +307,8 @@ impl HeldPose {
 /// A cable whose own weight demands more over its span gets the least tension that it demands.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] unless there is one tension for each cable; [`StaticsError::Cable`] for a tension that is not positive
-/// and finite.
+/// [`StaticsError::Invalid`] unless there is one tension for each cable; [`StaticsError::Cable`] for a
+/// tension that is not positive and finite.
 pub fn lengths_for_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Result<HeldPose, StaticsError> {
     StaticsError::one_per_cable("tensions", tensions, robot.cables.len())?;
     let solutions = tensions.iter().enumerate().map(|(i, tension)| {

@@ -1,4 +1,4 @@
-//! Robots and cables with taut cables in the lanes of the vector unit.
+//! The models for taut cables in the lanes of the vector unit: a robot in each lane, or a cable of one robot.
 
 mod algebra;
 mod cable;

@@ -5,20 +5,20 @@
 //! | which unstrained lengths hold a pose (IEGM)? | [`inverse`] |
 //! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
 //! | and for the next lengths and load, in a microsecond or two? | [`Tracker`] |
-//! | does it stay there, how far is it from not staying? | [`DirectSolution::stability`] |
-//! | how exact is that, proved? | [`DirectProblem::certify`] |
+//! | is it stable, and how far is it from becoming unstable? | [`DirectSolution::stability`] |
+//! | how exact is that, with a proof? | [`DirectProblem::certify`] |
 //! | where else could it stand? | [`DirectProblem::direct_all`], [`DirectProblem::direct_any`] |
-//! | where does it go while cables are wound or loads change, and where does it jump? | [`follow`] |
-//! | how far does it give under a load (Eq. (4))? | [`deflection`], [`deflections`] |
-//! | where does it end when a payload comes and goes, on cables that dissipate? | [`load_cycle`] |
-//! | and with other parameters, a million times? | [`Observer`] |
+//! | where does it go while lengths or loads change, and where does it jump? | [`follow`] |
+//! | how far does a load displace it, Eq. (4)? | [`deflection`], [`deflections`] |
+//! | where does it end after a load cycle, on cables that dissipate energy? | [`load_cycle`] |
+//! | and with a million other values of the parameters? | [`Observer`] |
 //! | which parameter changes lengths, tensions, poses and deflection, and by how much? | [`derivatives`] |
 //! | how stiff is it, how do lengths and loads move it? | [`stiffness_at`], [`DirectProblem::linearize`] |
 //!
-//! The equations are (1)-(4) of Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
-//! Cable-Driven Parallel Robots* (CableCon 2017), with Irvine's catenary of crate `cdpr-cable` as (2). An equilibrium is a
-//! pose and the two components of every cable's end force: `6 + 2n` unknowns for as many equations. Every answer carries
-//! the residuals of all of them.
+//! The equations are Eq. (1) to (4) of Baklouti, Caro, Courteille, *Sensitivity Analysis of the
+//! Elasto-Geometrical Model of Cable-Driven Parallel Robots* (CableCon 2017), with Irvine's catenary of crate
+//! `cdpr-cable` as Eq. (2a), (2b). An equilibrium is a pose and the two components of every cable's end
+//! force: `6 + 2n` unknowns for as many equations. Every answer carries the residuals of all of them.
 //!
 //! ```
 //! use cdpr_robot::{Pose, Robot};
@@ -34,7 +34,8 @@
 //! let loaded = &deflection.loaded;
 //! let proof = DirectProblem::new(&robot, &deflection.lengths, &Load::payload(50.0))?.certify(loaded)?;
 //! assert!(loaded.stability.is_stable() && proof.is_stable());
-//! println!("exact to {:.0e} m, softest motion {:.0} N/m", proof.position, loaded.stability.least_stiffness());
+//! let softest = loaded.stability.least_stiffness();
+//! println!("exact to {:.0e} m, softest motion {softest:.0} N/m", proof.position);
 //! # Ok::<(), cdpr_statics::StaticsError>(())
 //! ```
 

@@ -31,7 +31,8 @@ impl<'a> DirectProblem<'a> {
     /// The problem of a robot with these unstrained lengths [m] and this load.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] unless there is one finite, positive length for each cable and the load is finite.
+    /// [`StaticsError::Invalid`] unless there is one finite, positive length for each cable and the load is
+    /// finite.
     pub fn new(robot: &'a Robot, lengths: &'a [f64], load: &Load) -> Result<Self, StaticsError> {
         StaticsError::one_per_cable("lengths", lengths, robot.cables.len())?;
         for (i, length) in lengths.iter().enumerate() {
@@ -63,7 +64,8 @@ impl<'a> DirectProblem<'a> {
         self.lengths.iter().fold(0.0, |size: f64, length| size.max(*length))
     }
 
-    /// Length ρ [m] that makes rotations comparable with translations, see [`crate::Stability::characteristic_length`].
+    /// Length ρ [m] that makes rotations comparable with translations, see
+    /// [`crate::Stability::characteristic_length`].
     pub(crate) fn characteristic_length(&self) -> f64 {
         self.robot.platform_size().max(1e-3 * self.size())
     }

@@ -1,4 +1,5 @@
-//! The direct model over random robots, poses, lengths, loads and starts: an equilibrium to rounding, or an outcome that is true.
+//! The direct model over random robots, poses, lengths, loads and starts: an equilibrium to rounding, or an
+//! outcome that is true.
 
 use cdpr_robot::{
     CableProperties, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
@@ -35,7 +36,8 @@ fn direction(rng: &mut ChaCha8Rng) -> Vector3<f64> {
     }
 }
 
-/// Robots of 1 m to 300 m, suspended or held from all sides; steel to rubber, light to heavy cables; taut to slack.
+/// Robots of 1 m to 300 m, suspended or held from all sides; steel to rubber, light to heavy cables; taut to
+/// slack.
 fn case(seed: u64) -> Case {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let n = rng.random_range(6..=16);

@@ -164,8 +164,8 @@ fn extrapolated(values: &[DVector<f64>; 6], h: f64, rounding: f64) -> (DVector<f
     let (wide, middle, narrow) = (slope(0, h), slope(1, 0.5 * h), slope(2, 0.25 * h));
     let (once, again) = ((&middle * 4.0 - &wide) / 3.0, (&narrow * 4.0 - &middle) / 3.0);
     let best = (&again * 16.0 - &once) / 15.0;
-    // What the second extrapolation is to remove is fifteen times what it corrects; the narrowest difference amplifies
-    // rounding by 4/h times 1.4.
+    // What the second extrapolation is to remove is fifteen times what it corrects; the narrowest difference
+    // amplifies rounding by 4/h times 1.4.
     let open = (&again - &once).amax() + 6.0 * rounding / h;
     (best, open)
 }
@@ -244,7 +244,8 @@ fn check(case: &Case) -> Result<Found, StaticsError> {
 fn report(title: &str, all: &[Found]) {
     let sum = |count: fn(&Found) -> usize| all.iter().map(count).sum::<usize>();
     println!(
-        "{title}: {} cases, {} columns ({} cross a bound), {} derivatives compared; {} active bounds ({} of the cable's weight), {} clamped and {} raised set-points",
+        "{title}: {} cases, {} columns ({} cross a bound), {} derivatives compared; {} active bounds \
+         ({} of the cable's weight), {} clamped and {} raised set-points",
         all.len(),
         sum(|f| f.columns),
         sum(|f| f.crossed),
@@ -276,7 +277,8 @@ fn derivatives_of_caroca_are_those_of_differences() {
     }
 }
 
-/// Suspended robots with 6 to 12 cables, steel to rope, light to heavy; centred to near the border of the workspace.
+/// Suspended robots with 6 to 12 cables, steel to rope, light to heavy; centred to near the border of the
+/// workspace.
 fn random_case(seed: u64) -> Case {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let n = rng.random_range(6..=12);

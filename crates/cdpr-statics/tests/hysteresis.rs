@@ -40,7 +40,8 @@ fn the_first_way_is_the_deflection_of_the_loading_curve() {
     let mut robot = caroca();
     robot.cables.iter_mut().for_each(|cable| cable.properties.law = Some(law[0].loading.clone()));
     let once = deflection(&robot, &pose(), &[0.0; 8], &Load::payload(50.0)).unwrap();
-    // The parts of a cable below the tension of its middle count as unloading: a few per thousand of half of it.
+    // The parts of a cable below the tension of its middle count as unloading: a few per thousand of half of
+    // it.
     assert!((cycle.deflection() - once.displacement()).norm() < 5e-3 * once.rms());
 }
 
@@ -60,7 +61,8 @@ fn a_stiffer_way_back_leaves_the_platform_below_and_dissipates_the_loops_of_its_
 
 #[test]
 fn a_way_back_from_the_turning_point_begins_as_the_record_does() {
-    // Stiff just below 3087 N, soft below 2900 N: cables around 600 N meet the stiff part only if the curve moves with them.
+    // Stiff just below 3087 N, soft below 2900 N: cables around 600 N meet the stiff part only if the curve
+    // moves with them.
     let soft = curves(&[(0.0, 0.8)], &[(0.0, 0.7), (2900.0, 1.2)]);
     let mut moved = soft.clone();
     moved.iter_mut().for_each(|law| law.unloading_from = Unloading::TurningPoint);

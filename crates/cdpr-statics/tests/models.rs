@@ -15,7 +15,8 @@ fn cogiro() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap()
 }
 
-/// A suspended robot with `n` cables that alternate between the upper and the lower rim of a drum-shaped platform.
+/// A suspended robot with `n` cables that alternate between the upper and the lower rim of a drum-shaped
+/// platform.
 fn drum(n: usize, jitter: &[f64], mass: f64) -> Robot {
     let properties = caroca().cables[0].properties.clone();
     let cables = (0..n)
@@ -274,7 +275,8 @@ proptest! {
         prop_assert!(found.report.residual.force < 1e-8 * weight, "{:?}", found.report);
         prop_assert!(found.report.residual.closure < 1e-12);
         // Stable: the stiffness is positive definite.
-        let linearization = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().linearize(&found.equilibrium).unwrap();
+        let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
+        let linearization = problem.linearize(&found.equilibrium).unwrap();
         prop_assert!(linearization.stiffness().symmetric_eigenvalues().min() > 0.0);
     }
 
@@ -287,8 +289,10 @@ proptest! {
         let pose = Pose::at(x, y, 1.5).moved(Vector3::zeros(), Vector3::new(0.0, 0.0, turn));
         match inverse(&robot, &pose, &Load::none(), None) {
             Ok(wanted) => {
-                let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
-                // A pose of six cables may be an unstable equilibrium: then another one is found, and said so.
+                let near = Start::Near(&wanted.equilibrium);
+                let found = direct(&robot, &wanted.lengths, &Load::none(), near).unwrap();
+                // A pose of six cables may be an unstable equilibrium: then another one is found, and said
+                // so.
                 if found.report.method == DirectMethod::Newton {
                     assert_same_pose(&found.equilibrium.pose, &pose, 1e-8, 1e-8)?;
                 }
@@ -301,7 +305,8 @@ proptest! {
 
     #[test]
     fn turning_the_whole_robot_about_the_vertical_turns_the_answer(
-        about in -3.0..3.0f64, x in -2.0..2.0f64, y in -1.0..1.0f64, shift in prop::array::uniform3(-10.0..10.0f64),
+        about in -3.0..3.0f64, x in -2.0..2.0f64, y in -1.0..1.0f64,
+        shift in prop::array::uniform3(-10.0..10.0f64),
     ) {
         let robot = caroca();
         let turn = Rotation3::new(Vector3::new(0.0, 0.0, about));
@@ -310,7 +315,8 @@ proptest! {
         turned.cables.iter_mut().for_each(|cable| cable.exit_point = turn * cable.exit_point + shift);
         let pose = Pose::at(x, y, 1.5);
         let turned_pose = Pose { position: turn * pose.position + shift, rotation: turn };
-        let wrench = Wrench { force: Vector3::new(20.0, -30.0, -200.0), moment: Vector3::new(5.0, 3.0, -8.0) };
+        let (force, moment) = (Vector3::new(20.0, -30.0, -200.0), Vector3::new(5.0, 3.0, -8.0));
+        let wrench = Wrench { force, moment };
         let turned_wrench = Wrench { force: turn * wrench.force, moment: turn * wrench.moment };
         let here = deflection(&robot, &pose, &[0.0; 8], &Load::wrench(wrench)).unwrap();
         let there = deflection(&turned, &turned_pose, &[0.0; 8], &Load::wrench(turned_wrench)).unwrap();
@@ -318,7 +324,9 @@ proptest! {
     }
 
     #[test]
-    fn the_mirrored_robot_gives_the_mirrored_answer(x in 0.1..2.0f64, y in -1.0..1.0f64, fy in -50.0..50.0f64) {
+    fn the_mirrored_robot_gives_the_mirrored_answer(
+        x in 0.1..2.0f64, y in -1.0..1.0f64, fy in -50.0..50.0f64,
+    ) {
         let robot = caroca();
         let mirror = |v: &Vector3<f64>| Vector3::new(-v.x, v.y, v.z);
         let mut mirrored = robot.clone();
@@ -347,7 +355,8 @@ proptest! {
             direct(&robot, lengths, load, Start::Near(&wanted.equilibrium)).unwrap().equilibrium.pose
         };
         let pose = solve(&wanted.lengths, &load);
-        let linearization = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().linearize(&wanted.equilibrium).unwrap();
+        let problem = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap();
+        let linearization = problem.linearize(&wanted.equilibrium).unwrap();
         // Winching one cable.
         let at = |h: f64| {
             let mut lengths = wanted.lengths.clone();

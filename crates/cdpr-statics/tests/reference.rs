@@ -88,7 +88,8 @@ fn equilibria_match_40_digit_arithmetic() {
         let load = Load::wrench(wrench);
         let proof = DirectProblem::new(&robot, &lengths, &load).unwrap().certify(&solution).unwrap();
         let line = format!(
-            "{:14} {:9.1e} m {:9.1e} rad {:9.1e} N (proved {:7.1e} m {:7.1e} rad {:7.1e} N), {:?} {} iterations, slack {:?}",
+            "{:14} {:9.1e} m {:9.1e} rad {:9.1e} N (proved {:7.1e} m {:7.1e} rad {:7.1e} N), {:?} {} iterations, \
+             slack {:?}",
             robot.name,
             position,
             angle,
@@ -101,7 +102,8 @@ fn equilibria_match_40_digit_arithmetic() {
             report.slack
         );
         println!("{line}");
-        // Inputs of the reference are decimal strings and `rho g` a rounded product: half a unit of each moves the answer.
+        // Inputs of the reference are decimal strings and `rho g` a rounded product: half a unit of each
+        // moves the answer.
         let inputs = 2e-15;
         let far = expected.position.norm() + lengths.iter().copied().fold(0.0, f64::max);
         assert!(

@@ -10,8 +10,8 @@ fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
 }
 
-/// A platform on six cables in threefold symmetry, drawn up and down at a triangle of radius `radius`, with its centre of mass
-/// `height` above it.
+/// A platform on six cables in threefold symmetry, drawn up and down at a triangle of radius `radius`, with
+/// its centre of mass `height` above it.
 fn tripod(radius: f64, height: f64, mass: f64) -> Robot {
     let properties = caroca().cables[0].properties.clone();
     let cable = |i: usize| {
@@ -181,7 +181,8 @@ fn cables_half_as_long_as_they_should_be_are_too_short() {
 
 #[test]
 fn a_moment_that_no_equilibrium_can_bear_is_said_so() {
-    // Hung on loose cables from above, a platform of 50 kg and 0.3 m bears about m g r = 147 N m before it tips over.
+    // Hung on loose cables from above, a platform of 50 kg and 0.3 m bears about m g r = 147 N m before it
+    // tips over.
     let mut robot = tripod(0.3, 0.0, 50.0);
     robot.cables.iter_mut().for_each(|cable| cable.exit_point.z = 2.0);
     let lengths = tightened(&robot, -0.05);

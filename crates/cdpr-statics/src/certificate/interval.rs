@@ -1,8 +1,10 @@
-//! Intervals that enclose: every operation is rounded outwards by one unit in the last place, which covers the half unit that
-//! IEEE 754 allows `+ - * /` and `sqrt`. The logarithm is widened by four units; the C libraries document at most one or two.
+//! Intervals that enclose: every operation is rounded outwards by one unit in the last place, which covers
+//! the half unit that IEEE 754 allows `+ - * /` and `sqrt`. The logarithm is widened by four units; the C
+//! libraries document at most one or two.
 //!
-//! An operation without an answer (a division by an interval around zero, the root of a negative number) gives the whole line,
-//! with which no proof succeeds. Moore, Kearfott, Cloud, *Introduction to Interval Analysis* (2009), chapter 2.
+//! An operation without an answer (a division by an interval around zero, the root of a negative number)
+//! gives the whole line, with which no proof succeeds. Moore, Kearfott, Cloud, *Introduction to Interval
+//! Analysis* (2009), chapter 2.
 
 use cdpr_cable::kernel::{Field, Real};
 use num_traits::{One, Zero};

@@ -1,10 +1,12 @@
 //! Following an equilibrium while lengths or load change, up to where it is lost.
 //!
-//! Between two settings everything changes linearly with a share `λ` from 0 to 1. From an equilibrium at λ, the first step of
-//! Newton's method at λ + h is the tangent's prediction. A step is taken only where the iteration ends near that prediction and at a
-//! stable equilibrium; else h shrinks. At a turning point the remaining share δ makes the pose move like `sqrt δ`: steps then fall
-//! geometrically, and where h is below 1e-9 the equilibrium is lost, unless the one downhill a millionth later is the same (Allgower and Georg, *Introduction to Numerical Continuation
-//! Methods*, 2003, chapter 2). So a jump of the platform is reported, not stepped over.
+//! Between two settings everything changes linearly with a share from 0 to 1. From an equilibrium at one
+//! share, the first step of Newton's method a step h later is the prediction of the linearisation. A step is
+//! taken only where the iteration ends near that prediction and at a stable equilibrium; otherwise h shrinks.
+//! Near a turning point the pose moves like the square root of the share that remains up to it: steps then
+//! fall geometrically. Where h is below 1e-9 the equilibrium is lost, unless the one downhill a millionth
+//! later is the same (Allgower and Georg, *Introduction to Numerical Continuation Methods*, 2003, chapter 2).
+//! So a jump of the platform is reported, not stepped over.
 
 use crate::direct::newton::{Converged, newton};
 use crate::direct::solution::{DirectMethod, DirectSolution, descend, solution};
@@ -13,7 +15,7 @@ use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Robot, Vector6, Wrench};
 
-/// What is set from outside: unstrained lengths and load.
+/// Unstrained lengths and load, as they are set from outside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
     /// Unstrained length of every cable [m].
@@ -25,7 +27,8 @@ pub struct Setting {
 /// Equilibria between two settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// Stable equilibria in the order of their shares, the first at 0; the last at 1 unless the equilibrium was lost.
+    /// Stable equilibria in the order of their shares, the first at 0; the last at 1 unless the equilibrium
+    /// was lost.
     pub steps: Vec<PathStep>,
     /// Where the equilibrium was lost, if it was.
     pub lost: Option<Loss>,
@@ -49,21 +52,22 @@ pub enum LossKind {
     Bifurcation,
     /// It strains a cable by more than 10 %.
     Overstrained,
-    /// It was not followed further, lost or not: 10 000 steps and still none of the wanted size.
+    /// It was not followed further, lost or not, after 10 000 steps.
     StepLimit,
 }
 
 /// The end of an equilibrium, and where the platform goes from there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loss {
-    /// Share of the change at which it is lost: of the last equilibrium, to 4e-9 for a turning point or bifurcation.
+    /// Share of the change at which it is lost: of the last equilibrium, to 4e-9 for a turning point or
+    /// bifurcation.
     pub share: f64,
     /// How it ends.
     pub kind: LossKind,
     /// The last stable equilibrium before.
     pub before: Box<DirectSolution>,
-    /// The stable equilibrium downhill, a millionth of the change later, to which the platform jumps; or the
-    /// error if it has none.
+    /// The stable equilibrium downhill, a millionth of the change later, to which the platform jumps; or why
+    /// there is none.
     pub after: Result<Box<DirectSolution>, StaticsError>,
 }
 
@@ -72,10 +76,11 @@ const LEAST_STEP: f64 = 1e-9;
 
 const MAX_STEPS: usize = 10_000;
 
-/// An equilibrium nearer than this share of the robot's size is the same one behind a kink: a cable that has just become taut.
+/// An equilibrium nearer than this share of the robot's size is the same one behind a kink, such as a cable
+/// that has become taut.
 const SAME: f64 = 1e-5;
 
-/// What the iteration may add to its prediction, relative to it.
+/// Largest correction of a prediction, relative to it.
 const MAX_CORRECTION: f64 = 0.2;
 
 pub(crate) fn follow_from(

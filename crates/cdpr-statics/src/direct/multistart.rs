@@ -8,8 +8,8 @@ use cdpr_robot::{Pose, Vector3};
 
 /// Starts around a pose: the pose itself, then points that fill a box of displacements evenly.
 ///
-/// The points are those of the additive recurrence of the generalised golden ratio in six dimensions (Roberts 2018). The same values
-/// give the same starts.
+/// The points are those of the additive recurrence of the generalised golden ratio in six dimensions (Roberts
+/// 2018). The same values give the same starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Starts {
     /// The pose in the middle.
@@ -81,11 +81,12 @@ impl Starts {
 impl DirectProblem<'_> {
     /// The equilibria that are reached from a set of starts.
     ///
-    /// Each start leads to the stable equilibrium downhill and to whatever Newton's method converges to, unstable equilibria included. No
-    /// number of starts proves that there are no more.
+    /// Each start leads to the stable equilibrium downhill and to whatever Newton's method converges to,
+    /// unstable equilibria included. No number of starts proves that there are no more.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for starts that are not finite, or none. Failures of single searches stand in the answer.
+    /// [`StaticsError::Invalid`] for starts that are not finite, or none. Failures of single searches stand
+    /// in the answer.
     pub fn direct_all(&self, starts: &Starts) -> Result<Equilibria, StaticsError> {
         starts.validate()?;
         let mut equilibria = Equilibria { found: Vec::new(), failed: Vec::new() };

@@ -3,12 +3,12 @@
 //! Linearised at forces f_i that need not yet fit the pose, cable i gives
 //!
 //! ```text
-//! df_i = K_i (c_i + d(h_i, z_i)),      c_i = (h_i, z_i) - (x, z)(f_i, L_i),      K_i = C_i⁻¹              (S2)
+//! df_i = K_i (c_i + d(h_i, z_i)),   c_i = (h_i, z_i) - (x, z)(f_i, L_i),   K_i = C_i⁻¹            (S2)
 //! ```
 //!
-//! Put into the balance of the platform this leaves six equations for (dp, dφ), whose matrix is the stiffness (S5) of the
-//! platform with every f_i replaced by its prediction `f_i + K_i c_i`. An iteration evaluates each catenary once and solves one
-//! 6 x 6 system.
+//! Put into the balance of the platform this leaves six equations for (dp, dφ), whose matrix is the stiffness
+//! (S5) of the platform with every f_i replaced by its prediction `f_i + K_i c_i`. An iteration evaluates
+//! each catenary once and solves one 6 x 6 system.
 
 use crate::direct::stability::Stability;
 use crate::equations::{Balance, LinearizedCable, SpannedCable};
@@ -17,23 +17,24 @@ use crate::state::{Equilibrium, Residual};
 use cdpr_cable::end_force;
 use cdpr_robot::{Vector2, Vector3, Vector6};
 
-/// What the iteration ended with: an equilibrium, stable or not.
+/// An equilibrium to which the iteration converged, stable or not.
 pub(crate) struct Converged {
     pub(crate) equilibrium: Equilibrium,
     pub(crate) iterations: usize,
     pub(crate) residual: Residual,
     pub(crate) stability: Stability,
-    /// The first step (dp, ρ dφ): what the linearisation at the start predicts [m].
+    /// The first step (dp, ρ dφ), which the linearisation at the start predicts [m].
     pub(crate) first_step: Vector6<f64>,
 }
 
 const MAX_ITERATIONS: usize = 15;
 
-/// A step below this, relative to the robot's size, is followed by one below rounding: Newton's method squares it.
+/// A step below this, relative to the robot's size, is followed by one below rounding, because Newton's
+/// method squares it.
 const LAST_STEP: f64 = 1e-7;
 
-/// The linearised model at a state: the platform's balance with predicted forces, what each cable adds to its prediction, and
-/// what the state itself leaves open.
+/// The linearised model at a state: the platform's balance with predicted forces, the cables, and the
+/// residual of the state itself.
 struct Linearised {
     balance: Balance,
     /// s_i [m] and the linearised cable.
@@ -98,7 +99,7 @@ pub(crate) fn newton(problem: &DirectProblem, start: Equilibrium) -> Option<Conv
         let (dp, dphi): (Vector3<f64>, Vector3<f64>) =
             (step.fixed_rows::<3>(0).into(), step.fixed_rows::<3>(3).into());
         let moved = dp.norm() + arm * dphi.norm();
-        // Farther than this the linearisation means nothing (a comparison that NaN fails, too).
+        // The linearisation is invalid farther away. The comparison is false for NaN, too.
         if !(moved < 0.3 * size && dphi.norm() < 0.7) {
             return None;
         }
@@ -123,7 +124,7 @@ pub(crate) fn newton(problem: &DirectProblem, start: Equilibrium) -> Option<Conv
     None
 }
 
-/// Gives slack cables without weight whose points have come too far apart the force of their stretch.
+/// Gives slack cables without weight whose points have come too far apart the force that strains them.
 fn tighten(problem: &DirectProblem, state: &mut Equilibrium) -> Option<()> {
     for (i, force) in state.cable_forces.iter_mut().enumerate() {
         if problem.catenary(i, *force).is_limp() {

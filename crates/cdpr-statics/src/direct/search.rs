@@ -19,11 +19,12 @@ pub enum Start<'a> {
     Near(&'a Equilibrium),
 }
 
-/// The stable equilibrium of a robot for unstrained lengths [m] and a load: [`DirectProblem::direct`] in one call.
+/// The stable equilibrium of a robot for unstrained lengths [m] and a load: [`DirectProblem::direct`] in one
+/// call.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] unless there is one finite, positive length for each cable and the load is finite; those of
-/// [`DirectProblem::direct`].
+/// [`StaticsError::Invalid`] unless there is one finite, positive length for each cable and the load is
+/// finite; those of [`DirectProblem::direct`].
 pub fn direct(
     robot: &Robot,
     lengths: &[f64],
@@ -34,24 +35,26 @@ pub fn direct(
 }
 
 impl DirectProblem<'_> {
-    /// A stable equilibrium: the one that Newton's method converges to from the start, else one downhill of the start.
+    /// A stable equilibrium: the one that Newton's method converges to from the start, else one downhill of
+    /// the start.
     ///
-    /// Without a moment in the load the potential always has a minimum, because the cables' elasticity bounds it from below. The
-    /// start is never returned as an answer.
+    /// Without a moment in the load the potential always has a minimum, because the cables' elasticity bounds
+    /// it from below. The start is never returned as an answer.
     ///
     /// # Errors
     /// - [`StaticsError::Invalid`] for a start that is not finite or has not one force for each cable.
     /// - [`StaticsError::Overstrained`] where the equilibrium strains a cable by more than 10 %.
     /// - [`StaticsError::Indifferent`] where nothing determines the pose.
-    /// - [`StaticsError::EquilibriumLost`] where none is found under the load's moment, and the one without it disappears while the
-    ///   moment is raised.
+    /// - [`StaticsError::EquilibriumLost`] where none is found under the load's moment, and the one without
+    ///   it disappears while the moment is raised.
     /// - [`StaticsError::DirectNotConverged`] with the last pose.
     /// - [`StaticsError::Robot`] where the search fails because a value of the robot is invalid.
     pub fn direct(&self, start: Start) -> Result<DirectSolution, StaticsError> {
         search(self, start, Stability::is_stable)
     }
 
-    /// As [`DirectProblem::direct`], but an unstable equilibrium to which Newton's method converges is an answer, too.
+    /// As [`DirectProblem::direct`], but an unstable equilibrium to which Newton's method converges is an
+    /// answer, too.
     ///
     /// A platform that balances like an upright pendulum is one.
     ///
@@ -62,11 +65,12 @@ impl DirectProblem<'_> {
     }
 }
 
-/// A level pose to start from where none is known: where straight cables of these lengths [m] would hold a point.
+/// A level pose to start from where none is known: where straight cables of these lengths [m] would hold a
+/// point.
 ///
-/// With `d_i` the exit points seen from their middle and q the point seen from there, `L_i² = |d_i|² - 2 d_i·q + |q|²`. The differences
-/// of these equations give q, by least squares, in the space that the exit points span; their mean gives the rest of |q|, which points
-/// downwards.
+/// With `d_i` the exit points seen from their middle and q the point seen from there,
+/// `L_i² = |d_i|² - 2 d_i·q + |q|²`. The differences of these equations give q, by least squares, in the
+/// space that the exit points span; their mean gives the rest of |q|, which points downwards.
 pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
     let n = robot.cables.len() as f64;
     let middle = robot.cables.iter().map(|cable| cable.exit_point).sum::<Vector3<f64>>() / n;
@@ -118,8 +122,8 @@ fn checked(problem: &DirectProblem, start: Start) -> Result<Equilibrium, Statics
 
 /// The stable equilibrium downhill of a pose.
 ///
-/// A moment has no potential: where it keeps the descent from ending, the equilibrium without it is followed while the moment is
-/// raised.
+/// A moment has no potential: where it keeps the descent from ending, the equilibrium without it is followed
+/// while the moment is raised.
 fn settle(problem: &DirectProblem, pose: &Pose) -> Result<DirectSolution, StaticsError> {
     let error = match descend(problem, pose) {
         Err(error @ StaticsError::DirectNotConverged { .. }) => error,

@@ -51,8 +51,8 @@ pub struct Report {
     pub iterations: usize,
     /// Residuals of all equations.
     pub residual: Residual,
-    /// Indices of the slack cables, whose unstrained length exceeds the distance of their points: they carry little but their own
-    /// weight.
+    /// Indices of the slack cables, whose unstrained length exceeds the distance of their points: they carry
+    /// little but their own weight.
     pub slack: Vec<usize>,
 }
 
@@ -67,7 +67,8 @@ pub struct DirectSolution {
     pub stability: Stability,
 }
 
-/// Strain beyond which the law of a linear, small-strain cable is invalid: steel and fibre ropes break at less.
+/// Strain beyond which the law of a linear, small-strain cable is invalid: steel and fibre ropes break at
+/// less.
 pub(crate) const MAX_STRAIN: f64 = 0.1;
 
 /// The minimum of the potential downhill of a pose.

@@ -6,7 +6,8 @@ use std::array::from_fn;
 
 /// Stability of an equilibrium: stable where all eigenvalues of the potential's Hessian are positive.
 ///
-/// The Hessian is that in (dp, ρ dφ), where the characteristic length ρ makes rotations comparable with translations.
+/// The Hessian is that in (dp, ρ dφ), where the characteristic length ρ makes rotations comparable with
+/// translations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability {
     hessian: Matrix6<f64>,
@@ -46,7 +47,8 @@ impl Stability {
         values
     }
 
-    /// The motions along the eigenvectors of the stiffness, each resisted along itself only, from the softest.
+    /// The motions along the eigenvectors of the stiffness, each resisted along itself only, from the
+    /// softest.
     pub fn modes(&self) -> [Mode; 6] {
         let eigen = self.hessian.symmetric_eigen();
         let mut modes = from_fn(|k| {
@@ -64,7 +66,8 @@ impl Stability {
         modes
     }
 
-    /// The smallest eigenvalue [N/m]: the stiffness of the softest motion. An equilibrium disappears where it reaches zero.
+    /// The smallest eigenvalue [N/m]: the stiffness of the softest motion. An equilibrium disappears where it
+    /// reaches zero.
     pub fn least_stiffness(&self) -> f64 {
         self.eigenvalues()[0]
     }
@@ -78,7 +81,8 @@ impl Stability {
 
     /// Characteristic length ρ that makes rotations comparable with translations [m].
     ///
-    /// It is the root mean square distance of the anchor points from P, or a thousandth of the longest cable where that is more.
+    /// It is the root mean square distance of the anchor points from P, or a thousandth of the longest cable
+    /// where that is more.
     pub fn characteristic_length(&self) -> f64 {
         self.characteristic_length
     }

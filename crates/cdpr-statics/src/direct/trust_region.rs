@@ -1,20 +1,25 @@
-//! Minimisation of the potential energy over the poses, for starts from which Newton's method does not converge.
+//! Minimisation of the potential energy over the poses, for starts from which Newton's method does not
+//! converge.
 //!
-//! With every cable in its own equilibrium (which is unique), an equilibrium of the platform is a stationary point of
+//! With every cable in its own equilibrium (which is unique), an equilibrium of the platform is a stationary
+//! point of
 //!
 //! ```text
 //! Π(p, R) = sum V_i(p + R a_i - b_i) - F·p - F_w·R c
 //! ```
 //!
-//! and a stable one a minimum. A trust region on Π in the variables (dp, l dφ), l half of the robot's size, goes downhill from any
-//! start; its model is the Hessian of `newton`, and its subproblem is solved in the eigenvectors of that Hessian (Conn, Gould,
-//! Toint, *Trust-Region Methods*, 2000, section 7.3). The length l binds rotations: a region that allows steps of a tenth of the
-//! robot turns the platform by a fifth of a radian at most, which keeps the search in the valley where it began.
+//! and a stable one a minimum. A trust region on Π in the variables (dp, l dφ), with l half of the robot's
+//! size, goes downhill from any start. Its model is the Hessian (S5), and its subproblem is solved in the
+//! eigenvectors of that Hessian (Conn, Gould, Toint, *Trust-Region Methods*, 2000, section 7.3). The length l
+//! limits rotations: a region that allows steps of a tenth of the robot rotates the platform by a fifth of a
+//! radian at most, which keeps the search in the valley where it started.
 //!
-//! Taut cables make valleys that are steep across and curved along: a step that goes uphill may be followed by two more before it is
-//! judged (a non-monotone method, their chapter 10), with which strides along the valley are several times longer.
+//! Taut cables make valleys that are steep across and curved along. A step that goes uphill may therefore be
+//! followed by two more before it is accepted or taken back (a non-monotone method, their chapter 10): steps
+//! along the valley are then several times longer.
 //!
-//! A moment of constant components has no potential; the work it does over each step stands in for one.
+//! A moment of constant components has no potential; the work that it does over each step takes the place of
+//! one.
 
 use crate::direct::newton::{Converged, newton};
 use crate::equations::{Balance, SpannedCable};
@@ -30,7 +35,7 @@ const MAX_ITERATIONS: usize = 3000;
 /// Radius of the first region, relative to the robot's size.
 const FIRST_RADIUS: f64 = 0.05;
 
-/// Steps that may follow one which went uphill before it is taken back.
+/// Number of steps that may follow an uphill one before it is taken back.
 const SECOND_LOOKS: usize = 2;
 
 /// A pose with its cables in equilibrium.
@@ -38,11 +43,11 @@ struct Point {
     equilibrium: Equilibrium,
     /// Potential without the work of the load's moment [J].
     potential: f64,
-    /// What rounding may add to the potential [J].
+    /// Rounding error of the potential [J].
     noise: f64,
-    /// In (dp, l dφ) [N].
+    /// Gradient in (dp, l dφ) [N].
     gradient: Vector6<f64>,
-    /// In (dp, l dφ) [N/m].
+    /// Hessian in (dp, l dφ) [N/m].
     hessian: Matrix6<f64>,
 }
 
@@ -85,7 +90,7 @@ impl Point {
         }
     }
 
-    /// The point a step (dp, l dφ) away. `None` where a cable has no answer.
+    /// The point a step (dp, l dφ) away; `None` where a cable has no equilibrium.
     fn moved(&self, problem: &DirectProblem, step: &Vector6<f64>) -> Option<Self> {
         let motion = step.component_mul(&scale(problem));
         let pose =
@@ -113,15 +118,15 @@ impl Point {
         if gain.abs() > 100.0 * noise {
             return gain;
         }
-        // Where the difference drowns in rounding the slopes at both ends tell it.
+        // Where rounding hides the difference, the slopes at both ends give it.
         -0.5 * (self.gradient + next.gradient).dot(step)
     }
 }
 
 /// From (dp, l dφ) to (dp, dφ).
 fn scale(problem: &DirectProblem) -> Vector6<f64> {
-    let turn = 2.0 / problem.size();
-    Vector6::new(1.0, 1.0, 1.0, turn, turn, turn)
+    let per_length = 2.0 / problem.size();
+    Vector6::new(1.0, 1.0, 1.0, per_length, per_length, per_length)
 }
 
 /// The minimum of the potential that lies downhill of `start`.
@@ -141,7 +146,7 @@ pub(crate) fn minimise(problem: &DirectProblem, start: &Pose) -> Result<Converge
         }
         let (step, predicted) = subproblem(&now.gradient, &now.hessian, radius);
         if predicted.is_nan() || predicted <= 0.0 {
-            // Neither slope nor negative curvature (or no number): there is nowhere to go.
+            // Neither slope nor negative curvature, or NaN: there is nowhere to go.
             return Err(not_converged(problem, &now, iteration));
         }
         let Some(mut next) = now.moved(problem, &step) else {
@@ -149,7 +154,7 @@ pub(crate) fn minimise(problem: &DirectProblem, start: &Pose) -> Result<Converge
             continue;
         };
         let mut gain = now.gain(problem, &next, &step);
-        // A curved valley: the step left its floor, further ones of the same kind find back to it.
+        // In a curved valley a step leaves the floor, and further steps of the same kind return to it.
         for _ in 0..SECOND_LOOKS {
             if gain >= 0.25 * predicted {
                 break;
@@ -174,7 +179,7 @@ pub(crate) fn minimise(problem: &DirectProblem, start: &Pose) -> Result<Converge
     Err(not_converged(problem, &now, MAX_ITERATIONS))
 }
 
-/// The minimum that Newton's method finds from a point, if it is one and near.
+/// The minimum that Newton's method finds from a point, if what it finds is a minimum and near.
 fn polish(problem: &DirectProblem, point: &Point, radius: f64) -> Option<Converged> {
     let minimum = newton(problem, point.equilibrium.clone())?;
     let motion = point.equilibrium.pose.motion_to(&minimum.equilibrium.pose);
@@ -191,7 +196,7 @@ fn not_converged(problem: &DirectProblem, last: &Point, iterations: usize) -> St
     StaticsError::DirectNotConverged { iterations, pose, residual }
 }
 
-/// The step that minimises `g·x + ½ xᵀHx` over `|x| <= radius`, and the decrease it promises.
+/// The step that minimises `g·x + ½ xᵀHx` over `|x| <= radius`, and the decrease that it predicts.
 fn subproblem(gradient: &Vector6<f64>, hessian: &Matrix6<f64>, radius: f64) -> (Vector6<f64>, f64) {
     let eigen = SymmetricEigen::new(*hessian);
     let (values, vectors) = (eigen.eigenvalues, eigen.eigenvectors);
@@ -202,7 +207,8 @@ fn subproblem(gradient: &Vector6<f64>, hessian: &Matrix6<f64>, radius: f64) -> (
     let floor = (-least).max(0.0) + 1e-12 * largest;
     let mut x = at(if least > 1e-12 * largest { 0.0 } else { floor });
     if x.norm() > radius {
-        // 1/|x(shift)| is almost linear in the shift: Newton's method for |x| = radius, kept between two bounds.
+        // 1/|x(shift)| is almost linear in the shift: Newton's method for |x| = radius, kept between two
+        // bounds.
         let (mut low, mut high) =
             (if least > 1e-12 * largest { 0.0 } else { floor }, floor + g.norm() / radius);
         let mut shift = low;

@@ -1,6 +1,7 @@
 //! The `6 + 2n` equations of an equilibrium, assembled, with their Jacobian. No other module names faer.
 //!
-//! Unknowns: the motion (dp, dφ) of the platform, then (fx, fz) of every cable at A. Equations, in this order:
+//! Unknowns: the motion (dp, dφ) of the platform, then (fx, fz) of every cable at A. Equations, in this
+//! order:
 //!
 //! ```text
 //! -( sum F_i + F_ex ) = 0                 force balance of the platform [N]               Eq. (3)
@@ -8,8 +9,8 @@
 //! (h_i, z_i) - (x, z)(f_i, L_i) = 0       each cable spans its two points [m]    Eq. (1), (2a), (2b)
 //! ```
 //!
-//! with F_i of (S1) and the wrench (F_ex, M_ex) of weight and load. The sign of the balance makes it the gradient of the potential.
-//! Derivatives:
+//! with F_i of (S1) and the wrench (F_ex, M_ex) of weight and load. The sign of the balance makes it the
+//! gradient of the potential. Derivatives:
 //!
 //! ```text
 //! -dF_i = e_h dfx + e_z dfz + (fx/h) e_l e_lᵀ dr_i,    dr_i = dp - [s_i] dφ,    e_l = e_z x e_h
@@ -65,7 +66,8 @@ pub(crate) fn skew<T: Number>(v: &Vector3<T>) -> Matrix3<T> {
     Matrix3::new(o, -v.z, v.y, v.z, o, -v.x, -v.y, v.x, o)
 }
 
-/// Nearer to the vertical than this, `fx/h` of a cable that need not fit its points means nothing, and its limit stands in.
+/// Nearer to the vertical than this, `fx/h` of a cable that need not fit its points means nothing, and its
+/// limit stands in.
 pub(crate) const NEAR_VERTICAL: f64 = 1e-9;
 
 /// Weight of platform and payload [N], and the lever of its centre of mass [m].
@@ -207,7 +209,9 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+        #![proptest_config(ProptestConfig {
+            cases: 300, failure_persistence: None, ..ProptestConfig::default()
+        })]
 
         #[test]
         fn the_jacobian_is_the_derivative_of_the_equations(
@@ -220,7 +224,8 @@ mod tests {
             let jacobian = jacobian(&problem, &State::from(&state));
             for column in 0..jacobian.ncols() {
                 let force = state.cable_forces.get(column.wrapping_sub(6) / 2);
-                let h = if column < 6 { 1e-4 } else { force.map_or(1.0, |f| 2e-4 * f.x.max(1e-3 * f.norm())) };
+                let by_force = force.map_or(1.0, |f| 2e-4 * f.x.max(1e-3 * f.norm()));
+                let h = if column < 6 { 1e-4 } else { by_force };
                 let at = |h: f64| {
                     let mut step = DVector::zeros(jacobian.nrows());
                     step[column] = h;
@@ -229,16 +234,20 @@ mod tests {
                 let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
                 let error = (&slope - jacobian.column(column)).norm();
                 let rounding = 1e-15 * (at(0.0).norm() + 1e4) / h;
-                prop_assert!(error < 1e-6 * jacobian.column(column).norm() + rounding, "column {column}: {error:e}");
+                let allowed = 1e-6 * jacobian.column(column).norm() + rounding;
+                prop_assert!(error < allowed, "column {column}: {error:e}");
             }
         }
 
         #[test]
-        fn eliminating_the_cables_is_newtons_step_of_the_assembled_equations((robot, lengths, load, pose) in any_state()) {
+        fn eliminating_the_cables_is_newtons_step_of_the_assembled_equations(
+            (robot, lengths, load, pose) in any_state(),
+        ) {
             let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
             let state = cables_at(&problem, &pose).unwrap();
             let right = -residual(&problem, &State::from(&state));
-            let assembled = FactoredJacobian::new(&jacobian(&problem, &State::from(&state))).solve(&DMatrix::from_column_slice(right.len(), 1, right.as_slice()));
+            let factored = FactoredJacobian::new(&jacobian(&problem, &State::from(&state)));
+            let assembled = factored.solve(&DMatrix::from_column_slice(right.len(), 1, right.as_slice()));
             let reduced = newton_step(&problem, &state).unwrap();
             let expected = assembled.fixed_view::<6, 1>(0, 0);
             prop_assert!((reduced - expected).norm() < 1e-6 * expected.norm(), "{reduced} {expected}");

@@ -1,7 +1,7 @@
 //! The balance of the platform and its stiffness, cable by cable.
 //!
-//! The left-hand side of the paper's Eq. (3) is the unbalanced wrench on the platform, with w_ex for weight and load; its opposite is
-//! the gradient of the potential:
+//! The left-hand side of the paper's Eq. (3) is the unbalanced wrench on the platform, with w_ex for weight
+//! and load; its opposite is the gradient of the potential:
 //!
 //! ```text
 //! G = W t + w_ex = sum [F_i; s_i x F_i] + w_ex                                                     (S4)

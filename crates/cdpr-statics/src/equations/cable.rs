@@ -6,15 +6,16 @@
 //! r_i = p + s_i - b_i,      s_i = R a_i                                                        Eq. (1)
 //! ```
 //!
-//! The cable hangs in the vertical plane of r_i, which has the directions `e_h` of the horizontal part of r_i and `e_z` upwards;
-//! `e_l = e_z x e_h` points across it. (h, z) are the components of r_i in the plane. The force (fx, fz) on the cable at A, whose end is
-//! at (x, z) by Eq. (2a) and (2b), acts on the platform as
+//! The cable hangs in the vertical plane of r_i, which has the directions `e_h` of the horizontal part of r_i
+//! and `e_z` upwards; `e_l = e_z x e_h` points across it. (h, z) are the components of r_i in the plane. The
+//! force (fx, fz) on the cable at A, whose end is at (x, z) by Eq. (2a) and (2b), acts on the platform as
 //!
 //! ```text
 //! F_i = -(fx e_h + fz e_z)      with the wrench      [F_i; s_i x F_i]                              (S1)
 //! ```
 //!
-//! Linearised about a force f that need not yet fit the two points, the cable answers to a displacement of A with
+//! Linearised about a force f that need not yet fit the two points, the cable answers to a displacement of A
+//! with
 //!
 //! ```text
 //! df = K (c + d(h, z)),      c = (h, z) - (x, z)(f, L),      K = C⁻¹                               (S2)

@@ -1,8 +1,8 @@
 //! Small displacements about an equilibrium.
 //!
-//! The assembled equations `g(x, θ) = 0` give `dx = -(dg/dx)⁻¹ (dg/dθ) dθ`: one factorisation answers for wrenches, lengths and whatever
-//! else moves the platform. Section 3.3 of the paper says why such a displacement is not the static deflection of a robot with sagging
-//! cables; both are here to be compared.
+//! The assembled equations `g(x, θ) = 0` give `dx = -(dg/dx)⁻¹ (dg/dθ) dθ`: one factorisation answers for
+//! wrenches, lengths and whatever else moves the platform. Section 3.3 of the paper says why such a
+//! displacement is not the static deflection of a robot with sagging cables; both are here to be compared.
 
 use crate::equations::assembled::{FactoredJacobian, State, jacobian};
 use crate::equations::balance::Balance;
@@ -50,9 +50,10 @@ impl DirectProblem<'_> {
 impl Linearization {
     /// Cartesian stiffness matrix H, 6 x 6, of (dp, dφ) in the base frame about P [N/m, N/rad, N, N m/rad].
     ///
-    /// It is the Hessian of the potential, with sag and weight of the cables: symmetric, and positive definite where the equilibrium is
-    /// stable. A moment M of constant components has no potential. Its unsymmetric part [M]/2, which depends on how rotations are
-    /// counted, is missing here and contained in [`Linearization::displacement`].
+    /// It is the Hessian of the potential, with sag and weight of the cables: symmetric, and positive
+    /// definite where the equilibrium is stable. A moment M of constant components has no potential. Its
+    /// unsymmetric part [M]/2, which depends on how rotations are counted, is missing here and contained in
+    /// [`Linearization::displacement`].
     pub fn stiffness(&self) -> &Matrix6<f64> {
         &self.stiffness
     }

@@ -1,8 +1,9 @@
-//! Partial derivatives of the equations of equilibrium with respect to the robot's parameters, the load and the pose.
+//! Partial derivatives of the equations of equilibrium with respect to the robot's parameters, the load and
+//! the pose.
 //!
 //! Between held ends the force of a cable follows from its span, its length and its material. The catenary
-//! `(h, z) = (x, z)(f, L, w, EA)` with the stiffness K3 in space (S3), `K = C⁻¹` in its plane, `w = ρ g` and `EA = E S` gives for the
-//! force F_i on the platform
+//! `(h, z) = (x, z)(f, L, w, EA)` with the stiffness K3 in space (S3), `K = C⁻¹` in its plane, `w = ρ g` and
+//! `EA = E S` gives for the force F_i on the platform
 //!
 //! ```text
 //! dF_i = -K3_i dr_i + k_L dL_i + k_ρ dρ + k_E dE                                                  (D1)
@@ -10,13 +11,15 @@
 //! ds_i = dφ x s_i + R da_i,   dr_i = dp + ds_i - db_i                                             (D2)
 //! ```
 //!
-//! With `u_i = F_i/t_i` the tension changes by `dt_i = u_i·dF_i`. A cable that is given its tension instead of its length has
+//! With `u_i = F_i/t_i` the tension changes by `dt_i = u_i·dF_i`. A cable that is given its tension instead
+//! of its length has
 //!
 //! ```text
 //! dF_i = Q_i (-K3_i dr_i + k_ρ dρ + k_E dE) + v_i dt_i,   v_i = k_L/(u_i·k_L),   Q_i = 1 - v_i u_iᵀ  (D3)
 //! ```
 //!
-//! which is (D1) with other coefficients. The left-hand side of the paper's Eq. (3), `G = sum [F_i; s_i x F_i] + w_ex`, changes by
+//! which is (D1) with other coefficients. The left-hand side of the paper's Eq. (3),
+//! `G = sum [F_i; s_i x F_i] + w_ex`, changes by
 //!
 //! ```text
 //! dG = sum [ dF_i; ds_i x F_i + s_i x dF_i ] + dw_ex                                              (D4)
@@ -33,10 +36,11 @@ use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, Vector2, Vector3, V
 use nalgebra::{DMatrix, Matrix6};
 use std::ops::Range;
 
-/// What the columns of all derivatives stand for: the parameters, the payload, the wanted pose.
+/// The inputs that the columns of all derivatives stand for: the parameters, the payload, the wanted pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {
-    /// The `6 + 7n` parameters of the robot, in the order of [`Parameter::all`]: the first columns, per SI unit of each.
+    /// The `6 + 7n` parameters of the robot in the order of [`Parameter::all`], per SI unit of each: the
+    /// first columns.
     pub parameters: Vec<Parameter>,
 }
 
@@ -65,7 +69,8 @@ impl Inputs {
         self.payload() + 7
     }
 
-    /// A matrix of zeros with a column for every input: nalgebra's own writes them one by one.
+    /// A matrix of zeros with a column for every input, faster than that of nalgebra, which writes them one
+    /// by one.
     pub(crate) fn zeros(&self, rows: usize) -> DMatrix<f64> {
         DMatrix::from_vec(rows, self.count(), vec![0.0; rows * self.count()])
     }
@@ -88,7 +93,7 @@ pub(crate) fn wrench(arm: &Vector3<f64>, force: &Vector3<f64>) -> Vector6<f64> {
     vector::wrench(&(*arm).into(), &(*force).into()).into()
 }
 
-/// The moment alone.
+/// Wrench [0; s x F] of the moment alone.
 fn moment(arm: &Vector3<f64>, force: &Vector3<f64>) -> Vector6<f64> {
     let moment = arm.cross(force);
     Vector6::new(0.0, 0.0, 0.0, moment.x, moment.y, moment.z)
@@ -176,7 +181,7 @@ impl CableDerivatives {
     }
 }
 
-/// A number read off a cable: `per_force·dF_i + per_arm·ds_i`.
+/// A scalar function of a cable, with the derivative `per_force·dF_i + per_arm·ds_i`.
 #[derive(Clone, Copy)]
 pub(crate) struct Reading {
     pub(crate) per_force: Vector3<f64>,
@@ -184,23 +189,23 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
-    /// dt_i.
+    /// The tension, with the derivative dt_i.
     pub(crate) fn tension(cable: &CableDerivatives) -> Self {
         Self { per_force: cable.direction, per_arm: Vector3::zeros() }
     }
 }
 
-/// Partial derivatives with respect to all [`Inputs`], with lengths or tensions held. The columns of the pose are those of the pose
-/// that the cables are at.
+/// Partial derivatives with respect to all [`Inputs`], with lengths or tensions held. The columns of the pose
+/// are those of the pose that the cables are at.
 pub(crate) struct Partials {
     /// dG, equation (D4), 6 x count.
     pub(crate) balance: Matrix6xX<f64>,
-    /// One reading of each cable, n x count.
+    /// Derivatives of one reading of each cable, n x count.
     pub(crate) readings: DMatrix<f64>,
 }
 
 impl Partials {
-    /// Of `cables` at `pose` under weight and `load`.
+    /// Partial derivatives of `cables` at `pose` under weight and `load`.
     pub(crate) fn new(
         robot: &Robot,
         inputs: &Inputs,
@@ -249,7 +254,7 @@ impl Partials {
         }
     }
 
-    /// Takes the columns of the pose out of the partial derivatives: (dG, readings) per (dp, dφ).
+    /// Moves the columns of the pose out of the partial derivatives: (dG, readings) per (dp, dφ).
     pub(crate) fn take_pose(&mut self, inputs: &Inputs) -> (Matrix6<f64>, DMatrix<f64>) {
         let start = inputs.pose().start;
         let balance = self.balance.fixed_columns::<6>(start).into_owned();
@@ -260,7 +265,7 @@ impl Partials {
     }
 }
 
-/// Of the tensions of `cables` at `pose` with the lengths held, n x count: `u_i·dF_i`.
+/// Derivatives of the tensions of `cables` at `pose` with the lengths held, n x count: `u_i·dF_i`.
 pub(crate) fn tensions(inputs: &Inputs, pose: &Pose, cables: &[CableDerivatives]) -> DMatrix<f64> {
     let mut tensions = inputs.zeros(cables.len());
     each_effect(inputs, pose, cables, |column, i, force, _| {
@@ -296,7 +301,7 @@ fn each_effect(
             Parameter::ExitPoint(i, axis) => {
                 add(column, i, cables[i].stiffness.column(axis as usize).into(), o);
             }
-            // In the weight, or in the set-points.
+            // These act on the weight or on the set-points.
             Parameter::Mass | Parameter::CenterOfMass(_) | Parameter::TensionOffset(_) => {}
         }
     }
@@ -312,7 +317,8 @@ fn each_effect(
     }
 }
 
-/// `matrix⁻¹ right`, in place. At 6 x 6 the inverse, applied column by column, is the fastest and as exact as the factors.
+/// `matrix⁻¹ right`, in place. At 6 x 6 the inverse, applied column by column, is the fastest and as exact as
+/// the factors.
 pub(crate) fn solve(
     matrix: Matrix6<f64>,
     right: &mut Matrix6xX<f64>,

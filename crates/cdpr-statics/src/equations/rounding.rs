@@ -7,7 +7,8 @@ use crate::state::{Equilibrium, Residual, rounding_of_closure};
 use cdpr_robot::Vector2;
 
 impl DirectProblem<'_> {
-    /// What an equilibrium, or a pose with forces that need not be one, leaves open in the `6 + 2n` equations.
+    /// What an equilibrium, or a pose with forces that need not be one, leaves open in the `6 + 2n`
+    /// equations.
     ///
     /// # Errors
     /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable.
@@ -24,7 +25,8 @@ impl Residual {
         Self { closure, force: r.fixed_rows::<3>(0).norm(), moment: r.fixed_rows::<3>(3).norm() }
     }
 
-    /// Whether rounding explains the residual: of lengths and coordinates the closure, of tensions and load the wrench.
+    /// Whether rounding explains the residual: of lengths and coordinates the closure, of tensions and load
+    /// the wrench.
     pub(crate) fn is_rounding(&self, problem: &DirectProblem, equilibrium: &Equilibrium) -> bool {
         let tensions: f64 = equilibrium.cable_forces.iter().map(Vector2::norm).sum();
         let load = problem.load.total(problem.robot, &equilibrium.pose);

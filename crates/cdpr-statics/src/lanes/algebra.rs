@@ -16,7 +16,7 @@ pub(crate) type Lanes6<S> = [Lanes<S>; 6];
 /// Six rows of six.
 pub(crate) type Lanes6x6<S> = [[Lanes<S>; 6]; 6];
 
-/// L U of a matrix that needs no pivoting: that of tensions that are distributed.
+/// Factors L U of a matrix that needs no pivoting, such as that of the tension distribution.
 pub(crate) struct GeneralFactors<S: Simd> {
     lu: Lanes6x6<S>,
     pivots_inv: [Lanes<S>; 6],
@@ -57,10 +57,10 @@ impl<S: Simd> GeneralFactors<S> {
     }
 }
 
-/// Uᵀ D U of a symmetric matrix, U with ones on its diagonal.
+/// Factors Uᵀ D U of a symmetric matrix, U with ones on its diagonal.
 #[derive(Clone, Copy)]
 pub(crate) struct SymmetricFactors<S: Simd> {
-    /// U above the diagonal; what else is there means nothing.
+    /// U above the diagonal; the other elements are not used.
     upper: Lanes6x6<S>,
     /// 1/D.
     pivots_inv: [Lanes<S>; 6],
@@ -69,7 +69,7 @@ pub(crate) struct SymmetricFactors<S: Simd> {
 }
 
 impl<S: Simd> SymmetricFactors<S> {
-    /// Of `matrix` the diagonal and what is above it are read.
+    /// Factors of a matrix, of which the upper triangle is read.
     // Indices as in the formula.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
@@ -124,7 +124,7 @@ impl<S: Simd> SymmetricFactors<S> {
     }
 }
 
-// `std::array::from_fn` is no part of what is compiled for the vector unit.
+// Closures of `std::array::from_fn` would not be compiled for the vector unit.
 #[inline(always)]
 pub(crate) fn three<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Lanes3<S> {
     [component(0), component(1), component(2)]

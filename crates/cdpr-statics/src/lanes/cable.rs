@@ -1,11 +1,11 @@
-//! One taut cable in lanes: where it runs, how it answers, and what it is linearised.
+//! One taut cable in each lane: where it runs and how it answers.
 
 use crate::equations::{LinearizedCable, Span, between};
 use crate::lanes::algebra::{Lanes2, Lanes3, three};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::{Response, TautEnd, taut_end, taut_response};
 
-/// A cable of every robot, or several cables of one.
+/// A taut cable of every robot, or several taut cables of one.
 pub(crate) struct TautCable<S: Simd> {
     /// Weight per length [N/m].
     pub(crate) weight_per_length: Lanes<S>,

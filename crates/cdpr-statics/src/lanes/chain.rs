@@ -1,24 +1,24 @@
-//! The chain of an observation for robots with taut cables, one robot a lane: inverse model, offset set-points, direct model without
-//! and with the load.
+//! The chain of an observation for robots with taut cables, one robot in each lane.
 //!
-//! The equations are those of [`crate::inverse`] and `direct/newton.rs`, with one difference: the shape of a cable is not solved for but
-//! takes part in the iteration. With û the direction of its end force, n̂ the normal to it, C the flexibility, `e = d(x, z)/dL` and c its
-//! miss at force and length,
-//!
-//! ```text
-//! C (û dt + n̂ t dθ) + e dL = c      gives      dθ = α + β dt,    dL = γ + δ dt                         (a)
-//! ```
-//!
-//! for a change dt of its tension. With w the wrench of a unit tension, n its derivative with respect to θ, and λ the multipliers of the
-//! least-norm distribution,
+//! Its links are the inverse model, the offset set-points, and the direct model without and with the load.
+//! The equations are those of `inverse.rs` and `direct/newton.rs`, with one difference: the shape of a cable
+//! is not solved for but takes part in the iteration. With û the direction of the force at its end, n̂ the
+//! normal to it, C the flexibility, `e = d(x, z)/dL` and c its misclosure at force and length,
 //!
 //! ```text
-//! t + w·λ = 0,      sum t w + w_ex = 0                                                                 (b)
-//! [ sum c wᵀ/D ] dλ = F2 - sum c F1/D,      dt = -(F1 + w·dλ)/D,                                       (c)
-//!      D = 1 + β n·λ,   c = w + t β n,   F1 = t + (w + α n)·λ,   F2 = sum t (w + α n) + w_ex
+//! C (û dt + n̂ t dθ) + e dL = c      gives      dθ = α + β dt,    dL = γ + δ dt                         (L1)
 //! ```
 //!
-//! A lane stops by its own steps alone: the others of a batch change none of its digits.
+//! for a change dt of its tension. With w the wrench of a unit tension, n its derivative with respect to θ,
+//! and λ the multipliers of the least-norm distribution, (I1) and (I2) become
+//!
+//! ```text
+//! t + w·λ = 0,      sum t w + w_ex = 0                                                                 (L2)
+//! [ sum c wᵀ/D ] dλ = R2 - sum c R1/D,      dt = -(R1 + w·dλ)/D,                                       (L3)
+//!      D = 1 + β n·λ,   c = w + t β n,   R1 = t + (w + α n)·λ,   R2 = sum t (w + α n) + w_ex
+//! ```
+//!
+//! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
 
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
@@ -28,20 +28,21 @@ use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, Pla
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::{Field, Response, TAUT};
 
-/// Robots at their wanted pose, with starts of lengths and forces.
+/// Robots at their wanted pose, with lengths and forces to start from.
 pub(crate) struct ChainStart<S: Simd> {
     pub(crate) robots: Robots<S>,
     /// Offset of the tension set-point of each cable [N].
     pub(crate) offsets: Vec<Lanes<S>>,
-    /// λ, a start.
+    /// λ to start from.
     pub(crate) multipliers: Lanes6<S>,
 }
 
-/// What all robots have in common.
+/// What all robots of a batch share.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shared {
-    /// Limits of the tensions [N].
+    /// Least tension allowed [N].
     pub(crate) least: f64,
+    /// Greatest tension allowed [N].
     pub(crate) greatest: f64,
     /// Weight of the payload [N].
     pub(crate) payload: f64,
@@ -53,9 +54,10 @@ pub(crate) struct Shared {
     pub(crate) scale: Scale,
 }
 
-/// What became of every robot.
+/// The answer for every robot.
 pub(crate) struct Outcome<S: Simd> {
-    /// Lanes with an answer: converged to rounding, stable, all cables taut, all tensions within their limits.
+    /// Lanes with an answer: converged to rounding, stable, all cables taut, all tensions within their
+    /// limits.
     pub(crate) valid: Mask<S>,
     /// dp [m].
     pub(crate) displacement: Lanes3<S>,
@@ -63,13 +65,16 @@ pub(crate) struct Outcome<S: Simd> {
     pub(crate) loaded: LaneResidual<S>,
 }
 
-/// A change below this, relative to the longest cable or the sum of tensions, is the last one of lengths and forces at the wanted pose.
+/// A change of lengths and forces below this, relative to the longest cable or the sum of tensions, is the
+/// last one at the wanted pose.
 const LAST_CHANGE: f64 = 1e-7;
 
-/// The same for tensions that are still to be offset: what is left of them then changes no position by more than 1e-12 m.
+/// The same for tensions that are still to be offset: their error then changes no position by more than 1e-12
+/// m.
 const LAST_DISTRIBUTION: f64 = 3e-6;
 
-/// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at the wanted pose.
+/// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at
+/// the wanted pose.
 #[inline(always)]
 pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome<S> {
     let ChainStart { mut robots, offsets, multipliers } = begin;
@@ -99,7 +104,7 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome
     Outcome { valid, displacement: three(|k| robots.position[k] - stood[k]), unloaded, loaded }
 }
 
-/// A cable at its held ends, equation (a).
+/// A cable at its held ends, equation (L1).
 #[derive(Clone, Copy)]
 struct HeldCable<S: Simd> {
     tension: Lanes<S>,
@@ -151,8 +156,9 @@ impl<S: Simd> HeldCable<S> {
     }
 }
 
-/// Least-norm tensions at the wanted pose, equations (b) and (c); `offsets` are added to them and become set-points, towards which cables
-/// make a first step. Returns the lanes with taut cables and all tensions within the limits.
+/// Least-norm tensions at the wanted pose, equations (L2) and (L3); `offsets` are added to them and become
+/// set-points, towards which cables make a first step. Returns the lanes with taut cables and all tensions
+/// within the limits.
 #[inline(always)]
 fn distribute<S: Simd>(
     robots: &mut Robots<S>,
@@ -219,7 +225,8 @@ fn distribute<S: Simd>(
     within & !going
 }
 
-/// Lengths that give the tensions `set_points` at the wanted pose, and the cables linearised there. Returns the lanes where all were found.
+/// Lengths that give the tensions `set_points` at the wanted pose, and the cables linearised there. Returns
+/// the lanes where all were found.
 #[inline(always)]
 fn hold<S: Simd>(
     robots: &mut Robots<S>,
@@ -243,9 +250,9 @@ fn hold<S: Simd>(
                 break;
             }
         }
-        // The last change closes to rounding.
+        // The last change closes the cable to rounding.
         linearized.predicted = cable.force;
-        // A root with a cable of negative length is none.
+        // A root with a cable of negative length is invalid.
         all = all & !going & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
     }
     all

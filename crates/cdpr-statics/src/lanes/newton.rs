@@ -1,7 +1,8 @@
-//! The direct model of robots with taut cables: Newton's method of `direct/newton.rs` with its cables eliminated. Lanes hold a robot each, or
-//! a cable each of one robot.
+//! The direct model of robots with taut cables: Newton's method of `direct/newton.rs`, with its cables
+//! eliminated.
 //!
-//! A lane stops by its own steps alone: the others of a batch change none of its digits.
+//! Each lane holds a robot, or a cable of one robot. A lane stops by its own steps alone: the other lanes of
+//! a batch change none of its digits.
 
 use crate::direct::MAX_STRAIN;
 use crate::equations::vector::{cross, dot};
@@ -14,13 +15,14 @@ use smallvec::{SmallVec, smallvec};
 
 /// What the lanes hold.
 pub(crate) enum Layout<S: Simd> {
-    /// A robot each.
+    /// Each lane holds a robot.
     Robots,
-    /// A cable each of one robot. The mask says which lanes of the last [`Cable`] are counted; the others repeat a cable.
+    /// Each lane holds a cable of one robot. The mask says which lanes of the last [`TautCable`] count; the
+    /// others repeat a cable.
     Cables(Mask<S>),
 }
 
-/// As many [`Cable`]s are stored without allocation.
+/// Number of [`TautCable`]s that are stored without allocation.
 const INLINE: usize = 4;
 
 /// Robots, in an equilibrium or near one.
@@ -29,16 +31,16 @@ pub(crate) struct Robots<S: Simd> {
     pub(crate) cables: SmallVec<[TautCable<S>; INLINE]>,
     /// Position of the platform [m].
     pub(crate) position: Lanes3<S>,
-    /// R c, the arm of the centre of mass [m].
+    /// R c, the lever of the centre of mass [m].
     pub(crate) center: Lanes3<S>,
-    /// Other vectors that turn with the platform.
+    /// Other vectors that rotate with the platform.
     pub(crate) frame: SmallVec<[Lanes3<S>; 3]>,
     /// Weight of the platform [N].
     pub(crate) weight: Lanes<S>,
 }
 
 impl<S: Simd> LaneResidual<S> {
-    /// Norms of force [N] and moment [N m], one a lane.
+    /// Norms of force [N] and moment [N m], one for each lane.
     #[inline(always)]
     pub(crate) fn norms(&self) -> [[f64; MAX_LANES]; 2] {
         let (force, moment) = halves(&self.wrench);
@@ -51,25 +53,26 @@ impl<S: Simd> LaneResidual<S> {
 pub(crate) struct Scale {
     /// The longest cable.
     pub(crate) size: f64,
-    /// What makes rotations comparable with translations.
+    /// The length that makes rotations comparable with translations.
     pub(crate) characteristic_length: f64,
     /// Rounding of a closure.
     pub(crate) rounding: f64,
 }
 
-/// What an equilibrium leaves open.
+/// Residual of the equations, one for each lane.
 #[derive(Clone, Copy)]
 pub(crate) struct LaneResidual<S: Simd> {
     /// Largest distance of a cable's end from its anchor point, squared [m²].
     pub(crate) closure: Lanes<S>,
-    /// Force [N] and moment [N m] on the platform.
+    /// Unbalanced force [N] and moment [N m], with the sign of the potential's gradient: -G of (S4).
     pub(crate) wrench: Lanes6<S>,
 }
 
 pub(crate) const MAX_ITERATIONS: usize = 8;
 
-/// After a step below this, relative to the longest cable, the platform is at rest or next to it: stiffnesses are kept, and the little
-/// that is left shrinks by as much with every further step.
+/// A step below this, relative to the longest cable, ends at rest or next to it.
+///
+/// From there the stiffness is kept, and each further step reduces the residual by as much again.
 const SMALL_STEP: f64 = 1e-7;
 
 /// Rounding of a sum of forces, relative to that of their magnitudes.
@@ -99,7 +102,7 @@ pub(crate) struct LinearizedPlatform<S: Simd> {
 }
 
 impl<S: Simd> LinearizedPlatform<S> {
-    /// A place for one, all zero.
+    /// Storage for a linearised platform, all zero.
     #[inline(always)]
     pub(crate) fn new(zero: Lanes<S>, cables: usize) -> Self {
         let cable = LinearizedCable {
@@ -117,7 +120,7 @@ impl<S: Simd> LinearizedPlatform<S> {
 }
 
 impl<S: Simd> Robots<S> {
-    /// Linearises the lanes that are `going`.
+    /// Linearises all cables in the lanes that are `going`.
     #[inline(always)]
     pub(crate) fn linearise(
         &self,
@@ -135,8 +138,8 @@ impl<S: Simd> Robots<S> {
 
     /// Puts the platform between its linearised cables in the lanes that are `going`.
     ///
-    /// Where moments are out of balance the derivative of the gradient is not symmetric. Its symmetric half does as well: what it leaves
-    /// out is a step times what an equilibrium has not.
+    /// Where moments are out of balance the derivative of the gradient is not symmetric. The skew part is
+    /// dropped: it is proportional to the residual moment, which vanishes at equilibrium.
     // Indices as in the formula.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
@@ -182,7 +185,7 @@ impl<S: Simd> Robots<S> {
         platform.factored.replace(&SymmetricFactors::new(hessian), going);
     }
 
-    /// The value where lanes of cable `i` are cables, else zero.
+    /// The value in the lanes of cable `i` that count, zero in the others.
     #[inline(always)]
     fn counted(&self, i: usize, value: Lanes<S>) -> Lanes<S> {
         match self.layout {
@@ -191,7 +194,7 @@ impl<S: Simd> Robots<S> {
         }
     }
 
-    /// The sum over all cables of a robot of what its lanes have added up.
+    /// The sum over all cables of a robot, from the sums of its lanes.
     #[inline(always)]
     fn total(&self, sum: Lanes<S>) -> Lanes<S> {
         match self.layout {
@@ -221,8 +224,10 @@ impl<S: Simd> Robots<S> {
         }
     }
 
-    /// What the platforms leave open, and the lanes where that is rounding and all cables are pulled, taut and not overstrained. In the lanes
-    /// that are `near` the linearisation is moved here, with the stiffness that it had.
+    /// The residual, and the lanes that hold: where it is rounding, and all cables are pulled, taut and not
+    /// overstrained.
+    ///
+    /// In the lanes that are `near` the linearisation is moved here and keeps its stiffness.
     #[inline(always)]
     fn revise(
         &self,
@@ -268,8 +273,10 @@ impl<S: Simd> Robots<S> {
         (residual, holds)
     }
 
-    /// Newton's method on the direct model from a linearisation, in the lanes `alive`. Returns the lanes that found a stable equilibrium,
-    /// and what it leaves open; the linearisation is then one at this equilibrium, with a stiffness from nearby.
+    /// Newton's method on the direct model from a linearisation, in the lanes `alive`.
+    ///
+    /// Returns the lanes that found a stable equilibrium, and its residual. The linearisation is then one at
+    /// this equilibrium, with a stiffness from nearby.
     #[inline(always)]
     pub(crate) fn settle(
         &mut self,
@@ -290,7 +297,7 @@ impl<S: Simd> Robots<S> {
             let turned = dot(&rotation, &rotation);
             let moved = dot(&translation, &translation)
                 + turned * (scale.characteristic_length * scale.characteristic_length);
-            // Farther than this the linearisation means nothing, and no number is farther.
+            // The linearisation is invalid farther away; a comparison with NaN is false, which ends the lane.
             going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
             self.apply(&translation, &rotation, turned, &platform.cables, going);
             let near = going & moved.less_or_equal(small_step);
@@ -351,7 +358,8 @@ fn rotate<S: Simd>(v: &Lanes3<S>, rotation: &Lanes3<S>, a: Lanes<S>, b: Lanes<S>
     (once, three(|k| v[k] + a * once[k] + b * twice[k]))
 }
 
-/// Adds a cable of stiffness K with force F at the arm s to the diagonal and what is above it.
+/// Adds a cable with the stiffness K3 and the force -F_i = `f` at the arm s to the upper triangle of the
+/// stiffness, equation (S5).
 #[inline(always)]
 fn add_stiffness<S: Simd>(hessian: &mut Lanes6x6<S>, s: &Lanes3<S>, f: &Lanes3<S>, k: &[Lanes3<S>; 3]) {
     let [sx, sy, sz] = *s;
@@ -372,7 +380,7 @@ fn add_stiffness<S: Simd>(hessian: &mut Lanes6x6<S>, s: &Lanes3<S>, f: &Lanes3<S
             hessian[3 + row][3 + column] -= swung;
         }
     }
-    // The symmetric half of s Fᵀ - (s·F) 1.
+    // The symmetric part of s fᵀ - (s·f) 1.
     let (x, y, z) = (sx * f[0], sy * f[1], sz * f[2]);
     hessian[3][3] -= y + z;
     hessian[4][4] -= x + z;

@@ -1,7 +1,8 @@
 //! Deflections of a robot with deviations of its parameters, many at a time.
 //!
-//! Robots with taut cables, stable and within their limits, are observed in the lanes of the vector unit (`lanes/newton.rs`), each from
-//! the nominal robot's tensions. Whatever else a robot is, it is observed by [`deflection`], which has the last word on every failure.
+//! Robots with taut cables, stable and within their limits, are observed in the lanes of the vector unit
+//! (`lanes/chain.rs`), each from the tensions of the nominal robot. Any other robot is observed by
+//! [`deflection`], which decides on every failure.
 
 use crate::equations::Span;
 use crate::error::StaticsError;
@@ -32,7 +33,7 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// What the paper calls the RMS of the static deflection: |dp| [m].
+    /// |dp| [m], which the paper calls the RMS of the static deflection.
     pub fn rms(&self) -> f64 {
         self.displacement.norm()
     }
@@ -45,7 +46,7 @@ pub struct Observer<'a> {
     pose: Pose,
     load: Load,
     parameters: usize,
-    /// What the lanes begin with; `None` where they would find nothing.
+    /// What the lanes start from; `None` where they would find nothing.
     nominal: Option<Nominal>,
 }
 
@@ -59,10 +60,10 @@ struct Nominal {
 }
 
 impl<'a> Observer<'a> {
-    /// The robot `robot`, wanted at `pose` under its own weight, then loaded with `load`.
+    /// An observer of `robot`, wanted at `pose` under its own weight and then loaded with `load`.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for a load that is none, [`StaticsError::Robot`] for a robot that is none.
+    /// [`StaticsError::Invalid`] for a load that is not finite, [`StaticsError::Robot`] for an invalid robot.
     pub fn new(robot: &'a Robot, pose: &Pose, load: &Load) -> Result<Self, StaticsError> {
         robot.validate()?;
         load.validate()?;
@@ -73,7 +74,7 @@ impl<'a> Observer<'a> {
     /// Deflection of the robot with `deviations` added to its parameters, in the order of [`Parameter::all`].
     ///
     /// # Errors
-    /// [`StaticsError`]: the reason why this robot fails.
+    /// [`StaticsError`] says why this robot has no deflection.
     pub fn observe(&self, deviations: &[f64]) -> Result<Observation, StaticsError> {
         let perturbed = self.robot.perturbed(deviations)?;
         let deflection = deflection(&perturbed.robot, &self.pose, &perturbed.tension_offsets, &self.load)?;
@@ -84,9 +85,11 @@ impl<'a> Observer<'a> {
         })
     }
 
-    /// The same for any number of robots: `deviations` has a row of all parameters for each, one after the other. An answer depends on
-    /// its own row alone, to the last digit, and agrees with [`Observer::observe`] to rounding. An incomplete last row is a robot that
-    /// fails.
+    /// Deflections of any number of robots: `deviations` has a row of all parameters for each, one after the
+    /// other.
+    ///
+    /// An answer depends on its own row alone, to the last digit, and agrees with [`Observer::observe`] to
+    /// rounding. An incomplete last row is a failure.
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Observation, StaticsError>> {
         let rows = deviations.chunks_exact(self.parameters);
         let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
@@ -100,8 +103,8 @@ impl<'a> Observer<'a> {
 
 impl Nominal {
     fn new(robot: &Robot, pose: &Pose, load: &Load) -> Option<Self> {
-        // A moment has no potential: whether its equilibria are stable is not seen from pivots.
-        // The lanes hold linear cables.
+        // A moment has no potential: pivots do not show whether its equilibria are stable. The lanes hold
+        // linear cables.
         if load.wrench.moment != Vector3::zeros() || !robot.is_linear() {
             return None;
         }
@@ -115,7 +118,7 @@ impl Nominal {
             .collect();
         let w = robot.wrench_matrix(pose, &pulls);
         let tensions = DVector::from_column_slice(&solution.tensions);
-        // t = -Wᵀ λ
+        // t = -Wᵀ λ: (I1) with no reference.
         let multipliers = -(&w * w.transpose()).lu().solve(&(&w * &tensions))?;
         let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
@@ -170,7 +173,7 @@ impl WithSimd for Batch<'_> {
     }
 }
 
-/// Rows of deviations, one a lane; lanes without a row of their own repeat the last one.
+/// Rows of deviations, one for each lane; lanes without a row of their own repeat the last one.
 struct Rows<'a, S> {
     simd: S,
     rows: &'a [f64],
@@ -203,7 +206,7 @@ impl<S: Simd> Rows<'_, S> {
         ]
     }
 
-    /// The perturbed robots, and the lanes whose robot is one.
+    /// The perturbed robots, and the lanes whose robot is valid.
     #[inline(always)]
     fn robots(&self, robot: &Robot, pose: &Pose, nominal: &Nominal) -> (ChainStart<S>, Mask<S>) {
         let n = robot.cables.len();
@@ -227,7 +230,7 @@ impl<S: Simd> Rows<'_, S> {
             let density = self.parameter(layout.linear_density(), cable.properties.linear_density);
             let modulus = self.parameter(layout.youngs_modulus(), cable.properties.youngs_modulus);
             let offset = self.parameter(layout.tension_offset(i), 0.0);
-            // No number is not even itself.
+            // NaN is not equal to itself.
             sound = sound
                 & zero.less_or_equal(density)
                 & tiny.less_or_equal(modulus)

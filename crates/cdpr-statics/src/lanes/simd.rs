@@ -1,8 +1,9 @@
 //! Several numbers at a time: the lanes of the processor's vector unit. No other module names pulp.
 //!
-//! A formula written for [`Lanes`] is evaluated for as many problems as the unit has lanes (8 with AVX-512, 4 with AVX2, 1 without either;
-//! found out when the program runs). Only `+ - * /`, square roots and comparisons are used, which IEEE 754 defines to the bit, and nothing
-//! is fused: a problem has the same answer in any lane of any unit. Lanes cannot branch; where one differs, a [`Mask`] selects.
+//! A formula written for [`Lanes`] is evaluated for as many problems as the unit has lanes: 8 with AVX-512, 4
+//! with AVX2, 1 without either. The unit is detected when the program runs. Only `+ - * /`, square roots and
+//! comparisons are used, which IEEE 754 defines to the bit, and nothing is fused: a problem has the same
+//! answer in any lane of any unit. Lanes cannot branch; a [`Mask`] selects between them.
 
 use cdpr_cable::kernel::Field;
 use pulp::Arch;
@@ -11,7 +12,7 @@ pub(crate) use pulp::Scalar;
 pub(crate) use pulp::{Simd, WithSimd};
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
-/// As many lanes as any vector unit has.
+/// Largest number of lanes of any vector unit.
 pub(crate) const MAX_LANES: usize = 8;
 
 /// Runs `task` on the widest vector unit there is.
@@ -19,14 +20,14 @@ pub(crate) fn dispatch<T: WithSimd>(task: T) -> T::Output {
     Arch::new().dispatch(task)
 }
 
-/// One number a lane.
+/// One number in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lanes<S: Simd> {
     simd: S,
     values: S::f64s,
 }
 
-/// One choice a lane.
+/// One choice in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mask<S: Simd> {
     simd: S,
@@ -43,7 +44,7 @@ impl<S: Simd> Lanes<S> {
         Self { simd, values: simd.splat_f64s(value) }
     }
 
-    /// One value a lane.
+    /// A value for each lane.
     #[inline(always)]
     pub(crate) fn from_fn(simd: S, value: impl Fn(usize) -> f64) -> Self {
         let mut values = [0.0; MAX_LANES];
@@ -53,10 +54,10 @@ impl<S: Simd> Lanes<S> {
         Self::from_array(simd, &values)
     }
 
-    /// The first values of an array, one a lane.
+    /// The first values of an array, one for each lane.
     #[inline(always)]
     pub(crate) fn from_array(simd: S, values: &[f64; MAX_LANES]) -> Self {
-        // A whole vector: pulp's load of a part is a call.
+        // A whole vector: pulp loads a part of one by a function call.
         let (vectors, _) = S::as_simd_f64s(&values[..Self::COUNT]);
         Self { simd, values: vectors[0] }
     }
@@ -87,13 +88,13 @@ impl<S: Simd> Lanes<S> {
         Self { values: self.simd.abs_f64s(self.values), ..self }
     }
 
-    /// The larger one; `other` where one of them is no number.
+    /// The larger one; `other` where one of them is NaN.
     #[inline(always)]
     pub(crate) fn max(self, other: Self) -> Self {
         other.less_or_equal(self).select(self, other)
     }
 
-    /// False where one of them is no number.
+    /// False where one of them is NaN.
     #[inline(always)]
     pub(crate) fn less_or_equal(self, other: Self) -> Mask<S> {
         Mask { simd: self.simd, values: self.simd.less_than_or_equal_f64s(self.values, other.values) }
@@ -101,7 +102,7 @@ impl<S: Simd> Lanes<S> {
 }
 
 impl<S: Simd> Mask<S> {
-    /// One choice of two numbers a lane.
+    /// One of two numbers in each lane.
     #[inline(always)]
     pub(crate) fn select(self, chosen: Lanes<S>, otherwise: Lanes<S>) -> Lanes<S> {
         Lanes { simd: self.simd, values: self.simd.select_f64s(self.values, chosen.values, otherwise.values) }

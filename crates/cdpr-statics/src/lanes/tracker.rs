@@ -1,4 +1,4 @@
-//! Direct solves one after the other, each from the equilibrium before: the case of a control loop or a simulation.
+//! Direct solves one after the other, each from the equilibrium before, as in a control loop or a simulation.
 
 use crate::direct::{Start, direct};
 use crate::error::StaticsError;
@@ -35,10 +35,10 @@ pub struct Tracker<'a> {
 }
 
 impl<'a> Tracker<'a> {
-    /// Begins at the equilibrium for `lengths` [m] and `load` that [`direct`] finds from `start`.
+    /// Starts at the equilibrium for `lengths` [m] and `load` that [`direct`] finds from `start`.
     ///
     /// # Errors
-    /// Those of [`direct`], and [`StaticsError::Robot`] for a robot that is none.
+    /// Those of [`direct`], and [`StaticsError::Robot`] for an invalid robot.
     pub fn new(
         robot: &'a Robot,
         lengths: &[f64],
@@ -51,25 +51,27 @@ impl<'a> Tracker<'a> {
         Ok(Self { robot, residual: solution.report.residual, equilibrium: solution.equilibrium, farthest })
     }
 
-    /// The equilibrium at hand.
+    /// The current equilibrium.
     pub fn equilibrium(&self) -> &Equilibrium {
         &self.equilibrium
     }
 
-    /// What it leaves open in the equations.
+    /// The residual of the current equilibrium.
     pub fn residual(&self) -> Residual {
         self.residual
     }
 
-    /// Goes to the equilibrium for other lengths [m] and another load, near the one at hand. Nothing is allocated where Newton's method finds
-    /// a stable equilibrium with taut cables (up to 32 of them with AVX-512, 16 with AVX2); else [`direct`] is asked.
+    /// Goes to the equilibrium for other lengths [m] and another load, near the current one.
+    ///
+    /// Nothing is allocated where Newton's method finds a stable equilibrium with taut cables (up to 32 of
+    /// them with AVX-512, 16 with AVX2). Otherwise [`direct`] searches.
     ///
     /// # Errors
-    /// Those of [`direct`]; the equilibrium at hand is then the one before.
+    /// Those of [`direct`]; the equilibrium is then the one before.
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let problem = DirectProblem::new(self.robot, lengths, load)?;
-        // A moment has no potential: whether its equilibria are stable is not seen from pivots.
-        // The lanes hold linear cables.
+        // A moment has no potential: pivots do not show whether its equilibria are stable. The lanes hold
+        // linear cables.
         let taut = load.wrench.moment == Vector3::zeros()
             && self.robot.is_linear()
             && dispatch(Update { tracker: self, problem: &problem });
@@ -82,7 +84,7 @@ impl<'a> Tracker<'a> {
     }
 }
 
-/// Newton's method for taut cables, which fill the lanes. Whether it found an equilibrium.
+/// Newton's method for taut cables, which fill the lanes; it tells whether it found an equilibrium.
 struct Update<'a, 'b> {
     tracker: &'a mut Tracker<'b>,
     problem: &'a DirectProblem<'a>,
@@ -113,7 +115,7 @@ impl WithSimd for Update<'_, '_> {
         for first in (0..n).step_by(count) {
             let mut values = [[0.0; MAX_LANES]; 11];
             for lane in 0..count {
-                // Lanes beyond the last cable repeat it, uncounted.
+                // Lanes beyond the last cable repeat it and do not count.
                 let i = (first + lane).min(n - 1);
                 let (cable, force) = (problem.cable(i), equilibrium.cable_forces[i]);
                 let (exit, arm) = (robot.cables[i].exit_point, robot.anchor_arm(pose, i));
@@ -180,7 +182,7 @@ fn vector<S: Simd>(simd: S, v: &Vector3<f64>) -> [Lanes<S>; 3] {
     [Lanes::splat(simd, v.x), Lanes::splat(simd, v.y), Lanes::splat(simd, v.z)]
 }
 
-/// The vector that is in all lanes.
+/// The vector that all lanes hold.
 #[inline(always)]
 fn back<S: Simd>(v: &[Lanes<S>; 3]) -> Vector3<f64> {
     Vector3::new(v[0].first(), v[1].first(), v[2].first())

@@ -1,8 +1,8 @@
-//! Static deflection under a load: the difference of two equilibria, Eq. (4).
+//! Static deflection under a load, Eq. (4): the difference of two equilibria.
 //!
-//! The inverse model fixes the unstrained lengths for a wanted pose under the platform's own weight; offsets of the tension
-//! set-points change those lengths; then the direct model runs without and with the load. The deflection is
-//! `dp = p_loaded - p_unloaded`.
+//! The inverse model gives the unstrained lengths for a wanted pose under the platform's own weight. Offsets
+//! of the tension set-points change those lengths. Then the direct model runs without and with the load, and
+//! the deflection is `dp = p_loaded - p_unloaded`.
 
 use crate::direct::{DirectSolution, Start, direct};
 use crate::error::StaticsError;
@@ -26,10 +26,11 @@ pub struct Deflection {
 impl Deflection {
     /// dp = p_loaded - p_unloaded [m], Eq. (4).
     pub fn displacement(&self) -> Vector3<f64> {
+        // Eq. (4)
         self.loaded.equilibrium.pose.position - self.unloaded.equilibrium.pose.position
     }
 
-    /// What the paper calls the RMS of the static deflection: the Euclidean norm of dp [m].
+    /// Euclidean norm of dp [m], which the paper calls the RMS of the static deflection.
     pub fn rms(&self) -> f64 {
         self.displacement().norm()
     }
@@ -59,7 +60,8 @@ pub(crate) struct Wound {
     pub(crate) held: Equilibrium,
 }
 
-/// Deflection under `load` at the wanted pose `pose`, with `tension_offsets` [N] added to the least-norm tension set-points.
+/// Deflection under `load` at the wanted pose `pose`, with `tension_offsets` [N] added to the least-norm
+/// tension set-points.
 ///
 /// # Errors
 /// Those of the inverse and the direct model.
@@ -73,8 +75,10 @@ pub fn deflection(
     deflection_from(robot, lengths, load, &held)
 }
 
-/// Unstrained lengths [m] at which the cables have the least-norm tensions for `pose` under the platform's own weight, plus
-/// `tension_offsets` [N], while the platform is held there; let go, it stands elsewhere.
+/// Unstrained lengths [m] that give offset tension set-points while the platform is held at `pose`.
+///
+/// The set-points are the least-norm tensions under the platform's own weight plus `tension_offsets` [N].
+/// Once released, the platform stands elsewhere.
 ///
 /// # Errors
 /// Those of the inverse model.
@@ -112,8 +116,10 @@ pub fn deflection_from(
 /// Deflections of one pose under several loads, in the order of the loads.
 pub type PoseDeflections = Result<Vec<Result<Deflection, StaticsError>>, StaticsError>;
 
-/// Deflections dp_{j,k} of all poses j under all loads k (Eq. (4)); the inverse model runs once a pose. A pose that cannot be
-/// held and a load that cannot be borne are answers, not ends.
+/// Deflections dp_{j,k} of all poses j under all loads k, Eq. (4).
+///
+/// The inverse model runs once for each pose. A pose that cannot be held and a load that cannot be carried
+/// are failures of their own and do not end the others.
 pub fn deflections(robot: &Robot, poses: &[Pose], loads: &[Load]) -> Vec<PoseDeflections> {
     poses
         .iter()

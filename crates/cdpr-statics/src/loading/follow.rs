@@ -1,4 +1,4 @@
-//! Following an equilibrium while lengths or load change.
+//! Following an equilibrium from one setting of lengths and load to another.
 
 use crate::direct::{Path, Setting, Start, direct, follow_from};
 use crate::error::StaticsError;
@@ -8,7 +8,8 @@ use cdpr_robot::Robot;
 /// Follows the stable equilibrium near `start` from one setting to another.
 ///
 /// # Errors
-/// Those of [`direct`] at the first setting. That the equilibrium is lost on the way is an answer, not an error.
+/// Those of [`direct`] at the first setting. That the equilibrium is lost on the way is an answer, not an
+/// error.
 pub fn follow(robot: &Robot, from: &Setting, to: &Setting, start: Start) -> Result<Path, StaticsError> {
     DirectProblem::new(robot, &to.lengths, &to.load)?;
     let first = direct(robot, &from.lengths, &from.load, start)?;

@@ -1,19 +1,22 @@
-//! A payload is put on and taken off again, on cables that lose energy: where the platform ends, and what the cycle dissipates.
+//! A load cycle on cables that dissipate energy: a payload is put on and taken off again.
 //!
-//! A cable follows its loading curve while its tension grows and an unloading curve while it falls. Which, is decided at the turning
-//! points of the load: under its own weight (A) the platform has been loaded; the payload is added up to B and removed again to C.
-//! At a turning point (ε*, T*) the law of a cable becomes
+//! A cable follows its loading curve while its tension grows, and an unloading curve while it falls. Which of
+//! them it follows is decided at the turning points of the load: under its own weight (A) the platform has
+//! been loaded; the payload is added up to B and removed again to C. At a turning point (ε*, T*) the law of a
+//! cable becomes
 //!
 //! ```text
 //! ε(T) = ε* - [U(T*) - U(T)]  for T < T*,      ε(T) = ε* + [L(T) - L(T*)]  for T > T*
 //! ```
 //!
-//! with L and U the strains of the loading and unloading curves: each continues from where the cable is ([`Unloading`] says which part of
-//! U). One law holds for a whole cable; T* is the tension at its middle, from which the ends differ by half its weight.
+//! with L and U the strains of the loading and unloading curves: each continues from where the cable is
+//! ([`Unloading`] says which part of U). One law holds for a whole cable; T* is the tension at its middle,
+//! from which the ends differ by half its weight.
 //!
-//! Energy that the payload gives is the area `∮ m g dz` of payload over height of its centre; that of the cables is `∮ T dε L` of each,
-//! closed by a straight line from C to A, over which all tensions do the work of a payload that is none. Both are the same but for the weight of the
-//! cables, whose tension varies along them.
+//! The energy that the payload gives is the area `∮ m g dz` of payload over the height of its centre; the
+//! energy that a cable dissipates is the area `∮ T dε L`, closed by a straight line from C to A, over which
+//! all tensions together do no work on a payload. Both sums agree but for the weight of the cables, because
+//! of which the tension varies along them.
 
 use crate::direct::{DirectSolution, Start, direct};
 use crate::error::StaticsError;
@@ -23,7 +26,7 @@ use crate::state::{Equilibrium, Load};
 use cdpr_cable::{CableError, PiecewiseLaw, Segment};
 use cdpr_robot::{Pose, Robot, Vector3};
 
-/// The two curves of a cable, strains in proportion to the robot's modulus.
+/// The loading and unloading curves of a cable, with strains in proportion to the robot's modulus.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HysteresisLaw {
     /// Strain while the tension grows.
@@ -39,13 +42,14 @@ pub struct HysteresisLaw {
 /// Which part of the unloading curve a cable follows from a turning point below that of the record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unloading {
-    /// That of the same tensions: the modulus is a function of tension and direction.
+    /// The part at the same tensions: the modulus is a function of tension and direction.
     SameTension,
-    /// Its beginning, whatever the tension: the modulus is a function of the way back from the turning point (Masing's rule).
+    /// The first part, whatever the tension: the modulus is a function of the distance from the turning point
+    /// (Masing's rule).
     TurningPoint,
 }
 
-/// A payload put on and taken off.
+/// The cycle of a payload that is put on and taken off.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadCycle {
     /// Unstrained lengths [m].
@@ -72,7 +76,7 @@ pub struct CycleStep {
 }
 
 impl LoadCycle {
-    /// Where the platform ends less where it began [m].
+    /// Displacement that remains after the cycle [m].
     pub fn residual(&self) -> Vector3<f64> {
         self.ends(&self.unloading)
     }
@@ -91,7 +95,7 @@ impl LoadCycle {
 }
 
 impl HysteresisLaw {
-    /// A law whose way back is its way there: a cable that loses no energy.
+    /// A law that unloads as it loads: a cable that dissipates no energy.
     pub fn elastic(law: PiecewiseLaw) -> Self {
         let unloading = law.clone();
         Self { loading: law, unloading, turning_tension: 0.0, unloading_from: Unloading::SameTension }
@@ -119,12 +123,14 @@ impl HysteresisLaw {
     }
 }
 
-/// The cycle of `payload` [kg] at a pose that the inverse model holds under the platform's own weight, in `steps` steps each way, with
-/// a law for each cable; laws that the robot's cables have of their own are not asked.
+/// The load cycle of a payload [kg] at a pose that the inverse model holds under the platform's own weight,
+/// in `steps` steps each way.
+///
+/// There is one law for each cable; the laws of the robot's own cables are ignored.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] for a payload that is not positive, no step, or a law too few or too many; those of the inverse and the
-/// direct model.
+/// [`StaticsError::Invalid`] for a payload that is not positive, zero steps, or another number of laws than
+/// of cables; those of the inverse and the direct model.
 pub fn load_cycle(
     robot: &Robot,
     laws: &[HysteresisLaw],

@@ -17,7 +17,8 @@ pub struct PoseStiffness {
     pub stability: Stability,
 }
 
-/// The Cartesian stiffness at a wanted pose under the platform's weight and `load`, be the equilibrium there stable or not.
+/// The Cartesian stiffness at a wanted pose under the platform's weight and `load`, be the equilibrium there
+/// stable or not.
 ///
 /// # Errors
 /// Those of [`inverse`] and of [`DirectProblem::direct_any`].

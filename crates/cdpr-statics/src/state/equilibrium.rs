@@ -7,7 +7,8 @@ use cdpr_robot::{Pose, Vector2};
 pub struct Equilibrium {
     /// Pose of the platform.
     pub pose: Pose,
-    /// Force `(fx, fz)` on each cable at A, in the cable's vertical plane [N]; the platform receives the opposite.
+    /// Force `(fx, fz)` on each cable at A, in the cable's vertical plane [N]. The platform receives the
+    /// opposite, F_i.
     pub cable_forces: Vec<Vector2<f64>>,
 }
 

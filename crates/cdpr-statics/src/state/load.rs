@@ -2,7 +2,7 @@
 
 use cdpr_robot::{Pose, Robot, Wrench};
 
-/// What acts on the platform besides its own weight and the cables.
+/// Load on the platform besides its own weight and the cables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
     /// Mass added at the platform's centre of mass [kg].
@@ -12,7 +12,7 @@ pub struct Load {
 }
 
 impl Load {
-    /// Nothing but the platform's own weight.
+    /// No load: the platform carries its own weight only.
     pub fn none() -> Self {
         Self { payload: 0.0, wrench: Wrench::zero() }
     }
@@ -27,7 +27,7 @@ impl Load {
         Self { wrench, ..Self::none() }
     }
 
-    /// All that acts on the platform but the cables: weight and load, about P [N, N m].
+    /// Wrench w_ex of weight and load about P [N, N m].
     pub(crate) fn total(&self, robot: &Robot, pose: &Pose) -> Wrench {
         robot.weight(pose, self.payload) + self.wrench
     }

@@ -1,17 +1,18 @@
-//! What an answer leaves open in the equations.
+//! Residual of the equations of an equilibrium.
 
-/// What stays open in the original `6 + 2n` equations.
+/// Residual of the original `6 + 2n` equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
     /// Largest distance between the end of a cable and its anchor point [m].
     pub closure: f64,
-    /// Open force on the platform [N].
+    /// Unbalanced force on the platform [N].
     pub force: f64,
-    /// Open moment about P [N m].
+    /// Unbalanced moment about P [N m].
     pub moment: f64,
 }
 
-/// What the closure of a cable is off by rounding [m]: that of lengths up to `size` and coordinates up to `coordinates` [m].
+/// Rounding error of the closure of a cable [m], for lengths up to `size` and coordinates up to `coordinates`
+/// [m].
 pub(crate) fn rounding_of_closure(size: f64, coordinates: f64) -> f64 {
     1e-13 * size + 4.0 * f64::EPSILON * coordinates
 }
