@@ -53,8 +53,8 @@ pub enum StaticsError {
     /// The equilibrium found strains a cable by more than 10 %, beyond which the law of a linear,
     /// small-strain cable is invalid.
     #[error(
-        "cable {}: its {length} m, with {distance:.4} m between its points, are strained by {:.1} % at the \
-         equilibrium found: too short or too soft for this load",
+        "cable {} is strained by {:.1} % at the equilibrium found: its unstrained length is {length} m, the distance of its \
+         points {distance:.4} m; it is too short or too soft for this load",
         index + 1, 100.0 * strain
     )]
     Overstrained {
