@@ -1,17 +1,16 @@
-//! All figures of the results of a study, by the names of their files.
+//! All figures of the results of a study, with the names of their files.
 
 use crate::error::ReportError;
 use crate::figure::points::{Points, point_effects};
 use crate::{histogram, pose_maps, robot_view, shares, signed_effects, surface};
 use cdpr_study::{Drawable, Figure, IndexMap, Results, Study, StudySummary};
 
-/// Bars of signed effects.
+/// Number of bars of signed effects.
 const EFFECTS: usize = 20;
-/// Inputs among the measures of sensitivity.
+/// Number of leading inputs whose shares of the variance are drawn.
 pub(crate) const LEADING: usize = 12;
 
-/// Draws the figures of one part of a study, or those of the study as a whole: what [`cdpr_study::run`]
-/// calls.
+/// Draws the figures of one part of a study, or those of the whole study. [`cdpr_study::run`] calls it.
 pub fn draw(study: &Study, of: Drawable) -> Vec<Figure> {
     match of {
         Drawable::Sampling { name, summary } => {
@@ -39,7 +38,7 @@ pub fn draw(study: &Study, of: Drawable) -> Vec<Figure> {
     }
 }
 
-/// Draws all figures of results that were read back.
+/// Draws all figures of results that are read back.
 pub fn figures(results: &Results) -> Vec<Figure> {
     let Results { study, summary, surfaces, poses, .. } = results;
     let of_part = |(name, part): (&String, &StudySummary)| match part {
@@ -57,7 +56,7 @@ pub fn figures(results: &Results) -> Vec<Figure> {
     summary.studies.iter().flat_map(of_part).chain(draw(study, whole)).collect()
 }
 
-/// The effects of anchor and exit points of all samplings that have them, one panel each.
+/// Effects of the anchor points and of the exit points, with one panel per sampling that has them.
 fn effects_of_points(study: &Study, studies: &IndexMap<String, StudySummary>) -> Vec<Figure> {
     let kinds = [("anchor_points", "a1.x", Points::Anchor), ("exit_points", "b1.x", Points::Exit)];
     let drawn = kinds.into_iter().filter_map(|(name, parameter, points)| {

@@ -1,25 +1,26 @@
-//! Figures of study results, ready for a paper: one function a figure, results in, SVG text out. And
-//! [`report()`], which puts all of them into one HTML file beside the robot in space. [`draw()`] gives the
-//! figures of a run to [`cdpr_study::run`]. Nothing here reads or writes files.
+//! Figures of study results, ready for a paper, and [`report()`], which shows them in one HTML file.
 //!
-//! | figure of the paper | function |
-//! |---|---|
-//! | none: the robot at the poses of a study | [`robot_view`] |
-//! | 3: load over elongation, and other cycles | [`cycle`] |
-//! | 4a, 5a: distribution of the RMS with its fitted laws | [`histogram`] |
-//! | 4b, 4c: RMS over two parameters | [`surface`] |
-//! | 5b, 5c: t-Student of the points' coordinates | [`point_effects`] |
-//! | none: signed effects with their intervals | [`signed_effects`] |
-//! | none: shares of the variance by all measures | [`shares`] |
-//! | none: deflection, stiffness, tension over a plane of the workspace | [`heat_map`] |
-//! | none: the dominant tolerance over it | [`tolerance_map`] |
-//! | none: all maps of a plane or of the layers of a box | [`workspace_maps`] |
-//! | none: what a sampling at many poses says over the workspace | [`pose_maps`] |
-//! | none: answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
+//! Each figure is one function from results to SVG text. [`draw()`] draws all figures of a finished part of a
+//! study from memory, for [`cdpr_study::run`]. Nothing here reads or writes files.
+//!
+//! | figure of the paper | content | function |
+//! |---|---|---|
+//! | | the robot at the poses of a study | [`robot_view`] |
+//! | 3 | load over elongation, and other cycles | [`cycle`] |
+//! | 4a, 5a | distribution of the RMS with its fitted laws | [`histogram`] |
+//! | 4b, 4c | RMS over two parameters | [`surface`] |
+//! | 5b, 5c | t-Student index of the coordinates of points | [`point_effects`] |
+//! | | signed effects with their intervals | [`signed_effects`] |
+//! | | shares of the variance by all measures | [`shares`] |
+//! | | deflection, stiffness or tension over a plane of the workspace | [`heat_map`] |
+//! | | the dominant tolerance over a plane | [`tolerance_map`] |
+//! | | all maps of a plane or of the layers of a box | [`workspace_maps`] |
+//! | | results of a sampling at many poses over the workspace | [`pose_maps`] |
+//! | | answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
 //! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
-//! Cable-Driven Parallel Robots*, 2017. All figures are 700 px wide on white; colours are those of Okabe and
-//! Ito and viridis, both safe for the colour-blind. The same results give the same bytes.
+//! Cable-Driven Parallel Robots*, 2017. All figures are 700 px wide on white. Their colours are those of
+//! Okabe and Ito and viridis, which are safe for the colour-blind. The same results give the same bytes.
 //!
 //! ```no_run
 //! use cdpr_study::{Session, Study, analyse, observe, write_figure};

@@ -1,10 +1,10 @@
-//! The report: one HTML file that tells what was studied and what came out, with all figures, and needs
-//! nothing else.
+//! The report: one HTML file with the study, its results and all figures, which needs no other file.
 //!
-//! Static figures are the SVG of this crate, put in as they are. The robot and the surfaces in space are
-//! drawn by plotly.js (`vendor/plotly`) from data that the page carries as JSON. Everything that comes from
-//! files is escaped by maud; the data stands in a `script` element that no browser runs, without a `<`. A
-//! content security policy names the two scripts by their hashes and forbids all others and every connection.
+//! Static figures are the SVG files of this crate, byte for byte. plotly.js (`vendor/plotly`) draws the robot
+//! and the surfaces in space from data that the page holds as JSON. maud escapes everything that comes from
+//! files. The data stands in a `script` element of a type that no browser runs, and contains no `<`. A
+//! content security policy allows the two scripts by their hashes, and forbids all other scripts and every
+//! connection.
 
 mod comparison;
 mod elements;
@@ -30,14 +30,16 @@ const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 const PLOTLY: &str = include_str!("../vendor/plotly/plotly-gl3d.min.js");
 
-/// What the page's script draws.
+/// Data that the script of the page draws.
 #[derive(Serialize)]
 struct Data<'a> {
     robot: Option<&'a Scene>,
     surfaces: Vec<results::SpaceSurface>,
 }
 
-/// The report of a study as the text of an HTML file. What cannot be drawn is said in its place.
+/// Writes the report of a study as the text of an HTML file.
+///
+/// The page gives the reason in the place of a figure that cannot be drawn.
 ///
 /// # Errors
 /// [`ReportError::Drawing`] if the data of the page cannot be written as JSON.
@@ -45,7 +47,7 @@ pub fn report(results: &Results) -> Result<String, ReportError> {
     report_with(results, &figures(results))
 }
 
-/// The same with figures that are drawn already, by [`crate::draw()`].
+/// Writes the report of a study with figures that [`crate::draw()`] has drawn already.
 ///
 /// # Errors
 /// As [`report`].
@@ -73,6 +75,7 @@ pub fn report_with(results: &Results, figures: &[Figure]) -> Result<String, Repo
     Ok(page(results, &sections, &json).into_string())
 }
 
+/// The page with its contents, sections and scripts.
 fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
     let title = &results.summary.study;
     html! {
@@ -93,7 +96,8 @@ fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
                     nav aria-label="Contents" {
                         ol {
                             li { a href="#content" { "At a glance" } }
-                            @for section in sections { li { a href={ "#" (section.id) } { (section.title) } } }
+                            @for section in sections { li { a href={ "#" (section.id) } { (section.title) } }
+                                }
                         }
                     }
                     main id="content" {
@@ -105,11 +109,12 @@ fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
                             }
                         }
                         footer {
-                            "Written by cdpr " (results.summary.version) ". Interactive figures by plotly.js 4.1.1 (MIT licence)."
+                            "Written by cdpr " (results.summary.version)
+                                ". Interactive figures by plotly.js 4.1.1 (MIT licence)."
                         }
                     }
                 }
-                // No browser runs this type; without `<` nothing in it can end the element.
+                // No browser runs this type. Without `<`, nothing in the data can end the element.
                 script type="application/json" id="data" { (PreEscaped(json.replace('<', "\\u003c"))) }
                 script { (PreEscaped(PLOTLY)) }
                 script { (PreEscaped(SCRIPT)) }
@@ -118,11 +123,12 @@ fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
     }
 }
 
-/// Scripts by their hashes, styles and images from the page itself, nothing else and no connection.
+/// Content security policy: scripts by their hashes, styles and images of the page itself, and no connection.
 fn policy() -> String {
     let hash = |script: &str| BASE64_STANDARD.encode(Sha256::digest(script));
     format!(
-        "default-src 'none'; script-src 'sha256-{}' 'sha256-{}'; style-src 'unsafe-inline'; img-src data: blob:; \
+        "default-src 'none'; script-src 'sha256-{}' 'sha256-{}'; style-src 'unsafe-inline'; img-src data: \
+            blob:; \
          base-uri 'none'; form-action 'none'",
         hash(PLOTLY),
         hash(SCRIPT)

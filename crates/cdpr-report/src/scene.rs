@@ -1,4 +1,4 @@
-//! The robot at the poses of a study, as points in space: what the page draws with plotly.js.
+//! The robot at the poses of a study, as points in space. The page draws it with plotly.js.
 
 use crate::text;
 use cdpr_cable::Catenary;
@@ -7,27 +7,27 @@ use cdpr_statics::{Deflection, Equilibrium};
 use cdpr_study::{Study, StudyError};
 use serde::Serialize;
 
-/// Points of a cable.
+/// Number of points along a cable.
 const POINTS: usize = 49;
 
-/// The robot at all poses.
+/// Robot at all poses of a study.
 #[derive(Serialize)]
 pub(crate) struct Scene {
     /// Exit points [m].
     pub(crate) exits: Vec<[f64; 3]>,
-    /// The exit points' numbers around their middle, seen from above.
+    /// Indices of the exit points in the order of their angle around their middle, seen from above.
     pub(crate) ring: Vec<usize>,
     /// Height of the floor [m].
     pub(crate) floor: f64,
     pub poses: Vec<ScenePose>,
 }
 
-/// The robot at one pose.
+/// Robot at one pose.
 #[derive(Serialize)]
 pub(crate) struct ScenePose {
     #[serde(skip)]
     pub pose: Pose,
-    /// Samplings and surfaces at this pose.
+    /// Names of the samplings and surfaces at this pose.
     #[serde(skip)]
     pub parts: Vec<String>,
     pub name: String,
@@ -36,16 +36,16 @@ pub(crate) struct ScenePose {
     /// Unstrained lengths [m].
     #[serde(skip)]
     pub lengths: Vec<f64>,
-    /// |dp| [mm].
+    /// Deflection |dp| [mm].
     pub deflection_mm: f64,
-    /// The axis that a platform of coplanar anchor points is thinnest along, if it is one.
+    /// For a platform of coplanar anchor points, the axis closest to their normal.
     flat: Option<&'static str>,
 }
 
-/// An equilibrium.
+/// Robot in equilibrium.
 #[derive(Serialize)]
 pub(crate) struct State {
-    /// P and G [m].
+    /// Reference point P and centre of mass G [m].
     position: [f64; 3],
     center_of_mass: [f64; 3],
     /// Anchor points [m].
@@ -53,20 +53,21 @@ pub(crate) struct State {
     pub cables: Vec<SceneCable>,
 }
 
-/// A cable in equilibrium.
+/// Cable in equilibrium.
 #[derive(Serialize)]
 pub(crate) struct SceneCable {
-    /// From exit point to anchor point [m].
+    /// Points from the exit point to the anchor point [m].
     pub(crate) points: Vec<[f64; 3]>,
-    /// At the platform [N].
+    /// Tension at the platform [N].
     pub tension: f64,
     /// Greatest distance from the chord [mm].
     pub sag_mm: f64,
 }
 
 impl Scene {
-    /// Every pose of the study once, in the order of its samplings and surfaces; one of a sampling at
-    /// several.
+    /// Collects every pose of the study once, in the order of its samplings and surfaces.
+    ///
+    /// A sampling at several poses contributes the first pose that the nominal robot holds.
     ///
     /// # Errors
     /// As [`Study::sampling`].
@@ -83,7 +84,7 @@ impl Scene {
                 add(name, found.pose, &found.deflection);
                 continue;
             }
-            // Of many poses the first that is held stands for all.
+            // The first pose that is held stands for all poses of the sampling.
             let prefix = format!("{name}/");
             let mut names = study.sampling_names().filter(|name| name.starts_with(&prefix));
             if let Some((found, name)) = names.find_map(|name| Some((study.nominal(&name).ok()?, name))) {
@@ -95,7 +96,7 @@ impl Scene {
             add(name, found.pose, &found.deflection);
         }
         if let (true, Some(name)) = (poses.is_empty(), study.sampling_names().next()) {
-            // The reason why there is nothing to draw.
+            // This returns the reason why there is nothing to draw.
             study.nominal(&name)?;
         }
         let exits: Vec<[f64; 3]> = study.robot.cables.iter().map(|cable| cable.exit_point.into()).collect();
@@ -108,11 +109,11 @@ impl Scene {
 
 impl ScenePose {
     fn new(robot: &Robot, part: &str, pose: Pose, nominal: &Deflection) -> Self {
-        let turned = if pose.quaternion() == [1.0, 0.0, 0.0, 0.0] { "" } else { ", turned" };
+        let rotated = if pose.quaternion() == [1.0, 0.0, 0.0, 0.0] { "" } else { ", rotated" };
         let unloaded = State::new(robot, &nominal.lengths, &nominal.unloaded.equilibrium);
         Self {
             flat: flat(&unloaded.anchors),
-            name: format!("{} m{turned}", text::point(pose.position.as_slice())),
+            name: format!("{} m{rotated}", text::point(pose.position.as_slice())),
             parts: vec![part.to_owned()],
             loaded: State::new(robot, &nominal.lengths, &nominal.loaded.equilibrium),
             unloaded,
@@ -130,7 +131,7 @@ impl State {
         let cables = lengths.iter().zip(cable_forces).enumerate().map(|(i, (length, force))| {
             let catenary = Catenary { cable: robot.cable(i), unstrained_length: *length, force: *force };
             let (exit, span) = (robot.cables[i].exit_point, robot.span(pose, i));
-            // A cable that hangs straight down has no direction in the plan, and needs none.
+            // A vertical cable has no direction in the plan and needs none.
             let along = span.xy().try_normalize(0.0).unwrap_or_default();
             let place = |point: cdpr_robot::Vector2<f64>| {
                 (exit + Vector3::new(along.x * point.x, along.y * point.x, point.y)).into()
@@ -149,17 +150,18 @@ impl State {
         }
     }
 
-    /// The greatest sag [mm].
+    /// Greatest sag of the cables [mm].
     pub(crate) fn greatest_sag_mm(&self) -> f64 {
         self.cables.iter().map(|cable| cable.sag_mm).fold(0.0, f64::max)
     }
 }
 
+/// Mean of points.
 fn middle(points: &[[f64; 3]]) -> Vector3<f64> {
     points.iter().map(|point| Vector3::from(*point)).sum::<Vector3<f64>>() / points.len() as f64
 }
 
-/// The points' numbers by their angle around their middle, seen from above.
+/// Indices of points in the order of their angle around their middle, seen from above.
 fn around(points: &[[f64; 3]]) -> Vec<usize> {
     let middle = middle(points);
     let angle = |i: &usize| (points[*i][1] - middle.y).atan2(points[*i][0] - middle.x);
@@ -168,13 +170,13 @@ fn around(points: &[[f64; 3]]) -> Vec<usize> {
     order
 }
 
-/// Points within a thousandth of their extent from a plane: the axis that is nearest to its normal.
+/// For points within a thousandth of their extent of a plane, the axis closest to its normal.
 fn flat(points: &[[f64; 3]]) -> Option<&'static str> {
     let middle = middle(points);
     let spread: Matrix3<f64> = points
         .iter()
         .map(|point| Vector3::from(*point) - middle)
-        .map(|arm| arm * arm.transpose())
+        .map(|offset| offset * offset.transpose())
         .fold(Matrix3::zeros(), |sum, part| sum + part);
     let eigen = spread.symmetric_eigen();
     let (least, normal) = (eigen.eigenvalues.imin(), eigen.eigenvalues.min());

@@ -107,6 +107,11 @@ impl ValueFormatter<f64> for Axis {
     }
 }
 
+/// Range from the least to the greatest of some values.
+pub(crate) fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
+    values.fold(f64::INFINITY..f64::NEG_INFINITY, |range, value| range.start.min(value)..range.end.max(value))
+}
+
 /// Whether a value is whole up to rounding.
 fn is_whole(value: f64) -> bool {
     (value - value.round()).abs() < 1e-6 * value.abs().max(1e-3)

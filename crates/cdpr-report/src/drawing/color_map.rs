@@ -1,9 +1,10 @@
 //! Map in colour of a value over a grid of two quantities, with contour lines and a colour bar.
 
-use crate::drawing::axis::Axis;
+use crate::drawing::axis::{Axis, extent};
 use crate::drawing::style::{self, Area, DrawingError, GREY, MARGIN, Pen, X_AXIS, px};
 use crate::error::ReportError;
 use plotters::prelude::*;
+use std::ops::Range;
 
 /// Width of the colour bar with its axis [px].
 pub(crate) const COLOR_BAR: f64 = 96.0;
@@ -41,7 +42,7 @@ impl Nodes {
     }
 
     /// Range from the first to the last value.
-    pub(crate) fn range(&self) -> std::ops::Range<f64> {
+    pub(crate) fn range(&self) -> Range<f64> {
         self.edge(0)..self.edge(self.values.len())
     }
 
@@ -127,11 +128,8 @@ impl ColorMap {
         if values.len() != cells.count() {
             return Err(ReportError::invalid(field, &values.len(), "one value a grid point"));
         }
-        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
-        for &value in values.iter().flatten() {
-            ReportError::finite(field, value)?;
-            (least, greatest) = (least.min(value), greatest.max(value));
-        }
+        values.iter().flatten().try_for_each(|value| ReportError::finite(field, *value).map(|_| ()))?;
+        let Range { start: least, end: greatest } = extent(values.iter().copied().flatten());
         if least > greatest {
             return Err(ReportError::Empty { what: "no point of the grid has a value" });
         }

@@ -39,6 +39,11 @@ pub(crate) fn px(pixels: f64) -> i32 {
     (pixels * UNITS).round() as i32
 }
 
+/// Converts a position in pixels to the integers that plotters takes.
+pub(crate) fn pixel((x, y): (f64, f64)) -> (i32, i32) {
+    (px(x), px(y))
+}
+
 /// Colour, width and dashes of a line.
 #[derive(Clone, Copy)]
 pub(crate) struct Pen {

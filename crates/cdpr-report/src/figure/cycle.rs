@@ -1,10 +1,11 @@
 //! A load cycle as lines: Fig. 3 of the paper, and the cycle of a platform on such cables.
 
-use crate::drawing::axis::{Axis, Grid, chart};
+use crate::drawing::axis::{Axis, Grid, chart, extent};
 use crate::drawing::heading::Heading;
 use crate::drawing::style::{self, BLUE, GREEN, HEIGHT, ORANGE, Pen, VERMILLION};
 use crate::error::ReportError;
 use plotters::prelude::*;
+use std::ops::Range;
 
 const PENS: [Pen; 4] = [
     Pen::solid(BLUE, 2.0),
@@ -57,10 +58,9 @@ pub fn cycle(cycle: &Cycle) -> Result<String, ReportError> {
         }
     }
     let range = |value: fn(&(f64, f64)) -> f64| {
-        let least = points().map(value).fold(f64::INFINITY, f64::min);
-        let greatest = points().map(value).fold(f64::NEG_INFINITY, f64::max);
-        let margin = 0.05 * (greatest - least);
-        least - margin..greatest + margin
+        let Range { start, end } = extent(points().map(value));
+        let margin = 0.05 * (end - start);
+        start - margin..end + margin
     };
     let x = Axis::numbers(range(|point| point.0), 9, cycle.x);
     let y = Axis::numbers(range(|point| point.1), 7, cycle.y);

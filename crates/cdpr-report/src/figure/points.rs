@@ -1,15 +1,16 @@
 //! Effects of the coordinates of anchor and exit points, in the plan of the robot: Fig. 5b and 5c of the
 //! paper.
 
-use crate::drawing::axis::Axis;
+use crate::drawing::axis::{Axis, extent};
 use crate::drawing::heading::Heading;
-use crate::drawing::style::{self, Area, BLUE, DrawingError, GREEN, GREY, MARGIN, ORANGE, Pen, px, text};
+use crate::drawing::style::{self, Area, BLUE, DrawingError, GREEN, GREY, MARGIN, ORANGE, Pen, pixel, text};
 use crate::error::ReportError;
 use crate::text::number;
 use cdpr_robot::{Axis as Coordinate, Parameter, Pose, Robot, Vector3};
 use cdpr_study::SamplingSummary;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::ops::Range;
 
 /// Names and colours of the bars of x, y and z.
 const COORDINATES: [(&str, RGBColor); 3] = [("x", BLUE), ("y", ORANGE), ("z", GREEN)];
@@ -194,9 +195,8 @@ impl Panel {
         }
         centred(area, "t [-]", (SCALE, foot + 10.0))?;
         let bounds = |axis: usize| {
-            let values = || self.places.iter().map(|place| place[axis]);
-            let ends = [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)];
-            ends.map(|end| number(end, 2)).join(" to ")
+            let Range { start, end } = extent(self.places.iter().map(|place| place[axis]));
+            [start, end].map(|end| number(end, 2)).join(" to ")
         };
         for (line, axis) in ["x", "y"].iter().enumerate() {
             let place = (LIST - 72.0, PLAN[1].1 - 22.0 + 15.0 * line as f64);
@@ -230,16 +230,13 @@ struct Plan {
 
 impl Plan {
     fn new(places: &[[f64; 2]], center: [f64; 2]) -> Self {
-        let all = || places.iter().chain([&center]);
-        let bounds = [0, 1].map(|axis| {
-            all().map(|place| place[axis]).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                (low.min(value), high.max(value))
-            })
-        });
-        let room = |axis: usize| (PLAN[axis].1 - PLAN[axis].0) / (bounds[axis].1 - bounds[axis].0).max(1e-9);
+        let [x, y] = [0, 1].map(|axis| extent(places.iter().chain([&center]).map(|place| place[axis])));
+        let room = |axis: usize, range: &Range<f64>| {
+            (PLAN[axis].1 - PLAN[axis].0) / (range.end - range.start).max(1e-9)
+        };
         // The factor leaves room for the bars of points at the left and right edge.
-        let scale = (0.8 * room(0)).min(room(1));
-        Self { scale, middle: bounds.map(|(low, high)| 0.5 * (low + high)) }
+        let scale = (0.8 * room(0, &x)).min(room(1, &y));
+        Self { scale, middle: [x, y].map(|range| 0.5 * (range.start + range.end)) }
     }
 
     fn place(&self, [x, y]: [f64; 2]) -> (f64, f64) {
@@ -294,10 +291,6 @@ impl Plan {
         }
         feet
     }
-}
-
-fn pixel((x, y): (f64, f64)) -> (i32, i32) {
-    (px(x), px(y))
 }
 
 fn centred(area: &Area, text: &str, place: (f64, f64)) -> Result<(), DrawingError> {

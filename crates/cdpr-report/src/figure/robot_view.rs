@@ -1,8 +1,10 @@
 //! The robot with its sagging cables at the poses of a study, in a parallel projection to scale.
 
+use crate::drawing::axis::extent;
 use crate::drawing::heading::Heading;
 use crate::drawing::style::{
-    self, Area, BLUE, DrawingError, GREEN, GREY, HEIGHT, MARGIN, ORANGE, Pen, VERMILLION, WIDTH, px, text,
+    self, Area, BLUE, DrawingError, GREEN, GREY, HEIGHT, MARGIN, ORANGE, Pen, VERMILLION, WIDTH, pixel, px,
+    text,
 };
 use crate::error::ReportError;
 use crate::scene::{Scene, State};
@@ -10,6 +12,7 @@ use crate::text::number;
 use cdpr_robot::Axis;
 use cdpr_study::Study;
 use plotters::prelude::*;
+use std::ops::Range;
 
 /// Direction of the viewer: angle from the x axis around z, and angle above the horizon [rad].
 const AZIMUTH: f64 = -1.05;
@@ -32,8 +35,7 @@ pub fn robot_view(study: &Study) -> Result<String, ReportError> {
     }
     let projection = Projection::of(&scene);
     let tensions = poses.iter().flat_map(|(pose, _)| pose.loaded.cables.iter().map(|cable| cable.tension));
-    let (least, greatest) =
-        tensions.fold((f64::INFINITY, 0.0_f64), |(low, high), t| (low.min(t), high.max(t)));
+    let Range { start: least, end: greatest } = extent(tensions);
     let sag = poses.iter().map(|(pose, _)| pose.loaded.greatest_sag_mm()).fold(0.0, f64::max);
     let heading = Heading {
         title: &format!("{} under {} kg, to scale", study.robot.name, study.file.payload),
@@ -78,11 +80,8 @@ impl Projection {
         let cables = scene.poses.iter().flat_map(|pose| &pose.loaded.cables);
         let cables = cables.flat_map(|cable| cable.points.iter().copied());
         let all: Vec<_> = scene.exits.iter().copied().chain(feet).chain(cables).map(seen).collect();
-        let range = |of: fn(&(f64, f64)) -> f64| {
-            let values = all.iter().map(of);
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
-        };
-        let ((left, right), (low, high)) = (range(|place| place.0), range(|place| place.1));
+        let Range { start: left, end: right } = extent(all.iter().map(|place| place.0));
+        let Range { start: low, end: high } = extent(all.iter().map(|place| place.1));
         let room = (WIDTH - 4.0 * MARGIN, HEIGHT - 4.0 * MARGIN);
         let scale = (room.0 / (right - left)).min(room.1 / (high - low));
         Self {
@@ -103,13 +102,11 @@ impl Projection {
         pen: Pen,
         points: impl Iterator<Item = [f64; 3]>,
     ) -> Result<(), DrawingError> {
-        let pixels = points.map(|point| self.place(point)).map(|(x, y)| (px(x), px(y)));
-        pen.draw(area, pixels.collect())
+        pen.draw(area, points.map(|point| pixel(self.place(point))).collect())
     }
 
     fn dot(&self, area: &Area, point: [f64; 3], color: RGBColor) -> Result<(), DrawingError> {
-        let (x, y) = self.place(point);
-        area.draw(&Circle::new((px(x), px(y)), px(2.6) as u32, color.filled()))
+        area.draw(&Circle::new(pixel(self.place(point)), px(2.6) as u32, color.filled()))
     }
 
     /// Draws posts from the floor to the exit points, beams between these, and the axes of the base frame.
@@ -137,7 +134,7 @@ impl Projection {
             self.line(area, Pen::solid(color, 1.1), cable.points.iter().copied())?;
         }
         let outline = outline(state.anchors.iter().map(|anchor| self.place(*anchor)).collect());
-        let pixels: Vec<_> = outline.into_iter().map(|(x, y)| (px(x), px(y))).collect();
+        let pixels: Vec<_> = outline.into_iter().map(pixel).collect();
         area.draw(&Polygon::new(pixels, color.mix(0.35)))?;
         state.anchors.iter().try_for_each(|anchor| self.dot(area, *anchor, color))
     }

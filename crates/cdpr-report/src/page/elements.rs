@@ -1,10 +1,10 @@
-//! What the sections of the page are made of: figures, tables, numbers.
+//! Elements of the sections: figures, tables, numbers.
 
 use crate::text;
 use cdpr_study::Figure;
 use maud::{Markup, PreEscaped, html};
 
-/// A part of the report.
+/// Section of the report.
 pub(crate) struct Section {
     /// Anchor in the page.
     pub(crate) id: &'static str,
@@ -18,14 +18,14 @@ impl Section {
     }
 }
 
-/// The text of a figure, or why it cannot be drawn.
+/// The SVG text of a figure, or the reason why there is none.
 pub(crate) fn svg<'a>(figures: &'a [Figure], name: &str) -> Result<&'a str, &'a str> {
     let found = figures.iter().find(|figure| figure.name == name);
     let svg = found.map(|figure| figure.svg.as_deref().map_err(String::as_str));
     svg.unwrap_or(Err("it was not drawn"))
 }
 
-/// A figure drawn by this crate, or why it cannot be drawn.
+/// A figure with its description for screen readers and its caption, or the reason why there is none.
 pub(crate) fn figure(name: &str, alt: &str, figures: &[Figure], caption: &Markup) -> Markup {
     match svg(figures, name) {
         Ok(svg) => html! {
@@ -38,7 +38,7 @@ pub(crate) fn figure(name: &str, alt: &str, figures: &[Figure], caption: &Markup
     }
 }
 
-/// A table that scrolls sideways where it does not fit.
+/// Table that scrolls sideways if it is too wide.
 pub(crate) fn table(caption: &str, head: &[&str], rows: &[Vec<Markup>]) -> Markup {
     html! {
         div.table tabindex="0" role="region" aria-label=(caption) {
@@ -59,13 +59,14 @@ pub(crate) fn table(caption: &str, head: &[&str], rows: &[Vec<Markup>]) -> Marku
     }
 }
 
-/// A cell of plain text.
+/// Cell of plain text.
 pub(crate) fn cell(text: impl AsRef<str>) -> Markup {
     html! { (text.as_ref()) }
 }
 
-/// A cell of a number with so many significant digits; a dash without a number.
+/// Cell of a number with this many significant digits, or a dash if there is no number.
 pub(crate) fn numeric(value: impl Into<Option<f64>>, digits: usize) -> Markup {
     let value = value.into();
-    html! { span.number { @match value { Some(value) => (text::figures(value, digits)), None => "\u{2013}" } } }
+    html! { span.number { @match value { Some(value) => (text::figures(value, digits)), None => "\u{2013}" } }
+    }
 }

@@ -1,5 +1,6 @@
-//! Samplings at several poses: maps over the workspace, extremes, which parameters matter where. However many
-//! poses there are, there is a section for all of them; a row each stands in the table beside the report.
+//! Samplings at several poses: maps over the workspace, extremes, and the dominant parameters.
+//!
+//! One section shows all poses of a sampling. The table beside the report has one row per pose.
 
 use crate::page::elements::{Section, cell, figure, numeric, table};
 use crate::page::glance;
@@ -8,7 +9,7 @@ use crate::text;
 use cdpr_study::{Extremes, Figure, HELD, PosesSummary, Results};
 use maud::{Markup, html};
 
-/// Parameters named as dominant.
+/// Number of dominant parameters that are listed.
 const LEADING: usize = 12;
 
 pub(crate) fn section(results: &Results, figures: &[Figure]) -> Option<Section> {
@@ -17,14 +18,14 @@ pub(crate) fn section(results: &Results, figures: &[Figure]) -> Option<Section> 
     let body = html! {
         @for (name, summary) in &all {
             h3 { (summary.title) }
-            p { (held(summary)) " A row each stands in " code { (name) ".csv" } "." }
+            p { (held(summary)) " The table " code { (name) ".csv" } " has one row per pose." }
             @let maps = maps_of(name, figures);
-            @if maps.is_empty() { p.note { "No maps: the poses are on no plane or box." } }
+            @if maps.is_empty() { p.note { "There are no maps, because the poses form no plane or box." } }
             @for map in maps {
                 @let file = format!("{name}_{map}");
                 @let alt = format!("Map of the workspace, {}, of {name}", map.replace('_', " "));
                 @let drawn = figure(&file, &alt, figures, &caption(map));
-                // The layers of a box are many.
+                // A box has many layers, which are folded away.
                 @if map.contains("_z") { details { summary { (file) } (drawn) } } @else { (drawn) }
             }
             (extremes(summary))
@@ -34,14 +35,14 @@ pub(crate) fn section(results: &Results, figures: &[Figure]) -> Option<Section> 
     (!all.is_empty()).then(|| Section::new("workspace", "Over the workspace", body))
 }
 
-/// The maps of a sampling, by what their files have behind its name.
+/// Names of the maps of a sampling: the part of their file names after its own name.
 fn maps_of<'a>(name: &str, figures: &'a [Figure]) -> Vec<&'a str> {
     let behind = |figure: &'a Figure| figure.name.strip_prefix(name)?.strip_prefix('_');
     let is_map = |map: &&str| matches!(map.split('_').next(), Some("mean" | "std" | "dominant"));
     figures.iter().filter_map(behind).filter(is_map).collect()
 }
 
-/// How many poses are held, and why others are not.
+/// Number of poses that the nominal robot holds, and the reasons why it does not hold others.
 pub(crate) fn held(summary: &PosesSummary) -> String {
     let others = summary.status.iter().filter(|(status, _)| *status != HELD);
     let others: Vec<_> =
@@ -58,7 +59,7 @@ fn caption(map: &str) -> Markup {
         }
         _ => "The parameter with the largest t-Student index at each pose.",
     };
-    html! { (words) " Grey and hatched: no pose that the nominal robot holds." }
+    html! { (words) " Grey, hatched positions: the nominal robot does not hold the pose." }
 }
 
 fn extremes(summary: &PosesSummary) -> Markup {

@@ -41,8 +41,8 @@ fn view(robot: &Robot, scene: &Scene) -> Markup {
             div.plot id="plot-robot" role="img" aria-label=(alt) tabindex="0" {}
             noscript { p.note { "Only the view in space needs JavaScript." } }
             figcaption {
-                span id="robot-note" {} " The colour of a cable shows its tension at the platform. Grey posts "
-                "and ring: a frame through the exit points, because a robot file describes no other. Drag to "
+                span id="robot-note" {} " The colour of a cable shows its tension at the platform. Grey "
+                "posts and ring: a frame through the exit points, because a robot file describes no other. Drag to "
                 "rotate; click, then wheel or pinch to zoom; with the "
                 "keyboard: arrows, + and \u{2212}."
             }
@@ -81,7 +81,8 @@ fn cables(scene: &Scene) -> Markup {
                     " mm, greatest sag "
                     (text::digits(pose.unloaded.greatest_sag_mm(), 3)) " mm" }
                 @let caption = format!(
-                    "Cables of the nominal robot at {}; tensions at the platform, sag across the chord", pose.name
+                    "Cables of the nominal robot at {}; tensions at the platform, sag across the chord",
+                    pose.name
                 );
                 (table(&caption, &head, &rows(pose)))
             }
