@@ -1,6 +1,7 @@
-//! Every kind of bad input on the command line and in files: the whole message, a snapshot to be read as a user reads it.
+//! Every kind of bad input on the command line and in files, with the whole message as a snapshot.
 //!
-//! After a change, `INSTA_UPDATE=always cargo test -p cdpr-cli --test bad_input` writes the snapshot anew; read its difference.
+//! After a change, `INSTA_UPDATE=always cargo test -p cdpr-cli bad_input` writes the snapshot anew; read the
+//! difference as a user would.
 
 use crate::common::{cdpr_in, data_text as data, text};
 use std::fmt::Write;

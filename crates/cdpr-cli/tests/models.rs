@@ -1,5 +1,6 @@
-//! `cdpr catenary`, `inverse`, `direct`, `deflection`, `stiffness`, `check` and `completions` as a user meets them: the numbers of the
-//! library and of the references in 40-digit arithmetic.
+//! The commands about one cable and about a robot at a pose, as a user meets them.
+//!
+//! Their numbers are those of the library and of the references in 40-digit arithmetic.
 
 use crate::common::{answered, cdpr, data_path, data_text, text};
 use cdpr_robot::{

@@ -1,4 +1,4 @@
-//! Studies in blocks on disk: whatever happens to a run, what comes out in the end is what one that nothing happened to writes.
+//! Studies in blocks on disk: an interrupted, damaged or shared run ends with the results of one that is not.
 
 use crate::common::{Bench, assert_same_files, cdpr, data, text};
 use serde_json::{Value, json};

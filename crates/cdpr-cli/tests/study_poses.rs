@@ -1,4 +1,4 @@
-//! Samplings at several poses: each says what a sampling at that pose alone says, and those that nothing holds are data.
+//! Samplings at several poses: each equals a sampling at that pose alone, and poses that are not held are data.
 
 use crate::common::{Bench, text};
 use serde_json::{Value, json};
@@ -181,7 +181,11 @@ fn poses_that_are_none_are_refused_with_their_place() {
             "samplings.plane.poses.list is empty: expected at least one pose",
         ),
         (
-            |s| s["poses"] = json!({"list": [{"position": [0, 0, 1.75]}, {"position": [0, 0, 1], "quaternion": [0, 0, 0, 0]}]}),
+            |s| {
+                s["poses"] = json!({"list": [
+                    {"position": [0, 0, 1.75]}, {"position": [0, 0, 1], "quaternion": [0, 0, 0, 0]}
+                ]})
+            },
             "samplings.plane.poses.list[1] is ",
         ),
         (
@@ -305,7 +309,8 @@ fn names_whose_files_would_be_those_of_another_part_are_refused() {
 fn where_one_pose_is_wanted_several_are_refused_with_their_names() {
     let bench = plane(|study| {
         study["comparison"] = json!([{
-            "figure": "1", "quantity": "mean", "study": "plane", "statistic": "mean", "paper": 1.0, "unit": "mm", "last_digit": 0.1
+            "figure": "1", "quantity": "mean", "study": "plane", "statistic": "mean", "paper": 1.0,
+            "unit": "mm", "last_digit": 0.1
         }]);
     });
     let message = bench.refused(&["run", "study.json"]);

@@ -1,4 +1,4 @@
-//! A study shared by processes, through the scripts for clusters and through MPI: the files are those of one run.
+//! A study shared by processes, by the scripts for clusters and by MPI, has the files of one run.
 
 #![cfg(unix)]
 

@@ -23,15 +23,18 @@ use std::path::PathBuf;
 
 /// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables.
 ///
-/// A robot does not change: `with_parameters` makes another one. SI units; base frame with z up; poses are x,
-/// y, z [m] or x, y, z, qw, qx, qy, qz.
+/// A robot does not change: `with_parameters` makes another one. Units are SI, and z points up in the base
+/// frame. A pose is x, y, z [m], or x, y, z, qw, qx, qy, qz.
 ///
-/// anchor_points: (n, 3), points A_i in the platform frame [m]. exit_points: (n, 3), points B_i in the base
-/// frame [m]. mass: mass of the platform [kg]. section: section of a cable that carries its tension [m²];
-/// this and the next two: one number, or one for each cable. linear_density: mass per unstrained length
-/// [kg/m]. youngs_modulus: Young's modulus [Pa]. tension_limits: least and greatest tension of a cable at the
-/// platform [N]. center_of_mass: centre of mass in the platform frame [m]; P if left out. gravity:
-/// acceleration due to gravity [m/s²].
+/// anchor_points: (n, 3), points A_i in the platform frame [m].
+/// exit_points: (n, 3), points B_i in the base frame [m].
+/// mass: mass of the platform [kg].
+/// section: section that carries the tension [m²]; one number, or one for each cable, as for the next two.
+/// linear_density: mass per unstrained length [kg/m].
+/// youngs_modulus: Young's modulus [Pa].
+/// tension_limits: least and greatest tension of a cable at the platform [N].
+/// center_of_mass: centre of mass in the platform frame [m]; P if left out.
+/// gravity: acceleration due to gravity [m/s²].
 ///
 /// Raises InputError naming the field, its value and what would be right.
 #[pyclass(frozen, module = "cdpr")]

@@ -64,9 +64,10 @@ impl Robot {
     ///
     /// Arguments are of one case, or have a first axis of m cases.
     ///
-    /// lengths: unstrained lengths of the cables [m], (n,). force, moment: on the platform in the base frame,
-    /// about P [N, N m], (3,). payload: mass added at the platform's centre of mass [kg]. start: pose where
-    /// the search starts, (3,) or (7,); if left out, where straight cables would hold a point.
+    /// lengths: unstrained lengths of the cables [m], (n,).
+    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
+    /// payload: mass added at the platform's centre of mass [kg].
+    /// start: start of the search, (3,) or (7,); if left out, where straight cables would hold a point.
     ///
     /// Raises InputError; for one case NoSolutionError.
     #[pyo3(signature = (lengths, *, force=None, moment=None, payload=None, start=None))]

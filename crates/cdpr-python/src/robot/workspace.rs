@@ -56,11 +56,11 @@ impl Robot {
     ///
     /// Positions are on a grid, with the platform level.
     ///
-    /// x, y, z: coordinates along each axis [m]: a number, or (from, to, points). plane: in place of x, y and
-    /// z, a plane over the frame of the exit points, ("z", 1.75). grid: points of the plane along its two
-    /// axes; (41, 41) if left out. payload: mass added at the platform's centre of mass [kg], whose effect is
-    /// the deflection; 0 for no deflection. uncertainty: standard deviations of parameters or groups of them
-    /// [SI units]: {"a": 0.002, "mass": 0.5}.
+    /// x, y, z: coordinates along each axis [m]: a number, or (from, to, points).
+    /// plane: in place of x, y and z, a plane over the frame of the exit points, ("z", 1.75).
+    /// grid: points of the plane along its two axes; (41, 41) if left out.
+    /// payload: mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
+    /// uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
     ///
     /// Raises InputError. A position that is not held is no error.
     #[pyo3(signature = (*, x=None, y=None, z=None, plane=None, grid=None, payload, uncertainty=None))]
