@@ -41,14 +41,13 @@ mod store;
 
 pub use analysis::comparison::{ComparisonRow, Verdict};
 pub use analysis::extremes::Extremes;
-pub use analysis::part::StudySummary;
+pub use analysis::measures::{InputMeasures, MEASURES, Measure, Quantity};
+pub use analysis::part::{Overview, StudySummary};
 pub use analysis::poses::{HELD, PoseRow, PosesSummary, observe_poses};
 pub use analysis::sampling::{
     FitSummary, NominalSummary, RmsSummary, SamplingSummary, SignedEffect, analyse,
 };
-pub use analysis::sensitivity::{
-    Agreement, InputMeasures, Measure, MethodSummary, RANKED, SHARES, SensitivitySummary, measure,
-};
+pub use analysis::sensitivity::{Agreement, MethodSummary, SensitivitySummary, measure};
 pub use analysis::summary::Summary;
 pub use analysis::surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
 pub use cdpr_sensitivity::{Estimate, Family, Truncation};

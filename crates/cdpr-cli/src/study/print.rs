@@ -3,7 +3,7 @@
 mod sensitivity;
 
 use crate::output::table;
-use cdpr_study::{Extremes, PosesSummary, StudySummary, Summary, Timings};
+use cdpr_study::{Extremes, Overview, PosesSummary, StudySummary, Summary, Timings};
 
 /// Prints all results of a study, and how long each took.
 pub(super) fn print(summary: &Summary, timings: &Timings) {
@@ -26,26 +26,16 @@ fn print_results(summary: &Summary) {
     println!("{}: {}\n", summary.robot, summary.study);
     let mut rows = table(&["study", "n", "failed", "nominal", "mean", "std", "min", "max", "[mm]  best fit"]);
     for (name, study) in &summary.studies {
-        rows.add_row(match study {
-            StudySummary::Sampling(s) => {
-                let best = s.fits.iter().find(|fit| Some(fit.law) == s.best_fit);
-                let best = best.map(|fit| format!("{}, p = {:.3}", fit.law, fit.p_value));
-                let rms = s.rms_mm.as_ref();
-                let rms = rms.map_or([None; 5], |r| [r.nominal, r.mean, r.std, r.min, r.max].map(Some));
-                let counts = [s.observations, s.failed.values().sum()].map(|count| count.to_string());
-                row(name, counts, rms, best.unwrap_or_default())
-            }
-            StudySummary::Surface(s) => {
-                let rms = [Some(s.rms_mm.nominal), None, None, s.rms_mm.min, s.rms_mm.max];
-                let counts = [s.observations, s.failed.values().sum()].map(|count| count.to_string());
-                row(name, counts, rms, String::new())
-            }
-            StudySummary::Poses(s) => {
-                let means = [s.mean_mm.map(|mean| mean.min), s.mean_mm.map(|mean| mean.max)];
-                let counts = [s.observations, s.failed.values().sum()].map(|count| count.to_string());
-                row(name, counts, [None, None, None, means[0], means[1]], "means at the poses".to_owned())
-            }
-        });
+        let counts = [study.observations(), study.failed().values().sum()].map(|count| count.to_string());
+        let Overview { nominal, mean, std, min, max, best_fit } = study.overview();
+        let rms = [nominal, mean, std, min, max].map(|value| value.map(|value| format!("{value:.4}")));
+        let last = match (study, best_fit) {
+            (StudySummary::Poses(_), _) => "means at the poses".to_owned(),
+            (_, Some(fit)) => format!("{}, p = {:.3}", fit.law, fit.p_value),
+            (_, None) => String::new(),
+        };
+        let cells = rms.map(Option::unwrap_or_default).into_iter().chain([last]);
+        rows.add_row([name.clone()].into_iter().chain(counts).chain(cells));
     }
     println!("{rows}\n");
     for (name, study) in &summary.studies {
@@ -79,11 +69,6 @@ fn print_poses(name: &str, summary: &PosesSummary) {
     for (parameter, count) in dominant.into_iter().take(5) {
         println!("{name}: {parameter} dominates at {count} poses");
     }
-}
-
-fn row(name: &str, counts: [String; 2], rms: [Option<f64>; 5], last: String) -> Vec<String> {
-    let rms = rms.map(|value| value.map_or_else(String::new, |value| format!("{value:.4}")));
-    [name.to_owned()].into_iter().chain(counts).chain(rms).chain([last]).collect()
 }
 
 fn print_comparison(summary: &Summary) {

@@ -5,31 +5,18 @@ use crate::drawing::heading::Heading;
 use crate::drawing::style::{self, BLUE, GREEN, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
 use crate::error::ReportError;
 use crate::text::number;
-use cdpr_study::{InputMeasures, SamplingSummary, SensitivitySummary};
+use cdpr_study::{MEASURES, Measure, SamplingSummary, SensitivitySummary};
 use plotters::prelude::*;
 
-/// Lines of dots from top to bottom.
-const MEASURES: [Line; 6] = [
-    ("derivatives", BLUE, |input| input.derivative_share, |_| None),
-    ("SRC\u{b2}", ORANGE, |input| input.regression_share, |_| None),
-    ("rank SRC\u{b2}", GREEN, |input| input.rank_regression_share, |_| None),
-    ("expansion", VERMILLION, |input| input.expansion_first, |_| None),
-    (
-        "Sobol' first",
-        BLACK,
-        |input| input.sobol_first,
-        |input| input.sobol_first_low.zip(input.sobol_first_high),
-    ),
-    (
-        "Sobol' total",
-        GREY,
-        |input| input.sobol_total,
-        |input| input.sobol_total_low.zip(input.sobol_total_high),
-    ),
+/// Measures that have a line of dots, from top to bottom, with its colour.
+const LINES: [(&str, RGBColor); 6] = [
+    ("derivative_share", BLUE),
+    ("regression_share", ORANGE),
+    ("rank_regression_share", GREEN),
+    ("expansion_first", VERMILLION),
+    ("sobol_first", BLACK),
+    ("sobol_total", GREY),
 ];
-
-type Line =
-    (&'static str, RGBColor, fn(&InputMeasures) -> Option<f64>, fn(&InputMeasures) -> Option<(f64, f64)>);
 
 /// Height of an input with all its lines [px].
 const ROW: f64 = 44.0;
@@ -55,22 +42,25 @@ pub fn shares(summary: &SamplingSummary, most: usize) -> Result<String, ReportEr
     inputs.truncate(most);
     // The leading input is on top.
     inputs.reverse();
-    let measured = |line: &&Line| inputs.iter().any(|input| line.2(input).is_some());
-    let lines: Vec<&Line> = MEASURES.iter().filter(measured).collect();
+    let line = |(name, color): (&str, RGBColor)| {
+        Some((*MEASURES.iter().find(|measure| measure.name == name)?, color))
+    };
+    let measured = |(measure, _): &(Measure, _)| inputs.iter().any(|input| (measure.value)(input).is_some());
+    let lines: Vec<(Measure, RGBColor)> = LINES.into_iter().filter_map(line).filter(measured).collect();
     if lines.is_empty() {
         return Err(ReportError::Empty { what: "shares of the variance" });
     }
     let mut dots = Vec::new();
     for (row, input) in inputs.iter().enumerate() {
-        for (place, &&(name, color, value, interval)) in lines.iter().enumerate() {
-            let Some(value) = value(input) else { continue };
-            let field = format!("sensitivity.{}: {name}", input.input);
-            let (low, high) = interval(input).unwrap_or((value, value));
+        for (place, (measure, color)) in lines.iter().enumerate() {
+            let Some(value) = (measure.value)(input) else { continue };
+            let field = format!("sensitivity.{}: {}", input.input, measure.label);
+            let [low, high] = measure.interval.and_then(|of| of(input)).unwrap_or([value, value]);
             for value in [value, low, high] {
                 ReportError::finite(&field, value)?;
             }
             let y = (row + 1) as f64 - STEP * (place as f64 - 0.5 * (lines.len() - 1) as f64);
-            dots.push((y, color, [low, value, high].map(|share| share.max(LEAST).log10())));
+            dots.push((y, *color, [low, value, high].map(|share| share.max(LEAST).log10())));
         }
     }
     let ticks = [0.0001, 0.001, 0.01, 0.1, 1.0].map(|share: f64| (share.log10(), percent(share))).to_vec();
@@ -78,7 +68,8 @@ pub fn shares(summary: &SamplingSummary, most: usize) -> Result<String, ReportEr
     let rightmost = dots.iter().map(|(.., share)| share[2]).fold(0.0, f64::max);
     let x = Axis { range: LEAST.log10()..rightmost + 0.1, ticks, label };
     let y = Axis::names(inputs.iter().map(|input| input.input.clone()), "");
-    let key: Vec<_> = lines.iter().map(|(name, color, ..)| ((*name).to_owned(), Pen::bar(*color))).collect();
+    let key: Vec<_> =
+        lines.iter().map(|(measure, color)| (measure.label.to_owned(), Pen::bar(*color))).collect();
     let heading =
         Heading { title: &summary.title, lines: &subtitle(summary, sensitivity, inputs.len()), key: &key };
     let height = heading.height() + ROW * inputs.len() as f64 + X_AXIS + MARGIN + 4.0;

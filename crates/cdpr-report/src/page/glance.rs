@@ -3,7 +3,9 @@
 use crate::page::elements::{cell, numeric, table};
 use crate::parameters;
 use crate::text;
-use cdpr_study::{PosesSummary, Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict};
+use cdpr_study::{
+    Overview, PosesSummary, Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict,
+};
 use maud::{Markup, html};
 
 /// Largest number of dominant parameters, and the least share of the largest index that such a parameter has.
@@ -119,40 +121,28 @@ fn overview(summary: &Summary) -> Markup {
         .iter()
         .map(|(name, study)| {
             let title = html! { (study.title()) span.detail { (name) } };
-            let (nominal, mean, std, least, greatest, law, leading) = match study {
+            let Overview { nominal, mean, std, min, max, .. } = study.overview();
+            let (law, leading) = match study {
                 StudySummary::Sampling(sampling) => {
-                    let rms = sampling.rms_mm.as_ref();
                     let leading: Vec<_> =
                         dominant(sampling).iter().map(|effect| parameters::symbol(effect.0)).collect();
-                    let law = sampling.best_fit.map_or_else(String::new, |family| family.to_string());
-                    let of = |value: fn(&cdpr_study::RmsSummary) -> f64| rms.map(value);
                     (
-                        of(|r| r.nominal),
-                        of(|r| r.mean),
-                        of(|r| r.std),
-                        of(|r| r.min),
-                        of(|r| r.max),
-                        law,
+                        sampling.best_fit.map_or_else(String::new, |family| family.to_string()),
                         leading.join(", "),
                     )
                 }
                 StudySummary::Surface(surface) => {
-                    let rms = surface.rms_mm;
                     let over = surface.parameters.each_ref().map(|name| parameters::symbol(name)).join(", ");
-                    (Some(rms.nominal), None, None, rms.min, rms.max, String::new(), format!("over {over}"))
+                    (String::new(), format!("over {over}"))
                 }
                 StudySummary::Poses(poses) => {
-                    // Means over the observations, at the poses where they are least and greatest.
-                    let [least, greatest] =
-                        [poses.mean_mm.map(|mean| mean.min), poses.mean_mm.map(|mean| mean.max)];
-                    let leading = format!("means at {} of {} poses", poses.held(), poses.poses);
-                    (None, None, None, least, greatest, String::new(), leading)
+                    (String::new(), format!("means at {} of {} poses", poses.held(), poses.poses))
                 }
             };
             let mut row = vec![title];
             row.extend([nominal, mean].map(|value| numeric(value, 4)));
             row.push(numeric(std, 3));
-            row.extend([least, greatest].map(|value| numeric(value, 4)));
+            row.extend([min, max].map(|value| numeric(value, 4)));
             row.extend([cell(law), cell(leading)]);
             row
         })

@@ -6,7 +6,10 @@ use crate::page::elements::{Section, cell, figure, numeric, svg, table};
 use crate::page::glance::{samplings, surfaces as all_surfaces};
 use crate::parameters::{self, axis_of};
 use crate::text;
-use cdpr_study::{Figure, InputMeasures, Results, SamplingSummary, SensitivitySummary, Statistic};
+use cdpr_study::{
+    Figure, InputMeasures, MEASURES, Measure, Quantity, Results, SamplingSummary, SensitivitySummary,
+    Statistic,
+};
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
 
@@ -171,22 +174,16 @@ pub(crate) fn measures(results: &Results, figures: &[Figure]) -> Option<Section>
 }
 
 fn side_by_side(found: &SensitivitySummary) -> Markup {
-    type Column = (&'static str, fn(&InputMeasures) -> Option<f64>);
-    const COLUMNS: [Column; 8] = [
-        ("t-Student", |input| input.t_student),
-        ("Derivatives", |input| input.derivative_share),
-        ("SRC\u{b2}", |input| input.regression_share),
-        ("Rank SRC\u{b2}", |input| input.rank_regression_share),
-        ("Morris [mm]", |input| input.morris_mean_absolute_mm),
-        ("Bound on the total", |input| input.dgsm_total_bound),
-        ("Expansion, total", |input| input.expansion_total),
-        ("Sobol', total", |input| input.sobol_total),
-    ];
-    let columns: Vec<Column> =
-        COLUMNS.into_iter().filter(|(_, of)| found.inputs.iter().any(|input| of(input).is_some())).collect();
-    let head: Vec<&str> = ["Parameter"].into_iter().chain(columns.iter().map(|column| column.0)).collect();
+    let measured = |measure: &&Measure| found.inputs.iter().any(|input| (measure.value)(input).is_some());
+    let measures: Vec<&Measure> = MEASURES.iter().filter(|measure| measure.ranks).filter(measured).collect();
+    let label = |measure: &&Measure| match measure.quantity {
+        Quantity::Change => format!("{} [mm]", measure.label),
+        _ => measure.label.to_owned(),
+    };
+    let labels: Vec<String> = measures.iter().map(label).collect();
+    let head: Vec<&str> = ["Parameter"].into_iter().chain(labels.iter().map(String::as_str)).collect();
     let row = |input: &InputMeasures| -> Vec<Markup> {
-        let values = columns.iter().map(|(_, of)| numeric(of(input), 3));
+        let values = measures.iter().map(|measure| numeric((measure.value)(input), 3));
         [cell(parameters::symbol(&input.input))].into_iter().chain(values).collect()
     };
     let rows: Vec<_> = found.leading().into_iter().take(LEADING).map(row).collect();

@@ -1,7 +1,7 @@
 //! The results of one part of a study.
 
 use crate::analysis::poses::PosesSummary;
-use crate::analysis::sampling::SamplingSummary;
+use crate::analysis::sampling::{FitSummary, SamplingSummary};
 use crate::analysis::surface::SurfaceSummary;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -45,4 +45,50 @@ impl StudySummary {
             Self::Poses(poses) => &poses.failed,
         }
     }
+
+    /// The row of this part in an overview of the study.
+    pub fn overview(&self) -> Overview<'_> {
+        match self {
+            Self::Sampling(sampling) => {
+                let rms = sampling.rms_mm.as_ref();
+                Overview {
+                    nominal: rms.map(|rms| rms.nominal),
+                    mean: rms.map(|rms| rms.mean),
+                    std: rms.map(|rms| rms.std),
+                    min: rms.map(|rms| rms.min),
+                    max: rms.map(|rms| rms.max),
+                    best_fit: sampling.fits.iter().find(|fit| Some(fit.law) == sampling.best_fit),
+                }
+            }
+            Self::Surface(SurfaceSummary { rms_mm, .. }) => Overview {
+                nominal: Some(rms_mm.nominal),
+                min: rms_mm.min,
+                max: rms_mm.max,
+                ..Overview::default()
+            },
+            // Means over the observations, at the poses where they are least and greatest.
+            Self::Poses(PosesSummary { mean_mm, .. }) => Overview {
+                min: mean_mm.map(|mean| mean.min),
+                max: mean_mm.map(|mean| mean.max),
+                ..Overview::default()
+            },
+        }
+    }
+}
+
+/// The RMS of the static deflection [mm] of one part of a study; what the part does not have is absent.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Overview<'a> {
+    /// Of the nominal robot.
+    pub nominal: Option<f64>,
+    /// Mean.
+    pub mean: Option<f64>,
+    /// Standard deviation.
+    pub std: Option<f64>,
+    /// Least value; of a sampling at several poses the least mean.
+    pub min: Option<f64>,
+    /// Greatest value; of a sampling at several poses the greatest mean.
+    pub max: Option<f64>,
+    /// The law that fits best.
+    pub best_fit: Option<&'a FitSummary>,
 }

@@ -14,6 +14,7 @@
 //! Derivatives and polynomials take the continuous laws: steps of h in a uniform range R change a variance by a relative
 //! (h / R)². All observations are of the stepped inputs.
 
+use crate::analysis::measures::{InputMeasures, MEASURES, Measure, Quantity};
 use crate::error::StudyError;
 use crate::file::study_file::{SensitivitySpec, StudyFile};
 use crate::model::designs::{MORRIS, Points, SALTELLI};
@@ -44,45 +45,6 @@ pub struct SensitivitySummary {
     pub agreement: Agreement,
     /// What could not be measured, and why.
     pub notes: Vec<String>,
-}
-
-/// Values of the measures for one input; `None` for a method that has failed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct InputMeasures {
-    /// Name of the input.
-    pub input: String,
-    /// The paper's t-Student index (section 5.2).
-    pub t_student: Option<f64>,
-    /// Mean RMS in the upper half of its range minus that in the lower half [mm].
-    pub signed_effect_mm: Option<f64>,
-    /// Share of the variance to first order, from exact derivatives at the nominal robot.
-    pub derivative_share: Option<f64>,
-    /// Squared standardised regression coefficient.
-    pub regression_share: Option<f64>,
-    /// The same of ranks.
-    pub rank_regression_share: Option<f64>,
-    /// Morris's mean absolute elementary effect, between probabilities 0 and 1 [mm].
-    pub morris_mean_absolute_mm: Option<f64>,
-    /// Deviation of its elementary effects [mm].
-    pub morris_std_mm: Option<f64>,
-    /// Bound on its total index from derivatives; `None` for a law without a known constant.
-    pub dgsm_total_bound: Option<f64>,
-    /// Index of the first order of the chaos expansion.
-    pub expansion_first: Option<f64>,
-    /// Its total index.
-    pub expansion_total: Option<f64>,
-    /// Sobol' index of the first order.
-    pub sobol_first: Option<f64>,
-    /// Lower end of its interval.
-    pub sobol_first_low: Option<f64>,
-    /// Upper end of its interval.
-    pub sobol_first_high: Option<f64>,
-    /// Total Sobol' index.
-    pub sobol_total: Option<f64>,
-    /// Lower end of its interval.
-    pub sobol_total_low: Option<f64>,
-    /// Upper end of its interval.
-    pub sobol_total_high: Option<f64>,
 }
 
 /// The observations on which a method rests, and how well it explains the output.
@@ -118,32 +80,6 @@ pub struct Agreement {
     /// Spearman's rank correlation over all inputs, of each of these measures with each; `None` with one that does not vary.
     pub rank_correlation: Vec<Vec<Option<f64>>>,
 }
-
-/// A measure by the name of its field.
-pub type Measure = (&'static str, fn(&InputMeasures) -> Option<f64>);
-
-/// The measures by which inputs are ranked, one for each method.
-pub const RANKED: [Measure; 8] = [
-    ("t_student", |input| input.t_student),
-    ("derivative_share", |input| input.derivative_share),
-    ("regression_share", |input| input.regression_share),
-    ("rank_regression_share", |input| input.rank_regression_share),
-    ("morris_mean_absolute_mm", |input| input.morris_mean_absolute_mm),
-    ("dgsm_total_bound", |input| input.dgsm_total_bound),
-    ("expansion_total", |input| input.expansion_total),
-    ("sobol_total", |input| input.sobol_total),
-];
-
-/// Shares of the variance: without interactions, those of the first order add up to 1, and so do the total ones.
-pub const SHARES: [Measure; 7] = [
-    ("derivative_share", |input| input.derivative_share),
-    ("regression_share", |input| input.regression_share),
-    ("rank_regression_share", |input| input.rank_regression_share),
-    ("expansion_first", |input| input.expansion_first),
-    ("sobol_first", |input| input.sobol_first),
-    ("expansion_total", |input| input.expansion_total),
-    ("sobol_total", |input| input.sobol_total),
-];
 
 /// Most inputs that count as leading.
 const LEADING: usize = 10;
@@ -216,7 +152,9 @@ impl SensitivitySummary {
     pub fn leading(&self) -> Vec<&InputMeasures> {
         let mut inputs: Vec<_> = self.inputs.iter().collect();
         let last = self.agreement.measures.last();
-        if let Some((_, of)) = RANKED.iter().find(|(name, _)| last.is_some_and(|last| last == name)) {
+        if let Some(Measure { value: of, .. }) =
+            MEASURES.iter().find(|one| last.is_some_and(|last| last == one.name))
+        {
             inputs.sort_by(|one, other| of(other).unwrap_or(0.0).total_cmp(&of(one).unwrap_or(0.0)));
         }
         inputs
@@ -361,9 +299,9 @@ fn sums(sampling: &Sampling, inputs: &[InputMeasures]) -> IndexMap<String, Index
     let mut sums: IndexMap<String, IndexMap<String, f64>> = IndexMap::new();
     for (group, input) in groups.zip(inputs).chain(inputs.iter().map(|input| ("all", input))) {
         let sums = sums.entry(group.to_owned()).or_default();
-        for (name, of) in SHARES {
-            if let Some(share) = of(input) {
-                *sums.entry(name.to_owned()).or_default() += share;
+        for measure in MEASURES.iter().filter(|measure| measure.quantity == Quantity::Share) {
+            if let Some(share) = (measure.value)(input) {
+                *sums.entry(measure.name.to_owned()).or_default() += share;
             }
         }
     }
@@ -373,10 +311,12 @@ fn sums(sampling: &Sampling, inputs: &[InputMeasures]) -> IndexMap<String, Index
 impl Agreement {
     fn of(inputs: &[InputMeasures]) -> Self {
         let first = LEADING.min(inputs.len().div_ceil(2));
-        let column = |(name, of): Measure| {
-            Some((name.to_owned(), inputs.iter().map(of).collect::<Option<Vec<f64>>>()?))
+        let column = |measure: &Measure| {
+            let values = inputs.iter().map(measure.value).collect::<Option<Vec<f64>>>()?;
+            Some((measure.name.to_owned(), values))
         };
-        let (measures, columns): (Vec<_>, Vec<_>) = RANKED.into_iter().filter_map(column).unzip();
+        let (measures, columns): (Vec<_>, Vec<_>) =
+            MEASURES.iter().filter(|measure| measure.ranks).filter_map(column).unzip();
         let leads = |values: &Vec<f64>, input: usize| {
             values[input] > 0.0 && values.iter().filter(|value| **value > values[input]).count() < first
         };

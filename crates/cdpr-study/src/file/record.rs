@@ -2,7 +2,9 @@
 //! that begin with `#` are comments.
 
 use crate::error::StudyError;
+use crate::fs::files::read;
 use cdpr_cable::{Phase, Record, RecordError, Sample};
+use csv::{ReaderBuilder, StringRecord, Trim};
 use std::path::Path;
 
 const COLUMNS: [&str; 3] = ["force_n", "elongation_mm", "phase"];
@@ -12,9 +14,7 @@ const COLUMNS: [&str; 3] = ["force_n", "elongation_mm", "phase"];
 /// # Errors
 /// [`StudyError::Read`]; [`StudyError::Record`] names the line.
 pub fn open_record(path: &Path) -> Result<Record, StudyError> {
-    let text =
-        std::fs::read_to_string(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })?;
-    read_record(&text).map_err(|source| StudyError::Record { path: path.to_owned(), source })
+    read_record(&read(path)?).map_err(|source| StudyError::Record { path: path.to_owned(), source })
 }
 
 /// The same from text.
@@ -25,10 +25,10 @@ pub fn read_record(text: &str) -> Result<Record, RecordError> {
     let mut samples = Vec::new();
     let mut places = None;
     for (i, text) in text.lines().enumerate() {
-        let row: Vec<&str> = text.split(',').map(str::trim).collect();
-        if text.starts_with('#') || row == [""] {
+        if text.starts_with('#') || text.trim().is_empty() {
             continue;
         }
+        let row = cells(text);
         match places {
             None => places = Some(header(&row, i + 1)?),
             Some(places) => samples.push(sample(&row, places, i + 1)?),
@@ -40,20 +40,26 @@ pub fn read_record(text: &str) -> Result<Record, RecordError> {
     Record::new(&samples)
 }
 
+/// The cells of a line, without the blanks around them. Lines are read one by one, because errors count comments, too.
+fn cells(line: &str) -> StringRecord {
+    let mut reader = ReaderBuilder::new().has_headers(false).trim(Trim::All).from_reader(line.as_bytes());
+    reader.records().find_map(Result::ok).unwrap_or_default()
+}
+
 /// Places of the three columns. Another unit is another name: `force_kn` is refused.
-fn header(row: &[&str], line: usize) -> Result<[usize; 3], RecordError> {
+fn header(row: &StringRecord, line: usize) -> Result<[usize; 3], RecordError> {
     let mut places = [0; 3];
     for (place, column) in places.iter_mut().zip(COLUMNS) {
-        *place = row.iter().position(|name| *name == column).ok_or_else(|| {
-            let names = row.join(",");
+        *place = row.iter().position(|name| name == column).ok_or_else(|| {
+            let names = row.iter().collect::<Vec<_>>().join(",");
             invalid(line, "header", names, &format!("a column `{column}`"))
         })?;
     }
     Ok(places)
 }
 
-fn sample(row: &[&str], places: [usize; 3], line: usize) -> Result<Sample, RecordError> {
-    let text = |k: usize| row.get(places[k]).copied().unwrap_or_default();
+fn sample(row: &StringRecord, places: [usize; 3], line: usize) -> Result<Sample, RecordError> {
+    let text = |k: usize| row.get(places[k]).unwrap_or_default();
     let number = |k: usize| -> Result<f64, RecordError> {
         text(k).parse().map_err(|_| invalid(line, COLUMNS[k], format!("`{}`", text(k)), "a number"))
     };

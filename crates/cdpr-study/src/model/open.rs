@@ -120,8 +120,9 @@ impl Study {
         for (name, spec) in &file.samplings {
             self.check_sampling(name, spec)?;
         }
-        for name in file.surfaces.keys() {
-            self.surface(name)?;
+        for (name, spec) in &file.surfaces {
+            self.surface_axes(name, spec)?;
+            self.nominal(name)?;
         }
         for (i, row) in file.comparison.iter().enumerate() {
             let at_one_pose = file.samplings.get(&row.study).is_some_and(|spec| spec.pose.is_some());

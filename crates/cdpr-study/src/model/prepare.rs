@@ -1,7 +1,7 @@
 //! Samplings and surfaces of a study made ready to run.
 
 use crate::error::StudyError;
-use crate::file::study_file::{AxisSpec, InputSpec, SamplingSpec};
+use crate::file::study_file::{AxisSpec, InputSpec, SamplingSpec, SurfaceSpec};
 use crate::model::error_model::{ErrorModel, Wrong};
 use crate::model::operating_point::{Moduli, resolved};
 use crate::model::pose_set::Located;
@@ -91,8 +91,7 @@ impl Study {
         };
         let pose = self.pose(&format!("{field}.pose"), &spec.pose)?;
         let load = Load::payload(self.file.payload);
-        let x = self.axis(&format!("{field}.x"), &spec.x)?;
-        let y = self.axis(&format!("{field}.y"), &spec.y)?;
+        let [x, y] = self.surface_axes(name, spec)?;
         let field = format!("{field}.pose.position");
         let nominal = self.deflection(&field, &pose)?;
         let observer = Observer::new(&self.robot, &pose, &load);
@@ -140,6 +139,15 @@ impl Study {
             return Err(self.invalid(&field, "empty", "at least one uncertain parameter"));
         }
         Ok((found, moduli))
+    }
+
+    pub(crate) fn surface_axes(
+        &self,
+        name: &str,
+        spec: &SurfaceSpec,
+    ) -> Result<[SurfaceAxis; 2], StudyError> {
+        let axis = |letter, spec| self.axis(&format!("surfaces.{name}.{letter}"), spec);
+        Ok([axis('x', &spec.x)?, axis('y', &spec.y)?])
     }
 
     fn axis(&self, field: &str, spec: &AxisSpec) -> Result<SurfaceAxis, StudyError> {

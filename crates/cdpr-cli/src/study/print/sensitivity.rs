@@ -1,7 +1,7 @@
 //! The measures of sensitivity of a sampling on the terminal.
 
 use crate::output::table;
-use cdpr_study::{InputMeasures, SensitivitySummary};
+use cdpr_study::{MEASURES, Measure, Quantity, SensitivitySummary};
 
 /// Number of leading inputs in the table.
 const MOST: usize = 10;
@@ -21,63 +21,25 @@ pub(crate) fn print(heading: &str, found: &SensitivitySummary) {
 }
 
 fn print_inputs(found: &SensitivitySummary) {
-    let mut rows = table(&[
-        "input",
-        "t",
-        "effect",
-        "derivatives",
-        "SRC\u{b2}",
-        "rank SRC\u{b2}",
-        "\u{b5}*",
-        "\u{3c3}",
-        "DGSM",
-        "expansion S",
-        "T",
-        "Sobol' S",
-        "Sobol' T",
-    ]);
+    let mut rows =
+        table(&["input"].into_iter().chain(MEASURES.map(|measure| measure.label)).collect::<Vec<_>>());
     for input in found.leading().into_iter().take(MOST) {
-        let InputMeasures { sobol_first_low, sobol_first_high, sobol_total_low, sobol_total_high, .. } =
-            *input;
-        rows.add_row([
-            input.input.clone(),
-            number(input.t_student, 1.0, 2),
-            number(input.signed_effect_mm, 1e3, 2),
-            percent(input.derivative_share),
-            percent(input.regression_share),
-            percent(input.rank_regression_share),
-            number(input.morris_mean_absolute_mm, 1e3, 2),
-            number(input.morris_std_mm, 1e3, 2),
-            percent(input.dgsm_total_bound),
-            percent(input.expansion_first),
-            percent(input.expansion_total),
-            interval(input.sobol_first, sobol_first_low, sobol_first_high),
-            interval(input.sobol_total, sobol_total_low, sobol_total_high),
-        ]);
+        let cell = |measure: Measure| match (measure.quantity, measure.interval) {
+            (Quantity::Index, _) => number((measure.value)(input), 1.0, 2),
+            (Quantity::Change, _) => number((measure.value)(input), 1e3, 2),
+            (Quantity::Share | Quantity::Bound, None) => percent((measure.value)(input)),
+            (Quantity::Share | Quantity::Bound, Some(of)) => interval((measure.value)(input), of(input)),
+        };
+        rows.add_row([input.input.clone()].into_iter().chain(MEASURES.map(cell)));
     }
     for (group, sums) in &found.sums {
-        let sum = |name| percent(sums.get(name).copied());
-        let none = String::new();
-        rows.add_row([
-            format!("sum of {group}"),
-            none.clone(),
-            none.clone(),
-            sum("derivative_share"),
-            sum("regression_share"),
-            sum("rank_regression_share"),
-            none.clone(),
-            none.clone(),
-            none,
-            sum("expansion_first"),
-            sum("expansion_total"),
-            sum("sobol_first"),
-            sum("sobol_total"),
-        ]);
+        let sum = |measure: Measure| percent(sums.get(measure.name).copied());
+        rows.add_row([format!("sum of {group}")].into_iter().chain(MEASURES.map(sum)));
     }
     println!("{rows}");
     println!(
-        "effect, Morris's \u{b5}* and \u{3c3} [\u{b5}m]; t [-]; all others in % of the variance, \
-         DGSM a bound on T; S first order, T total"
+        "signed effect, Morris \u{b5}* and \u{3c3} [\u{b5}m]; t-Student [-]; all others in % of the variance, \
+         first order unless total; DGSM a bound on the total"
     );
 }
 
@@ -116,7 +78,7 @@ fn percent(share: Option<f64>) -> String {
     number(share, 100.0, 2)
 }
 
-fn interval(value: Option<f64>, low: Option<f64>, high: Option<f64>) -> String {
-    let half = high.zip(low).map(|(high, low)| 0.5 * (high - low));
+fn interval(value: Option<f64>, ends: Option<[f64; 2]>) -> String {
+    let half = ends.map(|[low, high]| 0.5 * (high - low));
     half.map_or_else(String::new, |half| format!("{} \u{b1} {}", percent(value), percent(Some(half))))
 }

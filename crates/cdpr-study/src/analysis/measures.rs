@@ -1,0 +1,118 @@
+//! The measures of sensitivity: their names, what they estimate, and where they stand.
+
+use serde::{Deserialize, Serialize};
+
+/// Values of the measures for one input; `None` for a method that has failed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct InputMeasures {
+    /// Name of the input.
+    pub input: String,
+    /// The paper's t-Student index (section 5.2).
+    pub t_student: Option<f64>,
+    /// Mean RMS in the upper half of its range minus that in the lower half [mm].
+    pub signed_effect_mm: Option<f64>,
+    /// Share of the variance to first order, from exact derivatives at the nominal robot.
+    pub derivative_share: Option<f64>,
+    /// Squared standardised regression coefficient.
+    pub regression_share: Option<f64>,
+    /// The same of ranks.
+    pub rank_regression_share: Option<f64>,
+    /// Morris's mean absolute elementary effect, between probabilities 0 and 1 [mm].
+    pub morris_mean_absolute_mm: Option<f64>,
+    /// Deviation of its elementary effects [mm].
+    pub morris_std_mm: Option<f64>,
+    /// Bound on its total index from derivatives; `None` for a law without a known constant.
+    pub dgsm_total_bound: Option<f64>,
+    /// Index of the first order of the chaos expansion.
+    pub expansion_first: Option<f64>,
+    /// Its total index.
+    pub expansion_total: Option<f64>,
+    /// Sobol' index of the first order.
+    pub sobol_first: Option<f64>,
+    /// Lower end of its interval.
+    pub sobol_first_low: Option<f64>,
+    /// Upper end of its interval.
+    pub sobol_first_high: Option<f64>,
+    /// Total Sobol' index.
+    pub sobol_total: Option<f64>,
+    /// Lower end of its interval.
+    pub sobol_total_low: Option<f64>,
+    /// Upper end of its interval.
+    pub sobol_total_high: Option<f64>,
+}
+
+/// A measure of sensitivity.
+#[derive(Clone, Copy, Debug)]
+pub struct Measure {
+    /// Its column in `NAME_sensitivity.csv`, its key in `summary.json` and its field of [`InputMeasures`].
+    pub name: &'static str,
+    /// Its name in tables and figures.
+    pub label: &'static str,
+    /// What it estimates.
+    pub quantity: Quantity,
+    /// Whether inputs are ranked by it: one measure of each method.
+    pub ranks: bool,
+    /// Its value for an input.
+    pub value: fn(&InputMeasures) -> Option<f64>,
+    /// The interval of that value, where the method gives one.
+    pub interval: Option<fn(&InputMeasures) -> Option<[f64; 2]>>,
+}
+
+/// What a measure estimates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// An index without a unit whose size only ranks.
+    Index,
+    /// A change of the RMS [mm].
+    Change,
+    /// A share of the variance. Without interactions, shares of the first order add up to 1, and so do total ones.
+    Share,
+    /// An upper bound on the total share of the variance.
+    Bound,
+}
+
+/// All measures, in the order of tables.
+pub const MEASURES: [Measure; 12] = [
+    Measure::new("t_student", "t-Student", Quantity::Index, |input| input.t_student).ranking(),
+    Measure::new("signed_effect_mm", "signed effect", Quantity::Change, |input| input.signed_effect_mm),
+    Measure::new("derivative_share", "derivatives", Quantity::Share, |input| input.derivative_share)
+        .ranking(),
+    Measure::new("regression_share", "SRC\u{b2}", Quantity::Share, |input| input.regression_share).ranking(),
+    Measure::new("rank_regression_share", "rank SRC\u{b2}", Quantity::Share, |input| {
+        input.rank_regression_share
+    })
+    .ranking(),
+    Measure::new("morris_mean_absolute_mm", "Morris \u{b5}*", Quantity::Change, |input| {
+        input.morris_mean_absolute_mm
+    })
+    .ranking(),
+    Measure::new("morris_std_mm", "Morris \u{3c3}", Quantity::Change, |input| input.morris_std_mm),
+    Measure::new("dgsm_total_bound", "DGSM bound", Quantity::Bound, |input| input.dgsm_total_bound).ranking(),
+    Measure::new("expansion_first", "expansion", Quantity::Share, |input| input.expansion_first),
+    Measure::new("sobol_first", "Sobol' first", Quantity::Share, |input| input.sobol_first)
+        .within(|input| Some([input.sobol_first_low?, input.sobol_first_high?])),
+    Measure::new("expansion_total", "expansion total", Quantity::Share, |input| input.expansion_total)
+        .ranking(),
+    Measure::new("sobol_total", "Sobol' total", Quantity::Share, |input| input.sobol_total)
+        .within(|input| Some([input.sobol_total_low?, input.sobol_total_high?]))
+        .ranking(),
+];
+
+impl Measure {
+    const fn new(
+        name: &'static str,
+        label: &'static str,
+        quantity: Quantity,
+        value: fn(&InputMeasures) -> Option<f64>,
+    ) -> Self {
+        Self { name, label, quantity, ranks: false, value, interval: None }
+    }
+
+    const fn ranking(self) -> Self {
+        Self { ranks: true, ..self }
+    }
+
+    const fn within(self, interval: fn(&InputMeasures) -> Option<[f64; 2]>) -> Self {
+        Self { interval: Some(interval), ..self }
+    }
+}
