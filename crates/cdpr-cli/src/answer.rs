@@ -3,6 +3,7 @@
 //! JSON is in SI units; cables are numbered from 1, as in `a1.x`.
 
 use crate::output::table;
+pub(crate) use cdpr_robot::decimal;
 use cdpr_robot::Pose;
 use cdpr_statics::{DirectSolution, Equilibrium};
 use serde::Serialize;
@@ -113,15 +114,6 @@ pub(crate) fn forces(equilibrium: &Equilibrium) -> Vec<[f64; 2]> {
 /// Rows of the rotation matrix R.
 fn rows(pose: &Pose) -> [[f64; 3]; 3] {
     pose.rotation.matrix().transpose().into()
-}
-
-/// The number with so many decimals, without the sign of a zero.
-pub(crate) fn decimal(number: f64, decimals: usize) -> String {
-    let text = format!("{number:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(zero) if !zero.contains(|c: char| ('1'..='9').contains(&c)) => zero.to_owned(),
-        _ => text,
-    }
 }
 
 /// A vector in brackets.

@@ -1,5 +1,6 @@
 //! Numbers, points, laws and steps as text.
 
+use cdpr_robot::decimal;
 use cdpr_sensitivity::{Law, Steps};
 use serde::Serialize;
 use serde_json::Value;
@@ -33,12 +34,7 @@ pub(crate) fn figures(value: f64, digits: usize) -> String {
 
 /// Number with this many decimals. It has a minus sign instead of a hyphen, and no negative zero.
 pub(crate) fn number(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(digits) if digits.contains(|c: char| ('1'..='9').contains(&c)) => format!("\u{2212}{digits}"),
-        Some(zero) => zero.to_owned(),
-        None => text,
-    }
+    decimal(value, decimals).replacen('-', "\u{2212}", 1)
 }
 
 /// Exponent in superscript digits.

@@ -1,6 +1,7 @@
 //! Counts and spreads of a test's solves, in total and for each start offset.
 
 use super::{Answer, Assignment, Outcome, Published, Refusal, RobustnessResult, Solve, StartOffset};
+use cdpr_robot::rounded;
 use cdpr_statics::DirectMethod;
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -197,5 +198,5 @@ impl Spread {
 
 /// Degrees from radians, rounded so that 20 degrees stay 20 and not 20.000000000000004.
 pub(crate) fn in_degrees(angle: f64) -> f64 {
-    (1e9 * angle.to_degrees()).round() / 1e9
+    rounded(angle.to_degrees(), 9)
 }

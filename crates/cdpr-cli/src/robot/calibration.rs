@@ -3,7 +3,7 @@
 use crate::arguments::{self, Format, Named};
 use crate::error::ProgramError;
 use crate::output::table;
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::{Pose, Robot, rounded};
 use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement, ParameterValue};
 use cdpr_study::{Grid, open_robot};
 use serde::Serialize;
@@ -174,7 +174,7 @@ fn print(robot: &Robot, output: &Output) {
     println!("{rows}");
     let mut rows = table(&["best poses: x, y, z [m], qw, qx, qy, qz", "adds [bit]"]);
     for best in &output.best_poses {
-        let pose = best.pose.map(|number| format!("{}", (1e6 * number).round() / 1e6 + 0.0)).join(", ");
+        let pose = best.pose.map(|number| rounded(number, 6).to_string()).join(", ");
         rows.add_row([pose, format!("{:.2}", best.information_bits)]);
     }
     println!("{rows}");

@@ -1,7 +1,7 @@
 //! The first study of a user's own robot: a file that runs as it is, and whose numbers the user replaces.
 
 use crate::error::StudyError;
-use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_robot::{Pose, Robot, Vector3, rounded};
 use cdpr_statics::{Load, deflection};
 use std::fs::File;
 use std::io::Write;
@@ -37,7 +37,7 @@ pub fn template(
     position: Option<[f64; 3]>,
     payload: Option<f64>,
 ) -> Result<String, StudyError> {
-    let payload = payload.unwrap_or_else(|| rounded(0.1 * robot.platform.mass));
+    let payload = payload.unwrap_or_else(|| two_digits(0.1 * robot.platform.mass));
     let held = |position: &[f64; 3]| tension(robot, *position, payload);
     let (position, tension) = match position {
         Some(position) => match held(&position) {
@@ -57,8 +57,8 @@ pub fn template(
             })?,
     };
     let cable = &robot.cables[0].properties;
-    let [mass, density] = [robot.platform.mass, cable.linear_density].map(|value| rounded(0.05 * value));
-    let modulus = rounded(0.1 * cable.youngs_modulus);
+    let [mass, density] = [robot.platform.mass, cable.linear_density].map(|value| two_digits(0.05 * value));
+    let modulus = two_digits(0.1 * cable.youngs_modulus);
     let uniform =
         |half: f64| format!(r#"{{ "law": {{ "uniform": {{ "min": -{half:?}, "max": {half:?} }} }} }}"#);
     let quoted = |text: &str| serde_json::Value::from(text).to_string();
@@ -111,7 +111,7 @@ pub fn template(
         anchors = uniform(0.002),
         exits = uniform(0.005),
         center = uniform(0.01),
-        offsets = uniform(rounded(0.01 * tension)),
+        offsets = uniform(two_digits(0.01 * tension)),
         modulus_half = modulus,
         mass_half = mass,
     ))
@@ -154,7 +154,7 @@ fn candidates(robot: &Robot) -> Vec<[f64; 3]> {
     }
     let shares = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
     // To a centimetre: what users see, they change.
-    let centimetres = |value: f64| (value * 100.0).round() / 100.0 + 0.0;
+    let centimetres = |value: f64| rounded(value, 2);
     shares.map(|share| [middle.x, middle.y, low + share * (high - low)].map(centimetres)).into()
 }
 
@@ -169,7 +169,7 @@ fn tension(robot: &Robot, position: [f64; 3], payload: f64) -> Result<f64, cdpr_
 }
 
 /// To two digits.
-fn rounded(value: f64) -> f64 {
+fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }
 

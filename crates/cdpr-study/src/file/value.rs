@@ -1,5 +1,6 @@
 //! A published or computed figure: a number or a word.
 
+use cdpr_robot::rounded;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -18,7 +19,7 @@ impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             // Four decimals, without zeros that say nothing.
-            Self::Number(number) => write!(f, "{}", (number * 1e4).round() / 1e4),
+            Self::Number(number) => write!(f, "{}", rounded(*number, 4)),
             Self::Text(text) => f.write_str(text),
         }
     }
