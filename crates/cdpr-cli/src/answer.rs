@@ -3,8 +3,8 @@
 //! JSON is in SI units; cables are numbered from 1, as in `a1.x`.
 
 use crate::output::table;
-pub(crate) use cdpr_robot::decimal;
 use cdpr_robot::Pose;
+pub(crate) use cdpr_robot::decimal;
 use cdpr_statics::{DirectSolution, Equilibrium};
 use serde::Serialize;
 
