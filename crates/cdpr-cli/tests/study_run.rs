@@ -125,7 +125,7 @@ fn measures_of_sensitivity_have_a_table_a_figure_a_part_of_the_summary_and_a_tab
     let bench = bench();
     measure(&bench);
     let text = printed(&bench, &[]);
-    for words in ["Sobol' T", "sum of all", "first 10 of every measure: ", "left out: regression: "] {
+    for words in ["Sobol' total", "sum of all", "first 10 of every measure: ", "left out: regression: "] {
         assert!(text.contains(words), "`{words}` is not in: {text}");
     }
     let summary = bench.json("out/summary.json");

@@ -65,7 +65,9 @@ pub enum Quantity {
     Index,
     /// A change of the RMS [mm].
     Change,
-    /// A share of the variance. Without interactions, shares of the first order add up to 1, and so do total ones.
+    /// A share of the variance.
+    ///
+    /// Without interactions, shares of the first order add up to 1, and so do total ones.
     Share,
     /// An upper bound on the total share of the variance.
     Bound,
