@@ -84,7 +84,7 @@ fn bad_input_is_named_with_what_would_be_right() {
         ),
         (
             vec!["--poses", "nowhere", NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]],
-            "error: --poses: cannot read nowhere",
+            "error: cannot read nowhere: No such file",
         ),
     ] {
         let output = run(&arguments);
