@@ -85,7 +85,7 @@ impl<T: Field> Span<T> {
 
 impl<T: Real> Span<T> {
     /// The span of r_i. Where A is right above or below B the azimuth is the x axis.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(r: [T; 3]) -> Self {
         let span = Self::oblique(r);
         let vertical = CablePlane { azimuth: [T::of(1.0), T::of(0.0)] };

@@ -23,16 +23,16 @@ pub(crate) struct SpannedCable<T> {
 
 impl SpannedCable<f64> {
     /// Cable i of a robot at a pose, in the shape of `catenary`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of(robot: &Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Self {
-        let anchor_arm = robot.anchor_arm(pose, i).into();
+        let (limp, anchor_arm) = (catenary.is_limp(), robot.anchor_arm(pose, i).into());
         Self {
             anchor_arm,
             // Eq. (1)
             span: Span::new(between(&pose.position.into(), &anchor_arm, &robot.cables[i].exit_point.into())),
             force: catenary.force.into(),
-            response: (!catenary.is_limp()).then(|| catenary.response()),
-            length_at_rest: catenary.length_at_rest(),
+            response: (!limp).then(|| catenary.response()),
+            length_at_rest: if limp { catenary.length_at_rest() } else { catenary.unstrained_length },
         }
     }
 }
@@ -69,19 +69,19 @@ impl<T: Real> SpannedCable<T> {
     }
 
     /// F_i [N], the force on the platform.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn force_on_platform(&self) -> [T; 3] {
         self.span.plane.force_on_platform(self.force)
     }
 
     /// [F_i; s_i x F_i] [N, N m], the wrench on the platform.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn wrench(&self) -> [T; 6] {
         wrench(&self.anchor_arm, &self.force_on_platform())
     }
 
     /// Misclosure [m]: from the end of the cable to its anchor point.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn misclosure(&self) -> [T; 2] {
         match &self.response {
             Some(response) => self.span.misclosure(response.end),
@@ -90,7 +90,7 @@ impl<T: Real> SpannedCable<T> {
     }
 
     /// The cable linearised about its force; `None` for a slack cable without weight, which resists nothing.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn linearized(&self) -> Option<LinearizedCable<T>> {
         self.response.as_ref().map(|response| LinearizedCable::new(&self.span, self.force, response))
     }
