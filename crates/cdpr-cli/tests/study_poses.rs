@@ -184,7 +184,7 @@ fn poses_that_are_none_are_refused_with_their_place() {
             |s| {
                 s["poses"] = json!({"list": [
                     {"position": [0, 0, 1.75]}, {"position": [0, 0, 1], "quaternion": [0, 0, 0, 0]}
-                ]})
+                ]});
             },
             "samplings.plane.poses.list[1] is ",
         ),

@@ -55,7 +55,7 @@ pub fn shares(summary: &SamplingSummary, most: usize) -> Result<String, ReportEr
         for (place, (measure, color)) in lines.iter().enumerate() {
             let Some(value) = (measure.value)(input) else { continue };
             let field = format!("sensitivity.{}: {}", input.input, measure.label);
-            let [low, high] = measure.interval.and_then(|of| of(input)).unwrap_or([value, value]);
+            let [low, high] = (measure.interval)(input).unwrap_or([value, value]);
             for value in [value, low, high] {
                 ReportError::finite(&field, value)?;
             }

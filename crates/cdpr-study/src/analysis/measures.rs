@@ -55,7 +55,7 @@ pub struct Measure {
     /// Its value for an input.
     pub value: fn(&InputMeasures) -> Option<f64>,
     /// The interval of that value, where the method gives one.
-    pub interval: Option<fn(&InputMeasures) -> Option<[f64; 2]>>,
+    pub interval: fn(&InputMeasures) -> Option<[f64; 2]>,
 }
 
 /// What a measure estimates.
@@ -107,7 +107,7 @@ impl Measure {
         quantity: Quantity,
         value: fn(&InputMeasures) -> Option<f64>,
     ) -> Self {
-        Self { name, label, quantity, ranks: false, value, interval: None }
+        Self { name, label, quantity, ranks: false, value, interval: |_| None }
     }
 
     const fn ranking(self) -> Self {
@@ -115,6 +115,6 @@ impl Measure {
     }
 
     const fn within(self, interval: fn(&InputMeasures) -> Option<[f64; 2]>) -> Self {
-        Self { interval: Some(interval), ..self }
+        Self { interval, ..self }
     }
 }

@@ -24,11 +24,11 @@ fn print_inputs(found: &SensitivitySummary) {
     let mut rows =
         table(&["input"].into_iter().chain(MEASURES.map(|measure| measure.label)).collect::<Vec<_>>());
     for input in found.leading().into_iter().take(MOST) {
-        let cell = |measure: Measure| match (measure.quantity, measure.interval) {
+        let cell = |measure: Measure| match (measure.quantity, (measure.interval)(input)) {
             (Quantity::Index, _) => number((measure.value)(input), 1.0, 2),
             (Quantity::Change, _) => number((measure.value)(input), 1e3, 2),
             (Quantity::Share | Quantity::Bound, None) => percent((measure.value)(input)),
-            (Quantity::Share | Quantity::Bound, Some(of)) => interval((measure.value)(input), of(input)),
+            (Quantity::Share | Quantity::Bound, Some(ends)) => interval((measure.value)(input), ends),
         };
         rows.add_row([input.input.clone()].into_iter().chain(MEASURES.map(cell)));
     }
@@ -78,7 +78,6 @@ fn percent(share: Option<f64>) -> String {
     number(share, 100.0, 2)
 }
 
-fn interval(value: Option<f64>, ends: Option<[f64; 2]>) -> String {
-    let half = ends.map(|[low, high]| 0.5 * (high - low));
-    half.map_or_else(String::new, |half| format!("{} \u{b1} {}", percent(value), percent(Some(half))))
+fn interval(value: Option<f64>, [low, high]: [f64; 2]) -> String {
+    format!("{} \u{b1} {}", percent(value), percent(Some(0.5 * (high - low))))
 }
