@@ -65,8 +65,8 @@ pub fn study(text: &str) {
             }
             for name in study.file.surfaces.keys() {
                 let surface = study.surface(name).expect("a checked surface");
-                finite("x", &surface.x.2);
-                finite("y", &surface.y.2);
+                finite("x", &surface.x.deviations);
+                finite("y", &surface.y.deviations);
             }
         }
         Err(error) => assert!(!error.to_string().is_empty()),
