@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! r_i = p + R a_i - b_i                          from exit point B_i to anchor point A_i        Eq. (1)
-//! W t + w = 0,   W = [ u_i ; (R a_i) x u_i ]     u_i the unit pull of cable i on the platform,  Eq. (3)
-//!                                                w the wrench of all other loads
+//! W t + w_ex = 0,  W = [ u_i ; (R a_i) x u_i ]   u_i the unit pull of cable i on the platform,  Eq. (3)
+//!                                                w_ex the wrench of all other loads
 //! ```
 //!
 //! Both equations are those of Baklouti, Caro, Courteille (CableCon 2017).

@@ -103,8 +103,9 @@ impl Problem<'_> {
         }
     }
 
-    /// Residual wrench W t + w [N, N m], Eq. (3).
+    /// Residual wrench W t + w_ex [N, N m], Eq. (3).
     pub(crate) fn residual(&self, tensions: &[f64]) -> Vector6<f64> {
+        // Eq. (3)
         self.wrench + self.wrench_matrix * DVector::from_column_slice(tensions)
     }
 

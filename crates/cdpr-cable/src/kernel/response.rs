@@ -235,7 +235,7 @@ impl<T: Field> Terms<T> {
     /// x/fx = L [1/EA + 2φ/s], (C1).
     #[inline(always)]
     fn lateral_flexibility(&self, phi: T) -> T {
-        // Eq. (2a), divided by fx.
+        // Eq. (2a) is fx times this.
         self.length * (self.axial_flexibility + phi * 2.0 * self.s_inv)
     }
 
@@ -275,6 +275,7 @@ impl<T: Field> Terms<T> {
         let entering = t * tt0_inv + axial_flexibility;
         let tension_inv = t0 * tt0_inv;
         Response {
+            // Eq. (2a), Eq. (2b)
             end: [fx * lateral_flexibility, self.height()],
             flexibility: [
                 length * (axial_flexibility + sag_xx),

@@ -83,15 +83,15 @@ pub(crate) fn residual<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
     let mut residual = DVector::from_element(6 + 2 * problem.cables(), T::zero());
     let (weight, center) = weight(problem, state);
     let load = &problem.load.wrench;
+    // Eq. (3) with the opposite sign: -w_ex, then -w_i t_i of each cable.
     residual.fixed_rows_mut::<3>(0).copy_from(&-(weight + load.force.map(T::of)));
     residual.fixed_rows_mut::<3>(3).copy_from(&-(center.cross(&weight) + load.moment.map(T::of)));
     for i in 0..problem.cables() {
         let cable = state.cable(problem, i);
-        // Eq. (3)
         for (balance, wrench) in residual.iter_mut().zip(cable.wrench()) {
             *balance -= wrench;
         }
-        // Eq. (2a) and (2b)
+        // Eq. (2a), Eq. (2b): from the end of the cable to its anchor point.
         let misclosure = Vector2::from(cable.misclosure());
         residual.fixed_rows_mut::<2>(6 + 2 * i).copy_from(&misclosure);
     }

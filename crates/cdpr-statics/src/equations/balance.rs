@@ -41,6 +41,7 @@ impl Balance {
     /// Adds a cable with the force F [N] on the platform and the stiffness K3 [N/m] at the arm s [m] from P.
     #[inline(always)]
     pub(crate) fn add_cable(&mut self, s: &[f64; 3], force: &[f64; 3], stiffness: [[f64; 3]; 3]) {
+        // Eq. (3) with the opposite sign: -w_i t_i.
         self.gradient -= Vector6::from(wrench(s, force));
         let (arm, stiffness) = (Vector3::from(*s).cross_matrix(), Matrix3::from(stiffness));
         let ks = stiffness * arm;

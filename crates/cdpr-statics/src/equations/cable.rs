@@ -96,6 +96,7 @@ impl<T: Real> Span<T> {
 /// r_i, Eq. (1), of the exit point b and the arm s of the anchor point.
 #[inline(always)]
 pub(crate) fn between<T: Field>(p: &[T; 3], s: &[T; 3], b: &[T; 3]) -> [T; 3] {
+    // Eq. (1)
     [p[0] + s[0] - b[0], p[1] + s[1] - b[1], p[2] + s[2] - b[2]]
 }
 

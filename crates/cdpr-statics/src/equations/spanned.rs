@@ -28,7 +28,6 @@ impl SpannedCable<f64> {
         let (limp, anchor_arm) = (catenary.is_limp(), robot.anchor_arm(pose, i).into());
         Self {
             anchor_arm,
-            // Eq. (1)
             span: Span::new(between(&pose.position.into(), &anchor_arm, &robot.cables[i].exit_point.into())),
             force: catenary.force.into(),
             response: (!limp).then(|| catenary.response()),
@@ -60,7 +59,6 @@ impl<T: Real> SpannedCable<T> {
         };
         Self {
             anchor_arm,
-            // Eq. (1)
             span: Span::new(between(&position, &anchor_arm, &<[f64; 3]>::from(cable.exit_point).map(T::of))),
             force,
             response: (!catenary.is_limp()).then(answer),
@@ -99,7 +97,6 @@ impl<T: Real> SpannedCable<T> {
 impl DirectProblem<'_> {
     /// The span of cable i at a pose.
     pub(crate) fn span(&self, pose: &Pose, i: usize) -> Span<f64> {
-        // Eq. (1)
         Span::new(self.robot.span(pose, i).into())
     }
 }

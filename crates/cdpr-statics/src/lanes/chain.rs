@@ -101,6 +101,7 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome
     let added = payload.wrench(&robots.center);
     platform.gradient = six(|k| platform.gradient[k] - added[k]);
     let (valid, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
+    // Eq. (4)
     Outcome { valid, displacement: three(|k| robots.position[k] - stood[k]), unloaded, loaded }
 }
 
