@@ -1,18 +1,26 @@
-//! Studies: which parameters of a robot are uncertain and by how much, where and under which load its deflection is
+//! Studies: which parameters of a robot are uncertain and by how much, where and under which load its
+//! deflection is
 //! observed, and what comes out.
 //!
-//! A study file (`cdpr-study/1`, JSON) names a robot file, error models, and any number of *samplings* (all parameters
-//! perturbed at once, as in section 5 of Baklouti, Caro, Courteille 2017) and *surfaces* (two parameters over a grid). Each
-//! runs in parallel with the same numbers on any number of threads. An observation that fails is data: counted by reason, named
+//! A study file (`cdpr-study/1`, JSON) names a robot file, error models, and any number of *samplings* (all
+//! parameters
+//! perturbed at once, as in section 5 of Baklouti, Caro, Courteille 2017) and *surfaces* (two parameters over
+//! a grid). Each
+//! runs in parallel with the same numbers on any number of threads. An observation that fails is data:
+//! counted by reason, named
 //! in the table, never an end.
 //!
-//! Where the study asks for them, [`measure`] puts all measures of sensitivity of a sampling beside each other.
+//! Where the study asks for them, [`measure`] puts all measures of sensitivity of a sampling beside each
+//! other.
 //!
-//! A run may keep what it observes in a folder of results, [`begin`], block by block: a [`Session`] with these goes on where another ended,
-//! and gives the same results to the last bit. A [`Plan`] numbers the blocks of a study, of which [`observe_shard`] makes a share and a [`BlockMaker`]
+//! A run may keep what it observes in a folder of results, [`begin`], block by block: a [`Session`] with
+//! these goes on where another ended,
+//! and gives the same results to the last bit. A [`Plan`] numbers the blocks of a study, of which
+//! [`observe_shard`] makes a share and a [`BlockMaker`]
 //! any; [`status`] says how many are there.
 //!
-//! A sampling may be at many poses, [`observe_poses`]: its results are a row a pose. Poses that the nominal robot does not hold are data, too.
+//! A sampling may be at many poses, [`observe_poses`]: its results are a row a pose. Poses that the nominal
+//! robot does not hold are data, too.
 //!
 //! ```no_run
 //! use cdpr_study::{Session, Study, analyse, observe};

@@ -100,8 +100,10 @@ struct Output {
     poses: usize,
     /// Numbers of the other poses, by the reason why they are not held.
     refused: BTreeMap<&'static str, usize>,
-    told: Vec<Part>,
-    untold: Vec<Part>,
+    #[serde(rename = "told")]
+    identifiable: Vec<Part>,
+    #[serde(rename = "untold")]
+    not_identifiable: Vec<Part>,
     /// Standard deviation of each uncertain parameter after the calibration over that before.
     remaining: BTreeMap<String, f64>,
     best_poses: Vec<Best>,
@@ -134,8 +136,8 @@ impl Output {
         };
         Self {
             refused,
-            told: found.identifiable.iter().map(part).collect(),
-            untold: found.not_identifiable.iter().map(part).collect(),
+            identifiable: found.identifiable.iter().map(part).collect(),
+            not_identifiable: found.not_identifiable.iter().map(part).collect(),
             remaining: pairs(&found.remaining),
             best_poses: calibration
                 .best_poses(choose)
@@ -160,10 +162,10 @@ fn print(robot: &Robot, output: &Output) {
         largest.collect::<Vec<_>>().join(" ")
     };
     let mut rows = table(&["signal/noise", "combination of parameters, each in units of its uncertainty"]);
-    for part in &output.told {
+    for part in &output.identifiable {
         rows.add_row([format!("{:.3e}", part.signal_to_noise), words(part)]);
     }
-    for part in &output.untold {
+    for part in &output.not_identifiable {
         rows.add_row(["none".to_owned(), words(part)]);
     }
     println!("{rows}");

@@ -11,7 +11,8 @@
 //! | `expansion` | indices of the first order and total of a polynomial model | the sampling's first observations |
 //! | `sobol` | indices of the first order and total, with intervals | Saltelli's blocks |
 //!
-//! Derivatives and polynomials take the continuous laws: steps of h in a uniform range R change a variance by a relative
+//! Derivatives and polynomials take the continuous laws: steps of h in a uniform range R change a variance by
+//! a relative
 //! (h / R)². All observations are of the stepped inputs.
 
 use crate::analysis::measures::{InputMeasures, MEASURES, Measure, Quantity};
@@ -39,7 +40,8 @@ pub struct SensitivitySummary {
     pub inputs: Vec<InputMeasures>,
     /// The basis of each method; methods that failed are named in the notes instead.
     pub methods: IndexMap<String, MethodSummary>,
-    /// Sums of each share of the variance over the inputs of a group (`a`, `b`, `mass`, ...), and over all of them (`all`).
+    /// Sums of each share of the variance over the inputs of a group (`a`, `b`, `mass`, ...), and over all of
+    /// them (`all`).
     pub sums: IndexMap<String, IndexMap<String, f64>>,
     /// Where the measures agree.
     pub agreement: Agreement,
@@ -77,7 +79,8 @@ pub struct Agreement {
     pub inputs: Vec<String>,
     /// The measures compared, one for each method that has not failed.
     pub measures: Vec<String>,
-    /// Spearman's rank correlation over all inputs, of each of these measures with each; `None` with one that does not vary.
+    /// Spearman's rank correlation over all inputs, of each of these measures with each; `None` with one that
+    /// does not vary.
     pub rank_correlation: Vec<Vec<Option<f64>>>,
 }
 
@@ -111,7 +114,8 @@ const METHODS: [(&str, Method); 8] = [
     ("sobol", sobol),
 ];
 
-/// Measures all inputs of a sampling by every method, from its observations and others made here. A method that fails is left out and
+/// Measures all inputs of a sampling by every method, from its observations and others made here. A method
+/// that fails is left out and
 /// named in [`SensitivitySummary::notes`].
 ///
 /// # Errors
@@ -147,7 +151,8 @@ pub fn measure(
 }
 
 impl SensitivitySummary {
-    /// The inputs, leading ones first: by the last measure of [`Agreement::measures`], which is the total index unless it has
+    /// The inputs, leading ones first: by the last measure of [`Agreement::measures`], which is the total
+    /// index unless it has
     /// failed.
     pub fn leading(&self) -> Vec<&InputMeasures> {
         let mut inputs: Vec<_> = self.inputs.iter().collect();
@@ -178,7 +183,8 @@ impl Run<'_> {
         Ok((design, self.tally.first_rms_mm.iter().copied().take(points).collect()))
     }
 
-    /// RMS [mm] of the robot with these deviations of the inputs, and its derivatives [mm per unit of the input].
+    /// RMS [mm] of the robot with these deviations of the inputs, and its derivatives [mm per unit of the
+    /// input].
     fn slopes(&self, row: &[f64]) -> Result<Slopes, StaticsError> {
         let Sampling { robot, pose, load, errors, .. } = self.sampling;
         let deviations = errors.deviations(row);
