@@ -3,7 +3,7 @@
 //!
 //! | question | function |
 //! |---|---|
-//! | Where is the platform held, how far does it give under a load, how stiff is it? | [`compute_workspace`] |
+//! | Where is the platform held, how far does a load deflect it, how stiff is it? | [`compute_workspace`] |
 //! | Which tolerances have to be tightened for a limit on deflection or position? | [`tolerance_budget`] |
 //! | How often does the direct model find the true pose from a wrong start? | [`run_robustness`] |
 //! | Which values of a robot file look wrong? | [`inspect`] |

@@ -188,9 +188,9 @@ pub fn run_robustness(
     let robot = &protocol.robot(robot);
     let (poses, drawn, refused) = collect_poses(robot, protocol, tick)?;
     let mut solves = Vec::with_capacity(protocol.solves());
-    for (place, pose) in poses.iter().enumerate() {
+    for (number, pose) in poses.iter().enumerate() {
         let starts = match protocol.assignment {
-            Assignment::InTurn => place % protocol.starts.len()..place % protocol.starts.len() + 1,
+            Assignment::InTurn => number % protocol.starts.len()..number % protocol.starts.len() + 1,
             Assignment::Each => 0..protocol.starts.len(),
         };
         for start in starts {

@@ -91,8 +91,8 @@ pub fn compute_workspace(
     if tolerances.is_some() && load == Load::none() {
         return Err(StudyError::setting(
             "load",
-            "none",
-            "one that displaces the platform: tolerances act on its deflection",
+            "zero",
+            "a load that displaces the platform, because tolerances act on its deflection",
         ));
     }
     let parameters = Parameter::all(robot.cables.len()).len();

@@ -71,8 +71,8 @@ fn starts_are_as_far_away_as_the_protocol_says_and_poses_inside_of_the_region() 
             for (k, p) in solve.wanted.position.iter().enumerate() {
                 assert!((region.low[k]..region.high[k]).contains(p));
             }
-            let turn = Pose::at(0.0, 0.0, 0.0).motion_to(&solve.wanted).fixed_rows::<3>(3).norm();
-            assert!(turn <= region.max_angle + 1e-12);
+            let angle = Pose::at(0.0, 0.0, 0.0).motion_to(&solve.wanted).fixed_rows::<3>(3).norm();
+            assert!(angle <= region.max_angle + 1e-12);
         }
     }
 }

@@ -54,11 +54,11 @@ fn every_position_is_what_the_models_say_of_it() {
         let variances: Vec<f64> = deviations.iter().map(|std| std * std).collect();
         let budget = exact.variance_budget(&variances).unwrap();
         let dominant = held.dominant.unwrap();
-        let place = Parameter::all(8)
+        let index = Parameter::all(8)
             .iter()
             .position(|p| p.to_string() == model.inputs[dominant.input].name)
             .unwrap();
-        assert!((budget.shares[place] - dominant.share).abs() < 1e-12);
+        assert!((budget.shares[index] - dominant.share).abs() < 1e-12);
         assert!(budget.shares.iter().all(|share| *share <= dominant.share + 1e-12));
         assert!((budget.std - dominant.std).abs() < 1e-12 * budget.std);
     }
@@ -69,8 +69,8 @@ fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
     let mut robot = caroca();
     // At the middle of the frame the platform alone asks for 577 N, with 50 kg for 739 N.
     robot.tension_limits.max = 650.0;
-    let place = |place| GridAxis { min: place, max: place, points: 1 };
-    let grid = Grid::new([place(0.0), place(0.0), GridAxis { min: 1.75, max: 9.0, points: 2 }]).unwrap();
+    let at = |z| GridAxis { min: z, max: z, points: 1 };
+    let grid = Grid::new([at(0.0), at(0.0), GridAxis { min: 1.75, max: 9.0, points: 2 }]).unwrap();
     let workspace = Workspace {
         robot: &robot,
         grid,

@@ -180,8 +180,8 @@ pub(crate) fn read(path: &Path) -> Result<String, StudyError> {
 pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, ProgramError> {
     let lines = read(path)?;
     let lines = lines.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let place = |line| move |reason| ProgramError::Poses { path: path.to_owned(), line, reason };
-    lines.map(|(i, line)| pose(line).map_err(place(i + 1))).collect()
+    let at_line = |line| move |reason| ProgramError::Poses { path: path.to_owned(), line, reason };
+    lines.map(|(i, line)| pose(line).map_err(at_line(i + 1))).collect()
 }
 
 /// Positions on a grid: `min:max:points` of each axis [m], separated by commas.

@@ -18,10 +18,10 @@ fn a_grid_of_poses_tells_geometry_but_no_offset_of_a_tension() {
     let output = run(&[&arguments[..], &["--choose", "4", "--format", "json"]].concat());
     let json: Value = serde_json::from_str(&answered(output)).unwrap();
     assert_eq!((json["poses"].as_u64(), json["refused"]["infeasible_tension"].as_u64()), (Some(9), Some(9)));
-    let untold: Vec<_> =
-        json["untold"].as_array().unwrap().iter().map(|part| &part["weights"][0][0]).collect();
-    assert!((1..=8).all(|i| untold.contains(&&Value::from(format!("dt{i}")))), "{untold:?}");
-    assert_eq!(json["told"].as_array().unwrap().len() + untold.len(), 58);
+    let unidentifiable: Vec<_> =
+        json["unidentifiable"].as_array().unwrap().iter().map(|part| &part["weights"][0][0]).collect();
+    assert!((1..=8).all(|i| unidentifiable.contains(&&Value::from(format!("dt{i}")))), "{unidentifiable:?}");
+    assert_eq!(json["identifiable"].as_array().unwrap().len() + unidentifiable.len(), 58);
     let left = |name: &str| json["remaining"][name].as_f64().unwrap();
     assert!((left("dt1") - 1.0).abs() < 1e-9 && left("b1.x") < 0.5);
     assert_eq!(json["best_poses"].as_array().unwrap().len(), 4);

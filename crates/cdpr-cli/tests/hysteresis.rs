@@ -100,7 +100,7 @@ fn a_loop_that_gives_energy_is_said_to_do_so() {
 }
 
 #[test]
-fn a_payload_or_length_that_is_none_is_refused() {
+fn an_invalid_payload_or_length_is_refused() {
     let refused = hysteresis(&["--payload", "-1"]);
     assert!(!refused.status.success() && refused.stdout.is_empty());
     assert!(

@@ -29,9 +29,9 @@ fn octave_gets_the_positions_of_a_list_of_cases() {
             .output()
             .unwrap();
         let direct: serde_json::Value = serde_json::from_slice(&direct.stdout).unwrap();
-        for (axis, told) in answer.iter().enumerate() {
+        for (axis, printed) in answer.iter().enumerate() {
             let position = direct["position"][axis].as_f64().unwrap();
-            assert!((told - position).abs() <= 0.5e-6 * 1.000_001, "{told} {position}");
+            assert!((printed - position).abs() <= 0.5e-6 * 1.000_001, "{printed} {position}");
         }
     }
 }

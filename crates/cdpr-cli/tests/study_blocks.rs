@@ -318,7 +318,7 @@ fn a_folder_whose_blocks_are_gone_is_known_and_run_again() {
 }
 
 #[test]
-fn shards_that_are_none_and_folders_without_a_study_are_refused() {
+fn invalid_shards_and_folders_without_a_study_are_refused() {
     let bench = bench(300);
     for shard in ["0/4", "5/4", "x", "auto"] {
         let message = bench.misused(&["run", "study.json", "--shard", shard]);

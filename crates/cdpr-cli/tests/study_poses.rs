@@ -164,7 +164,7 @@ fn a_study_in_which_no_pose_is_held_says_so_and_ends_well() {
 }
 
 #[test]
-fn poses_that_are_none_are_refused_with_their_place() {
+fn invalid_poses_are_refused_with_file_and_line() {
     type Spoil = fn(&mut Value);
     let cases: [(Spoil, &str); 10] = [
         (

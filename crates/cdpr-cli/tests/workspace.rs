@@ -102,7 +102,7 @@ fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 62);
     // A uniform law of half width 18 kg.
     assert!((summary["uncertainties"]["mass"].as_f64().unwrap() - 18.0 / 3f64.sqrt()).abs() < 1e-12);
-    assert_eq!(files(&folder.path().join("out")).len(), 6, "the box is a plane: y has one place");
+    assert_eq!(files(&folder.path().join("out")).len(), 6, "the box is a plane: y has one coordinate");
     run(folder.path(), &["--box=-1:1:2,0:1:2,1:2:2", "--payload", "50", "--out", "box"]);
     let names: Vec<_> = files(&folder.path().join("box")).into_iter().map(|(name, _)| name).collect();
     let layers = ["deflection", "greatest_tension", "least_stiffness"]
@@ -114,9 +114,9 @@ fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
 #[test]
 fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_displaced() {
     let folder = TempDir::new().unwrap();
-    let place = "--box=-0.5:0.5:3,-0.5:0.5:3,1.75:1.75:1";
+    let region = "--box=-0.5:0.5:3,-0.5:0.5:3,1.75:1.75:1";
     let summary = |arguments: &[&str]| {
-        let arguments = [&[place, "--format", "json", "--out", "out"], arguments].concat();
+        let arguments = [&[region, "--format", "json", "--out", "out"], arguments].concat();
         serde_json::from_str::<Value>(&run(folder.path(), &arguments)).unwrap()
     };
     let turned = summary(&["--rotation", "1,0,0,0.05", "--force", "0,200,0", "--moment", "0,0,10"]);

@@ -65,9 +65,9 @@ def processor():
 
 
 def digest(folder):
-    told = ("timings.json", "report.html")
+    varying = ("timings.json", "report.html")
     whole = hashlib.sha256()
-    for path in sorted(path for path in Path(folder).rglob("*") if path.is_file() and path.name not in told):
+    for path in sorted(path for path in Path(folder).rglob("*") if path.is_file() and path.name not in varying):
         whole.update(str(path.relative_to(folder)).encode() + path.read_bytes())
     return whole.hexdigest()[:12]
 

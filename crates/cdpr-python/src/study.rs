@@ -106,11 +106,11 @@ pub(crate) fn carry_out(
     let done = AtomicUsize::new(0);
     let notes = Mutex::new(Vec::new());
     let note = |note: &str| notes.lock().unwrap_or_else(PoisonError::into_inner).push(note.to_owned());
-    let mut told = 0;
+    let mut reported = 0;
     let mut tell = |py: Python| -> PyResult<()> {
         let now = done.load(Ordering::Relaxed);
-        if let Some(progress) = progress.as_ref().filter(|_| now != told) {
-            told = now;
+        if let Some(progress) = progress.as_ref().filter(|_| now != reported) {
+            reported = now;
             progress.call1(py, (now, all))?;
         }
         Ok(())

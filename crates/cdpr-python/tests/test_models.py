@@ -32,37 +32,37 @@ def test_a_cable_is_that_of_the_command_line():
         {"end": [4.1, -1.7], "tension": 55.0},
     ):
         flags = [f"--{name}={words(numpy.atleast_1d(value))}" for name, value in given.items()]
-        told = answer("catenary", "--weight", 0.9957, "--stiffness", 1.28e6, *flags)
+        printed = answer("catenary", "--weight", 0.9957, "--stiffness", 1.28e6, *flags)
         cable = cdpr.catenary(0.9957, 1.28e6, **given)
-        same(cable.force, told["force"])
-        same(cable.end, told["end"])
-        assert cable.anchor_tension == told["tension"]["anchor"]
-        assert cable.exit_tension == told["tension"]["exit"]
-        assert (cable.sag, cable.energy) == (told["sag"], told["energy"])
-        assert (cable.unstrained_length, cable.residual) == (told["unstrained_length"], told["residual"])
+        same(cable.force, printed["force"])
+        same(cable.end, printed["end"])
+        assert cable.anchor_tension == printed["tension"]["anchor"]
+        assert cable.exit_tension == printed["tension"]["exit"]
+        assert (cable.sag, cable.energy) == (printed["sag"], printed["energy"])
+        assert (cable.unstrained_length, cable.residual) == (printed["unstrained_length"], printed["residual"])
         same(cable.shape[0], [0.0, 0.0])
-        numpy.testing.assert_allclose(cable.shape[-1], told["end"], atol=1e-12)
+        numpy.testing.assert_allclose(cable.shape[-1], printed["end"], atol=1e-12)
 
 
 @pytest.mark.parametrize("pose", [POSE, TURNED])
 def test_the_inverse_model_is_that_of_the_command_line(caroca, caroca_file, pose):
-    told = answer("inverse", caroca_file, f"--pose={words(pose)}", "--payload=12.5", "--force=5,-3,2")
+    printed = answer("inverse", caroca_file, f"--pose={words(pose)}", "--payload=12.5", "--force=5,-3,2")
     found = caroca.inverse(pose, payload=12.5, force=[5, -3, 2])
-    same(found.lengths, told["lengths"])
-    same(found.tensions, told["tensions"])
-    same(found.cable_forces, told["cable_forces"])
-    same(found.residual, [told["report"]["residual"][name] for name in ("closure", "force", "moment")])
-    assert found.iterations == told["report"]["iterations"]
+    same(found.lengths, printed["lengths"])
+    same(found.tensions, printed["tensions"])
+    same(found.cable_forces, printed["cable_forces"])
+    same(found.residual, [printed["report"]["residual"][name] for name in ("closure", "force", "moment")])
+    assert found.iterations == printed["report"]["iterations"]
 
 
-def check_direct(found, told):
+def check_direct(found, printed):
     for name in ("position", "rotation", "cable_forces", "tensions"):
-        same(getattr(found, name), told[name])
-    assert found.stable == told["stable"]
-    assert found.least_stiffness == told["report"]["least_stiffness"]
-    assert (found.method, found.iterations) == (told["report"]["method"], told["report"]["iterations"])
-    assert [i + 1 for i in numpy.flatnonzero(found.slack)] == told["report"]["slack_cables"]
-    same(found.residual, [told["residual"][name] for name in ("closure", "force", "moment")])
+        same(getattr(found, name), printed[name])
+    assert found.stable == printed["stable"]
+    assert found.least_stiffness == printed["report"]["least_stiffness"]
+    assert (found.method, found.iterations) == (printed["report"]["method"], printed["report"]["iterations"])
+    assert [i + 1 for i in numpy.flatnonzero(found.slack)] == printed["report"]["slack_cables"]
+    same(found.residual, [printed["residual"][name] for name in ("closure", "force", "moment")])
 
 
 def test_the_direct_model_is_that_of_the_command_line(caroca, caroca_file):
@@ -72,55 +72,55 @@ def test_the_direct_model_is_that_of_the_command_line(caroca, caroca_file):
     start = (f"--start={words(TURNED)}",)
     check_direct(caroca.direct(LENGTHS, start=TURNED, **given), answer("direct", caroca_file, *flags, *start))
     heavier = caroca.with_parameters({"mass": 200.0})
-    told = answer("direct", caroca_file, f"--lengths={words(LENGTHS)}", "--mass=200")
-    check_direct(heavier.direct(LENGTHS), told)
+    printed = answer("direct", caroca_file, f"--lengths={words(LENGTHS)}", "--mass=200")
+    check_direct(heavier.direct(LENGTHS), printed)
 
 
 def test_the_deflection_is_that_of_the_command_line(caroca, caroca_file):
-    told = answer("deflection", caroca_file, f"--pose={words(TURNED)}", "--payload=50", "--moment=3,0,-2")
+    printed = answer("deflection", caroca_file, f"--pose={words(TURNED)}", "--payload=50", "--moment=3,0,-2")
     given = caroca.deflection(TURNED, payload=50, moment=[3, 0, -2])
-    same(1e3 * given.displacement, told["deflection_mm"])
-    assert 1e3 * given.rms == told["rms_mm"]
+    same(1e3 * given.displacement, printed["deflection_mm"])
+    assert 1e3 * given.rms == printed["rms_mm"]
     # The command line has degrees.
-    numpy.testing.assert_allclose(numpy.degrees(given.turn), told["rotation_deg"], rtol=1e-15)
-    same(given.lengths, told["lengths"])
-    check_direct(given.unloaded, told["unloaded"])
-    check_direct(given.loaded, told["loaded"])
+    numpy.testing.assert_allclose(numpy.degrees(given.rotation), printed["rotation_deg"], rtol=1e-15)
+    same(given.lengths, printed["lengths"])
+    check_direct(given.unloaded, printed["unloaded"])
+    check_direct(given.loaded, printed["loaded"])
 
 
 def test_the_stiffness_is_that_of_the_command_line(caroca, caroca_file):
-    told = answer("stiffness", caroca_file, f"--pose={words(TURNED)}", "--payload=50")
+    printed = answer("stiffness", caroca_file, f"--pose={words(TURNED)}", "--payload=50")
     found = caroca.stiffness(TURNED, payload=50)
-    same(found.matrix, told["stiffness"])
-    same(found.eigenvalues, [mode["stiffness"] for mode in told["eigenvalues"]])
-    same(found.translations, [mode["translation"] for mode in told["eigenvalues"]])
-    same(found.rotations, [mode["rotation"] for mode in told["eigenvalues"]])
-    assert (found.least_stiffness, found.stable) == (told["least_stiffness"], told["stable"])
-    assert found.arm == told["arm"]
+    same(found.matrix, printed["stiffness"])
+    same(found.eigenvalues, [mode["stiffness"] for mode in printed["eigenvalues"]])
+    same(found.translations, [mode["translation"] for mode in printed["eigenvalues"]])
+    same(found.rotations, [mode["rotation"] for mode in printed["eigenvalues"]])
+    assert (found.least_stiffness, found.stable) == (printed["least_stiffness"], printed["stable"])
+    assert found.characteristic_length == printed["characteristic_length"]
 
 
 def test_the_derivatives_are_those_of_the_command_line(caroca, caroca_file):
-    told = answer("derivatives", caroca_file, f"--pose={words(TURNED)}", "--payload=50")
+    printed = answer("derivatives", caroca_file, f"--pose={words(TURNED)}", "--payload=50")
     found = caroca.derivatives(TURNED, payload=50)
-    count = len(told["parameters"])
-    assert found.inputs[:count] == told["parameters"]
+    count = len(printed["parameters"])
+    assert found.inputs[:count] == printed["parameters"]
     assert found.inputs[count:] == ["payload", "x", "y", "z", "rx", "ry", "rz"]
-    same(1e3 * found.rms[:count], told["rms_mm"])
-    same(1e3 * found.displacement[:, :count].T, told["deflection_mm"])
-    same(found.lengths[:, :count].T, told["unstrained_lengths"])
+    same(1e3 * found.rms[:count], printed["rms_mm"])
+    same(1e3 * found.displacement[:, :count].T, printed["deflection_mm"])
+    same(found.lengths[:, :count].T, printed["unstrained_lengths"])
 
 
 def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
-    told = answer("workspace", caroca_file, "--box=-3:3:7,-1:1:3,1.75:1.75:1", "--payload=50",
+    printed = answer("workspace", caroca_file, "--box=-3:3:7,-1:1:3,1.75:1.75:1", "--payload=50",
                   "--uncertainty=a=0.002,b=0.002", "--out", tmp_path)
     found = caroca.workspace(x=(-3, 3, 7), y=(-1, 1, 3), z=1.75, payload=50,
                              uncertainty={"a": 0.002, "b": 0.002})
     assert found.shape == (7, 3, 1)
-    assert found.status == [row["status"] for row in told["rows"]]
-    assert found.reasons == [row["reason"] for row in told["rows"]]
-    assert found.dominant == [row["dominant"] for row in told["rows"]]
+    assert found.status == [row["status"] for row in printed["rows"]]
+    assert found.reasons == [row["reason"] for row in printed["rows"]]
+    assert found.dominant == [row["dominant"] for row in printed["rows"]]
     for name in ("least_tension", "greatest_tension", "least_stiffness", "dominant_share"):
-        same(getattr(found, name), [numpy.nan if row[name] is None else row[name] for row in told["rows"]])
+        same(getattr(found, name), [numpy.nan if row[name] is None else row[name] for row in printed["rows"]])
     bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
     assert numpy.isnan(bare.rms).all() and not numpy.isnan(bare.least_stiffness).any()
     plane = caroca.workspace(plane=("z", 1.75), grid=(3, 2), payload=50)
@@ -305,7 +305,7 @@ def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
                        "DirectSolution", "Observations", "Workspace", "Effects", "SobolIndices", "MorrisEffects"}
     found = caroca.deflection([POSE, POSE], payload=50)
     assert repr(found) == (
-        "<cdpr.Deflection displacement (2, 3), rms (2,), turn (2, 3), lengths (2, 8), "
+        "<cdpr.Deflection displacement (2, 3), rms (2,), rotation (2, 3), lengths (2, 8), "
         "unloaded DirectSolution, loaded DirectSolution, reasons [2], kinds [2]>"
     )
     with pytest.raises(TypeError, match="missing"):

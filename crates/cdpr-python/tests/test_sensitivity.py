@@ -119,7 +119,7 @@ def test_other_threads_run_while_indices_are_estimated():
     assert sum(begun < moment < ended for moment in ticks) >= 5, ended - begun
 
 
-def test_a_law_or_number_that_is_none_is_refused():
+def test_an_invalid_law_or_number_is_refused():
     for call, start in (
         (lambda: SobolDesign({"x": {"uniform": {"min": 1}}}, 8), "law of input `x`: line 1"),
         (lambda: SobolDesign({"x": uniform(1, 0)}, 8), "input `x`: max = 0: expected"),

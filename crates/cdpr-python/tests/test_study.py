@@ -33,8 +33,8 @@ def study(data, tmp_path_factory):
 
 def files(folder):
     """All results by name but those that tell how long it took."""
-    told = ("timings.json", "report.html")
-    paths = [path for path in Path(folder).rglob("*") if path.is_file() and path.name not in told]
+    varying = ("timings.json", "report.html")
+    paths = [path for path in Path(folder).rglob("*") if path.is_file() and path.name not in varying]
     return {str(path.relative_to(folder)): path.read_bytes() for path in paths}
 
 
@@ -60,11 +60,11 @@ def check(results, expected):
 
 
 def test_a_run_writes_what_the_command_line_writes(study, expected, tmp_path):
-    told = []
+    calls = []
     results = cdpr.study.run(study, tmp_path / "out", observations=OBSERVATIONS, threads=1,
-                             progress=lambda done, total: told.append((done, total)))
+                             progress=lambda done, total: calls.append((done, total)))
     check(results, expected)
-    assert told == sorted(told) and told[-1] == (3 * OBSERVATIONS, 3 * OBSERVATIONS)
+    assert calls == sorted(calls) and calls[-1] == (3 * OBSERVATIONS, 3 * OBSERVATIONS)
     assert results.timings["threads"] == 1
     assert results.notes == []
     table = results.observations("mechanical")
@@ -83,14 +83,14 @@ def test_a_run_writes_what_the_command_line_writes(study, expected, tmp_path):
 
 
 def test_a_process_pool_writes_the_same(study, expected, tmp_path):
-    told = []
+    calls = []
     # Forked on purpose, after this process has used its own threads.
     cdpr.catenary([1.0, 2.0], 1e6, length=5.0, end=[4.0, 1.0])
     with concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context("fork")) as executor:
         results = cdpr.study.run(study, tmp_path / "out", observations=OBSERVATIONS, executor=executor,
-                                 progress=lambda *done: told.append(done))
+                                 progress=lambda *done: calls.append(done))
     check(results, expected)
-    assert len(told) == 10 and told[-1] == (3 * OBSERVATIONS, 3 * OBSERVATIONS)
+    assert len(calls) == 10 and calls[-1] == (3 * OBSERVATIONS, 3 * OBSERVATIONS)
 
 
 def test_a_pool_of_multiprocessing_writes_the_same_in_fewer_tasks(study, expected, tmp_path):
@@ -191,7 +191,7 @@ def test_ray_writes_the_same(study, expected, tmp_path):
     check(results, expected)
 
 
-def test_settings_that_are_none_are_refused_before_anything_is_removed(study, tmp_path):
+def test_invalid_settings_are_refused_before_anything_is_removed(study, tmp_path):
     out = tmp_path / "out"
     cdpr.study.run(study, out, observations=100)
     before = files(out)

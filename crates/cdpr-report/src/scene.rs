@@ -133,11 +133,11 @@ impl State {
             let (exit, span) = (robot.cables[i].exit_point, robot.span(pose, i));
             // A vertical cable has no direction in the plan and needs none.
             let along = span.xy().try_normalize(0.0).unwrap_or_default();
-            let place = |point: cdpr_robot::Vector2<f64>| {
+            let in_space = |point: cdpr_robot::Vector2<f64>| {
                 (exit + Vector3::new(along.x * point.x, along.y * point.x, point.y)).into()
             };
             SceneCable {
-                points: catenary.profile(POINTS).into_iter().map(place).collect(),
+                points: catenary.profile(POINTS).into_iter().map(in_space).collect(),
                 tension: force.norm(),
                 sag_mm: 1e3 * catenary.sag(),
             }

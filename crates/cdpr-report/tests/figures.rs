@@ -268,10 +268,10 @@ fn signed_effects_are_sorted_by_size_and_cut_off() {
     let texts = texts(&svg);
     assert!(texts.contains(&"signed effect on the RMS of the static deflection [mm]"));
     assert!(texts.contains(&"2 of 3 parameters; intervals of 95 % confidence from 8 replicates"));
-    let place = |name| texts.iter().position(|text| *text == name);
+    let line_of = |name| texts.iter().position(|text| *text == name);
     // Rows are drawn from the bottom up.
-    assert!(place("mass").unwrap() < place("b2.x").unwrap());
-    assert_eq!(place("dt1"), None);
+    assert!(line_of("mass").unwrap() < line_of("b2.x").unwrap());
+    assert_eq!(line_of("dt1"), None);
 }
 
 #[test]
@@ -391,8 +391,8 @@ fn shares_have_the_leading_input_on_top_and_a_dot_for_each_measure() {
         assert!(texts.contains(&text), "{text} is not in {texts:?}");
     }
     assert!(!texts.contains(&"expansion"), "what is not measured is not in the key");
-    let place = |name| texts.iter().position(|text| *text == name).unwrap();
-    assert!(place("mass") < place("b2.x"), "names are written from below");
+    let line_of = |name| texts.iter().position(|text| *text == name).unwrap();
+    assert!(line_of("mass") < line_of("b2.x"), "names are written from below");
     let one = shares(&measured(), 1).unwrap();
     assert_eq!(one.matches("<circle ").count(), 3);
 

@@ -83,7 +83,7 @@ fn a_box_and_a_plane_without_any_held_position_have_no_map() {
     let axis = |min, max, points| GridAxis { min, max, points };
     let solid = Grid::new([axis(0.0, 1.0, 2), axis(0.0, 1.0, 2), axis(1.0, 2.0, 2)]).unwrap();
     let error = heat_map(&robot, &summary(&robot, solid), MapQuantity::Deflection).unwrap_err();
-    assert!(error.to_string().ends_with("expected one place along one axis: a plane"), "{error}");
+    assert!(error.to_string().ends_with("expected one coordinate along one axis: a plane"), "{error}");
     let above = Grid::over_frame(&robot, Axis::Z, 9.0, [3, 3]).unwrap();
     let error = heat_map(&robot, &summary(&robot, above), MapQuantity::Deflection).unwrap_err();
     assert!(matches!(error, ReportError::Empty { .. }), "{error}");

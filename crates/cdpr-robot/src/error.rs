@@ -57,11 +57,11 @@ impl RobotError {
 
     /// Adds line and column of the field, if the text contains it.
     pub(crate) fn placed(self, text: &str) -> Self {
-        let place = match &self {
+        let position = match &self {
             Self::Invalid { field, .. } => place_of(text, field),
             _ => None,
         };
-        match place {
+        match position {
             Some((line, column)) => Self::At { line, column, source: Box::new(self) },
             None => self,
         }

@@ -101,6 +101,8 @@ impl ParameterLayout {
 impl Parameter {
     /// The names of all parameters, as messages list them.
     pub const NAMES: &str = "mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...";
+    /// The names of all groups, [`Parameter::group`], as messages list them.
+    pub const GROUPS: &str = "mass, linear_density, youngs_modulus, a, b, cog, dt";
 
     /// All parameters of a robot with `cables` cables, in the order of [`ParameterLayout`].
     pub fn all(cables: usize) -> Vec<Self> {

@@ -23,8 +23,8 @@ fn deviations(cables: usize, robots: usize) -> Vec<f64> {
         Parameter::ExitPoint(..) => 0.03,
         Parameter::TensionOffset(_) => 15.0,
     };
-    let places = 0..parameters.len() * robots;
-    places
+    let entries = 0..parameters.len() * robots;
+    entries
         .map(|i| half_range(&parameters[i % parameters.len()]) * ((i * 37 % 101) as f64 / 50.0 - 1.0))
         .collect()
 }

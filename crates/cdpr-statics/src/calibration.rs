@@ -87,7 +87,7 @@ pub struct Identifiability {
     /// Orthogonal combinations that are identifiable, from the best to the least.
     pub identifiable: Vec<Combination>,
     /// A basis of the combinations that are not identifiable; each has a parameter that is in no other.
-    pub not_identifiable: Vec<Combination>,
+    pub unidentifiable: Vec<Combination>,
     /// Each uncertain parameter with its standard deviation after the calibration over that before.
     pub remaining: Vec<ParameterValue>,
 }
@@ -191,7 +191,7 @@ impl Calibration {
         };
         Identifiability {
             identifiable: (0..rank).map(|k| combination(vectors.row(k).transpose(), values[k])).collect(),
-            not_identifiable: free.row_iter().map(|row| combination(row.transpose(), 0.0)).collect(),
+            unidentifiable: free.row_iter().map(|row| combination(row.transpose(), 0.0)).collect(),
             remaining: self.parameters().into_iter().enumerate().map(remaining).collect(),
         }
     }

@@ -49,14 +49,14 @@ fn print(title: &str, found: &Identifiability) {
     println!(
         "{title}: {} combinations identifiable, {} not",
         found.identifiable.len(),
-        found.not_identifiable.len()
+        found.unidentifiable.len()
     );
     for combination in found
         .identifiable
         .iter()
         .take(2)
         .chain(found.identifiable.iter().rev().take(2))
-        .chain(&found.not_identifiable)
+        .chain(&found.unidentifiable)
     {
         let parts = combination.weights.iter().take(4).map(|of| format!("{:+.2} {}", of.value, of.parameter));
         println!("  {:9.2e}: {}", combination.signal_to_noise, parts.collect::<Vec<_>>().join(" "));
@@ -75,7 +75,7 @@ fn poses_identify_neither_offsets_of_tensions_nor_with_one_payload_the_scale_of_
             combination.weights.iter().copied().filter(|weight| weight.value.abs() > 1e-4).collect()
         };
         let (offsets, scale): (Vec<_>, Vec<_>) = found
-            .not_identifiable
+            .unidentifiable
             .iter()
             .map(weights)
             .partition(|weights| weights[0].parameter.group() == "dt");
@@ -137,7 +137,7 @@ fn measuring_more_leaves_less() {
         let [few, many, all] = [few, many, all].map(|parameter| parameter.value);
         assert!(many <= few + 1e-9 && all <= many + 1e-9 && few <= 1.0 + 1e-9);
     }
-    assert!(all.not_identifiable.is_empty() && many.not_identifiable.len() == 9);
+    assert!(all.unidentifiable.is_empty() && many.unidentifiable.len() == 9);
     assert!(calibration(&[50.0], &[NOISE]).identify([]).identifiable.is_empty());
 }
 
@@ -159,7 +159,7 @@ fn the_best_poses_identify_more_than_the_first_and_their_information_adds_up() {
 }
 
 #[test]
-fn inputs_that_are_none_are_named() {
+fn invalid_inputs_are_named() {
     let mut wrong = uncertainties();
     wrong[3] = -1.0;
     let text = Calibration::new(&caroca(), &wrong).unwrap_err().to_string();

@@ -122,7 +122,7 @@ fn a_pose_above_the_frame_is_refused_with_what_stays_open() {
 }
 
 #[test]
-fn inputs_that_are_none_are_named() {
+fn invalid_inputs_are_named() {
     let robot = caroca();
     let pose = Pose::at(0.0, 0.0, 1.75);
     let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
@@ -357,7 +357,7 @@ proptest! {
         let pose = solve(&wanted.lengths, &load);
         let problem = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap();
         let linearization = problem.linearize(&wanted.equilibrium).unwrap();
-        // Winching one cable.
+        // One cable is lengthened by h.
         let at = |h: f64| {
             let mut lengths = wanted.lengths.clone();
             lengths[cable] += h;

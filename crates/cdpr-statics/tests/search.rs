@@ -97,7 +97,7 @@ fn many_starts_find_the_platform_on_its_head_and_hanging() {
 }
 
 #[test]
-fn starts_that_are_none_are_named() {
+fn invalid_starts_are_named() {
     let robot = tripod(0.3, 0.0, 50.0);
     let lengths = tightened(&robot, 1e-3);
     let starts = Starts { center: Pose::at(0.0, 0.0, 0.0), reach: 0.1, rotation: 0.1, count: 0 };
@@ -148,7 +148,7 @@ fn a_platform_loaded_on_top_falls_over_and_the_fall_is_reported() {
 }
 
 #[test]
-fn winching_a_cable_and_back_ends_where_it_began() {
+fn changing_lengths_there_and_back_ends_at_the_same_pose() {
     let robot = caroca();
     let pose = Pose::at(0.5, -0.3, 1.5);
     let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();

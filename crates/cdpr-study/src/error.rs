@@ -106,8 +106,8 @@ pub enum StudyError {
     },
     /// A folder with the blocks of another study.
     #[error(
-        "{folder} holds study {found}, and this is study {expected} (version {version}): expected the same robot, error models, \
-         poses, payload, seed and version; use another folder"
+        "{folder} holds study {found}, and this is study {expected} (version {version}): expected the same \
+         robot, error models, poses, payload, seed and version; use another folder"
     )]
     ForeignFolder {
         /// The folder.
@@ -129,7 +129,8 @@ pub enum StudyError {
     },
     /// A file that no run has written is in the way.
     #[error(
-        "{path} was not written by a run, which would write over it: choose another folder (one of results has a file {})",
+        "{path} was not written by a run, which would write over it: choose another folder (one of results \
+         has a file {})",
         MARK_NAME
     )]
     NoResults {
@@ -187,8 +188,11 @@ pub enum StudyError {
         /// The error that is reached [mm].
         reached_mm: f64,
     },
-    /// A quantile of an error that too many robots fail to have.
-    #[error("no equilibrium at the wanted pose for {what}: expected tolerances under which robots hold it{}", because(source.as_deref()))]
+    /// Too many robots have no equilibrium for a quantile of their error.
+    #[error(
+        "no equilibrium at the wanted pose for {what}: expected tolerances under which robots hold it{}",
+        because(source.as_deref())
+    )]
     Unobservable {
         /// The robots.
         what: String,
@@ -197,8 +201,8 @@ pub enum StudyError {
     },
     /// The robot has feasible tensions at hardly any pose of a region.
     #[error(
-        "poses is {wanted}: expected at most as many as the robot holds, but of {drawn} poses drawn {found} are held in a stable \
-         equilibrium, {infeasible} are infeasible and {unstable} unstable"
+        "poses is {wanted}: expected at most as many as the robot holds, but of {drawn} poses drawn {found} are \
+         held in a stable equilibrium, {infeasible} are infeasible and {unstable} unstable"
     )]
     TooFewPoses {
         /// Poses asked for.
@@ -226,13 +230,13 @@ impl StudyError {
 
     /// The error with the place of its field in the study file's text, if it has one.
     pub(crate) fn placed(self, text: &str) -> Self {
-        let place = match &self {
+        let position = match &self {
             Self::Invalid { field, .. } | Self::Nominal { field, .. } | Self::Statistics { field, .. } => {
                 place_of(text, field)
             }
             _ => None,
         };
-        match place {
+        match position {
             Some((line, column)) => Self::At { line, column, source: Box::new(self) },
             None => self,
         }

@@ -61,11 +61,11 @@ fn what_two_points_share_correlates_them_by_its_part_of_their_variance() {
     let mut rows = vec![0.0; 3 * 1024];
     sampling.design.rows(0, &mut rows).unwrap();
     let moved = sampling.errors.deviations(&rows);
-    let places: Vec<usize> =
-        sampling.errors.terms.iter().filter(|term| term.input == 2).map(|term| term.place).collect();
-    let column = |place: usize| moved.chunks_exact(62).map(move |row| row[place]);
+    let columns: Vec<usize> =
+        sampling.errors.terms.iter().filter(|term| term.input == 2).map(|term| term.parameter).collect();
+    let column = |index: usize| moved.chunks_exact(62).map(move |row| row[index]);
     let product = |i, j| column(i).zip(column(j)).map(|(a, b)| a * b).sum::<f64>();
-    let (i, j) = (places[0], places[1]);
+    let (i, j) = (columns[0], columns[1]);
     let correlation = product(i, j) / (product(i, i) * product(j, j)).sqrt();
     // 0.02² / (0.02² + 0.01²).
     assert!((correlation - 0.8).abs() < 2e-3, "{correlation}");
@@ -98,7 +98,7 @@ fn a_cause_has_measures_of_its_own_that_agree() {
 }
 
 #[test]
-fn a_cause_that_is_none_is_named() {
+fn an_invalid_cause_is_named() {
     let message = |key: &str, parameters: Value| {
         study(json!({ key: { "law": uniform(0.01), "parameters": parameters } })).unwrap_err().to_string()
     };

@@ -82,7 +82,7 @@ fn a_secant_spans_the_pieces_between_two_tensions() {
 }
 
 #[test]
-fn an_operating_point_that_is_none_is_named() {
+fn an_invalid_operating_point_is_named() {
     let message = |change: &dyn Fn(&mut Value)| study(change).unwrap_err().to_string();
     for (message, words) in [
         (

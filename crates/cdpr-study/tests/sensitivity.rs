@@ -105,9 +105,9 @@ fn the_numbers_do_not_depend_on_the_number_of_threads_and_every_observation_is_t
     study.file.sensitivity = Some(SMALL);
     let sampling = study.sampling("geometrical_asymmetric").unwrap();
     let on = |threads| {
-        let told = AtomicUsize::new(0);
+        let ticked = AtomicUsize::new(0);
         let tick = |done: usize| {
-            told.fetch_add(done, Ordering::Relaxed);
+            ticked.fetch_add(done, Ordering::Relaxed);
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let session = Session { tick: &tick, ..Session::in_memory() };
@@ -115,7 +115,7 @@ fn the_numbers_do_not_depend_on_the_number_of_threads_and_every_observation_is_t
             let tally = observe(&sampling, &session).unwrap();
             measure(&sampling, &SMALL, &tally, &session).unwrap()
         });
-        (timeless(found), told.into_inner())
+        (timeless(found), ticked.into_inner())
     };
     let one = on(1);
     assert_eq!(one, on(3));
@@ -138,12 +138,12 @@ fn a_measure_that_fails_is_a_note() {
 }
 
 #[test]
-fn settings_that_are_none_are_refused_with_field_value_and_remedy() {
+fn invalid_settings_are_refused_with_field_value_and_remedy() {
     let refusal = |from: &str, to: &str| {
         let text = text();
         assert!(text.contains(from));
         let error = Study::from_json(&text.replacen(from, to, 1), path()).unwrap_err();
-        let StudyError::At { source, .. } = error else { panic!("no place: {error}") };
+        let StudyError::At { source, .. } = error else { panic!("no line and column: {error}") };
         assert!(matches!(*source, StudyError::Invalid { .. }), "{source}");
         source.to_string()
     };

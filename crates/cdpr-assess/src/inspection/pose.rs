@@ -42,7 +42,8 @@ impl Findings<'_> {
                 Severity::Warning,
                 "cables",
                 format!("condition {condition:.3e} {at}"),
-                "the wrench matrix, its moments over the platform's size, is nearly singular: some wrench is hardly resisted",
+                "the wrench matrix, its moments over the platform's size, is nearly singular: some wrench \
+                 is hardly resisted",
                 "anchor and exit points that let the cables pull in all directions",
             );
         }
@@ -103,7 +104,7 @@ fn line_distance((first, second): (&Vector3<f64>, &Vector3<f64>), between: &Vect
     }
     let on_first = between.cross(second).dot(&normal) / square;
     let on_second = between.cross(first).dot(&normal) / square;
-    let inside = |place: f64| place > 0.0 && place < 1.0;
+    let inside = |share: f64| share > 0.0 && share < 1.0;
     (inside(on_first) && inside(on_second)).then(|| between.dot(&normal).abs() / square.sqrt())
 }
 

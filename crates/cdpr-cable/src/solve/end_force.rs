@@ -124,7 +124,7 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
     for iteration in 1..=iterations {
         let rounding = rounding(&now, &compliance, end);
         // A residual below rounding is left alone: for a stiff cable it is worth a visible force.
-        let above = residual.zip_map(&rounding, |miss, noise| if miss.abs() <= noise { 0.0 } else { miss });
+        let above = residual.zip_map(&rounding, |open, noise| if open.abs() <= noise { 0.0 } else { open });
         let step = compliance.in_plane_stiffness() * above;
         let mut fraction = 1.0;
         let next = loop {
@@ -239,11 +239,11 @@ fn vertical_newton<'a>(
     let mut iterations = 0;
     while iterations < MAX_ITERATIONS {
         let compliance = at(now).compliance();
-        let miss = end.y - compliance.end.y;
-        *(if miss > 0.0 { &mut low } else { &mut high }) = now;
-        let next = now + miss / compliance.flexibility.m22;
+        let open = end.y - compliance.end.y;
+        *(if open > 0.0 { &mut low } else { &mut high }) = now;
+        let next = now + open / compliance.flexibility.m22;
         let next = if low < next && next < high { next } else { 0.5 * (low + high) };
-        if next == now || miss == 0.0 {
+        if next == now || open == 0.0 {
             break;
         }
         now = next;

@@ -34,7 +34,7 @@ struct Answer {
     least_stiffness: f64,
     stable: bool,
     /// Characteristic length ρ, which makes rotations comparable with translations [m].
-    arm: f64,
+    characteristic_length: f64,
 }
 
 /// An eigenvalue of the stiffness in (dp, ρ dφ) and its motion.
@@ -63,7 +63,7 @@ impl Answer {
                 .collect(),
             least_stiffness: stability.least_stiffness(),
             stable: stability.is_stable(),
-            arm: stability.characteristic_length(),
+            characteristic_length: stability.characteristic_length(),
         }
     }
 
@@ -81,7 +81,7 @@ impl Answer {
         let stable = if self.stable { "stable" } else { "unstable" };
         println!(
             "{stable}; least stiffness {:.1} N/m, with rotations times \u{3c1} = {:.4} m",
-            self.least_stiffness, self.arm
+            self.least_stiffness, self.characteristic_length
         );
     }
 }

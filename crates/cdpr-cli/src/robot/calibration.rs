@@ -70,8 +70,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         let reasons: Vec<_> = refused.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         return Err(ProgramError::NoPoseHeld { reasons: reasons.join(", ") });
     }
-    let told = calibration.identify(0..poses.len());
-    let output = Output::new(poses, refused, &told, &calibration, settings.choose);
+    let found = calibration.identify(0..poses.len());
+    let output = Output::new(poses, refused, &found, &calibration, settings.choose);
     Ok(settings.format.print(&output, |output| print(&robot, output))?)
 }
 
@@ -100,10 +100,8 @@ struct Output {
     poses: usize,
     /// Numbers of the other poses, by the reason why they are not held.
     refused: BTreeMap<&'static str, usize>,
-    #[serde(rename = "told")]
     identifiable: Vec<Part>,
-    #[serde(rename = "untold")]
-    not_identifiable: Vec<Part>,
+    unidentifiable: Vec<Part>,
     /// Standard deviation of each uncertain parameter after the calibration over that before.
     remaining: BTreeMap<String, f64>,
     best_poses: Vec<Best>,
@@ -137,7 +135,7 @@ impl Output {
         Self {
             refused,
             identifiable: found.identifiable.iter().map(part).collect(),
-            not_identifiable: found.not_identifiable.iter().map(part).collect(),
+            unidentifiable: found.unidentifiable.iter().map(part).collect(),
             remaining: pairs(&found.remaining),
             best_poses: calibration
                 .best_poses(choose)
@@ -165,8 +163,8 @@ fn print(robot: &Robot, output: &Output) {
     for part in &output.identifiable {
         rows.add_row([format!("{:.3e}", part.signal_to_noise), words(part)]);
     }
-    for part in &output.not_identifiable {
-        rows.add_row(["none".to_owned(), words(part)]);
+    for part in &output.unidentifiable {
+        rows.add_row(["0".to_owned(), words(part)]);
     }
     println!("{rows}");
     let mut rows = table(&["parameter", "uncertainty left [%]"]);

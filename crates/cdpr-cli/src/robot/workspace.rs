@@ -126,7 +126,7 @@ fn print(summary: &WorkspaceSummary) {
         println!("{count:8} {status}");
     }
     let mut rows = table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
-    let place = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
+    let position = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
     for (name, extremes) in [
         ("|dp| [mm]", summary.rms_mm),
         ("least stiffness [N/m]", summary.least_stiffness),
@@ -137,9 +137,9 @@ fn print(summary: &WorkspaceSummary) {
             rows.add_row([
                 name.to_owned(),
                 format!("{min:.4}"),
-                place(min_at),
+                position(min_at),
                 format!("{max:.4}"),
-                place(max_at),
+                position(max_at),
             ]);
         }
     }

@@ -22,7 +22,7 @@ answer! {
         /// Norm |dp| of the displacement, the paper's RMS [m].
         rms: Py<PyAny>,
         /// Rotation vector from the unloaded to the loaded platform, in the base frame [rad], (3,).
-        turn: Py<PyAny>,
+        rotation: Py<PyAny>,
         /// Unstrained lengths of the cables [m], (n,).
         lengths: Py<PyAny>,
         /// The platform under its own weight.
@@ -108,7 +108,7 @@ impl Deflection {
         Ok(Self {
             displacement: all.vector(|given| given.displacement)?,
             rms: all.number(|given| given.rms)?,
-            turn: all.vector(|given| [3, 4, 5].map(|row| given.motion[row]))?,
+            rotation: all.vector(|given| [3, 4, 5].map(|row| given.motion[row]))?,
             lengths: all.numbers(&[cables], |given, out| out.copy_from_slice(&given.lengths))?,
             unloaded: Py::new(py, unloaded)?,
             loaded: Py::new(py, loaded)?,

@@ -18,7 +18,7 @@ answer! {
     pub(crate) struct Stiffness {
         /// Stiffness K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
         matrix: Py<PyAny>,
-        /// Eigenvalues of the stiffness in (dp, arm dphi), from the softest motion [N/m], (6,).
+        /// Eigenvalues of the stiffness in (dp, rho dphi), from the softest motion [N/m], (6,).
         eigenvalues: Py<PyAny>,
         /// Translation of P in each of these motions [m/m], (6, 3).
         translations: Py<PyAny>,
@@ -28,8 +28,8 @@ answer! {
         least_stiffness: Py<PyAny>,
         /// Whether the equilibrium is stable.
         stable: Py<PyAny>,
-        /// Characteristic length, which makes rotations comparable with translations [m].
-        arm: Py<PyAny>,
+        /// Characteristic length rho, which makes rotations comparable with translations [m].
+        characteristic_length: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
@@ -91,7 +91,7 @@ impl Robot {
             rotations: vectors(|mode| mode.rotation)?,
             least_stiffness: all.number(|found| found.least_stiffness)?,
             stable: all.array(false, &[], |found, out| out[0] = found.stiffness.stability.is_stable())?,
-            arm: all.number(|found| found.stiffness.stability.characteristic_length())?,
+            characteristic_length: all.number(|found| found.stiffness.stability.characteristic_length())?,
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

@@ -61,11 +61,11 @@ impl Axis {
         let size = range.start.abs().max(range.end.abs());
         let half = if range.end - range.start > 1e-9 * size { 0.0 } else { 1e-3 * size.max(1.0) };
         let range = range.start - half..range.end + half;
-        let places = RangedCoordf64::from(range.clone()).key_points(BoldPoints(most));
-        let step = places.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+        let values = RangedCoordf64::from(range.clone()).key_points(BoldPoints(most));
+        let step = values.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
         // Steps are 1, 2, 2.5 or 5 times a power of ten.
         let decimals = (0..12).find(|&d| is_whole(step * 10.0_f64.powi(d))).unwrap_or(3) as usize;
-        let ticks = places.into_iter().map(|place| (place, number(place, decimals))).collect();
+        let ticks = values.into_iter().map(|value| (value, number(value, decimals))).collect();
         Self { range, ticks, label: label.into() }
     }
 
@@ -93,7 +93,7 @@ impl Ranged for Axis {
     }
 
     fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
-        self.ticks.iter().map(|(place, _)| *place).collect()
+        self.ticks.iter().map(|(value, _)| *value).collect()
     }
 
     fn range(&self) -> Range<f64> {
@@ -102,8 +102,8 @@ impl Ranged for Axis {
 }
 
 impl ValueFormatter<f64> for Axis {
-    fn format_ext(&self, place: &f64) -> String {
-        self.ticks.iter().find(|(tick, _)| tick == place).map(|(_, text)| text.clone()).unwrap_or_default()
+    fn format_ext(&self, value: &f64) -> String {
+        self.ticks.iter().find(|(tick, _)| tick == value).map(|(_, text)| text.clone()).unwrap_or_default()
     }
 }
 

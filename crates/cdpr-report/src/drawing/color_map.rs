@@ -83,13 +83,13 @@ impl Cells {
         C: plotters::coord::CoordTranslate<From = (f64, f64)>,
     {
         let rows = self.y.values.len();
-        for place in 0..self.count() {
-            let (i, j) = (place / rows, place % rows);
+        for cell in 0..self.count() {
+            let (i, j) = (cell / rows, cell % rows);
             let from = (self.x.edge(i), self.y.edge(j));
             // Each cell overlaps those drawn after it by one or two pixels, so that no white shows between
             // them.
             let below = (self.x.past_edge(i + 1), self.y.past_edge(j + 1));
-            plot.draw(&Rectangle::new([from, below], color(place).unwrap_or(GREY).filled()))?;
+            plot.draw(&Rectangle::new([from, below], color(cell).unwrap_or(GREY).filled()))?;
         }
         Ok(())
     }
@@ -105,8 +105,8 @@ impl Cells {
     {
         let (columns, rows) = (self.x.values.len(), self.y.values.len());
         let every = (HATCH * columns as f64 / style::WIDTH).ceil() as usize;
-        for place in (0..columns * rows).filter(|place| hatched(*place)) {
-            let (i, j) = (place / rows, place % rows);
+        for cell in (0..columns * rows).filter(|cell| hatched(*cell)) {
+            let (i, j) = (cell / rows, cell % rows);
             if i % every == j % every {
                 let from = (self.x.edge(i), self.y.edge(j));
                 let to = (self.x.edge(i + 1), self.y.edge(j + 1));
@@ -142,7 +142,7 @@ impl ColorMap {
     where
         C: plotters::coord::CoordTranslate<From = (f64, f64)>,
     {
-        self.cells.draw(plot, |place| self.values[place].map(|value| self.color(value)))?;
+        self.cells.draw(plot, |cell| self.values[cell].map(|value| self.color(value)))?;
         for (level, _) in &self.color_axis.ticks {
             for segment in self.contour(*level) {
                 Pen::solid(self.line_color(*level), 0.8).draw(plot, segment.to_vec())?;

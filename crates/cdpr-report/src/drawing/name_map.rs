@@ -41,5 +41,5 @@ pub(crate) fn name_map(
         key.push((format!("{} others", names.len() - COLORS.len()), Pen::bar(OTHERS)));
     }
     let heading = Heading { title, lines: &[line], key: &key };
-    plane.figure(robot, &heading, &Paint::Colors(plane.cells()?, colors), |place| at[place].is_none())
+    plane.figure(robot, &heading, &Paint::Colors(plane.cells()?, colors), |cell| at[cell].is_none())
 }

@@ -23,7 +23,7 @@ pub(crate) struct Plane {
     /// Index of the plane along its normal, if the grid is a box.
     pub(crate) layer: Option<usize>,
     /// Coordinate of the plane along its normal [m].
-    place: f64,
+    coordinate: f64,
     /// Axes of the plane with the coordinates of the positions [m].
     axes: [(Direction, Vec<f64>); 2],
     /// Indices of its positions in the grid. The second axis runs faster.
@@ -66,18 +66,18 @@ impl Plane {
             Direction::Y => points(Direction::Z),
             Direction::Z => 1,
         };
-        let layer = |(layer, place): (usize, f64)| {
+        let layer = |(layer, coordinate): (usize, f64)| {
             let row =
                 |i: usize| (0..points(v)).map(move |j| i * step(u) + j * step(v) + layer * step(normal));
             Self {
                 normal,
                 layer: (points(normal) > 1).then_some(layer),
-                place,
-                axes: [u, v].map(|axis| (axis, grid.axis(axis).places())),
+                coordinate,
+                axes: [u, v].map(|axis| (axis, grid.axis(axis).coordinates())),
                 positions: (0..points(u)).flat_map(row).collect(),
             }
         };
-        grid.axis(normal).places().into_iter().enumerate().map(layer).collect()
+        grid.axis(normal).coordinates().into_iter().enumerate().map(layer).collect()
     }
 
     /// Suffix of the file of a layer of a box, such as `_z00`.
@@ -87,13 +87,13 @@ impl Plane {
 
     /// Words such as `z = 1.75 m`.
     pub(crate) fn words(&self) -> String {
-        format!("{} = {} m", self.normal, self.place)
+        format!("{} = {} m", self.normal, self.coordinate)
     }
 
     /// Cells of the map.
     pub(crate) fn cells(&self) -> Result<Cells, ReportError> {
-        let nodes = |(axis, places): &(Direction, Vec<f64>)| {
-            Nodes::new("grid", format!("{axis} [m]"), places.clone())
+        let nodes = |(axis, coordinates): &(Direction, Vec<f64>)| {
+            Nodes::new("grid", format!("{axis} [m]"), coordinates.clone())
         };
         Ok(Cells { x: nodes(&self.axes[0])?, y: nodes(&self.axes[1])? })
     }
@@ -121,7 +121,7 @@ impl Plane {
             let plot = chart.plotting_area();
             match paint {
                 Paint::Values(map) => map.draw(plot)?,
-                Paint::Colors(cells, colors) => cells.draw(plot, |place| colors[place])?,
+                Paint::Colors(cells, colors) => cells.draw(plot, |cell| colors[cell])?,
             }
             cells.hatch(plot, hatched)?;
             self.draw_frame(plot, robot, &x.range, &y.range)?;
@@ -151,11 +151,11 @@ impl Plane {
         };
         let [left, right] = clamped(u_low, u_high, u_range);
         let [bottom, top] = clamped(v_low, v_high, v_range);
-        for place in [u_low, u_high].into_iter().filter(|place| u_range.contains(place)) {
-            FRAME.draw(plot, vec![(place, bottom), (place, top)])?;
+        for edge in [u_low, u_high].into_iter().filter(|edge| u_range.contains(edge)) {
+            FRAME.draw(plot, vec![(edge, bottom), (edge, top)])?;
         }
-        for place in [v_low, v_high].into_iter().filter(|place| v_range.contains(place)) {
-            FRAME.draw(plot, vec![(left, place), (right, place)])?;
+        for edge in [v_low, v_high].into_iter().filter(|edge| v_range.contains(edge)) {
+            FRAME.draw(plot, vec![(left, edge), (right, edge)])?;
         }
         for cable in &robot.cables {
             let point = (cable.exit_point[u], cable.exit_point[v]);

@@ -79,8 +79,8 @@ fn values(
     let rows: Vec<_> = plane.positions.iter().map(|position| &summary.rows[*position]).collect();
     let values = rows.iter().map(|row| quantity.value(row)).collect();
     let map = ColorMap::new(plane.cells()?, values, quantity.name(), &format!("{label} [{unit}]"))?;
-    let hatched = |place: usize| rows[place].status != "held";
-    let held = (0..rows.len()).filter(|place| !hatched(*place)).count();
+    let hatched = |index: usize| rows[index].status != "held";
+    let held = (0..rows.len()).filter(|index| !hatched(*index)).count();
     let heading = Heading {
         title: &format!("{}: {words} at {}, {}", summary.robot, plane.words(), summary.conditions()),
         lines: &[format!(
@@ -141,6 +141,6 @@ fn plane_of(summary: &WorkspaceSummary) -> Result<Plane, ReportError> {
     let mut planes = Plane::of(&summary.grid);
     match (planes.pop(), planes.is_empty()) {
         (Some(plane), true) => Ok(plane),
-        _ => Err(ReportError::invalid("grid", &summary.rows.len(), "one place along one axis: a plane")),
+        _ => Err(ReportError::invalid("grid", &summary.rows.len(), "one coordinate along one axis: a plane")),
     }
 }

@@ -37,8 +37,8 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
     let mut fits: Vec<&FitSummary> = summary.fits.iter().collect();
     // The preferred law comes first, then the others by AIC.
     fits.sort_by(|one, other| {
-        let place = |fit: &FitSummary| (Some(fit.law) != summary.best_fit, fit.aic);
-        place(one).partial_cmp(&place(other)).unwrap_or(std::cmp::Ordering::Equal)
+        let rank = |fit: &FitSummary| (Some(fit.law) != summary.best_fit, fit.aic);
+        rank(one).partial_cmp(&rank(other)).unwrap_or(std::cmp::Ordering::Equal)
     });
     fits.truncate(LAWS.len());
 
@@ -52,12 +52,12 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
             let Support { min: first, max: last } = fit.parameters.support();
             // Both sides of the ends of the support, because the density may jump there.
             let ends = [first.next_down(), first, last, last.next_up()];
-            let mut places: Vec<f64> =
+            let mut points: Vec<f64> =
                 (0..=POINTS).map(|k| low + (high - low) * k as f64 / POINTS as f64).collect();
-            places.extend(ends.iter().filter(|end| (low..high).contains(*end)));
-            places.sort_by(f64::total_cmp);
+            points.extend(ends.iter().filter(|end| (low..high).contains(*end)));
+            points.sort_by(f64::total_cmp);
             let density = |x: f64| fit.parameters.ln_pdf(x).exp();
-            places.into_iter().map(|x| (x, density(x))).filter(|point| point.1.is_finite()).collect()
+            points.into_iter().map(|x| (x, density(x))).filter(|point| point.1.is_finite()).collect()
         })
         .collect();
     let top =

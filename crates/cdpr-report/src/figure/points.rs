@@ -92,9 +92,11 @@ pub fn point_effects(
     let kind = format!("{} {}\u{1d62}", points.kind(), points.letter());
     let heading = Heading {
         title: &format!("Effect of the coordinates of the {kind} on the RMS of the static deflection"),
-        lines: &["t-Student index [-] of each coordinate, at the point's place in the plan; figures: the \
+        lines: &[
+            "t-Student index [-] of each coordinate, at the point's position in the plan; figures: the \
             largest of a point"
-            .to_owned()],
+                .to_owned(),
+        ],
         key: &COORDINATES.map(|(name, color)| (name.to_owned(), Pen::bar(color))),
     };
     style::figure(heading.height() + PANEL * panels.len() as f64, |area| {
@@ -108,7 +110,7 @@ struct Panel {
     title: String,
     /// Reference point P and the other points in the plan [m].
     center: [f64; 2],
-    places: Vec<[f64; 2]>,
+    positions: Vec<[f64; 2]>,
     /// Index of the point, index of the coordinate, t-Student index.
     effects: Vec<(usize, usize, f64)>,
 }
@@ -124,7 +126,7 @@ impl Panel {
             Pose::with_quaternion(Vector3::from(summary.pose), summary.quaternion).ok_or_else(|| {
                 ReportError::invalid("quaternion", &format!("{:?}", summary.quaternion), "a rotation")
             })?;
-        let place = |i: usize| {
+        let position = |i: usize| {
             let point = match points {
                 Points::Anchor => robot.anchor_arm(&pose, i) + pose.position,
                 Points::Exit => robot.cables[i].exit_point,
@@ -145,25 +147,25 @@ impl Panel {
         Ok(Self {
             title: format!("{name}: {}", summary.title),
             center: [pose.position.x, pose.position.y],
-            places: (0..robot.cables.len()).map(place).collect(),
+            positions: (0..robot.cables.len()).map(position).collect(),
             effects,
         })
     }
 
     fn draw(&self, area: &Area, letter: char, scale: &Axis) -> Result<(), DrawingError> {
         text(area, &self.title, style::TEXT, (MARGIN, 0.5 * PANEL_TITLE))?;
-        let plan = Plan::new(&self.places, self.center);
-        let outline: Vec<(i32, i32)> = plan.outline(&self.places).into_iter().map(pixel).collect();
+        let plan = Plan::new(&self.positions, self.center);
+        let outline: Vec<(i32, i32)> = plan.outline(&self.positions).into_iter().map(pixel).collect();
         Pen::solid(GREY, 0.8).draw(area, outline)?;
-        let (x, y) = plan.place(self.center);
+        let (x, y) = plan.pixels(self.center);
         for (dx, dy) in [(4.0, 4.0), (4.0, -4.0)] {
             Pen::solid(GREY, 1.2).draw(area, vec![pixel((x - dx, y - dy)), pixel((x + dx, y + dy))])?;
         }
         centred(area, "P", (x, y + 11.0))?;
 
         let height = |t: f64| LONGEST * t / scale.range.end;
-        for (point, foot) in plan.feet(&self.places).into_iter().enumerate() {
-            Pen::solid(GREY, 0.8).draw(area, vec![pixel(plan.place(self.places[point])), pixel(foot)])?;
+        for (point, foot) in plan.feet(&self.positions).into_iter().enumerate() {
+            Pen::solid(GREY, 0.8).draw(area, vec![pixel(plan.pixels(self.positions[point])), pixel(foot)])?;
             let own = || self.effects.iter().filter(|effect| effect.0 == point);
             for &(_, coordinate, t) in own() {
                 let left = foot.0 + BAR * (coordinate as f64 - 1.5);
@@ -184,23 +186,23 @@ impl Panel {
     /// Draws the scale of the bars.
     fn draw_scale(&self, area: &Area, scale: &Axis) -> Result<(), DrawingError> {
         let foot = PLAN[1].0 + 20.0;
-        let place = |t: f64| foot - LONGEST * t / scale.range.end;
+        let height = |t: f64| foot - LONGEST * t / scale.range.end;
         Pen::solid(BLACK, 0.8)
-            .draw(area, vec![pixel((SCALE, foot)), pixel((SCALE, place(scale.range.end)))])?;
+            .draw(area, vec![pixel((SCALE, foot)), pixel((SCALE, height(scale.range.end)))])?;
         for (tick, name) in &scale.ticks {
             Pen::solid(BLACK, 0.8)
-                .draw(area, vec![pixel((SCALE - 4.0, place(*tick))), pixel((SCALE, place(*tick)))])?;
+                .draw(area, vec![pixel((SCALE - 4.0, height(*tick))), pixel((SCALE, height(*tick)))])?;
             let end = style::font(SMALL).pos(Pos::new(HPos::Right, VPos::Center));
-            area.draw_text(name, &end, pixel((SCALE - 7.0, place(*tick))))?;
+            area.draw_text(name, &end, pixel((SCALE - 7.0, height(*tick))))?;
         }
         centred(area, "t [-]", (SCALE, foot + 10.0))?;
         let bounds = |axis: usize| {
-            let Range { start, end } = extent(self.places.iter().map(|place| place[axis]));
+            let Range { start, end } = extent(self.positions.iter().map(|position| position[axis]));
             [start, end].map(|end| number(end, 2)).join(" to ")
         };
         for (line, axis) in ["x", "y"].iter().enumerate() {
-            let place = (LIST - 72.0, PLAN[1].1 - 22.0 + 15.0 * line as f64);
-            text(area, &format!("plan: {axis} from {} m", bounds(line)), SMALL, place)?;
+            let position = (LIST - 72.0, PLAN[1].1 - 22.0 + 15.0 * line as f64);
+            text(area, &format!("plan: {axis} from {} m", bounds(line)), SMALL, position)?;
         }
         Ok(())
     }
@@ -229,8 +231,9 @@ struct Plan {
 }
 
 impl Plan {
-    fn new(places: &[[f64; 2]], center: [f64; 2]) -> Self {
-        let [x, y] = [0, 1].map(|axis| extent(places.iter().chain([&center]).map(|place| place[axis])));
+    fn new(positions: &[[f64; 2]], center: [f64; 2]) -> Self {
+        let [x, y] =
+            [0, 1].map(|axis| extent(positions.iter().chain([&center]).map(|position| position[axis])));
         let room = |axis: usize, range: &Range<f64>| {
             (PLAN[axis].1 - PLAN[axis].0) / (range.end - range.start).max(1e-9)
         };
@@ -239,31 +242,32 @@ impl Plan {
         Self { scale, middle: [x, y].map(|range| 0.5 * (range.start + range.end)) }
     }
 
-    fn place(&self, [x, y]: [f64; 2]) -> (f64, f64) {
+    fn pixels(&self, [x, y]: [f64; 2]) -> (f64, f64) {
         let middle = PLAN.map(|(low, high)| 0.5 * (low + high));
         (middle[0] + self.scale * (x - self.middle[0]), middle[1] - self.scale * (y - self.middle[1]))
     }
 
     /// Closed line through all points in the order of their angle around their middle.
-    fn outline(&self, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
-        let middle =
-            [0, 1].map(|axis| places.iter().map(|place| place[axis]).sum::<f64>() / places.len() as f64);
-        let angle = |place: &[f64; 2]| (place[1] - middle[1]).atan2(place[0] - middle[0]);
-        let mut corners = places.to_vec();
+    fn outline(&self, positions: &[[f64; 2]]) -> Vec<(f64, f64)> {
+        let middle = [0, 1].map(|axis| {
+            positions.iter().map(|position| position[axis]).sum::<f64>() / positions.len() as f64
+        });
+        let angle = |position: &[f64; 2]| (position[1] - middle[1]).atan2(position[0] - middle[0]);
+        let mut corners = positions.to_vec();
         corners.sort_by(|one, other| angle(one).total_cmp(&angle(other)));
         corners.extend(corners.first().copied());
-        corners.into_iter().map(|place| self.place(place)).collect()
+        corners.into_iter().map(|position| self.pixels(position)).collect()
     }
 
     /// Feet of the bars of each point: at its position, or in a row with points whose bars would cover them.
-    fn feet(&self, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
-        let step = ROOM.0.min((PLAN[0].1 - PLAN[0].0) / places.len() as f64);
-        let mut rows: Vec<Vec<usize>> = (0..places.len()).map(|point| vec![point]).collect();
+    fn feet(&self, positions: &[[f64; 2]]) -> Vec<(f64, f64)> {
+        let step = ROOM.0.min((PLAN[0].1 - PLAN[0].0) / positions.len() as f64);
+        let mut rows: Vec<Vec<usize>> = (0..positions.len()).map(|point| vec![point]).collect();
         let middle = |row: &[usize]| {
             let sum = row
                 .iter()
-                .map(|point| self.place(places[*point]))
-                .fold((0.0, 0.0), |sum, place| (sum.0 + place.0, sum.1 + place.1));
+                .map(|point| self.pixels(positions[*point]))
+                .fold((0.0, 0.0), |sum, position| (sum.0 + position.0, sum.1 + position.1));
             (sum.0 / row.len() as f64, sum.1 / row.len() as f64)
         };
         let covered = |one: &[usize], other: &[usize]| {
@@ -278,10 +282,12 @@ impl Plan {
             let joined = rows.remove(j);
             rows[i].extend(joined);
         }
-        let mut feet = vec![(0.0, 0.0); places.len()];
+        let mut feet = vec![(0.0, 0.0); positions.len()];
         for row in &mut rows {
             // The bars are in the order of the points, from left to right.
-            row.sort_by(|one, other| places[*one][0].total_cmp(&places[*other][0]).then(one.cmp(other)));
+            row.sort_by(|one, other| {
+                positions[*one][0].total_cmp(&positions[*other][0]).then(one.cmp(other))
+            });
             let half = 0.5 * step * row.len() as f64;
             let (x, y) = middle(row);
             let left = x.clamp(PLAN[0].0 - 10.0 + half, PLAN[0].1 + 10.0 - half) - half;
@@ -293,6 +299,6 @@ impl Plan {
     }
 }
 
-fn centred(area: &Area, text: &str, place: (f64, f64)) -> Result<(), DrawingError> {
-    area.draw_text(text, &style::font(SMALL).pos(Pos::new(HPos::Center, VPos::Center)), pixel(place))
+fn centred(area: &Area, text: &str, position: (f64, f64)) -> Result<(), DrawingError> {
+    area.draw_text(text, &style::font(SMALL).pos(Pos::new(HPos::Center, VPos::Center)), pixel(position))
 }

@@ -22,7 +22,7 @@ pub fn pose_maps(robot: &Robot, summary: &PosesSummary, rows: &[PoseRow]) -> Vec
     let planes = summary.grid.as_ref().map(Plane::of).unwrap_or_default();
     let maps = planes.iter().flat_map(|plane| {
         let layer = plane.suffix();
-        let rows: Option<Vec<&PoseRow>> = plane.positions.iter().map(|place| rows.get(*place)).collect();
+        let rows: Option<Vec<&PoseRow>> = plane.positions.iter().map(|index| rows.get(*index)).collect();
         let drawn = |draw: fn(&Plane, &Robot, &str, &[&PoseRow]) -> Result<String, ReportError>| {
             let rows = rows.as_ref().ok_or(ReportError::Empty { what: "a pose of the grid has no row" })?;
             draw(plane, robot, &summary.title, rows)
@@ -66,7 +66,7 @@ fn numbers(
         )],
         key: &plane::key(),
     };
-    plane.figure(robot, &heading, &Paint::Values(map), |place| value(rows[place]).is_none())
+    plane.figure(robot, &heading, &Paint::Values(map), |index| value(rows[index]).is_none())
 }
 
 fn dominant(plane: &Plane, robot: &Robot, title: &str, rows: &[&PoseRow]) -> Result<String, ReportError> {

@@ -80,8 +80,8 @@ impl Projection {
         let cables = scene.poses.iter().flat_map(|pose| &pose.loaded.cables);
         let cables = cables.flat_map(|cable| cable.points.iter().copied());
         let all: Vec<_> = scene.exits.iter().copied().chain(feet).chain(cables).map(seen).collect();
-        let Range { start: left, end: right } = extent(all.iter().map(|place| place.0));
-        let Range { start: low, end: high } = extent(all.iter().map(|place| place.1));
+        let Range { start: left, end: right } = extent(all.iter().map(|point| point.0));
+        let Range { start: low, end: high } = extent(all.iter().map(|point| point.1));
         let room = (WIDTH - 4.0 * MARGIN, HEIGHT - 4.0 * MARGIN);
         let scale = (room.0 / (right - left)).min(room.1 / (high - low));
         Self {
@@ -91,7 +91,7 @@ impl Projection {
         }
     }
 
-    fn place(&self, point: [f64; 3]) -> (f64, f64) {
+    fn projected(&self, point: [f64; 3]) -> (f64, f64) {
         let (right, up) = seen(point);
         (0.5 * WIDTH + self.scale * (right - self.middle.0), 0.5 * HEIGHT - self.scale * (up - self.middle.1))
     }
@@ -102,11 +102,11 @@ impl Projection {
         pen: Pen,
         points: impl Iterator<Item = [f64; 3]>,
     ) -> Result<(), DrawingError> {
-        pen.draw(area, points.map(|point| pixel(self.place(point))).collect())
+        pen.draw(area, points.map(|point| pixel(self.projected(point))).collect())
     }
 
     fn dot(&self, area: &Area, point: [f64; 3], color: RGBColor) -> Result<(), DrawingError> {
-        area.draw(&Circle::new(pixel(self.place(point)), px(2.6) as u32, color.filled()))
+        area.draw(&Circle::new(pixel(self.projected(point)), px(2.6) as u32, color.filled()))
     }
 
     /// Draws posts from the floor to the exit points, beams between these, and the axes of the base frame.
@@ -122,7 +122,7 @@ impl Projection {
             let mut end = [0.0; 3];
             end[axis.index()] = self.axes;
             self.line(area, Pen::solid(BLACK, 1.2), [[0.0; 3], end].into_iter())?;
-            let (x, y) = self.place(end);
+            let (x, y) = self.projected(end);
             text(area, axis.letter(), style::TEXT, (x + 3.0, y - 4.0))?;
         }
         Ok(())
@@ -133,7 +133,7 @@ impl Projection {
         for cable in &state.cables {
             self.line(area, Pen::solid(color, 1.1), cable.points.iter().copied())?;
         }
-        let outline = outline(state.anchors.iter().map(|anchor| self.place(*anchor)).collect());
+        let outline = outline(state.anchors.iter().map(|anchor| self.projected(*anchor)).collect());
         let pixels: Vec<_> = outline.into_iter().map(pixel).collect();
         area.draw(&Polygon::new(pixels, color.mix(0.35)))?;
         state.anchors.iter().try_for_each(|anchor| self.dot(area, *anchor, color))

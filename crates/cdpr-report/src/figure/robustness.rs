@@ -80,8 +80,8 @@ pub fn found_poses(result: &RobustnessResult) -> Result<String, ReportError> {
         for (outcome, _, color) in OUTCOMES {
             let step = if outcome == Outcome::TruePose { every } else { 1 };
             for (x, y, _) in points.iter().filter(|point| point.2 == outcome).step_by(step) {
-                let place = (*x, y.unwrap_or(high + 0.5));
-                plot.draw(&Circle::new(place, px(MARK), color.mix(0.6).filled()))?;
+                let point = (*x, y.unwrap_or(high + 0.5));
+                plot.draw(&Circle::new(point, px(MARK), color.mix(0.6).filled()))?;
             }
         }
         Ok(())
@@ -138,9 +138,9 @@ pub fn success_share(summary: &ProtocolSummary) -> Result<String, ReportError> {
         let chart = chart(&heading.draw(area)?, &x, &y, Grid::None)?;
         let plot = chart.plotting_area();
         for (distance, angle, row) in &cells {
-            let place =
+            let index =
                 |values: &[f64], value| values.iter().take_while(|v| **v < value).count() as f64 + 1.0;
-            let (i, j) = (place(&distances, *distance), place(&angles, *angle));
+            let (i, j) = (index(&distances, *distance), index(&angles, *angle));
             let share = row.success();
             let bright = share.map(|share| (share - darkest) / (1.0 - darkest));
             let color = bright.map_or(GREY, ViridisRGB::get_color);

@@ -52,14 +52,14 @@ pub fn shares(summary: &SamplingSummary, most: usize) -> Result<String, ReportEr
     }
     let mut dots = Vec::new();
     for (row, input) in inputs.iter().enumerate() {
-        for (place, (measure, color)) in lines.iter().enumerate() {
+        for (line, (measure, color)) in lines.iter().enumerate() {
             let Some(value) = (measure.value)(input) else { continue };
             let field = format!("sensitivity.{}: {}", input.input, measure.label);
             let [low, high] = (measure.interval)(input).unwrap_or([value, value]);
             for value in [value, low, high] {
                 ReportError::finite(&field, value)?;
             }
-            let y = (row + 1) as f64 - STEP * (place as f64 - 0.5 * (lines.len() - 1) as f64);
+            let y = (row + 1) as f64 - STEP * (line as f64 - 0.5 * (lines.len() - 1) as f64);
             dots.push((y, *color, [low, value, high].map(|share| share.max(LEAST).log10())));
         }
     }

@@ -41,7 +41,7 @@ pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result
         let (left, right) = heading.draw(area)?.split_horizontally(width);
         let chart = chart(&left, &x, &y, Grid::None)?;
         map.draw(chart.plotting_area())?;
-        map.cells.hatch(chart.plotting_area(), |place| map.values[place].is_none())?;
+        map.cells.hatch(chart.plotting_area(), |cell| map.values[cell].is_none())?;
         map.draw_color_bar(&right)
     })
 }

@@ -1,4 +1,4 @@
-//! What came out: distributions, surfaces, effects, measures of sensitivity.
+//! Sections with the results of a study: distributions, surfaces, effects, measures of sensitivity.
 
 use crate::draw::LEADING;
 use crate::page::comparison;
@@ -7,24 +7,24 @@ use crate::page::glance::{samplings, surfaces as all_surfaces};
 use crate::parameters::{self, axis_of};
 use crate::text;
 use cdpr_study::{
-    Figure, InputMeasures, MEASURES, Measure, Quantity, Results, SamplingSummary, SensitivitySummary,
-    Statistic,
+    Figure, FitSummary, InputMeasures, MEASURES, Measure, Quantity, Results, SamplingSummary,
+    SensitivitySummary, Statistic, SurfaceSummary,
 };
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
 
-/// A surface for the page's script.
+/// The values of a surface that the page's script draws in space.
 #[derive(Serialize)]
 pub(crate) struct SpaceSurface {
     name: String,
     x: Vec<f64>,
     y: Vec<f64>,
-    /// RMS [mm], one row a value of y.
+    /// RMS [mm], one row for each value of y; `None` where the observation failed.
     z: Vec<Vec<Option<f64>>>,
     labels: [String; 2],
 }
 
-/// All surfaces that can be drawn in space.
+/// All surfaces of the results whose two axes have a label and a unit.
 pub(crate) fn in_space(results: &Results) -> Vec<SpaceSurface> {
     let drawn = all_surfaces(&results.summary).filter_map(|(name, summary)| {
         let result = results.surfaces.get(name)?;
@@ -45,8 +45,8 @@ pub(crate) fn in_space(results: &Results) -> Vec<SpaceSurface> {
     drawn.collect()
 }
 
-/// The published counterpart of a distribution or surface.
-fn beside(results: &Results, name: &str) -> String {
+/// The published counterpart of a distribution or a surface, as the end of its caption.
+fn published(results: &Results, name: &str) -> String {
     use Statistic::{AnchorPointEquality, DominantAnchorPoints, DominantExitPoints, ExitPointEquality};
     let of_points = [AnchorPointEquality, DominantAnchorPoints, DominantExitPoints, ExitPointEquality];
     comparison::counterpart(&results.study.file.comparison, |row| {
@@ -54,6 +54,7 @@ fn beside(results: &Results, name: &str) -> String {
     })
 }
 
+/// Histograms of all samplings with their fitted laws.
 pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Section> {
     let all: Vec<_> = samplings(&results.summary).collect();
     let body = html! {
@@ -61,8 +62,9 @@ pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Sec
             h3 { (sampling.title) }
             @let alt = format!("Histogram of the RMS of the static deflection of {name} with fitted laws");
             (figure(name, &alt, figures, &html! {
-                "Density of the RMS of the static deflection over " (sampling.observations) " observations, with the laws that "
-                "fit best by Akaike's criterion; dashed: the nominal robot." (beside(results, name))
+                "Density of the RMS of the static deflection over " (sampling.observations)
+                " observations, with the laws that fit best by Akaike's criterion. The dashed line is the RMS "
+                "of the nominal robot." (published(results, name))
             }))
             (fits(sampling))
         }
@@ -70,22 +72,29 @@ pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Sec
     (!all.is_empty()).then(|| Section::new("distributions", "Distribution of the deflection", body))
 }
 
+/// Table of the laws that were fitted to a sampling.
 fn fits(sampling: &SamplingSummary) -> Markup {
     let least = sampling.fits.iter().map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
-    let rows: Vec<Vec<Markup>> = sampling
-        .fits
-        .iter()
-        .map(|fit| {
-            let law = html! { (fit.law) @if Some(fit.law) == sampling.best_fit { " " span.verdict.yes { "preferred" } } };
-            let parameters = text::fields(&fit.parameters);
-            let parameters = parameters.split_once(": ").map_or(parameters.clone(), |(_, values)| values.to_owned());
-            vec![law, cell(parameters.replace('_', " ")), numeric(fit.aic - least, 4), numeric(fit.ks, 3), numeric(fit.p_value, 3)]
-        })
-        .collect();
+    let row = |fit: &FitSummary| -> Vec<Markup> {
+        let preferred = Some(fit.law) == sampling.best_fit;
+        let fields = text::fields(&fit.parameters);
+        let parameters = fields.split_once(": ").map_or(fields.as_str(), |(_, values)| values);
+        vec![
+            html! { (fit.law) @if preferred { " " span.verdict.yes { "preferred" } } },
+            cell(parameters.replace('_', " ")),
+            numeric(fit.aic - least, 4),
+            numeric(fit.ks, 3),
+            numeric(fit.p_value, 3),
+        ]
+    };
+    let rows: Vec<_> = sampling.fits.iter().map(row).collect();
+    let caption = "Fitted laws. p comes from a parametric bootstrap; it is only an indication, because \
+                   Sobol' points are not independent.";
     let head = ["Law", "Parameters [mm]", "AIC above the least", "Kolmogorov-Smirnov distance", "p"];
-    html! { @if !rows.is_empty() { (table("Fitted laws; p by parametric bootstrap, on Sobol points an indication", &head, &rows)) } }
+    html! { @if !rows.is_empty() { (table(caption, &head, &rows)) } }
 }
 
+/// The RMS over two parameters, as surface and heat map.
 pub(crate) fn surfaces(results: &Results, figures: &[Figure]) -> Option<Section> {
     let all: Vec<_> =
         all_surfaces(&results.summary).filter(|(name, _)| results.surfaces.contains_key(*name)).collect();
@@ -94,29 +103,37 @@ pub(crate) fn surfaces(results: &Results, figures: &[Figure]) -> Option<Section>
             h3 { (summary.title) }
             @match svg(figures, name) {
                 Err(error) => p.note { "No figure " code { (name) } ": " (error) "." },
-                Ok(svg) => {
-                    figure id={ "figure-" (name) } data-surface=(name) {
-                        div.switch role="group" aria-label="Show as" {
-                            button type="button" data-show="space" aria-pressed="false" { "Surface in space" }
-                            button type="button" data-show="map" aria-pressed="true" { "Heat map" }
-                        }
-                        div.plot.space id={ "plot-" (name) } role="img" tabindex="0"
-                            aria-label={ "Surface of the RMS over " (summary.parameters[0]) " and " (summary.parameters[1]) } hidden {}
-                        div.drawing.map role="img" tabindex="0"
-                            aria-label={ "Heat map of the RMS over " (summary.parameters[0]) " and " (summary.parameters[1]) } { (PreEscaped(svg)) }
-                        figcaption {
-                            "RMS of the static deflection [mm] over " (parameters::symbol(&summary.parameters[0])) " and "
-                            (parameters::symbol(&summary.parameters[1])) ", all other parameters nominal." (beside(results, name)) " "
-                            span.file { "File: " (name) ".svg" }
-                        }
-                    }
-                }
+                Ok(svg) => (surface(results, name, summary, svg)),
             }
         }
     };
     (!all.is_empty()).then(|| Section::new("surfaces", "Two parameters at a time", body))
 }
 
+/// Both views of a surface, in space and as a heat map, with the buttons that switch between them.
+fn surface(results: &Results, name: &str, summary: &SurfaceSummary, svg: &str) -> Markup {
+    let [x, y] = &summary.parameters;
+    let symbols = (parameters::symbol(x), parameters::symbol(y));
+    let view = |kind: &str| format!("{kind} of the RMS over {x} and {y}");
+    html! {
+        figure id={ "figure-" (name) } data-surface=(name) {
+            div.switch role="group" aria-label="Show as" {
+                button type="button" data-show="space" aria-pressed="false" { "Surface in space" }
+                button type="button" data-show="map" aria-pressed="true" { "Heat map" }
+            }
+            div.plot.space id={ "plot-" (name) } role="img" tabindex="0"
+                aria-label=(view("Surface")) hidden {}
+            div.drawing.map role="img" tabindex="0" aria-label=(view("Heat map")) { (PreEscaped(svg)) }
+            figcaption {
+                "RMS of the static deflection [mm] over " (symbols.0) " and " (symbols.1)
+                "; all other parameters are nominal." (published(results, name)) " "
+                span.file { "File: " (name) ".svg" }
+            }
+        }
+    }
+}
+
+/// Effects of the coordinates of the anchor and exit points.
 pub(crate) fn points(results: &Results, figures: &[Figure]) -> Option<Section> {
     let kinds = [
         ("anchor_points", "anchor", [Statistic::AnchorPointEquality, Statistic::DominantAnchorPoints]),
@@ -128,11 +145,14 @@ pub(crate) fn points(results: &Results, figures: &[Figure]) -> Option<Section> {
             if !figures.iter().any(|figure| figure.name == name) {
                 return None;
             }
-            let alt = format!("Bars of the t-Student index of each coordinate of the {kind} points, in the plan of the robot");
+            let published = comparison::counterpart(&results.study.file.comparison, |row| {
+                statistics.contains(&row.statistic)
+            });
+            let alt = format!("t-Student index of each coordinate of the {kind} points, in the plan view");
             let caption = html! {
-                "Effect of the coordinates of the " (kind) " points on the RMS: t-Student index of x, y and z, each at the place of the "
-                "point seen from above. \u{d7} marks the platform's reference point P. The larger the index, the more the coordinate matters."
-                (comparison::counterpart(&results.study.file.comparison, |row| statistics.contains(&row.statistic)))
+                "Effect of the coordinates of the " (kind) " points on the RMS, as t-Student index of x, y "
+                "and z. The bars stand at the position of the point in the plan view. \u{d7} marks the platform's "
+                "reference point P. The larger the index, the more the coordinate matters." (published)
             };
             Some(figure(name, &alt, figures, &caption))
         })
@@ -141,21 +161,23 @@ pub(crate) fn points(results: &Results, figures: &[Figure]) -> Option<Section> {
     (!drawn.is_empty()).then(|| Section::new("points", "Anchor and exit points", body))
 }
 
+/// Signed effects of all samplings that have them.
 pub(crate) fn effects(results: &Results, figures: &[Figure]) -> Option<Section> {
     let with: Vec<_> = samplings(&results.summary).filter(|(_, s)| !s.signed_effects_mm.is_empty()).collect();
     let body = html! {
         @for (name, sampling) in &with {
             @let alt = format!("Bars of the largest signed effects of {name} with their intervals");
             (figure(&format!("{name}_effects"), &alt, figures, &html! {
-                "Signed effects [mm]: how much the mean RMS changes from the lower to the upper half of a parameter's range. Lines are "
-                "intervals of " (text::digits(100.0 * sampling.confidence, 4))
-                " % confidence; grey bars: the interval contains zero."
+                "Signed effects [mm]: change of the mean RMS from the lower to the upper half of a "
+                "parameter's range. Lines are intervals of " (text::digits(100.0 * sampling.confidence, 4))
+                " % confidence. Bars are grey where the interval contains zero."
             }))
         }
     };
     (!with.is_empty()).then(|| Section::new("effects", "Signed effects", body))
 }
 
+/// Measures of sensitivity of all samplings that have them.
 pub(crate) fn measures(results: &Results, figures: &[Figure]) -> Option<Section> {
     let with: Vec<_> = samplings(&results.summary)
         .filter_map(|(name, s)| Some((name, s, s.sensitivity.as_ref()?)))
@@ -165,7 +187,8 @@ pub(crate) fn measures(results: &Results, figures: &[Figure]) -> Option<Section>
             h3 { (sampling.title) }
             @let alt = format!("Shares of the variance of the RMS of {name} by each measure of sensitivity");
             (figure(&format!("{name}_sensitivity"), &alt, figures, &html! {
-                "Shares of the variance of the RMS [%] that the leading parameters have by each measure; lines are intervals."
+                "Shares of the leading parameters in the variance of the RMS [%] by each measure. Lines are "
+                "confidence intervals."
             }))
             (side_by_side(found))
         }
@@ -173,6 +196,7 @@ pub(crate) fn measures(results: &Results, figures: &[Figure]) -> Option<Section>
     (!with.is_empty()).then(|| Section::new("measures", "Measures of sensitivity", body))
 }
 
+/// Table of the leading parameters with a column for each measure that ranks them.
 fn side_by_side(found: &SensitivitySummary) -> Markup {
     let measured = |measure: &&Measure| found.inputs.iter().any(|input| (measure.value)(input).is_some());
     let measures: Vec<&Measure> = MEASURES.iter().filter(|measure| measure.ranks).filter(measured).collect();
@@ -188,8 +212,10 @@ fn side_by_side(found: &SensitivitySummary) -> Markup {
     };
     let rows: Vec<_> = found.leading().into_iter().take(LEADING).map(row).collect();
     let agreed: Vec<&str> = found.agreement.inputs.iter().map(|name| parameters::symbol(name)).collect();
+    let caption =
+        "The leading parameters by each measure. Numbers without a unit are shares of the variance.";
     html! {
-        (table("The leading parameters by each measure; without a unit: shares of the variance", &head, &rows))
+        (table(caption, &head, &rows))
         @if !agreed.is_empty() {
             p { "All measures put " (agreed.join(", ")) " among their " (found.agreement.first) " largest." }
         }

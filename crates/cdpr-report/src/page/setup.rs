@@ -67,7 +67,7 @@ fn parts(results: &Results) -> Markup {
             StudySummary::Sampling(sampling) => sampling.operating_moduli_gpa,
             _ => None,
         });
-        let place = match (&sampling.pose, &sampling.poses) {
+        let pose = match (&sampling.pose, &sampling.poses) {
             (Some(one), _) => pose(one),
             (None, Some(PosesSpec::List(list))) => cell(format!("{} poses", list.len())),
             (None, Some(PosesSpec::Grid(GridSpec { x, y, z }))) => {
@@ -83,7 +83,7 @@ fn parts(results: &Results) -> Markup {
         };
         rows.push(vec![
             html! { (sampling.title) span.detail { (name) } },
-            place,
+            pose,
             html! { "error model " code { (sampling.error_model) }
             @if let Some([least, greatest]) = moduli {
                 span.detail { "E at the operating point " (text::digits(least, 4)) " to "

@@ -75,10 +75,10 @@ impl MorrisDesign {
         self.points() / (self.inputs().len() + 1)
     }
 
-    /// Row of a block with which its row `place` is compared. The first row is not compared.
-    pub(crate) fn reference(&self, place: usize) -> usize {
+    /// Row of a block with which its row `row` is compared. The first row is not compared.
+    pub(crate) fn reference(&self, row: usize) -> usize {
         match self.plan {
-            Plan::Trajectories { .. } => place - 1,
+            Plan::Trajectories { .. } => row - 1,
             Plan::Radial(_) => 0,
         }
     }
@@ -100,7 +100,7 @@ impl SampleDesign for MorrisDesign {
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
         check_row(self, index, point)?;
         let k = self.inputs().len();
-        let (block, place) = (index / (k + 1), index % (k + 1));
+        let (block, row) = (index / (k + 1), index % (k + 1));
         match &self.plan {
             Plan::Trajectories { levels, seed } => {
                 let mut generator = stream(*seed, block as u64);
@@ -113,7 +113,7 @@ impl SampleDesign for MorrisDesign {
                 let mut order: Vec<usize> = (0..k).collect();
                 order.shuffle(&mut generator);
                 for (moved, &input) in order.iter().enumerate() {
-                    let level = ends[input][usize::from(moved < place)];
+                    let level = ends[input][usize::from(moved < row)];
                     point[input] = f64::from(level) / f64::from(levels - 1);
                 }
             }
@@ -122,7 +122,7 @@ impl SampleDesign for MorrisDesign {
                 sequence.point(block as u32, &mut both)?;
                 let (from, to) = both.split_at(k);
                 point.copy_from_slice(from);
-                if let Some(input) = place.checked_sub(1) {
+                if let Some(input) = row.checked_sub(1) {
                     point[input] = to[input];
                 }
             }

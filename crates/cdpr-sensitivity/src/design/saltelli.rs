@@ -166,12 +166,12 @@ impl SampleDesign for SaltelliDesign {
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
         check_row(self, index, point)?;
         let k = self.inputs().len();
-        let (block, place) = (index / self.block_points(), index % self.block_points());
+        let (block, within) = (index / self.block_points(), index % self.block_points());
         let (a, b) = self.pairs[2 * k * block..2 * k * (block + 1)].split_at(k);
-        let (from, exchanged, other) = if place <= k {
-            (a, place.checked_sub(1), b)
-        } else if place + 1 < self.block_points() {
-            (b, Some(place - k - 1), a)
+        let (from, exchanged, other) = if within <= k {
+            (a, within.checked_sub(1), b)
+        } else if within + 1 < self.block_points() {
+            (b, Some(within - k - 1), a)
         } else {
             (b, None, a)
         };
@@ -220,8 +220,8 @@ fn extended(mut points: Vec<f64>, sequences: &[Sobol], first_index: u32, blocks:
     let (size, count, known) = (sequences[0].dimensions(), sequences.len(), points.len());
     let first = known / size;
     points.resize(blocks * size, 0.0);
-    points[known..].par_chunks_mut(size).enumerate().for_each(|(place, point)| {
-        let block = first + place;
+    points[known..].par_chunks_mut(size).enumerate().for_each(|(offset, point)| {
+        let block = first + offset;
         // `check_points` has ensured that the index is below 2^32.
         let written = sequences[block % count].point(first_index + (block / count) as u32, point);
         debug_assert!(written.is_ok(), "a point has the dimensions of its sequence");

@@ -64,18 +64,18 @@ pub fn morris_effects(
     let mut found = vec![(Vec::new(), 0); inputs.len()];
     let mut rows = vec![vec![0.0; inputs.len()]; inputs.len() + 1];
     for (block, outputs) in outputs.chunks(rows.len()).enumerate() {
-        for (place, row) in rows.iter_mut().enumerate() {
-            design.row(block * (inputs.len() + 1) + place, row)?;
+        for (k, row) in rows.iter_mut().enumerate() {
+            design.row(block * (inputs.len() + 1) + k, row)?;
         }
-        for place in 1..rows.len() {
-            let reference = design.reference(place);
-            let (from, to) = (&rows[reference], &rows[place]);
+        for k in 1..rows.len() {
+            let reference = design.reference(k);
+            let (from, to) = (&rows[reference], &rows[k]);
             // No input differs if steps have rounded the two values to the same level.
             let Some(input) = (0..inputs.len()).find(|&input| from[input] != to[input]) else {
                 continue;
             };
             let law = &inputs[input].law;
-            match (outputs[reference], outputs[place]) {
+            match (outputs[reference], outputs[k]) {
                 (Some(before), Some(after)) => {
                     found[input].0.push((after - before) / (law.cdf(to[input]) - law.cdf(from[input])));
                 }

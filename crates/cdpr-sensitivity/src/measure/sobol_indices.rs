@@ -119,8 +119,8 @@ pub fn sobol_indices(
     check_level(level)?;
     check_range("resamples", bootstrap.resamples as u64, 2, u64::MAX)?;
     check_outputs(design, outputs)?;
-    let whole = |(place, block): (usize, &[Option<f64>])| {
-        block.iter().copied().collect::<Option<Vec<f64>>>().map(|block| (place, block))
+    let whole = |(number, block): (usize, &[Option<f64>])| {
+        block.iter().copied().collect::<Option<Vec<f64>>>().map(|block| (number, block))
     };
     let blocks: Vec<(usize, Vec<f64>)> =
         outputs.chunks(design.block_points()).enumerate().filter_map(whole).collect();
@@ -133,8 +133,8 @@ pub fn sobol_indices(
     let k = design.inputs().len();
     // With one sequence each block is a unit, with several each sequence.
     let mut units: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
-    for (place, block) in &blocks {
-        let unit = if design.sequences() > 1 { place % design.sequences() } else { *place };
+    for (number, block) in &blocks {
+        let unit = if design.sequences() > 1 { number % design.sequences() } else { *number };
         add(units.entry(unit).or_default(), 1, &terms(block, mean, k, design.order()));
     }
     let units: Vec<Vec<f64>> = units.into_values().collect();

@@ -98,8 +98,8 @@ pub(crate) fn morris() -> Function {
     for (inputs, coefficient) in &products {
         for subset in 1..1_u32 << inputs.len() {
             let (mut kept, mut factor) = (vec![], *coefficient);
-            for (place, &i) in inputs.iter().enumerate() {
-                match subset >> place & 1 {
+            for (bit, &i) in inputs.iter().enumerate() {
+                match subset >> bit & 1 {
                     1 => kept.push(i),
                     _ => factor *= moments(i).0,
                 }

@@ -69,12 +69,11 @@ fn intervals_of_95_percent_hold_the_exact_indices_in_95_of_100_studies() {
                 SaltelliDesign::scrambled(function.inputs.clone(), blocks, Order::First, seed).unwrap();
             let found = estimate(&design, &outputs(&design, &function));
             for (i, index) in found.inputs.iter().enumerate() {
-                for (place, estimate, exact) in
+                for (k, estimate, exact) in
                     [(i, index.first, function.first[i]), (inputs + i, index.total, function.total[i])]
                 {
                     // 1e-12: the indices of an inert input and their intervals are 0 but for rounding.
-                    held[place] +=
-                        usize::from(estimate.low - 1e-12 <= exact && exact <= estimate.high + 1e-12);
+                    held[k] += usize::from(estimate.low - 1e-12 <= exact && exact <= estimate.high + 1e-12);
                 }
             }
         }
@@ -200,9 +199,9 @@ fn blocks_differ_in_one_input_each() {
     let design = SaltelliDesign::scrambled(uniform(3, 0.0, 1.0), 4, Order::Second, 1).unwrap();
     assert_eq!((design.points(), design.block_points()), (32, 8));
     let rows: Vec<Vec<f64>> = (0..8)
-        .map(|place| {
+        .map(|offset| {
             let mut row = vec![0.0; 3];
-            design.row(16 + place, &mut row).unwrap();
+            design.row(16 + offset, &mut row).unwrap();
             row
         })
         .collect();

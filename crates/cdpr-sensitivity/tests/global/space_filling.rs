@@ -163,11 +163,11 @@ fn correlations_of_zero_change_nothing() {
 fn a_matrix_that_is_not_a_correlation_matrix_is_an_error() {
     let error =
         |matrix: &[Vec<f64>]| Correlated::new(RandomDesign::new(unit(2), 8, 1).unwrap(), matrix).unwrap_err();
-    let place = |error| match error {
+    let index = |error| match error {
         SensitivityError::NotACorrelation { row, column, expected, .. } => (row, column, expected),
         _ => (9, 9, "another error"),
     };
-    let of = |a: f64, b: f64, c: f64, d: f64| place(error(&[vec![a, b], vec![c, d]]));
+    let of = |a: f64, b: f64, c: f64, d: f64| index(error(&[vec![a, b], vec![c, d]]));
     assert_eq!(of(1.0, 0.5, 0.4, 1.0), (1, 0, "a finite symmetric matrix"));
     assert_eq!(of(1.0, f64::NAN, f64::NAN, 1.0), (1, 0, "a finite symmetric matrix"));
     assert_eq!(of(1.0, 0.5, 0.5, 2.0), (1, 1, "1 on the diagonal"));

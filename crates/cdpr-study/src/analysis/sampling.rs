@@ -90,7 +90,8 @@ pub struct RmsSummary {
 pub struct NominalSummary {
     /// dp [mm].
     pub displacement_mm: [f64; 3],
-    /// |dp| that the stiffness at the unloaded pose predicts [mm]; section 3.3 of the paper says why it differs.
+    /// |dp| that the stiffness at the unloaded pose predicts [mm]. Section 3.3 of the paper says why it
+    /// differs.
     pub small_displacement_rms_mm: Option<f64>,
     /// Tension of every cable under the platform's own weight [N].
     pub unloaded_tensions: Vec<f64>,

@@ -1,19 +1,18 @@
 //! Measures of sensitivity beside each other: the value of each for every input of a sampling, the
 //! observations on which it rests, and where they agree. The output is the RMS of the static deflection [mm].
 //!
-//! | method | says | rests on |
+//! | method | result | input |
 //! |---|---|---|
-//! | `t_student` | t-Student index and signed effect | the sampling's first observations |
-//! | `derivatives` | share of the variance, to first order | exact derivatives at the nominal robot, variances of the laws |
-//! | `regression`, `rank_regression` | squared standardised coefficients of values and of ranks | the sampling's first observations |
+//! | `t_student` | t-Student index and signed effect | first observations of the sampling |
+//! | `derivatives` | share of the variance, to first order | derivatives at the nominal robot, variances of the laws |
+//! | `regression`, `rank_regression` | squared coefficients of values and ranks | first observations |
 //! | `morris` | mean absolute elementary effect and deviation of the effects | radial blocks |
 //! | `dgsm` | bound on the total index | exact derivatives at points of a scrambled Sobol sequence |
-//! | `expansion` | indices of the first order and total of a polynomial model | the sampling's first observations |
+//! | `expansion` | first-order and total indices of a polynomial model | first observations |
 //! | `sobol` | indices of the first order and total, with intervals | Saltelli's blocks |
 //!
 //! Derivatives and polynomials take the continuous laws: steps of h in a uniform range R change a variance by
-//! a relative
-//! (h / R)². All observations are of the stepped inputs.
+//! a relative (h / R)². All observations are of the stepped inputs.
 
 use crate::analysis::measures::{InputMeasures, MEASURES, Measure, Quantity};
 use crate::error::StudyError;

@@ -1,4 +1,5 @@
-//! The elastic law of a cable as a file, `cdpr-law/1` (JSON, SI units): moduli over tension while it is loaded and unloaded.
+//! The elastic law of a cable as a file, `cdpr-law/1` (JSON, SI units): moduli over the tension, for loading
+//! and unloading.
 
 use cdpr_robot::LawSegment;
 use schemars::JsonSchema;
@@ -25,20 +26,21 @@ pub struct LawFile {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CableLaw {
-    /// Section of the cable that the tensions are of [m²]. A cable of another section has the same moduli at the same stress.
+    /// Section of the cable that has these tensions [m²]. A cable of another section has the same moduli at
+    /// the same stress.
     pub section: f64,
     /// Pieces of constant modulus while the tension grows, from zero tension up.
     pub loading: Vec<LawSegment>,
-    /// What differs while it falls; a cable without it loses no energy.
+    /// Moduli while the tension falls. A cable without this field dissipates no energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unloading: Option<UnloadingCurve>,
 }
 
-/// The way back.
+/// Moduli during unloading.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UnloadingCurve {
-    /// Tension from which it was measured [N].
+    /// Tension at which the measured unloading began [N].
     pub turning_tension: f64,
     /// Pieces of constant modulus while the tension falls, from zero tension up.
     pub segments: Vec<LawSegment>,

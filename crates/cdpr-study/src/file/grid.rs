@@ -3,15 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Places along one axis, equally spaced from `min` to `max`.
+/// Coordinates along one axis, equally spaced from `min` to `max`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GridAxis {
-    /// First place [m].
+    /// First coordinate [m].
     pub min: f64,
-    /// Last place [m].
+    /// Last coordinate [m].
     pub max: f64,
-    /// Number of places; 1 where `min` is `max`.
+    /// Number of coordinates; 1 where `min` is `max`.
     pub points: usize,
 }
 
@@ -22,14 +22,14 @@ impl GridAxis {
         min.is_finite() && max.is_finite() && (many || (points == 1 && min == max))
     }
 
-    /// The places [m].
-    pub fn places(&self) -> Vec<f64> {
-        (0..self.points).map(|k| self.place(k)).collect()
+    /// The coordinates [m].
+    pub fn coordinates(&self) -> Vec<f64> {
+        (0..self.points).map(|k| self.coordinate(k)).collect()
     }
 
-    pub(crate) fn place(&self, k: usize) -> f64 {
+    pub(crate) fn coordinate(&self, k: usize) -> f64 {
         let last = (self.points.max(2) - 1) as f64;
-        // Weighted ends: the last place is `max` itself.
+        // Weighted ends: the last coordinate is `max` itself.
         self.min * ((last - k as f64) / last) + self.max * (k as f64 / last)
     }
 }

@@ -1,5 +1,5 @@
-//! Load-elongation records as files: CSV with the columns `force_n`, `elongation_mm`, `phase` (`loading` or `unloading`); lines
-//! that begin with `#` are comments.
+//! Load-elongation records as files: CSV with the columns `force_n`, `elongation_mm` and `phase` (`loading`
+//! or `unloading`). Lines that begin with `#` are comments.
 
 use crate::error::StudyError;
 use crate::fs::files::read;
@@ -17,49 +17,50 @@ pub fn open_record(path: &Path) -> Result<Record, StudyError> {
     read_record(&read(path)?).map_err(|source| StudyError::Record { path: path.to_owned(), source })
 }
 
-/// The same from text.
+/// Reads and checks a record from the text of a file.
 ///
 /// # Errors
 /// [`RecordError`] naming the line.
 pub fn read_record(text: &str) -> Result<Record, RecordError> {
     let mut samples = Vec::new();
-    let mut places = None;
+    let mut columns = None;
     for (i, text) in text.lines().enumerate() {
         if text.starts_with('#') || text.trim().is_empty() {
             continue;
         }
         let row = cells(text);
-        match places {
-            None => places = Some(header(&row, i + 1)?),
-            Some(places) => samples.push(sample(&row, places, i + 1)?),
+        match columns {
+            None => columns = Some(header(&row, i + 1)?),
+            Some(columns) => samples.push(sample(&row, columns, i + 1)?),
         }
     }
-    if places.is_none() {
+    if columns.is_none() {
         return Err(invalid(1, "header", "missing", &COLUMNS.join(",")));
     }
     Record::new(&samples)
 }
 
-/// The cells of a line, without the blanks around them. Lines are read one by one, because errors count comments, too.
+/// The cells of a line, without the blanks around them. Lines are read one by one, so that the line numbers
+/// of errors count comments, too.
 fn cells(line: &str) -> StringRecord {
     let mut reader = ReaderBuilder::new().has_headers(false).trim(Trim::All).from_reader(line.as_bytes());
     reader.records().find_map(Result::ok).unwrap_or_default()
 }
 
-/// Places of the three columns. Another unit is another name: `force_kn` is refused.
+/// Positions of the three columns. Another unit has another name, so that `force_kn` is refused.
 fn header(row: &StringRecord, line: usize) -> Result<[usize; 3], RecordError> {
-    let mut places = [0; 3];
-    for (place, column) in places.iter_mut().zip(COLUMNS) {
-        *place = row.iter().position(|name| name == column).ok_or_else(|| {
+    let mut columns = [0; 3];
+    for (position, wanted) in columns.iter_mut().zip(COLUMNS) {
+        *position = row.iter().position(|name| name == wanted).ok_or_else(|| {
             let names = row.iter().collect::<Vec<_>>().join(",");
-            invalid(line, "header", names, &format!("a column `{column}`"))
+            invalid(line, "header", names, &format!("a column `{wanted}`"))
         })?;
     }
-    Ok(places)
+    Ok(columns)
 }
 
-fn sample(row: &StringRecord, places: [usize; 3], line: usize) -> Result<Sample, RecordError> {
-    let text = |k: usize| row.get(places[k]).unwrap_or_default();
+fn sample(row: &StringRecord, columns: [usize; 3], line: usize) -> Result<Sample, RecordError> {
+    let text = |k: usize| row.get(columns[k]).unwrap_or_default();
     let number = |k: usize| -> Result<f64, RecordError> {
         text(k).parse().map_err(|_| invalid(line, COLUMNS[k], format!("`{}`", text(k)), "a number"))
     };
@@ -79,7 +80,8 @@ fn invalid(line: usize, field: &'static str, value: impl ToString, expected: &st
 mod tests {
     use super::*;
 
-    const GOOD: &str = "# a comment\nphase,force_n,elongation_mm\nloading,100,0\nloading, 1000, 2\nunloading,100,0.5\nunloading,50,0.2\n";
+    const GOOD: &str = "# a comment\nphase,force_n,elongation_mm\nloading,100,0\n\
+        loading, 1000, 2\nunloading,100,0.5\nunloading,50,0.2\n";
 
     #[test]
     fn columns_may_stand_in_any_order_among_comments() {

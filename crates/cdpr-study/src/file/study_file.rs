@@ -1,4 +1,5 @@
-//! The study file, `cdpr-study/1`: JSON, SI units unless a name says otherwise. Described by [`json_schema`].
+//! The study file, `cdpr-study/1`: JSON, in SI units unless a name says otherwise. [`json_schema`] describes
+//! it.
 
 use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
@@ -27,27 +28,30 @@ pub struct StudyFile {
     pub robot: String,
     /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
     pub payload: f64,
-    /// Seed of everything random (replicates, bootstrap): same seed, same numbers.
+    /// Seed of all random numbers (replicates, bootstrap): the same seed gives the same numbers.
     pub seed: u64,
-    /// Scrambled replicates of each sampling, from which the intervals of signed effects come; 0 or at least 2.
+    /// Number of scrambled replicates of each sampling, which give the intervals of signed effects; 0 or at
+    /// least 2.
     pub replicates: usize,
     /// Confidence of those intervals, between 0 and 1.
     pub confidence: f64,
     /// Samples of the parametric bootstrap behind the p-value of each fitted law.
     pub bootstrap_resamples: usize,
-    /// Error models by name: the deviation of each uncertain parameter. Keys are parameters (`mass`, `b3.z`) or groups of them
-    /// (`a`, `b`, `cog`, `dt`), a parameter's own entry before its group's; or names of causes that act on several parameters.
+    /// Error models by name: the deviation of each uncertain parameter. A key is a parameter (`mass`,
+    /// `b3.z`), a group of parameters (`a`, `b`, `cog`, `dt`), or the name of a cause that acts on several
+    /// parameters. The entry of a parameter takes precedence over that of its group.
     pub error_models: IndexMap<String, IndexMap<String, InputSpec>>,
     /// Samplings by name: all uncertain parameters at once, at points of Sobol's sequence.
     #[serde(default)]
     pub samplings: IndexMap<String, SamplingSpec>,
-    /// Measures of sensitivity beside each other, of every sampling; none if left out.
+    /// Measures of sensitivity, computed for every sampling and listed beside each other. Without this field
+    /// none is computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensitivity: Option<SensitivitySpec>,
-    /// Surfaces by name: two parameters over a grid, all others nominal.
+    /// Surfaces by name: two parameters vary over a grid, and all others are nominal.
     #[serde(default)]
     pub surfaces: IndexMap<String, SurfaceSpec>,
-    /// Published figures to stand beside the computed ones.
+    /// Published figures, which are listed beside the computed ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub comparison: Vec<ComparisonSpec>,
 }
@@ -58,15 +62,17 @@ pub struct StudyFile {
 pub struct InputSpec {
     /// Law of the deviation.
     pub law: Law,
-    /// Steps it is rounded to; continuous if left out.
+    /// Steps to which the deviation is rounded. Without this field it is continuous.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<Steps>,
-    /// Parameters that this deviation is added to, each times a factor, beside deviations of their own: what ties them together, such
-    /// as both exit points of one pulley block, `{"b1.z": 1, "b2.z": 1}`. The entry's key is then a name of its own.
+    /// Parameters to which this deviation is added, each times its factor, in addition to deviations of their
+    /// own. It models a common cause: one pulley block moves two exit points by `{"b1.z": 1, "b2.z": 1}`. The
+    /// key of the entry is then the name of the cause.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parameters: Option<IndexMap<String, f64>>,
-    /// Of `youngs_modulus`: law of the cables from which the modulus between their tensions without and with the payload is taken. The
-    /// deviation, which has to be uniform, is then from that modulus, or from the range of those of all cables, loaded and unloaded.
+    /// Only for `youngs_modulus`: the law of the cables. The modulus follows from it between the tensions
+    /// without and with the payload, and the deviation is counted from this modulus. A uniform deviation
+    /// extends the range of the moduli of all cables, loaded and unloaded; other laws are refused.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub operating_point: Option<CableLaw>,
 }
@@ -77,7 +83,7 @@ pub struct InputSpec {
 pub struct PoseSpec {
     /// Position of P in the base frame [m].
     pub position: [f64; 3],
-    /// Unit quaternion (w, x, y, z); no rotation if left out.
+    /// Unit quaternion (w, x, y, z). Without this field the platform is not rotated.
     #[serde(default = "no_rotation")]
     pub quaternion: [f64; 4],
 }
@@ -102,27 +108,28 @@ pub enum PosesSpec {
 pub struct SamplingSpec {
     /// Title for tables and figures.
     pub title: String,
-    /// Wanted pose; left out where there are `poses`.
+    /// Wanted pose; leave it out where there are `poses`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<PoseSpec>,
-    /// Wanted poses in place of one, each with all the observations: what the deflection is over the workspace, without replicates and
-    /// measures of sensitivity.
+    /// Several wanted poses instead of one, each with all observations. They show the deflection over the
+    /// workspace, without replicates and measures of sensitivity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poses: Option<PosesSpec>,
     /// Name of the error model.
     pub error_model: String,
     /// Number of observations at each pose.
     pub observations: usize,
-    /// Index in Sobol's sequence of the first one.
+    /// Index of the first observation in Sobol's sequence.
     #[serde(default)]
     pub first_index: u32,
 }
 
-/// What the measures of sensitivity rest on, for k inputs.
+/// Observations behind the measures of sensitivity, for k inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SensitivitySpec {
-    /// First observations of the sampling, behind t-Student, regressions and expansion: 3 to 65536, but no more than it has.
+    /// Number of observations, the first of the sampling, behind t-Student, regressions and expansion: 3 to
+    /// 65536, but no more than the sampling has.
     pub observations: usize,
     /// Saltelli's blocks behind Sobol' indices, of k + 2 observations: 16 to 1048576.
     pub saltelli_blocks: usize,
@@ -247,7 +254,8 @@ pub enum Statistic {
     DominantAnchorPoints,
     /// The two exit points with the largest t.
     DominantExitPoints,
-    /// Whether the largest t of an anchor point is at most 1.5 times the smallest: `nearly equal` or `unequal`.
+    /// Whether the largest t of an anchor point is at most 1.5 times the smallest: `nearly equal` or
+    /// `unequal`.
     AnchorPointEquality,
     /// The same of the exit points.
     ExitPointEquality,

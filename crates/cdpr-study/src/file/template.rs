@@ -11,17 +11,19 @@ use std::path::Path;
 pub const TEMPLATE_NOTES: &str = "\
 The study runs as it is. Replace by what you know of your robot:
   payload                mass added to the platform, whose effect is the deflection [kg]
-  error_models           law of each parameter's deviation from the robot file, in SI units: how well is it known?
+  error_models           law of each parameter's deviation from the robot file, in SI units
     mass, linear_density, youngs_modulus     platform [kg], all cables [kg/m], [Pa]
-    a, b, cog, dt        anchor points, exit points, centre of mass [m], tension set-points [N]; a3.x alone goes before its group
-    law                  uniform {min, max}, normal {mean, std}, truncated_normal, triangular {min, mode, max}, beta
-    steps                left out: {nearest: {step: 0.001}} rounds values to steps of 1 mm
-  samplings              all of them at once: pose (position [m]; quaternion [w, x, y, z]) or poses (a list or a grid), error model, number of
-                         observations
-  surfaces               two parameters over a grid, all others as in the robot file
+    a, b, cog, dt        anchor points, exit points, centre of mass [m], tension set-points [N];
+                         the entry of a parameter, such as a3.x, takes precedence over that of its group
+    law                  uniform {min, max}, normal {mean, std}, truncated_normal,
+                         triangular {min, mode, max}, beta
+    steps                optional: {nearest: {step: 0.001}} rounds values to steps of 1 mm
+  samplings              all parameters vary at once: pose (position [m]; quaternion [w, x, y, z]) or
+                         poses (a list or a grid), error model, number of observations
+  surfaces               two parameters vary over a grid, all others are as in the robot file
   replicates             scrambled samplings behind the intervals of signed effects
-  sensitivity            measures of sensitivity beside each other; without it the study is faster
-  seed                   same seed, same numbers
+  sensitivity            all measures of sensitivity; without it the study is faster
+  seed                   the same seed gives the same numbers
 All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE --out results";
 
 /// A study file for `robot`, in which `robot_path` names the robot file. Without a position it takes one on
@@ -52,7 +54,7 @@ pub fn template(
             .find_map(|position| Some((position, held(&position).ok()?)))
             .ok_or_else(|| {
                 let expected =
-                    "x,y,z [m], for the robot holds none of those tried in the middle of its exit points";
+                    "x,y,z [m], because the robot holds none of the positions tried between its exit points";
                 StudyError::setting("position", "missing", expected)
             })?,
     };
@@ -139,8 +141,9 @@ pub fn write_template(
     write().map_err(|source| StudyError::Write { path: path.to_owned(), source })
 }
 
-/// Positions above each other in the middle of the exit points: between the lowest and the highest of them, or below where all are
-/// as high. Halves first, the ends never.
+/// Positions above each other in the middle of the exit points, between the lowest and the highest of these;
+/// below them where all exit points have the same height. The intervals are halved, and their ends are left
+/// out.
 fn candidates(robot: &Robot) -> Vec<[f64; 3]> {
     let exits = || robot.cables.iter().map(|cable| cable.exit_point);
     let middle = exits().sum::<Vector3<f64>>() / robot.cables.len() as f64;

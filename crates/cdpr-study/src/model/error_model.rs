@@ -37,8 +37,8 @@ pub struct ErrorModel {
 pub struct Term {
     /// Number of the input.
     pub input: usize,
-    /// Place in [`Parameter::all`] of the parameter that it is added to.
-    pub place: usize,
+    /// Index in [`Parameter::all`] of the parameter that it is added to.
+    pub parameter: usize,
     /// Its factor.
     pub factor: f64,
 }
@@ -46,14 +46,26 @@ pub struct Term {
 /// What is wrong with an entry of an error model.
 #[derive(Debug)]
 pub(crate) enum Wrong {
-    /// Field below the model, value, what would be right.
-    Field(String, String, &'static str),
+    /// A field below the model, its value, and what would be right.
+    Field { field: String, value: String, expected: String },
     /// A law or its steps.
     Law(SensitivityError),
 }
 
-const PARAMETERS: &str =
-    "a parameter (mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...)";
+impl Wrong {
+    pub(crate) fn field(
+        field: impl Into<String>,
+        value: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
+        Self::Field { field: field.into(), value: value.into(), expected: expected.into() }
+    }
+}
+
+/// What stands in a message where a parameter is expected.
+fn a_parameter() -> String {
+    format!("a parameter ({})", Parameter::NAMES)
+}
 
 /// The standard deviation of each parameter of a robot [SI units], in the order of [`Parameter::all`], from
 /// those that have names: its own, else that of its group, else none.
@@ -66,8 +78,10 @@ pub fn uncertainties(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<f64>,
     let known = |name: &str| parameters.iter().any(|p| p.group() == name || p.to_string() == name);
     let wrong = |(name, std): &&(String, f64)| !(known(name) && *std > 0.0 && std.is_finite());
     if let Some((name, std)) = named.iter().find(wrong) {
-        let expected = "a positive standard deviation of mass, linear_density, youngs_modulus, a, b, cog, dt or one of their parameters, \
-                        such as a1.x";
+        let expected = format!(
+            "a positive standard deviation of {} or one of their parameters, such as a1.x",
+            Parameter::GROUPS
+        );
         return Err(StudyError::setting(format!("uncertainty of {name}"), std, expected));
     }
     let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, std)| *std);
@@ -82,39 +96,42 @@ impl ErrorModel {
         let mut found =
             Self { inputs: Vec::new(), entries: Vec::new(), terms: Vec::new(), parameters: names.len() };
         if let Some((key, _)) = model.iter().find(|(key, spec)| spec.parameters.is_none() && !known(key)) {
-            let expected = "a parameter (mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...), \
-                            a group of them (a, b, cog, dt), or an entry with `parameters`";
-            return Err(Wrong::Field(key.clone(), key.clone(), expected));
+            let expected = format!(
+                "{}, a group of parameters ({}), or an entry with `parameters`",
+                a_parameter(),
+                Parameter::GROUPS
+            );
+            return Err(Wrong::field(key, key, expected));
         }
-        for (place, (parameter, own)) in parameters.iter().zip(&names).enumerate() {
+        for (index, (parameter, own)) in parameters.iter().zip(&names).enumerate() {
             // A cause of several parameters that bears the name of one is refused below.
             let entry = model.get_key_value(own).or_else(|| model.get_key_value(parameter.group()));
             if let Some((entry, spec)) = entry {
-                found.add(entry, own, spec, [(place, 1.0)])?;
+                found.add(entry, own, spec, [(index, 1.0)])?;
             }
         }
         for (key, spec) in model {
             let Some(shared) = &spec.parameters else { continue };
             if known(key) || !key.chars().all(|c| c.is_ascii_alphanumeric() || "._-".contains(c)) {
                 let expected = "a name of letters, digits, `.`, `_` and `-` that no parameter or group has";
-                return Err(Wrong::Field(key.clone(), key.clone(), expected));
+                return Err(Wrong::field(key, key, expected));
             }
             if shared.is_empty() {
-                return Err(Wrong::Field(format!("{key}.parameters"), "empty".to_owned(), PARAMETERS));
+                return Err(Wrong::field(format!("{key}.parameters"), "empty", a_parameter()));
             }
             let effect = |(name, factor): (&String, &f64)| {
-                let field = || format!("{key}.parameters");
-                let place = names.iter().position(|known| known == name);
-                let place = place.ok_or_else(|| Wrong::Field(field(), name.clone(), PARAMETERS))?;
+                let index = names.iter().position(|known| known == name);
+                let index =
+                    index.ok_or_else(|| Wrong::field(format!("{key}.parameters"), name, a_parameter()))?;
                 if !factor.is_finite() || *factor == 0.0 {
                     let expected = "a finite factor that is not zero";
-                    return Err(Wrong::Field(
+                    return Err(Wrong::field(
                         format!("{key}.parameters.{name}"),
                         factor.to_string(),
                         expected,
                     ));
                 }
-                Ok((place, *factor))
+                Ok((index, *factor))
             };
             found.add(key, key, spec, shared.iter().map(effect).collect::<Result<Vec<_>, _>>()?)?;
         }
@@ -135,7 +152,7 @@ impl ErrorModel {
             inputs,
             terms: uncertain()
                 .enumerate()
-                .map(|(input, (place, _))| Term { input, place, factor: 1.0 })
+                .map(|(input, (parameter, _))| Term { input, parameter, factor: 1.0 })
                 .collect(),
             parameters: deviations.len(),
         }
@@ -153,7 +170,11 @@ impl ErrorModel {
         let number = self.inputs.len();
         self.inputs.push(input);
         self.entries.push(entry.to_owned());
-        self.terms.extend(effects.into_iter().map(|(place, factor)| Term { input: number, place, factor }));
+        self.terms.extend(effects.into_iter().map(|(parameter, factor)| Term {
+            input: number,
+            parameter,
+            factor,
+        }));
         Ok(())
     }
 
@@ -167,8 +188,8 @@ impl ErrorModel {
         let inputs = self.inputs.len();
         let mut deviations = vec![0.0; rows.len() / inputs * self.parameters];
         for (deviations, row) in deviations.chunks_exact_mut(self.parameters).zip(rows.chunks_exact(inputs)) {
-            for Term { input, place, factor } in &self.terms {
-                deviations[*place] += factor * row[*input];
+            for Term { input, parameter, factor } in &self.terms {
+                deviations[*parameter] += factor * row[*input];
             }
         }
         deviations
@@ -177,8 +198,8 @@ impl ErrorModel {
     /// Equation (M2): derivatives with respect to the inputs from those with respect to the parameters.
     pub fn gradient(&self, slopes: &[f64]) -> Vec<f64> {
         let mut gradient = vec![0.0; self.inputs.len()];
-        for Term { input, place, factor } in &self.terms {
-            gradient[*input] += factor * slopes[*place];
+        for Term { input, parameter, factor } in &self.terms {
+            gradient[*input] += factor * slopes[*parameter];
         }
         gradient
     }
@@ -187,7 +208,7 @@ impl ErrorModel {
     pub fn group(&self, input: usize) -> &'static str {
         let parameters = Parameter::all((self.parameters - 6) / 7);
         let of_input = self.terms.iter().filter(|term| term.input == input);
-        let mut groups = of_input.map(|term| parameters[term.place].group());
+        let mut groups = of_input.map(|term| parameters[term.parameter].group());
         let first = groups.next().unwrap_or("shared");
         if groups.all(|group| group == first) { first } else { "shared" }
     }

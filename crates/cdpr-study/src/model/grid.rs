@@ -24,7 +24,7 @@ const FLAT: f64 = 0.1;
 pub(crate) type Wrong = (Option<Axis>, String, String);
 
 impl Grid {
-    /// From the places along x, y and z.
+    /// From the coordinates along x, y and z.
     ///
     /// # Errors
     /// [`StudyError::Setting`] for invalid coordinates, and for more positions than fit in memory.
@@ -52,7 +52,7 @@ impl Grid {
         Ok(Self { x, y, z })
     }
 
-    /// The plane in which the coordinate `normal` is `place` [m], over the frame: the ranges of the exit
+    /// The plane in which the coordinate along `normal` is `value` [m], over the frame: the ranges of the exit
     /// points' other two coordinates, with so many points each. Where all exit points are at about one
     /// height, heights begin at the floor of the base frame, z = 0.
     ///
@@ -61,13 +61,13 @@ impl Grid {
     pub fn over_frame(
         robot: &Robot,
         normal: Axis,
-        place: f64,
+        value: f64,
         points: [usize; 2],
     ) -> Result<Self, StudyError> {
         let frame = frame(robot);
         let size = frame.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
         let mut points = points.into_iter();
-        let mut axes = [GridAxis { min: place, max: place, points: 1 }; 3];
+        let mut axes = [GridAxis { min: value, max: value, points: 1 }; 3];
         for (axis, [low, high]) in Axis::ALL.into_iter().zip(frame) {
             if axis == normal {
                 continue;
@@ -77,7 +77,7 @@ impl Grid {
             if max - min < FLAT * size {
                 return Err(StudyError::setting(
                     "plane",
-                    format!("{normal}={place}"),
+                    format!("{normal}={value}"),
                     format!("a plane that the exit points span: along {axis} they do not; give a box"),
                 ));
             }
@@ -86,7 +86,7 @@ impl Grid {
         Self::new(axes)
     }
 
-    /// The places along an axis.
+    /// The coordinates along an axis.
     pub fn axis(&self, axis: Axis) -> &GridAxis {
         match axis {
             Axis::X => &self.x,
@@ -109,7 +109,11 @@ impl Grid {
     /// The level pose at a position, by its index.
     pub fn pose(&self, number: usize) -> Pose {
         let (column, k) = (number / self.z.points, number % self.z.points);
-        Pose::at(self.x.place(column / self.y.points), self.y.place(column % self.y.points), self.z.place(k))
+        Pose::at(
+            self.x.coordinate(column / self.y.points),
+            self.y.coordinate(column % self.y.points),
+            self.z.coordinate(k),
+        )
     }
 
     /// All positions as level poses.
@@ -121,8 +125,8 @@ impl Grid {
 /// Least and greatest coordinate of the exit points along x, y and z [m].
 pub fn frame(robot: &Robot) -> [[f64; 2]; 3] {
     [0, 1, 2].map(|axis| {
-        let places = || robot.cables.iter().map(|cable| cable.exit_point[axis]);
-        [places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max)]
+        let exits = || robot.cables.iter().map(|cable| cable.exit_point[axis]);
+        [exits().fold(f64::INFINITY, f64::min), exits().fold(f64::NEG_INFINITY, f64::max)]
     })
 }
 
@@ -145,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn a_grid_that_is_none_is_refused_with_its_numbers() {
+    fn an_invalid_grid_is_refused_with_its_numbers() {
         let fine = axis(0.0, 1.0, 2);
         for (bad, value) in [
             (axis(1.0, 0.0, 2), "1:0:2"),

@@ -18,8 +18,8 @@ const MOST_REPLICATES: usize = 10_000;
 const MOST_RESAMPLES: usize = 1_000_000;
 
 impl Study {
-    /// Reads and checks a study file and its robot file. Every surface and sampling at one pose is prepared once, so that what is wrong
-    /// with the last one is said before the first one runs.
+    /// Reads and checks a study file and its robot file. Every surface and every sampling at one pose is
+    /// prepared once, so that an error in the last one is found before the first one runs.
     ///
     /// # Errors
     /// [`StudyError`] naming file, field, value and what would be right.
@@ -27,7 +27,8 @@ impl Study {
         Self::from_json(&read(path)?, path)
     }
 
-    /// The same from text; `path` names the text in errors, and the robot file is looked for beside it.
+    /// Reads and checks a study from its text. `path` names the text in errors, and the robot file is
+    /// searched beside it.
     ///
     /// # Errors
     /// As [`Study::open`].
@@ -166,7 +167,8 @@ impl Study {
         Ok(())
     }
 
-    /// A sampling at one pose is prepared; of one at several, that there is an equilibrium is found out where it runs.
+    /// Prepares a sampling at one pose. Whether the nominal robot holds each of several poses is found out
+    /// only when the sampling runs.
     fn check_sampling(&self, name: &str, spec: &SamplingSpec) -> Result<(), StudyError> {
         let set = self.poses(name, spec)?;
         if set.several().is_none() {
@@ -174,7 +176,8 @@ impl Study {
             return self.design(name, spec, &[&nominal]).map(|_| ());
         }
         if name == BLOCKS_NAME {
-            let expected = "another name for a sampling at several poses: its tables have a folder of that name, and the blocks, too";
+            let expected = "another name for a sampling at several poses: the folder of its tables would be that of \
+                            the blocks";
             return Err(self.invalid("samplings", name, expected));
         }
         self.design(name, spec, &[])?;

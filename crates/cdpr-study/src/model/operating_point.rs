@@ -31,9 +31,7 @@ pub(crate) fn resolved(
     let (mut model, mut found) = (model.clone(), None);
     for (key, spec) in &mut model {
         let Some(law) = &spec.operating_point else { continue };
-        let wrong = |value: &str, expected| {
-            Wrong::Field(format!("{key}.operating_point"), value.to_owned(), expected)
-        };
+        let wrong = |value: &str, expected| Wrong::field(format!("{key}.operating_point"), value, expected);
         if key != "youngs_modulus" || spec.parameters.is_some() {
             return Err(wrong("given", "an operating point of `youngs_modulus` alone"));
         }
@@ -44,11 +42,11 @@ pub(crate) fn resolved(
             ));
         }
         if let Some((field, value, expected)) = law.invalid() {
-            return Err(Wrong::Field(format!("{key}.operating_point.{field}"), value, expected));
+            return Err(Wrong::field(format!("{key}.operating_point.{field}"), value, expected));
         }
         let Law::Uniform { min, max } = spec.law else {
             let expected = "a uniform law, which a range of moduli can widen";
-            return Err(Wrong::Field(format!("{key}.law"), format!("{:?}", spec.law), expected));
+            return Err(Wrong::field(format!("{key}.law"), format!("{:?}", spec.law), expected));
         };
         let range = |range: [f64; 2], value: f64| [range[0].min(value), range[1].max(value)];
         let nothing = [f64::INFINITY, f64::NEG_INFINITY];

@@ -54,8 +54,8 @@ impl Study {
         }
     }
 
-    /// What is uncertain in a sampling at the operating point of these deflections of the nominal robot, and the points at which it is
-    /// observed.
+    /// The error model of a sampling at the operating point of these deflections of the nominal robot, and
+    /// the points at which it is observed.
     pub(crate) fn design(
         &self,
         name: &str,
@@ -128,8 +128,8 @@ impl Study {
     ) -> Result<(ErrorModel, Option<Moduli>), StudyError> {
         let field = format!("error_models.{name}");
         let wrong = |wrong| match wrong {
-            Wrong::Field(below, value, expected) => {
-                self.invalid(&format!("{field}.{below}"), value, expected)
+            Wrong::Field { field: below, value, expected } => {
+                self.invalid(&format!("{field}.{below}"), value, &expected)
             }
             Wrong::Law(source) => self.statistics(field.clone(), source),
         };
@@ -170,12 +170,14 @@ impl Study {
             return Err(self.invalid(&format!("{field}.points"), spec.points, &expected));
         }
         let last = (spec.points - 1) as f64;
-        // Weighted ends: the distance between them need not be a number, and the last point is `max` itself.
+        // The ends are weighted, so that no overflow of their distance matters and the last point is exactly
+        // `max`.
         let point = |k: usize| spec.min * ((last - k as f64) / last) + spec.max * (k as f64 / last);
         Ok(SurfaceAxis { parameter, index, deviations: (0..spec.points).map(point).collect() })
     }
 
-    /// The nominal robot at the pose of a surface or of a sampling by its name, without preparing to observe it.
+    /// The nominal robot at the pose of a surface or of a sampling by its name, without the preparation of
+    /// observations.
     ///
     /// # Errors
     /// As [`Study::sampling`].

@@ -15,7 +15,7 @@ use crate::model::designs::{OWN, Points};
 use crate::model::observed::{Failure, Observed, count_failed, failures, outcome_rms_mm, rms_mm};
 use crate::model::study::Sampling;
 use crate::store::block::{BLOCK, blocks};
-use crate::store::blocks::{Blocks, Place};
+use crate::store::blocks::{BlockId, Blocks};
 use cdpr_sensitivity::{EffectSums, SampleDesign};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -206,9 +206,9 @@ pub(crate) fn observe_block<T: Send>(
     if (session.stop)() {
         return Err(StudyError::Stopped);
     }
-    let place = Place { sampling: &sampling.name, design: name, number };
+    let id = BlockId { sampling: &sampling.name, design: name, number };
     let known = match session.blocks {
-        Some(blocks) => blocks.known(&place, session.warn)?,
+        Some(blocks) => blocks.known(&id, session.warn)?,
         None => Vec::new(),
     };
     let known = &known[..known.len().min(range.len())];
@@ -222,7 +222,7 @@ pub(crate) fn observe_block<T: Send>(
     };
     let (made, outcomes): (Vec<T>, Vec<Vec<Observed>>) = parts.into_par_iter().map(observed).unzip();
     if let Some(blocks) = session.blocks.filter(|_| known.len() < range.len()) {
-        blocks.write(&place, &outcomes.concat())?;
+        blocks.write(&id, &outcomes.concat())?;
     }
     Ok(made)
 }

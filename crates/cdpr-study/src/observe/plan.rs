@@ -7,7 +7,7 @@ use crate::model::study::{Sampling, Study};
 use crate::observe::observation::{Session, observe_block};
 use crate::observe::shard::Shard;
 use crate::store::block;
-use crate::store::blocks::Place;
+use crate::store::blocks::BlockId;
 use std::ops::Range;
 
 /// All blocks of a study, numbered from 0: those of each design, for each pose, for each sampling in turn.
@@ -120,9 +120,9 @@ impl<'a> BlockMaker<'a> {
             return Err(StudyError::setting("block", block, expected));
         };
         let design_name = kind.name();
-        let place = Place { sampling: &name, design: &design_name, number };
+        let id = BlockId { sampling: &name, design: &design_name, number };
         if let Some(blocks) = self.session.blocks
-            && blocks.known(&place, self.session.warn)?.len() >= range.len()
+            && blocks.known(&id, self.session.warn)?.len() >= range.len()
         {
             (self.session.tick)(range.len());
             return Ok(());

@@ -26,14 +26,14 @@ impl Shard {
     /// [`StudyError::Setting`] for any other text; it names the variable if the task is not one of `n`.
     pub fn parse(text: &str, variable: impl Fn(&str) -> Option<String>) -> Result<Self, StudyError> {
         let refused = || StudyError::setting("shard", text, EXPECTED);
-        let (place, count) = text.split_once('/').ok_or_else(refused)?;
+        let (index, count) = text.split_once('/').ok_or_else(refused)?;
         let count: usize = count.parse().ok().filter(|count| *count > 0).ok_or_else(refused)?;
         let shard = |index: &str| {
             let index = index.parse().ok().filter(|index| (1..=count).contains(index))?;
             Some(Self { index, count })
         };
-        if place != "auto" {
-            return shard(place).ok_or_else(refused);
+        if index != "auto" {
+            return shard(index).ok_or_else(refused);
         }
         let Some((name, task)) = TASK.iter().find_map(|name| Some((*name, variable(name)?))) else {
             let expected = format!("i/{count} where neither {} is set", TASK.join(" nor "));
@@ -45,8 +45,8 @@ impl Shard {
 
     /// Whether the shard has a block, by its index in the whole study.
     pub(crate) fn has(self, block: usize) -> bool {
-        let (round, place) = (block / self.count, block % self.count);
-        (place + mixed(round as u64) as usize % self.count) % self.count == self.index - 1
+        let (round, within) = (block / self.count, block % self.count);
+        (within + mixed(round as u64) as usize % self.count) % self.count == self.index - 1
     }
 }
 
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn shards_that_are_none_are_refused_with_the_value() {
+    fn invalid_shards_are_refused_with_the_value() {
         for text in
             ["0/4", "5/4", "x", "1", "1/0", "1/4/2", "-1/4", "", "auto", "auto/x", "auto/0", "auto/-1"]
         {

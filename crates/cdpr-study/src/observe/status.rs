@@ -5,7 +5,7 @@ use crate::model::designs::Design;
 use crate::model::observed::{Observed, failures, outcome_rms_mm};
 use crate::model::study::Study;
 use crate::observe::plan::{Plan, Planned};
-use crate::store::blocks::{Blocks, Place};
+use crate::store::blocks::{BlockId, Blocks};
 use cdpr_sensitivity::Moments;
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -190,8 +190,8 @@ fn visit(
     };
     for block in (0..plan.blocks()).filter_map(|number| plan.block(number)).filter(wanted) {
         let design = block.design.name();
-        let place = Place { sampling: &block.sampling, design: &design, number: block.number };
-        let outcomes = match blocks.read(&place) {
+        let id = BlockId { sampling: &block.sampling, design: &design, number: block.number };
+        let outcomes = match blocks.read(&id) {
             Ok(outcomes) if outcomes.is_empty() && block.sampling != block.entry && !is_held(&block)? => None,
             Ok(mut outcomes) => {
                 outcomes.truncate(block.range.len());
@@ -200,7 +200,7 @@ fn visit(
             Err(error @ StudyError::DamagedBlock { .. }) => Some(Err(error)),
             Err(error) => return Err(error),
         };
-        see(Seen { path: blocks.path(&place), block, outcomes });
+        see(Seen { path: blocks.path(&id), block, outcomes });
     }
     Ok(())
 }

@@ -110,8 +110,8 @@ fn provenance(sampling: &Sampling, hash: String) -> Vec<KeyValue> {
     let inputs = sampling.design.inputs().iter().enumerate().filter_map(|(number, input)| {
         // A cause of parameters in different units has no unit.
         let mut terms = sampling.errors.terms.iter().filter(|term| term.input == number);
-        let unit = parameters[terms.next()?.place].unit();
-        let same = terms.all(|term| parameters[term.place].unit() == unit);
+        let unit = parameters[terms.next()?.parameter].unit();
+        let same = terms.all(|term| parameters[term.parameter].unit() == unit);
         same.then(|| (format!("d_{}", input.name), unit))
     });
     let units = inputs

@@ -3,8 +3,9 @@
 //!
 //! ```text
 //! cdpr-block/1 CHECKSUM        BLAKE3, in hexadecimal digits, of all that follows this line
-//! {"version":..., "study":..., "sampling":..., "design":..., "first":..., "observations":..., "failed":{...}}
-//! dx dy dz ...                 displacement [m] of each observation, 64-bit floats, least byte first; NaN where it failed
+//! {"version":.., "study":.., "sampling":.., "design":.., "first":.., "observations":.., "failed":{..}}
+//! dx dy dz ...                 displacement [m] of each observation as little-endian 64-bit floats; NaN
+//!                              where it failed
 //! [[index, kind, reason], ...] failed observations, counted from the first of the block
 //! ```
 

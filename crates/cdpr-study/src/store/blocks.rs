@@ -25,7 +25,7 @@ pub struct Blocks {
 
 /// Identity of a block.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place<'a> {
+pub(crate) struct BlockId<'a> {
     pub(crate) sampling: &'a str,
     pub(crate) design: &'a str,
     pub(crate) number: usize,
@@ -43,9 +43,9 @@ impl Blocks {
         Ok(Self { results, folder, study: study.hash()?, tables })
     }
 
-    pub(crate) fn path(&self, place: &Place) -> PathBuf {
-        let folder = self.folder.join(place.sampling).join(place.design);
-        folder.join(format!("{:06}.block", place.number))
+    pub(crate) fn path(&self, id: &BlockId) -> PathBuf {
+        let folder = self.folder.join(id.sampling).join(id.design);
+        folder.join(format!("{:06}.block", id.number))
     }
 
     /// The known observations of a block, from the first on. A damaged block causes a warning and has none.
@@ -54,10 +54,10 @@ impl Blocks {
     /// [`StudyError::Read`]; [`StudyError::ForeignBlock`] for a block that belongs elsewhere.
     pub(crate) fn known(
         &self,
-        place: &Place,
+        id: &BlockId,
         warn: &dyn Fn(&StudyError),
     ) -> Result<Vec<Observed>, StudyError> {
-        match self.read(place) {
+        match self.read(id) {
             Err(error @ StudyError::DamagedBlock { .. }) => {
                 warn(&error);
                 Ok(Vec::new())
@@ -67,15 +67,15 @@ impl Blocks {
     }
 
     /// The same, but a damaged block is an error.
-    pub(crate) fn read(&self, place: &Place) -> Result<Vec<Observed>, StudyError> {
-        let path = self.path(place);
+    pub(crate) fn read(&self, id: &BlockId) -> Result<Vec<Observed>, StudyError> {
+        let path = self.path(id);
         let file = match fs::read(&path) {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
             read => read.map_err(|source| StudyError::Read { path: path.clone(), source })?,
         };
         let (header, outcomes) =
             decode(&file).map_err(|reason| StudyError::DamagedBlock { path: path.clone(), reason })?;
-        let wanted = self.header(place, &outcomes);
+        let wanted = self.header(id, &outcomes);
         let foreign = |field, found: &str, expected: &str| StudyError::ForeignBlock {
             path: path.clone(),
             field,
@@ -109,14 +109,14 @@ impl Blocks {
     ///
     /// # Errors
     /// [`StudyError::Write`].
-    pub(crate) fn write(&self, place: &Place, outcomes: &[Observed]) -> Result<(), StudyError> {
-        if self.read(place).is_ok_and(|found| found.len() >= outcomes.len()) {
+    pub(crate) fn write(&self, id: &BlockId, outcomes: &[Observed]) -> Result<(), StudyError> {
+        if self.read(id).is_ok_and(|found| found.len() >= outcomes.len()) {
             return Ok(());
         }
-        let path = self.path(place);
-        let file = encode(&self.header(place, outcomes), outcomes)
+        let path = self.path(id);
+        let file = encode(&self.header(id, outcomes), outcomes)
             .map_err(|error| StudyError::Write { path: path.clone(), source: error.into() })?;
-        let folder = self.folder.join(place.sampling).join(place.design);
+        let folder = self.folder.join(id.sampling).join(id.design);
         fs::create_dir_all(&folder).map_err(|source| StudyError::Write { path: folder, source })?;
         self.remove_summary()?;
         write_atomic(path, &file)?;
@@ -161,13 +161,13 @@ impl Blocks {
         all.into_iter().filter(|path| is_unfinished(path)).try_for_each(remove_unfinished)
     }
 
-    fn header(&self, place: &Place, outcomes: &[Observed]) -> BlockHeader {
+    fn header(&self, id: &BlockId, outcomes: &[Observed]) -> BlockHeader {
         BlockHeader {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             study: self.study.clone(),
-            sampling: place.sampling.to_owned(),
-            design: place.design.to_owned(),
-            first: place.number * BLOCK,
+            sampling: id.sampling.to_owned(),
+            design: id.design.to_owned(),
+            first: id.number * BLOCK,
             observations: outcomes.len(),
             failed: count_failed(failures(outcomes)),
         }
@@ -227,12 +227,12 @@ mod tests {
     fn a_summary_goes_with_a_block_that_it_does_not_know_and_with_no_other() {
         let results = tempfile::tempdir().unwrap();
         let (blocks, summary) = (blocks(results.path()), results.path().join(SUMMARY_NAME));
-        let place = Place { sampling: "mechanical", design: "sampling", number: 0 };
+        let id = BlockId { sampling: "mechanical", design: "sampling", number: 0 };
         for (observations, stays) in [(2, false), (2, true), (1, true), (3, false)] {
             fs::write(&summary, "of all blocks").unwrap();
-            blocks.write(&place, &vec![Ok(Vector3::zeros()); observations]).unwrap();
+            blocks.write(&id, &vec![Ok(Vector3::zeros()); observations]).unwrap();
             assert_eq!(summary.exists(), stays, "{observations} observations");
-            assert!(blocks.read(&place).unwrap().len() >= observations);
+            assert!(blocks.read(&id).unwrap().len() >= observations);
         }
     }
 

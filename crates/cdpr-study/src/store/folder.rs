@@ -15,7 +15,8 @@ use cdpr_robot::from_json;
 use std::path::Path;
 
 const MARK: &str = "Results of a study, written by cdpr, which knows this folder by this file.
-`cdpr study run --overwrite` removes the blocks, tables and figures of the study in study.json, and nothing else.
+`cdpr study run --overwrite` removes the blocks, tables and figures of the study in study.json,
+and nothing else.
 ";
 
 /// What becomes of blocks that a folder holds already.
@@ -76,7 +77,8 @@ pub fn open_results(folder: &Path) -> Result<(Study, Blocks), StudyError> {
     Ok((study, blocks))
 }
 
-/// The study that a folder with blocks is of is the one to run. Without a study file it was begun only.
+/// Checks that the study in a folder is the one to run. A folder without a study file holds an interrupted
+/// start.
 fn check_study(folder: &Path, study: &Study) -> Result<(), StudyError> {
     let path = folder.join(STUDY_NAME);
     if !path.exists() {
@@ -90,8 +92,8 @@ fn check_study(folder: &Path, study: &Study) -> Result<(), StudyError> {
     Err(StudyError::ForeignFolder { folder: folder.to_owned(), found, expected, version })
 }
 
-/// Writes the study and its robot into a folder of results: [`Study::open`] reads them there. A summary is of
-/// the study beside it: it goes when that changes, and only then.
+/// Writes the study and its robot into a folder of results, where [`Study::open`] reads them. A summary
+/// belongs to the study beside it: it is removed when the study changes, and only then.
 fn write_study(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(), StudyError> {
     let file = StudyFile { robot: ROBOT_NAME.to_owned(), ..study.file.clone() };
     for (name, text) in
@@ -111,11 +113,11 @@ fn write_study(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(), Stud
     Ok(())
 }
 
-/// Removes what runs have written into a folder of results, but for the study, which another one takes the
-/// place of. Not what else is there.
+/// Removes what runs have written into a folder of results, and nothing else. The study stays, because
+/// another one replaces it.
 fn remove_results(folder: &Path, blocks: &Blocks) -> Result<(), StudyError> {
     let path = folder.join(STUDY_NAME);
-    // Without a study file it was begun only.
+    // A folder without a study file holds an interrupted start.
     if path.exists() {
         let study: StudyFile =
             from_json(&read(&path)?).map_err(|source| StudyError::Format { path, source })?;
