@@ -8,12 +8,14 @@
 //! | How often does the direct model find the true pose from a wrong start? | [`run_robustness`] |
 //! | Which values of a robot file look wrong? | [`inspect`] |
 
+mod error;
 mod inspection;
 mod robustness;
 mod tolerance;
 mod workspace;
 mod write;
 
+pub use error::AssessError;
 pub use inspection::{Finding, Severity, inspect};
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,

@@ -15,12 +15,12 @@ pub use protocol::{Assignment, PoseRegion, Protocol, Published, StartOffset};
 pub(crate) use summary::in_degrees;
 pub use summary::{Draws, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread};
 
+use crate::error::AssessError;
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_sensitivity::{RandomDesign, SampleDesign};
 use cdpr_statics::{
     DirectMethod, DirectProblem, DirectSolution, Load, Residual, Start, StaticsError, direct, inverse,
 };
-use cdpr_study::StudyError;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::time::Instant;
@@ -174,16 +174,16 @@ pub fn anchor_distance(robot: &Robot, one: &Pose, other: &Pose) -> f64 {
     (squares / robot.cables.len() as f64).sqrt()
 }
 
-/// Runs a test; `tick` is called after each pose collected and after each solve.
+/// Runs a test. `tick` is called after each pose collected and after each solve.
 ///
 /// # Errors
-/// [`StudyError::Setting`]; [`StudyError::TooFewPoses`] where hardly any pose is held. A failed solve is a
-/// result.
+/// [`AssessError::Study`] for an invalid setting; [`AssessError::TooFewPoses`] where hardly any pose is held.
+/// A failed solve is a result.
 pub fn run_robustness(
     robot: &Robot,
     protocol: &Protocol,
     tick: &(dyn Fn() + Sync),
-) -> Result<RobustnessResult, StudyError> {
+) -> Result<RobustnessResult, AssessError> {
     protocol.validate()?;
     let robot = &protocol.robot(robot);
     let (poses, drawn, refused) = collect_poses(robot, protocol, tick)?;
@@ -214,7 +214,7 @@ fn collect_poses(
     robot: &Robot,
     protocol: &Protocol,
     tick: &(dyn Fn() + Sync),
-) -> Result<(Vec<HeldPose>, usize, Vec<RefusedPose>), StudyError> {
+) -> Result<(Vec<HeldPose>, usize, Vec<RefusedPose>), AssessError> {
     let design = protocol.design()?;
     let (mut poses, mut refused) = (Vec::new(), Vec::new());
     let mut drawn = 0;
@@ -223,7 +223,7 @@ fn collect_poses(
         if drawn == last {
             let infeasible =
                 refused.iter().filter(|r: &&RefusedPose| matches!(r.refusal, Refusal::Infeasible(_))).count();
-            return Err(StudyError::TooFewPoses {
+            return Err(AssessError::TooFewPoses {
                 wanted: protocol.poses,
                 found: poses.len(),
                 drawn,

@@ -14,6 +14,7 @@
 //! gives κ; κ and the limit give the admissible variance; this gives the cheapest s ([`allocate`]). A few
 //! rounds suffice. Independent draws then verify what the budget reaches.
 
+use crate::error::AssessError;
 use cdpr_robot::Perturbed;
 use cdpr_sensitivity::{Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate};
 use cdpr_statics::{DirectProblem, Load, Start, StaticsError, derivatives, direct, wound_lengths};
@@ -115,10 +116,10 @@ const MOST_ROBOTS: usize = 1 << 24;
 /// Finds the cheapest tightening of a sampling's tolerances by which `limit` is kept.
 ///
 /// # Errors
-/// [`StudyError::Setting`] for an invalid limit, quantile, cost or count; [`StudyError::Unreachable`] for a
-/// limit that no tightening reaches; [`StudyError::Unobservable`] where the robot without deviations, or too
+/// [`AssessError::Study`] for an invalid limit, quantile, cost or count; [`AssessError::Unreachable`] for a
+/// limit that no tightening reaches; [`AssessError::Unobservable`] where the robot without deviations, or too
 /// many robots of a sample, have no feasible tensions.
-pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceBudget, StudyError> {
+pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceBudget, AssessError> {
     let model = Model::new(sampling, limit)?;
     let unmoved = vec![1.0; model.names.len()];
     let mut factors = unmoved.clone();
@@ -191,7 +192,7 @@ struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    fn new(sampling: &'a Sampling<'a>, limit: &'a Limit) -> Result<Self, StudyError> {
+    fn new(sampling: &'a Sampling<'a>, limit: &'a Limit) -> Result<Self, AssessError> {
         check(limit)?;
         let errors = &sampling.errors;
         let mut names: Vec<String> = Vec::new();
@@ -205,7 +206,7 @@ impl<'a> Model<'a> {
         }
         if let Some((name, _)) = limit.costs.iter().find(|(name, _)| !names.contains(name)) {
             let expected = format!("one of the tolerances {}", names.join(", "));
-            return Err(StudyError::setting("costs", name, expected));
+            return Err(StudyError::setting("costs", name, expected).into());
         }
         let mut model = Self {
             sampling,
@@ -218,7 +219,7 @@ impl<'a> Model<'a> {
             inputs,
             least_mm: 0.0,
         };
-        let unobservable = |source| StudyError::Unobservable {
+        let unobservable = |source| AssessError::Unobservable {
             what: "the robot whose deviations are the means of their laws".to_owned(),
             source: Some(Box::new(source)),
         };
@@ -321,7 +322,7 @@ impl<'a> Model<'a> {
 
     /// The quantile [mm] of a round. It uses the same points for all factors, so that it changes with the
     /// factors alone.
-    fn rounded_quantile(&self, factors: &[f64]) -> Result<f64, StudyError> {
+    fn rounded_quantile(&self, factors: &[f64]) -> Result<f64, AssessError> {
         let (study, errors) = (self.sampling.study, &self.sampling.errors);
         let design = SobolDesign::scrambled(errors.inputs.clone(), ROUND, study.file.seed);
         let ascending = self.errors(&design.map_err(|source| self.wrong(source))?, factors);
@@ -329,7 +330,7 @@ impl<'a> Model<'a> {
     }
 
     /// Equation (B2) with independent draws.
-    fn verify(&self, factors: &[f64], draw: u64) -> Result<Reached, StudyError> {
+    fn verify(&self, factors: &[f64], draw: u64) -> Result<Reached, AssessError> {
         let file = &self.sampling.study.file;
         let (inputs, robots) = (self.sampling.errors.inputs.clone(), self.limit.verified_with);
         let design = RandomDesign::new(inputs, robots, file.seed.wrapping_add(draw));
@@ -344,20 +345,20 @@ impl<'a> Model<'a> {
         })
     }
 
-    fn estimate(&self, ascending: &[f64]) -> Result<Estimate, StudyError> {
+    fn estimate(&self, ascending: &[f64]) -> Result<Estimate, AssessError> {
         let (quantile, confidence) = (self.limit.quantile, self.sampling.study.file.confidence);
         let found =
             Estimate::of_quantile(ascending, quantile, confidence).map_err(|source| self.wrong(source))?;
         if found.value.is_infinite() {
             let failed = ascending.iter().filter(|error| error.is_infinite()).count();
             let what = format!("{failed} of {} robots with these tolerances", ascending.len());
-            return Err(StudyError::Unobservable { what, source: None });
+            return Err(AssessError::Unobservable { what, source: None });
         }
         Ok(found)
     }
 
-    fn unreachable(&self, reason: &'static str, reached_mm: f64) -> StudyError {
-        StudyError::Unreachable { limit_mm: self.limit.limit_mm, reason, reached_mm }
+    fn unreachable(&self, reason: &'static str, reached_mm: f64) -> AssessError {
+        AssessError::Unreachable { limit_mm: self.limit.limit_mm, reason, reached_mm }
     }
 
     fn wrong(&self, source: SensitivityError) -> StudyError {

@@ -1,9 +1,10 @@
 //! The test of robustness: what it counts, that its numbers follow from the seed, and which settings it
 //! refuses.
 
-use cdpr_assess::{Outcome, Protocol, ProtocolSummary, RobustnessResult, anchor_distance, run_robustness};
+use cdpr_assess::{
+    AssessError, Outcome, Protocol, ProtocolSummary, RobustnessResult, anchor_distance, run_robustness,
+};
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_study::StudyError;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn cogiro() -> Robot {
@@ -142,7 +143,7 @@ fn a_region_in_which_nothing_is_held_ends_with_what_was_drawn() {
     (protocol.region.low[2], protocol.region.high[2]) = (8.0, 9.0);
     let error = run_robustness(&cogiro(), &protocol, &|| ()).unwrap_err();
     assert!(
-        matches!(error, StudyError::TooFewPoses { found: 0, drawn: 1000, infeasible: 1000, .. }),
+        matches!(error, AssessError::TooFewPoses { found: 0, drawn: 1000, infeasible: 1000, .. }),
         "{error}"
     );
 }

@@ -1,5 +1,6 @@
 //! Every error of the program, and its exit code.
 
+use cdpr_assess::AssessError;
 use cdpr_cable::{CableError, RecordError};
 use cdpr_report::ReportError;
 use cdpr_robot::JsonError;
@@ -21,6 +22,8 @@ pub(crate) enum ProgramError {
     Statics(#[from] StaticsError),
     #[error("{}", with_options(.0))]
     Study(#[from] StudyError),
+    #[error(transparent)]
+    Assess(AssessError),
     #[error(transparent)]
     Report(#[from] ReportError),
     /// A file was read, and what it says is wrong.
@@ -60,6 +63,15 @@ pub(crate) enum ProgramError {
     Signals(#[from] ctrlc::Error),
     #[error("cannot write JSON: {0}")]
     Json(#[from] serde_json::Error),
+}
+
+impl From<AssessError> for ProgramError {
+    fn from(error: AssessError) -> Self {
+        match error {
+            AssessError::Study(error) => Self::Study(error),
+            error => Self::Assess(error),
+        }
+    }
 }
 
 impl ProgramError {

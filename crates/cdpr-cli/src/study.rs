@@ -13,7 +13,7 @@ pub(crate) mod tolerances;
 
 use crate::arguments::Threads;
 use crate::error::ProgramError;
-use cdpr_study::Existing;
+use cdpr_study::{Existing, StoredStudy};
 use clap::Subcommand;
 use common::{FolderSettings, RunSettings, begun};
 use std::path::PathBuf;
@@ -76,14 +76,14 @@ pub(crate) fn run(command: Command) -> Result<(), ProgramError> {
         },
         Command::Merge(FolderSettings { folder, common }) => {
             common.threads.start()?;
-            let (study, blocks) = cdpr_study::open_results(&folder)?;
+            let StoredStudy { study, blocks } = cdpr_study::open_results(&folder)?;
             cdpr_study::check_complete(&folder, &study, &blocks)?;
             carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
         }
         Command::Status(settings) => status::run(&settings),
         Command::Extend { folder: FolderSettings { folder, common }, observations } => {
             common.threads.start()?;
-            let (mut study, _) = cdpr_study::open_results(&folder)?;
+            let mut study = cdpr_study::open_results(&folder)?.study;
             study.extend(observations)?;
             let blocks = cdpr_study::begin(&folder, &study, Existing::GoOn)?;
             carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))

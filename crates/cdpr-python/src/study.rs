@@ -8,8 +8,8 @@ use cdpr_report::{draw, report_with};
 use cdpr_robot::Vector3;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
-    Existing, Part, Plan, REPORT_NAME, Run, Session, Shard, Study, StudyError, TableFormat, Watcher,
-    check_complete, check_observed, observe_into, observe_shard, write_text,
+    Existing, Part, Plan, REPORT_NAME, Run, Session, Shard, StoredStudy, Study, StudyError, TableFormat,
+    Watcher, check_complete, check_observed, observe_into, observe_shard, write_text,
 };
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -72,7 +72,7 @@ pub(crate) fn make_shard(
         Some(threads),
         |_| Ok(()),
         |stop| {
-            let (study, blocks) = cdpr_study::open_results(&out)?;
+            let StoredStudy { study, blocks } = cdpr_study::open_results(&out)?;
             let shard = Shard::parse(&format!("{index}/{count}"), |_| None)?;
             let session = Session {
                 blocks: Some(&blocks),
@@ -116,7 +116,7 @@ pub(crate) fn carry_out(
         Ok(())
     };
     watched(py, threads, &mut tell, |stop| -> Answer<()> {
-        let (study, blocks) = cdpr_study::open_results(&out)?;
+        let StoredStudy { study, blocks } = cdpr_study::open_results(&out)?;
         if complete {
             check_complete(&out, &study, &blocks)?;
         }
@@ -149,7 +149,7 @@ pub(crate) fn open_results(py: Python, out: PathBuf) -> Answer<()> {
 #[pyfunction]
 pub(crate) fn status(py: Python, out: PathBuf) -> Answer<String> {
     to_json(&run(py, |_| {
-        let (study, blocks) = cdpr_study::open_results(&out)?;
+        let StoredStudy { study, blocks } = cdpr_study::open_results(&out)?;
         cdpr_study::status(&study, &blocks)
     })??)
 }
@@ -167,7 +167,7 @@ pub(crate) fn observations(
 ) -> Answer<(Vec<String>, Py<PyAny>, Py<PyAny>, Vec<Option<String>>)> {
     let (mut rows, mut deflections, mut failures) = (Vec::new(), Vec::new(), Vec::new());
     let names: Vec<String> = run(py, |stop| -> Result<_, StudyError> {
-        let (study, blocks) = cdpr_study::open_results(&out)?;
+        let StoredStudy { study, blocks } = cdpr_study::open_results(&out)?;
         let sampling = study.sampling(sampling)?;
         check_observed(&out, &study, &blocks, &sampling.name)?;
         let session = Session {

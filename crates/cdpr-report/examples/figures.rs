@@ -5,7 +5,7 @@
 
 #![allow(clippy::print_stdout)]
 
-use cdpr_report::{Points, histogram, point_effects, signed_effects, surface};
+use cdpr_report::{NamedSampling, Points, histogram, point_effects, signed_effects, surface};
 use cdpr_study::{
     Session, Study, SurfaceSummary, analyse, check_folder, compute_surface, observe, write_figure,
 };
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let geometrical: Vec<_> = summaries
         .iter()
         .filter(|(name, _)| name.starts_with("geometrical"))
-        .map(|(name, summary)| (*name, summary))
+        .map(|(name, summary)| NamedSampling { name, summary })
         .collect();
     write("anchor_points", &point_effects(&study.robot, &geometrical, Points::Anchor)?)?;
     write("exit_points", &point_effects(&study.robot, &geometrical, Points::Exit)?)?;

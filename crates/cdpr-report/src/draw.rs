@@ -1,7 +1,7 @@
 //! All figures of the results of a study, with the names of their files.
 
 use crate::error::ReportError;
-use crate::figure::points::{Points, point_effects};
+use crate::figure::points::{NamedSampling, Points, point_effects};
 use crate::{histogram, pose_maps, robot_view, shares, signed_effects, surface};
 use cdpr_study::{Drawable, Figure, IndexMap, Results, Study, StudySummary};
 
@@ -25,7 +25,7 @@ pub fn draw(study: &Study, of: Drawable) -> Vec<Figure> {
         }
         Drawable::Poses { name, summary, rows } => {
             let maps = pose_maps(&study.robot, summary, rows).into_iter();
-            maps.map(|(map, svg)| figure(format!("{name}_{map}"), svg)).collect()
+            maps.map(|map| figure(format!("{name}_{}", map.name), map.svg)).collect()
         }
         Drawable::Surface { name, summary, result } => {
             vec![figure(name.to_owned(), surface(summary, result))]
@@ -64,7 +64,7 @@ fn effects_of_points(study: &Study, studies: &IndexMap<String, StudySummary>) ->
             .iter()
             .filter_map(|(name, study)| match study {
                 StudySummary::Sampling(sampling) if sampling.t_student.contains_key(parameter) => {
-                    Some((name.as_str(), sampling.as_ref()))
+                    Some(NamedSampling { name, summary: sampling })
                 }
                 _ => None,
             })

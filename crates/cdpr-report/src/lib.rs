@@ -49,7 +49,7 @@ pub use error::ReportError;
 pub use figure::cycle::{Cycle, CycleBranch, cycle};
 pub use figure::heat_map::{MapQuantity, heat_map, tolerance_map, workspace_maps};
 pub use figure::histogram::histogram;
-pub use figure::points::{Points, point_effects};
+pub use figure::points::{NamedSampling, Points, point_effects};
 pub use figure::pose_map::{NamedMap, pose_maps};
 pub use figure::robot_view::robot_view;
 pub use figure::robustness::{found_poses, success_share};

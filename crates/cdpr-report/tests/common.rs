@@ -7,7 +7,7 @@ use cdpr_study::{
 use serde_json::{Value, json};
 use std::path::Path;
 
-fn data(file: &str) -> Value {
+pub(crate) fn data(file: &str) -> Value {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(file);
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }

@@ -2,8 +2,8 @@
 
 use cdpr_assess::{Answer, Protocol, ProtocolSummary, RobustnessResult, Solve};
 use cdpr_report::{
-    Points, ReportError, found_poses, histogram, point_effects, shares, signed_effects, success_share,
-    surface,
+    NamedSampling, Points, ReportError, found_poses, histogram, point_effects, shares, signed_effects,
+    success_share, surface,
 };
 use cdpr_robot::{Pose, Robot};
 use cdpr_sensitivity::{Family, Histogram, Law};
@@ -15,6 +15,10 @@ use cdpr_study::{
 
 fn robot() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+fn named<'a>(name: &'a str, summary: &'a SamplingSummary) -> NamedSampling<'a> {
+    NamedSampling { name, summary }
 }
 
 fn sampling() -> SamplingSummary {
@@ -158,7 +162,8 @@ fn figures() -> [String; 7] {
     [
         histogram(&sampling).unwrap(),
         surface(&summary, &result).unwrap(),
-        point_effects(&robot(), &[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap(),
+        point_effects(&robot(), &[named("symmetric", &sampling), named("other", &sampling)], Points::Exit)
+            .unwrap(),
         signed_effects(&sampling, 20).unwrap(),
         shares(&measured(), 12).unwrap(),
         found_poses(&robustness).unwrap(),
@@ -251,7 +256,8 @@ fn a_surface_has_a_cell_for_each_point_and_shows_the_failed_ones() {
 fn points_have_three_bars_each_and_a_panel_per_sampling() {
     let sampling = sampling();
     let svg =
-        point_effects(&robot(), &[("symmetric", &sampling), ("other", &sampling)], Points::Exit).unwrap();
+        point_effects(&robot(), &[named("symmetric", &sampling), named("other", &sampling)], Points::Exit)
+            .unwrap();
     assert_eq!(rectangles(&svg), 2 * 8 * 3);
     let texts = texts(&svg);
     for text in ["B1", "B8", "x", "y", "z", "t [-]", "8.0", "plan: x from −3.50 to 3.50 m"] {
@@ -333,7 +339,7 @@ fn without_data_there_is_no_figure() {
     assert!(matches!(signed_effects(&sampling(), 0), Err(ReportError::Empty { .. })));
     assert!(matches!(point_effects(&robot(), &[], Points::Exit), Err(ReportError::Empty { .. })));
     assert!(matches!(
-        point_effects(&robot(), &[("a", &empty)], Points::Anchor),
+        point_effects(&robot(), &[named("a", &empty)], Points::Anchor),
         Err(ReportError::Empty { .. })
     ));
     let (summary, mut result) = grid();
@@ -357,7 +363,7 @@ fn a_value_that_cannot_be_drawn_is_refused() {
     }))));
     assert!(invalid(histogram(&change(|s| s.histogram.as_mut().unwrap().edges.truncate(5)))));
     let nan = change(|s| s.t_student.values_mut().for_each(|t| *t = f64::NAN));
-    assert!(invalid(point_effects(&robot(), &[("a", &nan)], Points::Exit)));
+    assert!(invalid(point_effects(&robot(), &[named("a", &nan)], Points::Exit)));
     let wide = SignedEffect { effect: 0.0, low: f64::NEG_INFINITY, high: f64::INFINITY };
     let mut summary = sampling();
     summary.signed_effects_mm.insert("mass".to_owned(), wide);

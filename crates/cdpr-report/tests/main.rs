@@ -7,3 +7,4 @@ mod cycle;
 mod figures;
 mod heat_map;
 mod report;
+mod reread;

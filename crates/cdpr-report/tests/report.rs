@@ -1,6 +1,6 @@
 //! Contents of the report; hostile text stays text, and nothing is loaded from outside.
 
-use cdpr_report::{Points, histogram, point_effects, report, shares, signed_effects, surface};
+use cdpr_report::{NamedSampling, Points, histogram, point_effects, report, shares, signed_effects, surface};
 use cdpr_study::{Results, StudySummary};
 use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,7 +30,7 @@ fn every_figure_of_the_study_is_in_the_report_with_the_bytes_of_its_file() {
                 drawn.insert(name.clone(), histogram(sampling).unwrap());
                 drawn.insert(format!("{name}_effects"), signed_effects(sampling, 20).unwrap());
                 drawn.insert(format!("{name}_sensitivity"), shares(sampling, 12).unwrap());
-                samplings.push((name.as_str(), sampling.as_ref()));
+                samplings.push(NamedSampling { name, summary: sampling });
             }
             StudySummary::Surface(summary) => {
                 drawn.insert(name.clone(), surface(summary, &results.surfaces[name]).unwrap());

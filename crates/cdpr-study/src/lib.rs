@@ -51,7 +51,7 @@ pub use analysis::comparison::{ComparisonRow, Verdict};
 pub use analysis::extremes::Extremes;
 pub use analysis::measures::{InputMeasures, MEASURES, Measure, Quantity};
 pub use analysis::part::{Overview, StudySummary};
-pub use analysis::poses::{HELD, PoseRow, PosesSummary, observe_poses};
+pub use analysis::poses::{HELD, PoseRow, PosesResult, PosesSummary, observe_poses};
 pub use analysis::sampling::{
     FitSummary, NominalSummary, RmsSummary, SamplingSummary, SignedEffect, analyse,
 };
@@ -92,4 +92,4 @@ pub use results::write::{
 pub use run::{Draw, Drawable, Figure, Run, Watcher, run};
 pub use store::block::BLOCK;
 pub use store::blocks::Blocks;
-pub use store::folder::{Existing, begin, open_results};
+pub use store::folder::{Existing, StoredStudy, begin, open_results};

@@ -5,7 +5,7 @@
 //! the caller, once each.
 
 use crate::analysis::part::StudySummary;
-use crate::analysis::poses::{PoseRow, PosesSummary, observe_poses};
+use crate::analysis::poses::{PoseRow, PosesResult, PosesSummary, observe_poses};
 use crate::analysis::sampling::{SamplingSummary, analyse};
 use crate::analysis::summary::Summary;
 use crate::analysis::surface::{SurfaceResult, SurfaceSummary, compute_surface};
@@ -186,7 +186,7 @@ impl<'a> Running<'a> {
         let session = self.session();
         let format = self.format.unwrap_or(TableFormat::None);
         let observe = |sampling: &Sampling| self.observed(sampling, &session, format);
-        let (summary, rows) = observe_poses(self.study, name, &session, observe)?;
+        let PosesResult { summary, rows } = observe_poses(self.study, name, &session, observe)?;
         write_poses(self.out, name, &rows)?;
         let maps = (self.draw)(self.study, Drawable::Poses { name, summary: &summary, rows: &rows });
         if maps.is_empty() {

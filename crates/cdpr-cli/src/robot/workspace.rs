@@ -100,8 +100,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     progress.finish_and_clear();
     let summary = WorkspaceSummary::new(&workspace, &poses);
     write_workspace(&settings.out, &summary)?;
-    for (name, map) in workspace_maps(&robot, &summary) {
-        write_drawn(&settings.out, &name, map)?;
+    for map in workspace_maps(&robot, &summary) {
+        write_drawn(&settings.out, &map.name, map.svg)?;
     }
     Ok(settings.format.print(&summary, |summary| {
         print(summary);

@@ -8,7 +8,7 @@
 use super::carry_out::whole;
 use super::common::{RunSettings, begun};
 use crate::error::ProgramError;
-use cdpr_study::{BlockMaker, Plan, Session, Study};
+use cdpr_study::{BlockMaker, Plan, Session, StoredStudy, Study};
 use mpi::Threading;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives, Destination, Source};
@@ -86,7 +86,7 @@ fn hand_out(world: &SimpleCommunicator, study: &Study, session: &Session) -> Res
 fn follow(world: &SimpleCommunicator, settings: &RunSettings) -> Result<(), ProgramError> {
     settings.common.threads.start()?;
     world.barrier();
-    let (study, blocks) = cdpr_study::open_results(&settings.out)?;
+    let StoredStudy { study, blocks } = cdpr_study::open_results(&settings.out)?;
     let plan = Plan::new(&study)?;
     let done = AtomicUsize::new(0);
     let tick = |observations: usize| {

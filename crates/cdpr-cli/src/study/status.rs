@@ -3,7 +3,7 @@
 use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::table;
-use cdpr_study::{Provisional, Status, open_results, status};
+use cdpr_study::{Provisional, Status, StoredStudy, open_results, status};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ pub(crate) struct Settings {
 }
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let (study, blocks) = open_results(&settings.folder)?;
+    let StoredStudy { study, blocks } = open_results(&settings.folder)?;
     let found = status(&study, &blocks)?;
     Ok(settings.format.print(&found, print)?)
 }

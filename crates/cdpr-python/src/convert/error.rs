@@ -147,9 +147,6 @@ fn kind(error: &StudyError) -> Option<&'static str> {
             Raised::NoSolution { kind, .. } => Some(kind),
             _ => None,
         },
-        StudyError::Unreachable { .. } => Some("unreachable"),
-        StudyError::Unobservable { .. } => Some("unobservable"),
-        StudyError::TooFewPoses { .. } => Some("too_few_poses"),
         _ => None,
     }
 }

@@ -129,9 +129,12 @@ pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary) -> Vec<NamedMap
         // Without a load there is no deflection.
         let deflection = summary.rows.iter().any(|row| row.rms_mm.is_some());
         let shown = MapQuantity::ALL.into_iter().filter(|of| deflection || *of != MapQuantity::Deflection);
-        maps.extend(shown.map(|of| (name(of.name()), values(&plane, robot, summary, of))));
+        maps.extend(
+            shown.map(|of| NamedMap { name: name(of.name()), svg: values(&plane, robot, summary, of) }),
+        );
         if !summary.uncertainties.is_empty() {
-            maps.push((name("dominant_tolerance"), names(&plane, robot, summary)));
+            let svg = names(&plane, robot, summary);
+            maps.push(NamedMap { name: name("dominant_tolerance"), svg });
         }
     }
     maps

@@ -65,6 +65,15 @@ impl Points {
     }
 }
 
+/// A sampling with its name in the study.
+#[derive(Clone, Copy, Debug)]
+pub struct NamedSampling<'a> {
+    /// Name of the sampling.
+    pub name: &'a str,
+    /// Its summary.
+    pub summary: &'a SamplingSummary,
+}
+
 /// Draws the t-Student index of each coordinate of each anchor or exit point as bars in the plan of the
 /// robot.
 ///
@@ -77,17 +86,15 @@ impl Points {
 /// for an index that is not finite or of a point that the robot does not have, and for an invalid pose.
 pub fn point_effects(
     robot: &Robot,
-    samplings: &[(&str, &SamplingSummary)],
+    samplings: &[NamedSampling],
     points: Points,
 ) -> Result<String, ReportError> {
-    let panels: Vec<Panel> = samplings
-        .iter()
-        .map(|(name, summary)| Panel::new(robot, name, summary, points))
-        .collect::<Result<_, _>>()?;
+    let panels: Vec<Panel> =
+        samplings.iter().map(|sampling| Panel::new(robot, sampling, points)).collect::<Result<_, _>>()?;
     if panels.iter().all(|panel| panel.effects.is_empty()) {
         return Err(ReportError::Empty { what: "t_student has no coordinate of these points" });
     }
-    let greatest = panels.iter().flat_map(|panel| &panel.effects).map(|effect| effect.2).fold(0.0, f64::max);
+    let greatest = panels.iter().flat_map(|panel| &panel.effects).map(|effect| effect.t).fold(0.0, f64::max);
     let scale = Axis::numbers(0.0..if greatest > 0.0 { greatest } else { 1.0 }, 5, "");
     let kind = format!("{} {}\u{1d62}", points.kind(), points.letter());
     let heading = Heading {
@@ -105,21 +112,31 @@ pub fn point_effects(
     })
 }
 
+/// The t-Student index of a coordinate of a point.
+#[derive(Clone, Copy)]
+struct Effect {
+    /// Number of the point.
+    point: usize,
+    /// 0 to 2 for x, y, z.
+    coordinate: usize,
+    /// The index [-].
+    t: f64,
+}
+
 /// Panel of one sampling.
 struct Panel {
     title: String,
     /// Reference point P and the other points in the plan [m].
     center: [f64; 2],
     positions: Vec<[f64; 2]>,
-    /// Index of the point, index of the coordinate, t-Student index.
-    effects: Vec<(usize, usize, f64)>,
+    /// Effects of the coordinates that are uncertain.
+    effects: Vec<Effect>,
 }
 
 impl Panel {
     fn new(
         robot: &Robot,
-        name: &str,
-        summary: &SamplingSummary,
+        NamedSampling { name, summary }: &NamedSampling,
         points: Points,
     ) -> Result<Self, ReportError> {
         let pose =
@@ -141,7 +158,7 @@ impl Panel {
                 if point >= robot.cables.len() {
                     return Err(ReportError::invalid(field, &t, "a point of the robot"));
                 }
-                effects.push((point, coordinate as usize, t));
+                effects.push(Effect { point, coordinate: coordinate as usize, t });
             }
         }
         Ok(Self {
@@ -166,8 +183,8 @@ impl Panel {
         let height = |t: f64| LONGEST * t / scale.range.end;
         for (point, foot) in plan.feet(&self.positions).into_iter().enumerate() {
             Pen::solid(GREY, 0.8).draw(area, vec![pixel(plan.pixels(self.positions[point])), pixel(foot)])?;
-            let own = || self.effects.iter().filter(|effect| effect.0 == point);
-            for &(_, coordinate, t) in own() {
+            let own = || self.effects.iter().filter(|effect| effect.point == point);
+            for &Effect { coordinate, t, .. } in own() {
                 let left = foot.0 + BAR * (coordinate as f64 - 1.5);
                 let corners = [pixel((left, foot.1 - height(t))), pixel((left + BAR - 1.0, foot.1))];
                 area.draw(&Rectangle::new(corners, COORDINATES[coordinate].1.filled()))?;
@@ -175,7 +192,7 @@ impl Panel {
             let (left, right) = (foot.0 - 1.5 * BAR - 1.0, foot.0 + 1.5 * BAR);
             Pen::solid(BLACK, 0.8).draw(area, vec![pixel((left, foot.1)), pixel((right, foot.1))])?;
             centred(area, &format!("{letter}{}", point + 1), (foot.0, foot.1 + 8.0))?;
-            if let Some(largest) = own().map(|effect| effect.2).reduce(f64::max) {
+            if let Some(largest) = own().map(|effect| effect.t).reduce(f64::max) {
                 centred(area, &number(largest, 1), (foot.0, foot.1 - height(largest) - 7.0))?;
             }
         }
@@ -210,10 +227,10 @@ impl Panel {
     /// Lists the coordinates with the largest index.
     fn draw_largest(&self, area: &Area, letter: char) -> Result<(), DrawingError> {
         let mut effects = self.effects.clone();
-        effects.sort_by(|one, other| other.2.total_cmp(&one.2));
+        effects.sort_by(|one, other| other.t.total_cmp(&one.t));
         let top = PLAN[1].0 + 20.0 - LONGEST;
         text(area, "largest", SMALL, (LIST, top))?;
-        for (row, &(point, coordinate, t)) in effects.iter().take(LISTED).enumerate() {
+        for (row, &Effect { point, coordinate, t }) in effects.iter().take(LISTED).enumerate() {
             let y = top + 15.0 * (row + 1) as f64;
             let name = format!("{letter}{} {}", point + 1, COORDINATES[coordinate].0);
             text(area, &name, SMALL, (LIST, y))?;

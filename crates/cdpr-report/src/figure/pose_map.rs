@@ -10,8 +10,14 @@ use crate::text::number;
 use cdpr_robot::Robot;
 use cdpr_study::{PoseRow, PosesSummary};
 
-/// A map by its name, or the reason why it cannot be drawn.
-pub type NamedMap = (String, Result<String, ReportError>);
+/// A map with its name.
+#[derive(Debug)]
+pub struct NamedMap {
+    /// Name, which is part of the name of its file.
+    pub name: String,
+    /// The map as SVG, or the reason why it cannot be drawn.
+    pub svg: Result<String, ReportError>,
+}
 
 /// Draws all maps of a sampling at the poses of a grid. They are named `mean`, `std` and `dominant`, with
 /// `_z00`, ... for the layers of a box.
@@ -23,15 +29,12 @@ pub fn pose_maps(robot: &Robot, summary: &PosesSummary, rows: &[PoseRow]) -> Vec
     let maps = planes.iter().flat_map(|plane| {
         let layer = plane.suffix();
         let rows: Option<Vec<&PoseRow>> = plane.positions.iter().map(|index| rows.get(*index)).collect();
-        let drawn = |draw: fn(&Plane, &Robot, &str, &[&PoseRow]) -> Result<String, ReportError>| {
-            let rows = rows.as_ref().ok_or(ReportError::Empty { what: "a pose of the grid has no row" })?;
-            draw(plane, robot, &summary.title, rows)
+        let named = |name, draw: fn(&Plane, &Robot, &str, &[&PoseRow]) -> Result<String, ReportError>| {
+            let rows = rows.as_ref().ok_or(ReportError::Empty { what: "a pose of the grid has no row" });
+            let svg = rows.and_then(|rows| draw(plane, robot, &summary.title, rows));
+            NamedMap { name: format!("{name}{layer}"), svg }
         };
-        [
-            (format!("mean{layer}"), drawn(mean)),
-            (format!("std{layer}"), drawn(deviation)),
-            (format!("dominant{layer}"), drawn(dominant)),
-        ]
+        [named("mean", mean), named("std", deviation), named("dominant", dominant)]
     });
     maps.collect()
 }

@@ -84,9 +84,19 @@ pub struct PosesSummary {
 /// the memory.
 const AT_A_TIME: usize = 64;
 
-/// Makes the missing observations of a sampling at several poses and summarises them; rows are in the order
-/// of the poses. `observe`, such as [`crate::observe`], makes the observations of one pose. A pose at which
-/// the nominal robot has no feasible tensions is a row with the reason.
+/// Results of a sampling at several poses.
+#[derive(Clone, Debug)]
+pub struct PosesResult {
+    /// Summary over all poses.
+    pub summary: PosesSummary,
+    /// A row for each pose, in the order of the poses.
+    pub rows: Vec<PoseRow>,
+}
+
+/// Makes the missing observations of a sampling at several poses and summarises them.
+///
+/// `observe`, such as [`crate::observe`], makes the observations of one pose. A pose at which the nominal
+/// robot has no feasible tensions is a row with the reason.
 ///
 /// # Errors
 /// Those of `observe`; [`StudyError::Invalid`] for a sampling without several poses.
@@ -95,7 +105,7 @@ pub fn observe_poses(
     name: &str,
     session: &Session,
     observe: impl Fn(&Sampling) -> Result<Tally, StudyError> + Sync,
-) -> Result<(PosesSummary, Vec<PoseRow>), StudyError> {
+) -> Result<PosesResult, StudyError> {
     let (_, spec) = study.entry(name)?;
     let poses = study.poses(name, spec)?;
     let Some(count) = poses.several() else {
@@ -150,7 +160,7 @@ pub fn observe_poses(
         Extremes::of(rows.iter().filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
     };
     (summary.mean_mm, summary.std_mm) = (over(|row| row.mean_mm), over(|row| row.std_mm));
-    Ok((summary, rows))
+    Ok(PosesResult { summary, rows })
 }
 
 impl PosesSummary {

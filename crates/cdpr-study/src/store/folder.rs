@@ -65,16 +65,25 @@ pub fn begin(folder: &Path, study: &Study, existing: Existing) -> Result<Blocks,
     Ok(blocks)
 }
 
-/// The study in a folder of results and its blocks.
+/// The study in a folder of results, with its blocks.
+#[derive(Debug)]
+pub struct StoredStudy {
+    /// The study.
+    pub study: Study,
+    /// Its blocks of observations.
+    pub blocks: Blocks,
+}
+
+/// Opens the study in a folder of results.
 ///
 /// # Errors
 /// As [`Study::open`]; [`StudyError::Read`] for a folder without blocks.
-pub fn open_results(folder: &Path) -> Result<(Study, Blocks), StudyError> {
+pub fn open_results(folder: &Path) -> Result<StoredStudy, StudyError> {
     let study = Study::open(&folder.join(STUDY_NAME))?;
     let path = folder.join(BLOCKS_NAME);
     std::fs::read_dir(&path).map_err(|source| StudyError::Read { path: path.clone(), source })?;
     let blocks = Blocks::new(folder, &study)?;
-    Ok((study, blocks))
+    Ok(StoredStudy { study, blocks })
 }
 
 /// Checks that the study in a folder is the one to run. A folder without a study file holds an interrupted
