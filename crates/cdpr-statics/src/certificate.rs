@@ -240,7 +240,7 @@ fn turned(mut jacobian: DMatrix<Interval>, per_delta: &Matrix3<Interval>) -> DMa
     jacobian
 }
 
-/// Lower bound of the smallest eigenvalue of the symmetric Hessian over the box, in (dp, ρ dφ).
+/// Lower bound of the smallest eigenvalue of the symmetric Hessian over the box, in (dp, ℓ dφ).
 fn least_stiffness(problem: &DirectProblem, state: &State<Interval>, jacobian: &DMatrix<Interval>) -> f64 {
     let mut hessian: Matrix6<Interval> = jacobian.fixed_view::<6, 6>(0, 0).into_owned();
     for i in 0..problem.cables() {

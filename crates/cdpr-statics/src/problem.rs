@@ -64,7 +64,7 @@ impl<'a> DirectProblem<'a> {
         self.lengths.iter().fold(0.0, |size: f64, length| size.max(*length))
     }
 
-    /// Length ρ [m] that makes rotations comparable with translations, see
+    /// Length ℓ [m] that makes rotations comparable with translations, see
     /// [`crate::Stability::characteristic_length`].
     pub(crate) fn characteristic_length(&self) -> f64 {
         self.robot.platform_size().max(1e-3 * self.size())

@@ -33,16 +33,16 @@ struct Answer {
     eigenvalues: Vec<Eigenvalue>,
     least_stiffness: f64,
     stable: bool,
-    /// Characteristic length ρ, which makes rotations comparable with translations [m].
+    /// Characteristic length ℓ, which makes rotations comparable with translations [m].
     characteristic_length: f64,
 }
 
-/// An eigenvalue of the stiffness in (dp, ρ dφ) and its motion.
+/// An eigenvalue of the stiffness in (dp, ℓ dφ) and its motion.
 #[derive(Serialize)]
 struct Eigenvalue {
     /// Stiffness of the motion [N/m].
     stiffness: f64,
-    /// Translation of P [m/m], with `|translation|² + ρ² |rotation|² = 1`.
+    /// Translation of P [m/m], with `|translation|² + ℓ² |rotation|² = 1`.
     translation: [f64; 3],
     /// Rotation vector [rad/m].
     rotation: [f64; 3],
@@ -80,7 +80,7 @@ impl Answer {
         println!("{rows}");
         let stable = if self.stable { "stable" } else { "unstable" };
         println!(
-            "{stable}; least stiffness {:.1} N/m, with rotations times \u{3c1} = {:.4} m",
+            "{stable}; least stiffness {:.1} N/m, with rotations times \u{2113} = {:.4} m",
             self.least_stiffness, self.characteristic_length
         );
     }

@@ -18,7 +18,7 @@ answer! {
     pub(crate) struct Stiffness {
         /// Stiffness K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
         matrix: Py<PyAny>,
-        /// Eigenvalues of the stiffness in (dp, rho dphi), from the softest motion [N/m], (6,).
+        /// Eigenvalues of the stiffness in (dp, characteristic_length dphi), from the softest motion [N/m], (6,).
         eigenvalues: Py<PyAny>,
         /// Translation of P in each of these motions [m/m], (6, 3).
         translations: Py<PyAny>,
@@ -28,7 +28,7 @@ answer! {
         least_stiffness: Py<PyAny>,
         /// Whether the equilibrium is stable.
         stable: Py<PyAny>,
-        /// Characteristic length rho, which makes rotations comparable with translations [m].
+        /// Characteristic length, which makes rotations comparable with translations [m].
         characteristic_length: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,

@@ -144,7 +144,7 @@ fn is_near_prediction(problem: &DirectProblem, from: &Equilibrium, found: &Conve
     (motion - found.first_step).norm() <= MAX_CORRECTION * found.first_step.norm() + 1e-7 * size
 }
 
-/// (dp, ρ dφ) from one equilibrium to another [m].
+/// (dp, ℓ dφ) from one equilibrium to another [m].
 fn motion(problem: &DirectProblem, from: &Equilibrium, to: &Equilibrium) -> Vector6<f64> {
     let mut motion = from.pose.motion_to(&to.pose);
     motion.fixed_rows_mut::<3>(3).scale_mut(problem.characteristic_length());

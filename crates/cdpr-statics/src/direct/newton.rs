@@ -23,7 +23,7 @@ pub(crate) struct Converged {
     pub(crate) iterations: usize,
     pub(crate) residual: Residual,
     pub(crate) stability: Stability,
-    /// The first step (dp, ρ dφ), which the linearisation at the start predicts [m].
+    /// The first step (dp, ℓ dφ), which the linearisation at the start predicts [m].
     pub(crate) first_step: Vector6<f64>,
 }
 

@@ -6,7 +6,7 @@ use std::array::from_fn;
 
 /// Stability of an equilibrium: stable where all eigenvalues of the potential's Hessian are positive.
 ///
-/// The Hessian is that in (dp, ρ dφ), where the characteristic length ρ makes rotations comparable with
+/// The Hessian is that in (dp, ℓ dφ), where the characteristic length ℓ makes rotations comparable with
 /// translations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability {
@@ -15,7 +15,7 @@ pub struct Stability {
     stable: bool,
 }
 
-/// A motion of the platform along an eigenvector of its stiffness, `|translation|² + ρ² |rotation|² = 1`.
+/// A motion of the platform along an eigenvector of its stiffness, `|translation|² + ℓ² |rotation|² = 1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode {
     /// Eigenvalue [N/m].
@@ -79,7 +79,7 @@ impl Stability {
         if self.stable { 0 } else { negative.max(1) }
     }
 
-    /// Characteristic length ρ that makes rotations comparable with translations [m].
+    /// Characteristic length ℓ that makes rotations comparable with translations [m].
     ///
     /// It is the root mean square distance of the anchor points from P, or a thousandth of the longest cable
     /// where that is more.
