@@ -1,7 +1,8 @@
 """Reconstructs a load-elongation record from Table 2 of the paper: python3 record.py > caroca-4mm-record.csv
 
-Eq. (5) turned round, x_q - x_p = L (F_q - F_p)/(S E_{p-q}), from the moduli over 1-5, 5-10, 10-15, 10-20 and 20-30 % of the
-breaking force. Choices that the paper does not make: L = 1 m; no elongation without force, with E_1-5 below 1 %.
+The elongations follow from Eq. (5), x_q - x_p = L (F_q - F_p)/(S E_{p-q}), with the moduli over 1-5, 5-10,
+10-15, 10-20 and 20-30 % of the breaking force. The paper does not give L, which is 1 m here, nor the modulus
+below 1 %, which is E_1-5 here; there is no elongation without force.
 """
 
 import json
@@ -33,8 +34,10 @@ unloading = curve("unloading_gpa", 0.0)
 # Both branches meet at the turning point.
 shift = loading[30] - unloading[30]
 
-print("# NOT MEASURED: reconstructed by record.py from Table 2 of Baklouti, Caro, Courteille (CableCon 2017), see caroca-4mm.json.")
-print("# The length of 1 m is a choice, and so is E_1-5 below 1 % of the breaking force; the paper gives neither.")
+print("# NOT MEASURED: reconstructed by record.py from Table 2 of Baklouti, Caro, Courteille "
+      "(CableCon 2017), see caroca-4mm.json.")
+print("# The length of 1 m is a choice, and so is E_1-5 below 1 % of the breaking force; "
+      "the paper gives neither.")
 print("force_n,elongation_mm,phase")
 for percent in sorted(loading):
     print(f"{force(percent):.10g},{loading[percent]:.12g},loading")

@@ -103,7 +103,8 @@ pub(crate) fn run(mut rest: Vec<String>) -> ExitCode {
     let times = if take("--strict") { Times::Strict } else { Times::Reported };
     if save && !rest.is_empty() {
         eprintln!(
-            "error: --save-baseline with `{}`: expected no further arguments, a baseline holds all benchmarks",
+            "error: --save-baseline with `{}`: expected no further arguments, because a \
+             baseline holds all benchmarks",
             rest.join(" ")
         );
         return ExitCode::FAILURE;

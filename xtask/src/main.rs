@@ -20,23 +20,27 @@ usage: cargo xtask TASK
 
 tasks:
   caroca-study [--out DIR] [--observations N] [--threads N] [--resume]
-                 runs the study of Baklouti, Caro, Courteille (CableCon 2017) and prints it beside their figures; all
-                 measures of its sensitivity go to DIR/sensitivity, the hysteresis of its cables to DIR/cable; DIR is
-                 target/caroca-study. Begins anew, or goes on with an interrupted run with --resume
+                 runs the study of Baklouti, Caro, Courteille (CableCon 2017) and prints it beside their
+                 figures. All measures of its sensitivity go to DIR/sensitivity, the hysteresis of its cables
+                 to DIR/cable; DIR is target/caroca-study. With --resume it goes on with an interrupted run;
+                 otherwise it begins anew
   robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
-                 counts how often the direct model finds CoGiRo's true pose from a wrong start, by the protocol of
-                 Mahnke and Caverly (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness
+                 counts how often the direct model finds CoGiRo's true pose from a wrong start, by the
+                 protocol of Mahnke and Caverly (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is
+                 target/robustness
   throughput [--observations N] [--threads N]
-                 runs a sampling of the paper's size or larger, without tables, and prints time, memory and results
-                 in one line (N = 1000000)
+                 runs a sampling of the paper's size or larger, without tables, and prints time, memory and
+                 results in one line (N = 1000000)
   scaling [--observations N]
-                 runs the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads: docs/PERFORMANCE.md
+                 runs the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads, see
+                 docs/PERFORMANCE.md
   bench [--strict] [--save-baseline] [ARGS]
-                 runs all criterion benchmarks, or those that ARGS choose (a part of a name and other options of
-                 criterion), counts their instructions where valgrind is installed, and prints both beside
-                 data/benchmarks/baseline.json: fails where a count grew, with --strict also where a median did
-  bench-peers    solves the direct model and an observation with cdpr, and with SciPy, Octave and Ceres where these
-                 are installed: docs/PEERS.md
+                 runs all criterion benchmarks, or those that ARGS choose (a part of a name and other options
+                 of criterion), counts their instructions where valgrind is installed, and prints both beside
+                 data/benchmarks/baseline.json. It fails where a count has grown, and with --strict also
+                 where a median has grown
+  bench-peers    solves the direct model and an observation with cdpr, and with SciPy, Octave and Ceres
+                 where these are installed, see docs/PEERS.md
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   schemas        writes the JSON Schemas of the file formats to docs/schemas
   help           prints this text";

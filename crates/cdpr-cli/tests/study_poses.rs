@@ -1,4 +1,5 @@
-//! Samplings at several poses: each equals a sampling at that pose alone, and poses that are not held are data.
+//! Samplings at several poses: each equals a sampling at that pose alone, and a pose that is not held is a
+//! row with its reason.
 
 use crate::common::{Bench, text};
 use serde_json::{Value, json};

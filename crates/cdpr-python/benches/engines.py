@@ -67,7 +67,8 @@ def processor():
 def digest(folder):
     varying = ("timings.json", "report.html")
     whole = hashlib.sha256()
-    for path in sorted(path for path in Path(folder).rglob("*") if path.is_file() and path.name not in varying):
+    paths = (path for path in Path(folder).rglob("*") if path.is_file() and path.name not in varying)
+    for path in sorted(paths):
         whole.update(str(path.relative_to(folder)).encode() + path.read_bytes())
     return whole.hexdigest()[:12]
 

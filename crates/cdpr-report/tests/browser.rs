@@ -119,7 +119,8 @@ impl Page {
     /// Waits until a condition of the page holds.
     fn wait_for(&mut self, condition: &str) {
         let held = self.evaluate(&format!(
-            "new Promise((done) => {{ const end = Date.now() + 30000; const look = () => ({condition}) ? done(true) \
+            "new Promise((done) => {{ const end = Date.now() + 30000; \
+             const look = () => ({condition}) ? done(true) \
              : Date.now() > end ? done(false) : setTimeout(look, 30); look(); }})"
         ));
         assert_eq!(held, true, "{condition}");
@@ -185,7 +186,8 @@ const ALL_NEAR_ARE_DRAWN: &str = "[...document.querySelectorAll('.plot:not([hidd
      const { top, bottom } = plot.getBoundingClientRect(); \
      return bottom < 0 || top > innerHeight || plot.dataset.drawn; })";
 
-const EYE: &str = "(() => { const { x, y, z } = document.getElementById('plot-robot')._fullLayout.scene._scene.getCamera().eye; \
+const EYE: &str = "(() => { const robot = document.getElementById('plot-robot'); \
+    const { x, y, z } = robot._fullLayout.scene._scene.getCamera().eye; \
      return [x, y, z]; })()";
 
 fn write_report(folder: &Path, name: &str, results: &cdpr_study::Results) -> PathBuf {
@@ -216,8 +218,10 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
         }
         page.photograph(&folder, &format!("caroca-{width}-{scheme}"));
         let sizes = page.evaluate(
-            "[...document.querySelectorAll('figure')].map((figure) => [figure.id, ...['.drawing:not([hidden]) svg', '.plot:not([hidden])'] \
-             .map((part) => figure.querySelector(part)).filter((part) => part).map((part) => part.getBoundingClientRect()) \
+            "[...document.querySelectorAll('figure')].map((figure) => [figure.id, \
+             ...['.drawing:not([hidden]) svg', '.plot:not([hidden])'] \
+             .map((part) => figure.querySelector(part)).filter((part) => part) \
+             .map((part) => part.getBoundingClientRect()) \
              .map(({ width, height }) => Math.min(width, height))])",
         );
         let sizes = sizes.as_array().unwrap();
@@ -239,7 +243,8 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
     page.wait_for("document.getElementById('plot-robot').dataset.drawn");
     let before = page.evaluate(EYE);
     let middle = page.evaluate(
-        "(() => { const { x, y, width, height } = document.getElementById('plot-robot').getBoundingClientRect(); return [x + width / 2, y + height / 2]; })()",
+        "(() => { const { x, y, width, height } = document.getElementById('plot-robot') \
+         .getBoundingClientRect(); return [x + width / 2, y + height / 2]; })()",
     );
     let (x, y) = (middle[0].as_f64().unwrap(), middle[1].as_f64().unwrap());
     page.mouse("mousePressed", x, y);
@@ -256,11 +261,18 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
     );
 
     // Keys turn it, too; controls redraw it and say what they stretch.
-    page.evaluate("document.getElementById('plot-robot').dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }))");
+    page.evaluate(
+        "document.getElementById('plot-robot') \
+         .dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }))",
+    );
     page.wait_for(&format!("JSON.stringify({EYE}) !== '{turned}'"));
-    let heights = "document.getElementById('plot-robot').data.find((trace) => trace.line?.colorscale).z.reduce((sum, z) => sum + z, 0)";
+    let heights = "document.getElementById('plot-robot').data \
+        .find((trace) => trace.line?.colorscale).z.reduce((sum, z) => sum + z, 0)";
     let stretched = page.evaluate(heights).as_f64().unwrap();
-    page.evaluate("(() => { const sag = document.getElementById('sag'); sag.value = 0; sag.dispatchEvent(new Event('input', { bubbles: true })); })()");
+    page.evaluate(
+        "(() => { const sag = document.getElementById('sag'); sag.value = 0; \
+         sag.dispatchEvent(new Event('input', { bubbles: true })); })()",
+    );
     assert!(
         page.evaluate(heights).as_f64().unwrap() > stretched,
         "the true sag is less than the stretched one"
@@ -269,7 +281,8 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
 
     page.evaluate("document.querySelector('[data-surface=surface_E_rho] [data-show=map]').click()");
     assert_eq!(page.evaluate("document.getElementById('plot-surface_E_rho').hidden"), true);
-    let map = "document.querySelector('[data-surface=surface_E_rho] .map svg').getBoundingClientRect().height > 100";
+    let map = "document.querySelector('[data-surface=surface_E_rho] .map svg') \
+        .getBoundingClientRect().height > 100";
     assert_eq!(page.evaluate(map), true);
     assert_eq!(page.complaints(&file), [""; 0]);
 

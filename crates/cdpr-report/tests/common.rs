@@ -38,7 +38,9 @@ pub(crate) fn cogiro() -> Results {
     caroca(|study, robot| {
         *robot = data("robots/cogiro.json");
         study["name"] = json!("Static deflection of CoGiRo");
-        study["samplings"] = json!({"all": {"title": "All parameters", "pose": pose, "error_model": "table_4", "observations": 200}});
+        study["samplings"] = json!({"all": {
+            "title": "All parameters", "pose": pose, "error_model": "table_4", "observations": 200
+        }});
         for field in ["surfaces", "comparison", "sensitivity", "source"] {
             study.as_object_mut().unwrap().remove(field);
         }

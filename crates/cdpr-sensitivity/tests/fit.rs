@@ -182,7 +182,8 @@ proptest! {
 
     #[test]
     fn fits_follow_a_change_of_unit_and_origin(
-        values in prop::collection::vec(-1.0..1.0_f64, 3..40), unit in 1e-6..1e6_f64, origin in -10.0..10.0_f64,
+        values in prop::collection::vec(-1.0..1.0_f64, 3..40), unit in 1e-6..1e6_f64,
+        origin in -10.0..10.0_f64,
     ) {
         let sample = Sample::of_values(&values).unwrap();
         prop_assume!(sample.sorted()[0] + 1e-3 < sample.sorted()[values.len() - 1]);
@@ -190,7 +191,8 @@ proptest! {
         let moved = Sample::of_values(&moved).unwrap();
         for family in [Family::Uniform, Family::Normal, Family::Logistic, Family::Laplace, Family::Gumbel] {
             let (one, other) = (fit(&sample, family, FEW).unwrap(), fit(&moved, family, FEW).unwrap());
-            assert_relative_eq!(other.law.mean(), unit * (one.law.mean() + origin), max_relative = 1e-6, epsilon = 1e-6 * unit);
+            let mean = unit * (one.law.mean() + origin);
+            assert_relative_eq!(other.law.mean(), mean, max_relative = 1e-6, epsilon = 1e-6 * unit);
             assert_relative_eq!(other.law.std(), unit * one.law.std(), max_relative = 1e-6);
             assert_relative_eq!(other.ks_distance, one.ks_distance, epsilon = 1e-6);
         }

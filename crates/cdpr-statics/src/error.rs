@@ -39,8 +39,8 @@ pub enum StaticsError {
     },
     /// Tensions and cable directions did not settle together.
     #[error(
-        "inverse model: after {iterations} iterations the wrench on the platform is still unbalanced by {force:e} N \
-         and {moment:e} N m"
+        "inverse model: after {iterations} iterations the wrench on the platform is still unbalanced by \
+        {force:e} N and {moment:e} N m"
     )]
     InverseNotConverged {
         /// Iterations of distribution and Newton's method.
@@ -53,8 +53,8 @@ pub enum StaticsError {
     /// The equilibrium found strains a cable by more than 10 %, beyond which the law of a linear,
     /// small-strain cable is invalid.
     #[error(
-        "cable {} is strained by {:.1} % at the equilibrium found: its unstrained length is {length} m, the distance of its \
-         points {distance:.4} m; it is too short or too soft for this load",
+        "cable {} is strained by {:.1} % at the equilibrium found: its unstrained length is {length} m, \
+        the distance of its points {distance:.4} m; it is too short or too soft for this load",
         index + 1, 100.0 * strain
     )]
     Overstrained {
@@ -83,8 +83,8 @@ pub enum StaticsError {
     },
     /// The distance to the exact equilibrium could not be bounded.
     #[error(
-        "not certified: {reason} (closest attempt: the enclosing box maps to {growth:.3e} times itself, below 1 is \
-         a proof)"
+        "not certified: {reason} (closest attempt: the enclosing box maps to {growth:.3e} times itself, \
+        below 1 is a proof)"
     )]
     NotCertified {
         /// Why.
@@ -112,8 +112,8 @@ pub enum StaticsError {
     },
     /// No equilibrium was found; the error holds the pose where the search ended.
     #[error(
-        "direct model: no equilibrium found in {iterations} iterations; the search ended at ({:.4}, {:.4}, {:.4}) m \
-         with a residual of {:e} N and {:e} N m",
+        "direct model: no equilibrium found in {iterations} iterations; the search ended at ({:.4}, {:.4}, \
+        {:.4}) m with a residual of {:e} N and {:e} N m",
         pose.position.x, pose.position.y, pose.position.z, residual.force, residual.moment
     )]
     DirectNotConverged {

@@ -28,15 +28,15 @@ use std::time::Instant;
 /// Functions that hear how far a run is.
 #[derive(Clone, Copy)]
 pub struct Watcher<'a> {
-    /// Hears the name of each sampling at one pose and of each surface when it begins.
+    /// Called with the name of each sampling at one pose and of each surface when it begins.
     pub begin: &'a (dyn Fn(&str) + Sync),
-    /// Hears how many more observations or points are done.
+    /// Called with the number of further observations or points that are done.
     pub tick: &'a (dyn Fn(usize) + Sync),
-    /// Hears of each damaged block, which is made again.
+    /// Called with each damaged block, which is made again.
     pub warn: &'a (dyn Fn(&StudyError) + Sync),
-    /// Hears of each figure that cannot be drawn, and why.
+    /// Called with each figure that cannot be drawn, and the reason.
     pub note: &'a (dyn Fn(&str) + Sync),
-    /// Says before each block whether the run is to end there.
+    /// Returns, before each block, whether the run is to end there.
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
@@ -47,14 +47,14 @@ pub enum Drawable<'a> {
     Sampling {
         /// Its name.
         name: &'a str,
-        /// What it found.
+        /// Its results.
         summary: &'a SamplingSummary,
     },
     /// A sampling at several poses.
     Poses {
         /// Its name.
         name: &'a str,
-        /// What it found.
+        /// Its results.
         summary: &'a PosesSummary,
         /// One row for each pose.
         rows: &'a [PoseRow],
@@ -63,14 +63,14 @@ pub enum Drawable<'a> {
     Surface {
         /// Its name.
         name: &'a str,
-        /// What it found.
+        /// Its results.
         summary: &'a SurfaceSummary,
         /// The deflection over its grid.
         result: &'a SurfaceResult<String>,
     },
     /// The study as a whole.
     Whole {
-        /// What all its parts found.
+        /// Results of all parts of the study.
         studies: &'a IndexMap<String, StudySummary>,
     },
 }
@@ -90,9 +90,9 @@ pub type Draw<'a> = &'a (dyn Fn(&Study, Drawable) -> Vec<Figure> + Sync);
 /// A study that was carried out.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// Its results, as [`Results::read`] finds them in the folder.
+    /// The results, as [`Results::read`] finds them in the folder.
     pub results: Results,
-    /// The figures drawn, in the order in which they were.
+    /// The figures, in the order in which they were drawn.
     pub figures: Vec<Figure>,
 }
 
@@ -100,7 +100,7 @@ pub struct Run {
 /// `summary.json` and `timings.json`. Without a format, samplings at one pose have tables as CSV.
 ///
 /// # Errors
-/// Those of files and blocks; [`StudyError::Stopped`].
+/// The errors of files and blocks, and [`StudyError::Stopped`].
 pub fn run(
     study: &Study,
     out: &Path,

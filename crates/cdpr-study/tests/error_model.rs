@@ -14,7 +14,8 @@ fn study(model: Value) -> Result<Study, StudyError> {
     file["comparison"] = json!([]);
     file["error_models"] = json!({ "model": model });
     file["samplings"] = json!({ "blocks": {
-        "title": "Pulley blocks", "pose": {"position": [0.5, 0.2, 1.75]}, "error_model": "model", "observations": 1024,
+        "title": "Pulley blocks", "pose": {"position": [0.5, 0.2, 1.75]},
+        "error_model": "model", "observations": 1024,
     }});
     Study::from_json(&file.to_string(), path)
 }

@@ -1,4 +1,4 @@
-//! The measures of sensitivity beside each other: that they agree where they should, and what a failed one leaves.
+//! The measures of sensitivity agree where they should, and one that fails leaves a note.
 
 use cdpr_study::{
     InputMeasures, MEASURES, SensitivitySpec, SensitivitySummary, Session, Study, StudyError, Truncation,

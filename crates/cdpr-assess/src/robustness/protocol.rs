@@ -24,7 +24,7 @@ pub struct StartOffset {
     pub distance: f64,
     /// Angle of rotation [rad].
     pub angle: f64,
-    /// What another program finds from starts as far away.
+    /// Published results of another program from starts as far away.
     pub published: Option<Published>,
 }
 

@@ -63,8 +63,8 @@ pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Sec
             @let alt = format!("Histogram of the RMS of the static deflection of {name} with fitted laws");
             (figure(name, &alt, figures, &html! {
                 "Density of the RMS of the static deflection over " (sampling.observations)
-                " observations, with the laws that fit best by Akaike's criterion. The dashed line is the RMS "
-                "of the nominal robot." (published(results, name))
+                " observations, with the laws that fit best by Akaike's criterion. The dashed line is the "
+                "RMS of the nominal robot." (published(results, name))
             }))
             (fits(sampling))
         }
@@ -151,8 +151,9 @@ pub(crate) fn points(results: &Results, figures: &[Figure]) -> Option<Section> {
             let alt = format!("t-Student index of each coordinate of the {kind} points, in the plan view");
             let caption = html! {
                 "Effect of the coordinates of the " (kind) " points on the RMS, as t-Student index of x, y "
-                "and z. The bars stand at the position of the point in the plan view. \u{d7} marks the platform's "
-                "reference point P. The larger the index, the more the coordinate matters." (published)
+                "and z. The bars stand at the position of the point in the plan view. \u{d7} marks the "
+                "platform's reference point P. The larger the index, the more the coordinate matters."
+                (published)
             };
             Some(figure(name, &alt, figures, &caption))
         })

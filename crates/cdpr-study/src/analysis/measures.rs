@@ -50,7 +50,7 @@ pub struct Measure {
     pub label: &'static str,
     /// What it estimates.
     pub quantity: Quantity,
-    /// Whether inputs are ranked by it: one measure of each method.
+    /// Whether inputs are ranked by this measure; one measure of each method ranks them.
     pub ranks: bool,
     /// Its value for an input.
     pub value: fn(&InputMeasures) -> Option<f64>,

@@ -10,11 +10,11 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum StudySummary {
-    /// Of a sampling.
+    /// Summary of a sampling at one pose.
     Sampling(Box<SamplingSummary>),
-    /// Of a surface.
+    /// Summary of a surface.
     Surface(SurfaceSummary),
-    /// Of a sampling at several poses.
+    /// Summary of a sampling at several poses.
     Poses(PosesSummary),
 }
 
@@ -79,7 +79,7 @@ impl StudySummary {
 /// The RMS of the static deflection [mm] of one part of a study; what the part does not have is absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Overview<'a> {
-    /// Of the nominal robot.
+    /// Value of the nominal robot.
     pub nominal: Option<f64>,
     /// Mean.
     pub mean: Option<f64>,

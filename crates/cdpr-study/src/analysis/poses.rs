@@ -37,7 +37,7 @@ pub struct PoseRow {
     /// Number of observations, failed ones included; 0 for a pose without feasible tensions.
     pub observations: usize,
     pub failed: usize,
-    /// Of the nominal robot.
+    /// Value of the nominal robot.
     pub nominal_mm: Option<f64>,
     /// Over the observations; this and the following are empty where fewer than two have succeeded.
     pub mean_mm: Option<f64>,

@@ -71,7 +71,7 @@ pub struct RmsSummary {
     pub min: f64,
     /// Greatest value.
     pub max: f64,
-    /// Of the nominal robot.
+    /// Value of the nominal robot.
     pub nominal: f64,
     /// 1 % quantile (Hyndman and Fan's type 7, as the others).
     pub q01: f64,

@@ -46,7 +46,7 @@ pub struct SurfaceRms {
     pub min: Option<f64>,
     /// Greatest value.
     pub max: Option<f64>,
-    /// Of the nominal robot.
+    /// Value of the nominal robot.
     pub nominal: f64,
 }
 

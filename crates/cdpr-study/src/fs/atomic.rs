@@ -1,4 +1,5 @@
-//! Files that are either whole or absent: written under a temporary name beside their place, then renamed.
+//! Files that are either complete or absent. They are written under a temporary name in the same folder, then
+//! renamed.
 
 use crate::error::StudyError;
 use crate::fs::files::remove_stale;

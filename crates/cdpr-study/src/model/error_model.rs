@@ -62,7 +62,7 @@ impl Wrong {
     }
 }
 
-/// What stands in a message where a parameter is expected.
+/// The text of messages where a parameter is expected.
 fn a_parameter() -> String {
     format!("a parameter ({})", Parameter::NAMES)
 }

@@ -13,9 +13,9 @@ use std::path::PathBuf;
 /// A study with its robot.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// Where it was read from.
+    /// Path from which the study was read.
     pub path: PathBuf,
-    /// What the file says.
+    /// Content of the study file.
     pub file: StudyFile,
     /// The nominal robot.
     pub robot: Robot,

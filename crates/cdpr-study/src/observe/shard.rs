@@ -43,7 +43,7 @@ impl Shard {
         shard(&task).ok_or_else(|| StudyError::setting(name, format!("`{task}`"), expected()))
     }
 
-    /// Whether the shard has a block, by its index in the whole study.
+    /// Whether a block belongs to the shard, by its index in the whole study.
     pub(crate) fn has(self, block: usize) -> bool {
         let (round, within) = (block / self.count, block % self.count);
         (within + mixed(round as u64) as usize % self.count) % self.count == self.index - 1
