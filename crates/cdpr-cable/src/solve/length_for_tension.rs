@@ -15,7 +15,7 @@ use crate::cable::Cable;
 use crate::catenary::Catenary;
 use crate::error::{CableError, SMALLEST, check};
 use crate::solve::end_force::{Solution, check_end, end_force};
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
 /// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the tension `tension` [N] at A.
 ///
@@ -98,8 +98,9 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, tension: f64) -> Option<So
     let mut compliance = now.compliance();
     for iteration in 1..=20 {
         let per_angle = compliance.flexibility * Vector2::new(-now.force.y, now.force.x);
-        let jacobian = Matrix2::from_columns(&[per_angle, compliance.end_per_length]);
-        let step = jacobian.try_inverse()? * (end - compliance.end);
+        let (per_length, miss) = (compliance.end_per_length, end - compliance.end);
+        // Cramer's rule. The step of a singular system is not finite.
+        let step = Vector2::new(miss.perp(&per_length), per_angle.perp(&miss)) / per_angle.perp(&per_length);
         let (sin, cos) = step.x.sin_cos();
         let (fx, fz) = (now.force.x, now.force.y);
         now.force = Vector2::new(cos * fx - sin * fz, sin * fx + cos * fz);

@@ -18,13 +18,17 @@
 //! d(h_i, z_i) = (e_hᵀ, e_zᵀ) dr_i,                     d(x, z) = C_i df_i
 //! ```
 
+use crate::equations::balance::add_stiffness;
 use crate::equations::spanned::SpannedCable;
+use crate::equations::vector::cross;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
 use cdpr_cable::kernel::{Real, Response};
-use cdpr_robot::{Matrix3, Vector3};
+use cdpr_robot::{Matrix3, Vector3, Vector6};
 use faer::linalg::solvers::{PartialPivLu, Solve};
-use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, DVector, Scalar, Vector2};
+use nalgebra::{
+    ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, DVector, Matrix6, Scalar, Vector2,
+};
 use num_traits::{One, Zero};
 
 /// Numbers that the equations can be evaluated with: doubles, intervals.
@@ -88,9 +92,8 @@ pub(crate) fn residual<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
     residual.fixed_rows_mut::<3>(3).copy_from(&-(center.cross(&weight) + load.moment.map(T::of)));
     for i in 0..problem.cables() {
         let cable = state.cable(problem, i);
-        for (balance, wrench) in residual.iter_mut().zip(cable.wrench()) {
-            *balance -= wrench;
-        }
+        let mut balance = residual.fixed_rows_mut::<6>(0);
+        balance -= Vector6::from(cable.wrench());
         // Eq. (2a), Eq. (2b): from the end of the cable to its anchor point.
         let misclosure = Vector2::from(cable.misclosure());
         residual.fixed_rows_mut::<2>(6 + 2 * i).copy_from(&misclosure);
@@ -103,7 +106,8 @@ pub(crate) fn jacobian<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
     let size = 6 + 2 * problem.cables();
     let mut jacobian = DMatrix::from_element(size, size, T::zero());
     let (weight, center) = weight(problem, state);
-    let mut rotation_of_moment = -(skew(&weight) * skew(&center));
+    let mut platform = Matrix6::zeros();
+    platform.fixed_view_mut::<3, 3>(3, 3).copy_from(&-(skew(&weight) * skew(&center)));
     for i in 0..problem.cables() {
         let cable = state.cable(problem, i);
         let place = 6 + 2 * i;
@@ -112,24 +116,16 @@ pub(crate) fn jacobian<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
             jacobian.fixed_view_mut::<2, 2>(place, place).fill_with_identity();
             continue;
         };
-        let s = skew(&Vector3::from(cable.anchor_arm));
         let plane = &cable.span.plane;
         let sideways = Vector3::new(-plane.azimuth[1], plane.azimuth[0], T::zero());
         let [h, z] = cable.span.end;
         let near_vertical = Real::value(h) <= NEAR_VERTICAL * Real::value(z).abs();
         let lateral = if near_vertical { T::one() / lateral_flexibility } else { cable.force[0] / h };
         let swing = sideways * sideways.transpose() * lateral;
-        let mut add = |row: usize, column: usize, block: Matrix3<T>| {
-            let mut view = jacobian.fixed_view_mut::<3, 3>(row, column);
-            view += block;
-        };
-        add(0, 0, swing);
-        add(0, 3, -(swing * s));
-        add(3, 0, s * swing);
-        rotation_of_moment -= skew(&Vector3::from(cable.force_on_platform())) * s + s * swing * s;
+        add_stiffness(&mut platform, &cable.anchor_arm, &cable.force_on_platform(), swing.into());
         for (j, axis) in [[T::one(), T::zero()], [T::zero(), T::one()]].into_iter().enumerate() {
-            let axis = Vector3::from(plane.lift(axis));
-            let turned = s * axis;
+            let axis = plane.lift(axis);
+            let [axis, turned] = [axis, cross(&cable.anchor_arm, &axis)].map(Vector3::from);
             jacobian.fixed_view_mut::<3, 1>(0, place + j).copy_from(&axis);
             jacobian.fixed_view_mut::<3, 1>(3, place + j).copy_from(&turned);
             jacobian.fixed_view_mut::<1, 3>(place + j, 0).copy_from(&axis.transpose());
@@ -138,7 +134,7 @@ pub(crate) fn jacobian<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
         let flexibility = nalgebra::Matrix2::new(-xx, -xz, -xz, -zz);
         jacobian.fixed_view_mut::<2, 2>(place, place).copy_from(&flexibility);
     }
-    jacobian.fixed_view_mut::<3, 3>(3, 3).copy_from(&rotation_of_moment);
+    jacobian.fixed_view_mut::<6, 6>(0, 0).copy_from(&platform);
     jacobian
 }
 

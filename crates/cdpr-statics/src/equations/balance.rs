@@ -14,10 +14,11 @@
 //! H_rp = sum [s_i] K3_i              H_rr = -sum( [s_i] K3_i [s_i] + [F_i][s_i] ) - [F_w][R c]      (S5)
 //! ```
 
-use crate::equations::vector::wrench;
+use crate::equations::vector::{cross, wrench};
 use crate::problem::DirectProblem;
-use cdpr_robot::{Matrix3, Pose, Vector3, Vector6};
-use nalgebra::Matrix6;
+use cdpr_cable::kernel::Field;
+use cdpr_robot::{Matrix3, Pose, Vector6};
+use nalgebra::{ClosedAddAssign, Matrix6, Scalar};
 
 /// Platform wrench and stiffness at a pose, from the cables' forces and stiffnesses.
 pub(crate) struct Balance {
@@ -43,20 +44,35 @@ impl Balance {
     pub(crate) fn add_cable(&mut self, s: &[f64; 3], force: &[f64; 3], stiffness: [[f64; 3]; 3]) {
         // Eq. (3) with the opposite sign: -w_i t_i.
         self.gradient -= Vector6::from(wrench(s, force));
-        let (arm, stiffness) = (Vector3::from(*s).cross_matrix(), Matrix3::from(stiffness));
-        let ks = stiffness * arm;
-        let mut pp = self.hessian.fixed_view_mut::<3, 3>(0, 0);
-        pp += stiffness;
-        let mut pr = self.hessian.fixed_view_mut::<3, 3>(0, 3);
-        pr -= ks;
-        let mut rp = self.hessian.fixed_view_mut::<3, 3>(3, 0);
-        rp -= ks.transpose();
-        let mut rr = self.hessian.fixed_view_mut::<3, 3>(3, 3);
-        rr -= Vector3::from(*force).cross_matrix() * arm + arm * ks;
+        add_stiffness(&mut self.hessian, s, force, stiffness);
     }
 
     /// The Hessian of the potential: symmetric, in the increment `R <- exp(dφ) R`.
     pub(crate) fn symmetric_hessian(&self) -> Matrix6<f64> {
         0.5 * (self.hessian + self.hessian.transpose())
     }
+}
+
+/// Adds a cable with the stiffness K3 and the force F on the platform at the arm s, equation (S5).
+#[inline(always)]
+pub(crate) fn add_stiffness<T: Field + Scalar + ClosedAddAssign>(
+    hessian: &mut Matrix6<T>,
+    s: &[T; 3],
+    force: &[T; 3],
+    stiffness: [[T; 3]; 3],
+) {
+    let mut add = |row: usize, column: usize, block: Matrix3<T>| {
+        let mut view = hessian.fixed_view_mut::<3, 3>(row, column);
+        view += block;
+    };
+    let turned = |matrix: Matrix3<T>| Matrix3::from(matrix.data.0.map(|column| cross(s, &column)));
+    let sk = turned(stiffness.into());
+    add(0, 0, stiffness.into());
+    add(0, 3, sk.transpose());
+    add(3, 0, sk);
+    // [s] K3 [s] = -[s] ([s] K3)ᵀ and [F][s] = s Fᵀ - (s·F) 1.
+    add(3, 3, turned(sk.transpose()));
+    let ([sx, sy, sz], [fx, fy, fz]) = (*s, *force);
+    let (x, y, z) = (sx * fx, sy * fy, sz * fz);
+    add(3, 3, Matrix3::new(y + z, -sx * fy, -sx * fz, -sy * fx, x + z, -sy * fz, -sz * fx, -sz * fy, x + y));
 }
