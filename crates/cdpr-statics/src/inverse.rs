@@ -8,8 +8,8 @@
 //! t_i = t_ref,i - w_i·λ,      sum w_i t_i + w_ex = 0                                              (I1)
 //! ```
 //!
-//! is the distribution without active bounds. Newton's method on (t, λ) needs `w_i' = dw_i/dt_i` from the
-//! catenary between its held ends. With `D_i = 1 + w_i'·λ`, `c_i = w_i + t_i w_i'` and the residuals
+//! is the distribution without active bounds. Newton's method on (t, λ) needs `c_i = d(w_i t_i)/dt_i` of the
+//! catenary between its held ends. With `D_i = 1 + dw_i/dt_i·λ = 1 + (c_i - w_i)·λ/t_i` and the residuals
 //! `R1_i = t_i - t_ref,i + w_i·λ` and `R2 = sum w_i t_i + w_ex` of (I1), a step is
 //!
 //! ```text
@@ -237,12 +237,11 @@ impl<'a> Inverse<'a> {
                 let mut d = f64::INFINITY;
                 if distribution.active[i].is_none() {
                     let per_length = catenaries[i].compliance().force_per_length();
-                    let per_tension = per_length / per_length.dot(&direction);
-                    let rotation = self.wrench_of(i, span, (per_tension - direction) / *t);
-                    d = 1.0 + rotation.dot(&multipliers);
-                    let c = w + rotation * *t;
-                    matrix += c * w.transpose() / d;
-                    right -= c * (left / d);
+                    let c = self.wrench_of(i, span, per_length / per_length.dot(&direction));
+                    d = 1.0 + (c - w).dot(&multipliers) / *t;
+                    let share = c / d;
+                    matrix += share * w.transpose();
+                    right -= share * left;
                     largest = largest.max(left.abs());
                 }
                 cables.push((w, left, d));
