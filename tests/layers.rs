@@ -3,6 +3,7 @@
 mod floors;
 mod modules;
 
+use cargo_metadata::{DependencyKind, MetadataCommand, Package};
 use floors::Floors;
 use modules::{Crate, Module, rust_files};
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,34 +30,26 @@ fn documented() -> BTreeMap<String, BTreeSet<String>> {
         .collect()
 }
 
+/// All packages but that of these tests.
+fn packages() -> impl Iterator<Item = Package> {
+    let metadata = MetadataCommand::new().no_deps().exec().unwrap();
+    metadata.packages.into_iter().filter(|package| package.name.as_str() != "cdpr-tests")
+}
+
 #[test]
 fn each_crate_uses_exactly_the_layers_that_are_documented() {
-    let metadata = cargo_metadata::MetadataCommand::new().no_deps().exec().unwrap();
-    let built: BTreeMap<String, BTreeSet<String>> = metadata
-        .packages
-        .iter()
-        .filter(|package| package.name.as_str() != "cdpr-tests")
-        .map(|package| {
-            let layers = package
-                .dependencies
-                .iter()
-                .filter(|dependency| dependency.kind == cargo_metadata::DependencyKind::Normal)
-                .map(|dependency| dependency.name.clone())
-                .filter(|name| name.starts_with("cdpr-"))
-                .collect();
-            (package.name.to_string(), layers)
-        })
-        .collect();
+    let layers = |package: Package| {
+        let used = package.dependencies.into_iter().filter(|used| used.kind == DependencyKind::Normal);
+        used.map(|used| used.name).filter(|name| name.starts_with("cdpr-")).collect()
+    };
+    let built = packages().map(|package| (package.name.to_string(), layers(package))).collect();
     assert_eq!(documented(), built);
 }
 
 /// Folders of sources by name of the crate.
 fn sources() -> BTreeMap<String, PathBuf> {
-    let metadata = cargo_metadata::MetadataCommand::new().no_deps().exec().unwrap();
-    let crates = metadata.packages.iter().filter(|package| package.name.as_str() != "cdpr-tests");
-    crates
-        .map(|package| (package.name.to_string(), package.manifest_path.parent().unwrap().join("src").into()))
-        .collect()
+    let source = |package: &Package| package.manifest_path.parent().unwrap().join("src").into();
+    packages().map(|package| (package.name.to_string(), source(&package))).collect()
 }
 
 /// The floors of each crate: below its name, indented, in the block of modules.
@@ -76,16 +69,6 @@ fn documented_floors() -> BTreeMap<String, String> {
         }
     }
     floors
-}
-
-#[test]
-fn no_more_than_two_files_of_a_crate_import_from_each_other_in_a_circle() {
-    let circles = |(name, folder): (&String, &PathBuf)| {
-        let circles = floors::circles(&Crate::read(folder).imports());
-        circles.iter().map(|circle| format!("{name} has {circle}\n")).collect::<String>()
-    };
-    let found: String = sources().iter().map(circles).collect();
-    assert!(found.is_empty(), "{found}");
 }
 
 #[test]
@@ -120,6 +103,12 @@ fn at_most_sixteen_files_stand_side_by_side() {
     assert!(files.is_empty(), "{files:?}");
 }
 
+/// The lines of a file that are not comments.
+fn code(file: &Path) -> String {
+    let text = std::fs::read_to_string(file).unwrap();
+    text.lines().filter(|line| !line.trim_start().starts_with("//")).map(|line| format!("{line}\n")).collect()
+}
+
 #[test]
 fn each_numerical_library_is_named_by_one_module_of_a_crate() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
@@ -134,9 +123,7 @@ fn each_numerical_library_is_named_by_one_module_of_a_crate() {
     ] {
         let mut users = Vec::new();
         for source in rust_files(&crates).into_iter().filter(|path| path.iter().any(|part| part == "src")) {
-            let text = std::fs::read_to_string(&source).unwrap();
-            let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-            if code.into_iter().any(|line| line.contains(&format!("{library}::"))) {
+            if code(&source).contains(&format!("{library}::")) {
                 users.push(source.strip_prefix(&crates).unwrap().display().to_string());
             }
         }
@@ -150,13 +137,11 @@ fn the_lower_layers_do_no_input_or_output() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
     for name in ["cdpr-cable", "cdpr-robot", "cdpr-tension", "cdpr-statics", "cdpr-sensitivity"] {
         for path in rust_files(&crates.join(name).join("src")) {
-            let text = std::fs::read_to_string(&path).unwrap();
-            let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-            let text: String = code.collect::<Vec<_>>().join("\n");
+            let code = code(&path);
             for word in
                 ["std::fs", "std::net", "std::process", "std::env", "static mut", "println!", "eprintln!"]
             {
-                assert!(!text.contains(word), "{} contains {word}", path.display());
+                assert!(!code.contains(word), "{} contains {word}", path.display());
             }
         }
     }

@@ -10,7 +10,7 @@ type Graph = BTreeMap<Module, BTreeSet<Module>>;
 /// stands in it as `FOLDER::`.
 pub(crate) struct Floors {
     floors: BTreeMap<Module, usize>,
-    /// Files of one floor that may import from each other.
+    /// Two files of one floor that may import from each other. Longer circles break the order.
     pairs: BTreeSet<(Module, Module)>,
 }
 
@@ -70,26 +70,10 @@ impl Floors {
     }
 }
 
-/// Circles of more than two files, each with the imports within it.
-pub(crate) fn circles(imports: &Imports) -> Vec<String> {
-    let mut graph = Graph::new();
-    for (from, to) in imports.keys() {
-        graph.entry(from.clone()).or_default().insert(to.clone());
-        graph.entry(to.clone()).or_default();
-    }
-    let circles = groups(&graph).into_iter().filter(|circle| circle.len() > 2);
-    let report = |circle: BTreeSet<Module>| {
-        let within = imports.iter().filter(|((from, to), _)| circle.contains(from) && circle.contains(to));
-        let arrows = within.map(|((from, to), names)| format!("\n    {}", arrow(from, to, names)));
-        format!("a circle of {} files{}", circle.len(), arrows.collect::<String>())
-    };
-    circles.map(report).collect()
-}
-
 /// The floors that follow from the imports, as the list writes them; entries of a circle share a floor.
 pub(crate) fn suggestion(folder: &Module, modules: &BTreeSet<Module>, imports: &Imports) -> String {
     let mut graph = Graph::new();
-    let own = entry(folder, "");
+    let (own, own_name) = (entry(folder, ""), folder.last().map_or("lib", String::as_str));
     let is_inside = |module: &&Module| module.len() > folder.len() && module.starts_with(folder);
     for module in modules.iter().filter(is_inside) {
         graph.entry(module[..=folder.len()].to_vec()).or_default();
@@ -112,22 +96,19 @@ pub(crate) fn suggestion(folder: &Module, modules: &BTreeSet<Module>, imports: &
         let (floor, above): (Vec<_>, Vec<_>) = groups.into_iter().partition(rests);
         groups = above;
         placed.extend(floor.iter().flatten().cloned());
-        let word = |module: &Module| {
-            let inside = match module.last() {
-                Some(name) if name.is_empty() => String::new(),
-                _ => suggestion(module, modules, imports),
-            };
-            let name =
-                module.last().filter(|name| !name.is_empty()).or(folder.last()).map_or("lib", String::as_str);
-            if inside.is_empty() { name.to_owned() } else { format!("{name} {{{inside}}}") }
+        let word = |module: &Module| match module.last() {
+            Some(name) if !name.is_empty() => match suggestion(module, modules, imports).as_str() {
+                "" => name.clone(),
+                inside => format!("{name} {{{inside}}}"),
+            },
+            _ => own_name.to_owned(),
         };
         floors
             .push(floor.iter().map(|group| group.iter().map(word).collect::<Vec<_>>().join("<->")).collect());
     }
     // The file of a folder stands above it unless the list names it.
     if !graph.values().any(|below| below.contains(&own)) {
-        let name = folder.last().map_or("lib", String::as_str);
-        floors.iter_mut().for_each(|floor| floor.retain(|entry| entry != name));
+        floors.iter_mut().for_each(|floor| floor.retain(|entry| entry != own_name));
     }
     let lines: Vec<_> =
         floors.iter().rev().map(|floor| floor.join(" ")).filter(|line| !line.is_empty()).collect();
