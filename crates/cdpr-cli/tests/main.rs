@@ -8,6 +8,8 @@ mod calibration;
 mod commands;
 mod common;
 mod derivatives;
+#[path = "../../cdpr-statics/tests/equilibria.rs"]
+mod equilibria;
 mod hysteresis;
 mod models;
 mod modulus;

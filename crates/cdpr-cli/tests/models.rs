@@ -3,9 +3,8 @@
 //! Their numbers are those of the library and of the references in 40-digit arithmetic.
 
 use crate::common::{answered, cdpr, data_path, data_text, text};
-use cdpr_robot::{
-    CableProperties, Platform, Pose, Robot, RobotCable, TensionLimits, UnitQuaternion, Vector3, Wrench,
-};
+use crate::equilibria::{self, number, vector};
+use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3, Wrench};
 use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse};
 use serde_json::{Value, json};
 use std::process::{Command, Stdio};
@@ -23,19 +22,8 @@ fn answer(arguments: &[&str]) -> Value {
     serde_json::from_str(&printed(&[arguments, &["--format", "json"]].concat())).unwrap()
 }
 
-fn number(value: &Value) -> f64 {
-    match value {
-        Value::String(digits) => digits.parse().unwrap(),
-        value => value.as_f64().unwrap(),
-    }
-}
-
 fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(number).collect()
-}
-
-fn vector(value: &Value) -> Vector3<f64> {
-    Vector3::from_column_slice(&numbers(value))
 }
 
 fn joined(numbers: &[f64]) -> String {
@@ -120,42 +108,15 @@ fn the_inverse_model_prints_the_library_s_numbers_to_the_last_bit() {
     assert!(printed(&arguments).contains(&format!("{:.3}", exact.tensions[2])));
 }
 
-/// A robot of the references, its case for `--from`, and what is to be found.
-fn reference(case: &Value) -> (Robot, Value) {
-    let gravity = number(&case["gravity"]);
-    let properties = CableProperties {
-        section: 1.0,
-        linear_density: number(&case["weight_per_length"]) / gravity,
-        youngs_modulus: number(&case["axial_stiffness"]),
-        diameter: None,
-        breaking_force: None,
-        law: None,
-    };
-    let points =
-        case["exit_points"].as_array().unwrap().iter().zip(case["anchor_points"].as_array().unwrap());
-    let robot = Robot {
-        name: case["kind"].as_str().unwrap().to_owned(),
-        source: None,
-        gravity,
-        platform: Platform { mass: 1.0, center_of_mass: vector(&case["center_of_mass"]) },
-        tension_limits: TensionLimits { min: 1.0, max: 1e6 },
-        cables: points
-            .map(|(b, a)| RobotCable {
-                exit_point: vector(b),
-                anchor_point: vector(a),
-                properties: properties.clone(),
-            })
-            .collect(),
-    };
+/// The case for `--from` of a reference.
+fn direct_case(case: &Value) -> Value {
     let rotation = cdpr_robot::Matrix3::from_fn(|i, j| number(&case["start_rotation"][i][j]));
     let q = UnitQuaternion::from_matrix(&rotation);
     let p = numbers(&case["start_position"]);
-    let start = json!([p[0], p[1], p[2], q.w, q.i, q.j, q.k]);
-    let case = json!({
-        "lengths": numbers(&case["unstrained_lengths"]), "mass": number(&case["mass"]), "start": start,
+    json!({
+        "lengths": numbers(&case["unstrained_lengths"]), "start": [p[0], p[1], p[2], q.w, q.i, q.j, q.k],
         "force": numbers(&case["external_force"]), "moment": numbers(&case["external_moment"]),
-    });
-    (robot, case)
+    })
 }
 
 #[test]
@@ -164,7 +125,7 @@ fn the_direct_model_finds_the_equilibria_of_40_digit_arithmetic_from_a_file() {
     let [robot_path, case_path] = ["robot.json", "case.json"].map(|name| folder.path().join(name));
     let cases: Vec<Value> = serde_json::from_str(&data_text("reference/equilibria.json")).unwrap();
     for expected in cases.iter().take(12) {
-        let (robot, case) = reference(expected);
+        let (robot, case) = (equilibria::robot(expected), direct_case(expected));
         std::fs::write(&robot_path, robot.to_json()).unwrap();
         std::fs::write(&case_path, case.to_string()).unwrap();
         let found = answer(&[

@@ -75,14 +75,7 @@ impl Robot {
             .map(|i| RobotCable {
                 exit_point: exits[i],
                 anchor_point: anchors[i],
-                properties: CableProperties {
-                    section: sections[i],
-                    linear_density: densities[i],
-                    youngs_modulus: moduli[i],
-                    diameter: None,
-                    breaking_force: None,
-                    law: None,
-                },
+                properties: CableProperties::linear(sections[i], densities[i], moduli[i]),
             })
             .collect();
         let [min, max] = components("tension_limits", &tension_limits)?;

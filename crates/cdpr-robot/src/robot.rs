@@ -78,6 +78,11 @@ pub struct CableProperties {
 }
 
 impl CableProperties {
+    /// A linear cable of that section [m²], mass per length [kg/m] and Young's modulus [Pa].
+    pub fn linear(section: f64, linear_density: f64, youngs_modulus: f64) -> Self {
+        Self { section, linear_density, youngs_modulus, diameter: None, breaking_force: None, law: None }
+    }
+
     /// Axial stiffness EA = E S [N].
     #[inline]
     pub fn axial_stiffness(&self) -> f64 {

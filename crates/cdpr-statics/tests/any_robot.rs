@@ -46,16 +46,11 @@ fn case(seed: u64) -> Case {
     let mass = log_uniform(rng, 0.1, 100.0) * size;
     let weight = mass * 9.81;
     let suspended = rng.random_bool(0.5);
-    let properties = CableProperties {
-        section: 1e-5,
-        // All cables together weigh from a ten thousandth of the platform to ten times as much.
-        linear_density: log_uniform(rng, 1e-4, 10.0) * mass / (size * n as f64),
-        // The platform's weight stretches one cable by 1e-6 to 1e-2 of its length.
-        youngs_modulus: weight / log_uniform(rng, 1e-6, 1e-2) / 1e-5,
-        diameter: None,
-        breaking_force: None,
-        law: None,
-    };
+    // All cables together weigh from a ten thousandth of the platform to ten times as much.
+    let density = log_uniform(rng, 1e-4, 10.0) * mass / (size * n as f64);
+    // The platform's weight stretches one cable by 1e-6 to 1e-2 of its length.
+    let modulus = weight / log_uniform(rng, 1e-6, 1e-2) / 1e-5;
+    let properties = CableProperties::linear(1e-5, density, modulus);
     let cables = (0..n)
         .map(|_| {
             let exit = Vector3::from_fn(|_, _| rng.random_range(-0.5..0.5) * size);

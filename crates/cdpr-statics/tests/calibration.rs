@@ -1,13 +1,10 @@
 //! What a calibration can tell, against perturbed robots.
 
-use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
+use crate::common::caroca;
+use cdpr_robot::{Parameter, Pose, Rotation3, Vector3};
 use cdpr_statics::{
     Calibration, Combination, Identifiability, Load, Measurement, ParameterValue, Start, direct, inverse,
 };
-
-fn caroca() -> Robot {
-    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
-}
 
 const NOISE: Measurement = Measurement::Pose { position: 1e-4, rotation: 1e-4 };
 

@@ -1,8 +1,7 @@
 //! Every derivative against central differences of the models themselves, and against what mechanics demands.
 
-use cdpr_robot::{
-    Parameter, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Vector6, Wrench,
-};
+use crate::common::{caroca, ring};
+use cdpr_robot::{Parameter, Platform, Pose, Robot, Rotation3, TensionLimits, Vector3, Vector6, Wrench};
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, EquilibriumDerivatives, HeldPose, Load, StaticsError,
     deflection_from, derivatives, inverse, lengths_for_tensions,
@@ -12,10 +11,6 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-
-fn caroca() -> Robot {
-    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
-}
 
 const STUDY_POSES: [[f64; 3]; 2] = [[0.0, 0.0, 1.75], [3.2, 1.7, 3.0]];
 
@@ -282,35 +277,20 @@ fn derivatives_of_caroca_are_those_of_differences() {
 fn random_case(seed: u64) -> Case {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let n = rng.random_range(6..=12);
-    let mut properties = caroca().cables[0].properties.clone();
-    properties.youngs_modulus *= 10f64.powf(rng.random_range(-1.5..0.5));
-    properties.linear_density *= 10f64.powf(rng.random_range(-1.0..0.7));
-    let cables = (0..n)
-        .map(|i| {
-            let mut jitter = || rng.random_range(-0.5..0.5);
-            let around = std::f64::consts::TAU * i as f64 / n as f64;
-            let (a, b, c) = (jitter(), jitter(), jitter());
-            let anchor = around + if i % 2 == 0 { 0.5 } else { -0.5 };
-            let height = if i % 2 == 0 { 0.3 } else { -0.3 };
-            RobotCable {
-                exit_point: Vector3::new((5.0 + a) * around.cos(), (5.0 + b) * around.sin(), 4.0 + c),
-                anchor_point: Vector3::new(
-                    (0.5 + 0.1 * b) * anchor.cos(),
-                    0.5 * anchor.sin(),
-                    height + 0.1 * a,
-                ),
-                properties: properties.clone(),
-            }
-        })
-        .collect();
+    let modulus = 10f64.powf(rng.random_range(-1.5..0.5));
+    let density = 10f64.powf(rng.random_range(-1.0..0.7));
+    let mut cables = ring(n, || rng.random_range(-0.5..0.5));
+    for cable in &mut cables {
+        cable.properties.youngs_modulus *= modulus;
+        cable.properties.linear_density *= density;
+    }
     let mass = 10f64.powf(rng.random_range(1.0..2.7));
     let robot = Robot {
         name: format!("random robot {seed}"),
-        source: None,
-        gravity: 9.81,
         platform: Platform { mass, center_of_mass: Vector3::new(0.02, -0.01, -0.05) },
         tension_limits: TensionLimits { min: 10f64.powf(rng.random_range(-1.0..1.5)), max: 1e5 },
         cables,
+        ..caroca()
     };
     let mut within = |size: f64| Vector3::from_fn(|_, _| rng.random_range(-size..size));
     let pose = Pose::at(0.0, 0.0, 1.5).moved(within(1.5), within(0.1));

@@ -1,14 +1,11 @@
 //! Robots whose cables have a piecewise linear law, by every model.
 
+use crate::common::caroca;
 use cdpr_robot::{Parameter, PiecewiseLaw, Pose, Robot, Segment, UnitQuaternion, Vector3, deviations};
 use cdpr_statics::{
     DirectProblem, Load, Observer, Setting, Start, StaticsError, Tracker, deflection, derivatives, direct,
     follow, inverse,
 };
-
-fn caroca() -> Robot {
-    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
-}
 
 /// A law from the tension at which each of its segments begins and its stiffness over the cable's.
 pub(crate) fn law(segments: &[(f64, f64)]) -> PiecewiseLaw {

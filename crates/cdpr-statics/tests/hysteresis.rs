@@ -1,12 +1,9 @@
 //! A payload that comes and goes, on cables with hysteresis.
 
+use crate::common::caroca;
 use crate::elastic_law::law;
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::Pose;
 use cdpr_statics::{HysteresisLaw, Load, StaticsError, Unloading, deflection, load_cycle};
-
-fn caroca() -> Robot {
-    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
-}
 
 /// One law for all eight cables.
 fn curves(loading: &[(f64, f64)], unloading: &[(f64, f64)]) -> Vec<HysteresisLaw> {

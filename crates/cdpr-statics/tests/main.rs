@@ -4,8 +4,10 @@
 
 mod any_robot;
 mod calibration;
+mod common;
 mod derivatives;
 mod elastic_law;
+mod equilibria;
 mod hysteresis;
 mod models;
 mod observer;

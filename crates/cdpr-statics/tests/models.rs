@@ -1,48 +1,21 @@
 //! Inverse, direct and linearised model against each other and against what mechanics demands.
 
-use cdpr_robot::{Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench};
+use crate::common::{caroca, cogiro, ring};
+use cdpr_robot::{Platform, Pose, Robot, Rotation3, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
     DirectMethod, DirectProblem, Equilibrium, HeldPose, Load, Start, StaticsError, deflection, deflections,
     direct, inverse, lengths_for_tensions,
 };
 use proptest::prelude::*;
 
-fn caroca() -> Robot {
-    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
-}
-
-fn cogiro() -> Robot {
-    Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap()
-}
-
-/// A suspended robot with `n` cables that alternate between the upper and the lower rim of a drum-shaped
-/// platform.
+/// A suspended robot with a heavy drum on `n` cables.
 fn drum(n: usize, jitter: &[f64], mass: f64) -> Robot {
-    let properties = caroca().cables[0].properties.clone();
-    let cables = (0..n)
-        .map(|i| {
-            let around = std::f64::consts::TAU * i as f64 / n as f64;
-            let [a, b, c] = [jitter[3 * i], jitter[3 * i + 1], jitter[3 * i + 2]];
-            let anchor = around + if i % 2 == 0 { 0.5 } else { -0.5 };
-            let height = if i % 2 == 0 { 0.3 } else { -0.3 };
-            RobotCable {
-                exit_point: Vector3::new((5.0 + a) * around.cos(), (5.0 + b) * around.sin(), 4.0 + c),
-                anchor_point: Vector3::new(
-                    (0.5 + 0.1 * b) * anchor.cos(),
-                    0.5 * anchor.sin(),
-                    height + 0.1 * a,
-                ),
-                properties: properties.clone(),
-            }
-        })
-        .collect();
+    let mut jitter = jitter.iter().copied();
     Robot {
-        name: format!("drum with {n} cables"),
-        source: None,
-        gravity: 9.81,
         platform: Platform { mass, center_of_mass: Vector3::new(0.02, -0.01, -0.05) },
         tension_limits: TensionLimits { min: 1.0, max: 1e5 },
-        cables,
+        cables: ring(n, || jitter.next().unwrap()),
+        ..caroca()
     }
 }
 

@@ -1,18 +1,11 @@
 //! Observer robots in lanes: the answers of the scalar models, whoever else is in the batch.
 
+use crate::common::{caroca, cogiro};
 use cdpr_robot::{Pose, Robot, RobotError, Vector3};
 use cdpr_statics::{Load, Observer, StaticsError};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
-
-fn robot(text: &str) -> Robot {
-    Robot::from_json(text).unwrap()
-}
-
-fn caroca() -> Robot {
-    robot(include_str!("../../../data/robots/caroca.json"))
-}
 
 /// Rows of the ranges of Table 3 of the paper, `times` as wide.
 fn rows(robot: &Robot, count: usize, times: f64, seed: u64) -> Vec<f64> {
@@ -71,9 +64,7 @@ fn the_papers_observations_are_those_of_the_scalar_models() {
 fn other_robots_poses_loads_and_ranges_agree_too() {
     let rng = &mut ChaCha8Rng::seed_from_u64(2);
     let mut outcomes: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
-    for (name, robot, height) in
-        [("CAROCA", caroca(), 1.75), ("CoGiRo", robot(include_str!("../../../data/robots/cogiro.json")), 2.5)]
-    {
+    for (name, robot, height) in [("CAROCA", caroca(), 1.75), ("CoGiRo", cogiro(), 2.5)] {
         for case in 0..30 {
             let at = Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0));
             let pose = Pose::at(2.5 * at.x, 1.2 * at.y, height + at.z)

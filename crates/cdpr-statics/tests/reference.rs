@@ -1,54 +1,12 @@
 //! The direct model against equilibria computed in 40-digit arithmetic (`data/reference/README.md`).
 
-use cdpr_robot::{
-    CableProperties, Matrix3, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
-};
+use crate::equilibria::{number, robot, vector};
+use cdpr_robot::{Matrix3, Pose, Rotation3, Vector3, Wrench};
 use cdpr_statics::{DirectProblem, Load, Start, direct};
 use serde_json::Value;
 
-fn number(value: &Value) -> f64 {
-    match value {
-        Value::String(digits) => digits.parse().unwrap(),
-        value => value.as_f64().unwrap(),
-    }
-}
-
-fn vector(value: &Value) -> Vector3<f64> {
-    Vector3::from_fn(|i, _| number(&value[i]))
-}
-
 fn rotation(value: &Value) -> Rotation3<f64> {
     Rotation3::from_matrix_unchecked(Matrix3::from_fn(|i, j| number(&value[i][j])))
-}
-
-fn robot(case: &Value) -> Robot {
-    let gravity = number(&case["gravity"]);
-    let properties = CableProperties {
-        section: 1.0,
-        linear_density: number(&case["weight_per_length"]) / gravity,
-        youngs_modulus: number(&case["axial_stiffness"]),
-        diameter: None,
-        breaking_force: None,
-        law: None,
-    };
-    let (exits, anchors) =
-        (case["exit_points"].as_array().unwrap(), case["anchor_points"].as_array().unwrap());
-    Robot {
-        name: case["kind"].as_str().unwrap().to_owned(),
-        source: None,
-        gravity,
-        platform: Platform { mass: number(&case["mass"]), center_of_mass: vector(&case["center_of_mass"]) },
-        tension_limits: TensionLimits { min: 1.0, max: 1e6 },
-        cables: exits
-            .iter()
-            .zip(anchors)
-            .map(|(b, a)| RobotCable {
-                exit_point: vector(b),
-                anchor_point: vector(a),
-                properties: properties.clone(),
-            })
-            .collect(),
-    }
 }
 
 #[test]

@@ -1,14 +1,11 @@
 //! Stability, certificates, many starts and continuation.
 
+use crate::common::{caroca, cogiro};
 use cdpr_robot::{Platform, Pose, Robot, RobotCable, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
     DirectMethod, DirectProblem, DirectSolution, Load, LossKind, Setting, Start, Starts, StaticsError,
     direct, follow, inverse, rough_pose,
 };
-
-fn caroca() -> Robot {
-    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
-}
 
 /// A platform on six cables in threefold symmetry, drawn up and down at a triangle of radius `radius`, with
 /// its centre of mass `height` above it.
@@ -28,12 +25,10 @@ fn tripod(radius: f64, height: f64, mass: f64) -> Robot {
         }
     };
     Robot {
-        name: "tripod".to_owned(),
-        source: None,
-        gravity: 9.81,
         platform: Platform { mass, center_of_mass: Vector3::new(0.0, 0.0, height) },
         tension_limits: TensionLimits { min: 1.0, max: 1e5 },
         cables: (0..6).map(cable).collect(),
+        ..caroca()
     }
 }
 
@@ -285,7 +280,7 @@ fn winding_all_cables_in_ends_where_they_are_strained_and_keeps_what_was_found()
 
 #[test]
 fn lengths_alone_tell_where_to_start_from() {
-    let cogiro = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
+    let cogiro = cogiro();
     let mut held = 0;
     for k in 0..200 {
         // Places and turns that fill the region evenly.

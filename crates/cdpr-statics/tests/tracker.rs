@@ -1,12 +1,9 @@
 //! One solve after the other: the answers of the direct model, without allocation.
 
-use cdpr_robot::{Pose, Robot, RobotCable, Vector3};
+use crate::common::{caroca, ring};
+use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{Load, Start, StaticsError, Tracker, direct, inverse};
 use std::hint::black_box;
-
-fn caroca() -> Robot {
-    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
-}
 
 /// Lengths along a path through the workspace, with loads that come and go.
 fn path(robot: &Robot, steps: usize) -> Vec<(Vec<f64>, Load)> {
@@ -60,27 +57,10 @@ fn nothing_is_allocated_on_the_way() {
     assert!(allocation_counter::measure(|| drop(black_box(tracker.equilibrium().clone()))).count_total > 0);
 }
 
-/// A suspended robot with `n` cables between a ring of exit points and a drum.
-fn ring(n: usize) -> Robot {
-    let mut robot = caroca();
-    let properties = robot.cables[0].properties.clone();
-    let cable = |i: usize| {
-        let around = std::f64::consts::TAU * i as f64 / n as f64;
-        let (anchor, height) = if i.is_multiple_of(2) { (around + 0.5, 0.3) } else { (around - 0.5, -0.3) };
-        RobotCable {
-            exit_point: Vector3::new(5.0 * around.cos(), 5.0 * around.sin(), 4.0),
-            anchor_point: Vector3::new(0.5 * anchor.cos(), 0.5 * anchor.sin(), height),
-            properties: properties.clone(),
-        }
-    };
-    robot.cables = (0..n).map(cable).collect();
-    robot
-}
-
 #[test]
 fn any_number_of_cables_fills_the_lanes() {
     for n in 6..=16 {
-        let robot = ring(n);
+        let robot = Robot { cables: ring(n, || 0.0), ..caroca() };
         let pose = Pose::at(0.1, 0.2, 1.5);
         let lengths: Vec<f64> = (0..n).map(|i| 0.9999 * robot.span(&pose, i).norm()).collect();
         let wound: Vec<f64> = lengths.iter().enumerate().map(|(i, l)| l + 2e-4 * (i as f64).sin()).collect();

@@ -1,28 +1,17 @@
 //! Robots and settings that the benchmarks share.
 
-use cdpr_robot::{Robot, RobotCable, Vector3};
+#[allow(dead_code)]
+#[path = "../../tests/common.rs"]
+mod common;
+
+use cdpr_robot::Robot;
+pub(crate) use common::caroca;
 use criterion::Criterion;
 use std::time::Duration;
 
-pub(crate) fn caroca() -> Robot {
-    Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap()
-}
-
 /// A suspended robot with `n` cables between a ring of exit points and a drum.
 pub(crate) fn ring(n: usize) -> Robot {
-    let mut robot = caroca();
-    let properties = robot.cables[0].properties.clone();
-    let cable = |i: usize| {
-        let around = std::f64::consts::TAU * i as f64 / n as f64;
-        let (anchor, height) = if i.is_multiple_of(2) { (around + 0.5, 0.3) } else { (around - 0.5, -0.3) };
-        RobotCable {
-            exit_point: Vector3::new(5.0 * around.cos(), 5.0 * around.sin(), 4.0),
-            anchor_point: Vector3::new(0.5 * anchor.cos(), 0.5 * anchor.sin(), height),
-            properties: properties.clone(),
-        }
-    };
-    robot.cables = (0..n).map(cable).collect();
-    robot
+    Robot { cables: common::ring(n, || 0.0), ..caroca() }
 }
 
 pub(crate) fn settings() -> Criterion {
