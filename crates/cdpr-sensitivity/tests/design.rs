@@ -1,57 +1,43 @@
 //! Designs: rows from their indices, replicates, and refused arguments.
 
+use crate::common::{rows, unit};
 use cdpr_sensitivity::{Input, Law, RandomDesign, SampleDesign, SensitivityError, SobolDesign};
-use rayon::prelude::*;
-
-fn uniform(count: usize) -> Vec<Input> {
-    (0..count).map(|i| Input::continuous(format!("x{i}"), Law::Uniform { min: 0.0, max: 1.0 })).collect()
-}
 
 fn normal() -> Vec<Input> {
     vec![Input::continuous("x", Law::Normal { mean: 0.0, std: 1.0 })]
 }
 
-fn rows(design: &impl SampleDesign, threads: usize) -> Vec<Vec<f64>> {
-    let row = |index| {
-        let mut row = vec![f64::NAN; design.inputs().len()];
-        design.row(index, &mut row).unwrap();
-        row
-    };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| (0..design.points()).into_par_iter().map(row).collect())
-}
-
 #[test]
 fn rows_are_the_same_on_one_thread_and_on_four() {
-    let sobol = SobolDesign::scrambled(uniform(7), 500, 3).unwrap();
-    let random = RandomDesign::new(uniform(7), 500, 3).unwrap();
+    let sobol = SobolDesign::scrambled(unit(7), 500, 3).unwrap();
+    let random = RandomDesign::new(unit(7), 500, 3).unwrap();
     assert_eq!(rows(&sobol, 1), rows(&sobol, 4));
     assert_eq!(rows(&random, 1), rows(&random, 4));
 }
 
 #[test]
 fn a_design_from_a_later_index_continues_an_earlier_one() {
-    let whole = rows(&SobolDesign::new(uniform(4), 0, 100).unwrap(), 1);
-    let rest = rows(&SobolDesign::new(uniform(4), 60, 40).unwrap(), 1);
+    let whole = rows(&SobolDesign::new(unit(4), 0, 100).unwrap(), 1);
+    let rest = rows(&SobolDesign::new(unit(4), 60, 40).unwrap(), 1);
     assert_eq!(whole[60..], rest);
 }
 
 #[test]
 fn replicates_have_the_size_of_the_design_and_numbers_of_their_own() {
-    let design = SobolDesign::new(uniform(3), 0, 64).unwrap();
+    let design = SobolDesign::new(unit(3), 0, 64).unwrap();
     let (one, two) = (design.replicate(1), design.replicate(2));
     assert_eq!((one.points(), one.seed(), two.seed(), design.seed()), (64, Some(1), Some(2), None));
     assert_ne!(rows(&one, 1), rows(&two, 1));
-    assert_eq!(rows(&one, 1), rows(&SobolDesign::scrambled(uniform(3), 64, 1).unwrap(), 1));
-    let random = RandomDesign::new(uniform(3), 64, 5).unwrap();
-    assert_eq!(rows(&random.replicate(6), 1), rows(&RandomDesign::new(uniform(3), 64, 6).unwrap(), 1));
+    assert_eq!(rows(&one, 1), rows(&SobolDesign::scrambled(unit(3), 64, 1).unwrap(), 1));
+    let random = RandomDesign::new(unit(3), 64, 5).unwrap();
+    assert_eq!(rows(&random.replicate(6), 1), rows(&RandomDesign::new(unit(3), 64, 6).unwrap(), 1));
     assert_ne!(rows(&random.replicate(6), 1), rows(&random, 1));
 }
 
 #[test]
 fn an_input_added_to_a_random_design_leaves_the_others_as_they_were() {
     let (three, four) =
-        (RandomDesign::new(uniform(3), 20, 1).unwrap(), RandomDesign::new(uniform(4), 20, 1).unwrap());
+        (RandomDesign::new(unit(3), 20, 1).unwrap(), RandomDesign::new(unit(4), 20, 1).unwrap());
     for (three, four) in rows(&three, 1).iter().zip(rows(&four, 1)) {
         assert_eq!(three[..], four[..3]);
     }
@@ -60,7 +46,7 @@ fn an_input_added_to_a_random_design_leaves_the_others_as_they_were() {
 #[test]
 fn random_rows_have_the_moments_of_independent_uniform_numbers() {
     let count = 20_000;
-    let design = RandomDesign::new(uniform(2), count, 9).unwrap();
+    let design = RandomDesign::new(unit(2), count, 9).unwrap();
     let mut sums = [0.0; 5];
     let rows = rows(&design, 2);
     for (row, next) in rows.iter().zip(rows.iter().cycle().skip(1)) {
@@ -90,11 +76,11 @@ fn sizes_and_indices_out_of_range_are_errors() {
         other => panic!("{other}"),
     };
     assert_eq!(field(SobolDesign::new(vec![], 0, 8).unwrap_err()), "dimensions");
-    assert_eq!(field(SobolDesign::new(uniform(1), 0, 0).unwrap_err()), "points");
-    assert_eq!(field(SobolDesign::new(uniform(1), 2, (1 << 32) - 1).unwrap_err()), "points");
+    assert_eq!(field(SobolDesign::new(unit(1), 0, 0).unwrap_err()), "points");
+    assert_eq!(field(SobolDesign::new(unit(1), 2, (1 << 32) - 1).unwrap_err()), "points");
     assert_eq!(field(RandomDesign::new(vec![], 8, 0).unwrap_err()), "inputs");
-    assert_eq!(field(RandomDesign::new(uniform(1), 0, 0).unwrap_err()), "points");
-    let design = SobolDesign::new(uniform(1), 1, (1 << 32) - 1).unwrap();
+    assert_eq!(field(RandomDesign::new(unit(1), 0, 0).unwrap_err()), "points");
+    let design = SobolDesign::new(unit(1), 1, (1 << 32) - 1).unwrap();
     assert!(design.row((1 << 32) - 2, &mut [0.0]).is_ok());
     assert_eq!(field(design.row((1 << 32) - 1, &mut [0.0]).unwrap_err()), "index");
     assert_eq!(field(design.row(0, &mut [0.0; 2]).unwrap_err()), "row");
@@ -110,9 +96,9 @@ fn an_invalid_input_is_named() {
 
 #[test]
 fn consecutive_rows_are_those_drawn_one_by_one() {
-    let plain = SobolDesign::new(uniform(7), 5, 500).unwrap();
-    let last = SobolDesign::new(uniform(3), u32::MAX - 9, 10).unwrap();
-    let scrambled = SobolDesign::scrambled(uniform(7), 500, 3).unwrap();
+    let plain = SobolDesign::new(unit(7), 5, 500).unwrap();
+    let last = SobolDesign::new(unit(3), u32::MAX - 9, 10).unwrap();
+    let scrambled = SobolDesign::scrambled(unit(7), 500, 3).unwrap();
     for (design, first) in [(&plain, 0), (&plain, 123), (&last, 2), (&scrambled, 77)] {
         let width = design.inputs().len();
         let mut together = vec![f64::NAN; (design.points() - first) * width];

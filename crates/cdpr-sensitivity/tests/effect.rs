@@ -1,10 +1,11 @@
 //! Effects of inputs: exact answers, failed observations, and why t does not show significance on Sobol'
 //! points.
 
+use crate::common::rows;
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{
     EffectSums, IndependentSample, Input, Law, RandomDesign, Replicate, SampleDesign, SensitivityError,
-    SobolDesign, Steps, effect_intervals, student_effects,
+    SobolDesign, Steps, effect_intervals, observe, student_effects,
 };
 
 const SLOPES: [f64; 6] = [3.0, -1.0, 0.5, 0.0, 2.0, -0.25];
@@ -15,13 +16,8 @@ fn inputs(count: usize) -> Vec<Input> {
     (0..count).map(|i| Input::continuous(format!("x{i}"), law(i))).collect()
 }
 
-fn outputs(design: &impl SampleDesign, model: impl Fn(&[f64]) -> Option<f64>) -> Vec<Option<f64>> {
-    let mut row = vec![0.0; design.inputs().len()];
-    let mut output = |index| {
-        design.row(index, &mut row).unwrap();
-        model(&row)
-    };
-    (0..design.points()).map(&mut output).collect()
+fn outputs(design: &impl SampleDesign, model: impl Fn(&[f64]) -> Option<f64> + Sync) -> Vec<Option<f64>> {
+    observe(design, model).unwrap()
 }
 
 fn linear(row: &[f64]) -> Option<f64> {
@@ -66,9 +62,7 @@ fn the_index_is_tied_to_that_of_the_pooled_variance() {
     let outputs = outputs(&design, |row| Some(row[0] + (3.0 * row[1]).sin()));
     let effect = &student_effects(&design, &outputs).unwrap().effects[0];
     let mut squares = 0.0;
-    let mut row = [0.0; 2];
-    for (index, output) in outputs.iter().enumerate() {
-        design.row(index, &mut row).unwrap();
+    for (row, output) in rows(&design, 1).iter().zip(&outputs) {
         let mean = if row[0] > 0.0 { effect.mean_above } else { effect.mean_below };
         squares += (output.unwrap() - mean).powi(2);
     }
@@ -151,7 +145,7 @@ fn intervals_cover_the_exact_effects_as_often_as_they_say() {
     fn covered<D: IndependentSample>(
         design: &D,
         study: u64,
-        model: impl Fn(&[f64]) -> Option<f64>,
+        model: impl Fn(&[f64]) -> Option<f64> + Sync,
     ) -> [bool; 3] {
         let replicate = |r| {
             let design = design.replicate(1000 * study + r);
@@ -232,15 +226,12 @@ fn outputs_of_another_design_and_invalid_replicates_are_errors() {
 #[test]
 fn sums_of_blocks_merge_into_the_effects_of_all() {
     let design = SobolDesign::new(inputs(6), 1, 1000).unwrap();
-    let mut row = [0.0; 6];
+    let rows = rows(&design, 1);
     let partial = outputs(&design, |row| linear(row).filter(|y| (y * 7.0).fract().abs() > 0.1));
     let mut whole = EffectSums::new(design.inputs(), 5.0);
-    for block in partial.chunks(96).enumerate() {
+    for (rows, outputs) in rows.chunks(96).zip(partial.chunks(96)) {
         let mut sums = EffectSums::new(design.inputs(), 5.0);
-        for (index, output) in (block.0 * 96..).zip(block.1) {
-            design.row(index, &mut row).unwrap();
-            sums.add(&row, *output);
-        }
+        rows.iter().zip(outputs).for_each(|(row, output)| sums.add(row, *output));
         whole.merge(&sums);
     }
     let (merged, expected) =

@@ -1,8 +1,9 @@
 //! Fits against `scipy`, and p-values that hold for fitted parameters.
 
+use crate::common::rows;
 use approx::assert_relative_eq;
 use cdpr_sensitivity::{
-    Bootstrap, Family, Input, Law, RandomDesign, Sample, SampleDesign, SensitivityError, best, fit, fit_all,
+    Bootstrap, Family, Input, Law, RandomDesign, Sample, SensitivityError, best, fit, fit_all,
 };
 use proptest::prelude::*;
 
@@ -30,12 +31,7 @@ const FEW: Bootstrap = Bootstrap { resamples: 19, seed: 1 };
 
 fn draw(law: Law, count: usize, seed: u64) -> Sample {
     let design = RandomDesign::new(vec![Input::continuous("x", law)], count, seed).unwrap();
-    let mut row = [0.0];
-    let mut value = |index| {
-        design.row(index, &mut row).unwrap();
-        row[0]
-    };
-    Sample::of_values(&(0..count).map(&mut value).collect::<Vec<_>>()).unwrap()
+    Sample::of_values(&rows(&design, 1).concat()).unwrap()
 }
 
 fn reference() -> Vec<ReferenceSample> {

@@ -1,21 +1,15 @@
 //! Derivative-based measures: exact values, and bounds that hold.
 
+use crate::common::rows;
 use std::f64::consts::PI;
 
 use super::functions;
 use approx::assert_relative_eq;
-use cdpr_sensitivity::{
-    Input, Law, SampleDesign, SensitivityError, Slopes, SobolDesign, dgsm, poincare_constant,
-};
+use cdpr_sensitivity::{Input, Law, SensitivityError, Slopes, SobolDesign, dgsm, poincare_constant};
 
 fn slopes(design: &SobolDesign, model: impl Fn(&[f64]) -> (f64, Vec<f64>)) -> Vec<Option<Slopes>> {
-    let mut row = vec![0.0; design.inputs().len()];
-    let mut slopes = |index| {
-        design.row(index, &mut row).unwrap();
-        let (output, gradient) = model(&row);
-        Some(Slopes { output, gradient })
-    };
-    (0..design.points()).map(&mut slopes).collect()
+    let slopes = |(output, gradient)| Some(Slopes { output, gradient });
+    rows(design, 1).iter().map(|row| slopes(model(row))).collect()
 }
 
 fn ishigami(x: &[f64]) -> (f64, Vec<f64>) {

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use cdpr_sensitivity::{Input, Law};
+use crate::common::uniform;
+use cdpr_sensitivity::Input;
 
 type Model = Box<dyn Fn(&[f64]) -> f64 + Sync>;
 
@@ -19,10 +20,6 @@ pub(crate) struct Function {
 /// All of them.
 pub(crate) fn all() -> [Function; 4] {
     [ishigami(), sobol_g(), linear(), morris()]
-}
-
-pub(crate) fn uniform(count: usize, min: f64, max: f64) -> Vec<Input> {
-    (1..=count).map(|i| Input::continuous(format!("x{i}"), Law::Uniform { min, max })).collect()
 }
 
 /// T. Ishigami, T. Homma (1990): sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1.

@@ -1,6 +1,7 @@
 //! Sobol' indices against exact values and SALib's; failures, steps and too few blocks.
 
-use super::functions::{self, Function, ishigami, uniform};
+use super::functions::{self, Function, ishigami};
+use crate::common::{rows, uniform};
 use approx::assert_abs_diff_eq;
 use cdpr_sensitivity::{
     Bootstrap, Input, Law, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolIndices, Steps,
@@ -40,9 +41,7 @@ fn design_and_indices_are_those_of_salib() {
     for case in reference.saltelli {
         let order = if case.second_order { Order::Second } else { Order::First };
         let design = SaltelliDesign::new(function.inputs.clone(), 0, case.blocks, order).unwrap();
-        let mut row = [0.0; 3];
-        for (index, expected) in case.rows.iter().enumerate() {
-            design.row(index, &mut row).unwrap();
+        for (row, expected) in rows(&design, 1).iter().zip(&case.rows) {
             // SALib maps the unit interval as u (max - min) + min: a rounding of π.
             row.iter().zip(expected).for_each(|(x, y)| assert_abs_diff_eq!(x, y, epsilon = 1e-15 * 4.0));
         }
@@ -198,13 +197,7 @@ fn too_few_whole_blocks_a_constant_output_and_values_that_are_not_finite_are_err
 fn blocks_differ_in_one_input_each() {
     let design = SaltelliDesign::scrambled(uniform(3, 0.0, 1.0), 4, Order::Second, 1).unwrap();
     assert_eq!((design.points(), design.block_points()), (32, 8));
-    let rows: Vec<Vec<f64>> = (0..8)
-        .map(|offset| {
-            let mut row = vec![0.0; 3];
-            design.row(16 + offset, &mut row).unwrap();
-            row
-        })
-        .collect();
+    let rows = &rows(&design, 1)[16..24];
     let (a, b) = (&rows[0], &rows[7]);
     for i in 0..3 {
         for j in 0..3 {

@@ -1,6 +1,7 @@
 //! Elementary effects: exact values, SALib's, failures, steps and unbounded inputs.
 
-use super::functions::{self, uniform};
+use super::functions;
+use crate::common::{rows, uniform, unit};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use cdpr_sensitivity::{
     Input, Law, MorrisDesign, MorrisEffect, SampleDesign, SensitivityError, Steps, morris_effects, observe,
@@ -23,20 +24,11 @@ fn effects(design: &MorrisDesign, model: impl Fn(&[f64]) -> f64 + Sync) -> Vec<M
     morris_effects(design, &observe(design, |x| Some(model(x))).unwrap(), 0.95).unwrap()
 }
 
-fn rows(design: &MorrisDesign) -> Vec<Vec<f64>> {
-    let row = |index| {
-        let mut row = vec![0.0; design.inputs().len()];
-        design.row(index, &mut row).unwrap();
-        row
-    };
-    (0..design.points()).map(row).collect()
-}
-
 #[test]
 fn effects_of_trajectories_are_those_of_salib() {
     let text = include_str!("../../../../data/reference/indices.json");
     let reference = serde_json::from_str::<Reference>(text).unwrap().morris;
-    let units = rows(&MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 6, 4, 1).unwrap());
+    let units = rows(&MorrisDesign::trajectories(unit(3), 6, 4, 1).unwrap(), 1);
     for (unit, levels) in units.iter().zip(&reference.levels) {
         unit.iter().zip(levels).for_each(|(u, &level)| assert_eq!(*u, f64::from(level) / 3.0));
     }
@@ -53,8 +45,8 @@ fn effects_of_trajectories_are_those_of_salib() {
 #[test]
 fn each_row_of_a_trajectory_moves_one_input_by_half_the_levels() {
     for (levels, jump) in [(2, 1.0), (4, 2.0 / 3.0), (6, 0.6)] {
-        let design = MorrisDesign::trajectories(uniform(5, 0.0, 1.0), 40, levels, 3).unwrap();
-        for block in rows(&design).chunks(6) {
+        let design = MorrisDesign::trajectories(unit(5), 40, levels, 3).unwrap();
+        for block in rows(&design, 1).chunks(6) {
             let mut moved = [0; 5];
             for pair in block.windows(2) {
                 for input in 0..5 {
@@ -131,7 +123,7 @@ fn the_groups_of_morris_function_are_told_apart() {
 
 #[test]
 fn a_failed_observation_takes_its_effects_with_it() {
-    let radial = MorrisDesign::radial(uniform(3, 0.0, 1.0), 8, 1).unwrap();
+    let radial = MorrisDesign::radial(unit(3), 8, 1).unwrap();
     let mut outputs = observe(&radial, |x| Some(x[0])).unwrap();
     // The centre of block 0, and x2 of block 1.
     (outputs[0], outputs[6]) = (None, None);
@@ -141,7 +133,7 @@ fn a_failed_observation_takes_its_effects_with_it() {
     assert_relative_eq!(found[0].mean, 1.0, epsilon = 1e-12);
 
     // An inner point of a trajectory is the end of two effects.
-    let walk = MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 8, 4, 1).unwrap();
+    let walk = MorrisDesign::trajectories(unit(3), 8, 4, 1).unwrap();
     let mut outputs = observe(&walk, |x| Some(x[0])).unwrap();
     outputs[1] = None;
     let found = morris_effects(&walk, &outputs, 0.9).unwrap();
@@ -176,12 +168,12 @@ fn unbounded_inputs_have_radial_points_and_no_levels() {
 
 #[test]
 fn replicates_rows_and_refusals() {
-    let walk = MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 4, 4, 1).unwrap();
-    let radial = MorrisDesign::radial(uniform(3, 0.0, 1.0), 4, 1).unwrap();
+    let walk = MorrisDesign::trajectories(unit(3), 4, 4, 1).unwrap();
+    let radial = MorrisDesign::radial(unit(3), 4, 1).unwrap();
     for design in [walk, radial] {
         assert_eq!((design.seed(), design.points(), design.blocks()), (Some(1), 16, 4));
-        assert_ne!(rows(&design), rows(&design.replicate(2)));
-        assert_eq!(rows(&design), rows(&design.replicate(2).replicate(1)));
+        assert_ne!(rows(&design, 1), rows(&design.replicate(2), 1));
+        assert_eq!(rows(&design, 1), rows(&design.replicate(2).replicate(1), 1));
     }
     let field = |error| match error {
         SensitivityError::OutOfRange { field, .. } | SensitivityError::InvalidParameter { field, .. } => {
@@ -189,16 +181,16 @@ fn replicates_rows_and_refusals() {
         }
         other => panic!("{other}"),
     };
-    assert_eq!(field(MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 4, 3, 1).unwrap_err()), "levels");
-    assert_eq!(field(MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 4, 0, 1).unwrap_err()), "levels");
-    assert_eq!(field(MorrisDesign::trajectories(uniform(3, 0.0, 1.0), 1, 4, 1).unwrap_err()), "trajectories");
+    assert_eq!(field(MorrisDesign::trajectories(unit(3), 4, 3, 1).unwrap_err()), "levels");
+    assert_eq!(field(MorrisDesign::trajectories(unit(3), 4, 0, 1).unwrap_err()), "levels");
+    assert_eq!(field(MorrisDesign::trajectories(unit(3), 1, 4, 1).unwrap_err()), "trajectories");
     assert_eq!(field(MorrisDesign::trajectories(vec![], 4, 4, 1).unwrap_err()), "inputs");
-    assert_eq!(field(MorrisDesign::radial(uniform(3, 0.0, 1.0), 1, 1).unwrap_err()), "blocks");
+    assert_eq!(field(MorrisDesign::radial(unit(3), 1, 1).unwrap_err()), "blocks");
 }
 
 #[test]
 fn a_constant_output_has_no_effects_and_a_value_that_is_not_finite_is_an_error() {
-    let design = MorrisDesign::radial(uniform(2, 0.0, 1.0), 4, 1).unwrap();
+    let design = MorrisDesign::radial(unit(2), 4, 1).unwrap();
     for effect in effects(&design, |_| 1.5) {
         assert_eq!((effect.mean, effect.mean_absolute.high, effect.std), (0.0, 0.0, 0.0));
     }

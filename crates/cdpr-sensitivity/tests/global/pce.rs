@@ -1,6 +1,7 @@
 //! Chaos expansions: polynomials that they recover, exact indices; noise, steps and failures.
 
-use super::functions::{self, Function, uniform};
+use super::functions::{self, Function};
+use crate::common::{rows, uniform};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use cdpr_sensitivity::{
     Expansion, Input, LatinHypercube, Law, SampleDesign, SensitivityError, SobolDesign, Steps, Truncation,
@@ -80,13 +81,8 @@ fn the_leave_one_out_error_is_that_of_new_points() {
     let truncation = Truncation { max_degree: 8, norm: 0.75, interactions: 2 };
     let design = SobolDesign::scrambled(function.inputs.clone(), 512, 1).unwrap();
     let found = fit(&design, truncation, &function.model);
-    let fresh = design.replicate(2);
-    let mut row = vec![0.0; 5];
-    let mut square = |index| {
-        fresh.row(index, &mut row).unwrap();
-        ((function.model)(&row) - found.predict(&row).unwrap()).powi(2)
-    };
-    let sum: f64 = (0..512).map(&mut square).sum();
+    let square = |row: &Vec<f64>| ((function.model)(row) - found.predict(row).unwrap()).powi(2);
+    let sum: f64 = rows(&design.replicate(2), 1).iter().map(square).sum();
     let variance = design_variance(&function);
     // The mean of 512 squares, of a deviation of some percent of it.
     assert_relative_eq!(found.leave_one_out, sum / 512.0 / variance, max_relative = 0.35);

@@ -1,6 +1,7 @@
 //! Regression coefficients against NumPy's and exact ones; correlated, stepped and collinear inputs.
 
-use super::functions::{self, uniform};
+use super::functions;
+use crate::common::uniform;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use cdpr_sensitivity::{
     Correlated, Input, JointSample, LatinHypercube, Law, Regression, SensitivityError, SobolDesign, Steps,

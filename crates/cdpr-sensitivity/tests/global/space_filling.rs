@@ -1,26 +1,11 @@
 //! Latin hypercubes, Halton's sequence and correlated designs.
 
-use super::functions::uniform;
+use crate::common::{rows, unit};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use cdpr_sensitivity::{
     Correlated, Halton, Input, LatinHypercube, Law, RandomDesign, SampleDesign, SensitivityError,
     SobolDesign, Steps,
 };
-use rayon::prelude::*;
-
-fn unit(count: usize) -> Vec<Input> {
-    uniform(count, 0.0, 1.0)
-}
-
-fn rows(design: &impl SampleDesign, threads: usize) -> Vec<Vec<f64>> {
-    let row = |index| {
-        let mut row = vec![f64::NAN; design.inputs().len()];
-        design.row(index, &mut row).unwrap();
-        row
-    };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| (0..design.points()).into_par_iter().map(row).collect())
-}
 
 fn column(rows: &[Vec<f64>], input: usize) -> Vec<f64> {
     rows.iter().map(|row| row[input]).collect()
