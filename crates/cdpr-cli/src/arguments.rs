@@ -5,7 +5,7 @@
 use crate::error::ProgramError;
 use cdpr_robot::{Pose, Robot, Rotation3, UnitQuaternion, Vector3, Wrench};
 use cdpr_statics::Load;
-use cdpr_study::{Grid, GridAxis, StudyError};
+use cdpr_study::{Grid, GridAxis, StudyError, open_robot};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -46,24 +46,37 @@ impl Threads {
     }
 }
 
-/// A robot at a pose, and how the answer is printed.
+/// A robot at a pose with a load, and how the answer is printed.
 #[derive(clap::Args)]
 pub(crate) struct RobotAtPose {
     /// Robot file (JSON, `cdpr-robot/1`).
-    pub(crate) robot: PathBuf,
+    robot: PathBuf,
     /// Pose that the lengths hold: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
     #[arg(long, value_parser = pose, allow_hyphen_values = true)]
     pub(crate) pose: Pose,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(crate) format: Format,
+    format: Format,
+    #[command(flatten)]
+    pub(crate) load: LoadArguments,
 }
 
 impl RobotAtPose {
-    /// Heading of an answer: the robot and the position.
-    pub(crate) fn heading(&self, robot: &Robot) -> String {
+    /// The robot.
+    pub(crate) fn open(&self) -> Result<Robot, StudyError> {
+        open_robot(&self.robot)
+    }
+
+    /// Prints an answer as one line of JSON, or as `text` does below a heading: the robot and the position.
+    pub(crate) fn print<T: Serialize>(
+        &self,
+        robot: &Robot,
+        answer: &T,
+        text: impl FnOnce(&T, &str),
+    ) -> Result<(), ProgramError> {
         let [x, y, z] = self.pose.position.into();
-        format!("{} at ({x}, {y}, {z}) m", robot.name)
+        let heading = format!("{} at ({x}, {y}, {z}) m", robot.name);
+        Ok(self.format.print(answer, |answer| text(answer, &heading))?)
     }
 }
 

@@ -13,6 +13,7 @@ mod pose;
 mod robot;
 mod study;
 
+use arguments::RobotAtPose;
 use clap::{CommandFactory, Parser, Subcommand};
 use error::ProgramError;
 use output::Ending;
@@ -35,17 +36,17 @@ enum Command {
     Catenary(cable::catenary::Settings),
     /// Find the unstrained lengths that hold a pose.
     #[command(after_help = "Example: cdpr inverse data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
-    Inverse(pose::inverse::Settings),
+    Inverse(RobotAtPose),
     /// Find where the platform stands for given unstrained lengths.
     #[command(after_help = "Example: cdpr direct data/robots/caroca.json \
                       --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44 --certify")]
     Direct(pose::direct::Settings),
     /// Compute how far a load displaces and rotates the platform.
     #[command(after_help = "Example: cdpr deflection data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
-    Deflection(pose::deflection::Settings),
+    Deflection(RobotAtPose),
     /// Compute the Cartesian stiffness at a pose and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
-    Stiffness(pose::stiffness::Settings),
+    Stiffness(RobotAtPose),
     /// Map where the cables hold the platform, and how far it gives there, over a plane or a box.
     #[command(after_help = "Examples:
   cdpr workspace data/robots/caroca.json --plane z=1.75 --grid 41x41 --payload 50 --out workspace
@@ -75,7 +76,7 @@ enum Command {
     /// Compute the exact derivatives of lengths and deflection with respect to every parameter of a robot.
     #[command(after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 \
                       --format json")]
-    Derivatives(pose::derivatives::Settings),
+    Derivatives(RobotAtPose),
     /// Put a payload on a robot and take it off again, with the hysteresis of its cables.
     ///
     /// The hysteresis is that of a load-elongation record, of a law, or of the laws in the robot file.

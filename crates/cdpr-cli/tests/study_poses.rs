@@ -28,6 +28,24 @@ fn rows(bench: &Bench, file: &str) -> Vec<serde_json::Map<String, Value>> {
     lines.map(row).collect()
 }
 
+/// The sampling of the plane at one pose.
+fn alone(study: &Value, position: [f64; 3]) -> Value {
+    let mut alone = study["samplings"]["plane"].clone();
+    alone.as_object_mut().unwrap().remove("poses");
+    alone["pose"] = json!({"position": position});
+    alone
+}
+
+/// The sampling of the plane over two layers of a box.
+fn layered(study: &Value) -> Value {
+    let mut layered = study["samplings"]["plane"].clone();
+    layered["poses"]["grid"] = json!({
+        "x": {"min": -1.0, "max": 1.0, "points": 2}, "y": {"min": -0.5, "max": 0.5, "points": 2},
+        "z": {"min": 1.5, "max": 2.0, "points": 2}
+    });
+    layered
+}
+
 #[test]
 fn a_plane_of_poses_has_a_row_each_maps_and_reasons_where_nothing_holds_it() {
     let bench = plane(|_| ());
@@ -64,9 +82,7 @@ fn a_plane_of_poses_has_a_row_each_maps_and_reasons_where_nothing_holds_it() {
 #[test]
 fn what_is_said_of_a_pose_is_what_a_sampling_at_it_alone_says() {
     let bench = plane(|study| {
-        let mut alone = study["samplings"]["plane"].clone();
-        alone.as_object_mut().unwrap().remove("poses");
-        alone["pose"] = json!({"position": [-1.75, 0.0, 1.75]});
+        let alone = alone(study, [-1.75, 0.0, 1.75]);
         study["samplings"]["alone"] = alone;
     });
     bench.run("out", &["--table", "csv"]);
@@ -131,12 +147,7 @@ fn threads_shards_and_a_resumed_run_make_no_difference() {
 #[test]
 fn a_list_of_poses_has_a_table_and_no_map_and_a_box_a_map_a_layer() {
     let bench = plane(|study| {
-        let mut solid = study["samplings"]["plane"].clone();
-        solid["poses"]["grid"] = json!({
-            "x": {"min": -1.0, "max": 1.0, "points": 2}, "y": {"min": -0.5, "max": 0.5, "points": 2},
-            "z": {"min": 1.5, "max": 2.0, "points": 2}
-        });
-        study["samplings"]["box"] = solid;
+        study["samplings"]["box"] = layered(study);
         let turned = json!({"position": [0, 0, 1.75], "quaternion": [0.9998, 0, 0, 0.02]});
         study["samplings"]["plane"]["poses"] =
             json!({"list": [{"position": [0, 0, 1.75]}, turned, {"position": [0, 0, 9]}]});
@@ -223,17 +234,9 @@ fn invalid_poses_are_refused_with_file_and_line() {
 
 #[test]
 fn a_study_of_other_names_overwrites_every_file_of_a_run_and_nothing_else() {
-    let box_of_layers = json!({"grid": {
-        "x": {"min": -1.0, "max": 1.0, "points": 2}, "y": {"min": -0.5, "max": 0.5, "points": 2},
-        "z": {"min": 1.5, "max": 2.0, "points": 2}
-    }});
     let bench = plane(|study| {
-        let mut layered = study["samplings"]["plane"].clone();
-        layered["poses"] = box_of_layers;
-        study["samplings"]["box"] = layered;
-        let mut alone = study["samplings"]["plane"].clone();
-        alone.as_object_mut().unwrap().remove("poses");
-        alone["pose"] = json!({"position": [0.0, 0.0, 1.75]});
+        study["samplings"]["box"] = layered(study);
+        let alone = alone(study, [0.0, 0.0, 1.75]);
         study["samplings"]["alone"] = alone;
         study["replicates"] = json!(2);
         study["sensitivity"] = json!({
@@ -286,9 +289,7 @@ fn names_whose_files_would_be_those_of_another_part_are_refused() {
     ] {
         for kind in ["samplings", "surfaces"] {
             let bench = plane(|study| {
-                let mut alone = study["samplings"]["plane"].clone();
-                alone.as_object_mut().unwrap().remove("poses");
-                alone["pose"] = json!({"position": [0.0, 0.0, 1.75]});
+                let alone = alone(study, [0.0, 0.0, 1.75]);
                 let axis = json!({"parameter": "mass", "min": -1.0, "max": 1.0, "points": 2});
                 let sheet = json!({"title": "Sheet", "pose": alone["pose"], "x": axis, "y": axis});
                 study["samplings"]["alone"] = alone.clone();

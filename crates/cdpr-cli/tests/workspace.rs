@@ -24,21 +24,11 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 #[test]
 fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_threads() {
     let folder = TempDir::new().unwrap();
-    let arguments = [
-        "--plane",
-        "z=1.75",
-        "--grid",
-        "9x7",
-        "--payload",
-        "50",
-        "--uncertainty",
-        "a=0.002,youngs_modulus=5e9",
-    ];
-    let printed = run(folder.path(), &[&arguments[..], &["--threads", "1", "--out", "one"]].concat());
-    let json = run(
-        folder.path(),
-        &[&arguments[..], &["--threads", "2", "--out", "two", "--format", "json"]].concat(),
-    );
+    let place = ["--plane", "z=1.75", "--grid", "9x7"];
+    let load = ["--payload", "50", "--uncertainty", "a=0.002,youngs_modulus=5e9"];
+    let run = |out: &[&str]| run(folder.path(), &[&place, &load, out].concat());
+    let printed = run(&["--threads", "1", "--out", "one"]);
+    let json = run(&["--threads", "2", "--out", "two", "--format", "json"]);
     let written = files(&folder.path().join("one"));
     assert_eq!(written, files(&folder.path().join("two")));
     let names: Vec<_> = written.iter().map(|(name, _)| name.as_str()).collect();
@@ -85,19 +75,10 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
 fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
     let folder = TempDir::new().unwrap();
     let study = data("studies/caroca.json");
-    let arguments = [
-        "--box=-1:1:3,0:0:1,1:2:2",
-        "--study",
-        study.to_str().unwrap(),
-        "--error-model",
-        "table_3",
-        "--payload",
-        "50",
-        "--out",
-        "out",
-    ];
+    let tolerances = ["--study", study.to_str().unwrap(), "--error-model", "table_3", "--payload", "50"];
+    let place = ["--box=-1:1:3,0:0:1,1:2:2", "--out", "out", "--format", "json"];
     let summary: Value =
-        serde_json::from_str(&run(folder.path(), &[&arguments[..], &["--format", "json"]].concat())).unwrap();
+        serde_json::from_str(&run(folder.path(), &[&place, &tolerances[..]].concat())).unwrap();
     assert_eq!(summary["rows"].as_array().unwrap().len(), 6);
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 62);
     // A uniform law of half width 18 kg.

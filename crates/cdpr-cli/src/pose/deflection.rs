@@ -1,28 +1,16 @@
 //! `cdpr deflection`: how far a load displaces and rotates the platform, with both equilibria.
 
 use crate::answer::{Found, vector};
-use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::arguments::RobotAtPose;
 use crate::error::ProgramError;
 use cdpr_statics::{Deflection, deflection};
-use cdpr_study::open_robot;
 use serde::Serialize;
 
-/// The robot, the pose and the load.
-#[derive(clap::Args)]
-pub(crate) struct Settings {
-    #[command(flatten)]
-    at: RobotAtPose,
-    #[command(flatten)]
-    load: LoadArguments,
-}
-
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let at = &settings.at;
-    let load = settings.load.some_load()?;
-    let robot = open_robot(&at.robot)?;
+pub(crate) fn run(at: &RobotAtPose) -> Result<(), ProgramError> {
+    let load = at.load.some_load()?;
+    let robot = at.open()?;
     let found = deflection(&robot, &at.pose, &vec![0.0; robot.cables.len()], &load)?;
-    let answer = Answer::new(&found);
-    Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
+    at.print(&robot, &Answer::new(&found), Answer::print)
 }
 
 /// The deflection, in SI units unless the name says otherwise.

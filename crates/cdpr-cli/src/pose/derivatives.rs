@@ -1,31 +1,18 @@
 //! `cdpr derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
 use crate::answer::decimal;
-use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::arguments::RobotAtPose;
 use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_robot::Parameter;
 use cdpr_statics::{Derivatives, derivatives};
-use cdpr_study::open_robot;
 use serde::Serialize;
 
-/// The robot, the pose and the load.
-#[derive(clap::Args)]
-pub(crate) struct Settings {
-    #[command(flatten)]
-    at: RobotAtPose,
-    #[command(flatten)]
-    load: LoadArguments,
-}
-
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let at = &settings.at;
-    let load = settings.load.some_load()?;
-    let robot = open_robot(&at.robot)?;
-    let offsets = vec![0.0; robot.cables.len()];
-    let found = derivatives(&robot, &at.pose, &offsets, &load)?;
-    let slopes = Slopes::new(&found)?;
-    Ok(at.format.print(&slopes, |slopes| print(&at.heading(&robot), &found, slopes))?)
+pub(crate) fn run(at: &RobotAtPose) -> Result<(), ProgramError> {
+    let load = at.load.some_load()?;
+    let robot = at.open()?;
+    let found = derivatives(&robot, &at.pose, &vec![0.0; robot.cables.len()], &load)?;
+    at.print(&robot, &Slopes::new(&found)?, |slopes, heading| print(heading, &found, slopes))
 }
 
 /// Derivatives with respect to each parameter; the outer lists are in the order of the parameters.

@@ -1,26 +1,14 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
 use crate::answer::{self, Residual};
-use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::arguments::RobotAtPose;
 use crate::error::ProgramError;
 use cdpr_statics::{Bound, InverseSolution, inverse};
-use cdpr_study::open_robot;
 use serde::Serialize;
 
-/// The robot, the pose and the load.
-#[derive(clap::Args)]
-pub(crate) struct Settings {
-    #[command(flatten)]
-    at: RobotAtPose,
-    #[command(flatten)]
-    load: LoadArguments,
-}
-
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let at = &settings.at;
-    let robot = open_robot(&at.robot)?;
-    let answer = Answer::new(&inverse(&robot, &at.pose, &settings.load.load(), None)?);
-    Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
+pub(crate) fn run(at: &RobotAtPose) -> Result<(), ProgramError> {
+    let robot = at.open()?;
+    at.print(&robot, &Answer::new(&inverse(&robot, &at.pose, &at.load.load(), None)?), Answer::print)
 }
 
 /// The lengths, in SI units.

@@ -1,27 +1,15 @@
 //! `cdpr stiffness`: the Cartesian stiffness at a pose, with its eigenvalues and their motions.
 
 use crate::answer::{self, decimal};
-use crate::arguments::{LoadArguments, RobotAtPose};
+use crate::arguments::RobotAtPose;
 use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_statics::{PoseStiffness, stiffness_at};
-use cdpr_study::open_robot;
 use serde::Serialize;
 
-/// The robot, the pose and the load.
-#[derive(clap::Args)]
-pub(crate) struct Settings {
-    #[command(flatten)]
-    at: RobotAtPose,
-    #[command(flatten)]
-    load: LoadArguments,
-}
-
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let at = &settings.at;
-    let robot = open_robot(&at.robot)?;
-    let answer = Answer::new(&stiffness_at(&robot, &at.pose, &settings.load.load())?);
-    Ok(at.format.print(&answer, |answer| answer.print(&at.heading(&robot)))?)
+pub(crate) fn run(at: &RobotAtPose) -> Result<(), ProgramError> {
+    let robot = at.open()?;
+    at.print(&robot, &Answer::new(&stiffness_at(&robot, &at.pose, &at.load.load())?), Answer::print)
 }
 
 /// The stiffness.
