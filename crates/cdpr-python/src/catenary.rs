@@ -1,9 +1,6 @@
 //! One cable between two points.
 
-use crate::convert::answer::answer;
-use crate::convert::arrays::{Cases, Columns, Numbers, Rows};
-use crate::convert::error::{Answer, Raised};
-use crate::convert::threads::each;
+use crate::convert::{Answer, Cases, Columns, Numbers, Raised, Rows, answer, each};
 use cdpr_cable::{Cable, CableError, Known, Solution, Vector2};
 use pyo3::prelude::*;
 

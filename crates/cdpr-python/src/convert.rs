@@ -1,7 +1,13 @@
 //! Conversions between Python and the models: arrays, classes of answers, exceptions, threads.
 
 pub(crate) mod answer;
-pub(crate) mod arrays;
-pub(crate) mod error;
-pub(crate) mod json;
-pub(crate) mod threads;
+mod arrays;
+mod error;
+mod json;
+mod threads;
+
+pub(crate) use answer::answer;
+pub(crate) use arrays::{Array, Cases, Columns, Loads, Numbers, Rows, components, filled, whole};
+pub(crate) use error::{Answer, Raised};
+pub(crate) use json::{json_text, to_json};
+pub(crate) use threads::{each, run, watched};

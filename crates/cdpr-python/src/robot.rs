@@ -10,9 +10,7 @@ pub(crate) mod observe;
 pub(crate) mod stiffness;
 pub(crate) mod workspace;
 
-use crate::convert::arrays::{Array, Numbers, components};
-use crate::convert::error::{Answer, Raised};
-use crate::convert::json::json_text;
+use crate::convert::{Answer, Array, Numbers, Raised, components, json_text};
 use cdpr_robot::{CableProperties, Parameter, Platform, RobotCable, TensionLimits, Vector3};
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};

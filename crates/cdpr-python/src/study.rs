@@ -1,9 +1,6 @@
 //! Functions of studies on folders of results, as `cdpr study` has them. `study.py` puts them together.
 
-use crate::convert::arrays::whole;
-use crate::convert::error::{Answer, Raised};
-use crate::convert::json::to_json;
-use crate::convert::threads::{run, watched};
+use crate::convert::{Answer, Raised, run, to_json, watched, whole};
 use cdpr_report::{draw, report_with};
 use cdpr_robot::Vector3;
 use cdpr_sensitivity::SampleDesign;

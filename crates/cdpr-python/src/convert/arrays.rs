@@ -252,9 +252,11 @@ impl Loads {
         Self::new(force, moment, payload)
     }
 
-    /// The arguments that make the load.
-    pub(crate) fn rows(&self) -> [&Rows; 3] {
-        [&self.force, &self.moment, &self.payload]
+    /// The number of cases that the load has together with other arguments.
+    pub(crate) fn cases<'a>(&'a self, others: impl IntoIterator<Item = &'a Rows>) -> Answer<Cases> {
+        let arguments: Vec<_> =
+            [&self.force, &self.moment, &self.payload].into_iter().chain(others).collect();
+        Cases::of(&arguments)
     }
 
     /// The load of a case.

@@ -1,9 +1,6 @@
 //! `Robot.deflection`: how far a load displaces and rotates the platform.
 
-use crate::convert::answer::answer;
-use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
-use crate::convert::error::Answer;
-use crate::convert::threads::each;
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use crate::robot::direct::{DirectSolution, Found};
 use cdpr_robot::Vector6;
@@ -88,8 +85,7 @@ impl Robot {
         let offsets = tension_offsets
             .map(|offsets| Rows::of_cables("tension_offsets", &offsets, cables))
             .transpose()?;
-        let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&poses]).chain(&offsets).collect();
-        let cases = Cases::of(&arguments)?;
+        let cases = loads.cases([&poses].into_iter().chain(&offsets))?;
         let robot = &self.robot;
         let none = vec![0.0; cables];
         let outcomes: Vec<Result<Given, StaticsError>> = each(py, cases.count, |case| {

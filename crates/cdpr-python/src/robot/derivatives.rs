@@ -1,9 +1,6 @@
 //! `Robot.derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
-use crate::convert::answer::answer;
-use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
-use crate::convert::error::Answer;
-use crate::convert::threads::each;
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use crate::robot::deflection::{Deflection, Given};
 use cdpr_robot::{Parameter, Pose};
@@ -72,8 +69,7 @@ impl Robot {
     ) -> Answer<Derivatives> {
         let poses = Rows::poses("pose", &pose)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
-        let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&poses]).collect();
-        let cases = Cases::of(&arguments)?;
+        let cases = loads.cases([&poses])?;
         let robot = &self.robot;
         let cables = robot.cables.len();
         let no_offsets = vec![0.0; cables];

@@ -1,9 +1,6 @@
 //! `Robot.direct`: where the platform stands for given unstrained lengths.
 
-use crate::convert::answer::answer;
-use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
-use crate::convert::error::Answer;
-use crate::convert::threads::each;
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use cdpr_statics::{Start, StaticsError, direct, rough_pose};
 use pyo3::prelude::*;
@@ -83,8 +80,7 @@ impl Robot {
         let lengths = Rows::of_cables("lengths", &lengths, self.robot.cables.len())?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         let start = start.map(|start| Rows::poses("start", &start)).transpose()?;
-        let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&lengths]).chain(&start).collect();
-        let cases = Cases::of(&arguments)?;
+        let cases = loads.cases([&lengths].into_iter().chain(&start))?;
         let robot = &self.robot;
         let one = |case| -> Result<Found, StaticsError> {
             let lengths = lengths.row(case);

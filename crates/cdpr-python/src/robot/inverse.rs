@@ -1,9 +1,6 @@
 //! `Robot.inverse`: the unstrained lengths that hold a pose.
 
-use crate::convert::answer::answer;
-use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
-use crate::convert::error::Answer;
-use crate::convert::threads::each;
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use cdpr_statics::{Bound, StaticsError, inverse};
 use pyo3::prelude::*;
@@ -62,8 +59,7 @@ impl Robot {
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         let reference =
             reference.map(|reference| Rows::of_cables("reference", &reference, cables)).transpose()?;
-        let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&poses]).chain(&reference).collect();
-        let cases = Cases::of(&arguments)?;
+        let cases = loads.cases([&poses].into_iter().chain(&reference))?;
         let robot = &self.robot;
         let outcomes: Vec<Result<_, StaticsError>> = each(py, cases.count, |case| {
             let reference = reference.as_ref().map(|reference| reference.row(case));

@@ -1,9 +1,6 @@
 //! `Robot.observe`: the deflections of robots that deviate from the nominal one, which every study observes.
 
-use crate::convert::answer::answer;
-use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
-use crate::convert::error::{Answer, Raised};
-use crate::convert::threads::run;
+use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, run};
 use crate::robot::Robot;
 use cdpr_robot::Parameter;
 use cdpr_statics::{Observation, Observer};
@@ -54,7 +51,7 @@ impl Robot {
     ) -> Answer<Observations> {
         let pose = Rows::poses("pose", &pose)?;
         let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref())?;
-        if !Cases::of(&[&pose, &loads.force, &loads.moment, &loads.payload])?.single {
+        if !loads.cases([&pose])?.single {
             return Err(Raised::Input(
                 "pose or load has a row for each case: expected one of each for all robots".to_owned(),
             ));

@@ -1,9 +1,6 @@
 //! `Robot.stiffness`: the Cartesian stiffness at a pose.
 
-use crate::convert::answer::answer;
-use crate::convert::arrays::{Cases, Columns, Loads, Numbers, Rows};
-use crate::convert::error::Answer;
-use crate::convert::threads::each;
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use cdpr_robot::Vector3;
 use cdpr_statics::{Mode, PoseStiffness, StaticsError, stiffness_at};
@@ -66,8 +63,7 @@ impl Robot {
     ) -> Answer<Stiffness> {
         let poses = Rows::poses("pose", &pose)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
-        let arguments: Vec<&Rows> = loads.rows().into_iter().chain([&poses]).collect();
-        let cases = Cases::of(&arguments)?;
+        let cases = loads.cases([&poses])?;
         let outcomes = each(py, cases.count, |case| {
             let stiffness = stiffness_at(&self.robot, &poses.pose(case)?, &loads.load(case)?)?;
             let (modes, least_stiffness) =

@@ -1,9 +1,6 @@
 //! `Robot.workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::convert::answer::answer;
-use crate::convert::arrays::{Array, Numbers};
-use crate::convert::error::{Answer, Raised};
-use crate::convert::threads::run;
+use crate::convert::{Answer, Array, Numbers, Raised, answer, run};
 use crate::robot::Robot;
 use cdpr_assess::{WorkspaceRow, compute_workspace};
 use cdpr_robot::{Axis, Rotation3};

@@ -1,9 +1,6 @@
 //! Designs of experiments for any model.
 
-use crate::convert::arrays::{Array, Numbers, filled, whole};
-use crate::convert::error::{Answer, Raised};
-use crate::convert::json::{json_text, to_json};
-use crate::convert::threads::run;
+use crate::convert::{Answer, Array, Numbers, Raised, filled, json_text, run, to_json, whole};
 use crate::sensitivity::estimates::{Effects, Expansion, MorrisEffects, SobolIndices, intervals, vector};
 use cdpr_robot::from_json;
 use cdpr_sensitivity::{

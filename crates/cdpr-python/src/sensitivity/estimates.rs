@@ -1,10 +1,6 @@
 //! Estimates from the outputs of any model at the rows of a design.
 
-use crate::convert::answer::answer;
-use crate::convert::arrays::{Array, Numbers};
-use crate::convert::error::{Answer, Raised};
-use crate::convert::json::to_json;
-use crate::convert::threads::run;
+use crate::convert::{Answer, Array, Numbers, Raised, answer, run, to_json};
 use cdpr_robot::from_json;
 use cdpr_sensitivity::Estimate;
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
