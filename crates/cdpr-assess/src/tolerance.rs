@@ -16,7 +16,9 @@
 
 use crate::error::AssessError;
 use cdpr_robot::Perturbed;
-use cdpr_sensitivity::{Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate};
+use cdpr_sensitivity::{
+    Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate, derived_seed,
+};
 use cdpr_statics::{DirectProblem, Load, Start, StaticsError, derivatives, direct, wound_lengths};
 use cdpr_study::{Sampling, StudyError, observe_rows};
 use indexmap::IndexMap;
@@ -333,7 +335,7 @@ impl<'a> Model<'a> {
     fn verify(&self, factors: &[f64], draw: u64) -> Result<Reached, AssessError> {
         let file = &self.sampling.study.file;
         let (inputs, robots) = (self.sampling.errors.inputs.clone(), self.limit.verified_with);
-        let design = RandomDesign::new(inputs, robots, file.seed.wrapping_add(draw));
+        let design = RandomDesign::new(inputs, robots, derived_seed(file.seed, draw));
         let ascending = self.errors(&design.map_err(|source| self.wrong(source))?, factors);
         let within = ascending.partition_point(|error| *error <= self.limit.limit_mm);
         Ok(Reached {

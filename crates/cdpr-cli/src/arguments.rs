@@ -3,9 +3,9 @@
 //! A parser says what is wrong with the text; clap adds the argument and the value.
 
 use crate::error::ProgramError;
-use cdpr_robot::{Pose, Robot, Rotation3, UnitQuaternion, Vector3, Wrench};
+use cdpr_robot::{Pose, Robot, Rotation3, UnitQuaternion, Vector3, Wrench, shown};
 use cdpr_statics::Load;
-use cdpr_study::{Grid, GridAxis, StudyError, open_robot};
+use cdpr_study::{Grid, GridAxis, InputKind, StudyError, open_robot, read_text};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -75,7 +75,7 @@ impl RobotAtPose {
         text: impl FnOnce(&T, &str),
     ) -> Result<(), ProgramError> {
         let [x, y, z] = self.pose.position.into();
-        let heading = format!("{} at ({x}, {y}, {z}) m", robot.name);
+        let heading = format!("{} at ({x}, {y}, {z}) m", shown(&robot.name));
         Ok(self.format.print(answer, |answer| text(answer, &heading))?)
     }
 }
@@ -184,14 +184,9 @@ pub(crate) fn pose_numbers(pose: &Pose) -> [f64; 7] {
     [x, y, z, q.w, q.i, q.j, q.k]
 }
 
-/// The text of a file.
-pub(crate) fn read(path: &Path) -> Result<String, StudyError> {
-    std::fs::read_to_string(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })
-}
-
 /// Poses from a file, one a line.
 pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, ProgramError> {
-    let lines = read(path)?;
+    let lines = read_text(path, InputKind::Poses)?;
     let lines = lines.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let at_line = |line| move |reason| ProgramError::Poses { path: path.to_owned(), line, reason };
     lines.map(|(i, line)| pose(line).map_err(at_line(i + 1))).collect()

@@ -5,7 +5,7 @@ use cdpr_cable::{CableError, RecordError};
 use cdpr_report::ReportError;
 use cdpr_robot::JsonError;
 use cdpr_statics::StaticsError;
-use cdpr_study::StudyError;
+use cdpr_study::{InputKind, StudyError};
 use std::path::{Path, PathBuf};
 
 /// Why a command did not do what it was asked for.
@@ -97,6 +97,11 @@ fn with_options(error: &StudyError) -> String {
             let is_option = ["observations", "position", "shard"].contains(&field.as_str());
             return format!("{}{error}", if is_option { "--" } else { "" });
         }
+        StudyError::OtherKind { found: InputKind::Robot, .. } => ": `cdpr check` takes it",
+        StudyError::OtherKind { found: InputKind::Study, .. } => {
+            ": `cdpr study run` takes it, and the robot file is the one that its field `robot` names"
+        }
+        StudyError::OtherKind { found: InputKind::Law, .. } => ": `cdpr hysteresis --law` takes it",
         StudyError::ForeignFolder { .. } => ", or --overwrite what is there",
         StudyError::FolderInUse { .. } => ": --resume goes on with them, --overwrite begins anew",
         StudyError::MissingBlocks { .. } => ": run the rest with --resume or --shard",

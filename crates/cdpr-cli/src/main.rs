@@ -11,6 +11,7 @@ mod cable;
 mod error;
 mod pose;
 mod robot;
+mod slips;
 mod study;
 
 use arguments::RobotAtPose;
@@ -116,7 +117,14 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    output::exit_code(run(Arguments::parse().command))
+    match Arguments::try_parse() {
+        Ok(arguments) => output::exit_code(run(arguments.command)),
+        Err(error) => {
+            let given: Vec<String> =
+                std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned()).collect();
+            output::refused(&slips::hinted(error, &Arguments::command(), &given))
+        }
+    }
 }
 
 fn run(command: Command) -> Result<Ending, ProgramError> {

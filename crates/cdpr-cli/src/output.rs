@@ -2,6 +2,7 @@
 
 use crate::error::ProgramError;
 use cdpr_report::ReportError;
+use cdpr_robot::shown_lines;
 use cdpr_study::{StudyError, write_figure};
 use comfy_table::{Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -34,7 +35,8 @@ pub(crate) enum Ending {
 /// Why the standard output could not be written, the first time.
 static UNPRINTED: OnceLock<io::Error> = OnceLock::new();
 
-/// Prints a line as std's macro does, but never panics.
+/// Prints a line as std's macro does, but never panics, and characters of names that a terminal would obey are
+/// shown.
 ///
 /// Where nobody reads on (`cdpr ... | head`) the command continues and writes its files; [`exit_code`] tells
 /// of any other failure to print.
@@ -50,13 +52,13 @@ macro_rules! eprintln {
 
 /// What `eprintln!` expands to.
 pub(crate) fn tell_line(line: fmt::Arguments) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    let _ = writeln!(io::stderr().lock(), "{}", shown_lines(&line.to_string()));
 }
 
 /// What `println!` expands to.
 pub(crate) fn print_line(line: fmt::Arguments) {
     if UNPRINTED.get().is_none()
-        && let Err(error) = writeln!(io::stdout().lock(), "{line}")
+        && let Err(error) = writeln!(io::stdout().lock(), "{}", shown_lines(&line.to_string()))
     {
         // The first reason is kept.
         let _ = UNPRINTED.set(error);
@@ -78,6 +80,18 @@ pub(crate) fn exit_code(result: Result<Ending, ProgramError>) -> ExitCode {
         eprintln!("error: {message}");
     }
     ExitCode::from(code)
+}
+
+/// Prints why arguments are refused, or the help that they ask for, and returns the exit code.
+pub(crate) fn refused(error: &clap::Error) -> ExitCode {
+    match error.print() {
+        // There is no other place to report it.
+        Err(unprinted) if unprinted.kind() != ErrorKind::BrokenPipe && !error.use_stderr() => {
+            eprintln!("error: cannot write to the standard output: {unprinted}");
+            ExitCode::FAILURE
+        }
+        _ => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2)),
+    }
 }
 
 /// An empty table.

@@ -75,12 +75,15 @@ fn prepare(folder: &Path) {
         data("studies/caroca-operating-point.json").replace("../robots/caroca.json", "robot.json");
     write("study_point.json", &operating.replacen(r#""tension": 514.5"#, r#""tension": -514.5"#, 1));
     std::fs::create_dir(folder.join("folder")).unwrap();
+    write("twice.json", &study_here.replacen("\"geometrical\": {", "\"mechanical\": {", 1));
+    write("paper.json", &study_here.replacen("\"paper\": 1.34", "\"paper\": [1.34]", 1));
+    std::fs::write(folder.join("utf16.json"), [0xff, 0xfe, b'{', 0, b'}', 0]).unwrap();
 }
 
 const LENGTHS: &str = "4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44";
 
 /// What is wrong, and the arguments, separated by spaces.
-const CASES: [(&str, &str); 78] = [
+const CASES: [(&str, &str); 100] = [
     ("unknown command", "invert robot.json"),
     ("missing argument", "inverse robot.json"),
     ("unknown argument", "inverse robot.json --pose 0,0,1.75 --speed 3"),
@@ -180,6 +183,28 @@ const CASES: [(&str, &str); 78] = [
     ),
     ("law of negative modulus", "hysteresis robot.json --law law_modulus.json --pose 0,0,1.75 --payload 50"),
     ("another format of law", "hysteresis robot.json --law law_format.json --pose 0,0,1.75 --payload 50"),
+    ("robot for a study", "study run robot.json"),
+    ("law for a robot", "check law.json"),
+    ("study for a law", "hysteresis robot.json --law study.json --pose 0,0,1.75 --payload 50"),
+    ("robot file in UTF-16", "check utf16.json"),
+    ("device for a robot", "check /dev/zero"),
+    ("device for cases", "direct robot.json --from /dev/zero"),
+    ("two samplings of one name", "study run twice.json"),
+    ("list for a published figure", "study run paper.json"),
+    ("run without study", "run study.json"),
+    ("merge without study", "merge results"),
+    ("report of a study", "study report results"),
+    ("check of a study", "study check study.json"),
+    ("forward model", "forward robot.json"),
+    ("payload of a study", "study run study.json --payload 50"),
+    ("payload of the direct model", "direct robot.json --payload 50 --lengths"),
+    ("payload of a check", "check robot.json --payload 50"),
+    ("robot as an option", "inverse --robot robot.json --pose 0,0,1.75"),
+    ("pose without option", "inverse robot.json 0,0,1.75"),
+    ("coordinates apart", "inverse robot.json --pose 0 0 1.75"),
+    ("JSON as an option", "check robot.json --json"),
+    ("output", "workspace robot.json --plane z=1.75 --output there"),
+    ("samples", "study run study.json --samples 100"),
 ];
 
 #[test]

@@ -14,6 +14,7 @@ mod hysteresis;
 mod models;
 mod modulus;
 mod robustness;
+mod strangers;
 mod study_blocks;
 mod study_poses;
 mod study_run;

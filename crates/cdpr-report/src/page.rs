@@ -21,10 +21,12 @@ use crate::page::elements::Section;
 use crate::scene::Scene;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use cdpr_robot::{shown, shown_lines};
 use cdpr_study::{Figure, Results};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
+use std::borrow::Cow;
 
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
@@ -87,7 +89,7 @@ fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content={ "cdpr " (results.summary.version) };
-                title { (title) }
+                title { (shown(title)) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
@@ -101,11 +103,11 @@ fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
                         }
                     }
                     main id="content" {
-                        (glance::header(results))
+                        (inert(&glance::header(results)))
                         @for section in sections {
                             section id=(section.id) {
                                 h2 { (section.title) }
-                                (section.body)
+                                (inert(&section.body))
                             }
                         }
                         footer {
@@ -115,12 +117,17 @@ fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
                     }
                 }
                 // No browser runs this type. Without `<`, nothing in the data can end the element.
-                script type="application/json" id="data" { (PreEscaped(json.replace('<', "\\u003c"))) }
+                script type="application/json" id="data" { (PreEscaped(shown_lines(json).replace('<', "\\u003c"))) }
                 script { (PreEscaped(PLOTLY)) }
                 script { (PreEscaped(SCRIPT)) }
             }
         }
     }
+}
+
+/// Part of the page in which no character of a name is obeyed.
+fn inert(part: &Markup) -> PreEscaped<Cow<'_, str>> {
+    PreEscaped(shown_lines(&part.0))
 }
 
 /// Content security policy: scripts by their hashes, styles and images of the page itself, and no connection.

@@ -103,6 +103,28 @@ fn hostile_names_stay_text() {
 }
 
 #[test]
+fn control_and_bidirectional_characters_of_names_are_shown_in_figures_and_in_the_report() {
+    let hostile = "a\u{1b}[2J\u{7}\u{202e}b & <c>";
+    let results = crate::common::caroca(|study, robot| {
+        study["name"] = json!(hostile);
+        study["samplings"]["mechanical"]["title"] = json!(hostile);
+        study["surfaces"]["surface_E_rho"]["title"] = json!(hostile);
+        robot["name"] = json!(hostile);
+    });
+    let html = page(&results);
+    assert!(!html.contains(['\u{1b}', '\u{7}', '\u{202e}']));
+    let Some(StudySummary::Sampling(sampling)) = results.summary.studies.get("mechanical") else {
+        panic!("no sampling")
+    };
+    let svg = histogram(sampling).unwrap();
+    // What XML 1.0 allows of control characters.
+    assert!(!svg.contains(|c: char| c.is_control() && c != '\n'), "{svg}");
+    for text in [&svg, &html] {
+        assert!(text.contains("a\\u001b[2J\\u0007\\u202eb &amp; &lt;c&gt;"));
+    }
+}
+
+#[test]
 fn every_robot_and_every_part_of_a_study_has_a_report() {
     let html = page(&crate::common::cogiro());
     assert!(html.contains("CoGiRo") && html.contains("id=\"figure-all\""));

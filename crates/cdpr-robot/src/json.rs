@@ -1,8 +1,10 @@
 //! JSON text to data, with line and column of what is wrong.
 
-use serde::de::DeserializeOwned;
+use serde::de::{Deserialize, DeserializeOwned, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use serde_json::de::StrRead;
 use serde_json::value::RawValue;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
 /// Where a JSON text differs from what was expected: a missing, misspelt or mistyped field, or no JSON.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -46,14 +48,80 @@ impl JsonError {
 /// # Errors
 /// [`JsonError`] with field, line and column.
 pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
+    let (value, mut deserializer) = read(text)?;
+    // Text after the value is refused: half a file may have been pasted behind another.
+    deserializer.end().map_err(|error| JsonError::new(".".to_owned(), &error))?;
+    // Structs refuse a second entry of the same name. Maps would keep the last one.
+    read::<DistinctKeys>(text)?;
+    Ok(value)
+}
+
+/// Reads the value with which a text begins.
+fn read<T: DeserializeOwned>(text: &str) -> Result<(T, serde_json::Deserializer<StrRead<'_>>), JsonError> {
     let mut deserializer = serde_json::Deserializer::from_str(text);
     let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
         let field = error.path().to_string();
         JsonError::new(field, &error.into_inner())
     })?;
-    // Text after the value is refused: half a file may have been pasted behind another.
-    deserializer.end().map_err(|error| JsonError::new(".".to_owned(), &error))?;
-    Ok(value)
+    Ok((value, deserializer))
+}
+
+/// Any JSON value in which no map has the same key twice.
+struct DistinctKeys;
+
+impl<'de> Deserialize<'de> for DistinctKeys {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Self)
+    }
+}
+
+impl<'de> Visitor<'de> for DistinctKeys {
+    type Value = Self;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a JSON value")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self, A::Error> {
+        let mut keys = BTreeSet::new();
+        while let Some(key) = map.next_key::<String>()? {
+            if keys.contains(&key) {
+                return Err(A::Error::custom(format!("duplicate field `{key}`")));
+            }
+            keys.insert(key);
+            map.next_value::<Self>()?;
+        }
+        Ok(self)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self, A::Error> {
+        while list.next_element::<Self>()?.is_some() {}
+        Ok(self)
+    }
+
+    fn visit_bool<E>(self, _: bool) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_i64<E>(self, _: i64) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_u64<E>(self, _: u64) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_f64<E>(self, _: f64) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_str<E>(self, _: &str) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_unit<E>(self) -> Result<Self, E> {
+        Ok(self)
+    }
 }
 
 /// Line and column, both from 1, of the value of a field such as `cables[2].exit_point[0]` in a JSON text.
@@ -81,7 +149,18 @@ pub fn place_of(text: &str, field: &str) -> Option<(usize, usize)> {
 
 #[cfg(test)]
 mod tests {
-    use super::place_of;
+    use super::{from_json, place_of};
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn a_map_with_a_key_twice_is_refused_as_a_struct_is() {
+        let read = |text| from_json::<BTreeMap<String, BTreeMap<String, f64>>>(text);
+        assert!(read(r#"{"a": {"x": 1, "y": -2}, "b": {"x": 1.5}}"#).is_ok());
+        let error = read("{\"a\": {\"x\": 1,\n  \"x\": 1}}").unwrap_err();
+        assert_eq!((error.field.as_str(), error.line), ("a", 2));
+        assert_eq!(error.message, "duplicate field `x`");
+        assert_eq!(read(r#"{"a": {}, "\u0061": {}}"#).unwrap_err().message, "duplicate field `a`");
+    }
 
     #[test]
     fn a_value_is_found_where_it_stands_and_a_missing_one_where_it_should() {

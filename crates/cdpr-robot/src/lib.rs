@@ -31,6 +31,7 @@ mod number;
 mod parameter;
 mod pose;
 mod robot;
+mod shown;
 mod wrench;
 
 pub use axis::Axis;
@@ -44,4 +45,5 @@ pub use number::{decimal, rounded};
 pub use parameter::{Parameter, ParameterLayout, Perturbed, deviations};
 pub use pose::{Pose, orthonormalized};
 pub use robot::{CableProperties, Platform, Robot, RobotCable, TensionLimits};
+pub use shown::{shown, shown_lines};
 pub use wrench::Wrench;

@@ -90,5 +90,5 @@ pub use measure::morris::{MorrisEffect, morris_effects};
 pub use measure::regression::{Coefficient, Regression, rank_correlation, rank_regression, regression};
 pub use measure::sobol_indices::{PairIndex, SobolIndex, SobolIndices, sobol_indices};
 pub use sample::interval::Estimate;
-pub use sample::random::Bootstrap;
+pub use sample::random::{Bootstrap, derived_seed};
 pub use sample::summary::{Bins, Histogram, Moments, Sample, Summary};

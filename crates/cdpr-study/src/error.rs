@@ -1,5 +1,6 @@
 //! Errors of studies.
 
+use crate::kind::InputKind;
 use crate::names::MARK_NAME;
 use cdpr_cable::RecordError;
 use cdpr_robot::{JsonError, RobotError, place_of};
@@ -17,6 +18,36 @@ pub enum StudyError {
         path: PathBuf,
         /// Message of the system.
         source: std::io::Error,
+    },
+    /// A folder, a pipe or a device stands where a file is expected.
+    #[error("{path} is {found}: expected {kind}")]
+    NotRegular {
+        /// The path.
+        path: PathBuf,
+        /// What stands there.
+        found: &'static str,
+        /// What the file is to be.
+        kind: InputKind,
+    },
+    /// A file is larger than any of its kind.
+    #[error("{path} is larger than {} MB: expected {kind}", most / 1_000_000)]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// What the file is to be.
+        kind: InputKind,
+        /// Largest size of such a file \[bytes\].
+        most: u64,
+    },
+    /// A file of this program, but of another kind.
+    #[error("{path} is {found}: expected {kind}")]
+    OtherKind {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        found: InputKind,
+        /// What it is to be.
+        kind: InputKind,
     },
     /// A file could not be written, or a folder could not be made.
     #[error("cannot write {path}: {source}: expected a place where files can be made")]

@@ -2,3 +2,4 @@
 
 pub(crate) mod atomic;
 pub(crate) mod files;
+pub(crate) mod input;

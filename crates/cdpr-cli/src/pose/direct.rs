@@ -8,7 +8,7 @@ use crate::error::ProgramError;
 use crate::output::Ending;
 use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json};
 use cdpr_statics::{Certificate, DirectProblem, Load, Start, StaticsError, rough_pose};
-use cdpr_study::{StudyError, open_robot};
+use cdpr_study::{InputKind, StudyError, open_robot, read_text};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -113,7 +113,7 @@ enum Cases {
 
 impl Cases {
     fn read(path: &Path) -> Result<Self, StudyError> {
-        let text = arguments::read(path)?;
+        let text = read_text(path, InputKind::Cases)?;
         let cases = if text.trim_start().starts_with('[') {
             from_json(&text).map(Self::List)
         } else {

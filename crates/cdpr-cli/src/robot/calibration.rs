@@ -3,7 +3,7 @@
 use crate::arguments::{self, Format, Named};
 use crate::error::ProgramError;
 use crate::output::table;
-use cdpr_robot::{Pose, Robot, rounded};
+use cdpr_robot::{Pose, Robot, rounded, shown};
 use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement, ParameterValue};
 use cdpr_study::{Grid, open_robot};
 use serde::Serialize;
@@ -151,7 +151,7 @@ impl Output {
 }
 
 fn print(robot: &Robot, output: &Output) {
-    println!("{}: measured at {} poses", robot.name, output.poses);
+    println!("{}: measured at {} poses", shown(&robot.name), output.poses);
     for (reason, count) in &output.refused {
         println!("{count} poses left out: {reason}");
     }

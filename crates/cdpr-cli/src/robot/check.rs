@@ -4,6 +4,7 @@ use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::Ending;
 use cdpr_assess::{Finding, Severity, inspect};
+use cdpr_robot::shown;
 use cdpr_study::open_robot;
 use std::path::PathBuf;
 
@@ -28,7 +29,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         }
         println!(
             "{}: {} cables, {warnings} warnings, {} notes",
-            robot.name,
+            shown(&robot.name),
             robot.cables.len(),
             findings.len() - warnings
         );

@@ -7,6 +7,7 @@ use cdpr_assess::{
     Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, run_robustness, write_refused,
     write_robustness, write_solves,
 };
+use cdpr_robot::shown;
 use cdpr_study::{check_folder, open_robot};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -71,7 +72,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
 
 fn print_results(summary: &RobustnessSummary) {
     for protocol in summary.protocols.values() {
-        println!("{}: {}", summary.robot, protocol.title);
+        println!("{}: {}", shown(&summary.robot), protocol.title);
         print_settings(protocol);
         print_rows(protocol);
         for (kind, count) in &protocol.total.failed {

@@ -5,7 +5,7 @@ use crate::error::ProgramError;
 use crate::output::{progress, table, write_drawn};
 use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace, write_workspace};
 use cdpr_report::workspace_maps;
-use cdpr_robot::{Axis, Robot, Rotation3};
+use cdpr_robot::{Axis, Robot, Rotation3, shown};
 use cdpr_study::{ErrorModel, Extremes, Grid, Study, check_folder, open_robot};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -121,7 +121,7 @@ impl Settings {
 }
 
 fn print(summary: &WorkspaceSummary) {
-    println!("{}: {} positions, {}", summary.robot, summary.rows.len(), summary.conditions());
+    println!("{}: {} positions, {}", shown(&summary.robot), summary.rows.len(), summary.conditions());
     for (status, count) in &summary.status {
         println!("{count:8} {status}");
     }

@@ -44,7 +44,7 @@ pub(super) fn shard(
             out.display()
         );
     };
-    Ok(format.print(&serde_json::json!({ "folder": out, "shard": "done" }), text)?)
+    Ok(format.print(&serde_json::json!({ "folder": out.to_string_lossy(), "shard": "done" }), text)?)
 }
 
 /// Makes the blocks that `first` leaves missing, and analyses the whole study.

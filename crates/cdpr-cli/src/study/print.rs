@@ -3,6 +3,7 @@
 mod sensitivity;
 
 use crate::output::table;
+use cdpr_robot::shown;
 use cdpr_study::{Extremes, Overview, PosesSummary, StudySummary, Summary, Timings};
 
 /// Prints all results of a study, and how long each took.
@@ -12,7 +13,7 @@ pub(super) fn print(summary: &Summary, timings: &Timings) {
         if let StudySummary::Sampling(sampling) = study
             && let Some(found) = &sampling.sensitivity
         {
-            sensitivity::print(&format!("{name}: {}", sampling.title), found);
+            sensitivity::print(&format!("{name}: {}", shown(&sampling.title)), found);
         }
     }
     print_comparison(summary);
@@ -23,7 +24,7 @@ pub(super) fn print(summary: &Summary, timings: &Timings) {
 }
 
 fn print_results(summary: &Summary) {
-    println!("{}: {}\n", summary.robot, summary.study);
+    println!("{}: {}\n", shown(&summary.robot), shown(&summary.study));
     let mut rows = table(&["study", "n", "failed", "nominal", "mean", "std", "min", "max", "[mm]  best fit"]);
     for (name, study) in &summary.studies {
         let counts = [study.observations(), study.failed().values().sum()].map(|count| count.to_string());
@@ -85,7 +86,7 @@ fn print_comparison(summary: &Summary) {
             &r.unit,
             &r.verdict.to_string(),
         ];
-        rows.add_row(cells.map(String::clone));
+        rows.add_row(cells.map(|cell| shown(cell).into_owned()));
     }
     println!("{rows}");
     println!("reproduced: within half of the published figure's last digit plus 1 % of it; words: the same");

@@ -22,13 +22,13 @@ pub(crate) struct Settings {
 
 #[derive(Serialize)]
 struct Written {
-    report: PathBuf,
+    report: String,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { folder, out, format } = settings;
     let path = out.clone().unwrap_or_else(|| folder.join(REPORT_NAME));
     write_text(&path, &report(&Results::read(folder)?)?)?;
-    let text = |written: &Written| println!("report in {}", written.report.display());
-    Ok(format.print(&Written { report: path }, text)?)
+    let text = |written: &Written| println!("report in {}", written.report);
+    Ok(format.print(&Written { report: path.to_string_lossy().into_owned() }, text)?)
 }

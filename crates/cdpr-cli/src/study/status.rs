@@ -3,6 +3,7 @@
 use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::table;
+use cdpr_robot::shown;
 use cdpr_study::{Provisional, Status, StoredStudy, open_results, status};
 use clap::Args;
 use std::path::PathBuf;
@@ -23,7 +24,7 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
 }
 
 fn print(status: &Status) {
-    println!("{} (hash {})\n", status.study, status.hash);
+    println!("{} (hash {})\n", shown(&status.study), status.hash);
     let mut rows = table(&["sampling", "design", "blocks", "missing", "observations", "of", "failed"]);
     for (name, sampling) in &status.samplings {
         for (design, found) in &sampling.designs {

@@ -4,6 +4,7 @@ use crate::arguments::{self, Format, Named, Threads};
 use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_assess::{Limit, Limited, Reached, ToleranceBudget, tolerance_budget};
+use cdpr_robot::shown;
 use cdpr_study::{Estimate, Study};
 use std::path::PathBuf;
 
@@ -72,7 +73,7 @@ fn print(title: &str, budget: &ToleranceBudget) {
         Limited::Position => "distance from the wanted pose",
     };
     let percent = 100.0 * budget.quantile;
-    println!("{title}: {of} of {percent} % of the robots at most {} mm", budget.limit_mm);
+    println!("{}: {of} of {percent} % of the robots at most {} mm", shown(title), budget.limit_mm);
     println!("without any deviation it is {:.4} mm\n", budget.least_mm);
     let mut rows = table(&[
         "tolerance",

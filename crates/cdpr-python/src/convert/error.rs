@@ -155,6 +155,9 @@ fn is_of_files(error: &StudyError) -> bool {
     matches!(
         error,
         StudyError::Read { .. }
+            | StudyError::NotRegular { .. }
+            | StudyError::OtherKind { .. }
+            | StudyError::TooLarge { .. }
             | StudyError::Write { .. }
             | StudyError::FolderInUse { .. }
             | StudyError::ForeignFolder { .. }

@@ -1,6 +1,7 @@
 //! Style of all figures: size, fonts, colours, lines.
 
 use crate::error::ReportError;
+use cdpr_robot::shown_lines;
 use plotters::coord::{CoordTranslate, Shift};
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -81,7 +82,7 @@ impl Pen {
     }
 }
 
-/// Draws a figure of this height [px] and returns its SVG text.
+/// Draws a figure of this height [px] and returns its SVG text, in which no character of a name is obeyed.
 pub(crate) fn figure(
     height: f64,
     draw: impl FnOnce(&Area) -> Result<(), DrawingError>,
@@ -96,6 +97,7 @@ pub(crate) fn figure(
     }
     // The view box stays in tenths of a pixel, but the size is in pixels.
     let drawn = format!("width=\"{width_units}\" height=\"{height_units}\"");
+    let svg = shown_lines(&svg);
     Ok(svg.replacen(&drawn, &format!("width=\"{WIDTH}\" height=\"{height}\""), 1))
 }
 

@@ -12,6 +12,11 @@ pub struct Bootstrap {
     pub seed: u64,
 }
 
+/// A seed for the part `number` of a computation with a seed: the parts of all seeds are independent.
+pub fn derived_seed(seed: u64, number: u64) -> u64 {
+    stream(seed, number).next_u64()
+}
+
 /// Stream `number` of the generator with a seed.
 pub(crate) fn stream(seed: u64, number: u64) -> ChaCha8Rng {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);

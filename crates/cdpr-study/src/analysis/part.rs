@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 /// Results of a sampling, at one pose or several, or of a surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected the results of a sampling or of a surface")]
 pub enum StudySummary {
     /// Summary of a sampling at one pose.
     Sampling(Box<SamplingSummary>),

@@ -2,7 +2,8 @@
 //! or `unloading`). Lines that begin with `#` are comments.
 
 use crate::error::StudyError;
-use crate::fs::files::read;
+use crate::fs::input::read_text;
+use crate::kind::InputKind;
 use cdpr_cable::{Phase, Record, RecordError, Sample};
 use csv::{ReaderBuilder, StringRecord, Trim};
 use std::path::Path;
@@ -14,7 +15,8 @@ const COLUMNS: [&str; 3] = ["force_n", "elongation_mm", "phase"];
 /// # Errors
 /// [`StudyError::Read`]; [`StudyError::Record`] names the line.
 pub fn open_record(path: &Path) -> Result<Record, StudyError> {
-    read_record(&read(path)?).map_err(|source| StudyError::Record { path: path.to_owned(), source })
+    let record = read_record(&read_text(path, InputKind::Record)?);
+    record.map_err(|source| StudyError::Record { path: path.to_owned(), source })
 }
 
 /// Reads and checks a record from the text of a file.

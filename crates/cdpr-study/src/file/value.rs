@@ -7,7 +7,7 @@ use std::fmt;
 
 /// A published or computed figure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number or a word")]
 pub enum Value {
     /// A number.
     Number(f64),

@@ -1,6 +1,8 @@
 //! Folders and files: read and written, with the path in every error.
 
 use crate::error::StudyError;
+use crate::fs::input::{other_kind, read_text};
+use crate::kind::InputKind;
 use cdpr_robot::Robot;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -81,15 +83,19 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), StudyError> {
     std::fs::write(path, text).map_err(|source| StudyError::Write { path: path.to_owned(), source })
 }
 
+/// The text of a file in a folder of results.
 pub(crate) fn read(path: &Path) -> Result<String, StudyError> {
-    std::fs::read_to_string(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })
+    read_text(path, InputKind::Results)
 }
 
 /// Reads and checks a robot file.
 ///
 /// # Errors
-/// [`StudyError::Read`]; [`StudyError::Robot`] naming file, field, value and what is expected.
+/// As [`read_text`]; [`StudyError::OtherKind`] for a study or a law; [`StudyError::Robot`] naming file, field, value and what is expected.
 pub fn open_robot(path: &Path) -> Result<Robot, StudyError> {
-    let robot = Robot::from_json(&read(path)?);
-    robot.map_err(|source| StudyError::Robot { path: path.to_owned(), source })
+    let text = read_text(path, InputKind::Robot)?;
+    Robot::from_json(&text).map_err(|source| {
+        let other = other_kind(path, &text, InputKind::Robot);
+        other.unwrap_or_else(|| StudyError::Robot { path: path.to_owned(), source })
+    })
 }

@@ -3,7 +3,8 @@
 
 use crate::error::StudyError;
 use crate::file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve};
-use crate::fs::files::read;
+use crate::fs::input::{other_kind, read_text};
+use crate::kind::InputKind;
 use cdpr_cable::{CableError, Phase, PiecewiseLaw, Record, RecordError, TangentModulus};
 use cdpr_robot::{CableProperties, LawSegment, from_json};
 use cdpr_statics::{HysteresisLaw, Unloading};
@@ -84,9 +85,11 @@ impl CableLaw {
 /// # Errors
 /// [`StudyError::Read`], [`StudyError::Format`]; [`StudyError::Invalid`] for an invalid law.
 pub fn open_law(path: &Path) -> Result<CableLaw, StudyError> {
-    let text = read(path)?;
-    let file: LawFile =
-        from_json(&text).map_err(|source| StudyError::Format { path: path.to_owned(), source })?;
+    let text = read_text(path, InputKind::Law)?;
+    let file: LawFile = from_json(&text).map_err(|source| {
+        let other = other_kind(path, &text, InputKind::Law);
+        other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
+    })?;
     let wrong = if file.format == LAW_FORMAT {
         file.law.invalid().map(|(field, value, expected)| (format!("law.{field}"), value, expected))
     } else {

@@ -5,7 +5,9 @@
 use crate::error::StudyError;
 use crate::file::study_file::SamplingSpec;
 use crate::model::study::{Sampling, Study};
-use cdpr_sensitivity::{MorrisDesign, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolDesign};
+use cdpr_sensitivity::{
+    MorrisDesign, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolDesign, derived_seed,
+};
 
 /// Name of the sampling's own design.
 pub(crate) const OWN: &str = "sampling";
@@ -128,7 +130,7 @@ impl Study {
 impl Sampling<'_> {
     /// A scrambled replicate of the sampling's design.
     pub(crate) fn replicate(&self, number: usize) -> SobolDesign {
-        self.design.replicate(self.study.file.seed.wrapping_add(number as u64))
+        self.design.replicate(derived_seed(self.study.file.seed, number as u64))
     }
 
     pub(crate) fn morris_design(&self, blocks: usize) -> Result<MorrisDesign, SensitivityError> {
@@ -138,5 +140,30 @@ impl Sampling<'_> {
     pub(crate) fn saltelli_design(&self, blocks: usize) -> Result<SaltelliDesign, SensitivityError> {
         let inputs = self.design.inputs().to_vec();
         SaltelliDesign::scrambled(inputs, blocks, Order::First, self.study.file.seed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn replicates_of_neighbouring_seeds_share_no_point() {
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json"));
+        let mut study = Study::open(path).unwrap();
+        let mut rows = Vec::new();
+        for seed in 1..=3 {
+            study.file.seed = seed;
+            let sampling = study.sampling("mechanical").unwrap();
+            rows.extend((1..=3).map(|number| {
+                let mut row = vec![0.0; sampling.design.inputs().len()];
+                sampling.replicate(number).row(0, &mut row).unwrap();
+                row
+            }));
+        }
+        for (k, row) in rows.iter().enumerate() {
+            assert!(!rows[..k].contains(row), "{k}");
+        }
     }
 }

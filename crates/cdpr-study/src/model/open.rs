@@ -3,7 +3,9 @@
 use crate::error::StudyError;
 use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic, StudyFile};
 use crate::file::value::Value;
-use crate::fs::files::{open_robot, read};
+use crate::fs::files::open_robot;
+use crate::fs::input::{other_kind, read_text};
+use crate::kind::InputKind;
 use crate::model::nominal::Nominals;
 use crate::model::prepare::FEWEST_OBSERVATIONS;
 use crate::model::study::Study;
@@ -24,7 +26,7 @@ impl Study {
     /// # Errors
     /// [`StudyError`] naming file, field, value and what would be right.
     pub fn open(path: &Path) -> Result<Self, StudyError> {
-        Self::from_json(&read(path)?, path)
+        Self::from_json(&read_text(path, InputKind::Study)?, path)
     }
 
     /// Reads and checks a study from its text. `path` names the text in errors, and the robot file is
@@ -40,8 +42,10 @@ impl Study {
 
     /// A study and its robot whose values together are not checked yet: enough to know them by their hash.
     pub(crate) fn unchecked(text: &str, path: &Path) -> Result<Self, StudyError> {
-        let file: StudyFile =
-            from_json(text).map_err(|source| StudyError::Format { path: path.to_owned(), source })?;
+        let file: StudyFile = from_json(text).map_err(|source| {
+            let other = other_kind(path, text, InputKind::Study);
+            other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
+        })?;
         let robot_path = path.parent().unwrap_or(Path::new(".")).join(&file.robot);
         let robot = open_robot(&robot_path)?;
         Ok(Self { path: path.to_owned(), file, robot, nominals: Nominals::default() })

@@ -76,8 +76,11 @@ impl<'a> Plan<'a> {
         (0..self.blocks).filter(move |block| shard.has(*block))
     }
 
-    /// The block with an index.
+    /// The block with an index; `None` beyond the last one.
     pub(crate) fn block(&self, block: usize) -> Option<Planned<'a>> {
+        if block >= self.blocks {
+            return None;
+        }
         let part = self.parts.iter().rfind(|part| part.first <= block)?;
         let (pose, mut rest) = ((block - part.first) / part.of_pose, (block - part.first) % part.of_pose);
         for (design, points) in &part.designs {
@@ -161,4 +164,25 @@ pub fn observe_shard(study: &Study, shard: Shard, session: &Session) -> Result<(
     let plan = Plan::new(study)?;
     let mut maker = BlockMaker::new(&plan, *session);
     plan.of_shard(shard).try_for_each(|block| maker.make(block))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn a_block_beyond_the_last_one_is_an_error() {
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json"));
+        let mut study = Study::open(path).unwrap();
+        study.file.replicates = 0;
+        study.set_observations(3).unwrap();
+        let plan = Plan::new(&study).unwrap();
+        let mut maker = BlockMaker::new(&plan, Session::in_memory());
+        assert!(maker.make(plan.blocks() - 1).is_ok());
+        for beyond in [plan.blocks(), 2 * plan.blocks(), usize::MAX] {
+            let error = maker.make(beyond).unwrap_err().to_string();
+            assert!(error.starts_with(&format!("block is {beyond}: expected less than")), "{error}");
+        }
+    }
 }

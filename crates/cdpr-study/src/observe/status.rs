@@ -47,6 +47,7 @@ pub struct DesignStatus {
     /// Missing blocks, damaged ones included.
     pub blocks_missing: usize,
     /// Damaged blocks: each will be made again.
+    #[serde(serialize_with = "as_texts")]
     pub damaged: Vec<PathBuf>,
     /// Existing observations.
     pub observed: usize,
@@ -63,6 +64,11 @@ pub struct Provisional {
     pub mean: f64,
     /// Standard deviation, with n - 1.
     pub std: f64,
+}
+
+/// Paths as texts, also those that are not UTF-8.
+fn as_texts<S: serde::Serializer>(paths: &[PathBuf], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(paths.iter().map(|path| path.to_string_lossy()))
 }
 
 /// Reads all blocks of a study and reports its progress.

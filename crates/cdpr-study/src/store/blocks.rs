@@ -3,6 +3,8 @@
 use crate::error::StudyError;
 use crate::fs::atomic::{is_unfinished, remove_unfinished, write_atomic};
 use crate::fs::files::remove_stale;
+use crate::fs::input::read_bytes;
+use crate::kind::InputKind;
 use crate::model::observed::{Observed, count_failed, failures};
 use crate::model::study::Study;
 use crate::names::{BLOCKS_NAME, SUMMARY_NAME};
@@ -69,9 +71,11 @@ impl Blocks {
     /// The same, but a damaged block is an error.
     pub(crate) fn read(&self, id: &BlockId) -> Result<Vec<Observed>, StudyError> {
         let path = self.path(id);
-        let file = match fs::read(&path) {
-            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
-            read => read.map_err(|source| StudyError::Read { path: path.clone(), source })?,
+        let file = match read_bytes(&path, InputKind::Block) {
+            Err(StudyError::Read { source, .. }) if source.kind() == ErrorKind::NotFound => {
+                return Ok(Vec::new());
+            }
+            read => read?,
         };
         let (header, outcomes) =
             decode(&file).map_err(|reason| StudyError::DamagedBlock { path: path.clone(), reason })?;
@@ -200,8 +204,10 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
     while let Some(folder) = folders.pop() {
         let read = |source| StudyError::Read { path: folder.clone(), source };
         for entry in fs::read_dir(&folder).map_err(read)? {
-            let path = entry.map_err(read)?.path();
-            if path.is_dir() { folders.push(path) } else { files.push(path) }
+            let entry = entry.map_err(read)?;
+            // A link is no folder: links may lead in a circle.
+            let is_folder = entry.file_type().map_err(read)?.is_dir();
+            if is_folder { folders.push(entry.path()) } else { files.push(entry.path()) }
         }
     }
     Ok(files)

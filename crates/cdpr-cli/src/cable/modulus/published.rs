@@ -1,9 +1,9 @@
 //! A published table of moduli, compared with those that follow from a record.
 
-use crate::arguments::read;
 use crate::error::ProgramError;
 use crate::output::table;
-use cdpr_robot::from_json;
+use cdpr_robot::{from_json, shown};
+use cdpr_study::{InputKind, read_text};
 use serde::{Deserialize, Serialize};
 use serde_json::Number;
 use std::path::Path;
@@ -43,7 +43,7 @@ const ROUNDING: f64 = 1e-6;
 
 impl Published {
     pub(super) fn open(path: &Path) -> Result<Self, ProgramError> {
-        let text = read(path)?;
+        let text = read_text(path, InputKind::Moduli)?;
         let found: Self = from_json(&text).map_err(ProgramError::in_file(path))?;
         let expected = found.ranges.len();
         for (field, moduli) in [("loading_gpa", &found.loading_gpa), ("unloading_gpa", &found.unloading_gpa)]
@@ -84,7 +84,7 @@ fn half_a_digit(number: &Number) -> f64 {
 }
 
 pub(super) fn print(published: &Published, entries: &[Entry]) {
-    println!("\n{}\n", published.source);
+    println!("\n{}\n", shown(&published.source));
     let mut rows = table(&["range [%]", "phase", "published [GPa]", "from the record", "consistent"]);
     for entry in entries {
         rows.add_row([

@@ -1,0 +1,107 @@
+//! Natural slips on the command line, with what was probably meant.
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Command, Error};
+
+/// Commands that are called otherwise, or stand elsewhere.
+const COMMANDS: [(&str, &str); 12] = [
+    ("forward", "cdpr direct"),
+    ("degm", "cdpr direct"),
+    ("iegm", "cdpr inverse"),
+    ("displacement", "cdpr deflection"),
+    ("validate", "cdpr check"),
+    ("resume", "cdpr study run --resume"),
+    ("sensitivity", "cdpr study run"),
+    ("analyse", "cdpr study merge"),
+    ("analyze", "cdpr study merge"),
+    ("init", "cdpr study new"),
+    ("template", "cdpr study new"),
+    ("calibrate", "cdpr calibration"),
+];
+
+/// Options that are called otherwise, or that another place gives.
+const OPTIONS: [(&str, &str); 19] = [
+    ("--robot", "the robot file stands right behind the command, without an option"),
+    ("--study", "the study file stands right behind the command, without an option"),
+    ("--json", "JSON is printed with `--format json`"),
+    ("--output", "results go where `--out` says"),
+    ("-o", "results go where `--out` says"),
+    ("--samples", "the number of observations is `--observations N`"),
+    ("-n", "the number of observations is `--observations N`"),
+    ("--jobs", "the number of threads is `--threads N`"),
+    ("-j", "the number of threads is `--threads N`"),
+    ("--cores", "the number of threads is `--threads N`"),
+    ("--continue", "an interrupted study goes on with `--resume`"),
+    ("--force", "results in a folder are replaced with `--overwrite`"),
+    ("--seed", "the seed is the field `seed` of the study file"),
+    ("--replicates", "replicates are the field `replicates` of the study file"),
+    ("--position", "the place of the platform is `--pose x,y,z`"),
+    ("--load", "a load is `--payload` [kg], `--force fx,fy,fz` [N] or `--moment mx,my,mz` [N m]"),
+    ("--mass", "a mass on the platform is `--payload` [kg]; its own stands in the robot file"),
+    ("--poses", "one pose is `--pose x,y,z`"),
+    ("--certificate", "the proof of an equilibrium is asked for with `--certify`"),
+];
+
+/// The error with a hint, where the slip is known.
+pub(crate) fn hinted(mut error: Error, command: &Command, arguments: &[String]) -> Error {
+    if let Some(hint) = hint(&error, command, arguments) {
+        error.remove(ContextKind::SuggestedSubcommand);
+        error.remove(ContextKind::SuggestedArg);
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![hint.into()]));
+    }
+    error
+}
+
+fn hint(error: &Error, command: &Command, arguments: &[String]) -> Option<String> {
+    let text = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => Some(text.as_str()),
+        _ => None,
+    };
+    if let Some(name) = text(ContextKind::InvalidSubcommand) {
+        return called(name, command).map(|meant| format!("the command is `{meant}`"));
+    }
+    let unknown = error.kind() == ErrorKind::UnknownArgument;
+    let argument = text(ContextKind::InvalidArg).filter(|_| unknown)?;
+    let option = argument.split(['=', ' ']).next().unwrap_or_default();
+    let within: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match (option, within.as_slice()) {
+        ("--payload", ["study" | "tolerances", ..]) => {
+            Some("the payload is the field `payload` of the study file".to_owned())
+        }
+        ("--payload", ["direct", ..]) => Some(
+            "the mass of the platform with all it carries is `--mass`; a load that is no mass is `--force`"
+                .to_owned(),
+        ),
+        ("--payload", ["check", ..]) => {
+            Some("`check` takes no load: `cdpr deflection` and `cdpr stiffness` do".to_owned())
+        }
+        ("--robot", ["study" | "tolerances", ..]) => {
+            Some("the robot file is the field `robot` of the study file".to_owned())
+        }
+        _ if is_number(option) => Some(
+            "numbers follow their option, separated by commas and without spaces, such as `--pose 0,0,1.75`"
+                .to_owned(),
+        ),
+        _ => {
+            let known = OPTIONS.iter().find(|(slip, _)| *slip == option);
+            known.map(|(_, hint)| (*hint).to_owned())
+        }
+    }
+}
+
+/// Whether an argument is a number, or several separated by commas.
+fn is_number(text: &str) -> bool {
+    !text.is_empty() && text.split(',').all(|part| part.parse::<f64>().is_ok())
+}
+
+/// The command that was meant by a name.
+fn called(name: &str, command: &Command) -> Option<String> {
+    let has = |command: &Command, name: &str| command.get_subcommands().any(|inner| inner.get_name() == name);
+    if has(command, name) {
+        return Some(format!("cdpr {name}"));
+    }
+    let outer = command.get_subcommands().find(|outer| has(outer, name));
+    outer
+        .map(|outer| format!("cdpr {} {name}", outer.get_name()))
+        .or_else(|| COMMANDS.iter().find(|(slip, _)| *slip == name).map(|(_, meant)| (*meant).to_owned()))
+}

@@ -1,0 +1,72 @@
+//! Texts from files for people: every character is shown, none is obeyed.
+
+use std::borrow::Cow;
+
+/// Whether a terminal or a browser obeys a character instead of showing it: control characters, with which
+/// escape sequences begin; those that change the direction of writing; invisible ones, which XML may forbid.
+fn is_obeyed(c: char) -> bool {
+    c.is_control()
+        || matches!(c,
+            '\u{61c}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
+            | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}' | '\u{e0000}'..='\u{e007f}')
+}
+
+/// A text on one line: characters that a terminal or a browser would obey are written as JSON escapes them,
+/// such as `\u001b`.
+///
+/// ```
+/// assert_eq!(cdpr_robot::shown("\u{1b}[2J a\u{202e}b\n"), "\\u001b[2J a\\u202eb\\u000a");
+/// ```
+pub fn shown(text: &str) -> Cow<'_, str> {
+    escaped(text, is_obeyed)
+}
+
+/// The same for a text of several lines or a JSON text, which keeps its meaning: ends of lines and tabs stay.
+pub fn shown_lines(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| is_obeyed(c) && c != '\n' && c != '\t')
+}
+
+fn escaped(text: &str, is_obeyed: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if !text.contains(&is_obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_obeyed(c) {
+            c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| shown += &format!("\\u{unit:04x}"));
+        } else {
+            shown.push(c);
+        }
+    }
+    Cow::Owned(shown)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_obeys_is_shown_and_all_else_stays() {
+        for text in ["CAROCA", "Élan ρ 中文 – 'a' \"b\" <c> &", "\u{1f916}\u{200d}"] {
+            assert_eq!(shown(text), text);
+        }
+        for (text, expected) in [
+            ("a\u{1b}]0;title\u{7}b", "a\\u001b]0;title\\u0007b"),
+            ("\u{9b}31m\u{7f}\0", "\\u009b31m\\u007f\\u0000"),
+            ("\u{202e}txt.\u{2066}\u{feff}", "\\u202etxt.\\u2066\\ufeff"),
+            ("\u{e0041}", "\\udb40\\udc41"),
+        ] {
+            assert_eq!(shown(text), expected);
+            assert_eq!(shown_lines(text), expected);
+        }
+        assert_eq!((shown("a\nb").as_ref(), shown_lines("a\n\tb").as_ref()), ("a\\u000ab", "a\n\tb"));
+    }
+
+    #[test]
+    fn json_keeps_its_meaning() {
+        let name = "\u{1b}\u{9b}\u{202e}\u{e0041}";
+        let json = serde_json::to_string(name).unwrap();
+        assert_ne!(shown_lines(&json), json);
+        assert_eq!(serde_json::from_str::<String>(&shown_lines(&json)).unwrap(), name);
+    }
+}

@@ -1,0 +1,130 @@
+//! The one place where inputs are opened: regular files only, of a size that their kind can have, without
+//! waiting for anybody to write. A device or a pipe could feed a reader for ever.
+
+use crate::error::StudyError;
+use crate::kind::InputKind;
+use serde::Deserialize;
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
+
+/// The text of a file, without the byte order mark that some editors put before it.
+///
+/// # Errors
+/// [`StudyError::Read`]; [`StudyError::NotRegular`] for a folder, a pipe or a device;
+/// [`StudyError::TooLarge`].
+pub fn read_text(path: &Path, kind: InputKind) -> Result<String, StudyError> {
+    let bytes = read_bytes(path, kind)?;
+    let unreadable = |reason: &str| StudyError::Read {
+        path: path.to_owned(),
+        source: io::Error::new(ErrorKind::InvalidData, reason),
+    };
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err(unreadable("its encoding is UTF-16 instead of UTF-8"));
+    }
+    let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8"))?;
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+}
+
+/// The bytes of a file.
+///
+/// # Errors
+/// As [`read_text`].
+pub(crate) fn read_bytes(path: &Path, kind: InputKind) -> Result<Vec<u8>, StudyError> {
+    let unread = |source| StudyError::Read { path: path.to_owned(), source };
+    let file = open(path).map_err(unread)?;
+    let found = file.metadata().map_err(unread)?;
+    if !found.is_file() {
+        let found = described(found.file_type());
+        return Err(StudyError::NotRegular { path: path.to_owned(), found, kind });
+    }
+    let too_large = || StudyError::TooLarge { path: path.to_owned(), kind, most: kind.most_bytes() };
+    if found.len() > kind.most_bytes() {
+        return Err(too_large());
+    }
+    let mut bytes = Vec::new();
+    // A file may grow while it is read, and those of the system do not tell their size.
+    file.take(kind.most_bytes() + 1).read_to_end(&mut bytes).map_err(unread)?;
+    if bytes.len() as u64 > kind.most_bytes() { Err(too_large()) } else { Ok(bytes) }
+}
+
+/// The error of a text that is a file of this program, but not of the kind that is wanted.
+pub(crate) fn other_kind(path: &Path, text: &str, kind: InputKind) -> Option<StudyError> {
+    #[derive(Deserialize)]
+    struct Formatted {
+        format: String,
+    }
+    let format = serde_json::from_str::<Formatted>(text).ok()?.format;
+    let is_of = |kind: &InputKind| kind.format().is_some_and(|name| format.split('/').next() == Some(name));
+    let found = [InputKind::Robot, InputKind::Study, InputKind::Law].into_iter().find(is_of)?;
+    (found != kind).then(|| StudyError::OtherKind { path: path.to_owned(), found, kind })
+}
+
+/// Opens a file; a pipe without a writer is opened, too, instead of being waited for.
+fn open(path: &Path) -> io::Result<File> {
+    let mut options = File::options();
+    options.read(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK | libc::O_NOCTTY);
+    options.open(path)
+}
+
+#[cfg(unix)]
+fn described(found: std::fs::FileType) -> &'static str {
+    use std::os::unix::fs::FileTypeExt;
+    match found {
+        found if found.is_dir() => "a folder",
+        found if found.is_fifo() => "a pipe",
+        found if found.is_socket() => "a socket",
+        _ => "a device",
+    }
+}
+
+#[cfg(not(unix))]
+fn described(found: std::fs::FileType) -> &'static str {
+    if found.is_dir() { "a folder" } else { "a device" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(bytes: &[u8]) -> tempfile::NamedTempFile {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), bytes).unwrap();
+        file
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_part_of_the_text() {
+        let file = written(b"\xef\xbb\xbf{}");
+        assert_eq!(read_text(file.path(), InputKind::Robot).unwrap(), "{}");
+        let error = read_text(written(b"\xff\xfe{\0}\0").path(), InputKind::Robot).unwrap_err();
+        assert!(error.to_string().contains("UTF-16 instead of UTF-8"), "{error}");
+    }
+
+    #[test]
+    fn a_file_larger_than_its_kind_can_be_is_not_read() {
+        let file = written(b"");
+        file.as_file().set_len(InputKind::Robot.most_bytes()).unwrap();
+        assert!(read_bytes(file.path(), InputKind::Robot).is_ok());
+        file.as_file().set_len(InputKind::Robot.most_bytes() + 1).unwrap();
+        let error = read_bytes(file.path(), InputKind::Robot).unwrap_err();
+        assert!(error.to_string().ends_with("is larger than 4 MB: expected a robot file"), "{error}");
+        assert!(read_bytes(file.path(), InputKind::Study).is_ok());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn pipes_devices_and_folders_are_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        for (path, found) in
+            [(pipe.as_path(), "a pipe"), (folder.path(), "a folder"), (Path::new("/dev/zero"), "a device")]
+        {
+            let error = read_text(path, InputKind::Study).unwrap_err().to_string();
+            assert!(error.ends_with(&format!("is {found}: expected a study file")), "{error}");
+        }
+    }
+}
