@@ -40,7 +40,7 @@ pub(crate) struct Found {
     rotation: [[f64; 3]; 3],
     /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
     cable_forces: Vec<[f64; 2]>,
-    tensions: Vec<f64>,
+    pub(crate) tensions: Vec<f64>,
     stable: bool,
     residual: Residual,
     report: Report,

@@ -3,11 +3,10 @@
 //! A parser says what is wrong with the text; clap adds the argument and the value.
 
 use crate::error::ProgramError;
-use cdpr_robot::{Pose, Robot, Rotation3, UnitQuaternion, Vector3, Wrench, shown};
+use cdpr_robot::{Robot, Wrench};
 use cdpr_statics::Load;
-use cdpr_study::{Grid, GridAxis, InputKind, StudyError, open_robot, read_text};
+use cdpr_study::{Grid, GridAxis};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
 
 /// How the results are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -43,40 +42,6 @@ impl Threads {
         let Some(threads) = self.threads else { return Ok(()) };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
         pool.map_err(|source| ProgramError::Threads { threads, source })
-    }
-}
-
-/// A robot at a pose with a load, and how the answer is printed.
-#[derive(clap::Args)]
-pub(crate) struct RobotAtPose {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
-    /// Pose that the lengths hold: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
-    #[arg(long, value_parser = pose, allow_hyphen_values = true)]
-    pub(crate) pose: Pose,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
-    #[command(flatten)]
-    pub(crate) load: LoadArguments,
-}
-
-impl RobotAtPose {
-    /// The robot.
-    pub(crate) fn open(&self) -> Result<Robot, StudyError> {
-        open_robot(&self.robot)
-    }
-
-    /// Prints an answer as one line of JSON, or as `text` does below a heading: the robot and the position.
-    pub(crate) fn print<T: Serialize>(
-        &self,
-        robot: &Robot,
-        answer: &T,
-        text: impl FnOnce(&T, &str),
-    ) -> Result<(), ProgramError> {
-        let [x, y, z] = self.pose.position.into();
-        let heading = format!("{} at ({x}, {y}, {z}) m", shown(&robot.name));
-        Ok(self.format.print(answer, |answer| text(answer, &heading))?)
     }
 }
 
@@ -119,32 +84,6 @@ pub(crate) fn payload(text: &str) -> Result<f64, String> {
     if mass > 0.0 { Ok(mass) } else { Err("expected a mass above zero [kg]".to_owned()) }
 }
 
-/// `x,y,z` [m], followed by the quaternion `qw,qx,qy,qz` where the platform is rotated.
-pub(crate) fn pose(text: &str) -> Result<Pose, String> {
-    let numbers = numbers(text).map_err(|error| format!("{error}: {POSE}"))?;
-    pose_of(&numbers)
-}
-
-const POSE: &str = "expected x,y,z [m] or x,y,z,qw,qx,qy,qz";
-
-/// `qw,qx,qy,qz`.
-pub(crate) fn rotation(text: &str) -> Result<Rotation3<f64>, String> {
-    let pose = Pose::with_quaternion(Vector3::zeros(), components(text)?);
-    pose.map(|pose| pose.rotation).ok_or_else(|| NO_ROTATION.to_owned())
-}
-
-const NO_ROTATION: &str = "the quaternion is zero: expected one that can be normalised";
-
-/// The pose of three or seven finite numbers.
-pub(crate) fn pose_of(numbers: &[f64]) -> Result<Pose, String> {
-    match *numbers {
-        [x, y, z] => Ok(Pose::at(x, y, z)),
-        [x, y, z, qw, qx, qy, qz] => Pose::with_quaternion(Vector3::new(x, y, z), [qw, qx, qy, qz])
-            .ok_or_else(|| NO_ROTATION.to_owned()),
-        _ => Err(format!("{} numbers: {POSE}", numbers.len())),
-    }
-}
-
 /// The load: what acts on the platform besides its own weight.
 #[derive(clap::Args)]
 pub(crate) struct LoadArguments {
@@ -175,21 +114,6 @@ impl LoadArguments {
             load => Ok(load),
         }
     }
-}
-
-/// Position and quaternion (w, x, y, z), as [`pose`] reads them.
-pub(crate) fn pose_numbers(pose: &Pose) -> [f64; 7] {
-    let [x, y, z] = pose.position.into();
-    let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
-    [x, y, z, q.w, q.i, q.j, q.k]
-}
-
-/// Poses from a file, one a line.
-pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, ProgramError> {
-    let lines = read_text(path, InputKind::Poses)?;
-    let lines = lines.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let at_line = |line| move |reason| ProgramError::Poses { path: path.to_owned(), line, reason };
-    lines.map(|(i, line)| pose(line).map_err(at_line(i + 1))).collect()
 }
 
 /// Positions on a grid: `min:max:points` of each axis [m], separated by commas.
@@ -232,24 +156,7 @@ pub(crate) fn uncertainties(robot: &Robot, Named(named): &Named) -> Result<Vec<f
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_pose_is_three_numbers_or_seven() {
-        assert_eq!(pose("1,-2.5, 3e-1"), Ok(Pose::at(1.0, -2.5, 0.3)));
-        let turned = pose("0,0,1,0,0,0,2").unwrap();
-        assert!((turned.rotation * Vector3::x() + Vector3::x()).norm() < 1e-15);
-        for (text, words) in [
-            ("", "`` is not a finite number: expected x,y,z"),
-            ("1,2", "2 numbers: expected x,y,z"),
-            ("1,2,3,1", "4 numbers"),
-            ("1,2,nan", "`nan` is not a finite number"),
-            ("1,2,up", "`up` is not"),
-            ("1,2,3,0,0,0,0", "the quaternion is zero"),
-        ] {
-            let error = pose(text).unwrap_err();
-            assert!(error.starts_with(words), "{error}");
-        }
-    }
+    use cdpr_robot::Pose;
 
     #[test]
     fn a_grid_has_its_ends_and_a_list_its_names() {
@@ -263,15 +170,6 @@ mod tests {
         assert_eq!(named, [("a".to_owned(), 0.1), ("mass".to_owned(), 2.0)]);
         assert!(
             super::named("a").is_err() && super::named("a=b").is_err() && super::named("a=1,a=1").is_err()
-        );
-    }
-
-    #[test]
-    fn a_pose_is_read_as_it_is_written() {
-        let turned = pose("1,2,3,0.5,0.5,-0.5,0.5").unwrap();
-        assert!(
-            (0..7)
-                .all(|i| (pose_numbers(&turned)[i] - [1.0, 2.0, 3.0, 0.5, 0.5, -0.5, 0.5][i]).abs() < 1e-15)
         );
     }
 }

@@ -3,7 +3,7 @@
 use cdpr_assess::AssessError;
 use cdpr_cable::{CableError, RecordError};
 use cdpr_report::ReportError;
-use cdpr_robot::JsonError;
+use cdpr_robot::{JsonError, rounded};
 use cdpr_statics::StaticsError;
 use cdpr_study::{InputKind, StudyError};
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ pub(crate) enum ProgramError {
     #[error("no cable of the robot has a law: expected --record, --law, or a `law` in the robot file")]
     NoLaw,
     #[error("--poses {path}, line {line}: {reason}")]
-    Poses { path: PathBuf, line: usize, reason: String },
+    Poses { path: PathBuf, line: usize, reason: Box<PoseError> },
     #[error("the robot holds none of the candidate poses: {reasons}")]
     NoPoseHeld { reasons: String },
     #[error("cannot start {threads} threads: {source}")]
@@ -111,4 +111,39 @@ fn with_options(error: &StudyError) -> String {
         _ => "",
     };
     format!("{error}{help}")
+}
+
+/// A pose as it is typed.
+pub(crate) const POSE: &str = "expected x,y,z [m] or x,y,z,qw,qx,qy,qz";
+
+/// Why numbers are no pose.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub(crate) enum PoseError {
+    #[error("{0}")]
+    Number(String),
+    #[error("{0} numbers: {POSE}")]
+    Count(usize),
+    #[error("columns {0}: expected x_m,y_m,z_m, then none, qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg")]
+    Columns(String),
+    #[error("the quaternion is zero: expected one that can be normalised")]
+    Zero,
+    #[error(
+        "the quaternion {} has the length {length:.4}: expected the length 1, such as {}",
+        words(given),
+        words(unit)
+    )]
+    Length { given: [f64; 4], length: f64, unit: [f64; 4] },
+    #[error(
+        "the quaternion {} has a small qw and a large qz, as if it were qx,qy,qz,qw: expected qw,qx,qy,qz, \
+         which would be {}; or, if the platform is turned so far, its angles (roll, pitch, yaw) = {} degrees",
+        words(given),
+        words(reordered),
+        words(angles)
+    )]
+    Order { given: [f64; 4], reordered: [f64; 4], angles: [f64; 3] },
+}
+
+/// Numbers as they are typed.
+fn words(numbers: &[f64]) -> String {
+    numbers.iter().map(|number| rounded(*number, 6).to_string()).collect::<Vec<_>>().join(",")
 }

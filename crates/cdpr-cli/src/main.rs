@@ -10,14 +10,15 @@ mod arguments;
 mod cable;
 mod error;
 mod pose;
+mod poses;
 mod robot;
 mod slips;
 mod study;
 
-use arguments::RobotAtPose;
 use clap::{CommandFactory, Parser, Subcommand};
 use error::ProgramError;
 use output::Ending;
+use pose::at_pose::RobotAtPose;
 use std::process::ExitCode;
 
 /// Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
@@ -131,15 +132,15 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
     match command {
         Command::Check(settings) => return robot::check::run(&settings),
         Command::Direct(settings) => return pose::direct::run(&settings),
+        Command::Inverse(settings) => return pose::inverse::run(&settings),
+        Command::Deflection(settings) => return pose::deflection::run(&settings),
+        Command::Stiffness(settings) => return pose::stiffness::run(&settings),
+        Command::Derivatives(settings) => return pose::derivatives::run(&settings),
         Command::Catenary(settings) => cable::catenary::run(&settings)?,
-        Command::Inverse(settings) => pose::inverse::run(&settings)?,
-        Command::Deflection(settings) => pose::deflection::run(&settings)?,
-        Command::Stiffness(settings) => pose::stiffness::run(&settings)?,
         Command::Workspace(settings) => robot::workspace::run(&settings)?,
         Command::Completions { shell } => completions(shell),
         Command::Study { command } => study::run(command)?,
         Command::Calibration(settings) => robot::calibration::run(&settings)?,
-        Command::Derivatives(settings) => pose::derivatives::run(&settings)?,
         Command::Hysteresis(settings) => pose::hysteresis::run(&settings)?,
         Command::LinearDensity(settings) => cable::linear_density::run(&settings)?,
         Command::Modulus(settings) => cable::modulus::run(&settings)?,

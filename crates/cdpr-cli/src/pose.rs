@@ -1,5 +1,6 @@
 //! Commands about a robot at a pose: its lengths, equilibria, stiffness and derivatives.
 
+pub(crate) mod at_pose;
 pub(crate) mod deflection;
 pub(crate) mod derivatives;
 pub(crate) mod direct;

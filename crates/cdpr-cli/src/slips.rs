@@ -68,10 +68,6 @@ fn hint(error: &Error, command: &Command, arguments: &[String]) -> Option<String
         ("--payload", ["study" | "tolerances", ..]) => {
             Some("the payload is the field `payload` of the study file".to_owned())
         }
-        ("--payload", ["direct", ..]) => Some(
-            "the mass of the platform with all it carries is `--mass`; a load that is no mass is `--force`"
-                .to_owned(),
-        ),
         ("--payload", ["check", ..]) => {
             Some("`check` takes no load: `cdpr deflection` and `cdpr stiffness` do".to_owned())
         }

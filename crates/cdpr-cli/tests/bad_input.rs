@@ -197,7 +197,7 @@ const CASES: [(&str, &str); 100] = [
     ("check of a study", "study check study.json"),
     ("forward model", "forward robot.json"),
     ("payload of a study", "study run study.json --payload 50"),
-    ("payload of the direct model", "direct robot.json --payload 50 --lengths"),
+    ("negative payload of the direct model", "direct robot.json --payload -5 --lengths"),
     ("payload of a check", "check robot.json --payload 50"),
     ("robot as an option", "inverse --robot robot.json --pose 0,0,1.75"),
     ("pose without option", "inverse robot.json 0,0,1.75"),

@@ -13,6 +13,7 @@ mod equilibria;
 mod hysteresis;
 mod models;
 mod modulus;
+mod poses;
 mod robustness;
 mod strangers;
 mod study_blocks;

@@ -1,16 +1,20 @@
 //! `cdpr deflection`: how far a load displaces and rotates the platform, with both equilibria.
 
 use crate::answer::{Found, vector};
-use crate::arguments::RobotAtPose;
 use crate::error::ProgramError;
+use crate::output::Ending;
+use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
+use cdpr_robot::Robot;
 use cdpr_statics::{Deflection, deflection};
 use serde::Serialize;
 
-pub(crate) fn run(at: &RobotAtPose) -> Result<(), ProgramError> {
+pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
-    let robot = at.open()?;
-    let found = deflection(&robot, &at.pose, &vec![0.0; robot.cables.len()], &load)?;
-    at.print(&robot, &Answer::new(&found), Answer::print)
+    let solve = |robot: &Robot, pose: &_| {
+        let found = deflection(robot, pose, &vec![0.0; robot.cables.len()], &load)?;
+        Ok(Answer::new(&found))
+    };
+    at.answer(solve, Answer::print)
 }
 
 /// The deflection, in SI units unless the name says otherwise.
@@ -26,6 +30,23 @@ struct Answer {
     lengths: Vec<f64>,
     unloaded: Found,
     loaded: Found,
+}
+
+impl Row for Answer {
+    fn columns(robot: &Robot) -> Vec<String> {
+        let cables = robot.cables.len();
+        let motion = ["dx_mm", "dy_mm", "dz_mm", "rms_mm", "rx_deg", "ry_deg", "rz_deg"];
+        let motion = motion.iter().map(ToString::to_string);
+        let tensions =
+            ["unloaded_tension", "loaded_tension"].into_iter().flat_map(|name| numbered(name, "n", cables));
+        motion.chain(numbered("length", "m", cables)).chain(tensions).collect()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let motion = self.deflection_mm.iter().chain([&self.rms_mm]).chain(&self.rotation_deg);
+        let tensions = self.unloaded.tensions.iter().chain(&self.loaded.tensions);
+        cells(motion.chain(&self.lengths).chain(tensions))
+    }
 }
 
 impl Answer {

@@ -6,6 +6,8 @@ use crate::answer::Found;
 use crate::arguments::{self, Format};
 use crate::error::ProgramError;
 use crate::output::Ending;
+use crate::pose::at_pose::Failure;
+use crate::poses::{self, Angles};
 use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json};
 use cdpr_statics::{Certificate, DirectProblem, Load, Start, StaticsError, rough_pose};
 use cdpr_study::{InputKind, StudyError, open_robot, read_text};
@@ -30,18 +32,23 @@ pub(crate) struct Settings {
     /// Moment about P, of constant components in the base frame: mx,my,mz [N m].
     #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
     moment: Option<[f64; 3]>,
+    /// Mass added at the platform's centre of mass [kg].
+    #[arg(long, value_parser = arguments::mass, allow_hyphen_values = true)]
+    payload: Option<f64>,
     /// Start of the search: x,y,z [m], or x,y,z,qw,qx,qy,qz.
     ///
     /// If left out, the search starts where straight cables would hold a point.
-    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
+    #[arg(long, value_parser = poses::pose, allow_hyphen_values = true)]
     start: Option<Pose>,
+    #[command(flatten)]
+    angles: Angles,
     /// Prove how close the exact equilibrium is.
     #[arg(long)]
     certify: bool,
     /// JSON file with one case or a list of cases, in place of the arguments.
     ///
-    /// A case: {"lengths": [..], "mass": .., "force": [..], "moment": [..], "start": [..]}.
-    #[arg(long, conflicts_with_all = ["lengths", "mass", "force", "moment", "start"])]
+    /// A case: {"lengths": [..], "mass": .., "force": [..], "moment": [..], "payload": .., "start": [..]}.
+    #[arg(long, conflicts_with_all = ["lengths", "mass", "force", "moment", "payload", "start", "rpy"])]
     from: Option<PathBuf>,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -56,6 +63,7 @@ struct Case {
     mass: Option<f64>,
     force: Option<[f64; 3]>,
     moment: Option<[f64; 3]>,
+    payload: Option<f64>,
     /// Position, or position and quaternion: three or seven numbers.
     start: Option<Vec<f64>>,
     #[serde(default)]
@@ -66,7 +74,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = open_robot(&settings.robot)?;
     let cases = match (&settings.from, &settings.lengths) {
         (Some(path), _) => Cases::read(path)?,
-        (None, lengths) => Cases::One(Box::new(settings.case(lengths.as_ref()))),
+        (None, lengths) => Cases::One(Box::new(settings.case(lengths.as_ref())?)),
     };
     match cases {
         Cases::One(case) => {
@@ -94,15 +102,23 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
 }
 
 impl Settings {
-    fn case(&self, lengths: Option<&arguments::List>) -> Case {
-        Case {
+    fn case(&self, lengths: Option<&arguments::List>) -> Result<Case, ProgramError> {
+        let start = match (&self.start, self.angles.rotation()) {
+            (Some(start), _) => Some(poses::pose_numbers(&self.angles.of(start)?).to_vec()),
+            (None, None) => None,
+            (None, Some(_)) => {
+                return Err(ProgramError::Usage("--rpy rotates --start: expected --start, too".to_owned()));
+            }
+        };
+        Ok(Case {
             lengths: lengths.map(|arguments::List(lengths)| lengths.clone()).unwrap_or_default(),
             mass: self.mass,
             force: self.force,
             moment: self.moment,
-            start: self.start.as_ref().map(|start| arguments::pose_numbers(start).to_vec()),
+            payload: self.payload,
+            start,
             certify: self.certify,
-        }
+        })
     }
 }
 
@@ -140,13 +156,6 @@ enum Proof {
     None { error: Failure },
 }
 
-/// Why there is no answer.
-#[derive(Serialize)]
-struct Failure {
-    kind: &'static str,
-    message: String,
-}
-
 /// The answer to one case of a list.
 #[derive(Serialize)]
 #[serde(untagged)]
@@ -162,12 +171,13 @@ fn solve(robot: &Robot, case: &Case, prove: bool) -> Result<Answer, StaticsError
         robot.validate()?;
     }
     let vector = |components: Option<[f64; 3]>| components.map_or_else(Vector3::zeros, Vector3::from);
-    let load = Load::wrench(Wrench { force: vector(case.force), moment: vector(case.moment) });
+    let wrench = Wrench { force: vector(case.force), moment: vector(case.moment) };
+    let load = Load { payload: case.payload.unwrap_or(0.0), wrench };
     let start = match &case.start {
-        Some(numbers) => arguments::pose_of(numbers).map_err(|_| StaticsError::Invalid {
+        Some(numbers) => poses::pose_of(numbers).map_err(|_| StaticsError::Invalid {
             field: "start".to_owned(),
             value: format!("{numbers:?}"),
-            expected: "x,y,z [m] or x,y,z,qw,qx,qy,qz, with a quaternion other than zero".to_owned(),
+            expected: "x,y,z [m] or x,y,z,qw,qx,qy,qz, with a unit quaternion, qw first".to_owned(),
         })?,
         None => rough_pose(&robot, &case.lengths),
     };
@@ -242,11 +252,5 @@ impl From<Result<Certificate, StaticsError>> for Proof {
             },
             Err(error) => Self::None { error: error.into() },
         }
-    }
-}
-
-impl From<StaticsError> for Failure {
-    fn from(error: StaticsError) -> Self {
-        Self { kind: error.kind(), message: error.to_string() }
     }
 }

@@ -1,9 +1,10 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
 use crate::answer::vector;
-use crate::arguments::{self, Format, number, payload};
+use crate::arguments::{Format, number, payload};
 use crate::error::ProgramError;
 use crate::output::table;
+use crate::poses::{self, Angles};
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable, Segment};
 use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
@@ -29,8 +30,10 @@ pub(crate) struct Settings {
     #[arg(long, conflicts_with = "record")]
     law: Option<PathBuf>,
     /// Pose under the platform's own weight: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
-    #[arg(long, value_parser = arguments::pose, allow_hyphen_values = true)]
+    #[arg(long, value_parser = poses::pose, allow_hyphen_values = true)]
     pose: Pose,
+    #[command(flatten)]
+    angles: Angles,
     /// Mass put on the platform's centre of mass and taken off again [kg].
     #[arg(long, value_parser = payload, allow_hyphen_values = true)]
     payload: f64,
@@ -80,7 +83,8 @@ struct InCable {
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let robot = open_robot(&settings.robot)?;
     let laws = laws(&robot, settings)?;
-    let cycle = load_cycle(&robot, &laws, &settings.pose, settings.payload, settings.steps)?;
+    let pose = settings.angles.of(&settings.pose)?;
+    let cycle = load_cycle(&robot, &laws, &pose, settings.payload, settings.steps)?;
     let found = Found::new(&robot, &laws, &cycle);
     settings.format.print(&found, print)?;
     if found.cables.iter().any(|cable| cable.dissipated_j < 0.0) {

@@ -1,14 +1,16 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
 use crate::answer::{self, Residual};
-use crate::arguments::RobotAtPose;
 use crate::error::ProgramError;
+use crate::output::Ending;
+use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
+use cdpr_robot::Robot;
 use cdpr_statics::{Bound, InverseSolution, inverse};
 use serde::Serialize;
 
-pub(crate) fn run(at: &RobotAtPose) -> Result<(), ProgramError> {
-    let robot = at.open()?;
-    at.print(&robot, &Answer::new(&inverse(&robot, &at.pose, &at.load.load(), None)?), Answer::print)
+pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
+    let load = at.load.load();
+    at.answer(|robot, pose| inverse(robot, pose, &load, None).map(|found| Answer::new(&found)), Answer::print)
 }
 
 /// The lengths, in SI units.
@@ -29,6 +31,17 @@ struct Report {
     /// The bound that each tension rests on, `min` or `max`; `null` where it rests on none.
     active: Vec<Option<&'static str>>,
     residual: Residual,
+}
+
+impl Row for Answer {
+    fn columns(robot: &Robot) -> Vec<String> {
+        let cables = robot.cables.len();
+        numbered("length", "m", cables).chain(numbered("tension", "n", cables)).collect()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        cells(self.lengths.iter().chain(&self.tensions))
+    }
 }
 
 impl Answer {

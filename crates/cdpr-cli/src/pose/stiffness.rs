@@ -1,15 +1,16 @@
 //! `cdpr stiffness`: the Cartesian stiffness at a pose, with its eigenvalues and their motions.
 
 use crate::answer::{self, decimal};
-use crate::arguments::RobotAtPose;
 use crate::error::ProgramError;
-use crate::output::table;
+use crate::output::{Ending, table};
+use crate::pose::at_pose::{RobotAtPose, Row, cells};
+use cdpr_robot::Robot;
 use cdpr_statics::{PoseStiffness, stiffness_at};
 use serde::Serialize;
 
-pub(crate) fn run(at: &RobotAtPose) -> Result<(), ProgramError> {
-    let robot = at.open()?;
-    at.print(&robot, &Answer::new(&stiffness_at(&robot, &at.pose, &at.load.load())?), Answer::print)
+pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
+    let load = at.load.load();
+    at.answer(|robot, pose| stiffness_at(robot, pose, &load).map(|found| Answer::new(&found)), Answer::print)
 }
 
 /// The stiffness.
@@ -34,6 +35,21 @@ struct Eigenvalue {
     translation: [f64; 3],
     /// Rotation vector [rad/m].
     rotation: [f64; 3],
+}
+
+impl Row for Answer {
+    fn columns(_: &Robot) -> Vec<String> {
+        let names = ["least_stiffness", "characteristic_length_m"].into_iter().map(str::to_owned);
+        let eigenvalues = (1..=6).map(|i| format!("eigenvalue_{i}"));
+        let entries = (1..=6).flat_map(|row| (1..=6).map(move |column| format!("k_{row}{column}")));
+        names.chain(eigenvalues).chain(entries).collect()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let eigenvalues = self.eigenvalues.iter().map(|eigenvalue| &eigenvalue.stiffness);
+        let first = [&self.least_stiffness, &self.characteristic_length].into_iter();
+        cells(first.chain(eigenvalues).chain(self.stiffness.as_flattened()))
+    }
 }
 
 impl Answer {

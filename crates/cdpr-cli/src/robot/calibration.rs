@@ -3,6 +3,7 @@
 use crate::arguments::{self, Format, Named};
 use crate::error::ProgramError;
 use crate::output::table;
+use crate::poses;
 use cdpr_robot::{Pose, Robot, rounded, shown};
 use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement, ParameterValue};
 use cdpr_study::{Grid, open_robot};
@@ -16,7 +17,7 @@ use std::path::PathBuf;
 pub(crate) struct Settings {
     /// Robot file (JSON, `cdpr-robot/1`).
     robot: PathBuf,
-    /// File of candidate poses, one a line: x,y,z [m], or x,y,z,qw,qx,qy,qz.
+    /// File of candidate poses (CSV): x_m,y_m,z_m, then qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg or nothing.
     #[arg(long)]
     poses: Option<PathBuf>,
     /// Grid of candidate positions, min:max:points of each axis: -2:2:5,-1:1:3,0.5:2.5:3.
@@ -47,13 +48,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let robot = open_robot(&settings.robot)?;
     let candidates = match (&settings.grid, &settings.poses) {
         (Some(grid), _) => grid.poses(),
-        (None, Some(path)) => arguments::pose_file(path)?,
-        (None, None) => Vec::new(),
+        (None, Some(path)) => poses::pose_file(path)?,
+        (None, None) => return Err(ProgramError::Usage("expected --poses or --grid".to_owned())),
     };
-    if candidates.is_empty() {
-        let empty = "--poses: the file is empty, expected a pose on each line";
-        return Err(ProgramError::Usage(empty.to_owned()));
-    }
     let measurements = measurements(&settings.noise)?;
     let mut calibration =
         Calibration::new(&robot, &arguments::uncertainties(&robot, &settings.uncertainty)?)?;
@@ -141,7 +138,7 @@ impl Output {
                 .best_poses(choose)
                 .iter()
                 .map(|chosen| Best {
-                    pose: arguments::pose_numbers(&poses[chosen.pose]),
+                    pose: poses::pose_numbers(&poses[chosen.pose]),
                     information_bits: chosen.information,
                 })
                 .collect(),

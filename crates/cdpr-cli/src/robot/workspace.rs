@@ -3,6 +3,7 @@
 use crate::arguments::{self, Format, LoadArguments, Named, Threads};
 use crate::error::ProgramError;
 use crate::output::{progress, table, write_drawn};
+use crate::poses::{self, Angles};
 use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace, write_workspace};
 use cdpr_report::workspace_maps;
 use cdpr_robot::{Axis, Robot, Rotation3, shown};
@@ -27,8 +28,11 @@ pub(crate) struct Settings {
     #[arg(allow_hyphen_values = true)]
     within: Option<Grid>,
     /// Orientation of the platform at all positions, a quaternion: qw,qx,qy,qz; level if left out.
-    #[arg(long, value_parser = arguments::rotation, allow_hyphen_values = true, default_value = "1,0,0,0")]
+    #[arg(long, value_parser = poses::rotation, allow_hyphen_values = true, default_value = "1,0,0,0")]
+    #[arg(conflicts_with = "rpy")]
     rotation: Rotation3<f64>,
+    #[command(flatten)]
+    angles: Angles,
     #[command(flatten)]
     load: LoadArguments,
     /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5.
@@ -89,7 +93,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let workspace = Workspace {
         robot: &robot,
         grid,
-        rotation: settings.rotation,
+        rotation: settings.angles.rotation().unwrap_or(settings.rotation),
         load: settings.load.load(),
         tolerances: tolerances.as_ref(),
     };

@@ -1,0 +1,155 @@
+//! A robot at a pose, or at each pose of a file: arguments and answers of several commands.
+
+use crate::arguments::{Format, LoadArguments};
+use crate::error::ProgramError;
+use crate::output::Ending;
+use crate::poses::{Angles, COLUMNS, place, pose, pose_file, pose_numbers};
+use cdpr_robot::{Pose, Robot, shown};
+use cdpr_statics::StaticsError;
+use cdpr_study::open_robot;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// Poses that are answered before their rows are printed.
+const CHUNK: usize = 1024;
+
+/// A robot at a pose or at each of a file with a load, and how the answer is printed.
+#[derive(clap::Args)]
+#[command(group = clap::ArgGroup::new("where").required(true).args(["pose", "poses"]))]
+pub(crate) struct RobotAtPose {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// Pose that the lengths hold: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
+    #[arg(long, value_parser = pose, allow_hyphen_values = true)]
+    pose: Option<Pose>,
+    #[command(flatten)]
+    angles: Angles,
+    /// File of poses (CSV): x_m,y_m,z_m, then qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg or nothing.
+    ///
+    /// The answers are lines of CSV, or of JSON with `--format json`. A pose without an answer has a line
+    /// with the reason, and the exit code is 3.
+    #[arg(long, value_name = "FILE", conflicts_with = "rpy")]
+    poses: Option<PathBuf>,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    #[command(flatten)]
+    pub(crate) load: LoadArguments,
+}
+
+/// An answer that is a row of a table.
+pub(crate) trait Row: Serialize + Send {
+    /// Names of the columns for a robot.
+    fn columns(robot: &Robot) -> Vec<String>;
+
+    /// Its cells.
+    fn cells(&self) -> Vec<String>;
+}
+
+/// Why there is no answer.
+#[derive(Serialize)]
+pub(crate) struct Failure {
+    kind: &'static str,
+    pub(crate) message: String,
+}
+
+impl From<StaticsError> for Failure {
+    fn from(error: StaticsError) -> Self {
+        Self { kind: error.kind(), message: error.to_string() }
+    }
+}
+
+/// A line of JSON: the answer at a pose, or why there is none.
+#[derive(Serialize)]
+struct Line<'a, T> {
+    pose: [f64; 7],
+    #[serde(flatten)]
+    answer: Option<&'a T>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<&'a Failure>,
+}
+
+impl RobotAtPose {
+    /// Answers what `solve` answers at the pose, or at each pose of the file.
+    ///
+    /// A single answer is one line of JSON, or what `text` prints below a heading of robot and pose.
+    pub(crate) fn answer<T: Row>(
+        &self,
+        solve: impl Fn(&Robot, &Pose) -> Result<T, StaticsError> + Sync,
+        text: impl FnOnce(&T, &str),
+    ) -> Result<Ending, ProgramError> {
+        let robot = open_robot(&self.robot)?;
+        let pose = match (&self.pose, &self.poses) {
+            (_, Some(path)) => return self.answer_all(&robot, path, |pose| solve(&robot, pose)),
+            (Some(pose), None) => self.angles.of(pose)?,
+            (None, None) => return Err(ProgramError::Usage("expected --pose or --poses".to_owned())),
+        };
+        let heading = format!("{} at {}", shown(&robot.name), place(&pose));
+        self.format.print(&solve(&robot, &pose)?, |answer| text(answer, &heading))?;
+        Ok(Ending::Well)
+    }
+
+    fn answer_all<T: Row>(
+        &self,
+        robot: &Robot,
+        path: &Path,
+        solve: impl Fn(&Pose) -> Result<T, StaticsError> + Sync,
+    ) -> Result<Ending, ProgramError> {
+        let poses = pose_file(path)?;
+        let columns = T::columns(robot);
+        if self.format == Format::Text {
+            let names = COLUMNS.iter().map(ToString::to_string);
+            print_record(
+                names.chain(["status".to_owned()]).chain(columns.clone()).chain(["reason".to_owned()]),
+            );
+        }
+        let mut ending = Ending::Well;
+        for chunk in poses.chunks(CHUNK) {
+            let answers: Vec<_> = chunk.par_iter().map(|pose| solve(pose).map_err(Failure::from)).collect();
+            for (pose, answer) in chunk.iter().zip(&answers) {
+                if answer.is_err() {
+                    ending = Ending::SomethingWrong;
+                }
+                match self.format {
+                    Format::Json => {
+                        let (pose, error) = (pose_numbers(pose), answer.as_ref().err());
+                        let line = Line { pose, answer: answer.as_ref().ok(), error };
+                        println!("{}", serde_json::to_string(&line)?);
+                    }
+                    Format::Text => print_row(pose, answer, columns.len()),
+                }
+            }
+        }
+        Ok(ending)
+    }
+}
+
+/// Prints the line of CSV of a pose; `columns` of them are empty where there is no answer.
+fn print_row<T: Row>(pose: &Pose, answer: &Result<T, Failure>, columns: usize) {
+    let (status, found, reason) = match answer {
+        Ok(answer) => ("held", answer.cells(), String::new()),
+        Err(Failure { kind, message }) => (*kind, vec![String::new(); columns], message.clone()),
+    };
+    let pose = cells(&pose_numbers(pose));
+    print_record(pose.into_iter().chain([status.to_owned()]).chain(found).chain([reason]));
+}
+
+/// Prints a line of CSV.
+fn print_record(cells: impl Iterator<Item = String>) {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    // Writing to memory cannot fail.
+    let _ = writer.write_record(cells);
+    let line = writer.into_inner().unwrap_or_default();
+    println!("{}", String::from_utf8_lossy(&line).trim_end_matches('\n'));
+}
+
+/// Names with numbers from 1, such as `tension_1_n`, of `count` values each.
+pub(crate) fn numbered(name: &str, unit: &str, count: usize) -> impl Iterator<Item = String> {
+    (1..=count).map(move |i| format!("{name}_{i}_{unit}"))
+}
+
+/// Cells of numbers, to the last bit.
+pub(crate) fn cells<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Vec<String> {
+    numbers.into_iter().map(|number| format!("{number:?}")).collect()
+}
