@@ -4,6 +4,7 @@
 
 #![allow(clippy::print_stderr)]
 
+mod attack;
 mod bench;
 mod cable;
 mod cargo;
@@ -42,6 +43,8 @@ tasks:
   bench-peers    solves the direct model and an observation with cdpr, and with SciPy, Octave and Ceres
                  where these are installed, see docs/PEERS.md
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
+  attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
+                 panics, hangs or touches a file outside of its folder of results
   schemas        writes the JSON Schemas of the file formats to docs/schemas
   help           prints this text";
 
@@ -61,6 +64,7 @@ fn main() -> ExitCode {
         Some("bench") => bench::run(rest),
         Some("bench-peers") => peers::bench(),
         Some("fuzz") => fuzz::run(&rest),
+        Some("attack") => attack::run(),
         Some("schemas") => schemas(),
         Some("help" | "--help" | "-h") => {
             eprintln!("{HELP}");

@@ -2,11 +2,12 @@
 //!
 //! JSON is in SI units; cables are numbered from 1, as in `a1.x`.
 
-use crate::output::table;
-use cdpr_robot::Pose;
+use crate::output::{Ending, table};
 pub(crate) use cdpr_robot::decimal;
+use cdpr_robot::{Pose, Robot, TensionLimits};
 use cdpr_statics::{DirectSolution, Equilibrium};
 use serde::Serialize;
+use std::fmt;
 
 /// Residuals of the equations at a solution.
 #[derive(Serialize)]
@@ -31,6 +32,60 @@ impl Residual {
     }
 }
 
+/// A tension outside of what a cable is to bear, or can bear.
+#[derive(Serialize)]
+pub(crate) struct OutOfLimits {
+    cable: usize,
+    /// Its tension [N].
+    tension: f64,
+    /// `min` or `max` of the robot's limits, or `breaking_force` of the cable.
+    limit: &'static str,
+    /// The limit [N].
+    value: f64,
+}
+
+/// Share by which rounding may put a tension beyond a limit on which it rests.
+const ON_LIMIT: f64 = 1e-9;
+
+impl OutOfLimits {
+    /// Those of all cables, the most serious limit of each.
+    pub(crate) fn all(robot: &Robot, tensions: &[f64]) -> Vec<Self> {
+        let TensionLimits { min, max } = robot.tension_limits;
+        let of_cable = |(i, tension): (usize, &f64)| {
+            let above = |limit: f64| *tension > limit * (1.0 + ON_LIMIT);
+            let (limit, value) = match robot.cables[i].properties.breaking_force {
+                Some(force) if above(force) => ("breaking_force", force),
+                _ if above(max) => ("max", max),
+                _ if *tension < min * (1.0 - ON_LIMIT) => ("min", min),
+                _ => return None,
+            };
+            Some(Self { cable: i + 1, tension: *tension, limit, value })
+        };
+        tensions.iter().enumerate().filter_map(of_cable).collect()
+    }
+
+    pub(crate) fn print(list: &[Self]) {
+        list.iter().for_each(|found| println!("{found}"));
+    }
+
+    /// A cable that is slack answers the question; one that breaks or may not be strained so does not.
+    pub(crate) fn ending(list: &[Self]) -> Ending {
+        if list.iter().any(|found| found.limit != "min") { Ending::SomethingWrong } else { Ending::Well }
+    }
+}
+
+impl fmt::Display for OutOfLimits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { cable, tension, limit, value } = self;
+        let (side, name) = match *limit {
+            "min" => ("below", "tension_limits.min"),
+            "max" => ("above", "tension_limits.max"),
+            _ => ("above", "its breaking force"),
+        };
+        write!(f, "cable {cable}: its tension of {} N is {side} {name}, {value} N", decimal(*tension, 3))
+    }
+}
+
 /// A stable equilibrium of the direct model.
 #[derive(Serialize)]
 pub(crate) struct Found {
@@ -41,6 +96,8 @@ pub(crate) struct Found {
     /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
     cable_forces: Vec<[f64; 2]>,
     pub(crate) tensions: Vec<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
     stable: bool,
     residual: Residual,
     report: Report,
@@ -57,13 +114,14 @@ struct Report {
 }
 
 impl Found {
-    pub(crate) fn new(solution: &DirectSolution) -> Self {
+    pub(crate) fn new(robot: &Robot, solution: &DirectSolution) -> Self {
         let DirectSolution { equilibrium, report, stability } = solution;
         Self {
             position: equilibrium.pose.position.into(),
             rotation: rows(&equilibrium.pose),
             cable_forces: forces(equilibrium),
             tensions: equilibrium.tensions(),
+            out_of_limits: OutOfLimits::all(robot, &equilibrium.tensions()),
             stable: stability.is_stable(),
             residual: Residual::new(&report.residual),
             report: Report {
@@ -75,6 +133,10 @@ impl Found {
         }
     }
 
+    pub(crate) fn ending(&self) -> Ending {
+        OutOfLimits::ending(&self.out_of_limits)
+    }
+
     pub(crate) fn print(&self, lengths: &[f64]) {
         println!("position  {} m", vector(&self.position, 6));
         for (i, row) in self.rotation.iter().enumerate() {
@@ -82,6 +144,7 @@ impl Found {
             println!("{}  [{a:>9} {b:>9} {c:>9}]", if i == 0 { "rotation" } else { "        " });
         }
         print_cables(lengths, &self.cable_forces, &self.tensions);
+        OutOfLimits::print(&self.out_of_limits);
         let Report { method, iterations, least_stiffness, slack_cables } = &self.report;
         let stable = if self.stable { "stable" } else { "unstable" };
         println!("{stable}, softest motion {least_stiffness:.1} N/m; {method}, {iterations} iterations");

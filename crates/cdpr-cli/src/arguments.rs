@@ -32,7 +32,7 @@ impl Format {
 #[derive(clap::Args)]
 pub(crate) struct Threads {
     /// Threads; all cores if left out. The numbers do not depend on it.
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
 }
 

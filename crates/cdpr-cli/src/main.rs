@@ -139,7 +139,7 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Catenary(settings) => cable::catenary::run(&settings)?,
         Command::Workspace(settings) => robot::workspace::run(&settings)?,
         Command::Completions { shell } => completions(shell),
-        Command::Study { command } => study::run(command)?,
+        Command::Study { command } => return study::run(command),
         Command::Calibration(settings) => robot::calibration::run(&settings)?,
         Command::Hysteresis(settings) => pose::hysteresis::run(&settings)?,
         Command::LinearDensity(settings) => cable::linear_density::run(&settings)?,

@@ -5,12 +5,14 @@ use cdpr_report::ReportError;
 use cdpr_robot::shown_lines;
 use cdpr_study::{StudyError, write_figure};
 use comfy_table::{Table, presets};
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle, WeakProgressBar};
 use std::fmt;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::OnceLock;
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::{Duration, Instant};
 
 /// Exit codes, as `cdpr --help` and docs/COMMANDS.md state them.
 pub(crate) const EXIT_CODES: &str = "Exit codes:
@@ -19,7 +21,8 @@ pub(crate) const EXIT_CODES: &str = "Exit codes:
        the standard error says why
   2    wrong arguments; the standard error says why
   3    done, but something is wrong: `check` warns, a case of `direct --from` or a pose of `--poses` has no
-       answer, `--certify` proves nothing
+       answer, `--certify` proves nothing, a tension lies above tension_limits.max or a breaking force,
+       every observation of a sampling or surface failed
   130  a study was interrupted (Ctrl-C, the end of a job): what is done is kept,
        and the standard error says how to go on";
 
@@ -32,11 +35,18 @@ pub(crate) enum Ending {
     SomethingWrong,
 }
 
+impl Ending {
+    /// The ending of both.
+    pub(crate) fn and(self, other: Self) -> Self {
+        if self == Self::Well { other } else { self }
+    }
+}
+
 /// Why the standard output could not be written, the first time.
 static UNPRINTED: OnceLock<io::Error> = OnceLock::new();
 
-/// Prints a line as std's macro does, but never panics, and characters of names that a terminal would obey are
-/// shown.
+/// Prints a line as std's macro does, but never panics, and shows characters of names that a terminal would
+/// obey.
 ///
 /// Where nobody reads on (`cdpr ... | head`) the command continues and writes its files; [`exit_code`] tells
 /// of any other failure to print.
@@ -101,13 +111,61 @@ pub(crate) fn table(header: &[&str]) -> Table {
     table
 }
 
-/// A progress bar over `steps`, with rate and time left; silent unless on a terminal.
+/// Time between two lines of progress in a log.
+const LOGGED: Duration = Duration::from_secs(30);
+
+/// Does what may take long and cannot count its steps; after a second, its time is shown.
+pub(crate) fn patiently<T>(doing: &str, work: impl FnOnce() -> T) -> T {
+    let clock = Instant::now();
+    let (done, waiting) = std::sync::mpsc::channel::<()>();
+    std::thread::scope(|scope| {
+        scope.spawn(move || {
+            let is_terminal = io::stderr().is_terminal();
+            let (first, step) =
+                if is_terminal { (Duration::from_secs(1), Duration::from_secs(1)) } else { (LOGGED, LOGGED) };
+            let bar = ProgressBar::new_spinner().with_message(doing.to_owned());
+            let mut wait = first;
+            while waiting.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+                wait = step;
+                let seconds = clock.elapsed().as_secs();
+                if is_terminal {
+                    bar.set_message(format!("{doing}, {seconds} s"));
+                    bar.tick();
+                } else {
+                    eprintln!("{doing}, {seconds} s");
+                }
+            }
+            bar.finish_and_clear();
+        });
+        let result = work();
+        drop(done);
+        result
+    })
+}
+
+/// Writes a line now and then while a bar is not seen, such as in a log.
+fn log_progress(bar: WeakProgressBar, unit: String) {
+    std::thread::spawn(move || {
+        loop {
+            std::thread::sleep(LOGGED);
+            let Some(bar) = bar.upgrade().filter(|bar| !bar.is_finished()) else { return };
+            let (message, done, all) = (bar.message(), bar.position(), bar.length().unwrap_or_default());
+            let separator = if message.is_empty() { "" } else { ": " };
+            eprintln!("{message}{separator}{done}/{all} {unit}, {} s", bar.elapsed().as_secs());
+        }
+    });
+}
+
+/// A progress bar over `steps`, with rate and time left; in a log it is a line now and then.
 pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
     let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
         // A terminal that takes no text cannot be helped.
         let _ = write!(out, "{:.0}/s", state.per_sec());
     };
     let bar = ProgressBar::new(steps as u64);
+    if !io::stderr().is_terminal() {
+        log_progress(bar.downgrade(), unit.to_owned());
+    }
     let template = format!("{{msg:24}} {{bar:30}} {{pos}}/{{len}} {unit}, {{rate}}, {{eta}} left");
     match ProgressStyle::with_template(&template) {
         Ok(style) => bar.with_style(style.with_key("rate", rate)),

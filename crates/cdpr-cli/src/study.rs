@@ -13,6 +13,7 @@ pub(crate) mod tolerances;
 
 use crate::arguments::Threads;
 use crate::error::ProgramError;
+use crate::output::Ending;
 use cdpr_study::{Existing, StoredStudy};
 use clap::Subcommand;
 use common::{FolderSettings, RunSettings, begun};
@@ -66,9 +67,9 @@ or, built with the feature `mpi`: mpirun -n 4 cdpr study run ....")]
     },
 }
 
-pub(crate) fn run(command: Command) -> Result<(), ProgramError> {
+pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
     match command {
-        Command::New(settings) => template::run(&settings),
+        Command::New(settings) => template::run(&settings).map(well),
         Command::Run(settings) => match processes(|name| std::env::var(name).ok()) {
             // Shards have numbers, however they are launched.
             Some(processes) if settings.shard.is_none() => together(&settings, processes),
@@ -80,7 +81,7 @@ pub(crate) fn run(command: Command) -> Result<(), ProgramError> {
             cdpr_study::check_complete(&folder, &study, &blocks)?;
             carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
         }
-        Command::Status(settings) => status::run(&settings),
+        Command::Status(settings) => status::run(&settings).map(well),
         Command::Extend { folder: FolderSettings { folder, common }, observations } => {
             common.threads.start()?;
             let mut study = cdpr_study::open_results(&folder)?.study;
@@ -89,28 +90,35 @@ pub(crate) fn run(command: Command) -> Result<(), ProgramError> {
             carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
         }
         Command::Throughput { study, sampling, observations, threads } => {
-            throughput::run(&study, &sampling, observations, &threads)
+            throughput::run(&study, &sampling, observations, &threads).map(well)
         }
     }
 }
 
+/// The ending of a command that has nothing to say against what it did.
+fn well((): ()) -> Ending {
+    Ending::Well
+}
+
 /// Runs the study in this process alone.
-fn alone(settings: &RunSettings) -> Result<(), ProgramError> {
+fn alone(settings: &RunSettings) -> Result<Ending, ProgramError> {
     let (study, blocks) = begun(settings)?;
     match settings.shard()? {
-        Some(shard) => carry_out::shard(&study, &settings.out, &blocks, shard, settings.common.format),
+        Some(shard) => {
+            carry_out::shard(&study, &settings.out, &blocks, shard, settings.common.format).map(well)
+        }
         None => carry_out::whole(&study, &settings.out, &blocks, &settings.common, |_| Ok(())),
     }
 }
 
 /// Runs the study in all processes that `mpirun` or `srun` has started.
 #[cfg(feature = "mpi")]
-fn together(settings: &RunSettings, processes: usize) -> Result<(), ProgramError> {
+fn together(settings: &RunSettings, processes: usize) -> Result<Ending, ProgramError> {
     ranks::share_out(settings, processes)
 }
 
 #[cfg(not(feature = "mpi"))]
-fn together(_: &RunSettings, processes: usize) -> Result<(), ProgramError> {
+fn together(_: &RunSettings, processes: usize) -> Result<Ending, ProgramError> {
     Err(ProgramError::WithoutMpi { processes })
 }
 

@@ -120,3 +120,161 @@ fn help_that_cannot_be_printed_is_a_failure() {
         assert!(text(output.stderr).contains("cannot write to the standard output"));
     }
 }
+
+#[test]
+fn what_no_machine_could_hold_is_refused_before_the_work_with_what_is_possible() {
+    let refused = |change: &dyn Fn(&mut serde_json::Value), words: &str| {
+        let bench = Bench::new("caroca.json", change);
+        let message = bench.refused(&["run", "study.json"]);
+        assert!(message.contains(words), "{message}");
+        assert!(!bench.path("results").exists());
+    };
+    refused(
+        &|study| {
+            let surface = &mut study["surfaces"]["surface_E_rho"];
+            (surface["x"]["points"], surface["y"]["points"]) = (json!(10_000), json!(10_000));
+        },
+        "surfaces.surface_E_rho is 10000 x 10000 points: expected at most 1000000 points, such as 1000 x 1000",
+    );
+    refused(
+        &|study| study["confidence"] = json!(0.999_999_999_999_999_9),
+        "confidence is 0.9999999999999999: expected a number above 0, at most 0.999999",
+    );
+    refused(
+        &|study| {
+            let sampling = study["samplings"]["mechanical"].clone();
+            study["samplings"]["x".repeat(255)] = sampling;
+        },
+        "samplings is 255 characters: expected at most 200 characters: they name files",
+    );
+    refused(
+        &|study| {
+            study["replicates"] = json!(10_000);
+            study["samplings"]["mechanical"]["observations"] = json!(1_000_000_000);
+        },
+        "samplings.mechanical.observations is 10001000000000: expected at most 10000000000",
+    );
+    let bench = Bench::new("caroca-sensitivity.json", |study| {
+        study["sensitivity"]["observations"] = json!(1 << 16);
+        study["samplings"]["mechanical"]["error_model"] = json!("table_3");
+    });
+    bench.change("robot.json", |robot| {
+        let cable = |k: u32| {
+            let angle = 0.1 * f64::from(k);
+            json!({"exit_point": [4.0 * angle.cos(), 4.0 * angle.sin(), 3.0 + 0.001 * f64::from(k)],
+                "anchor_point": [0.2 * angle.sin(), 0.2 * angle.cos(), 0.1]})
+        };
+        robot["cables"] = (0..101).map(cable).collect();
+    });
+    let message = bench.refused(&["run", "study.json"]);
+    assert!(message.contains("cables is a list of 101: expected at most 100 cables"), "{message}");
+    let message = bench.misused(&["run", "study.json", "--threads", "65535"]);
+    assert!(message.contains("65535 is not in 1..=1024"), "{message}");
+}
+
+#[test]
+fn a_tension_that_no_cable_bears_is_printed_and_ends_with_code_3_and_a_slack_one_with_0() {
+    let bench = Bench::new("caroca.json", |_| ());
+    let ended = |load: &[&str], code: i32, words: &str| {
+        let mut command = cdpr();
+        command.arg("deflection").arg(bench.path("robot.json")).args(["--pose", "0,0,1.75"]).args(load);
+        let output = command.output().unwrap();
+        let printed = text(output.stdout);
+        assert_eq!(output.status.code(), Some(code), "{printed}");
+        assert!(printed.contains("dp = (") && printed.contains(words), "{printed}");
+        let json: serde_json::Value =
+            serde_json::from_slice(&command.args(["--format", "json"]).output().unwrap().stdout).unwrap();
+        assert_eq!(json["loaded"]["out_of_limits"].is_array(), !words.is_empty());
+    };
+    ended(&["--payload", "50"], 0, "");
+    bench.change("robot.json", |robot| robot["tension_limits"]["max"] = json!(700.0));
+    ended(&["--payload", "50"], 3, "N is above tension_limits.max, 700 N\n");
+    bench.change("robot.json", |robot| robot["cable"]["breaking_force"] = json!(730.0));
+    ended(&["--payload", "50"], 3, "N is above its breaking force, 730 N\n");
+    bench.change("robot.json", |robot| robot["tension_limits"]["min"] = json!(400.0));
+    ended(&["--force", "0,0,1000"], 0, "N is below tension_limits.min, 400 N\n");
+}
+
+#[test]
+fn a_study_without_a_result_or_with_a_nominal_robot_that_breaks_ends_with_code_3() {
+    let few = |change: &dyn Fn(&mut serde_json::Value)| {
+        Bench::new("caroca.json", |study| {
+            study["samplings"].as_object_mut().unwrap().retain(|name, _| name == "mechanical");
+            study["samplings"]["mechanical"]["observations"] = json!(20);
+            study["replicates"] = json!(0);
+            study["surfaces"] = json!({});
+            study["comparison"] = json!([]);
+            change(study);
+        })
+    };
+    let ended = |bench: &Bench, code: i32, words: &str| {
+        let output = bench.study(&["run", "study.json", "--out", "out"]);
+        let message = text(output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{message}");
+        assert!(message.contains(words), "{message}");
+        assert!(bench.path("out/summary.json").exists() && bench.path("out/report.html").exists());
+    };
+    ended(&few(&|_| ()), 0, "");
+    let heavy = json!({"law": {"uniform": {"min": 1e6, "max": 2e6}}});
+    let bench = few(&|study| study["error_models"]["table_3"]["mass"] = heavy.clone());
+    ended(&bench, 3, "warning: mechanical: every observation failed");
+    let bench = few(&|_| ());
+    bench.change("robot.json", |robot| robot["cable"]["breaking_force"] = json!(730.0));
+    ended(&bench, 3, "warning: mechanical, nominal robot with the payload: cable 3: its tension of");
+}
+
+#[cfg(unix)]
+#[test]
+fn the_end_of_a_job_says_how_to_go_on() {
+    let bench = Bench::new("caroca.json", |study| {
+        study["samplings"].as_object_mut().unwrap().retain(|name, _| name == "mechanical");
+        study["samplings"]["mechanical"]["observations"] = json!(10_000_000);
+        study["surfaces"] = json!({});
+        study["comparison"] = json!([]);
+    });
+    let mut command = bench.study_command(&["run", "study.json", "--out", "out"]);
+    let mut child =
+        command.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::piped()).spawn().unwrap();
+    while !bench.path("out/blocks/mechanical/sampling/000000.block").exists() {
+        assert!(child.try_wait().unwrap().is_none());
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let message = text(output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{message}");
+    assert!(message.contains("go on with: cdpr study run out/study.json --out out --resume"), "{message}");
+}
+
+#[test]
+fn a_deflection_below_rounding_is_zero_with_its_bound_and_has_no_law() {
+    let bench = Bench::new("caroca.json", |study| {
+        study["samplings"].as_object_mut().unwrap().retain(|name, _| name == "mechanical");
+        study["samplings"]["mechanical"]["observations"] = json!(100);
+        study["replicates"] = json!(2);
+        study["surfaces"] = json!({});
+        study["comparison"] = json!([]);
+        study["payload"] = json!(1e-300);
+    });
+    bench.run("out", &[]);
+    let found = &bench.json("out/summary.json")["studies"]["mechanical"];
+    assert_eq!((&found["rms_mm"]["mean"], &found["rms_mm"]["max"]), (&json!(0.0), &json!(0.0)));
+    assert_eq!((&found["best_fit"], &found["fits"]), (&json!(null), &json!([])));
+    assert!(found["notes"][0].as_str().unwrap().contains("zero within this bound"));
+    // A gram is far above it.
+    bench.change("study.json", |study| study["payload"] = json!(1e-3));
+    bench.run("gram", &[]);
+    assert!(
+        bench.json("gram/summary.json")["studies"]["mechanical"]["rms_mm"]["mean"].as_f64().unwrap() > 1e-6
+    );
+
+    let dp = |payload: &str| {
+        let arguments = ["--pose", "0,0,1.75", "--format", "json", "--payload", payload];
+        let output = cdpr().arg("deflection").arg(bench.path("robot.json")).args(arguments).output().unwrap();
+        serde_json::from_str::<serde_json::Value>(&answered(output)).unwrap()
+    };
+    let (none, gram) = (dp("1e-300"), dp("1e-3"));
+    let bound = none["rounding_mm"].as_f64().unwrap();
+    assert!(none["rms_mm"] == json!(0.0) && bound > 0.0 && bound < 1e-7, "{bound}");
+    assert!(gram["rms_mm"].as_f64().unwrap() > 10.0 * bound);
+}

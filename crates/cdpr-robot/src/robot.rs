@@ -174,6 +174,13 @@ impl Robot {
                 "at least 6 cables: fewer cannot hold six degrees of freedom",
             ));
         }
+        if self.cables.len() > MOST_CABLES {
+            return Err(RobotError::invalid(
+                "cables",
+                format!("a list of {}", self.cables.len()),
+                format!("at most {MOST_CABLES} cables"),
+            ));
+        }
         for (i, cable) in self.cables.iter().enumerate() {
             finite(|| format!("cables[{i}].exit_point"), &cable.exit_point)?;
             finite(|| format!("cables[{i}].anchor_point"), &cable.anchor_point)?;
@@ -231,6 +238,9 @@ impl Robot {
         Ok(())
     }
 }
+
+/// Cables of a robot at most: the inverse model of more takes seconds where they hold no pose.
+const MOST_CABLES: usize = 100;
 
 /// Checks a value of a field.
 ///

@@ -15,4 +15,5 @@ pub(crate) use cable::{CablePlane, LinearizedCable, Span, between};
 pub use linearization::Linearization;
 pub use partials::Inputs;
 pub(crate) use partials::{CableDerivatives, Partials, Reading, solve, tensions, wrench};
+pub(crate) use rounding::FORCES;
 pub(crate) use spanned::SpannedCable;

@@ -45,6 +45,11 @@ pub(crate) trait Row: Serialize + Send {
 
     /// Its cells.
     fn cells(&self) -> Vec<String>;
+
+    /// How a command ends that gives this answer.
+    fn ending(&self) -> Ending {
+        Ending::Well
+    }
 }
 
 /// Why there is no answer.
@@ -86,8 +91,9 @@ impl RobotAtPose {
             (None, None) => return Err(ProgramError::Usage("expected --pose or --poses".to_owned())),
         };
         let heading = format!("{} at {}", shown(&robot.name), place(&pose));
-        self.format.print(&solve(&robot, &pose)?, |answer| text(answer, &heading))?;
-        Ok(Ending::Well)
+        let answer = solve(&robot, &pose)?;
+        self.format.print(&answer, |answer| text(answer, &heading))?;
+        Ok(answer.ending())
     }
 
     fn answer_all<T: Row>(
@@ -108,9 +114,7 @@ impl RobotAtPose {
         for chunk in poses.chunks(CHUNK) {
             let answers: Vec<_> = chunk.par_iter().map(|pose| solve(pose).map_err(Failure::from)).collect();
             for (pose, answer) in chunk.iter().zip(&answers) {
-                if answer.is_err() {
-                    ending = Ending::SomethingWrong;
-                }
+                ending = ending.and(answer.as_ref().map_or(Ending::SomethingWrong, Row::ending));
                 match self.format {
                     Format::Json => {
                         let (pose, error) = (pose_numbers(pose), answer.as_ref().err());

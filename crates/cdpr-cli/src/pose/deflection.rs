@@ -4,7 +4,7 @@ use crate::answer::{Found, vector};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
-use cdpr_robot::Robot;
+use cdpr_robot::{Robot, Vector3};
 use cdpr_statics::{Deflection, deflection};
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
     let solve = |robot: &Robot, pose: &_| {
         let found = deflection(robot, pose, &vec![0.0; robot.cables.len()], &load)?;
-        Ok(Answer::new(&found))
+        Ok(Answer::new(robot, &found))
     };
     at.answer(solve, Answer::print)
 }
@@ -22,8 +22,10 @@ pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
 struct Answer {
     /// Displacement dp of P, Eq. (4).
     deflection_mm: [f64; 3],
-    /// Its norm |dp|.
+    /// Its norm |dp|; zero where it is not above rounding.
     rms_mm: f64,
+    /// Error of dp by rounding.
+    rounding_mm: f64,
     /// Rotation vector from the unloaded to the loaded platform.
     rotation_deg: [f64; 3],
     /// Unstrained lengths.
@@ -47,24 +49,34 @@ impl Row for Answer {
         let tensions = self.unloaded.tensions.iter().chain(&self.loaded.tensions);
         cells(motion.chain(&self.lengths).chain(tensions))
     }
+
+    fn ending(&self) -> Ending {
+        self.unloaded.ending().and(self.loaded.ending())
+    }
 }
 
 impl Answer {
-    fn new(found: &Deflection) -> Self {
+    fn new(robot: &Robot, found: &Deflection) -> Self {
+        let rounding = found.rounding(robot);
+        let displacement = if found.rms() > rounding { found.displacement() } else { Vector3::zeros() };
         let motion = found.unloaded.equilibrium.pose.motion_to(&found.loaded.equilibrium.pose);
         Self {
-            deflection_mm: (1e3 * found.displacement()).into(),
-            rms_mm: 1e3 * found.rms(),
+            deflection_mm: (1e3 * displacement).into(),
+            rms_mm: 1e3 * displacement.norm(),
+            rounding_mm: 1e3 * rounding,
             rotation_deg: [3, 4, 5].map(|row| motion[row].to_degrees()),
             lengths: found.lengths.clone(),
-            unloaded: Found::new(&found.unloaded),
-            loaded: Found::new(&found.loaded),
+            unloaded: Found::new(robot, &found.unloaded),
+            loaded: Found::new(robot, &found.loaded),
         }
     }
 
     fn print(&self, heading: &str) {
         println!("{heading}");
         println!("dp = {} mm, |dp| = {:.5} mm", vector(&self.deflection_mm, 5), self.rms_mm);
+        if self.rms_mm == 0.0 {
+            println!("no displacement above rounding, {:.1e} mm", self.rounding_mm);
+        }
         println!("rotated by {} degrees", vector(&self.rotation_deg, 5));
         println!("\nunder its own weight");
         self.unloaded.print(&self.lengths);

@@ -191,14 +191,14 @@ fn solve(robot: &Robot, case: &Case, prove: bool) -> Result<Answer, StaticsError
     let problem = DirectProblem::new(&robot, &case.lengths, &load)?;
     let solution = problem.direct(Start::Pose(&start))?;
     let certificate = (prove || case.certify).then(|| problem.certify(&solution).into());
-    Ok(Answer { found: Found::new(&solution), certificate })
+    Ok(Answer { found: Found::new(&robot, &solution), certificate })
 }
 
 impl Answer {
     fn ending(&self) -> Ending {
         match self.certificate {
             Some(Proof::None { .. }) => Ending::SomethingWrong,
-            _ => Ending::Well,
+            _ => self.found.ending(),
         }
     }
 

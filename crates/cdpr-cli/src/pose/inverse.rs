@@ -1,6 +1,6 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
-use crate::answer::{self, Residual};
+use crate::answer::{self, OutOfLimits, Residual};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
@@ -10,7 +10,9 @@ use serde::Serialize;
 
 pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
     let load = at.load.load();
-    at.answer(|robot, pose| inverse(robot, pose, &load, None).map(|found| Answer::new(&found)), Answer::print)
+    let solve =
+        |robot: &Robot, pose: &_| inverse(robot, pose, &load, None).map(|found| Answer::new(robot, &found));
+    at.answer(solve, Answer::print)
 }
 
 /// The lengths, in SI units.
@@ -19,6 +21,8 @@ struct Answer {
     /// Unstrained lengths.
     lengths: Vec<f64>,
     tensions: Vec<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
     /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
     cable_forces: Vec<[f64; 2]>,
     report: Report,
@@ -42,10 +46,14 @@ impl Row for Answer {
     fn cells(&self) -> Vec<String> {
         cells(self.lengths.iter().chain(&self.tensions))
     }
+
+    fn ending(&self) -> Ending {
+        OutOfLimits::ending(&self.out_of_limits)
+    }
 }
 
 impl Answer {
-    fn new(solution: &InverseSolution) -> Self {
+    fn new(robot: &Robot, solution: &InverseSolution) -> Self {
         let bound = |bound: &Option<Bound>| {
             bound.map(|bound| match bound {
                 Bound::Min => "min",
@@ -55,6 +63,7 @@ impl Answer {
         Self {
             lengths: solution.lengths.clone(),
             tensions: solution.tensions.clone(),
+            out_of_limits: OutOfLimits::all(robot, &solution.tensions),
             cable_forces: answer::forces(&solution.equilibrium),
             report: Report {
                 iterations: solution.iterations,
@@ -67,6 +76,7 @@ impl Answer {
     fn print(&self, heading: &str) {
         println!("{heading}");
         answer::print_cables(&self.lengths, &self.cable_forces, &self.tensions);
+        OutOfLimits::print(&self.out_of_limits);
         for (i, bound) in self.report.active.iter().enumerate() {
             if let Some(bound) = bound {
                 println!("cable {} rests on its {bound}imum tension", i + 1);

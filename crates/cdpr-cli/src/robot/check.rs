@@ -2,7 +2,7 @@
 
 use crate::arguments::Format;
 use crate::error::ProgramError;
-use crate::output::Ending;
+use crate::output::{Ending, patiently};
 use cdpr_assess::{Finding, Severity, inspect};
 use cdpr_robot::shown;
 use cdpr_study::open_robot;
@@ -20,7 +20,7 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = open_robot(&settings.robot)?;
-    let findings = inspect(&robot);
+    let findings = patiently("inspecting the robot", || inspect(&robot));
     let warnings = findings.iter().filter(|finding| finding.severity == Severity::Warning).count();
     settings.format.print(&findings, |findings| {
         for Finding { severity, field, value, why, remedy } in findings {

@@ -4,13 +4,14 @@
 
 use super::common::Common;
 use super::print;
+use crate::answer::OutOfLimits;
 use crate::arguments::Format;
 use crate::error::ProgramError;
-use crate::output::progress;
+use crate::output::{Ending, progress};
 use cdpr_report::{draw, report_with};
 use cdpr_study::{
-    Blocks, Plan, REPORT_NAME, Run, STUDY_NAME, Session, Shard, Study, StudyError, TableFormat, Watcher,
-    observe_shard, write_text,
+    Blocks, NominalSummary, Plan, REPORT_NAME, Run, STUDY_NAME, Session, Shard, Study, StudyError,
+    StudySummary, Summary, TableFormat, Watcher, observe_shard, write_text,
 };
 use clap::ValueEnum;
 use indicatif::ProgressBar;
@@ -54,7 +55,7 @@ pub(super) fn whole(
     blocks: &Blocks,
     common: &Common,
     first: impl FnOnce(&Session) -> Result<(), ProgramError>,
-) -> Result<(), ProgramError> {
+) -> Result<Ending, ProgramError> {
     let progress = progress(study.all_observations()?, "observations");
     leave_when_interrupted(&progress, out, format!("go on with: {}", resumed(out, common)))?;
     let watcher = Watcher {
@@ -77,7 +78,31 @@ pub(super) fn whole(
     if common.format == Format::Text {
         println!("\nresults in {}\nreport in {}", out.display(), path.display());
     }
-    Ok(())
+    Ok(ending(study, &results.summary))
+}
+
+/// Names what is wrong about results: parts without any, nominal robots that are strained too much.
+fn ending(study: &Study, summary: &Summary) -> Ending {
+    let mut ending = Ending::Well;
+    for (name, part) in &summary.studies {
+        let failed: usize = part.failed().values().sum();
+        if failed > 0 && failed == part.observations() {
+            eprintln!("warning: {name}: every observation failed");
+            ending = Ending::SomethingWrong;
+        }
+        if let StudySummary::Sampling(sampling) = part {
+            let NominalSummary { unloaded_tensions, loaded_tensions, .. } = &sampling.nominal;
+            for (load, tensions) in [("without", unloaded_tensions), ("with", loaded_tensions)] {
+                let mut found = OutOfLimits::all(&study.robot, tensions);
+                found.retain(|found| OutOfLimits::ending(std::slice::from_ref(found)) != Ending::Well);
+                for beyond in &found {
+                    eprintln!("warning: {name}, nominal robot {load} the payload: {beyond}");
+                }
+                ending = ending.and(OutOfLimits::ending(&found));
+            }
+        }
+    }
+    ending
 }
 
 /// Ends the process on Ctrl-C, or at the end of its time on a cluster, with a message of how to continue.

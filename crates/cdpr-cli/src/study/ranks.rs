@@ -8,6 +8,7 @@
 use super::carry_out::whole;
 use super::common::{RunSettings, begun};
 use crate::error::ProgramError;
+use crate::output::Ending;
 use cdpr_study::{BlockMaker, Plan, Session, StoredStudy, Study};
 use mpi::Threading;
 use mpi::topology::SimpleCommunicator;
@@ -22,7 +23,7 @@ const NO_MORE: u64 = u64::MAX;
 const LOOK_AGAIN: Duration = Duration::from_millis(1);
 
 /// Runs `cdpr study run` on all ranks; `expected` is their number by the launcher.
-pub(super) fn share_out(settings: &RunSettings, expected: usize) -> Result<(), ProgramError> {
+pub(super) fn share_out(settings: &RunSettings, expected: usize) -> Result<Ending, ProgramError> {
     // All messages are sent and received by this thread.
     let universe = mpi::initialize_with_threading(Threading::Funneled);
     let Some((universe, _)) = universe else { return Err(ProgramError::Ranks { expected, found: 0 }) };
@@ -31,17 +32,16 @@ pub(super) fn share_out(settings: &RunSettings, expected: usize) -> Result<(), P
     let result = match world.rank() {
         _ if found != expected => Err(ProgramError::Ranks { expected, found }),
         0 => lead(&world, settings),
-        _ => follow(&world, settings),
+        _ => follow(&world, settings).map(|()| Ending::Well),
     };
-    if let Err(error) = result {
+    result.or_else(|error| {
         eprintln!("error: {error}");
         // The other ranks would wait for this one forever.
         world.abort(1);
-    }
-    Ok(())
+    })
 }
 
-fn lead(world: &SimpleCommunicator, settings: &RunSettings) -> Result<(), ProgramError> {
+fn lead(world: &SimpleCommunicator, settings: &RunSettings) -> Result<Ending, ProgramError> {
     let (study, blocks) = begun(settings)?;
     // The folder is there: from now on the other ranks read the study in it.
     world.barrier();

@@ -2,6 +2,7 @@
 
 use crate::arguments::Format;
 use crate::error::ProgramError;
+use crate::output::patiently;
 use cdpr_report::report;
 use cdpr_study::{REPORT_NAME, Results, write_text};
 use serde::Serialize;
@@ -28,7 +29,10 @@ struct Written {
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { folder, out, format } = settings;
     let path = out.clone().unwrap_or_else(|| folder.join(REPORT_NAME));
-    write_text(&path, &report(&Results::read(folder)?)?)?;
+    let text = patiently("drawing the report", || -> Result<String, ProgramError> {
+        Ok(report(&Results::read(folder)?)?)
+    })?;
+    write_text(&path, &text)?;
     let text = |written: &Written| println!("report in {}", written.report);
     Ok(format.print(&Written { report: path.to_string_lossy().into_owned() }, text)?)
 }

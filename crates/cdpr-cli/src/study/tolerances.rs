@@ -2,7 +2,7 @@
 
 use crate::arguments::{self, Format, Named, Threads};
 use crate::error::ProgramError;
-use crate::output::table;
+use crate::output::{patiently, table};
 use cdpr_assess::{Limit, Limited, Reached, ToleranceBudget, tolerance_budget};
 use cdpr_robot::shown;
 use cdpr_study::{Estimate, Study};
@@ -63,7 +63,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         costs: settings.costs.clone().map(|Named(costs)| costs.into_iter().collect()).unwrap_or_default(),
         verified_with: settings.observations,
     };
-    let budget = tolerance_budget(&sampling, &limit)?;
+    let budget = patiently("looking for the tolerances", || tolerance_budget(&sampling, &limit))?;
     Ok(settings.format.print(&budget, |budget| print(sampling.title, budget))?)
 }
 

@@ -6,6 +6,9 @@ use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual, rounding_of_closure};
 use cdpr_robot::Vector2;
 
+/// Rounding error of the balance over the sum of all forces in it.
+pub(crate) const FORCES: f64 = 1e-12;
+
 impl DirectProblem<'_> {
     /// What an equilibrium, or a pose with forces that need not be one, leaves open in the `6 + 2n`
     /// equations.
@@ -35,6 +38,6 @@ impl Residual {
         let far = |i: usize| equilibrium.pose.position.norm() + problem.robot.cables[i].exit_point.norm();
         let coordinates = (0..problem.cables()).map(far).fold(0.0, f64::max);
         self.closure <= rounding_of_closure(problem.size(), coordinates)
-            && self.force + self.moment / length <= 1e-12 * forces
+            && self.force + self.moment / length <= FORCES * forces
     }
 }

@@ -5,10 +5,11 @@
 //! the deflection is `dp = p_loaded - p_unloaded`.
 
 use crate::direct::{DirectSolution, Start, direct};
+use crate::equations::FORCES;
 use crate::error::StaticsError;
 use crate::inverse::{HeldPose, InverseSolution, inverse, lengths_for_tensions};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load};
+use crate::state::{Equilibrium, Load, rounding_of_closure};
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
 use cdpr_tension::offset;
 
@@ -33,6 +34,20 @@ impl Deflection {
     /// Euclidean norm of dp [m], which the paper calls the RMS of the static deflection.
     pub fn rms(&self) -> f64 {
         self.displacement().norm()
+    }
+
+    /// Error of the displacement [m] by rounding: what the closure and the balance of both equilibria may leave
+    /// open. A shorter displacement is not told from none.
+    pub fn rounding(&self, robot: &Robot) -> f64 {
+        let size = self.lengths.iter().copied().fold(0.0, f64::max);
+        let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
+        let of = |DirectSolution { equilibrium, stability, .. }: &DirectSolution| {
+            // The load is as great as the cables' forces at most.
+            let forces = 2.0 * equilibrium.tensions().iter().sum::<f64>();
+            let coordinates = equilibrium.pose.position.norm() + exits;
+            rounding_of_closure(size, coordinates) + FORCES * forces / stability.least_stiffness()
+        };
+        of(&self.unloaded) + of(&self.loaded)
     }
 
     /// The displacement dp [m] that the stiffness at the unloaded pose predicts for `load`.

@@ -166,6 +166,12 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
     }
     let mut note = |what: &str, error: SensitivityError| notes.push(format!("{what}: {error}"));
     let moments = tally.sums.outputs().summary().map_err(|error| note("rms_mm", error)).ok();
+    let rounding_mm = 1e3 * sampling.nominal.rounding(sampling.robot);
+    if let Some(moments) = &moments
+        && moments.max <= rounding_mm
+    {
+        return Ok(unmoved(sampling, tally, rounding_mm));
+    }
     let sample = moments.and_then(|_| Sample::new(&tally.first_rms_mm).ok());
     let bootstrap = Bootstrap { resamples: settings.bootstrap_resamples, seed: settings.seed };
     let fitted = &tally.first_rms_mm[..tally.first_rms_mm.len().min(FITTED)];
@@ -214,7 +220,46 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
     })
 }
 
+/// The summary of a sampling whose deflections are below rounding: zero, without laws and effects.
+fn unmoved(sampling: &Sampling, tally: &Tally, rounding_mm: f64) -> SamplingSummary {
+    SamplingSummary {
+        title: sampling.title.to_owned(),
+        pose: sampling.pose.position.into(),
+        quaternion: sampling.pose.quaternion(),
+        observations: sampling.design.points(),
+        failed: tally.failed.clone(),
+        rms_mm: Some(RmsSummary::ZERO),
+        nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
+        operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
+        fits: Vec::new(),
+        best_fit: None,
+        histogram: None,
+        t_student: IndexMap::new(),
+        signed_effects_mm: IndexMap::new(),
+        replicates: 0,
+        confidence: sampling.study.file.confidence,
+        sensitivity: None,
+        notes: vec![format!(
+            "rms_mm: all deflections are below {rounding_mm:.1e} mm, which rounding may cause: zero within this bound"
+        )],
+    }
+}
+
 impl RmsSummary {
+    /// Of a robot that does not move.
+    const ZERO: Self = Self {
+        mean: 0.0,
+        std: 0.0,
+        min: 0.0,
+        max: 0.0,
+        nominal: 0.0,
+        q01: 0.0,
+        q25: 0.0,
+        median: 0.0,
+        q75: 0.0,
+        q99: 0.0,
+    };
+
     fn new(summary: &Summary, sample: &Sample, nominal: f64) -> Result<Self, SensitivityError> {
         Ok(Self {
             mean: summary.mean,

@@ -16,6 +16,18 @@ use std::path::Path;
 /// Designs of a sampling besides the first: intervals of a quantile need no more.
 const MOST_REPLICATES: usize = 10_000;
 
+/// Confidence of an interval: beyond it the ends lie where rounding puts them.
+const MOST_CONFIDENCE: f64 = 0.999_999;
+
+/// Length of a name, which becomes part of the names of files.
+const LONGEST_NAME: usize = 200;
+
+/// Observations of a sampling in all its designs at all its poses: their blocks are 240 GB.
+const MOST_OBSERVATIONS: usize = 10_000_000_000;
+
+/// Observations behind an expansion times uncertain parameters, which are held in memory together.
+const MOST_ENTRIES: usize = 1 << 24;
+
 /// Resamples of a bootstrap: the quantiles of intervals need no more.
 const MOST_RESAMPLES: usize = 1_000_000;
 
@@ -92,8 +104,9 @@ impl Study {
             let expected = format!("none (0), or 2 to {MOST_REPLICATES} for an interval");
             return Err(self.invalid("replicates", file.replicates, &expected));
         }
-        if !(file.confidence > 0.0 && file.confidence < 1.0) {
-            return Err(self.invalid("confidence", file.confidence, "a number between 0 and 1"));
+        if !(file.confidence > 0.0 && file.confidence <= MOST_CONFIDENCE) {
+            let expected = format!("a number above 0, at most {MOST_CONFIDENCE}");
+            return Err(self.invalid("confidence", file.confidence, &expected));
         }
         if !(1..=MOST_RESAMPLES).contains(&file.bootstrap_resamples) {
             let expected = format!("1 to {MOST_RESAMPLES}");
@@ -107,6 +120,10 @@ impl Study {
         }
         for name in file.samplings.keys().chain(file.surfaces.keys()) {
             let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+            if name.len() > LONGEST_NAME {
+                let expected = format!("at most {LONGEST_NAME} characters: they name files");
+                return Err(self.invalid("samplings", format!("{} characters", name.len()), &expected));
+            }
             if name.is_empty() || !name.chars().all(plain) {
                 return Err(self.invalid(
                     "samplings",
@@ -175,9 +192,25 @@ impl Study {
     /// only when the sampling runs.
     fn check_sampling(&self, name: &str, spec: &SamplingSpec) -> Result<(), StudyError> {
         let set = self.poses(name, spec)?;
+        let field = |field: &str| format!("samplings.{name}.{field}");
+        let observations = self.observations(name)?;
+        if observations > MOST_OBSERVATIONS {
+            let expected = format!("at most {MOST_OBSERVATIONS} with all replicates, measures and poses");
+            return Err(self.invalid(&field("observations"), observations, &expected));
+        }
         if set.several().is_none() {
             let nominal = self.nominal(name)?.deflection;
-            return self.design(name, spec, &[&nominal]).map(|_| ());
+            let inputs = self.design(name, spec, &[&nominal])?.0.inputs.len();
+            if let Some(SensitivitySpec { observations, .. }) = self.file.sensitivity
+                && observations > MOST_ENTRIES / inputs
+            {
+                let expected = format!(
+                    "at most {} of the {inputs} uncertain parameters of {name}",
+                    MOST_ENTRIES / inputs
+                );
+                return Err(self.invalid("sensitivity.observations", observations, &expected));
+            }
+            return Ok(());
         }
         if name == BLOCKS_NAME {
             let expected = "another name for a sampling at several poses: the folder of its tables would be that of \

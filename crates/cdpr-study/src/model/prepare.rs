@@ -11,8 +11,11 @@ use cdpr_sensitivity::SobolDesign;
 use cdpr_statics::{Deflection, Load, Observer, StaticsError};
 use indexmap::IndexMap;
 
-/// Points of one axis of a surface, which is held in memory as a whole.
-const MOST_POINTS: usize = 10_000;
+/// Points of one axis of a surface.
+const MOST_OF_AXIS: usize = 10_000;
+
+/// Points of a surface, which is held in memory and drawn as a whole.
+const MOST_POINTS: usize = 1_000_000;
 
 /// Observations of a sampling, for laws to be fitted.
 pub(crate) const FEWEST_OBSERVATIONS: usize = 3;
@@ -147,7 +150,13 @@ impl Study {
         spec: &SurfaceSpec,
     ) -> Result<[SurfaceAxis; 2], StudyError> {
         let axis = |letter, spec| self.axis(&format!("surfaces.{name}.{letter}"), spec);
-        Ok([axis('x', &spec.x)?, axis('y', &spec.y)?])
+        let axes = [axis('x', &spec.x)?, axis('y', &spec.y)?];
+        let (x, y) = (spec.x.points, spec.y.points);
+        if x * y > MOST_POINTS {
+            let expected = format!("at most {MOST_POINTS} points, such as 1000 x 1000");
+            return Err(self.invalid(&format!("surfaces.{name}"), format!("{x} x {y} points"), &expected));
+        }
+        Ok(axes)
     }
 
     fn axis(&self, field: &str, spec: &AxisSpec) -> Result<SurfaceAxis, StudyError> {
@@ -165,8 +174,8 @@ impl Study {
             let range = format!("{} to {}", spec.min, spec.max);
             return Err(self.invalid(field, range, "finite deviations, min below max"));
         }
-        if !(2..=MOST_POINTS).contains(&spec.points) {
-            let expected = format!("at least 2, at most {MOST_POINTS}");
+        if !(2..=MOST_OF_AXIS).contains(&spec.points) {
+            let expected = format!("at least 2, at most {MOST_OF_AXIS}");
             return Err(self.invalid(&format!("{field}.points"), spec.points, &expected));
         }
         let last = (spec.points - 1) as f64;
