@@ -6,11 +6,13 @@
 //! of
 //! [`crate::Catenary`] answer the same questions, for cables of any elastic law.
 
+mod dual;
 mod field;
 mod plane;
 mod response;
 mod series;
 
+pub use dual::Dual;
 pub use field::{Field, Real};
 pub use plane::{closure_of_limp, in_plane_stiffness};
 pub(crate) use response::Terms;

@@ -12,6 +12,7 @@
 //! per length is `∫ ε dT = c_k + (α_k - 1) T + T²/2EA_k`.
 
 use crate::error::{CableError, check};
+use crate::kernel::Field;
 
 /// Strain as a function of the tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,13 +50,13 @@ struct Piece {
 
 /// Coefficients of a segment for a given EA, as the equations of a piece of cable take them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SegmentTerms {
+pub(crate) struct SegmentTerms<T> {
     /// α_k = 1 + (σ_k - T_k/κ_k)/EA.
-    pub(crate) alpha: f64,
+    pub(crate) alpha: T,
     /// Axial flexibility 1/EA_k [1/N].
-    pub(crate) flexibility: f64,
+    pub(crate) flexibility: T,
     /// Constant c_k of the complementary energy per length [N].
-    pub(crate) energy: f64,
+    pub(crate) energy: T,
 }
 
 impl PiecewiseLaw {
@@ -135,14 +136,14 @@ impl PiecewiseLaw {
         &self.pieces[above.max(1) - 1]
     }
 
-    /// Coefficients of the segment at a tension, for a cable of axial stiffness `ea` [N].
-    pub(crate) fn segment_terms(&self, tension: f64, ea: f64) -> SegmentTerms {
+    /// Coefficients of the segment at a tension, for a cable of axial flexibility 1/EA [1/N].
+    pub(crate) fn segment_terms<T: Field>(&self, tension: f64, axial_flexibility: T) -> SegmentTerms<T> {
         let Piece { segment: Segment { tension: t, ratio }, scaled_strain, scaled_energy } =
             *self.at(tension);
         SegmentTerms {
-            alpha: 1.0 + (scaled_strain - t / ratio) / ea,
-            flexibility: 1.0 / (ratio * ea),
-            energy: (scaled_energy - scaled_strain * t + 0.5 * t * t / ratio) / ea,
+            alpha: axial_flexibility * (scaled_strain - t / ratio) + 1.0,
+            flexibility: axial_flexibility * (1.0 / ratio),
+            energy: axial_flexibility * (scaled_energy - scaled_strain * t + 0.5 * t * t / ratio),
         }
     }
 
@@ -207,7 +208,7 @@ mod tests {
             let (low, middle, high) =
                 (step * f64::from(k), step * (f64::from(k) + 0.5), step * f64::from(k + 1));
             energy += step * law.scaled_strain(middle) / ea;
-            let SegmentTerms { alpha, flexibility, energy: c } = law.segment_terms(low, ea);
+            let SegmentTerms { alpha, flexibility, energy: c } = law.segment_terms(low, 1.0 / ea);
             assert_relative_eq!(
                 alpha + high * flexibility,
                 1.0 + law.scaled_strain(high) / ea,

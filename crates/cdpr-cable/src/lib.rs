@@ -46,6 +46,7 @@ pub use law::{ElasticLaw, PiecewiseLaw, Segment};
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen, TangentModulus};
 pub use solve::{
-    Known, Solution, end_force, end_force_near, least_tension, length_for_tension, length_for_tension_near,
+    HeldCable, Known, Solution, TensionSlope, end_force, end_force_near, least_tension, length_for_tension,
+    length_for_tension_near,
 };
 pub use weighing::{Measured, linear_density};

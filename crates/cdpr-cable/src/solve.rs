@@ -1,9 +1,11 @@
 //! One unknown of a cable from the others: the force at its end, or its unstrained length.
 
 mod end_force;
+mod held;
 mod known;
 mod length_for_tension;
 
 pub use end_force::{Solution, end_force, end_force_near};
+pub use held::{HeldCable, TensionSlope};
 pub use known::Known;
 pub use length_for_tension::{least_tension, length_for_tension, length_for_tension_near};

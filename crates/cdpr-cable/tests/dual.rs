@@ -1,106 +1,17 @@
 //! Every derivative of the catenary against dual numbers: the same equations over a number with derivative.
 
-use cdpr_cable::kernel::{Field, Real, response};
+use cdpr_cable::kernel::{Dual, Field, response};
 use cdpr_cable::{Cable, Catenary, Vector2, least_tension, length_for_tension};
 use proptest::prelude::*;
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
-/// A number and its derivative.
-#[derive(Clone, Copy)]
-struct Dual(f64, f64);
-
-impl Add for Dual {
-    type Output = Self;
-    fn add(self, b: Self) -> Self {
-        Self(self.0 + b.0, self.1 + b.1)
-    }
-}
-
-impl Sub for Dual {
-    type Output = Self;
-    fn sub(self, b: Self) -> Self {
-        Self(self.0 - b.0, self.1 - b.1)
-    }
-}
-
-impl Mul for Dual {
-    type Output = Self;
-    fn mul(self, b: Self) -> Self {
-        Self(self.0 * b.0, self.0 * b.1 + self.1 * b.0)
-    }
-}
-
-impl Div for Dual {
-    type Output = Self;
-    fn div(self, b: Self) -> Self {
-        let quotient = self.0 / b.0;
-        Self(quotient, (self.1 - quotient * b.1) / b.0)
-    }
-}
-
-impl Neg for Dual {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(-self.0, -self.1)
-    }
-}
-
-impl Add<f64> for Dual {
-    type Output = Self;
-    fn add(self, b: f64) -> Self {
-        Self(self.0 + b, self.1)
-    }
-}
-
-impl Mul<f64> for Dual {
-    type Output = Self;
-    fn mul(self, b: f64) -> Self {
-        Self(self.0 * b, self.1 * b)
-    }
-}
-
-impl Field for Dual {
-    fn recip(self) -> Self {
-        Self(1.0, 0.0) / self
-    }
-
-    fn sqrt(self) -> Self {
-        let root = self.0.sqrt();
-        Self(root, 0.5 * self.1 / root)
-    }
-}
-
-impl Real for Dual {
-    fn of(value: f64) -> Self {
-        Self(value, 0.0)
-    }
-
-    fn value(self) -> f64 {
-        self.0
-    }
-
-    fn upper(self) -> f64 {
-        self.0
-    }
-
-    fn ln(self) -> Self {
-        Self(self.0.ln(), self.1 / self.0)
-    }
-
-    fn within(self, _error: f64) -> Self {
-        self
-    }
-}
 
 /// Derivative of the end position with respect to one of (w, EA, L, fx, fz).
 fn dual(catenary: &Catenary, which: usize) -> Vector2<f64> {
     let Catenary { cable, unstrained_length, force } = *catenary;
-    let mut inputs = [cable.weight_per_length, cable.axial_stiffness, unstrained_length, force.x, force.y]
-        .map(|value| Dual(value, 0.0));
-    inputs[which].1 = 1.0;
-    let [w, ea, length, fx, fz] = inputs;
+    let inputs = [cable.weight_per_length, cable.axial_stiffness, unstrained_length, force.x, force.y];
+    let input = |k| Dual { value: inputs[k], slopes: [f64::from(k == which)] };
+    let [w, ea, length, fx, fz] = [0, 1, 2, 3, 4].map(input);
     let [x, z] = response(w, ea.recip(), length, [fx, fz]).end;
-    Vector2::new(x.1, z.1)
+    Vector2::new(x.slopes[0], z.slopes[0])
 }
 
 /// Cables from taut to folded: weights, stiffnesses, lengths and forces over many decades.

@@ -4,23 +4,23 @@
 //!
 //! Cables answer to their inputs by (D1)-(D4) of `equations/partials.rs`.
 //!
-//! **Inverse model.** With the unit wrenches `w_i = [u_i; s_i x u_i]`, the multipliers `λ = (λ_p, λ_r)` of
-//! the balance make a twist that moves anchor point A_i by `μ_i = λ_p + λ_r x s_i`: `w_i·λ = u_i·μ_i`.
-//! Tensions without active bound and the balance of the platform are equation (I1) of `inverse.rs` and Eq.
-//! (3),
+//! **Inverse model.** With `v_i = dF_i/dt_i` at held ends, the multipliers `λ = (λ_p, λ_r)` of the balance
+//! make a twist that moves anchor point A_i by `μ_i = λ_p + λ_r x s_i`. Tensions without active bound and the
+//! balance of the platform are equation (I2) of `inverse.rs` and Eq. (3),
 //!
 //! ```text
-//! t_i - t_ref,i + u_i·μ_i = 0,      G = sum w_i t_i + w_ex = 0                                    (D5)
+//! ρ_i = t_i - r_i + v_i·μ_i = 0,      G = sum [F_i; s_i x F_i] + w_ex = 0                         (D5)
 //! ```
 //!
-//! λ follows from the tensions of the free cables. A tension changes the direction it pulls in:
-//! `du_i = (dF_i - u_i dt_i)/t_i` with dF_i by (D3). Differentiated, with `D_i = 1 + μ_i·(v_i - u_i)/t_i` and
-//! partial derivatives ∂ at constant t and λ,
+//! Differentiated, with `c_i = [v_i; s_i x v_i]`, `D_i = 1 + μ_i·dv_i/dt_i` and partial derivatives ∂ at
+//! constant t and λ,
 //!
 //! ```text
-//! dt_i = -( ∂ρ_i + w_i·dλ )/D_i,      ∂ρ_i = μ_i·∂F_i/t_i + u_i·(λ_r x ∂s_i)                      (D6)
-//! [ sum_free [v; s x v] w_iᵀ/D_i ] dλ = ∂G - sum_free [v; s x v] ∂ρ_i/D_i + sum_active [v; s x v] dt_i
+//! dt_i = -( ∂ρ_i + c_i·dλ )/D_i,      ∂ρ_i = μ_i·∂v_i + v_i·(λ_r x ∂s_i)                          (D6)
+//! [ sum_free c_i c_iᵀ/D_i ] dλ = ∂G - sum_free c_i ∂ρ_i/D_i + sum_active c_i dt_i
 //! ```
+//!
+//! The derivatives of v_i are second derivatives of the catenary (`cdpr_cable::TensionSlope`).
 //!
 //! **Active bounds stay active.** On the robot's own limits `dt_i = 0`. A cable whose weight demands more
 //! rests on the constant [`ABOVE_LEAST`] times the least tension over its span. That least tension, a minimum
@@ -45,7 +45,7 @@
 //! Nothing larger than 6 x 6 is factored: the cables are eliminated, as in Newton's method of the direct
 //! model.
 
-use crate::equations::{CableDerivatives, Inputs, Partials, Reading, Span, solve, tensions, wrench};
+use crate::equations::{CableDerivatives, Inputs, Partials, Reading, Span, read, solve, tensions};
 use crate::error::StaticsError;
 use crate::inverse::{ABOVE_LEAST, InverseSolution};
 use crate::loading::{Deflection, Wound, deflection_from, wind};
@@ -54,7 +54,7 @@ use crate::state::{Equilibrium, Load};
 use cdpr_cable::least_tension;
 use cdpr_robot::{Matrix6xX, ParameterLayout, Pose, Robot, Vector3};
 use cdpr_tension::Bound;
-use nalgebra::{DMatrix, Matrix3xX, Matrix6, Vector6};
+use nalgebra::{DMatrix, Matrix3xX, Matrix6};
 
 /// A deflection with its derivatives. Each matrix has a column for every input ([`Inputs`]): the parameters
 /// of the robot, the payload, the wanted pose.
@@ -236,42 +236,41 @@ impl Stage<'_> {
     /// Derivatives of the tensions of the inverse model, equation (D6); `bounds` has a row for each active
     /// bound.
     fn tensions(&self, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
-        let InverseSolution { lengths, active, equilibrium, .. } = &self.wound.wanted;
-        let mut cables = self.cables(lengths, equilibrium)?;
-        cables.iter_mut().for_each(|cable| *cable = cable.at_tension());
-        let units: Vec<Vector6<f64>> =
-            cables.iter().map(|cable| wrench(&cable.arm, &cable.direction)).collect();
-
-        // t_i = -w_i·λ over the free cables.
-        let (mut gram, mut twist) = (Matrix6::zeros(), Matrix6xX::zeros(1));
-        for ((unit, cable), _) in units.iter().zip(&cables).zip(active).filter(|(_, bound)| bound.is_none()) {
-            gram += unit * unit.transpose();
-            twist -= unit * cable.tension;
-        }
-        solve(gram, &mut twist, DISTRIBUTION)?;
+        let InverseSolution { lengths, active, equilibrium, multipliers, .. } = &self.wound.wanted;
+        let problem = DirectProblem::new(self.robot, lengths, &Load::none())?;
+        let forces = equilibrium.cable_forces.iter().enumerate();
+        let rates: Vec<_> = forces
+            .map(|(i, force)| {
+                let catenary = problem.catenary(i, *force);
+                CableDerivatives::of_tension_slope(self.robot, self.pose, i, catenary)
+            })
+            .collect();
+        let cables = CableDerivatives::all(&problem, self.pose, &equilibrium.cable_forces);
+        let cables: Vec<_> = cables.iter().map(CableDerivatives::at_tension).collect();
         let [translation, rotation]: [Vector3<f64>; 2] =
-            [0, 3].map(|row| twist.fixed_view::<3, 1>(row, 0).into());
+            [0, 3].map(|row| multipliers.fixed_view::<3, 1>(row, 0).into());
         let motion = |cable: &CableDerivatives| translation + rotation.cross(&cable.arm);
 
-        let reading = |cable: &CableDerivatives| Reading {
-            per_force: motion(cable) / cable.tension,
-            per_arm: cable.direction.cross(&rotation),
-        };
-        let Partials { mut balance, readings: mut rows } =
-            Partials::new(self.robot, &self.inputs, self.pose, &Load::none(), &cables, reading);
+        let Partials { mut balance, .. } =
+            Partials::new(self.robot, &self.inputs, self.pose, &Load::none(), &cables, Reading::tension);
+        let mut rows = read(&self.inputs, self.pose, &rates, |rate| Reading {
+            per_force: motion(rate),
+            per_arm: rate.force.cross(&rotation),
+        });
         balance.column_mut(self.inputs.payload()).fill(0.0);
         let mut per_actuation = Matrix6xX::zeros(cables.len());
-        // -w_i/D_i, zero for a cable on a bound.
+        // -c_i/D_i, zero for a cable on a bound.
         let mut answers = DMatrix::zeros(cables.len(), 6);
-        for (i, cable) in cables.iter().enumerate() {
-            per_actuation.set_column(i, &cable.wrench_per_actuation());
+        for (i, (cable, rate)) in cables.iter().zip(&rates).enumerate() {
+            let slope = cable.wrench_per_actuation();
+            per_actuation.set_column(i, &slope);
             if active[i].is_some() {
                 rows.set_row(i, &bounds.row(i));
                 continue;
             }
-            let d = 1.0 + motion(cable).dot(&(cable.per_actuation - cable.direction)) / cable.tension;
+            let d = 1.0 + motion(rate).dot(&rate.per_actuation);
             rows.row_mut(i).unscale_mut(-d);
-            answers.set_row(i, &-(units[i] / d).transpose());
+            answers.set_row(i, &-(slope / d).transpose());
         }
         let matrix: Matrix6<f64> = (&per_actuation * &answers).fixed_columns::<6>(0).into();
         balance.gemm(1.0, &per_actuation, &rows, 1.0);
@@ -287,7 +286,7 @@ impl Stage<'_> {
         let least = self.robot.tension_limits.min;
         // What the weight of a cable demands is more than the robot's limit, or more than the set-point.
         let demanded = |i: &usize| wanted.active[*i] == Some(Bound::Min) && wanted.tensions[*i] > least;
-        let raised = |i: &usize| held.cable_forces[*i].norm() > 0.5 * (1.0 + ABOVE_LEAST) * set_points[*i];
+        let raised = |i: &usize| held.cable_forces[*i].norm() > (1.0 + 1e-9) * set_points[*i];
         let n = set_points.len();
         let which: Vec<usize> = (0..n).filter(|i| demanded(i) || raised(i)).collect();
         let bounds = self.least_tensions(&which)?;

@@ -14,6 +14,6 @@ pub(crate) use balance::Balance;
 pub(crate) use cable::{CablePlane, LinearizedCable, Span, between};
 pub use linearization::Linearization;
 pub use partials::Inputs;
-pub(crate) use partials::{CableDerivatives, Partials, Reading, solve, tensions, wrench};
+pub(crate) use partials::{CableDerivatives, Partials, Reading, read, solve, tensions, wrench};
 pub(crate) use rounding::FORCES;
 pub(crate) use spanned::SpannedCable;

@@ -3,7 +3,7 @@
 use crate::state::Residual;
 use cdpr_cable::CableError;
 use cdpr_robot::{Pose, RobotError};
-use cdpr_tension::TensionError;
+use cdpr_tension::{Bound, TensionError};
 
 /// Why a model has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -37,18 +37,47 @@ pub enum StaticsError {
         /// Values that are valid.
         expected: String,
     },
-    /// Tensions and cable directions did not settle together.
+    /// No tensions within the limits that hold the pose were found.
     #[error(
-        "inverse model: after {iterations} iterations the wrench on the platform is still unbalanced by \
-        {force:e} N and {moment:e} N m"
+        "at position ({x}, {y}, {z}) m: no tensions between {min} N and {max} N balance the wrench{why}: the best from \
+         {starts} starts leave a residual of {force:.3} N and {moment:.3} N m beside tensions up to {largest:.3} \
+         N{blocked}; change the pose, the load or the limits",
+        x = position[0], y = position[1], z = position[2], largest = tensions.iter().copied().fold(0.0, f64::max),
+        why = if *rank_deficient { ", and cables at this pose cannot resist every wrench" } else { "" },
+        blocked = Blocked::list(blocked)
+    )]
+    NoTensions {
+        /// Position of the platform [m].
+        position: [f64; 3],
+        /// Least tension allowed in any cable [N].
+        min: f64,
+        /// Greatest tension allowed in any cable [N].
+        max: f64,
+        /// Starts that were tried.
+        starts: usize,
+        /// Whether a direction was found in which the cables cannot pull enough: then the pose is infeasible.
+        refuted: bool,
+        /// Whether the wrenches of the cables leave a motion of the platform unresisted.
+        rank_deficient: bool,
+        /// Norm of the residual force in the best attempt [N].
+        force: f64,
+        /// Norm of the residual moment in the best attempt [N m].
+        moment: f64,
+        /// The tensions of that attempt [N].
+        tensions: Vec<f64>,
+        /// The limits that they rest on.
+        blocked: Vec<Blocked>,
+    },
+    /// Tensions that hold the pose were found, but not the best of them.
+    #[error(
+        "inverse model: tensions hold the pose, but in {iterations} iterations their optimum was not found: the best \
+         have a slope of {stationarity:e} N left"
     )]
     InverseNotConverged {
-        /// Iterations of distribution and Newton's method.
+        /// Iterations made, from all starts.
         iterations: usize,
-        /// Unbalanced force [N].
-        force: f64,
-        /// Unbalanced moment [N m].
-        moment: f64,
+        /// What is left of the conditions of an optimum [N].
+        stationarity: f64,
     },
     /// The equilibrium found strains a cable by more than 10 %, beyond which the law of a linear,
     /// small-strain cable is invalid.
@@ -126,6 +155,33 @@ pub enum StaticsError {
     },
 }
 
+/// A limit that a tension rests on while the balance does not hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blocked {
+    /// Index of the cable, from 0.
+    pub index: usize,
+    /// Which of its limits.
+    pub bound: Bound,
+    /// The limit [N].
+    pub tension: f64,
+}
+
+impl Blocked {
+    /// The cables at either limit, as the end of a sentence.
+    fn list(blocked: &[Self]) -> String {
+        let of = |bound: Bound, name: &str| {
+            let cables: Vec<_> =
+                blocked.iter().filter(|b| b.bound == bound).map(|b| (b.index + 1).to_string()).collect();
+            if cables.is_empty() {
+                String::new()
+            } else {
+                format!(", with cables {} at their {name}", cables.join(", "))
+            }
+        };
+        of(Bound::Min, "least") + &of(Bound::Max, "greatest")
+    }
+}
+
 impl StaticsError {
     /// Name of the kind of failure, for counting: `infeasible_tension`, `tension_too_small` and others.
     pub fn kind(&self) -> &'static str {
@@ -136,6 +192,7 @@ impl StaticsError {
             Self::Cable { source: CableError::TensionTooSmall { .. }, .. } => "tension_too_small",
             Self::Cable { .. } => "cable",
             Self::Invalid { .. } => "invalid_input",
+            Self::NoTensions { .. } => "infeasible_tension",
             Self::InverseNotConverged { .. } => "inverse_not_converged",
             Self::Overstrained { .. } => "cable_overstrained",
             Self::Indifferent { .. } => "indifferent",

@@ -1,37 +1,43 @@
 //! Inverse elasto-geometrical model (IEGM, section 3.1 of the paper): unstrained lengths that hold a pose.
 //!
-//! Eq. (1) to (3) hold together: the tension distribution needs the directions of the cables at the platform,
-//! which the sag changes, and the sag follows from the tensions. With `w_i(t_i) = [u_i; s_i x u_i]` the
-//! wrench of a unit tension along the end tangent of cable i,
+//! Eq. (1) to (3) leave the choice of the tensions open. Among all that hold the pose, with every cable in the
+//! shape that its own tension gives it, those nearest to a reference r are chosen:
 //!
 //! ```text
-//! t_i = t_ref,i - w_i·λ,      sum w_i t_i + w_ex = 0                                              (I1)
+//! minimise  1/2 sum (t_i - r_i)²   subject to   sum w_i(t_i) + w_ex = 0,   min_i <= t_i <= max_i    (I1)
 //! ```
 //!
-//! is the distribution without active bounds. Newton's method on (t, λ) needs `c_i = d(w_i t_i)/dt_i` of the
-//! catenary between its held ends. With `D_i = 1 + dw_i/dt_i·λ = 1 + (c_i - w_i)·λ/t_i` and the residuals
-//! `R1_i = t_i - t_ref,i + w_i·λ` and `R2 = sum w_i t_i + w_ex` of (I1), a step is
+//! w_i is the wrench of cable i on the platform, t_i its tension there, on the branch where the tension falls
+//! as cable is paid out. The direction of a sagging cable changes with its tension, and the derivative dw_i/dt_i
+//! contains that change. With multipliers λ of the balance the optimum has
 //!
 //! ```text
-//! [ sum c_i w_iᵀ/D_i ] dλ = R2 - sum c_i R1_i/D_i,      dt_i = -(R1_i + w_i·dλ)/D_i               (I2)
+//! t_i - r_i + λ·dw_i/dt_i = 0  on free cables,   >= 0 at min_i,   <= 0 at max_i                     (I2)
 //! ```
 //!
-//! A cable that rests on a bound keeps its tension and leaves (I2). Which cables do is found by iteration: a
-//! distribution for the directions at hand, then Newton's method with its active bounds. Where that does not
-//! end at an optimum within the bounds, its directions, or those of the distribution's tensions, start the
-//! next iteration.
+//! The least tension of a cable is the robot's, or [`ABOVE_LEAST`] times what its own weight demands over its
+//! span where that is more.
 //!
-//! The least tension of a cable is the robot's, or what its own weight demands over its span where that is
-//! more.
+//! The modules below solve it in the chord force σ_i of each cable (`cdpr_cable::HeldCable`), in which all
+//! derivatives are finite: `optimum` by Newton's method, `feasible` from several starts before a pose is
+//! called infeasible.
 
-use crate::equations::{Span, wrench};
+mod feasible;
+mod held;
+mod optimum;
+mod question;
+
+use crate::equations::Span;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
-use cdpr_cable::{CableError, Catenary, length_for_tension, length_for_tension_near};
-use cdpr_robot::{Pose, Robot, TensionLimits, Vector2, Vector3, Vector6};
-use cdpr_tension::{Bound, Distribution, Problem, distribute};
-use nalgebra::Matrix6;
+use cdpr_cable::{CableError, Catenary, length_for_tension};
+use cdpr_robot::{Pose, Robot, Vector2, Vector6};
+use cdpr_tension::Bound;
+use feasible::search;
+pub(crate) use held::ABOVE_LEAST;
+use optimum::Optimum;
+use question::Question;
 
 /// Unstrained lengths that hold a pose in balance.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,19 +48,17 @@ pub struct InverseSolution {
     pub tensions: Vec<f64>,
     /// The bound each tension rests on, if any.
     pub active: Vec<Option<Bound>>,
+    /// Multipliers λ of the balance in (I2): of its forces [N], of its moments [N/m].
+    pub multipliers: Vector6<f64>,
     /// The pose with the cables' forces.
     pub equilibrium: Equilibrium,
-    /// Iterations of distribution and Newton's method: 1 unless the active bounds had to be looked for.
+    /// Iterations of Newton's method, of all starts.
     pub iterations: usize,
+    /// What is left of (I2) in the worst cable [N].
+    pub stationarity: f64,
     /// Residuals of all equations.
     pub residual: Residual,
 }
-
-const MAX_ITERATIONS: usize = 100;
-const MAX_NEWTON: usize = 12;
-
-/// Factor on the least tension that a span demands: at the least tension itself the length is not determined.
-pub(crate) const ABOVE_LEAST: f64 = 1.001;
 
 /// The unstrained lengths with which the platform rests at `pose` under its weight and `load`.
 ///
@@ -62,12 +66,11 @@ pub(crate) const ABOVE_LEAST: f64 = 1.001;
 /// `None` asks for the least-norm tensions.
 ///
 /// # Errors
-/// - [`StaticsError::Tension`] where no tensions within the limits hold the pose.
+/// - [`StaticsError::NoTensions`] where no tensions within the limits were found that hold the pose.
 /// - [`StaticsError::Cable`] where a cable's own weight demands more than the greatest tension.
 /// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, or a reference of another
 ///   number of cables.
-/// - [`StaticsError::InverseNotConverged`] where tensions and directions of the cables do not settle
-///   together.
+/// - [`StaticsError::InverseNotConverged`] where tensions hold the pose but their optimum was not found.
 pub fn inverse(
     robot: &Robot,
     pose: &Pose,
@@ -87,201 +90,24 @@ pub fn inverse(
             "a point away from the cable's anchor point at this pose",
         ));
     }
-    let zeros = vec![0.0; n];
-    let reference = reference.unwrap_or(&zeros);
-    StaticsError::one_per_cable("reference", reference, n)?;
-    Inverse { robot, pose, load, reference }.solve()
+    let reference = reference.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);
+    StaticsError::one_per_cable("reference", &reference, n)?;
+    if let Some((i, value)) = reference.iter().enumerate().find(|(_, value)| !value.is_finite()) {
+        return Err(StaticsError::invalid(format!("reference[{i}]"), value, "a finite tension [N]"));
+    }
+    let limits = vec![robot.tension_limits; n];
+    let question = Question { robot, pose, load, reference, limits };
+    InverseSolution::new(&question, search(&question)?)
 }
 
-/// What the inverse model is asked.
-struct Inverse<'a> {
-    robot: &'a Robot,
-    pose: &'a Pose,
-    load: &'a Load,
-    reference: &'a [f64],
-}
-
-impl<'a> Inverse<'a> {
-    fn cables(&self) -> usize {
-        self.reference.len()
+impl InverseSolution {
+    fn new(question: &Question, optimum: Optimum) -> Result<Self, StaticsError> {
+        let Optimum { catenaries, tensions, active, multipliers, iterations, stationarity } = optimum;
+        let HeldPose { lengths, equilibrium } = HeldPose::new(question.pose, &catenaries);
+        let problem = DirectProblem::new(question.robot, &lengths, question.load)?;
+        let residual = Residual::of(&problem, &equilibrium);
+        Ok(Self { lengths, tensions, active, multipliers, equilibrium, iterations, stationarity, residual })
     }
-
-    fn wrench(&self) -> Vector6<f64> {
-        self.load.total(self.robot, self.pose).to_vector()
-    }
-
-    fn spans(&self) -> Vec<Span<f64>> {
-        (0..self.cables()).map(|i| Span::new(self.robot.span(self.pose, i).into())).collect()
-    }
-
-    /// Wrench about P of a force (fx, fz) on cable i.
-    fn wrench_of(&self, i: usize, span: &Span<f64>, force: Vector2<f64>) -> Vector6<f64> {
-        let force = span.plane.force_on_platform(force.into());
-        wrench(&self.robot.anchor_arm(self.pose, i), &force.into())
-    }
-
-    fn solution(
-        &self,
-        catenaries: &[Catenary],
-        tensions: Vec<f64>,
-        active: Vec<Option<Bound>>,
-        iterations: usize,
-    ) -> Result<InverseSolution, StaticsError> {
-        let HeldPose { lengths, equilibrium } = HeldPose::new(self.pose, catenaries);
-        let residual = Residual::of(&DirectProblem::new(self.robot, &lengths, self.load)?, &equilibrium);
-        Ok(InverseSolution { lengths, tensions, active, equilibrium, iterations, residual })
-    }
-
-    fn solve(&self) -> Result<InverseSolution, StaticsError> {
-        let wrench = self.wrench();
-        let spans = self.spans();
-        let mut limits = vec![self.robot.tension_limits; self.cables()];
-        let mut pulls: Vec<Vector3<f64>> =
-            (0..self.cables()).map(|i| -self.robot.span(self.pose, i).normalize()).collect();
-        let mut unbalanced = wrench;
-        for iteration in 1..=MAX_ITERATIONS {
-            let wrench_matrix = self.robot.wrench_matrix(self.pose, &pulls);
-            let problem =
-                Problem { wrench_matrix: &wrench_matrix, wrench, reference: self.reference, limits: &limits };
-            let distribution = distribute(&problem)
-                .map_err(|source| StaticsError::Tension { position: self.pose.position.into(), source })?;
-            let end = match self.newton(&spans, &limits, &distribution)? {
-                Outcome::Lost => self.catenaries(&spans, &distribution.tensions)?,
-                end => end,
-            };
-            match end {
-                Outcome::Solved { catenaries, tensions } => {
-                    return self.solution(&catenaries, tensions, distribution.active, iteration);
-                }
-                Outcome::TooSmall { cable, least } => {
-                    let TensionLimits { min, max } = &mut limits[cable];
-                    if ABOVE_LEAST * least > *max {
-                        let source = CableError::TensionTooSmall { tension: *max, least };
-                        return Err(StaticsError::Cable { index: cable, source });
-                    }
-                    *min = min.max(ABOVE_LEAST * least);
-                }
-                Outcome::Catenaries(catenaries) => {
-                    for ((pull, span), catenary) in pulls.iter_mut().zip(&spans).zip(&catenaries) {
-                        let force = Vector3::from(span.plane.force_on_platform(catenary.force.into()));
-                        let tangent = force / catenary.anchor_tension();
-                        // The first iterations go all the way; later ones are damped, in case they oscillate.
-                        let share = if iteration <= 5 { 1.0 } else { 0.5 };
-                        *pull = (*pull * (1.0 - share) + tangent * share).normalize();
-                    }
-                    let matrix = self.robot.wrench_matrix(self.pose, &pulls);
-                    unbalanced =
-                        wrench + matrix * nalgebra::DVector::from_column_slice(&distribution.tensions);
-                }
-                Outcome::Lost => {}
-            }
-        }
-        Err(StaticsError::InverseNotConverged {
-            iterations: MAX_ITERATIONS,
-            force: unbalanced.fixed_rows::<3>(0).norm(),
-            moment: unbalanced.fixed_rows::<3>(3).norm(),
-        })
-    }
-
-    /// All catenaries at given tensions, or the first cable whose span demands more.
-    fn catenaries(&self, spans: &[Span<f64>], tensions: &[f64]) -> Result<Outcome<'a>, StaticsError> {
-        let mut catenaries = Vec::with_capacity(spans.len());
-        for (i, (span, t)) in spans.iter().zip(tensions).enumerate() {
-            match length_for_tension(&self.robot.cable(i), span.end.into(), *t) {
-                Ok(solution) => catenaries.push(solution.catenary),
-                Err(CableError::TensionTooSmall { least, .. }) => {
-                    return Ok(Outcome::TooSmall { cable: i, least });
-                }
-                Err(error) => return Err(StaticsError::cable(i)(error)),
-            }
-        }
-        Ok(Outcome::Catenaries(catenaries))
-    }
-
-    /// Newton's method on (I1) with the distribution's active bounds, from its tensions.
-    fn newton(
-        &self,
-        spans: &[Span<f64>],
-        limits: &[TensionLimits],
-        distribution: &Distribution,
-    ) -> Result<Outcome<'a>, StaticsError> {
-        let wrench = self.wrench();
-        let mut tensions = distribution.tensions.clone();
-        let mut multipliers = Vector6::zeros();
-        let mut catenaries = match self.catenaries(spans, &tensions)? {
-            Outcome::Catenaries(catenaries) => catenaries,
-            other => return Ok(other),
-        };
-        let mut residual_before = f64::INFINITY;
-        for round in 0..MAX_NEWTON {
-            if round > 0 {
-                for (i, ((span, t), place)) in spans.iter().zip(&tensions).zip(&mut catenaries).enumerate() {
-                    if distribution.active[i].is_none() {
-                        match length_for_tension_near(place, span.end.into(), *t) {
-                            Ok(solution) => *place = solution.catenary,
-                            // A step too far: the tension at the end need not be too small.
-                            Err(_) => return Ok(Outcome::Lost),
-                        }
-                    }
-                }
-            }
-            let mut balance = wrench;
-            let mut largest = 0.0_f64;
-            let (mut matrix, mut right) = (Matrix6::zeros(), Vector6::zeros());
-            let mut cables = Vec::with_capacity(self.cables());
-            for (i, (span, t)) in spans.iter().zip(&tensions).enumerate() {
-                let direction = catenaries[i].force / *t;
-                let w = self.wrench_of(i, span, direction);
-                let left = t - self.reference[i] + w.dot(&multipliers);
-                balance += w * *t;
-                let mut d = f64::INFINITY;
-                if distribution.active[i].is_none() {
-                    let per_length = catenaries[i].compliance().force_per_length();
-                    let c = self.wrench_of(i, span, per_length / per_length.dot(&direction));
-                    d = 1.0 + (c - w).dot(&multipliers) / *t;
-                    let share = c / d;
-                    matrix += share * w.transpose();
-                    right -= share * left;
-                    largest = largest.max(left.abs());
-                }
-                cables.push((w, left, d));
-            }
-            let size = wrench.norm() + tensions.iter().sum::<f64>();
-            let residual = balance.norm().max(largest);
-            // Each round squares the residual, until rounding ends it.
-            if residual <= 1e-14 * size || (residual <= 1e-10 * size && residual >= 0.5 * residual_before) {
-                let optimal = (0..self.cables()).all(|i| match distribution.active[i] {
-                    None => limits[i].min <= tensions[i] && tensions[i] <= limits[i].max,
-                    Some(Bound::Min) => cables[i].1 >= -1e-9 * size,
-                    Some(Bound::Max) => cables[i].1 <= 1e-9 * size,
-                });
-                return Ok(if optimal {
-                    Outcome::Solved { catenaries, tensions }
-                } else {
-                    Outcome::Catenaries(catenaries)
-                });
-            }
-            residual_before = residual;
-            let Some(step) = matrix.lu().solve(&(right + balance)) else { return Ok(Outcome::Lost) };
-            multipliers += step;
-            for (t, (w, left, d)) in tensions.iter_mut().zip(&cables) {
-                *t -= (left + w.dot(&step)) / d;
-            }
-        }
-        Ok(Outcome::Lost)
-    }
-}
-
-/// How one iteration of the inverse model ends.
-enum Outcome<'a> {
-    /// The optimum to rounding.
-    Solved { catenaries: Vec<Catenary<'a>>, tensions: Vec<f64> },
-    /// Catenaries whose directions give a better distribution.
-    Catenaries(Vec<Catenary<'a>>),
-    /// A cable whose span demands at least this tension [N].
-    TooSmall { cable: usize, least: f64 },
-    /// Newton's method failed, and nothing is known.
-    Lost,
 }
 
 /// Unstrained lengths that hold the platform at a pose; held there it need not be in balance.
@@ -303,22 +129,22 @@ impl HeldPose {
 
 /// The unstrained lengths that give each cable the tension `tensions[i]` [N] at the platform, held at `pose`.
 ///
-/// A cable whose own weight demands more over its span gets the least tension that it demands.
+/// A cable whose own weight demands more over its span, or nearly as much, gets 1.001 times the least tension
+/// that it demands.
 ///
 /// # Errors
 /// [`StaticsError::Invalid`] unless there is one tension for each cable; [`StaticsError::Cable`] for a
 /// tension that is not positive and finite.
 pub fn lengths_for_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Result<HeldPose, StaticsError> {
     StaticsError::one_per_cable("tensions", tensions, robot.cables.len())?;
-    let solutions = tensions.iter().enumerate().map(|(i, tension)| {
-        let (cable, end) = (robot.cable(i), Span::new(robot.span(pose, i).into()).end.into());
-        let solution = match length_for_tension(&cable, end, *tension) {
-            Err(CableError::TensionTooSmall { least, .. }) => {
-                length_for_tension(&cable, end, ABOVE_LEAST * least)
-            }
-            solution => solution,
+    let catenaries = tensions.iter().enumerate().map(|(i, tension)| {
+        let cable = robot.cable(i);
+        let end = Vector2::from(Span::new(robot.span(pose, i).into()).end);
+        let held = || -> Result<Catenary, CableError> {
+            let least = held::least_allowed(&cable, end, *tension)?;
+            Ok(length_for_tension(&cable, end, least)?.catenary)
         };
-        solution.map(|solution| solution.catenary).map_err(StaticsError::cable(i))
+        held().map_err(StaticsError::cable(i))
     });
-    Ok(HeldPose::new(pose, &solutions.collect::<Result<Vec<_>, _>>()?))
+    Ok(HeldPose::new(pose, &catenaries.collect::<Result<Vec<_>, _>>()?))
 }

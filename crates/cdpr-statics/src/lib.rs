@@ -59,7 +59,7 @@ pub use direct::{
     Stability, Start, Starts, direct, rough_pose,
 };
 pub use equations::{Inputs, Linearization};
-pub use error::StaticsError;
+pub use error::{Blocked, StaticsError};
 pub use inverse::{HeldPose, InverseSolution, inverse, lengths_for_tensions};
 pub use lanes::{Observation, Observer, Tracker};
 pub use loading::{

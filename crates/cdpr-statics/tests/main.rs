@@ -9,6 +9,7 @@ mod derivatives;
 mod elastic_law;
 mod equilibria;
 mod hysteresis;
+mod inverse;
 mod models;
 mod observer;
 mod reference;

@@ -28,7 +28,7 @@ fn nominal_deflections_of_caroca() {
     let robot = caroca();
     let rms = |pose| 1e3 * deflection(&robot, &pose, &[0.0; 8], &Load::payload(50.0)).unwrap().rms();
     assert!((rms(Pose::at(0.0, 0.0, 1.75)) - 1.33125).abs() < 1e-4);
-    assert!((rms(Pose::at(3.2, 1.7, 3.0)) - 0.82217).abs() < 1e-4);
+    assert!((rms(Pose::at(3.2, 1.7, 3.0)) - 0.821_858_8).abs() < 2e-6);
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn a_symmetric_platform_sinks_straight_down_and_opposite_cables_share_the_load()
 fn the_stiffness_at_the_unloaded_pose_predicts_more_than_the_deflection() {
     let robot = caroca();
     // The load tightens the cables, which then sag less and give less.
-    for (pose, expected) in [(Pose::at(0.0, 0.0, 1.75), 1.33640), (Pose::at(3.2, 1.7, 3.0), 0.85916)] {
+    for (pose, expected) in [(Pose::at(0.0, 0.0, 1.75), 1.33640), (Pose::at(3.2, 1.7, 3.0), 0.85871)] {
         let load = Load::payload(50.0);
         let exact = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
         let small = exact.small_displacement(&robot, &load).unwrap();
@@ -88,7 +88,7 @@ fn a_pose_above_the_frame_is_refused_with_what_stays_open() {
     let text = error.to_string();
     assert!(
         text.starts_with(
-            "at position (0, 0, 5) m: no tensions between 1 N and 10290 N balance the wrench: the best of them"
+            "at position (0, 0, 5) m: no tensions between 1 N and 10290 N balance the wrench: the best from"
         ),
         "{text}"
     );
@@ -136,9 +136,9 @@ fn a_tension_below_what_the_span_demands_is_raised_to_it() {
 }
 
 #[test]
-fn poses_are_held_with_cables_that_hang_as_loosely_as_their_weight_allows() {
+fn poses_are_held_where_a_cable_carries_less_than_its_own_weight() {
     let robot = caroca();
-    let mut at_bound = 0;
+    let mut hang_loosely = 0;
     for i in 0..300 {
         let share = |k: usize| (i * k % 300) as f64 / 300.0;
         let pose = Pose::at(6.4 * share(1) - 3.2, 3.4 * share(7) - 1.7, 0.3 + 2.7 * share(53));
@@ -149,12 +149,14 @@ fn poses_are_held_with_cables_that_hang_as_loosely_as_their_weight_allows() {
                 continue;
             }
         };
-        at_bound += usize::from(wanted.active.iter().any(Option::is_some));
+        let cables = wanted.tensions.iter().zip(&wanted.lengths).enumerate();
+        let loose = |(i, (t, length)): (usize, (&f64, &f64))| *t < robot.cable(i).weight_per_length * length;
+        hang_loosely += usize::from(cables.into_iter().any(loose));
         assert!(wanted.residual.force < 1e-7, "{:?}", wanted.residual);
         let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
         assert!(pose.motion_to(&found.equilibrium.pose).norm() < 1e-8);
     }
-    assert!(at_bound > 10, "{at_bound}");
+    assert!(hang_loosely > 0, "{hang_loosely}");
 }
 
 #[test]

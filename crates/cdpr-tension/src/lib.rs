@@ -44,9 +44,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod box_problem;
 mod distribution;
 mod problem;
 mod quadratic_program;
 
+pub use box_problem::{BoxProblem, BoxSolution, BoxUnknown};
 pub use distribution::{Distribution, DistributionMethod, closed_form, distribute, offset};
 pub use problem::{Bound, Problem, TensionError};

@@ -109,10 +109,11 @@ impl Problem<'_> {
         self.wrench + self.wrench_matrix * DVector::from_column_slice(tensions)
     }
 
-    /// A tension that scales the problem [N], so that the solver's tolerances are relative.
+    /// A tension that scales the problem [N], so that the solver's tolerances are relative: the wrench, the
+    /// reference or the least tensions, whichever is largest.
     pub(crate) fn scale(&self) -> f64 {
         let force = self.wrench.fixed_rows::<3>(0).norm();
-        let reference = self.reference.iter().fold(0.0, |size: f64, t| size.max(t.abs()));
-        force.max(reference).max(f64::MIN_POSITIVE)
+        let least = self.limits.iter().map(|limits| limits.min.abs());
+        self.reference.iter().map(|t| t.abs()).chain(least).fold(force, f64::max).max(f64::MIN_POSITIVE)
     }
 }

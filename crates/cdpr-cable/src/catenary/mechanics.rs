@@ -3,12 +3,33 @@
 //! The equations of a linear cable are in `kernel/response.rs`, those of one with a piecewise linear law in
 //! `pieces.rs`.
 
+use crate::cable::Cable;
 use crate::catenary::Catenary;
 use crate::catenary::compliance::Compliance;
 use crate::catenary::pieces;
-use crate::kernel::{Response, Terms, closure_of_limp};
+use crate::kernel::{Real, Response, Terms, closure_of_limp, response};
 use crate::law::ElasticLaw;
 use nalgebra::{Matrix2, Matrix3, Vector2};
+
+impl Cable<'_> {
+    /// The response to the force `force` [N] at A of a cable with this law, over any kind of number: see
+    /// [`crate::kernel::response`].
+    #[inline]
+    pub(crate) fn response<T: Real>(
+        &self,
+        weight_per_length: T,
+        axial_flexibility: T,
+        length: T,
+        force: [T; 2],
+    ) -> Response<T> {
+        match self.law {
+            ElasticLaw::Linear => response(weight_per_length, axial_flexibility, length, force),
+            ElasticLaw::Piecewise(law) => {
+                pieces::response(law, weight_per_length, axial_flexibility, length, force)
+            }
+        }
+    }
+}
 
 impl Catenary<'_> {
     /// Position `(x, z)` of A relative to B [m], (C1)-(C2).
@@ -34,10 +55,9 @@ impl Catenary<'_> {
     /// End position, flexibility and tension, as [`crate::kernel::response`] gives them for a linear cable.
     #[inline]
     pub fn response(&self) -> Response<f64> {
-        match self.cable.law {
-            ElasticLaw::Linear => self.terms().response(),
-            ElasticLaw::Piecewise(law) => pieces::response(self, law),
-        }
+        let Self { cable, unstrained_length, force } = *self;
+        let flexibility = 1.0 / cable.axial_stiffness;
+        cable.response(cable.weight_per_length, flexibility, unstrained_length, force.into())
     }
 
     /// End position, in-plane flexibility and lateral stiffness.
@@ -110,7 +130,6 @@ impl Catenary<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cable::Cable;
     use crate::error::CableError;
     use approx::assert_relative_eq;
     use proptest::prelude::*;

@@ -25,59 +25,82 @@
 //! Functions that are called from outside are marked cold: most cables are linear, and their code is shorter
 //! when it is laid out for them.
 
+use crate::cable::Cable;
 use crate::catenary::Catenary;
-use crate::kernel::{Response, Terms};
+use crate::kernel::{Real, Response, Terms};
 use crate::law::{PiecewiseLaw, SegmentTerms};
 use nalgebra::Vector2;
 
 /// A piece of a cable whose tension stays within one segment.
-struct Piece {
+struct Piece<T> {
     /// Terms of a linear cable with 1/EA_k.
-    elastic: Terms<f64>,
+    elastic: Terms<T>,
     /// Terms of an inextensible cable.
-    inextensible: Terms<f64>,
-    segment: SegmentTerms,
-    length: f64,
+    inextensible: Terms<T>,
+    segment: SegmentTerms<T>,
+    length: T,
     /// Length of the cable beyond the piece, towards A.
-    beyond: f64,
+    beyond: T,
     /// Vertical force at the ends of the piece, nearer to B and to A.
-    vertical: [f64; 2],
+    vertical: [T; 2],
 }
 
-/// The pieces in the order from B to A.
-fn pieces(catenary: &Catenary, law: &PiecewiseLaw) -> Vec<Piece> {
-    let Catenary { cable, unstrained_length: length, force } = *catenary;
-    let (w, fx, v0) = (cable.weight_per_length, force.x, catenary.exit_vertical_force());
-    let mut cuts = vec![0.0, length];
-    if !cable.is_weightless(length) {
-        for kink in law.kinks().filter(|kink| *kink > fx) {
-            let v = ((kink - fx) * (kink + fx)).sqrt();
-            cuts.extend([-v, v].map(|v| (v - v0) / w).iter().filter(|s| (0.0..length).contains(*s)));
-        }
+/// What the pieces of a cable are cut from, over any kind of number.
+struct Whole<T> {
+    weight_per_length: T,
+    axial_flexibility: T,
+    length: T,
+    force: [T; 2],
+}
+
+impl Whole<f64> {
+    fn of(catenary: &Catenary) -> Self {
+        let Catenary { cable, unstrained_length: length, force } = *catenary;
+        let axial_flexibility = 1.0 / cable.axial_stiffness;
+        Self { weight_per_length: cable.weight_per_length, axial_flexibility, length, force: force.into() }
     }
-    cuts.sort_by(f64::total_cmp);
-    let between = cuts.windows(2).filter(|ends| ends[1] > ends[0]);
-    between
-        .map(|ends| {
-            // The tension in the middle decides, because an end may lie on a kink.
-            let tension = fx.hypot(v0 + w * 0.5 * (ends[0] + ends[1]));
-            let segment = law.segment_terms(tension, cable.axial_stiffness);
-            let piece = ends[1] - ends[0];
-            let vertical = [0, 1].map(|k| if ends[k] == length { force.y } else { v0 + w * ends[k] });
-            let terms = |flexibility| Terms::new(w, flexibility, piece, fx, vertical[1]);
-            Piece {
-                elastic: terms(segment.flexibility),
-                inextensible: terms(0.0),
-                segment,
-                length: piece,
-                beyond: length - ends[1],
-                vertical,
-            }
-        })
-        .collect()
 }
 
-impl Piece {
+impl<T: Real> Whole<T> {
+    /// The pieces in the order from B to A.
+    fn pieces(&self, law: &PiecewiseLaw) -> Vec<Piece<T>> {
+        let Self { weight_per_length: w, axial_flexibility, length, force: [fx, fz] } = *self;
+        let zero = T::of(0.0);
+        let v0 = fz - w * length;
+        let mut cuts = vec![zero, length];
+        let cable = Cable::linear(w.value(), 1.0 / axial_flexibility.value());
+        if !cable.is_weightless(length.value()) {
+            for kink in law.kinks().filter(|kink| *kink > fx.value()) {
+                let v = ((-fx + kink) * (fx + kink)).sqrt();
+                let inside = |s: &T| (0.0..length.value()).contains(&s.value());
+                cuts.extend([-v, v].map(|v| (v - v0) / w).into_iter().filter(inside));
+            }
+        }
+        cuts.sort_by(|a, b| a.value().total_cmp(&b.value()));
+        let between = cuts.windows(2).filter(|ends| ends[1].value() > ends[0].value());
+        between
+            .map(|ends| {
+                // The tension in the middle decides, because an end may lie on a kink.
+                let middle = v0 + w * (ends[0] + ends[1]) * 0.5;
+                let segment = law.segment_terms(fx.value().hypot(middle.value()), axial_flexibility);
+                let piece = ends[1] - ends[0];
+                let last = ends[1].value() == length.value();
+                let vertical = [v0 + w * ends[0], if last { fz } else { v0 + w * ends[1] }];
+                let terms = |flexibility| Terms::new(w, flexibility, piece, fx, vertical[1]);
+                Piece {
+                    elastic: terms(segment.flexibility),
+                    inextensible: terms(zero),
+                    segment,
+                    length: piece,
+                    beyond: length - ends[1],
+                    vertical,
+                }
+            })
+            .collect()
+    }
+}
+
+impl Piece<f64> {
     /// (C13): `Q(1/EA_k) + (α_k - 1) Q(0)`.
     fn of<T>(&self, quantity: impl Fn(&Terms<f64>) -> T) -> T
     where
@@ -90,38 +113,50 @@ impl Piece {
 /// Position (x, z) of A [m].
 #[cold]
 pub(crate) fn end_position(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
-    let ends = pieces(catenary, law).into_iter();
+    let ends = Whole::of(catenary).pieces(law).into_iter();
     ends.map(|piece| piece.of(|terms| Vector2::from(terms.end_position()))).sum()
 }
 
-/// End position, flexibility and tension.
+/// The response to the force `force` [N] at A of a cable with this law, over any kind of number: see
+/// [`crate::kernel::response`].
 #[cold]
-pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64> {
-    let Catenary { unstrained_length: length, force, cable } = *catenary;
-    let (tension, exit) = (catenary.anchor_tension(), catenary.exit_tension());
-    let q = cable.weight_per_length * length / (tension + exit);
+pub(crate) fn response<T: Real>(
+    law: &PiecewiseLaw,
+    weight_per_length: T,
+    axial_flexibility: T,
+    length: T,
+    force: [T; 2],
+) -> Response<T> {
+    let zero = T::of(0.0);
+    let [fx, fz] = force;
+    let v0 = fz - weight_per_length * length;
+    let (tension, exit) = ((fx * fx + fz * fz).sqrt(), (fx * fx + v0 * v0).sqrt());
+    let q = weight_per_length * length / (tension + exit);
     let mut sum = Response {
-        end: [0.0; 2],
-        flexibility: [0.0; 3],
-        determinant: 0.0,
-        lateral_flexibility: 0.0,
-        end_per_length: [0.0; 2],
+        end: [zero; 2],
+        flexibility: [zero; 3],
+        determinant: zero,
+        lateral_flexibility: zero,
+        end_per_length: [zero; 2],
         tension,
-        direction: [force.x / tension, force.y / tension],
+        direction: [fx / tension, fz / tension],
         slackness: q * q,
     };
-    let (mut straight, mut bent, mut determinant) = (0.0, [0.0; 3], 0.0);
-    for (index, piece) in pieces(catenary, law).iter().enumerate() {
+    let (mut straight, mut bent, mut determinant) = (zero, [zero; 3], zero);
+    let whole = Whole { weight_per_length, axial_flexibility, length, force };
+    for (index, piece) in whole.pieces(law).iter().enumerate() {
         let Piece { segment: SegmentTerms { alpha, flexibility, .. }, length, .. } = *piece;
         let (elastic, inextensible) = (piece.elastic.response(), piece.inextensible.response());
-        let add = |one: f64, other: f64| one + (alpha - 1.0) * other;
+        let add = |one: T, other: T| one + (alpha + -1.0) * other;
         for k in 0..2 {
-            sum.end[k] += add(elastic.end[k], inextensible.end[k]);
+            sum.end[k] = sum.end[k] + add(elastic.end[k], inextensible.end[k]);
         }
         for k in 0..3 {
-            sum.flexibility[k] += add(elastic.flexibility[k], inextensible.flexibility[k]);
+            sum.flexibility[k] =
+                sum.flexibility[k] + add(elastic.flexibility[k], inextensible.flexibility[k]);
         }
-        sum.lateral_flexibility += add(elastic.lateral_flexibility, inextensible.lateral_flexibility);
+        let across = add(elastic.lateral_flexibility, inextensible.lateral_flexibility);
+        sum.lateral_flexibility = sum.lateral_flexibility + across;
         if index == 0 {
             // Cable that is paid out enters at B.
             for k in 0..2 {
@@ -129,10 +164,11 @@ pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64>
             }
         }
         let n = inextensible.flexibility.map(|c| alpha * c);
-        let mixed = bent[0] * n[2] + bent[2] * n[0] - 2.0 * bent[1] * n[1];
-        determinant += alpha * alpha * inextensible.determinant + mixed.max(0.0);
-        straight += length * flexibility;
-        (0..3).for_each(|k| bent[k] += n[k]);
+        let mixed = bent[0] * n[2] + bent[2] * n[0] + bent[1] * n[1] * -2.0;
+        let mixed = if mixed.value() > 0.0 { mixed } else { zero };
+        determinant = determinant + alpha * alpha * inextensible.determinant + mixed;
+        straight = straight + length * flexibility;
+        (0..3).for_each(|k| bent[k] = bent[k] + n[k]);
     }
     sum.determinant = straight * (straight + bent[0] + bent[2]) + determinant;
     sum
@@ -141,7 +177,7 @@ pub(crate) fn response(catenary: &Catenary, law: &PiecewiseLaw) -> Response<f64>
 /// d(x, z)/dw at constant force at A [m²/N].
 #[cold]
 pub(crate) fn end_per_weight(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
-    let all = pieces(catenary, law).into_iter();
+    let all = Whole::of(catenary).pieces(law).into_iter();
     all.map(|piece| {
         // The force at the end of the piece falls by the added weight of the cable beyond it.
         let per_vertical = piece.of(|terms| {
@@ -156,7 +192,8 @@ pub(crate) fn end_per_weight(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2
 /// d(x, z)/dEA at constant force at A [m/N]: the strain of each element is proportional to 1/EA.
 #[cold]
 pub(crate) fn end_per_stiffness(catenary: &Catenary, law: &PiecewiseLaw) -> Vector2<f64> {
-    let strained: Vector2<f64> = pieces(catenary, law)
+    let strained: Vector2<f64> = Whole::of(catenary)
+        .pieces(law)
         .into_iter()
         .map(|piece| {
             let [below, above] = piece.vertical;
@@ -171,7 +208,7 @@ pub(crate) fn end_per_stiffness(catenary: &Catenary, law: &PiecewiseLaw) -> Vect
 /// Complementary energy [J].
 #[cold]
 pub(crate) fn complementary_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f64 {
-    let all = pieces(catenary, law).into_iter();
+    let all = Whole::of(catenary).pieces(law).into_iter();
     all.map(|piece| piece.of(Terms::complementary_energy) + piece.length * piece.segment.energy).sum()
 }
 
@@ -179,7 +216,7 @@ pub(crate) fn complementary_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f
 #[cold]
 pub(crate) fn potential_energy(catenary: &Catenary, law: &PiecewiseLaw) -> f64 {
     let w = catenary.cable.weight_per_length;
-    let all = pieces(catenary, law).into_iter();
+    let all = Whole::of(catenary).pieces(law).into_iter();
     all.map(|piece| {
         let [_, z] = [0, 1].map(|k| piece.of(|terms| terms.end_position()[k]));
         piece.of(Terms::potential_energy) - piece.length * piece.segment.energy + w * piece.beyond * z

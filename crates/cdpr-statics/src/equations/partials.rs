@@ -26,12 +26,13 @@
 //! w_ex = [ F_w; R c x F_w ] + load,   F_w = -(m + payload) g e_z
 //! ```
 
+use crate::equations::cable::Span;
 use crate::equations::spanned::SpannedCable;
 use crate::equations::vector;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Load;
-use cdpr_cable::Catenary;
+use cdpr_cable::{Catenary, HeldCable};
 use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, Vector2, Vector3, Vector6};
 use nalgebra::{DMatrix, Matrix6};
 use std::ops::Range;
@@ -106,8 +107,6 @@ pub(crate) struct CableDerivatives {
     pub(crate) arm: Vector3<f64>,
     /// F_i [N], on the platform.
     pub(crate) force: Vector3<f64>,
-    /// Tension t_i [N].
-    pub(crate) tension: f64,
     /// u_i; zero for a slack cable without weight.
     pub(crate) direction: Vector3<f64>,
     /// -dF_i/dr_i: K3_i, or Q_i K3_i where the tension is given [N/m].
@@ -131,7 +130,6 @@ impl CableDerivatives {
             return Self {
                 arm,
                 force,
-                tension,
                 direction: o,
                 stiffness,
                 per_density: o,
@@ -146,7 +144,6 @@ impl CableDerivatives {
         Self {
             arm,
             force,
-            tension,
             direction: force / tension,
             stiffness: linearized.stiffness_in_space().into(),
             per_density: held(catenary.end_per_weight()) * robot.gravity,
@@ -172,6 +169,31 @@ impl CableDerivatives {
             per_modulus: keep(self.per_modulus),
             per_actuation: v,
             ..*self
+        }
+    }
+
+    /// The derivatives of `v_i = dF_i/dt_i`, in the place of those of F_i: with the tension given it is a
+    /// function of the same inputs.
+    pub(crate) fn of_tension_slope(robot: &Robot, pose: &Pose, i: usize, catenary: Catenary) -> Self {
+        let arm = robot.anchor_arm(pose, i);
+        let span = Span::new(robot.span(pose, i).into());
+        let held = HeldCable::of(catenary, span.end.into());
+        let slopes = held.tension_slopes();
+        let lift = |v: Vector2<f64>| Vector3::from(span.plane.lift(v.into()));
+        let across = Vector3::z().cross(&lift(Vector2::x()));
+        // v_x/h
+        let lateral = 1.0 / (span.chord() * held.tension_slope());
+        let [per_h, per_z] = slopes.per_end.map(lift);
+        Self {
+            arm,
+            force: -lift(slopes.force_per_tension),
+            direction: Vector3::zeros(),
+            stiffness: per_h * lift(Vector2::x()).transpose()
+                + per_z * Vector3::z().transpose()
+                + across * across.transpose() * lateral,
+            per_density: -lift(slopes.per_weight) * robot.gravity,
+            per_modulus: -lift(slopes.per_stiffness) * robot.cables[i].properties.section,
+            per_actuation: -lift(slopes.per_tension),
         }
     }
 
@@ -267,11 +289,22 @@ impl Partials {
 
 /// Derivatives of the tensions of `cables` at `pose` with the lengths held, n x count: `u_i·dF_i`.
 pub(crate) fn tensions(inputs: &Inputs, pose: &Pose, cables: &[CableDerivatives]) -> DMatrix<f64> {
-    let mut tensions = inputs.zeros(cables.len());
-    each_effect(inputs, pose, cables, |column, i, force, _| {
-        tensions[(i, column)] += cables[i].direction.dot(&force);
+    read(inputs, pose, cables, Reading::tension)
+}
+
+/// Derivatives of one reading of each of `cables` at `pose`, n x count.
+pub(crate) fn read(
+    inputs: &Inputs,
+    pose: &Pose,
+    cables: &[CableDerivatives],
+    reading: impl Fn(&CableDerivatives) -> Reading,
+) -> DMatrix<f64> {
+    let mut readings = inputs.zeros(cables.len());
+    let each: Vec<_> = cables.iter().map(reading).collect();
+    each_effect(inputs, pose, cables, |column, i, force, turn| {
+        readings[(i, column)] += each[i].per_force.dot(&force) + each[i].per_arm.dot(&turn);
     });
-    tensions
+    readings
 }
 
 /// Gives `add(column, i, dF_i, ds_i)` for every input that cable i answers to, equations (D1)-(D3).

@@ -16,47 +16,6 @@ pub(crate) type Lanes6<S> = [Lanes<S>; 6];
 /// Six rows of six.
 pub(crate) type Lanes6x6<S> = [[Lanes<S>; 6]; 6];
 
-/// Factors L U of a matrix that needs no pivoting, such as that of the tension distribution.
-pub(crate) struct GeneralFactors<S: Simd> {
-    lu: Lanes6x6<S>,
-    pivots_inv: [Lanes<S>; 6],
-}
-
-impl<S: Simd> GeneralFactors<S> {
-    #[inline(always)]
-    pub(crate) fn new(matrix: Lanes6x6<S>) -> Self {
-        let mut lu = matrix;
-        let mut pivots_inv = [lu[0][0]; 6];
-        for k in 0..6 {
-            pivots_inv[k] = lu[k][k].recip();
-            for row in k + 1..6 {
-                lu[row][k] = lu[row][k] * pivots_inv[k];
-                for column in k + 1..6 {
-                    lu[row][column] -= lu[row][k] * lu[k][column];
-                }
-            }
-        }
-        Self { lu, pivots_inv }
-    }
-
-    #[inline(always)]
-    pub(crate) fn solve(&self, right: &Lanes6<S>) -> Lanes6<S> {
-        let mut x = *right;
-        for row in 1..6 {
-            for column in 0..row {
-                x[row] -= self.lu[row][column] * x[column];
-            }
-        }
-        for row in (0..6).rev() {
-            for column in row + 1..6 {
-                x[row] -= self.lu[row][column] * x[column];
-            }
-            x[row] = x[row] * self.pivots_inv[row];
-        }
-        x
-    }
-}
-
 /// Factors Uᵀ D U of a symmetric matrix, U with ones on its diagonal.
 #[derive(Clone, Copy)]
 pub(crate) struct SymmetricFactors<S: Simd> {

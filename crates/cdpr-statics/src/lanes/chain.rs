@@ -10,19 +10,22 @@
 //! ```
 //!
 //! for a change dt of its tension. With w the wrench of a unit tension, n its derivative with respect to θ,
-//! and λ the multipliers of the least-norm distribution, (I1) and (I2) become
+//! and λ the multipliers of the balance, the least-norm optimum (I2) and a step towards it are
 //!
 //! ```text
-//! t + w·λ = 0,      sum t w + w_ex = 0                                                                 (L2)
-//! [ sum c wᵀ/D ] dλ = R2 - sum c R1/D,      dt = -(R1 + w·dλ)/D,                                       (L3)
-//!      D = 1 + β n·λ,   c = w + t β n,   R1 = t + (w + α n)·λ,   R2 = sum t (w + α n) + w_ex
+//! t + c·λ = 0,      sum t w + w_ex = 0,      c = w + t β n                                             (L2)
+//! [ sum c cᵀ/D ] dλ = R2 - sum c R1/D,      dt = -(R1 + c·dλ)/D,                                       (L3)
+//!      R1 = t + (c + α (n - t β w))·λ,   R2 = sum t (w + α n) + w_ex,   D = 1 - t β² w·λ
 //! ```
+//!
+//! c is the derivative of the cable's wrench with respect to its tension. D holds the derivative of c for a
+//! parabola, whose direction turns in proportion to 1/t; for a taut cable little is missing.
 //!
 //! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
 
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
-use crate::lanes::algebra::{GeneralFactors, Lanes2, Lanes3, Lanes6, six, three};
+use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, SymmetricFactors, six, three};
 use crate::lanes::cable::TautCable;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots, Scale};
 use crate::lanes::simd::{Lanes, Mask, Simd};
@@ -71,7 +74,7 @@ const LAST_CHANGE: f64 = 1e-7;
 
 /// The same for tensions that are still to be offset: their error then changes no position by more than 1e-12
 /// m.
-const LAST_DISTRIBUTION: f64 = 3e-6;
+const LAST_DISTRIBUTION: f64 = 1e-9;
 
 /// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at
 /// the wanted pose.
@@ -184,22 +187,24 @@ fn distribute<S: Simd>(
             let [ux, uz] = held.along;
             let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(held.along));
             let rotation = wrench(&cable.anchor_arm, &span.plane.force_on_platform([-uz, ux]));
-            let rotated = dot(&rotation, &multipliers);
-            let d_inv = (held.beta * rotated + 1.0).recip();
-            let left = held.tension + dot(&pull, &multipliers) + held.alpha * rotated;
+            let (pulled, rotated) = (dot(&pull, &multipliers), dot(&rotation, &multipliers));
+            let bent = held.tension * held.beta;
+            let d_inv = (-(bent * held.beta * pulled) + 1.0).recip();
+            let left = held.tension + pulled + bent * rotated + held.alpha * (rotated - bent * pulled);
+            let slope = six(|k| pull[k] + rotation[k] * bent);
             for k in 0..6 {
-                let c = (pull[k] + rotation[k] * (held.tension * held.beta)) * d_inv;
+                let c = slope[k] * d_inv;
                 right[k] += (pull[k] + rotation[k] * held.alpha) * held.tension - c * left;
-                for l in 0..6 {
-                    matrix[k][l] += c * pull[l];
+                for l in k..6 {
+                    matrix[k][l] += c * slope[l];
                 }
             }
-            linear.push((held, pull, left, d_inv));
+            linear.push((held, slope, left, d_inv));
         }
-        let step = GeneralFactors::new(matrix).solve(&right);
+        let step = SymmetricFactors::new(matrix).solve(&right);
         let mut moved = zero;
-        for ((held, pull, left, d_inv), cable) in linear.iter().zip(&mut robots.cables) {
-            let dt = -(*left + dot(pull, &step)) * *d_inv;
+        for ((held, slope, left, d_inv), cable) in linear.iter().zip(&mut robots.cables) {
+            let dt = -(*left + dot(slope, &step)) * *d_inv;
             moved = moved.max(held.change(cable, dt, going, shared));
         }
         multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));

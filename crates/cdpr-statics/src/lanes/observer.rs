@@ -4,7 +4,6 @@
 //! (`lanes/chain.rs`), each from the tensions of the nominal robot. Any other robot is observed by
 //! [`deflection`], which decides on every failure.
 
-use crate::equations::Span;
 use crate::error::StaticsError;
 use crate::inverse::inverse;
 use crate::lanes::algebra::{six, three};
@@ -17,7 +16,6 @@ use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
 use cdpr_cable::kernel::Field;
 use cdpr_robot::{ParameterLayout, Pose, Robot, Vector3, Vector6};
-use nalgebra::DVector;
 use smallvec::SmallVec;
 use std::array::from_fn;
 
@@ -109,17 +107,6 @@ impl Nominal {
             return None;
         }
         let solution = inverse(robot, pose, &Load::none(), None).ok()?;
-        let pulls: Vec<Vector3<f64>> = (0..robot.cables.len())
-            .map(|i| {
-                let span = Span::new(robot.span(pose, i).into());
-                let force = span.plane.force_on_platform(solution.equilibrium.cable_forces[i].into());
-                Vector3::from(force) / solution.tensions[i]
-            })
-            .collect();
-        let w = robot.wrench_matrix(pose, &pulls);
-        let tensions = DVector::from_column_slice(&solution.tensions);
-        // t = -Wᵀ λ: (I1) with no reference.
-        let multipliers = -(&w * w.transpose()).lu().solve(&(&w * &tensions))?;
         let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let shared = Shared {
@@ -127,14 +114,19 @@ impl Nominal {
             greatest: robot.tension_limits.max,
             payload: load.payload * robot.gravity,
             force: load.wrench.force.into(),
-            tension: tensions.sum(),
+            tension: solution.tensions.iter().sum(),
             scale: Scale {
                 size: problem.size(),
                 characteristic_length: problem.characteristic_length(),
                 rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
             },
         };
-        Some(Self { equilibrium: solution.equilibrium, lengths: solution.lengths, multipliers, shared })
+        Some(Self {
+            equilibrium: solution.equilibrium,
+            lengths: solution.lengths,
+            multipliers: solution.multipliers,
+            shared,
+        })
     }
 }
 

@@ -1,0 +1,383 @@
+//! A cable between two held ends, as a function of its chord force.
+//!
+//! With both ends held one number describes the cable. The tension t at A is a poor one: it has a minimum over
+//! the length, where every derivative with respect to t is infinite. The chord force
+//!
+//! ```text
+//! σ = fx c/h,      c the chord, h its horizontal part                                            (C16)
+//! ```
+//!
+//! is the part of the force at A along the chord when the rest is vertical (Irvine 1981, section 2.5). It is
+//! the tension of a straight cable, differs little from that of a taut one, and falls steadily while cable is
+//! paid out, through the least tension and beyond. Force and length follow from σ by
+//!
+//! ```text
+//! x/fx = c/σ,      z = z(f, L),      fx = σ h/c                                                  (C17)
+//! ```
+//!
+//! with x/fx of (C1), which is regular for a vertical cable. With the flexibility C and `e = (fx, V0) k`,
+//! `k = 1/T0 + 1/EA` of (C9), the derivatives at held ends are
+//!
+//! ```text
+//! fx' = h/c,      fz' = (V0 Cxx/σ - Cxz fx')/m,      L' = -det C/(σ k m),      m = Czz - V0 Cxz/fx   (C18)
+//! ```
+//!
+//! Second derivatives are (C18) differentiated by dual numbers.
+
+use crate::cable::Cable;
+use crate::catenary::Catenary;
+use crate::error::{CableError, SMALLEST, check};
+use crate::kernel::{Dual, Field, Real, Response};
+use crate::solve::end_force::check_end;
+use crate::solve::length_for_tension::length_for_tension_near;
+use nalgebra::Vector2;
+
+/// A cable between held ends, with the derivatives of its force with respect to the chord force σ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldCable<'a> {
+    /// The equilibrium.
+    pub catenary: Catenary<'a>,
+    /// End position (x, z) [m].
+    pub end: Vector2<f64>,
+    /// Chord force σ [N], (C16).
+    pub chord_force: f64,
+    /// df/dσ, (C18).
+    pub force_slope: Vector2<f64>,
+    /// dL/dσ [m/N], always negative.
+    pub length_slope: f64,
+}
+
+/// Second derivatives of a cable between held ends: how `v = df/dt`, the change of its force with its tension
+/// t at A, changes itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TensionSlope {
+    /// v = df/dt.
+    pub force_per_tension: Vector2<f64>,
+    /// dv/dt [1/N].
+    pub per_tension: Vector2<f64>,
+    /// dv/dx and dv/dz at constant t: motions of A in the plane [1/m].
+    pub per_end: [Vector2<f64>; 2],
+    /// dv/dw at constant t, per weight per length [m/N].
+    pub per_weight: Vector2<f64>,
+    /// dv/dEA at constant t, per axial stiffness [1/N].
+    pub per_stiffness: Vector2<f64>,
+}
+
+/// Share of the chord that stands for the horizontal distance of a vertical cable: far below rounding.
+const VERTICAL: f64 = 1e-20;
+
+/// A cable below this chord force, relative to its weight per length times the chord, is nearly vertical and
+/// folded, or has passed its least tension. Its tension at A is within 1e-10 of its weight of that at any lower
+/// chord force, which rounding of the vertical force at B would hide.
+const FOLDED: f64 = 1.0 / 24.0;
+
+impl<'a> HeldCable<'a> {
+    /// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the chord force `chord_force` [N].
+    ///
+    /// # Errors
+    /// [`CableError::InvalidInput`] for an invalid value; [`CableError::NotConverged`] with the residual.
+    pub fn at_chord_force(
+        cable: &Cable<'a>,
+        end: Vector2<f64>,
+        chord_force: f64,
+    ) -> Result<Self, CableError> {
+        cable.validate()?;
+        check_end(end)?;
+        check("end", end.norm(), end.norm() >= SMALLEST, "an end position away from the exit point [m]")?;
+        check("chord_force", chord_force, chord_force >= SMALLEST, "a chord force from 1e-30 to 1e30 [N]")?;
+        // The inextensible catenary with this horizontal force.
+        let chord = end.norm();
+        let u = 0.5 * cable.weight_per_length * chord / chord_force;
+        let (sinh_ratio, u_coth) = if u < 1e-4 { (1.0, 1.0) } else { (u.sinh() / u, u / u.tanh()) };
+        let length = end.y.hypot(end.x * sinh_ratio) / (1.0 + cable.strain(chord_force));
+        let fz = chord_force / chord * end.y * u_coth + 0.5 * cable.weight_per_length * length;
+        Self::close(cable, end, chord_force, [fz, length])
+    }
+
+    /// The same cable with another chord force [N], started from this one.
+    ///
+    /// # Errors
+    /// As [`HeldCable::at_chord_force`].
+    pub fn with_chord_force(&self, chord_force: f64) -> Result<Self, CableError> {
+        let step = chord_force - self.chord_force;
+        let fz = self.catenary.force.y + step * self.force_slope.y;
+        let length = self.catenary.unstrained_length + step * self.length_slope;
+        if step.abs() <= 0.5 * self.chord_force
+            && length > 0.0
+            && let Ok(held) = Self::close(&self.catenary.cable, self.end, chord_force, [fz, length])
+        {
+            return Ok(held);
+        }
+        Self::at_chord_force(&self.catenary.cable, self.end, chord_force)
+    }
+
+    /// The same cable with the tension `tension` [N] at A, on its taut branch.
+    ///
+    /// # Errors
+    /// As [`crate::length_for_tension`].
+    pub fn with_tension(&self, tension: f64) -> Result<Self, CableError> {
+        Ok(Self::of(length_for_tension_near(&self.catenary, self.end, tension)?.catenary, self.end))
+    }
+
+    /// The derivatives of a cable whose end is at `end` [m].
+    pub fn of(catenary: Catenary<'a>, end: Vector2<f64>) -> Self {
+        let chord_force = end.norm() / catenary.response().lateral_flexibility;
+        Self::at(catenary, end, chord_force)
+    }
+
+    /// The cable of least tension at A over the span to `end` [m].
+    ///
+    /// # Errors
+    /// As [`HeldCable::at_chord_force`], and for a cable without weight, which may be slack.
+    pub fn at_least_tension(cable: &Cable<'a>, end: Vector2<f64>) -> Result<Self, CableError> {
+        let w = cable.weight_per_length;
+        check("weight_per_length", w, w >= SMALLEST, "a weight per length from 1e-30 to 1e30 [N/m]")?;
+        let folded = FOLDED * w * end.norm();
+        // The least tension of a level cable, w h/2 coth u with u tanh u = 1.
+        let mut now = Self::at_chord_force(cable, end, w * end.norm() / 2.4)?;
+        let (mut low, mut high) = (folded, f64::INFINITY);
+        for _ in 0..100 {
+            let (sigma, slope) = (now.chord_force, now.tension_slope());
+            *(if slope > 0.0 { &mut high } else { &mut low }) = sigma;
+            // Newton's method for dt/d(ln σ) = 0, within a factor of e and the bounds.
+            let curvature = slope + sigma * now.tension_curvature(&now.force_curvature());
+            let step = if curvature > 0.0 { -slope / curvature } else { -slope.signum() };
+            let mut next = sigma * step.clamp(-1.0, 1.0).exp();
+            if next <= low || next >= high {
+                next = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * sigma };
+            }
+            // At a minimum the tension is exact when the chord force is known to half the digits.
+            if (next - sigma).abs() <= 1e-10 * sigma || next <= 1.001 * folded {
+                return Ok(now);
+            }
+            now = now.with_chord_force(next)?;
+        }
+        Ok(now)
+    }
+
+    /// Tension t at A [N].
+    pub fn tension(&self) -> f64 {
+        self.catenary.anchor_tension()
+    }
+
+    /// dt/dσ: positive on the taut branch, zero at the least tension.
+    pub fn tension_slope(&self) -> f64 {
+        self.catenary.force.dot(&self.force_slope) / self.tension()
+    }
+
+    /// d²f/dσ² [1/N].
+    pub fn force_curvature(&self) -> Vector2<f64> {
+        let cable = self.in_plane();
+        let along = |value, slope| Dual { value, slopes: [slope] };
+        let cable = InPlane::<Dual<1>> {
+            end: cable.end.map(Dual::of),
+            weight: Dual::of(cable.weight),
+            flexibility: Dual::of(cable.flexibility),
+            chord_force: along(cable.chord_force, 1.0),
+            fz: along(cable.fz, self.force_slope.y),
+            length: along(cable.length, self.length_slope),
+        };
+        let [_, fz_slope, _] = cable.slopes(&cable.response(&self.catenary));
+        Vector2::new(0.0, fz_slope.slopes[0])
+    }
+
+    /// d²t/dσ² [1/N], from the second derivative of the force.
+    pub fn tension_curvature(&self, force_curvature: &Vector2<f64>) -> f64 {
+        let (f, slope) = (self.catenary.force, self.tension_slope());
+        (f.dot(force_curvature) + self.force_slope.norm_squared() - slope * slope) / self.tension()
+    }
+
+    /// Second derivatives with respect to the tension, the end and the material.
+    pub fn tension_slopes(&self) -> TensionSlope {
+        const INPUTS: usize = 5;
+        let Catenary { cable, unstrained_length, force } = self.catenary;
+        let (w, flexibility) = (cable.weight_per_length, 1.0 / cable.axial_stiffness);
+        let inputs = [self.end.x, self.end.y, w, flexibility, self.chord_force];
+        let mut inputs: [Dual<INPUTS>; INPUTS] = std::array::from_fn(|k| Dual::input(inputs[k], k));
+        let mut cable = InPlane {
+            end: [inputs[0], inputs[1]],
+            weight: inputs[2],
+            flexibility: inputs[3],
+            chord_force: inputs[4],
+            fz: Dual::of(force.y),
+            length: Dual::of(unstrained_length),
+        };
+        // What closes the cable for every change of an input.
+        let response = cable.response(&self.catenary);
+        let [across, height] = cable.misclosure(&response);
+        let matrix = ClosureMatrix::of(&self.in_plane(), &self.catenary.response());
+        for k in 0..INPUTS {
+            let [fz, length] = matrix.solve([across.slopes[k], height.slopes[k]]);
+            cable.fz.slopes[k] = fz;
+            cable.length.slopes[k] = length;
+        }
+        // The same with the tension held, by a change of the chord force.
+        let tension = |cable: &InPlane<Dual<INPUTS>>| {
+            let fx = cable.fx();
+            (fx * fx + cable.fz * cable.fz).sqrt()
+        };
+        let slopes = tension(&cable).slopes;
+        let per_sigma = slopes[4];
+        let along = |number: &mut Dual<INPUTS>| {
+            let own = number.slopes[4] / per_sigma;
+            for (slope, tension) in number.slopes[..4].iter_mut().zip(slopes) {
+                *slope -= tension * own;
+            }
+            number.slopes[4] = own;
+        };
+        inputs.iter_mut().for_each(along);
+        cable = InPlane { chord_force: inputs[4], ..cable };
+        along(&mut cable.fz);
+        along(&mut cable.length);
+        let response = cable.response(&self.catenary);
+        let [fx, fz, _] = cable.slopes(&response);
+        let t_slope = (cable.fx() * fx + cable.fz * fz) / tension(&cable);
+        let v = [fx / t_slope, fz / t_slope];
+        let slope = |k: usize| Vector2::new(v[0].slopes[k], v[1].slopes[k]);
+        TensionSlope {
+            force_per_tension: Vector2::new(v[0].value, v[1].value),
+            per_tension: slope(4),
+            per_end: [slope(0), slope(1)],
+            per_weight: slope(2),
+            per_stiffness: slope(3) * (-flexibility * flexibility),
+        }
+    }
+
+    fn in_plane(&self) -> InPlane<f64> {
+        let Catenary { cable, unstrained_length, force } = self.catenary;
+        InPlane {
+            end: self.end.into(),
+            weight: cable.weight_per_length,
+            flexibility: 1.0 / cable.axial_stiffness,
+            chord_force: self.chord_force,
+            fz: force.y,
+            length: unstrained_length,
+        }
+    }
+
+    fn at(catenary: Catenary<'a>, end: Vector2<f64>, chord_force: f64) -> Self {
+        let force_slope = Vector2::zeros();
+        let held = Self { catenary, end, chord_force, force_slope, length_slope: 0.0 };
+        let [fx, fz, length_slope] = held.in_plane().slopes(&catenary.response());
+        Self { force_slope: Vector2::new(fx, fz), length_slope, ..held }
+    }
+
+    /// Newton's method on (C17) for fz and L.
+    fn close(
+        cable: &Cable<'a>,
+        end: Vector2<f64>,
+        chord_force: f64,
+        [mut fz, mut length]: [f64; 2],
+    ) -> Result<Self, CableError> {
+        const MAX_ITERATIONS: usize = 50;
+        let chord = end.norm();
+        let fx = chord_force * end.x.max(VERTICAL * chord) / chord;
+        let mut residual = f64::INFINITY;
+        for iteration in 1..=MAX_ITERATIONS {
+            let catenary = Catenary { cable: *cable, unstrained_length: length, force: Vector2::new(fx, fz) };
+            let response = catenary.response();
+            let in_plane = InPlane {
+                end: end.into(),
+                weight: cable.weight_per_length,
+                flexibility: 1.0 / cable.axial_stiffness,
+                chord_force,
+                fz,
+                length,
+            };
+            let misclosure = in_plane.misclosure(&response);
+            let before = residual;
+            residual = (misclosure[0] * fx).hypot(misclosure[1]);
+            let [dfz, dlength] = ClosureMatrix::of(&in_plane, &response).solve(misclosure);
+            if !(dfz.is_finite() && dlength.is_finite()) {
+                return Err(CableError::NotConverged { iterations: iteration, residual });
+            }
+            let v0 = catenary.exit_vertical_force();
+            length = (length + dlength).clamp(0.5 * length, 2.0 * length);
+            // Where the cable is nearly vertical at an end, the force there changes its sign only in small steps:
+            // x/fx depends on its logarithm.
+            let kept = |from: f64, to: f64| {
+                if fx < 0.1 * from.abs() && to / from < 0.1 { 0.1 * from } else { to }
+            };
+            let weight = cable.weight_per_length * length;
+            fz = weight + kept(v0, kept(fz, fz + dfz) - weight);
+            let forces = catenary.force.norm() + catenary.weight();
+            let small = |limit: f64| dfz.abs() <= limit * forces && dlength.abs() <= limit * chord;
+            // The next step squares this one, or nothing but rounding is left.
+            if small(1e-8) || (small(1e-6) && residual >= 0.5 * before) {
+                let catenary =
+                    Catenary { unstrained_length: length, force: Vector2::new(fx, fz), ..catenary };
+                return Ok(Self::at(catenary, end, chord_force));
+            }
+        }
+        Err(CableError::NotConverged { iterations: MAX_ITERATIONS, residual })
+    }
+}
+
+/// The quantities of (C17) and (C18) over any kind of number.
+#[derive(Clone, Copy)]
+struct InPlane<T> {
+    end: [T; 2],
+    weight: T,
+    flexibility: T,
+    chord_force: T,
+    fz: T,
+    length: T,
+}
+
+impl<T: Real> InPlane<T> {
+    fn chord(&self) -> T {
+        (self.end[0] * self.end[0] + self.end[1] * self.end[1]).sqrt()
+    }
+
+    /// h, or what stands for it where the cable is vertical.
+    fn horizontal(&self) -> T {
+        let chord = self.chord();
+        if self.end[0].value() > VERTICAL * chord.value() { self.end[0] } else { chord * VERTICAL }
+    }
+
+    fn fx(&self) -> T {
+        self.chord_force * self.horizontal() / self.chord()
+    }
+
+    fn response(&self, catenary: &Catenary) -> Response<T> {
+        catenary.cable.response(self.weight, self.flexibility, self.length, [self.fx(), self.fz])
+    }
+
+    /// c/σ - x/fx and the height that is missing, (C17).
+    fn misclosure(&self, response: &Response<T>) -> [T; 2] {
+        [self.chord() / self.chord_force - response.lateral_flexibility, self.end[1] - response.end[1]]
+    }
+
+    /// (fx', fz', L'), (C18).
+    fn slopes(&self, response: &Response<T>) -> [T; 3] {
+        let (fx, fx_slope) = (self.fx(), self.horizontal() / self.chord());
+        let [xx, xz, zz] = response.flexibility;
+        let (k, v0) = (response.end_per_length[0] / fx, self.fz - self.weight * self.length);
+        let m = (zz - v0 * xz / fx).recip();
+        let fz_slope = (v0 * xx / self.chord_force - xz * fx_slope) * m;
+        [fx_slope, fz_slope, -(response.determinant * m) / (self.chord_force * k)]
+    }
+}
+
+/// The derivative of (x/fx, z) with respect to (fz, L).
+struct ClosureMatrix {
+    across: [f64; 2],
+    height: [f64; 2],
+}
+
+impl ClosureMatrix {
+    fn of(cable: &InPlane<f64>, response: &Response<f64>) -> Self {
+        let fx = cable.fx();
+        Self {
+            across: [response.flexibility[1] / fx, response.end_per_length[0] / fx],
+            height: [response.flexibility[2], response.end_per_length[1]],
+        }
+    }
+
+    /// The change of (fz, L) that makes up for a misclosure.
+    fn solve(&self, [across, height]: [f64; 2]) -> [f64; 2] {
+        let ([a, b], [c, d]) = (self.across, self.height);
+        let determinant = a * d - b * c;
+        [(across * d - b * height) / determinant, (a * height - across * c) / determinant]
+    }
+}

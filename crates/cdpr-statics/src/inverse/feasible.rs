@@ -1,0 +1,195 @@
+//! From where the inverse model is searched, and when a pose is called infeasible.
+//!
+//! The first start is the optimum of the straight-cable problem: directions along the chords, and where no
+//! tensions balance the wrench in these directions, those that come nearest. Where the search from there fails,
+//! the residual of the balance itself is made least, by steps
+//!
+//! ```text
+//! minimise  |J d + F|² + η sum (d_i/σ_i)²   within the limits,                                      (I4)
+//! ```
+//!
+//! from that start, from the reference, from the least, middle and greatest tensions and from levels between
+//! them. From every point where the balance holds the optimum is searched again.
+//!
+//! A pose is infeasible if a direction y exists in which no cable can pull enough:
+//! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual has
+//! that direction, if one exists and the cables are nearly straight; it is tried on a grid of each cable's
+//! tensions. Then no other start is tried.
+
+use super::optimum::{ELASTICITY, Optimum, Point};
+use super::question::Question;
+use crate::error::{Blocked, StaticsError};
+use cdpr_robot::{Matrix6xX, TensionLimits, Vector3, Vector6};
+use cdpr_tension::{Bound, BoxProblem, BoxUnknown};
+
+/// A residual below this, relative to wrench and tensions, balances.
+const BALANCED: f64 = 1e-8;
+
+/// The optimum: of cables that sag little from the first start that leads to one, else the best of all starts.
+pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
+    let mut nearest = Point::new(question, &straight(question))?;
+    let mut best = nearest.optimise().then(|| nearest.clone());
+    if let Some(best) = &best
+        && !best.may_have_others()
+    {
+        return Ok(best.optimum());
+    }
+    let mut iterations = nearest.iterations;
+    for (k, tensions) in starts(question).iter().enumerate() {
+        let mut point = Point::new(question, tensions)?;
+        let found = point.balance() && point.optimise();
+        iterations += point.iterations;
+        if found {
+            if best.as_ref().is_none_or(|best| point.objective() < (1.0 - 1e-12) * best.objective()) {
+                best = Some(point);
+            }
+        } else if best.is_none() && (k == 0 || point.residue() < nearest.residue()) {
+            nearest = point;
+            if nearest.residue() > BALANCED && nearest.refutes() {
+                return Err(nearest.refusal(question, k + 2, iterations));
+            }
+        }
+    }
+    match best {
+        Some(best) => Ok(Optimum { iterations, ..best.optimum() }),
+        None => Err(nearest.refusal(question, STARTS, iterations)),
+    }
+}
+
+/// Tensions of the optimum for cables along their chords, or the nearest to a balance.
+fn straight(question: &Question) -> Vec<f64> {
+    let (robot, pose) = (question.robot, question.pose);
+    let pulls: Vec<Vector3<f64>> = (0..question.cables()).map(|i| -robot.span(pose, i).normalize()).collect();
+    let mut matrix = robot.wrench_matrix(pose, &pulls);
+    matrix.fixed_rows_mut::<3>(3).unscale_mut(question.arm());
+    let each = matrix.column_iter().zip(&question.reference).zip(&question.limits);
+    let unknowns: Vec<BoxUnknown> = each
+        .map(|((column, reference), limits)| BoxUnknown {
+            gradient: -reference,
+            curvature: 1.0,
+            column: column.into(),
+            bounds: [limits.min, limits.max],
+        })
+        .collect();
+    let (residual, multipliers) = (question.external(), Vector6::zeros());
+    BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers }.solve().values
+}
+
+/// The first start, and those of [`starts`].
+const STARTS: usize = 9;
+
+/// Tensions to start from: those of straight cables, the reference, and levels from the least to the greatest.
+fn starts(question: &Question) -> [Vec<f64>; STARTS - 1] {
+    let level = |share: f64| {
+        let of = |limits: &TensionLimits| limits.min * (limits.max / limits.min).powf(share);
+        question.limits.iter().map(of).collect::<Vec<_>>()
+    };
+    let middle = question.limits.iter().map(|limits| 0.5 * (limits.min + limits.max)).collect();
+    let [a, b, c, d, e] = [0.25, 0.5, 0.75, 1.0, 0.0].map(level);
+    [straight(question), question.reference.clone(), middle, a, b, c, d, e]
+}
+
+impl Point<'_> {
+    /// Makes the residual of the balance least, and forgets the multipliers. Returns whether it balances.
+    fn balance(&mut self) -> bool {
+        const MAX_ITERATIONS: usize = 60;
+        self.multipliers = Vector6::zeros();
+        let mut damping = 1e-6;
+        let mut residual = self.residual().norm();
+        for _ in 0..MAX_ITERATIONS {
+            let size = self.size();
+            if residual <= BALANCED * size {
+                return true;
+            }
+            self.iterations += 1;
+            let largest = self.rows.iter().map(|row| row.tension).fold(0.0, f64::max);
+            let curvature: Vec<f64> = self
+                .strands
+                .iter()
+                .map(|strand| damping * (1.0 + largest / strand.held.chord_force).powi(2))
+                .collect();
+            let Some((step, _)) = self.step(&curvature, false, 1.0) else { return false };
+            let moved = self.moved(&step);
+            let next = moved.map(|moved| {
+                let rows = self.rows_of(&moved);
+                (rows.iter().fold(self.external, |sum, row| sum + row.wrench).norm(), moved)
+            });
+            match next {
+                Some((next, moved)) if next < residual => {
+                    let gained = residual - next;
+                    self.set(moved);
+                    residual = next;
+                    damping = (0.1 * damping).max(1e-9);
+                    if gained <= 1e-9 * residual {
+                        return residual <= BALANCED * self.size();
+                    }
+                }
+                _ => {
+                    damping *= 10.0;
+                    if damping > 1e6 {
+                        return false;
+                    }
+                }
+            }
+        }
+        residual <= BALANCED * self.size()
+    }
+
+    /// |F|, relative to wrench and tensions.
+    fn residue(&self) -> f64 {
+        self.residual().norm() / self.size()
+    }
+
+    /// Whether a cable sags so much, by about a tenth of its chord, that another optimum may be better.
+    fn may_have_others(&self) -> bool {
+        self.strands.iter().any(|strand| strand.slackness() > 0.4)
+    }
+
+    /// Whether no tensions within the limits balance the wrench in the direction of the residual.
+    fn refutes(&self) -> bool {
+        let direction = self.residual().normalize();
+        let mut least = direction.dot(&self.external);
+        for strand in &self.strands {
+            match strand.least_along(&direction, self.arm) {
+                Some(value) => least += value,
+                None => return false,
+            }
+        }
+        least > 1e-9 * self.size()
+    }
+
+    fn refusal(&self, question: &Question, starts: usize, iterations: usize) -> StaticsError {
+        let residual = self.residual();
+        if self.residue() <= BALANCED {
+            return StaticsError::InverseNotConverged {
+                iterations,
+                stationarity: self.optimum().stationarity,
+            };
+        }
+        let blocked = self.strands.iter().enumerate().filter_map(|(index, strand)| {
+            let side = strand.at_limit()?;
+            Some(Blocked {
+                index,
+                bound: [Bound::Min, Bound::Max][side],
+                tension: [strand.limits.min, strand.limits.max][side],
+            })
+        });
+        let rank_deficient = {
+            let matrix = Matrix6xX::from_columns(&self.rows.iter().map(|row| row.slope).collect::<Vec<_>>());
+            let values = matrix.singular_values();
+            values.min() < 1e-9 * values.max()
+        };
+        StaticsError::NoTensions {
+            position: question.pose.position.into(),
+            min: question.limits.iter().map(|limits| limits.min).fold(f64::INFINITY, f64::min),
+            max: question.limits.iter().map(|limits| limits.max).fold(0.0, f64::max),
+            starts,
+            refuted: self.refutes(),
+            rank_deficient,
+            force: residual.fixed_rows::<3>(0).norm(),
+            moment: residual.fixed_rows::<3>(3).norm() * self.arm,
+            tensions: self.rows.iter().map(|row| row.tension).collect(),
+            blocked: blocked.collect(),
+        }
+    }
+}

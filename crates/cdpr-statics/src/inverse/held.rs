@@ -1,0 +1,196 @@
+//! The cables of a robot whose platform is held at a pose, each with its chord force as its only unknown.
+
+use super::question::Question;
+use crate::equations::{CablePlane, Span, wrench};
+use crate::error::StaticsError;
+use cdpr_cable::{Cable, CableError, HeldCable};
+use cdpr_robot::{TensionLimits, Vector2, Vector3, Vector6};
+
+/// Factor on the least tension that a span demands: at the least tension itself a cable's length does not
+/// follow from its tension.
+pub(crate) const ABOVE_LEAST: f64 = 1.001;
+
+/// No span demands a tension above this, relative to the weight of a cable as long as the chord.
+const ABOVE_ANY_LEAST: f64 = 1.3;
+
+/// One cable between its two points, at one chord force.
+#[derive(Clone)]
+pub(super) struct Strand<'a> {
+    pub(super) held: HeldCable<'a>,
+    plane: CablePlane<f64>,
+    arm: Vector3<f64>,
+    /// Limits of the tension [N]; the least includes what the span demands, once it has been asked for.
+    pub(super) limits: TensionLimits,
+    /// A tension [N], at least the limit, above which no cable over this span comes near its least one.
+    floor: f64,
+    /// Chord force at either limit [N], where it has been asked for.
+    chord_forces: [Option<f64>; 2],
+    pub(super) reference: f64,
+}
+
+impl<'a> Strand<'a> {
+    /// Cable i at the chord force that is nearest to `tension` [N] within its limits.
+    pub(super) fn new(question: &Question<'a>, i: usize, tension: f64) -> Result<Self, StaticsError> {
+        let cable = question.robot.cable(i);
+        let span = Span::new(question.robot.span(question.pose, i).into());
+        let end = Vector2::from(span.end);
+        let limits = question.limits[i];
+        let tension = tension.clamp(limits.min, limits.max);
+        let floor = (ABOVE_ANY_LEAST * ABOVE_LEAST * cable.weight_per_length * span.chord()).max(limits.min);
+        let mut strand = Self {
+            held: HeldCable::at_chord_force(&cable, end, tension.max(floor))
+                .map_err(StaticsError::cable(i))?,
+            plane: span.plane,
+            arm: question.robot.anchor_arm(question.pose, i),
+            limits,
+            floor,
+            chord_forces: [None; 2],
+            reference: question.reference[i],
+        };
+        if tension < floor {
+            strand.learn(0).map_err(StaticsError::cable(i))?;
+            let lowest = strand.chord_forces[0].unwrap_or_default();
+            strand.held = strand.at(tension.max(lowest)).map_err(StaticsError::cable(i))?;
+        }
+        Ok(strand)
+    }
+
+    /// Wrench about P of a force on the cable, its moment divided by `arm` [m].
+    fn wrench(&self, force: Vector2<f64>, arm: f64) -> Vector6<f64> {
+        let mut wrench = wrench(&self.arm, &self.plane.force_on_platform(force.into()).into());
+        wrench.fixed_rows_mut::<3>(3).unscale_mut(arm);
+        wrench
+    }
+
+    /// What the optimum asks of the cable at a chord force.
+    pub(super) fn row(&self, held: &HeldCable, arm: f64) -> Row {
+        Row {
+            tension: held.tension(),
+            tension_slope: held.tension_slope(),
+            wrench: self.wrench(held.catenary.force, arm),
+            slope: self.wrench(held.force_slope, arm),
+            reference: self.reference,
+        }
+    }
+
+    /// Second derivative of the Lagrangian, h_i of (I3).
+    pub(super) fn hessian(&self, row: &Row, multipliers: &Vector6<f64>, arm: f64) -> f64 {
+        let curvature = self.held.force_curvature();
+        row.tension_slope * row.tension_slope
+            + (row.tension - row.reference) * self.held.tension_curvature(&curvature)
+            + multipliers.dot(&self.wrench(curvature, arm))
+    }
+
+    /// Changes of the chord force [N] that lead to the limits; where a limit's chord force has not been asked
+    /// for, a change that does not pass it, because t(σ) is convex with a slope of at most one.
+    pub(super) fn room(&self) -> [f64; 2] {
+        let t = self.held.tension();
+        let room = |side: usize, estimate: f64| {
+            self.chord_forces[side].map_or(estimate, |at| at - self.held.chord_force)
+        };
+        let low = room(0, (self.floor - t) / self.held.tension_slope());
+        [low, room(1, self.limits.max - t).max(low)]
+    }
+
+    /// w c/2σ: half the angle, as a hyperbolic one, that the cable's direction turns through.
+    pub(super) fn slackness(&self) -> f64 {
+        0.5 * self.held.catenary.cable.weight_per_length * self.held.end.norm() / self.held.chord_force
+    }
+
+    /// Whether the chord force at a limit, 0 the least and 1 the greatest, is known.
+    pub(super) fn knows(&self, side: usize) -> bool {
+        self.chord_forces[side].is_some()
+    }
+
+    /// Asks for the chord force at a limit, and for the least tension that the span demands.
+    ///
+    /// # Errors
+    /// [`CableError::TensionTooSmall`] where the span demands more than the greatest tension.
+    pub(super) fn learn(&mut self, side: usize) -> Result<(), CableError> {
+        if side == 1 {
+            self.chord_forces[1] = Some(self.held.with_tension(self.limits.max)?.chord_force);
+            return Ok(());
+        }
+        let mut nearby = self.held;
+        if self.limits.min < self.floor {
+            nearby = HeldCable::at_least_tension(&self.held.catenary.cable, self.held.end)?;
+            let least = nearby.tension();
+            if ABOVE_LEAST * least > self.limits.max {
+                return Err(CableError::TensionTooSmall { tension: self.limits.max, least });
+            }
+            self.limits.min = self.limits.min.max(ABOVE_LEAST * least);
+        }
+        self.chord_forces[0] = Some(nearby.with_tension(self.limits.min)?.chord_force);
+        Ok(())
+    }
+
+    /// The limit whose chord force has not been asked for though the cable is beyond it, or too near to its
+    /// least tension to tell.
+    pub(super) fn unknown_limit(&self) -> Option<usize> {
+        let t = self.held.tension();
+        let beyond = [t < self.floor, t > self.limits.max];
+        (0..2).find(|side| beyond[*side] && !self.knows(*side))
+    }
+
+    /// The limit that the chord force is at.
+    pub(super) fn at_limit(&self) -> Option<usize> {
+        (0..2).find(|side| self.chord_forces[*side] == Some(self.held.chord_force))
+    }
+
+    /// The least of y·w over the tensions within the limits, on a grid of tensions; `None` where a cable cannot
+    /// be closed.
+    pub(super) fn least_along(&self, y: &Vector6<f64>, arm: f64) -> Option<f64> {
+        const INTERVALS: i32 = 12;
+        let TensionLimits { min, max } = self.limits;
+        let mut least = f64::INFINITY;
+        for k in 0..=INTERVALS {
+            let share = f64::from(k) / f64::from(INTERVALS);
+            let tension = if k == INTERVALS { max } else { min * (max / min).powf(share) };
+            match self.held.with_tension(tension) {
+                Ok(held) => least = least.min(y.dot(&self.wrench(held.catenary.force, arm))),
+                // No cable over this span has so little tension.
+                Err(CableError::TensionTooSmall { .. }) => {}
+                Err(_) => return None,
+            }
+        }
+        Some(least)
+    }
+
+    /// The cable at another chord force [N].
+    pub(super) fn at(&self, chord_force: f64) -> Result<HeldCable<'a>, CableError> {
+        // A step to a limit ends exactly there.
+        let reached = self.chord_forces.iter().flatten().find(|at| (*at - chord_force).abs() <= 1e-14 * *at);
+        let chord_force = reached.copied().unwrap_or(chord_force);
+        if chord_force == self.held.chord_force {
+            Ok(self.held)
+        } else {
+            self.held.with_chord_force(chord_force)
+        }
+    }
+}
+
+/// A cable's tension and wrench with their derivatives with respect to its chord force; moments are divided by
+/// a length.
+#[derive(Clone)]
+pub(super) struct Row {
+    pub(super) tension: f64,
+    pub(super) tension_slope: f64,
+    pub(super) wrench: Vector6<f64>,
+    pub(super) slope: Vector6<f64>,
+    pub(super) reference: f64,
+}
+
+impl Row {
+    /// Derivative of (t - r)²/2 [N].
+    pub(super) fn gradient(&self) -> f64 {
+        (self.tension - self.reference) * self.tension_slope
+    }
+}
+
+/// `tension` [N], or [`ABOVE_LEAST`] times the least tension that the span to `end` demands, if that is more.
+pub(super) fn least_allowed(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, CableError> {
+    if cable.weight_per_length * end.norm() * ABOVE_ANY_LEAST * ABOVE_LEAST <= tension {
+        return Ok(tension);
+    }
+    Ok(tension.max(ABOVE_LEAST * HeldCable::at_least_tension(cable, end)?.tension()))
+}

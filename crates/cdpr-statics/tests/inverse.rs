@@ -1,0 +1,269 @@
+//! The inverse model against solutions of independent programs, and on robots of every kind.
+
+use cdpr_robot::{
+    CableProperties, Platform, Pose, Robot, RobotCable, TensionLimits, UnitQuaternion, Vector3, Wrench,
+};
+use cdpr_statics::{Bound, DirectProblem, Load, Start, StaticsError, inverse, lengths_for_tensions};
+use nalgebra::Quaternion;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let number = |v: &Value| v.as_f64().unwrap_or_else(|| v.as_str().unwrap().parse().unwrap());
+    value.as_array().unwrap().iter().map(number).collect()
+}
+
+fn vector(value: &Value) -> Vector3<f64> {
+    Vector3::from_column_slice(&numbers(value))
+}
+
+#[test]
+fn the_inverse_model_is_that_of_an_independent_program_with_40_digits() {
+    let file: Value = serde_json::from_str(include_str!("../../../data/reference/inverse.json")).unwrap();
+    for case in file["cases"].as_array().unwrap() {
+        let kind = case["kind"].as_str().unwrap();
+        let robot = Robot::from_json(&case["robot"].to_string()).unwrap();
+        let q = numbers(&case["quaternion_wxyz"]);
+        let rotation = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
+        let pose = Pose { position: vector(&case["position"]), rotation: rotation.to_rotation_matrix() };
+        let wrench =
+            Wrench { force: vector(&case["external_force"]), moment: vector(&case["external_moment"]) };
+        let reference = numbers(&case["reference_tensions"]);
+        let found = inverse(&robot, &pose, &Load::wrench(wrench), Some(&reference));
+        if case["infeasible"] == true {
+            let refused = matches!(found, Err(StaticsError::NoTensions { refuted: true, .. }));
+            assert!(refused, "{kind}: {found:?}");
+            continue;
+        }
+        let found = found.unwrap_or_else(|error| panic!("{kind}: {error}"));
+        let largest = found.tensions.iter().copied().fold(0.0, f64::max);
+        for (name, ours, exact) in [
+            ("tension", &found.tensions, numbers(&case["tensions"])),
+            ("length", &found.lengths, numbers(&case["unstrained_lengths"])),
+        ] {
+            for (ours, exact) in ours.iter().zip(exact) {
+                assert!((ours - exact).abs() <= 1e-9 * exact, "{kind}: {name} {ours} {exact}");
+            }
+        }
+        for (ours, exact) in found.active.iter().zip(case["active"].as_array().unwrap()) {
+            let exact = exact.as_str().map(|name| if name == "max" { Bound::Max } else { Bound::Min });
+            assert_eq!(*ours, exact, "{kind}");
+        }
+        assert!(found.stationarity <= 1e-9 * largest, "{kind}: {:e}", found.stationarity);
+        assert!(found.residual.force <= 1e-9 * largest, "{kind}: {:?}", found.residual);
+        println!(
+            "{kind}: {} iterations, stationarity {:.1e} N, force {:.1e} N",
+            found.iterations, found.stationarity, found.residual.force
+        );
+    }
+}
+
+/// A robot held at a pose by tensions that were drawn: the load balances them.
+struct Drawn {
+    robot: Robot,
+    pose: Pose,
+    load: Load,
+    tensions: Vec<f64>,
+}
+
+fn log_uniform(rng: &mut ChaCha8Rng, from: f64, to: f64) -> f64 {
+    from * (to / from).powf(rng.random::<f64>())
+}
+
+fn in_cube(rng: &mut ChaCha8Rng) -> Vector3<f64> {
+    Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0))
+}
+
+/// Robots of 1 m to 300 m with 6 to 16 cables, suspended or held from all sides, straight or sagging nearly as
+/// much as the taut branch allows, some without gravity, some prestressed by far more than their weight.
+fn drawn(seed: u64) -> Option<Drawn> {
+    let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+    let n = rng.random_range(6..=16);
+    let size = log_uniform(rng, 1.0, 300.0);
+    let platform = size * log_uniform(rng, 0.02, 0.3);
+    let level = log_uniform(rng, 10.0, 1e4);
+    let gravity = if rng.random_bool(0.1) { 0.0 } else { 9.81 };
+    let suspended = rng.random_bool(0.5);
+    // Weight of a cable over its tension: none to more than the taut branch allows for the longest.
+    let sag = if rng.random_bool(0.2) { 0.0 } else { log_uniform(rng, 1e-5, 1.0) };
+    let properties = CableProperties {
+        section: 1e-5,
+        linear_density: sag * level / (size * 9.81),
+        youngs_modulus: level / log_uniform(rng, 1e-5, 1e-2) / 1e-5,
+        diameter: None,
+        breaking_force: None,
+        law: None,
+    };
+    let cables = (0..n)
+        .map(|_| {
+            let mut exit_point = in_cube(rng) * size;
+            if suspended {
+                exit_point.z = size;
+            }
+            RobotCable { exit_point, anchor_point: in_cube(rng) * platform, properties: properties.clone() }
+        })
+        .collect();
+    let mass = level / 9.81 * log_uniform(rng, 1e-4, 10.0);
+    let limits = TensionLimits { min: 0.2 * level, max: 5.0 * level };
+    let robot = Robot {
+        name: "drawn".to_owned(),
+        source: None,
+        gravity,
+        platform: Platform { mass, center_of_mass: in_cube(rng) * platform },
+        tension_limits: limits,
+        cables,
+    };
+    robot.validate().ok()?;
+    let rotation = cdpr_robot::Rotation3::new(in_cube(rng) * 0.5);
+    let pose = Pose { position: in_cube(rng) * (0.4 * size), rotation };
+    let tensions: Vec<f64> = (0..n).map(|_| log_uniform(rng, limits.min, limits.max)).collect();
+    let held = lengths_for_tensions(&robot, &pose, &tensions).ok()?;
+    let tensions = held.equilibrium.tensions();
+    // Beyond the greatest tension the drawn ones prove nothing.
+    if tensions.iter().any(|t| *t > limits.max) {
+        return None;
+    }
+    let mut wrench = robot.weight(&pose, 0.0);
+    for (i, force) in held.equilibrium.cable_forces.iter().enumerate() {
+        let r = robot.span(&pose, i);
+        let azimuth = Vector3::new(r.x, r.y, 0.0).normalize();
+        let pull = -(azimuth * force.x + Vector3::z() * force.y);
+        wrench = wrench + Wrench::of_force_at(&robot.anchor_arm(&pose, i), pull);
+    }
+    let load = Load::wrench(Wrench { force: -wrench.force, moment: -wrench.moment });
+    Some(Drawn { robot, pose, load, tensions })
+}
+
+#[test]
+fn a_pose_that_tensions_hold_is_never_refused() {
+    const CASES: u64 = 10_000;
+    let outcomes: Vec<(&str, u64, String)> = (0..CASES)
+        .into_par_iter()
+        .map(|seed| {
+            let Some(Drawn { robot, pose, load, tensions }) = drawn(seed) else {
+                return ("not drawn", seed, String::new());
+            };
+            let found = match inverse(&robot, &pose, &load, None) {
+                Ok(found) => found,
+                Err(error) => return (error.kind(), seed, error.to_string()),
+            };
+            let norm = |t: &[f64]| t.iter().map(|t| t * t).sum::<f64>().sqrt();
+            let largest = norm(&found.tensions);
+            let text = format!(
+                "{} {:e} {:e} {:?}",
+                found.iterations,
+                found.stationarity / largest,
+                norm(&found.tensions) / norm(&tensions),
+                found.residual
+            );
+            if found.stationarity > 1e-10 * largest || found.residual.force > 1e-10 * largest {
+                return ("not an optimum", seed, text);
+            }
+            if norm(&found.tensions) > norm(&tensions) * (1.0 + 1e-9) {
+                // A minimum, but not the least: only strongly sagging cables have several.
+                return ("another minimum than the drawn tensions", seed, text);
+            }
+            let (low, high) =
+                (robot.tension_limits.min * (1.0 - 1e-12), robot.tension_limits.max * (1.0 + 1e-12));
+            if found.tensions.iter().any(|t| !(low..=high).contains(t)) {
+                return ("beyond a limit", seed, text);
+            }
+            // Every tenth pose is found again from its lengths, where it is stable.
+            let problem = DirectProblem::new(&robot, &found.lengths, &load).unwrap();
+            if seed % 10 == 0
+                && let Ok(again) = problem.direct_any(Start::Near(&found.equilibrium))
+                && again.stability.is_stable()
+            {
+                let motion = pose.motion_to(&again.equilibrium.pose).norm();
+                let size = found.lengths.iter().copied().fold(0.0, f64::max);
+                // What rounding of the forces does to the softest motion.
+                let soft = 1e-13 * largest / again.stability.least_stiffness();
+                if motion > 1e-12 * size + soft {
+                    return ("not found again", seed, format!("{motion:e} m"));
+                }
+                return ("found, and again from its lengths", seed, text);
+            }
+            ("found", seed, text)
+        })
+        .collect();
+    let mut counts = BTreeMap::new();
+    for (outcome, seed, text) in &outcomes {
+        let count = counts.entry(*outcome).or_insert(0);
+        *count += 1;
+        if *count <= 3 {
+            println!("{outcome}, seed {seed}: {text}");
+        }
+    }
+    println!("{counts:?}");
+    let count = |outcome: &str| counts.get(outcome).copied().unwrap_or(0);
+    let others = count("another minimum than the drawn tensions");
+    let found = count("found") + count("found, and again from its lengths") + others;
+    assert!(found == CASES - count("not drawn") && found > 9_000 && others < 5, "{counts:?}");
+}
+
+/// CAROCA with everything that its tensions can be in doubt about.
+fn caroca() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
+}
+
+#[test]
+fn set_points_around_the_least_tension_change_lengths_steadily() {
+    let (robot, pose) = (caroca(), Pose::at(2.0, 1.0, 1.0));
+    let length = |tension: f64| lengths_for_tensions(&robot, &pose, &[tension; 8]).unwrap().lengths[0];
+    let r = robot.span(&pose, 0);
+    let end = cdpr_robot::Vector2::new(r.xy().norm(), r.z);
+    let least = cdpr_cable::least_tension(&robot.cable(0), end).unwrap().anchor_tension();
+    for share in [1.0, 1.001] {
+        let [below, above] = [-1e-6, 1e-6].map(|e| length(least * share * (1.0 + e)));
+        assert!((below - above).abs() < 1e-3, "{share}: {below} {above}");
+    }
+}
+
+/// A light robot whose cables hold the platform from all sides.
+fn ipanema() -> Robot {
+    Robot::from_json(include_str!("../../../data/reference/robots/ipanema.json")).unwrap()
+}
+
+#[test]
+fn a_light_platform_between_prestressed_cables_is_held() {
+    let mut robot = ipanema();
+    robot.tension_limits = TensionLimits { min: 1e3, max: 4e3 };
+    for mass in [10.0, 1.0, 0.1, 1e-8] {
+        robot.platform.mass = mass;
+        let held = inverse(&robot, &Pose::at(0.1, 0.1, 1.0), &Load::none(), None).unwrap();
+        assert!(held.residual.force < 1e-9 && held.stationarity < 1e-9, "{mass}: {held:?}");
+        assert!(held.tensions.iter().all(|t| (1e3..=4e3).contains(t)), "{held:?}");
+    }
+}
+
+#[test]
+fn a_robot_without_gravity_is_held_by_its_prestress_alone() {
+    let mut robot = ipanema();
+    robot.gravity = 0.0;
+    let held = inverse(&robot, &Pose::at(0.1, -0.2, 1.2), &Load::none(), None).unwrap();
+    assert!(held.residual.force < 1e-11 && held.active.contains(&Some(Bound::Min)), "{held:?}");
+}
+
+/// All points in one vertical plane: the wrenches of the cables span three of six dimensions.
+#[test]
+fn a_pose_of_deficient_rank_is_held_where_the_load_lies_in_its_plane() {
+    let mut robot = caroca();
+    for cable in &mut robot.cables {
+        cable.exit_point.y = 0.0;
+        cable.anchor_point.y = 0.0;
+        cable.anchor_point.x += 0.05 * cable.exit_point.x;
+    }
+    for (i, cable) in robot.cables.iter_mut().enumerate() {
+        cable.exit_point.z += 0.1 * i as f64;
+    }
+    let pose = Pose::at(0.3, 0.0, 1.5);
+    let held = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    assert!(held.residual.force < 1e-9 && held.residual.moment < 1e-9, "{:?}", held.residual);
+    // Nothing resists a force out of the plane.
+    let across = Wrench { force: Vector3::new(0.0, 10.0, 0.0), moment: Vector3::zeros() };
+    let refused = inverse(&robot, &pose, &Load::wrench(across), None);
+    assert!(matches!(refused, Err(StaticsError::NoTensions { rank_deficient: true, .. })), "{refused:?}");
+}
