@@ -120,7 +120,7 @@ impl VisitMut for Source {
             match (item, about(item)) {
                 (_, (attributes, _)) if is_test(attributes) => {}
                 (Item::Mod(ItemMod { content: None, ident, .. }), _) => {
-                    self.children.extend([ident.to_string()])
+                    self.children.extend([ident.to_string()]);
                 }
                 (_, (_, name)) => self.items.extend(name.map(ToString::to_string)),
             }
