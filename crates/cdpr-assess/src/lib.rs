@@ -26,4 +26,4 @@ pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, toleran
 pub use workspace::{
     Dominant, Held, Workspace, WorkspacePose, WorkspaceRow, WorkspaceSummary, compute_workspace,
 };
-pub use write::{write_refused, write_robustness, write_solves, write_workspace};
+pub use write::{begin_robustness, begin_workspace, write_robustness, write_workspace};

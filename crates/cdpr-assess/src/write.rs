@@ -3,24 +3,83 @@
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::workspace::WorkspaceSummary;
 use cdpr_robot::Pose;
-use cdpr_study::{StudyError, write_csv, write_json, write_rows};
-use std::path::{Path, PathBuf};
+use cdpr_study::{ResultsFolder, ResultsOf, StudyError};
+use std::path::Path;
 
-/// Writes `robustness.json`.
+const WORKSPACE: &str = "workspace.json";
+
+const ROBUSTNESS: &str = "robustness.json";
+
+/// Makes a folder for a workspace, or takes one of an earlier workspace: before anything is computed.
 ///
 /// # Errors
-/// [`StudyError::Write`].
-pub fn write_robustness(folder: &Path, summary: &RobustnessSummary) -> Result<PathBuf, StudyError> {
-    write_json(folder.join("robustness.json"), summary)
+/// As [`ResultsFolder::begin`].
+pub fn begin_workspace(folder: &Path) -> Result<ResultsFolder, StudyError> {
+    let is_map = |name: &str| {
+        let maps = ["deflection", "least_stiffness", "greatest_tension", "dominant_tolerance"];
+        let name = name.strip_suffix(".svg");
+        name.is_some_and(|name| maps.contains(&name.split_once("_z").map_or(name, |(map, _)| map)))
+    };
+    ResultsFolder::begin(folder, ResultsOf::Workspace, |name| {
+        [WORKSPACE, "workspace.csv"].contains(&name) || is_map(name)
+    })
+}
+
+/// Writes `workspace.csv`, one row for each position, the maps (name and text), and, last of all, `workspace.json`, the rows
+/// with settings and extremes. Maps of an earlier workspace that are not among these are removed.
+///
+/// # Errors
+/// As [`ResultsFolder::claim`].
+pub fn write_workspace(
+    folder: &ResultsFolder,
+    summary: &WorkspaceSummary,
+    maps: &[(String, String)],
+) -> Result<(), StudyError> {
+    folder.remove(WORKSPACE)?;
+    folder.write_rows("workspace.csv", &summary.rows)?;
+    write_figures(folder, maps)?;
+    folder.remove_stale(&[WORKSPACE])?;
+    folder.write_json(WORKSPACE, summary).map(|_| ())
+}
+
+/// Makes a folder for the robustness of the direct model, or takes one of an earlier run.
+///
+/// # Errors
+/// As [`ResultsFolder::begin`].
+pub fn begin_robustness(folder: &Path) -> Result<ResultsFolder, StudyError> {
+    let names = [ROBUSTNESS, "solves.csv", "refused.csv", "found_poses.svg", "success_share.svg"];
+    ResultsFolder::begin(folder, ResultsOf::Robustness, |name| names.contains(&name))
+}
+
+/// Writes `solves.csv`, `refused.csv`, the figures (name and text), and, last of all, `robustness.json`.
+///
+/// # Errors
+/// As [`ResultsFolder::claim`].
+pub fn write_robustness(
+    folder: &ResultsFolder,
+    summary: &RobustnessSummary,
+    results: &[RobustnessResult],
+    figures: &[(String, String)],
+) -> Result<(), StudyError> {
+    folder.remove(ROBUSTNESS)?;
+    write_solves(folder, results)?;
+    write_refused(folder, results)?;
+    write_figures(folder, figures)?;
+    folder.remove_stale(&[ROBUSTNESS])?;
+    folder.write_json(ROBUSTNESS, summary).map(|_| ())
+}
+
+fn write_figures(folder: &ResultsFolder, figures: &[(String, String)]) -> Result<(), StudyError> {
+    figures.iter().try_for_each(|(name, svg)| {
+        folder.write(&format!("{name}.svg"), svg.as_bytes())?;
+        Ok(())
+    })
 }
 
 /// Writes `solves.csv`: one row for each solve, with the true pose, the start, the pose found (position [m],
 /// rotation vector [rad]), how
 /// far it is from the true one, outcome, reason of a failure, method, iterations, residuals and wall time.
-///
-/// # Errors
-/// [`StudyError::Write`].
-pub fn write_solves(folder: &Path, results: &[RobustnessResult]) -> Result<PathBuf, StudyError> {
+fn write_solves(folder: &ResultsFolder, results: &[RobustnessResult]) -> Result<(), StudyError> {
     let pose = |name: &str| Pose::COORDINATES.map(|axis| format!("{name}_{axis}"));
     let header = ["protocol", "draw", "start_distance_m", "start_angle_deg", "start_anchor_distance_m"];
     let header = header
@@ -74,14 +133,11 @@ pub fn write_solves(folder: &Path, results: &[RobustnessResult]) -> Result<PathB
             record
         })
     });
-    write_csv(folder.join("solves.csv"), header, rows)
+    folder.write_csv("solves.csv", header, rows).map(|_| ())
 }
 
 /// Writes `refused.csv`: the rejected poses with the reason.
-///
-/// # Errors
-/// [`StudyError::Write`].
-pub fn write_refused(folder: &Path, results: &[RobustnessResult]) -> Result<PathBuf, StudyError> {
+fn write_refused(folder: &ResultsFolder, results: &[RobustnessResult]) -> Result<(), StudyError> {
     let header = ["protocol", "draw"].into_iter().chain(Pose::COORDINATES).chain(["status", "reason"]);
     let rows = results.iter().flat_map(|result| {
         result.refused.iter().map(|refused| {
@@ -96,17 +152,7 @@ pub fn write_refused(folder: &Path, results: &[RobustnessResult]) -> Result<Path
             record
         })
     });
-    write_csv(folder.join("refused.csv"), header.map(str::to_owned).collect(), rows)
-}
-
-/// Writes `workspace.csv`, one row for each position, and `workspace.json`, the same with settings and
-/// extremes.
-///
-/// # Errors
-/// [`StudyError::Write`].
-pub fn write_workspace(folder: &Path, summary: &WorkspaceSummary) -> Result<PathBuf, StudyError> {
-    write_rows(folder.join("workspace.csv"), &summary.rows)?;
-    write_json(folder.join("workspace.json"), summary)
+    folder.write_csv("refused.csv", header.map(str::to_owned).collect(), rows).map(|_| ())
 }
 
 /// Position [m] and rotation vector [rad].

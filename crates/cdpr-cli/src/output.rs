@@ -3,12 +3,10 @@
 use crate::error::ProgramError;
 use cdpr_report::ReportError;
 use cdpr_robot::shown_lines;
-use cdpr_study::{StudyError, write_figure};
 use comfy_table::{Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle, WeakProgressBar};
 use std::fmt;
 use std::io::{self, ErrorKind, IsTerminal, Write};
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::OnceLock;
 use std::sync::mpsc::RecvTimeoutError;
@@ -173,15 +171,8 @@ pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
     }
 }
 
-/// Writes a figure, or notes why it cannot be drawn: the results stand without it.
-pub(crate) fn write_drawn(
-    folder: &Path,
-    name: &str,
-    svg: Result<String, ReportError>,
-) -> Result<(), StudyError> {
-    match svg {
-        Ok(svg) => write_figure(folder, name, &svg).map(|_| ())?,
-        Err(error) => eprintln!("note: no figure {name}: {error}"),
-    }
-    Ok(())
+/// A figure with its name, or a note why it cannot be drawn: the results stand without it.
+pub(crate) fn drawn(name: &str, svg: Result<String, ReportError>) -> Option<(String, String)> {
+    let svg = svg.map_err(|error| eprintln!("note: no figure {name}: {error}")).ok()?;
+    Some((name.to_owned(), svg))
 }

@@ -14,7 +14,7 @@ pub(crate) mod tolerances;
 use crate::arguments::Threads;
 use crate::error::ProgramError;
 use crate::output::Ending;
-use cdpr_study::{Existing, StoredStudy};
+use cdpr_study::{Access, StoredStudy, take_results};
 use clap::Subcommand;
 use common::{FolderSettings, RunSettings, begun};
 use std::path::PathBuf;
@@ -77,16 +77,14 @@ pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
         },
         Command::Merge(FolderSettings { folder, common }) => {
             common.threads.start()?;
-            let StoredStudy { study, blocks } = cdpr_study::open_results(&folder)?;
+            let StoredStudy { study, blocks } = take_results(&folder, Access::Alone)?;
             cdpr_study::check_complete(&folder, &study, &blocks)?;
             carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
         }
         Command::Status(settings) => status::run(&settings).map(well),
         Command::Extend { folder: FolderSettings { folder, common }, observations } => {
             common.threads.start()?;
-            let mut study = cdpr_study::open_results(&folder)?.study;
-            study.extend(observations)?;
-            let blocks = cdpr_study::begin(&folder, &study, Existing::GoOn)?;
+            let StoredStudy { study, blocks } = take_results(&folder, Access::Alone)?.extend(observations)?;
             carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
         }
         Command::Throughput { study, sampling, observations, threads } => {

@@ -10,6 +10,7 @@ mod common;
 mod derivatives;
 #[path = "../../cdpr-statics/tests/equilibria.rs"]
 mod equilibria;
+mod folder;
 mod hysteresis;
 mod models;
 mod modulus;

@@ -271,7 +271,7 @@ fn a_folder_in_use_is_refused_and_nothing_of_it_touched() {
     assert_eq!(bench.results("out"), before);
     // A study file that no run has written, the very one to run among them.
     let message = bench.refused(&["run", "study.json", "--out", "."]);
-    assert!(message.contains("study.json was not written by a run"), "{message}");
+    assert!(message.contains("robot.json was not written by a run"), "{message}");
     // One that a run has written goes on in its own folder.
     bench.done(&["run", "out/study.json", "--out", "out", "--resume"]);
     assert_eq!(bench.results("out"), before);
@@ -300,7 +300,7 @@ fn files_that_no_run_has_written_stay_whatever_folder_they_are_in() {
     let before = bench.results("other");
     for options in [&[][..], &["--overwrite"], &["--resume"], &["--shard", "1/1"]] {
         let message = bench.refused(&[&["run", "other/study.json", "--out", "other"], options].concat());
-        assert!(message.contains("other/study.json was not written by a run"), "{message}");
+        assert!(message.contains("other/robot.json was not written by a run"), "{message}");
     }
     assert_eq!(bench.results("other"), before);
 }

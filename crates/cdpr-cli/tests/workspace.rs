@@ -12,11 +12,13 @@ fn run(folder: &Path, arguments: &[&str]) -> String {
     answered(cdpr_in(folder, &[&["workspace", &data_path("robots/caroca.json")], arguments].concat()))
 }
 
+/// The files of a workspace, except the list of them and the lock.
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut files: Vec<_> = entries
         .map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), std::fs::read(&path).unwrap()))
         .collect();
+    files.retain(|(name, _)| !name.starts_with("cdpr-results."));
     files.sort();
     files
 }
@@ -109,9 +111,11 @@ fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_d
     let map = std::fs::read_to_string(folder.path().join("out/deflection.svg")).unwrap();
     assert!(map.contains("force (0, 200, 0) N, moment (0, 0, 10) N m, quaternion (0.9988, "), "{map}");
 
-    std::fs::remove_dir_all(folder.path().join("out")).unwrap();
+    // The map of the load goes, and a file of the user stays.
+    std::fs::write(folder.path().join("out/mine.svg"), "mine").unwrap();
     let unloaded = summary(&[]);
     assert_eq!((&unloaded["rms_mm"], &unloaded["rows"][4]["rms_mm"]), (&Value::Null, &Value::Null));
     assert!(unloaded["least_stiffness"]["min"].as_f64().unwrap() > 0.0);
     assert!(!folder.path().join("out/deflection.svg").exists());
+    assert_eq!(std::fs::read(folder.path().join("out/mine.svg")).unwrap(), b"mine");
 }

@@ -5,8 +5,8 @@ use cdpr_report::{draw, report_with};
 use cdpr_robot::Vector3;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
-    Existing, Part, Plan, REPORT_NAME, Run, Session, Shard, StoredStudy, Study, StudyError, TableFormat,
-    Watcher, check_complete, check_observed, observe_into, observe_shard, write_text,
+    Access, Existing, Part, Plan, REPORT_NAME, Run, Session, Shard, StoredStudy, Study, StudyError,
+    TableFormat, Watcher, check_complete, check_observed, observe_into, observe_shard, take_results,
 };
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -69,7 +69,7 @@ pub(crate) fn make_shard(
         Some(threads),
         |_| Ok(()),
         |stop| {
-            let StoredStudy { study, blocks } = cdpr_study::open_results(&out)?;
+            let StoredStudy { study, blocks } = take_results(&out, Access::Shared)?;
             let shard = Shard::parse(&format!("{index}/{count}"), |_| None)?;
             let session = Session {
                 blocks: Some(&blocks),
@@ -113,7 +113,7 @@ pub(crate) fn carry_out(
         Ok(())
     };
     watched(py, threads, &mut tell, |stop| -> Answer<()> {
-        let StoredStudy { study, blocks } = cdpr_study::open_results(&out)?;
+        let StoredStudy { study, blocks } = take_results(&out, Access::Alone)?;
         if complete {
             check_complete(&out, &study, &blocks)?;
         }
@@ -126,9 +126,9 @@ pub(crate) fn carry_out(
             note: &note,
             stop: &|| stop.load(Ordering::Relaxed),
         };
-        let Run { results, figures } = cdpr_study::run(&study, &out, &blocks, format, &draw, watcher)?;
+        let Run { results, figures } = cdpr_study::run(&study, &blocks, format, &draw, watcher)?;
         let page = report_with(&results, &figures).map_err(|error| Raised::Input(error.to_string()))?;
-        write_text(&out.join(REPORT_NAME), &page)?;
+        blocks.results()?.write(REPORT_NAME, page.as_bytes())?;
         Ok(())
     })??;
     tell(py)?;

@@ -23,14 +23,14 @@
 //! Okabe and Ito and viridis, which are safe for the colour-blind. The same results give the same bytes.
 //!
 //! ```no_run
-//! use cdpr_study::{Session, Study, analyse, observe, write_figure};
+//! use cdpr_study::{Session, Study, analyse, observe};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let study = Study::open("data/studies/caroca.json".as_ref())?;
 //! let sampling = study.sampling("mechanical")?;
 //! let session = Session::in_memory();
 //! let summary = analyse(&sampling, &observe(&sampling, &session)?, &session)?;
-//! write_figure("results".as_ref(), "mechanical", &cdpr_report::histogram(&summary)?)?;
+//! std::fs::write("mechanical.svg", cdpr_report::histogram(&summary)?)?;
 //! # Ok(())
 //! # }
 //! ```

@@ -55,7 +55,8 @@ fn run(mut study: Value, robot: &Value) -> Results {
     std::fs::write(folder.path().join("robot.json"), robot.to_string()).unwrap();
     let study = Study::from_json(&study.to_string(), &folder.path().join("study.json")).unwrap();
     let out = folder.path().join("results");
-    begin(&out, &study, Existing::Refuse).unwrap();
+    let blocks = begin(&out, &study, Existing::Refuse).unwrap();
+    let owned = blocks.results().unwrap();
     let (mut studies, session) = (IndexMap::new(), Session::in_memory());
     for name in study.file.samplings.keys() {
         let sampling = study.sampling(name).unwrap();
@@ -65,13 +66,14 @@ fn run(mut study: Value, robot: &Value) -> Results {
     for name in study.file.surfaces.keys() {
         let surface = study.surface(name).unwrap();
         let result = compute_surface(&surface, &|_| ());
-        write_surface(&out, &surface, &result).unwrap();
+        write_surface(owned, &surface, &result).unwrap();
         studies.insert(name.clone(), StudySummary::Surface(SurfaceSummary::new(&surface, &result)));
     }
-    let summary = Summary::new(&study, studies);
-    write_summary(&out, &summary).unwrap();
+    let summary = Summary::new(&study, studies).unwrap();
+    write_summary(owned, &summary).unwrap();
     let seconds = study.file.samplings.keys().map(|name| (name.clone(), 0.25)).collect();
-    write_timings(&out, &Timings { threads: 2, seconds, all: 0.8, ..Timings::default() }).unwrap();
+    write_timings(owned, &Timings { threads: 2, seconds, all: 0.8, ..Timings::default() }).unwrap();
+    drop(blocks);
     let results = Results::read(&out).unwrap();
     assert_eq!(results.summary.comparison, summary.comparison);
     results

@@ -31,8 +31,9 @@ fn figures_of_results_that_are_read_back_are_those_that_the_run_has_drawn() {
     let out = folder.path().join("results");
     let blocks = begin(&out, &study, Existing::Refuse).unwrap();
     let watcher = Watcher { begin: &|_| (), tick: &|_| (), warn: &|_| (), note: &|_| (), stop: &|| false };
-    let run = cdpr_study::run(&study, &out, &blocks, Some(TableFormat::None), &draw, watcher).unwrap();
+    let run = cdpr_study::run(&study, &blocks, Some(TableFormat::None), &draw, watcher).unwrap();
 
+    drop(blocks);
     let again = figures(&Results::read(&out).unwrap());
     let names: Vec<&str> = again.iter().map(|figure| figure.name.as_str()).collect();
     let expected = [

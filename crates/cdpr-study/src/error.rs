@@ -1,7 +1,7 @@
 //! Errors of studies.
 
 use crate::kind::InputKind;
-use crate::names::MARK_NAME;
+use crate::names::MANIFEST_NAME;
 use cdpr_cable::RecordError;
 use cdpr_robot::{JsonError, RobotError, place_of};
 use cdpr_sensitivity::SensitivityError;
@@ -160,13 +160,57 @@ pub enum StudyError {
     },
     /// A file that no run has written is in the way.
     #[error(
-        "{path} was not written by a run, which would write over it: choose another folder (one of results \
-         has a file {})",
-        MARK_NAME
+        "{path} was not written by a run, which would write over it: move it, or choose another place (the \
+         files of runs are listed in {} beside them)",
+        MANIFEST_NAME
     )]
     NoResults {
         /// The file.
         path: PathBuf,
+    },
+    /// Another process writes into the folder.
+    #[error("{folder} is in use: another process writes into it; wait for its end, or choose another folder")]
+    FolderBusy {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A folder of results of another kind.
+    #[error("{folder} holds the results of {found}: expected those of {expected}, or another folder")]
+    OtherResults {
+        /// The folder.
+        folder: PathBuf,
+        /// What its results are of.
+        found: &'static str,
+        /// What the new results are of.
+        expected: &'static str,
+    },
+    /// A link, or something else that no run makes, stands where a run writes or removes.
+    #[error(
+        "{path} is a link, or no plain file or folder: links in a folder of results are not followed; move it, \
+         or choose another folder"
+    )]
+    Link {
+        /// Its path.
+        path: PathBuf,
+    },
+    /// A folder of results was opened for reading, and something was to be written.
+    #[error("{folder} was opened for reading: expected a folder that this process has locked")]
+    NotOwned {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Files in a folder of results belong to different studies.
+    #[error(
+        "{path} is of study {found}: expected {expected}, as the files beside it; it was changed, or a run was \
+         interrupted"
+    )]
+    Mixed {
+        /// The file.
+        path: PathBuf,
+        /// Hash of its study.
+        found: String,
+        /// Hash of the study of the other files.
+        expected: String,
     },
     /// A study cannot be analysed yet.
     #[error("{folder} lacks {missing} of {blocks} blocks, the first one {first}")]

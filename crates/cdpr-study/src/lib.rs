@@ -70,9 +70,10 @@ pub use file::study_file::{
 };
 pub use file::template::{TEMPLATE_NOTES, template, write_template};
 pub use file::value::Value;
-pub use fs::atomic::write_json;
-pub use fs::files::{check_folder, open_robot, write_csv, write_rows, write_text};
+pub use fs::files::open_robot;
 pub use fs::input::read_text;
+pub use fs::manifest::ResultsOf;
+pub use fs::owned::{Access, ResultsFolder, write_text};
 pub use indexmap::IndexMap;
 pub use kind::InputKind;
 pub use model::cable_law::open_law;
@@ -80,7 +81,7 @@ pub use model::error_model::{ErrorModel, Term, uncertainties};
 pub use model::grid::{Grid, frame};
 pub use model::observed::{Failure, Observed};
 pub use model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis};
-pub use names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME};
+pub use names::{REPORT_MARK, REPORT_NAME, ROBOT_NAME, STUDY_NAME};
 pub use observe::observation::{FITTED, KEPT, Part, Session, Tally, observe, observe_into, observe_rows};
 pub use observe::plan::{BlockMaker, Plan, observe_shard};
 pub use observe::shard::Shard;
@@ -95,4 +96,4 @@ pub use results::write::{
 pub use run::{Draw, Drawable, Figure, Run, Watcher, run};
 pub use store::block::BLOCK;
 pub use store::blocks::Blocks;
-pub use store::folder::{Existing, StoredStudy, begin, open_results};
+pub use store::folder::{Existing, StoredStudy, begin, open_results, take_results};

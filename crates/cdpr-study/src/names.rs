@@ -18,5 +18,11 @@ pub(crate) const TIMINGS_NAME: &str = "timings.json";
 /// Name of the report in a folder of results.
 pub const REPORT_NAME: &str = "report.html";
 
-/// Name of the file that marks a folder of results. In any other folder a `study.json` belongs to the user.
-pub(crate) const MARK_NAME: &str = "cdpr-results.txt";
+/// What every report contains near its beginning, so that no other file is taken for one.
+pub const REPORT_MARK: &str = "<meta name=\"generator\" content=\"cdpr ";
+
+/// Name of the list of the files that runs have written into a folder. Other files belong to the user.
+pub(crate) const MANIFEST_NAME: &str = "cdpr-results.json";
+
+/// Name of the file that a process locks while it writes into a folder of results.
+pub(crate) const LOCK_NAME: &str = "cdpr-results.lock";

@@ -32,7 +32,7 @@ fn any_number_of_processes_may_begin_in_a_new_folder_at_once() {
             let threads = [(); 8].map(|()| {
                 scope.spawn(|| {
                     begun.wait();
-                    begin(&out, &study, Existing::GoOn).map(|_| ())
+                    begin(&out, &study, Existing::Share).map(|_| ())
                 })
             });
             for thread in threads {
@@ -65,7 +65,7 @@ fn a_folder_is_gone_on_with_whatever_another_process_has_put_there_so_far_or_is_
     std::fs::create_dir(&unwritten).unwrap();
     std::fs::write(unwritten.join("blocks"), "in the way").unwrap();
     begin(&unwritten, &study, Existing::GoOn).unwrap_err();
-    assert!(unwritten.join("cdpr-results.txt").exists() && !unwritten.join("robot.json").exists());
+    assert!(unwritten.join("cdpr-results.json").exists() && !unwritten.join("robot.json").exists());
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, CycleBranch, cycle};
-use cdpr_study::{CableLaw, law_json, open_record, write_text};
+use cdpr_study::{CableLaw, LAW_FORMAT, law_json, open_record, write_text};
 use published::{Entry, Published, percent};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -178,7 +178,7 @@ fn write_law(
     let source =
         format!("load-elongation record {}, specimen of {} m", settings.record.display(), specimen.length);
     let text = law_json(Some(source), law)? + "\n";
-    Ok(write_text(path, &text)?)
+    Ok(write_text(path, &text, LAW_FORMAT)?)
 }
 
 fn draw(record: &Record, found: &Found, path: &Path) -> Result<(), ProgramError> {
@@ -193,5 +193,5 @@ fn draw(record: &Record, found: &Found, path: &Path) -> Result<(), ProgramError>
         y: "force [N]",
         branches: &branches,
     })?;
-    Ok(write_text(path, &figure)?)
+    Ok(write_text(path, &figure, "<svg")?)
 }

@@ -203,5 +203,5 @@ fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<()
         y: "payload [kg]",
         branches: &branches,
     })?;
-    Ok(write_text(path, &figure)?)
+    Ok(write_text(path, &figure, "<svg")?)
 }

@@ -2,13 +2,13 @@
 
 use crate::arguments::Format;
 use crate::error::ProgramError;
-use crate::output::{progress, table, write_drawn};
+use crate::output::{drawn, progress, table};
 use cdpr_assess::{
-    Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, run_robustness, write_refused,
-    write_robustness, write_solves,
+    Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, begin_robustness, run_robustness,
+    write_robustness,
 };
 use cdpr_robot::shown;
-use cdpr_study::{check_folder, open_robot};
+use cdpr_study::open_robot;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -44,7 +44,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         protocol.validate()?;
     }
     let robot = open_robot(&settings.robot)?;
-    check_folder(&settings.out)?;
+    let folder = begin_robustness(&settings.out)?;
 
     let steps = protocols.iter().map(|protocol| protocol.poses + protocol.solves()).sum();
     let progress = progress(steps, "poses and solves");
@@ -59,11 +59,12 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         protocols: results.iter().map(|r| (r.protocol.name.to_owned(), ProtocolSummary::new(r))).collect(),
     };
-    write_solves(&settings.out, &results)?;
-    write_refused(&settings.out, &results)?;
-    write_robustness(&settings.out, &summary)?;
-    write_drawn(&settings.out, "found_poses", cdpr_report::found_poses(&results[0]))?;
-    write_drawn(&settings.out, "success_share", cdpr_report::success_share(&summary.protocols[0]))?;
+    let figures = [
+        ("found_poses", cdpr_report::found_poses(&results[0])),
+        ("success_share", cdpr_report::success_share(&summary.protocols[0])),
+    ];
+    let figures: Vec<_> = figures.into_iter().filter_map(|(name, svg)| drawn(name, svg)).collect();
+    write_robustness(&folder, &summary, &results, &figures)?;
     Ok(settings.format.print(&summary, |summary| {
         print_results(summary);
         println!("{:.1} s; results in {}", clock.elapsed().as_secs_f64(), settings.out.display());

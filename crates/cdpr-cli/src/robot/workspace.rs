@@ -2,12 +2,12 @@
 
 use crate::arguments::{self, Format, LoadArguments, Named, Threads};
 use crate::error::ProgramError;
-use crate::output::{progress, table, write_drawn};
+use crate::output::{drawn, progress, table};
 use crate::poses::{self, Angles};
-use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace, write_workspace};
+use cdpr_assess::{Workspace, WorkspaceSummary, begin_workspace, compute_workspace, write_workspace};
 use cdpr_report::workspace_maps;
 use cdpr_robot::{Axis, Robot, Rotation3, shown};
-use cdpr_study::{ErrorModel, Extremes, Grid, Study, check_folder, open_robot};
+use cdpr_study::{ErrorModel, Extremes, Grid, Study, open_robot};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -89,7 +89,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         (None, None) => return Err(ProgramError::Usage("expected --plane or --box".to_owned())),
     };
     let tolerances = settings.tolerances(&robot)?;
-    check_folder(&settings.out)?;
+    let folder = begin_workspace(&settings.out)?;
     let workspace = Workspace {
         robot: &robot,
         grid,
@@ -103,10 +103,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let seconds = clock.elapsed().as_secs_f64();
     progress.finish_and_clear();
     let summary = WorkspaceSummary::new(&workspace, &poses);
-    write_workspace(&settings.out, &summary)?;
-    for map in workspace_maps(&robot, &summary) {
-        write_drawn(&settings.out, &map.name, map.svg)?;
-    }
+    let maps = workspace_maps(&robot, &summary).into_iter();
+    let maps: Vec<_> = maps.filter_map(|map| drawn(&map.name, map.svg)).collect();
+    write_workspace(&folder, &summary, &maps)?;
     Ok(settings.format.print(&summary, |summary| {
         print(summary);
         println!("{} poses in {seconds:.2} s; results in {}", poses.len(), settings.out.display());

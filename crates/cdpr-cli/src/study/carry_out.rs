@@ -11,7 +11,7 @@ use crate::output::{Ending, progress};
 use cdpr_report::{draw, report_with};
 use cdpr_study::{
     Blocks, NominalSummary, Plan, REPORT_NAME, Run, STUDY_NAME, Session, Shard, Study, StudyError,
-    StudySummary, Summary, TableFormat, Watcher, observe_shard, write_text,
+    StudySummary, Summary, TableFormat, Watcher, observe_shard,
 };
 use clap::ValueEnum;
 use indicatif::ProgressBar;
@@ -69,12 +69,12 @@ pub(super) fn whole(
     first(&Session { blocks: Some(blocks), tick, warn, stop })?;
     progress.reset();
     let format = common.table.map(TableFormat::from);
-    let Run { results, figures } = cdpr_study::run(study, out, blocks, format, &draw, watcher)?;
+    let Run { results, figures } = cdpr_study::run(study, blocks, format, &draw, watcher)?;
     progress.finish_and_clear();
     let timings = results.timings.clone().unwrap_or_default();
     common.format.print(&results.summary, |summary| print::print(summary, &timings))?;
-    let path = out.join(REPORT_NAME);
-    write_text(&path, &report_with(&results, &figures)?)?;
+    let page = report_with(&results, &figures)?;
+    let path = blocks.results()?.write(REPORT_NAME, page.as_bytes())?;
     if common.format == Format::Text {
         println!("\nresults in {}\nreport in {}", out.display(), path.display());
     }

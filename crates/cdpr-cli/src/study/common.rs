@@ -81,10 +81,11 @@ pub(super) fn begun(settings: &RunSettings) -> Result<(Study, Blocks), ProgramEr
     if let Some(observations) = settings.observations {
         study.set_observations(observations)?;
     }
-    let existing = match (settings.resume | settings.shard()?.is_some(), settings.overwrite) {
-        (true, _) => Existing::GoOn,
-        (false, true) => Existing::Overwrite,
-        (false, false) => Existing::Refuse,
+    let existing = match (settings.shard()?, settings.resume, settings.overwrite) {
+        (Some(_), ..) => Existing::Share,
+        (None, true, _) => Existing::GoOn,
+        (None, false, true) => Existing::Overwrite,
+        (None, false, false) => Existing::Refuse,
     };
     let blocks = cdpr_study::begin(&settings.out, &study, existing)?;
     Ok((study, blocks))

@@ -9,7 +9,7 @@ use super::carry_out::whole;
 use super::common::{RunSettings, begun};
 use crate::error::ProgramError;
 use crate::output::Ending;
-use cdpr_study::{BlockMaker, Plan, Session, StoredStudy, Study};
+use cdpr_study::{Access, BlockMaker, Plan, Session, StoredStudy, Study, take_results};
 use mpi::Threading;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives, Destination, Source};
@@ -43,9 +43,15 @@ pub(super) fn share_out(settings: &RunSettings, expected: usize) -> Result<Endin
 
 fn lead(world: &SimpleCommunicator, settings: &RunSettings) -> Result<Ending, ProgramError> {
     let (study, blocks) = begun(settings)?;
+    blocks.share()?;
     // The folder is there: from now on the other ranks read the study in it.
     world.barrier();
-    whole(&study, &settings.out, &blocks, &settings.common, |session| hand_out(world, &study, session))
+    whole(&study, &settings.out, &blocks, &settings.common, |session| {
+        hand_out(world, &study, session)?;
+        // The other ranks have let go of the folder.
+        world.barrier();
+        Ok(blocks.take_alone()?)
+    })
 }
 
 /// Hands out all blocks, some of which another thread of this process makes.
@@ -86,7 +92,14 @@ fn hand_out(world: &SimpleCommunicator, study: &Study, session: &Session) -> Res
 fn follow(world: &SimpleCommunicator, settings: &RunSettings) -> Result<(), ProgramError> {
     settings.common.threads.start()?;
     world.barrier();
-    let StoredStudy { study, blocks } = cdpr_study::open_results(&settings.out)?;
+    make_blocks(world, settings)?;
+    world.barrier();
+    Ok(())
+}
+
+/// Makes the blocks that rank 0 hands out, in a folder shared with it.
+fn make_blocks(world: &SimpleCommunicator, settings: &RunSettings) -> Result<(), ProgramError> {
+    let StoredStudy { study, blocks } = take_results(&settings.out, Access::Shared)?;
     let plan = Plan::new(&study)?;
     let done = AtomicUsize::new(0);
     let tick = |observations: usize| {

@@ -4,7 +4,7 @@ use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use cdpr_report::report;
-use cdpr_study::{REPORT_NAME, Results, write_text};
+use cdpr_study::{REPORT_MARK, Results, write_text};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -28,11 +28,18 @@ struct Written {
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { folder, out, format } = settings;
-    let path = out.clone().unwrap_or_else(|| folder.join(REPORT_NAME));
-    let text = patiently("drawing the report", || -> Result<String, ProgramError> {
-        Ok(report(&Results::read(folder)?)?)
+    let (results, page) = patiently("drawing the report", || -> Result<_, ProgramError> {
+        let results = Results::read(folder)?;
+        let page = report(&results)?;
+        Ok((results, page))
     })?;
-    write_text(&path, &text)?;
+    let path = match out {
+        Some(path) => {
+            write_text(path, &page, REPORT_MARK)?;
+            path.clone()
+        }
+        None => results.write_report(folder, &page)?,
+    };
     let text = |written: &Written| println!("report in {}", written.report);
     Ok(format.print(&Written { report: path.to_string_lossy().into_owned() }, text)?)
 }

@@ -165,6 +165,11 @@ fn is_of_files(error: &StudyError) -> bool {
             | StudyError::DamagedBlock { .. }
             | StudyError::MissingBlocks { .. }
             | StudyError::NoResults { .. }
+            | StudyError::FolderBusy { .. }
+            | StudyError::OtherResults { .. }
+            | StudyError::Link { .. }
+            | StudyError::NotOwned { .. }
+            | StudyError::Mixed { .. }
             | StudyError::NotAnalysed { .. }
     )
 }

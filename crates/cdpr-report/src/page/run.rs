@@ -76,6 +76,7 @@ pub(crate) fn again(results: &Results) -> Section {
         pre { code { "cdpr study run study.json --out results" } }
         dl.facts {
             dt { "Version" } dd { "cdpr " (summary.version) }
+            @if !summary.hash.is_empty() { dt { "Hash of the study" } dd { (summary.hash) } }
             dt { "Seed" } dd { (summary.seed) }
             dt { "Files" } dd { "study.json, and beside it " (robot) }
         }

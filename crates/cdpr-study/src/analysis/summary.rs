@@ -2,6 +2,7 @@
 
 use crate::analysis::comparison::{ComparisonRow, compare};
 use crate::analysis::part::StudySummary;
+use crate::error::StudyError;
 use crate::model::study::Study;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
@@ -11,6 +12,9 @@ use serde::{Deserialize, Serialize};
 pub struct Summary {
     /// Name of the study.
     pub study: String,
+    /// Its hash ([`Study::hash`]); empty in results of earlier versions.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub hash: String,
     /// Name of the robot.
     pub robot: String,
     /// Version of the program.
@@ -27,15 +31,19 @@ pub struct Summary {
 
 impl Summary {
     /// The summary of a study from the results of its samplings and surfaces.
-    pub fn new(study: &Study, studies: IndexMap<String, StudySummary>) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// As [`Study::hash`].
+    pub fn new(study: &Study, studies: IndexMap<String, StudySummary>) -> Result<Self, StudyError> {
+        Ok(Self {
             study: study.file.name.clone(),
+            hash: study.hash()?,
             robot: study.robot.name.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             payload: study.file.payload,
             seed: study.file.seed,
             comparison: compare(&study.file.comparison, &studies),
             studies,
-        }
+        })
     }
 }

@@ -1,10 +1,8 @@
-//! Names of tables and figures in a folder of results: which are of a study, and that no two parts of it
-//! write the same.
+//! Names of the files in a folder of results: which are of a study, and that no two parts of it write the
+//! same.
 
-use crate::error::StudyError;
 use crate::file::study_file::{SamplingSpec, StudyFile};
-use crate::fs::files::remove_stale;
-use std::path::Path;
+use crate::names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
 
 /// Figures of the study as a whole.
 const OF_ALL: [&str; 3] = ["robot", "anchor_points", "exit_points"];
@@ -37,46 +35,36 @@ impl StudyFile {
         samplings.find(further).map(|(sampling, _)| format!("samplings.{sampling}"))
     }
 
-    fn writes(&self, name: &str) -> bool {
+    /// Whether a run of the study may write a file of this name right in its folder of results.
+    pub(crate) fn writes(&self, name: &str) -> bool {
+        if [STUDY_NAME, ROBOT_NAME, SUMMARY_NAME, TIMINGS_NAME, REPORT_NAME].contains(&name) {
+            return true;
+        }
+        let Some((name, "csv" | "parquet" | "svg")) = name.rsplit_once('.') else { return false };
         self.samplings.contains_key(name)
             || self.surfaces.contains_key(name)
             || self.other_writer(name).is_some()
     }
-}
 
-/// Removes the tables and figures of a study from a folder of results.
-///
-/// # Errors
-/// [`StudyError::Read`], [`StudyError::Write`].
-pub(crate) fn remove_files(folder: &Path, study: &StudyFile) -> Result<(), StudyError> {
-    remove_where(folder, &["csv", "parquet", "svg"], |name| study.writes(name))?;
-    for (name, _) in study.samplings.iter().filter(|(_, spec)| spec.poses.is_some()) {
-        // Tables of the observations at each pose.
-        let tables = folder.join(name);
-        if tables.is_dir() {
-            remove_where(&tables, &["csv", "parquet"], is_number)?;
-            // One that still holds something stays.
-            let _ = std::fs::remove_dir(&tables);
+    /// Names of the files that a run writes right in its folder of results, except maps over poses, which are
+    /// known only when they are drawn: tables of observations with this ending, if they are written.
+    pub(crate) fn names(&self, table: Option<&str>) -> Vec<String> {
+        let mut names: Vec<String> = [SUMMARY_NAME, TIMINGS_NAME, REPORT_NAME].map(str::to_owned).into();
+        names.extend(OF_ALL.map(|name| format!("{name}.svg")));
+        for (name, spec) in &self.samplings {
+            if spec.poses.is_some() {
+                names.push(format!("{name}.csv"));
+                continue;
+            }
+            names.extend(table.map(|ending| format!("{name}.{ending}")));
+            names.extend(["", "_effects"].map(|of| format!("{name}{of}.svg")));
+            if self.sensitivity.is_some() {
+                names.extend(["csv", "svg"].map(|ending| format!("{name}_sensitivity.{ending}")));
+            }
         }
+        names.extend(self.surfaces.keys().flat_map(|name| ["csv", "svg"].map(|of| format!("{name}.{of}"))));
+        names
     }
-    Ok(())
-}
-
-/// Removes the files right in a folder with one of these endings whose names without it are meant.
-fn remove_where(folder: &Path, endings: &[&str], meant: impl Fn(&str) -> bool) -> Result<(), StudyError> {
-    let read = |source| StudyError::Read { path: folder.to_owned(), source };
-    for entry in std::fs::read_dir(folder).map_err(read)? {
-        let path = entry.map_err(read)?.path();
-        let (name, ending) = (path.file_stem(), path.extension());
-        let [Some(name), Some(ending)] = [name, ending].map(|part| part.and_then(|part| part.to_str()))
-        else {
-            continue;
-        };
-        if endings.contains(&ending) && meant(name) {
-            remove_stale(path)?;
-        }
-    }
-    Ok(())
 }
 
 fn is_number(text: &str) -> bool {

@@ -2,22 +2,37 @@
 //! renamed.
 
 use crate::error::StudyError;
-use crate::fs::files::remove_stale;
-use serde::Serialize;
+use crate::fs::disk;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
-/// Prefix of the names of unfinished files.
-const UNFINISHED: &str = ".cdpr-";
+/// Beginning and end of the names of unfinished files.
+const UNFINISHED: [&str; 2] = [".cdpr-", ".tmp"];
 
 /// A file that takes its name when it is finished. An unfinished one leaves nothing behind, unless the
 /// process is killed. It is locked while it is written: other processes recognise leftovers by the missing
 /// lock.
 pub(crate) struct AtomicFile {
     path: PathBuf,
-    file: BufWriter<NamedTempFile>,
+    file: BufWriter<Unfinished>,
+}
+
+/// The file under its temporary name.
+struct Unfinished {
+    path: PathBuf,
+    file: NamedTempFile,
+}
+
+impl Write for Unfinished {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        disk::write(&mut self.file, &self.path, bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
 }
 
 impl AtomicFile {
@@ -27,16 +42,16 @@ impl AtomicFile {
     /// [`StudyError::Write`].
     pub(crate) fn new(path: PathBuf) -> Result<Self, StudyError> {
         let mut builder = Builder::new();
-        builder.prefix(UNFINISHED).suffix(".tmp");
+        builder.prefix(UNFINISHED[0]).suffix(UNFINISHED[1]);
         // The mask of the user applies, as to any other file: results in a shared folder are for others to
         // read.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        match builder.tempfile_in(folder_of(&path)) {
+        match disk::create(folder_of(&path), &builder) {
             Ok(file) => {
                 // Where the file system has no locks, [`remove_unfinished`] gets none either.
                 let _ = file.as_file().try_lock();
-                Ok(Self { path, file: BufWriter::new(file) })
+                Ok(Self { file: BufWriter::new(Unfinished { path: path.clone(), file }), path })
             }
             Err(source) => Err(StudyError::Write { path, source }),
         }
@@ -47,38 +62,25 @@ impl AtomicFile {
         StudyError::Write { path: self.path.clone(), source }
     }
 
-    /// Gives the file its name. After a failure of the system it may be missing or empty.
+    /// Gives the file its name. It is on the disk when this returns.
     ///
     /// # Errors
     /// [`StudyError::Write`].
     pub(crate) fn finish(self) -> Result<PathBuf, StudyError> {
         let Self { path, file } = self;
         let finish = || -> std::io::Result<()> {
-            file.into_inner().map_err(std::io::IntoInnerError::into_error)?.persist(&path)?;
+            let file = file.into_inner().map_err(std::io::IntoInnerError::into_error)?.file;
+            disk::sync(file.as_file(), &path)?;
+            disk::rename(file, &path)?;
+            // The name is part of the folder.
+            #[cfg(unix)]
+            disk::sync(&File::open(folder_of(&path))?, folder_of(&path))?;
             Ok(())
         };
         match finish() {
             Ok(()) => Ok(path),
             Err(source) => Err(StudyError::Write { path, source }),
         }
-    }
-
-    /// The same, and the file is on the disk when this returns.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub(crate) fn finish_on_disk(mut self) -> Result<PathBuf, StudyError> {
-        let synced = self.file.flush().and_then(|()| self.file.get_ref().as_file().sync_all());
-        if let Err(source) = synced {
-            return Err(StudyError::Write { path: self.path, source });
-        }
-        let path = self.finish()?;
-        // The name is part of the folder.
-        #[cfg(unix)]
-        if let Err(source) = File::open(folder_of(&path)).and_then(|folder| folder.sync_all()) {
-            return Err(StudyError::Write { path, source });
-        }
-        Ok(path)
     }
 }
 
@@ -98,7 +100,8 @@ fn folder_of(path: &Path) -> &Path {
 
 /// Whether a file is unfinished: being written, or left by a killed process.
 pub(crate) fn is_unfinished(path: &Path) -> bool {
-    path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(UNFINISHED))
+    let name = path.file_name().map(|name| name.to_string_lossy());
+    name.is_some_and(|name| name.starts_with(UNFINISHED[0]) && name.ends_with(UNFINISHED[1]))
 }
 
 /// Removes an unfinished file, unless a process writes it.
@@ -111,7 +114,7 @@ pub(crate) fn remove_unfinished(path: PathBuf) -> Result<(), StudyError> {
     if file.try_lock().is_err() {
         return Ok(());
     }
-    remove_stale(path)
+    disk::remove(&path).map_err(|source| StudyError::Write { path, source })
 }
 
 /// Writes a file that is whole and on the disk when this returns.
@@ -121,18 +124,7 @@ pub(crate) fn remove_unfinished(path: PathBuf) -> Result<(), StudyError> {
 pub(crate) fn write_atomic(path: PathBuf, text: &[u8]) -> Result<PathBuf, StudyError> {
     let mut file = AtomicFile::new(path)?;
     match file.write_all(text) {
-        Ok(()) => file.finish_on_disk(),
+        Ok(()) => file.finish(),
         Err(source) => Err(file.unwritten(source)),
-    }
-}
-
-/// Writes a value as indented JSON into a file that is whole and on the disk when this returns.
-///
-/// # Errors
-/// [`StudyError::Write`].
-pub fn write_json(path: PathBuf, value: &impl Serialize) -> Result<PathBuf, StudyError> {
-    match serde_json::to_string_pretty(value) {
-        Ok(text) => write_atomic(path, (text + "\n").as_bytes()),
-        Err(error) => Err(StudyError::Write { path, source: error.into() }),
     }
 }

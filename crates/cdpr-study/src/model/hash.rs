@@ -1,8 +1,10 @@
-//! The hash by which a study is recognised.
+//! The hashes by which a study and its blocks are recognised.
 
 use crate::error::StudyError;
+use crate::file::study_file::SamplingSpec;
 use crate::model::study::Study;
 use cdpr_robot::Robot;
+use serde::Serialize;
 
 impl Study {
     /// Hash of everything that determines the observations: robot, error models, poses, payload, seed,
@@ -20,9 +22,29 @@ impl Study {
         }
         file.surfaces.clear();
         file.comparison.clear();
+        self.hash_of(&file)
+    }
+
+    /// Hash of everything that determines the observations of one sampling of the study file: the same, but
+    /// no other sampling and no other error model.
+    ///
+    /// # Errors
+    /// As [`Study::hash`].
+    pub(crate) fn sampling_hash(&self, spec: &SamplingSpec) -> Result<String, StudyError> {
+        let model = self.file.error_models.get(&spec.error_model);
+        let spec = SamplingSpec {
+            title: String::new(),
+            observations: 0,
+            error_model: String::new(),
+            ..spec.clone()
+        };
+        self.hash_of(&(spec, model, self.file.payload, self.file.seed))
+    }
+
+    fn hash_of(&self, content: &impl Serialize) -> Result<String, StudyError> {
         let robot = Robot { name: String::new(), source: None, ..self.robot.clone() };
         let mut hasher = blake3::Hasher::new();
-        let whole = (env!("CARGO_PKG_VERSION"), file, robot.to_json());
+        let whole = (env!("CARGO_PKG_VERSION"), content, robot.to_json());
         serde_json::to_writer(&mut hasher, &whole)
             .map_err(|error| StudyError::Write { path: self.path.clone(), source: error.into() })?;
         // 128 bits tell studies apart, and can be read out.

@@ -3,6 +3,7 @@
 
 use crate::error::StudyError;
 use crate::fs::atomic::AtomicFile;
+use crate::fs::owned::ResultsFolder;
 use crate::model::observed::{observed_mm, status};
 use crate::model::study::Sampling;
 use crate::observe::observation::Part;
@@ -15,7 +16,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{Type, TypePtr};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Rows of a row group, which is held in memory: those of four blocks.
@@ -34,10 +35,11 @@ pub(crate) struct ParquetTable {
 }
 
 impl ParquetTable {
-    pub(crate) fn new(folder: &Path, sampling: &Sampling) -> std::result::Result<Self, StudyError> {
-        let path = folder.join(format!("{}.parquet", sampling.name));
+    pub(crate) fn new(folder: &ResultsFolder, sampling: &Sampling) -> std::result::Result<Self, StudyError> {
+        let name = format!("{}.parquet", sampling.name);
+        let path = folder.path().join(&name);
         let hash = sampling.study.hash()?;
-        let file = AtomicFile::new(path.clone())?;
+        let file = folder.create(&name)?;
         let begin = || {
             let properties =
                 WriterProperties::builder().set_key_value_metadata(Some(provenance(sampling, hash))).build();

@@ -6,13 +6,16 @@ use crate::analysis::summary::Summary;
 use crate::analysis::surface::{SurfaceResult, SurfaceSummary};
 use crate::error::StudyError;
 use crate::fs::files::read;
+use crate::fs::manifest::{Manifest, ResultsOf};
+use crate::fs::owned::{ResultsFolder, hold_still, write_text};
 use crate::model::study::Study;
-use crate::names::{STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
+use crate::names::{REPORT_MARK, REPORT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
 use crate::results::write::Timings;
+use crate::store::folder::check_hash;
 use cdpr_robot::from_json;
 use indexmap::IndexMap;
 use serde::de::DeserializeOwned;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The content of a folder of results, except the observations.
 #[derive(Clone, Debug)]
@@ -37,8 +40,10 @@ impl Results {
     /// Reads the folder that a run of a study has written.
     ///
     /// # Errors
-    /// [`StudyError`] naming the missing or invalid file, with field and reason.
+    /// [`StudyError`] naming the missing or invalid file, with field and reason; [`StudyError::FolderBusy`]
+    /// where a process writes into the folder, [`StudyError::Mixed`] for files of different studies.
     pub fn read(folder: &Path) -> Result<Self, StudyError> {
+        let _lock = hold_still(folder)?;
         let path = folder.join(STUDY_NAME);
         let study_json = read(&path)?;
         let study = Study::from_json(&study_json, &path)?;
@@ -48,6 +53,11 @@ impl Results {
             return Err(StudyError::NotAnalysed { folder: folder.to_owned() });
         }
         let summary: Summary = read_json(&path)?;
+        let hash = study.hash()?;
+        check_hash(folder, STUDY_NAME, &hash)?;
+        if !summary.hash.is_empty() && summary.hash != hash {
+            return Err(StudyError::Mixed { path, found: summary.hash, expected: hash });
+        }
         let (mut surfaces, mut poses) = (IndexMap::new(), IndexMap::new());
         for (name, found) in &summary.studies {
             let path = folder.join(format!("{name}.csv"));
@@ -66,6 +76,27 @@ impl Results {
             timings => Some(timings?),
         };
         Ok(Self { study, study_json, robot_json, summary, surfaces, poses, timings })
+    }
+
+    /// Writes a report of these results, which were read from this folder, into it.
+    ///
+    /// # Errors
+    /// [`StudyError::NoResults`] for another file in its place, [`StudyError::FolderBusy`] where a process
+    /// writes into the folder, [`StudyError::NotAnalysed`] where one has done so since the results were read,
+    /// [`StudyError::Write`].
+    pub fn write_report(&self, folder: &Path, page: &str) -> Result<PathBuf, StudyError> {
+        if Manifest::read(folder)?.is_none() {
+            // Of an earlier version.
+            let path = folder.join(REPORT_NAME);
+            write_text(&path, page, REPORT_MARK)?;
+            return Ok(path);
+        }
+        let owned = ResultsFolder::begin(folder, ResultsOf::Study, |name| name == REPORT_NAME)?;
+        let path = folder.join(SUMMARY_NAME);
+        if !path.exists() || read_json::<Summary>(&path)? != self.summary {
+            return Err(StudyError::NotAnalysed { folder: folder.to_owned() });
+        }
+        owned.write(REPORT_NAME, page.as_bytes())
     }
 }
 

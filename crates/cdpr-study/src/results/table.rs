@@ -3,13 +3,12 @@
 
 use crate::error::StudyError;
 use crate::fs::atomic::AtomicFile;
-use crate::fs::files::remove_stale;
+use crate::fs::owned::ResultsFolder;
 use crate::model::observed::{observed_mm, status};
 use crate::model::study::Sampling;
 use crate::observe::observation::Part;
 use cdpr_sensitivity::SampleDesign;
 use std::io::Write;
-use std::path::Path;
 
 /// Format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +43,16 @@ enum Table {
 }
 
 impl TableFormat {
+    /// Ending of the table's name, if there is a table.
+    pub(crate) fn ending(self) -> Option<&'static str> {
+        match self {
+            Self::Csv => Some("csv"),
+            #[cfg(feature = "parquet")]
+            Self::Parquet => Some("parquet"),
+            Self::None => None,
+        }
+    }
+
     /// Rows of a part. They are formatted in parallel, because this takes longer than the mechanics.
     pub fn rows(self, part: &Part) -> Rows {
         Rows(match self {
@@ -61,21 +70,16 @@ impl ObservationTable {
     ///
     /// # Errors
     /// [`StudyError::Write`].
-    pub fn new(folder: &Path, sampling: &Sampling, format: TableFormat) -> Result<Self, StudyError> {
+    pub fn new(folder: &ResultsFolder, sampling: &Sampling, format: TableFormat) -> Result<Self, StudyError> {
         for ending in ["csv", "parquet"] {
-            remove_stale(folder.join(format!("{}.{ending}", sampling.name)))?;
-        }
-        // The tables of several poses have a folder of their own.
-        if let (Some((name, _)), true) = (sampling.name.split_once('/'), format != TableFormat::None) {
-            let path = folder.join(name);
-            std::fs::create_dir_all(&path).map_err(|source| StudyError::Write { path, source })?;
+            folder.remove(&format!("{}.{ending}", sampling.name))?;
         }
         let names = sampling.design.inputs().iter().map(|input| format!("d_{}", input.name));
         match format {
             TableFormat::Csv => {
                 let rest = ["dx_mm", "dy_mm", "dz_mm", "rms_mm", "status", "reason"].map(str::to_owned);
                 let header: Vec<String> = ["index".to_owned()].into_iter().chain(names).chain(rest).collect();
-                let mut file = AtomicFile::new(folder.join(format!("{}.csv", sampling.name)))?;
+                let mut file = folder.create(&format!("{}.csv", sampling.name))?;
                 match file.write_all((header.join(",") + "\n").as_bytes()) {
                     Ok(()) => Ok(Self(Table::Csv(Box::new(file)))),
                     Err(source) => Err(file.unwritten(source)),

@@ -5,20 +5,19 @@ use crate::analysis::sensitivity::SensitivitySummary;
 use crate::analysis::summary::Summary;
 use crate::analysis::surface::SurfaceResult;
 use crate::error::StudyError;
-use crate::fs::atomic::write_json;
-use crate::fs::files::{write_csv, write_rows, write_text};
+use crate::fs::owned::ResultsFolder;
 use crate::model::study::Surface;
 use crate::names::{SUMMARY_NAME, TIMINGS_NAME};
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Writes `NAME.csv`: one row a grid point, with the values of both parameters (in SI units), RMS and status.
 ///
 /// # Errors
-/// [`StudyError::Write`].
+/// As [`ResultsFolder::claim`].
 pub fn write_surface(
-    folder: &Path,
+    folder: &ResultsFolder,
     surface: &Surface,
     result: &SurfaceResult,
 ) -> Result<PathBuf, StudyError> {
@@ -36,46 +35,44 @@ pub fn write_surface(
         };
         vec![result.x[k / columns].to_string(), result.y[k % columns].to_string(), value, status.to_owned()]
     });
-    write_csv(folder.join(format!("{}.csv", surface.name)), header, rows)
+    folder.write_csv(&format!("{}.csv", surface.name), header, rows)
 }
 
 /// Writes `NAME_sensitivity.csv`: one row an input, with what each measure says of it; shares and indices
 /// have no unit, a method that has failed leaves its cells empty.
 ///
 /// # Errors
-/// [`StudyError::Write`].
+/// As [`ResultsFolder::claim`].
 pub fn write_sensitivity(
-    folder: &Path,
+    folder: &ResultsFolder,
     name: &str,
     sensitivity: &SensitivitySummary,
 ) -> Result<PathBuf, StudyError> {
-    write_rows(folder.join(format!("{name}_sensitivity.csv")), &sensitivity.inputs)
+    folder.write_rows(&format!("{name}_sensitivity.csv"), &sensitivity.inputs)
 }
 
 /// Writes `NAME.csv` of a sampling at several poses: one row each.
 ///
 /// # Errors
-/// [`StudyError::Write`].
-pub fn write_poses(folder: &Path, name: &str, rows: &[PoseRow]) -> Result<PathBuf, StudyError> {
-    write_rows(folder.join(format!("{name}.csv")), rows)
+/// As [`ResultsFolder::claim`].
+pub fn write_poses(folder: &ResultsFolder, name: &str, rows: &[PoseRow]) -> Result<PathBuf, StudyError> {
+    folder.write_rows(&format!("{name}.csv"), rows)
 }
 
 /// Writes `summary.json`.
 ///
 /// # Errors
-/// [`StudyError::Write`].
-pub fn write_summary(folder: &Path, summary: &Summary) -> Result<PathBuf, StudyError> {
-    write_json(folder.join(SUMMARY_NAME), summary)
+/// As [`ResultsFolder::claim`].
+pub fn write_summary(folder: &ResultsFolder, summary: &Summary) -> Result<PathBuf, StudyError> {
+    folder.write_json(SUMMARY_NAME, summary)
 }
 
 /// Writes the figure `NAME.svg`.
 ///
 /// # Errors
-/// [`StudyError::Write`].
-pub fn write_figure(folder: &Path, name: &str, svg: &str) -> Result<PathBuf, StudyError> {
-    let path = folder.join(format!("{name}.svg"));
-    write_text(&path, svg)?;
-    Ok(path)
+/// As [`ResultsFolder::claim`].
+pub fn write_figure(folder: &ResultsFolder, name: &str, svg: &str) -> Result<PathBuf, StudyError> {
+    folder.write(&format!("{name}.svg"), svg.as_bytes())
 }
 
 /// Wall times of a run; `timings.json`.
@@ -95,7 +92,7 @@ pub struct Timings {
 /// Writes `timings.json`.
 ///
 /// # Errors
-/// [`StudyError::Write`].
-pub fn write_timings(folder: &Path, timings: &Timings) -> Result<PathBuf, StudyError> {
-    write_json(folder.join(TIMINGS_NAME), timings)
+/// As [`ResultsFolder::claim`].
+pub fn write_timings(folder: &ResultsFolder, timings: &Timings) -> Result<PathBuf, StudyError> {
+    folder.write_json(TIMINGS_NAME, timings)
 }

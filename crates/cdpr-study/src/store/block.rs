@@ -30,7 +30,7 @@ const DISPLACEMENT: usize = 24;
 pub(crate) struct BlockHeader {
     /// Version of the program.
     pub(crate) version: String,
-    /// Hash of the study ([`crate::Study::hash`]).
+    /// Hash of what the observations depend on ([`crate::Study::sampling_hash`]).
     pub(crate) study: String,
     /// Name of the sampling.
     pub(crate) sampling: String,
@@ -109,6 +109,14 @@ pub(crate) fn decode(file: &[u8]) -> Result<(BlockHeader, Vec<Observed>), String
         *outcome = Err(Failure { kind, reason });
     }
     Ok((header, outcomes))
+}
+
+/// The header at the start of a block's file; `None` for a file that is no block, and an error for the
+/// damaged header of one.
+pub(crate) fn header_of(start: &[u8]) -> Option<Result<BlockHeader, ()>> {
+    let body = start.strip_prefix(BLOCK_FORMAT.as_bytes())?.strip_prefix(b" ")?;
+    let header = line(body).and_then(|(_, body)| serde_json::from_slice(line(body)?.0).ok());
+    Some(header.ok_or(()))
 }
 
 /// The text before the first end of a line, and all after it.

@@ -1,28 +1,38 @@
-//! The blocks of a study on disk: `blocks/SAMPLING/DESIGN/NUMBER.block`, each written atomically.
+//! The blocks of a study on disk: `blocks/SAMPLING/DESIGN/NUMBER.block`, each written atomically. A block
+//! belongs to the results by its name and its header; other files among the blocks are left alone, and links
+//! are not followed.
 
 use crate::error::StudyError;
 use crate::fs::atomic::{is_unfinished, remove_unfinished, write_atomic};
-use crate::fs::files::remove_stale;
+use crate::fs::disk;
 use crate::fs::input::read_bytes;
+use crate::fs::manifest::{entries, is_plain_file, is_plain_folder};
+use crate::fs::owned::{ResultsFolder, make_plain_folder};
 use crate::kind::InputKind;
 use crate::model::observed::{Observed, count_failed, failures};
 use crate::model::study::Study;
-use crate::names::{BLOCKS_NAME, SUMMARY_NAME};
-use crate::store::block::{BLOCK, BlockHeader, decode, encode};
+use crate::names::{BLOCKS_NAME, REPORT_NAME, SUMMARY_NAME};
+use crate::store::block::{BLOCK, BlockHeader, decode, encode, header_of};
+use indexmap::IndexMap;
 use std::fs;
-use std::io::{self, ErrorKind};
-use std::path::{Path, PathBuf};
+use std::io::{ErrorKind, Read};
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+/// Bytes of a block's file in which its header ends.
+const HEADER: u64 = 1 << 16;
 
 /// The folder of a study's blocks.
 #[derive(Clone, Debug)]
 pub struct Blocks {
     /// Folder of the results.
     results: PathBuf,
+    /// The same, if this process writes into it.
+    owned: Option<Arc<ResultsFolder>>,
     /// Folder of the blocks in it.
     folder: PathBuf,
-    study: String,
-    /// Folders of the tables of several poses, beside it.
-    tables: Vec<PathBuf>,
+    /// Hashes of the samplings of the study file, by name.
+    hashes: IndexMap<String, String>,
 }
 
 /// Identity of a block.
@@ -34,15 +44,51 @@ pub(crate) struct BlockId<'a> {
 }
 
 impl Blocks {
-    /// Blocks of a study in the folder `blocks` of its results.
+    /// Blocks of a study in the folder `blocks` of its results, to be read.
     ///
     /// # Errors
     /// As [`Study::hash`].
     pub(crate) fn new(results: &Path, study: &Study) -> Result<Self, StudyError> {
-        let at_several = study.file.samplings.iter().filter(|(_, spec)| spec.poses.is_some());
-        let tables = at_several.map(|(name, _)| results.join(name)).collect();
-        let (results, folder) = (results.to_owned(), results.join(BLOCKS_NAME));
-        Ok(Self { results, folder, study: study.hash()?, tables })
+        let hashes = study.file.samplings.iter();
+        let hashes = hashes.map(|(name, spec)| Ok((name.clone(), study.sampling_hash(spec)?)));
+        Ok(Self {
+            results: results.to_owned(),
+            owned: None,
+            folder: results.join(BLOCKS_NAME),
+            hashes: hashes.collect::<Result<_, StudyError>>()?,
+        })
+    }
+
+    /// Blocks of a study in a folder that this process writes into.
+    ///
+    /// # Errors
+    /// As [`Study::hash`].
+    pub(crate) fn owned(results: Arc<ResultsFolder>, study: &Study) -> Result<Self, StudyError> {
+        Ok(Self { owned: Some(results.clone()), ..Self::new(results.path(), study)? })
+    }
+
+    /// The folder of the results, which this process writes into.
+    ///
+    /// # Errors
+    /// [`StudyError::NotOwned`] for blocks that were opened to be read.
+    pub fn results(&self) -> Result<&Arc<ResultsFolder>, StudyError> {
+        self.owned.as_ref().ok_or_else(|| StudyError::NotOwned { folder: self.results.clone() })
+    }
+
+    /// Shares the folder from now on with other processes that make blocks of the same study.
+    ///
+    /// # Errors
+    /// [`StudyError::FolderBusy`] where another process took the folder meanwhile.
+    pub fn share(&self) -> Result<(), StudyError> {
+        self.results()?.share()
+    }
+
+    /// Takes the folder alone again when the others are done.
+    ///
+    /// # Errors
+    /// As [`Blocks::share`].
+    pub fn take_alone(&self) -> Result<(), StudyError> {
+        self.results()?.take_alone()
     }
 
     pub(crate) fn path(&self, id: &BlockId) -> PathBuf {
@@ -108,20 +154,29 @@ impl Blocks {
         Ok(outcomes)
     }
 
-    /// Writes a block over its shorter version, unless another process has done so meanwhile. A summary that
-    /// is then out of date is removed first.
+    /// Writes a block over its shorter or damaged version, unless another process has done so meanwhile. A
+    /// summary that is then out of date is removed first, with its report.
     ///
     /// # Errors
-    /// [`StudyError::Write`].
+    /// [`StudyError::Write`], [`StudyError::Link`], [`StudyError::ForeignBlock`], [`StudyError::NotOwned`].
     pub(crate) fn write(&self, id: &BlockId, outcomes: &[Observed]) -> Result<(), StudyError> {
-        if self.read(id).is_ok_and(|found| found.len() >= outcomes.len()) {
-            return Ok(());
-        }
+        let results = self.results()?;
         let path = self.path(id);
+        let mut folder = results.path().to_owned();
+        // The name of a sampling at one of several poses has two parts.
+        for part in [BLOCKS_NAME].into_iter().chain(id.sampling.split('/')).chain([id.design]) {
+            folder.push(part);
+            make_plain_folder(&folder)?;
+        }
+        if is_plain_file(&path)? {
+            match self.read(id) {
+                Ok(found) if found.len() >= outcomes.len() => return Ok(()),
+                Ok(_) | Err(StudyError::DamagedBlock { .. }) => (),
+                Err(error) => return Err(error),
+            }
+        }
         let file = encode(&self.header(id, outcomes), outcomes)
             .map_err(|error| StudyError::Write { path: path.clone(), source: error.into() })?;
-        let folder = self.folder.join(id.sampling).join(id.design);
-        fs::create_dir_all(&folder).map_err(|source| StudyError::Write { path: folder, source })?;
         self.remove_summary()?;
         write_atomic(path, &file)?;
         Ok(())
@@ -135,31 +190,33 @@ impl Blocks {
     /// Removes all blocks, of any study, and the folders that are empty then. Other files stay.
     ///
     /// # Errors
-    /// [`StudyError::Write`].
+    /// [`StudyError::Read`], [`StudyError::Write`], [`StudyError::NotOwned`]; [`StudyError::Link`] for a link
+    /// in the place of the folder.
     pub(crate) fn remove(&self) -> Result<(), StudyError> {
-        let removed = if self.folder.is_dir() { remove_blocks(&self.folder) } else { Ok(()) };
-        removed.map_err(|source| StudyError::Write { path: self.folder.clone(), source })
+        self.results()?;
+        if is_plain_folder(&self.folder)? { remove_blocks(&self.folder, &self.folder) } else { Ok(()) }
     }
 
-    /// Removes the summary of an earlier analysis, because new blocks make it out of date.
+    /// Removes the summary and the report of an earlier analysis, because new blocks make them out of date.
     ///
     /// # Errors
-    /// [`StudyError::Write`].
-    pub fn remove_summary(&self) -> Result<(), StudyError> {
-        remove_stale(self.results.join(SUMMARY_NAME))
+    /// [`StudyError::Write`], [`StudyError::Link`], [`StudyError::NotOwned`].
+    pub(crate) fn remove_summary(&self) -> Result<(), StudyError> {
+        [SUMMARY_NAME, REPORT_NAME].into_iter().try_for_each(|name| self.results()?.remove(name))
     }
 
     /// Removes unfinished files of killed processes, among the blocks and beside them.
     ///
     /// # Errors
     /// [`StudyError::Read`], [`StudyError::Write`].
-    pub fn remove_unfinished(&self) -> Result<(), StudyError> {
+    pub(crate) fn remove_unfinished(&self) -> Result<(), StudyError> {
         let mut all = files(&self.folder)?;
         // Only directly beside the blocks: the folder of results may hold much else.
-        for folder in [&self.results].into_iter().chain(&self.tables).filter(|folder| folder.is_dir()) {
-            let read = |source| StudyError::Read { path: folder.clone(), source };
-            for entry in fs::read_dir(folder).map_err(read)? {
-                all.push(entry.map_err(read)?.path());
+        let tables = self.results()?.folders();
+        for folder in [&self.results].into_iter().chain(&tables) {
+            if folder == &self.results || is_plain_folder(folder)? {
+                let plain = entries(folder)?.into_iter().filter(|(_, kind)| kind.is_file());
+                all.extend(plain.map(|(path, _)| path));
             }
         }
         all.into_iter().filter(|path| is_unfinished(path)).try_for_each(remove_unfinished)
@@ -168,7 +225,7 @@ impl Blocks {
     fn header(&self, id: &BlockId, outcomes: &[Observed]) -> BlockHeader {
         BlockHeader {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            study: self.study.clone(),
+            study: self.hashes.get(entry(id.sampling)).cloned().unwrap_or_default(),
             sampling: id.sampling.to_owned(),
             design: id.design.to_owned(),
             first: id.number * BLOCK,
@@ -178,36 +235,75 @@ impl Blocks {
     }
 }
 
+/// Name in the study file of a sampling, which may be `NAME/0000`.
+fn entry(sampling: &str) -> &str {
+    sampling.split_once('/').map_or(sampling, |(entry, _)| entry)
+}
+
 fn is_block(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "block")
 }
 
-fn remove_blocks(folder: &Path) -> io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
-        let path = entry.path();
-        if entry.file_type()?.is_dir() {
-            remove_blocks(&path)?;
-            // A folder that is not empty stays.
-            let _ = fs::remove_dir(&path);
-        } else if is_block(&path) || is_unfinished(&path) {
-            fs::remove_file(&path)?;
+/// Whether a run has written a file among the blocks: one with the header of this very place, or one that is
+/// damaged there.
+fn belongs(folder: &Path, path: &Path) -> Result<bool, StudyError> {
+    let read = |source| StudyError::Read { path: path.to_owned(), source };
+    let place = path.strip_prefix(folder).unwrap_or(path).components().map(|part| match part {
+        Component::Normal(part) => part.to_str(),
+        _ => None,
+    });
+    let Some(place) = place.collect::<Option<Vec<_>>>() else { return Ok(false) };
+    let [sampling @ .., design, file] = place.as_slice() else { return Ok(false) };
+    let number = file.strip_suffix(".block").filter(|digits| digits.len() >= 6);
+    let number = number.filter(|digits| digits.bytes().all(|digit| digit.is_ascii_digit()));
+    let Some(Ok(number)) = number.map(str::parse::<usize>) else { return Ok(false) };
+    if !(1..=2).contains(&sampling.len()) {
+        return Ok(false);
+    }
+    let mut start = Vec::new();
+    fs::File::open(path).map_err(read)?.take(HEADER).read_to_end(&mut start).map_err(read)?;
+    Ok(match header_of(&start) {
+        Some(Ok(header)) => {
+            header.sampling == sampling.join("/")
+                && header.design == *design
+                && Some(header.first) == number.checked_mul(BLOCK)
         }
+        Some(Err(())) => true,
+        None => start.is_empty(),
+    })
+}
+
+/// Removes the blocks and unfinished files below a folder. Links are neither followed nor removed.
+fn remove_blocks(root: &Path, folder: &Path) -> Result<(), StudyError> {
+    for (path, kind) in entries(folder)? {
+        let removed = if kind.is_dir() {
+            remove_blocks(root, &path)?;
+            // A folder that is not empty stays.
+            disk::remove_folder(&path)
+        } else if kind.is_file() && (is_unfinished(&path) || belongs(root, &path)?) {
+            disk::remove(&path)
+        } else {
+            Ok(())
+        };
+        removed.map_err(|source| StudyError::Write { path, source })?;
     }
     Ok(())
 }
 
-/// All files below a folder; none if the folder does not exist.
+/// All plain files below a folder, except behind links; none if the folder does not exist.
 fn files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
-    let mut folders: Vec<_> = [folder.to_owned()].into_iter().filter(|folder| folder.is_dir()).collect();
+    let mut folders = Vec::new();
+    if is_plain_folder(folder)? {
+        folders.push(folder.to_owned());
+    }
     let mut files = Vec::new();
     while let Some(folder) = folders.pop() {
-        let read = |source| StudyError::Read { path: folder.clone(), source };
-        for entry in fs::read_dir(&folder).map_err(read)? {
-            let entry = entry.map_err(read)?;
-            // A link is no folder: links may lead in a circle.
-            let is_folder = entry.file_type().map_err(read)?.is_dir();
-            if is_folder { folders.push(entry.path()) } else { files.push(entry.path()) }
+        for (path, kind) in entries(&folder)? {
+            if kind.is_dir() {
+                folders.push(path);
+            } else if kind.is_file() {
+                files.push(path);
+            }
         }
     }
     Ok(files)
@@ -217,15 +313,18 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
 mod tests {
     use super::*;
     use crate::fs::atomic::AtomicFile;
+    use crate::fs::manifest::ResultsOf;
     use cdpr_robot::Vector3;
     use std::io::Write;
 
     fn blocks(results: &Path) -> Blocks {
+        let owned = ResultsFolder::begin(results, ResultsOf::Study, |_| false).unwrap();
+        owned.claim([SUMMARY_NAME.to_owned(), "plane/0000.csv".to_owned()]).unwrap();
         Blocks {
             results: results.to_owned(),
+            owned: Some(Arc::new(owned)),
             folder: results.join(BLOCKS_NAME),
-            study: "a hash".to_owned(),
-            tables: vec![results.join("plane")],
+            hashes: [("mechanical".to_owned(), "a hash".to_owned())].into(),
         }
     }
 

@@ -1,23 +1,20 @@
 //! The folder of a study's results, complete by itself: beside tables, figures and `summary.json` it holds
 //! the study as it was run (`study.json`), the robot (`robot.json`), what was observed (`blocks`), and how
-//! long it took (`timings.json`, apart from the summary, which is the same from run to run). A file of its
-//! own tells it from a folder in which somebody keeps a study.
+//! long it took (`timings.json`, apart from the summary, which is the same from run to run).
 
 use crate::error::StudyError;
-use crate::file::names::remove_files;
 use crate::file::study_file::StudyFile;
-use crate::fs::atomic::write_atomic;
-use crate::fs::files::{check_folder, read, remove_stale};
+use crate::fs::files::read;
+use crate::fs::manifest::{Manifest, ResultsOf, is_plain_folder};
+use crate::fs::owned::{Access, ResultsFolder, make_plain_folder};
 use crate::model::study::Study;
-use crate::names::{BLOCKS_NAME, MARK_NAME, REPORT_NAME, ROBOT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
+use crate::names::{BLOCKS_NAME, ROBOT_NAME, STUDY_NAME};
 use crate::store::blocks::Blocks;
-use cdpr_robot::from_json;
 use std::path::Path;
+use std::sync::Arc;
 
-const MARK: &str = "Results of a study, written by cdpr, which knows this folder by this file.
-`cdpr study run --overwrite` removes the blocks, tables and figures of the study in study.json,
-and nothing else.
-";
+/// Files that [`begin`] writes.
+const BEGUN: [&str; 2] = [ROBOT_NAME, STUDY_NAME];
 
 /// What becomes of blocks that a folder holds already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,43 +23,60 @@ pub enum Existing {
     Refuse,
     /// Those of the same study are kept and the rest is made.
     GoOn,
+    /// The same, while other processes make other blocks of the same study.
+    Share,
     /// All are removed, of whatever study they are, with its tables and figures.
     Overwrite,
 }
 
-/// Makes the folder for the results of a study, or goes on with one: before anything is computed. Several
-/// processes may do so at once.
+/// Makes the folder for the results of a study, or goes on with one: before anything is computed. The folder
+/// is locked until the blocks are dropped.
 ///
 /// # Errors
-/// [`StudyError::Write`]; [`StudyError::FolderInUse`] and [`StudyError::ForeignFolder`] for blocks of this
-/// study and of others, [`StudyError::NoResults`] for a study or robot file that stands there and is not of a
-/// run.
+/// [`StudyError::Write`]; [`StudyError::FolderBusy`] where another process writes into the folder,
+/// [`StudyError::FolderInUse`] and [`StudyError::ForeignFolder`] for blocks of this study and of others,
+/// [`StudyError::NoResults`], [`StudyError::Link`] and [`StudyError::OtherResults`] for what stands there and
+/// is not of a run.
 pub fn begin(folder: &Path, study: &Study, existing: Existing) -> Result<Blocks, StudyError> {
-    check_folder(folder)?;
-    let blocks = Blocks::new(folder, study)?;
-    // Looked for before the mark, which another process that begins at the same moment writes first.
-    let found = [STUDY_NAME, ROBOT_NAME].map(|name| folder.join(name)).into_iter().find(|path| path.exists());
-    let mark = folder.join(MARK_NAME);
-    match (found, mark.exists(), existing) {
-        // Somebody's own file, perhaps the very study that is to run.
-        (Some(path), false, _) => return Err(StudyError::NoResults { path }),
-        (_, true, Existing::Overwrite) => remove_results(folder, &blocks)?,
-        (_, true, _) => check_study(folder, study)?,
-        (None, false, _) => (),
+    let access = if existing == Existing::Share { Access::Shared } else { Access::Alone };
+    let results = ResultsFolder::take(folder, ResultsOf::Study, access, |name| study.file.writes(name))?;
+    let results = Arc::new(results);
+    settle(&results, study, existing)?;
+    if existing == Existing::Share {
+        results.share()?;
+    }
+    Blocks::owned(results, study)
+}
+
+/// Makes a folder that this process has locked one of this study.
+fn settle(results: &Arc<ResultsFolder>, study: &Study, existing: Existing) -> Result<(), StudyError> {
+    let blocks = Blocks::owned(results.clone(), study)?;
+    let hash = study.hash()?;
+    if !results.is_alone() && results.study().as_ref() != Some(&hash) {
+        return Err(StudyError::FolderBusy { folder: results.path().to_owned() });
+    }
+    if existing == Existing::Overwrite {
+        results.check_plain()?;
+        is_plain_folder(&results.path().join(BLOCKS_NAME))?;
+        // Without its summary and its report, nobody takes the rest for the results of a study.
+        blocks.remove_summary()?;
+        results.remove_all_but(&BEGUN)?;
+        blocks.remove()?;
+    } else {
+        check_study(results, study)?;
     }
     if existing == Existing::Refuse {
         let blocks = blocks.count()?;
         if blocks > 0 {
-            return Err(StudyError::FolderInUse { folder: folder.to_owned(), blocks });
+            return Err(StudyError::FolderInUse { folder: results.path().to_owned(), blocks });
         }
     }
-    if !mark.exists() {
-        write_atomic(mark, MARK.as_bytes())?;
+    if results.study().is_some_and(|found| found != hash) {
+        blocks.remove_summary()?;
     }
-    let path = folder.join(BLOCKS_NAME);
-    std::fs::create_dir_all(&path).map_err(|source| StudyError::Write { path, source })?;
-    write_study(folder, study, &blocks)?;
-    Ok(blocks)
+    results.set_study(&hash, &BEGUN)?;
+    make_plain_folder(&results.path().join(BLOCKS_NAME))?;
+    write_study(results, study, &blocks)
 }
 
 /// The study in a folder of results, with its blocks.
@@ -74,41 +88,104 @@ pub struct StoredStudy {
     pub blocks: Blocks,
 }
 
-/// Opens the study in a folder of results.
+/// Opens the study in a folder of results, to be read.
 ///
 /// # Errors
-/// As [`Study::open`]; [`StudyError::Read`] for a folder without blocks.
+/// As [`Study::open`]; [`StudyError::Read`] for a folder without blocks, [`StudyError::Mixed`] for a study
+/// file that is not the one that was run.
 pub fn open_results(folder: &Path) -> Result<StoredStudy, StudyError> {
-    let study = Study::open(&folder.join(STUDY_NAME))?;
-    let path = folder.join(BLOCKS_NAME);
-    std::fs::read_dir(&path).map_err(|source| StudyError::Read { path: path.clone(), source })?;
+    let study = open_study(folder)?;
     let blocks = Blocks::new(folder, &study)?;
     Ok(StoredStudy { study, blocks })
 }
 
-/// Checks that the study in a folder is the one to run. A folder without a study file holds an interrupted
-/// start.
-fn check_study(folder: &Path, study: &Study) -> Result<(), StudyError> {
-    let path = folder.join(STUDY_NAME);
-    if !path.exists() {
+/// The same, and this process writes into the folder until the blocks are dropped.
+///
+/// # Errors
+/// As [`open_results`] and [`begin`].
+pub fn take_results(folder: &Path, access: Access) -> Result<StoredStudy, StudyError> {
+    // A folder that is no folder of results gets no lock.
+    if Manifest::read(folder)?.is_none() {
+        open_study(folder)?;
+    }
+    let results = ResultsFolder::take(folder, ResultsOf::Study, access, |_| false)?;
+    if access == Access::Shared {
+        results.share()?;
+    }
+    let study = open_study(folder)?;
+    let blocks = Blocks::owned(Arc::new(results), &study)?;
+    Ok(StoredStudy { study, blocks })
+}
+
+impl StoredStudy {
+    /// Goes on with more observations of each sampling.
+    ///
+    /// # Errors
+    /// As [`Study::extend`] and [`begin`].
+    pub fn extend(mut self, observations: usize) -> Result<Self, StudyError> {
+        self.study.extend(observations)?;
+        settle(self.blocks.results()?, &self.study, Existing::GoOn)?;
+        Ok(self)
+    }
+}
+
+fn open_study(folder: &Path) -> Result<Study, StudyError> {
+    let study = Study::open(&folder.join(STUDY_NAME))?;
+    let path = folder.join(BLOCKS_NAME);
+    std::fs::read_dir(&path).map_err(|source| StudyError::Read { path: path.clone(), source })?;
+    check_hash(folder, STUDY_NAME, &study.hash()?)?;
+    Ok(study)
+}
+
+/// Checks that a file in a folder of results is of the study that the folder's list names. A folder of an
+/// earlier version has no list.
+///
+/// # Errors
+/// [`StudyError::Mixed`], and those of the list.
+pub(crate) fn check_hash(folder: &Path, name: &str, found: &str) -> Result<(), StudyError> {
+    match Manifest::read(folder)?.and_then(|manifest| manifest.study) {
+        Some(expected) if expected != found => {
+            Err(StudyError::Mixed { path: folder.join(name), found: found.to_owned(), expected })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Checks that a run of this study may go on in the folder. A folder without a study file holds an
+/// interrupted start.
+fn check_study(results: &ResultsFolder, study: &Study) -> Result<(), StudyError> {
+    let path = results.path().join(STUDY_NAME);
+    let (Some(listed), expected) = (results.study(), study.hash()?) else { return Ok(()) };
+    if listed == expected || !path.exists() {
         return Ok(());
     }
-    let (found, expected) = (Study::unchecked(&read(&path)?, &path)?.hash()?, study.hash()?);
-    if found == expected {
+    let stored = Study::unchecked(&read(&path)?, &path)?;
+    if listed == stored.hash()? && contains(study, &stored)? {
         return Ok(());
     }
-    let version = env!("CARGO_PKG_VERSION");
-    Err(StudyError::ForeignFolder { folder: folder.to_owned(), found, expected, version })
+    let (folder, version) = (results.path().to_owned(), env!("CARGO_PKG_VERSION"));
+    Err(StudyError::ForeignFolder { folder, found: listed, expected, version })
+}
+
+/// Whether a study has all samplings of another one, so that their blocks remain what they are.
+fn contains(study: &Study, other: &Study) -> Result<bool, StudyError> {
+    for (name, spec) in &other.file.samplings {
+        let Some(same) = study.file.samplings.get(name) else { return Ok(false) };
+        if study.sampling_hash(same)? != other.sampling_hash(spec)? {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// Writes the study and its robot into a folder of results, where [`Study::open`] reads them. A summary
 /// belongs to the study beside it: it is removed when the study changes, and only then.
-fn write_study(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(), StudyError> {
+fn write_study(results: &ResultsFolder, study: &Study, blocks: &Blocks) -> Result<(), StudyError> {
     let file = StudyFile { robot: ROBOT_NAME.to_owned(), ..study.file.clone() };
     for (name, text) in
         [(ROBOT_NAME, Ok(study.robot.to_json())), (STUDY_NAME, serde_json::to_string_pretty(&file))]
     {
-        let path = folder.join(name);
+        let path = results.path().join(name);
         let text = match text {
             Ok(text) => text + "\n",
             Err(error) => return Err(StudyError::Write { path, source: error.into() }),
@@ -117,23 +194,7 @@ fn write_study(folder: &Path, study: &Study, blocks: &Blocks) -> Result<(), Stud
             continue;
         }
         blocks.remove_summary()?;
-        write_atomic(path, text.as_bytes())?;
+        results.write(name, text.as_bytes())?;
     }
     Ok(())
-}
-
-/// Removes what runs have written into a folder of results, and nothing else. The study stays, because
-/// another one replaces it.
-fn remove_results(folder: &Path, blocks: &Blocks) -> Result<(), StudyError> {
-    let path = folder.join(STUDY_NAME);
-    // A folder without a study file holds an interrupted start.
-    if path.exists() {
-        let study: StudyFile =
-            from_json(&read(&path)?).map_err(|source| StudyError::Format { path, source })?;
-        remove_files(folder, &study)?;
-    }
-    for name in [SUMMARY_NAME, TIMINGS_NAME, REPORT_NAME] {
-        remove_stale(folder.join(name))?;
-    }
-    blocks.remove()
 }

@@ -1,0 +1,461 @@
+//! A folder of results belongs to one owner at a time, and only files that runs have written belong to it.
+//!
+//! Every process that writes holds the lock of the folder: alone, or shared with the others that make blocks
+//! of the same study. A file that is not in the folder's list ([`Manifest`]) is never written over and never
+//! removed, and no link is ever followed.
+
+use crate::error::StudyError;
+use crate::fs::atomic::{AtomicFile, write_atomic};
+use crate::fs::disk;
+use crate::fs::files::check_folder;
+use crate::fs::manifest::{Manifest, ResultsOf, entries, is_plain_file, is_plain_folder};
+use crate::names::LOCK_NAME;
+use serde::Serialize;
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How long a process waits for another one that begins or ends a share of the same study.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// How long it waits before it looks again.
+const LOOK_AGAIN: Duration = Duration::from_millis(2);
+
+/// Who else may write into a folder at the same time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Access {
+    /// Nobody.
+    Alone,
+    /// Processes that make other blocks of the same study.
+    Shared,
+}
+
+/// A folder of results that this process may write into, until this value is dropped.
+#[derive(Debug)]
+pub struct ResultsFolder {
+    path: PathBuf,
+    lock: Lock,
+    state: Mutex<State>,
+}
+
+/// The file of a lock. It is unlocked when it is dropped, even if a process that was started meanwhile has
+/// inherited it.
+#[derive(Debug)]
+pub(crate) struct Lock(File);
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // The system unlocks it in any case when the last process has closed it.
+        let _ = self.0.unlock();
+    }
+}
+
+#[derive(Debug)]
+struct State {
+    manifest: Manifest,
+    /// Whether no other process writes.
+    alone: bool,
+    /// Whether the list is on the disk.
+    listed: bool,
+    /// Files of this run.
+    written: BTreeSet<String>,
+}
+
+impl ResultsFolder {
+    /// Makes the folder, or takes one that runs have written, and checks that files can be written in it.
+    /// `writes` says of a name whether the run may write a file of that name.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`]; [`StudyError::FolderBusy`] where another process writes, and
+    /// [`StudyError::NoResults`], [`StudyError::Link`], [`StudyError::OtherResults`] and those of the list
+    /// for a folder that is not of such runs alone.
+    pub fn begin(path: &Path, of: ResultsOf, writes: impl Fn(&str) -> bool) -> Result<Self, StudyError> {
+        Self::take(path, of, Access::Alone, writes)
+    }
+
+    /// The same for one of several processes. [`Access::Shared`] may find the folder free, and then has it
+    /// alone until [`ResultsFolder::share`].
+    pub(crate) fn take(
+        path: &Path,
+        of: ResultsOf,
+        access: Access,
+        writes: impl Fn(&str) -> bool,
+    ) -> Result<Self, StudyError> {
+        // Before anything is made in what may be a user's own folder.
+        known(path, of, &writes)?;
+        check_folder(path)?;
+        let lock_path = path.join(LOCK_NAME);
+        is_plain_file(&lock_path)?;
+        let lock = disk::open_lock(&lock_path)
+            .map_err(|source| StudyError::Write { path: lock_path.clone(), source })?;
+        let lock = Lock(lock);
+        let alone = take_lock(path, &lock.0, access)?;
+        let manifest = known(path, of, &writes)?;
+        let listed = manifest.is_some();
+        let manifest = manifest.unwrap_or_else(|| Manifest::new(of));
+        let state = Mutex::new(State { manifest, alone, listed, written: BTreeSet::new() });
+        Ok(Self { path: path.to_owned(), lock, state })
+    }
+
+    /// Shares the folder from now on with other processes that make blocks of the same study.
+    ///
+    /// # Errors
+    /// [`StudyError::FolderBusy`] where another process took the folder meanwhile.
+    pub(crate) fn share(&self) -> Result<(), StudyError> {
+        if !self.is_alone() {
+            return Ok(());
+        }
+        self.take_again(Access::Shared)
+    }
+
+    /// Takes the folder alone again when the others are done.
+    ///
+    /// # Errors
+    /// As [`ResultsFolder::share`].
+    pub(crate) fn take_alone(&self) -> Result<(), StudyError> {
+        self.take_again(Access::Alone)
+    }
+
+    fn take_again(&self, access: Access) -> Result<(), StudyError> {
+        let write = |source| StudyError::Write { path: self.path.join(LOCK_NAME), source };
+        self.lock.0.unlock().map_err(write)?;
+        let clock = Instant::now();
+        while !disk::lock(&self.lock.0, &self.path.join(LOCK_NAME), access == Access::Shared)
+            .map_err(write)?
+        {
+            if clock.elapsed() > PATIENCE {
+                return Err(StudyError::FolderBusy { folder: self.path.clone() });
+            }
+            std::thread::sleep(LOOK_AGAIN);
+        }
+        self.state().alone = access == Access::Alone;
+        // In between, it was anybody's.
+        match Manifest::read(&self.path)? {
+            Some(found) if found.study == self.state().manifest.study => Ok(()),
+            _ => Err(StudyError::FolderBusy { folder: self.path.clone() }),
+        }
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Hash of the study that the folder is of; `None` for a new folder.
+    pub(crate) fn study(&self) -> Option<String> {
+        self.state().manifest.study.clone()
+    }
+
+    /// Whether no other process writes into the folder.
+    pub(crate) fn is_alone(&self) -> bool {
+        self.state().alone
+    }
+
+    /// Whether runs have written a file of this name.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.state().manifest.files.contains(name)
+    }
+
+    /// Says of which study the results are, and names these files.
+    pub(crate) fn set_study(&self, hash: &str, names: &[&str]) -> Result<(), StudyError> {
+        let mut state = self.state();
+        let State { manifest, listed, .. } = &mut *state;
+        let changed = manifest.study.as_deref() != Some(hash)
+            || names.iter().any(|name| !manifest.files.contains(*name));
+        if *listed && !changed {
+            return Ok(());
+        }
+        manifest.study = Some(hash.to_owned());
+        manifest.files.extend(names.iter().map(|name| (*name).to_owned()));
+        *listed = true;
+        manifest.write(&self.path)
+    }
+
+    /// Names files that will be written.
+    ///
+    /// # Errors
+    /// [`StudyError::NoResults`] for a file that no run has written, [`StudyError::Write`].
+    pub fn claim(&self, names: impl IntoIterator<Item = String>) -> Result<(), StudyError> {
+        let mut state = self.state();
+        let mut new = Vec::new();
+        for name in names {
+            let path = self.path.join(&name);
+            if state.manifest.files.contains(&name) {
+                is_plain_file(&path)?;
+            } else if path.symlink_metadata().is_ok() {
+                return Err(StudyError::NoResults { path });
+            } else {
+                new.push(name);
+            }
+        }
+        if new.is_empty() && state.listed {
+            return Ok(());
+        }
+        state.manifest.files.extend(new);
+        state.listed = true;
+        state.manifest.write(&self.path)
+    }
+
+    /// Begins a file of this name, in place of one that a run has written.
+    ///
+    /// # Errors
+    /// As [`ResultsFolder::claim`].
+    pub(crate) fn create(&self, name: &str) -> Result<AtomicFile, StudyError> {
+        self.claim([name.to_owned()])?;
+        if let Some((folder, _)) = name.split_once('/') {
+            make_plain_folder(&self.path.join(folder))?;
+        }
+        self.state().written.insert(name.to_owned());
+        AtomicFile::new(self.path.join(name))
+    }
+
+    /// Writes a file that is whole and on the disk when this returns.
+    ///
+    /// # Errors
+    /// As [`ResultsFolder::claim`].
+    pub fn write(&self, name: &str, text: &[u8]) -> Result<PathBuf, StudyError> {
+        let mut file = self.create(name)?;
+        match file.write_all(text) {
+            Ok(()) => file.finish(),
+            Err(source) => Err(file.unwritten(source)),
+        }
+    }
+
+    /// Writes a value as indented JSON.
+    ///
+    /// # Errors
+    /// As [`ResultsFolder::claim`].
+    pub fn write_json(&self, name: &str, value: &impl Serialize) -> Result<PathBuf, StudyError> {
+        match serde_json::to_string_pretty(value) {
+            Ok(text) => self.write(name, (text + "\n").as_bytes()),
+            Err(error) => Err(StudyError::Write { path: self.path.join(name), source: error.into() }),
+        }
+    }
+
+    /// Writes a table as CSV whose columns are the fields of its rows.
+    ///
+    /// # Errors
+    /// As [`ResultsFolder::claim`].
+    pub fn write_rows<T: Serialize>(&self, name: &str, rows: &[T]) -> Result<PathBuf, StudyError> {
+        self.write_table(name, |table| rows.iter().try_for_each(|row| table.serialize(row)))
+    }
+
+    /// Writes a table as CSV from its header and its rows of text.
+    ///
+    /// # Errors
+    /// As [`ResultsFolder::claim`].
+    pub fn write_csv(
+        &self,
+        name: &str,
+        header: Vec<String>,
+        mut rows: impl Iterator<Item = Vec<String>>,
+    ) -> Result<PathBuf, StudyError> {
+        self.write_table(name, |table| {
+            table.write_record(header)?;
+            rows.try_for_each(|row| table.write_record(row))
+        })
+    }
+
+    fn write_table(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut csv::Writer<AtomicFile>) -> Result<(), csv::Error>,
+    ) -> Result<PathBuf, StudyError> {
+        let mut table = csv::Writer::from_writer(self.create(name)?);
+        let unwritten = |source| StudyError::Write { path: self.path.join(name), source };
+        write(&mut table).map_err(|error| unwritten(error.into()))?;
+        let file = table.into_inner().map_err(|error| unwritten(error.into_error()))?;
+        file.finish()
+    }
+
+    /// Removes a file that a run has written, if it exists. Its name stays in the list.
+    ///
+    /// # Errors
+    /// [`StudyError::Link`], [`StudyError::Write`].
+    pub fn remove(&self, name: &str) -> Result<(), StudyError> {
+        if !self.has(name) {
+            return Ok(());
+        }
+        let path = self.path.join(name);
+        if let Some((folder, _)) = name.split_once('/')
+            && !is_plain_folder(&self.path.join(folder))?
+        {
+            return Ok(());
+        }
+        if is_plain_file(&path)? {
+            disk::remove(&path).map_err(|source| StudyError::Write { path, source })?;
+        }
+        Ok(())
+    }
+
+    /// Removes what earlier runs have written and this one has not, except the files in `keep`. The list then
+    /// holds the files of this run and those.
+    ///
+    /// # Errors
+    /// As [`ResultsFolder::remove`].
+    pub fn remove_stale(&self, keep: &[&str]) -> Result<(), StudyError> {
+        let (stale, written) = {
+            let State { manifest, written, .. } = &*self.state();
+            let kept = |name: &&String| written.contains(*name) || keep.contains(&name.as_str());
+            (manifest.files.iter().filter(|name| !kept(name)).cloned().collect::<Vec<_>>(), written.clone())
+        };
+        self.remove_files(&stale)?;
+        let mut state = self.state();
+        let names: BTreeSet<_> =
+            written.into_iter().chain(keep.iter().map(|name| (*name).to_owned())).collect();
+        if state.manifest.files != names {
+            state.manifest.files = names;
+            state.manifest.write(&self.path)?;
+        }
+        Ok(())
+    }
+
+    /// Checks that no link stands in the place of a file that runs have written, or of its folder.
+    ///
+    /// # Errors
+    /// [`StudyError::Link`], [`StudyError::Read`].
+    pub(crate) fn check_plain(&self) -> Result<(), StudyError> {
+        for folder in self.folders() {
+            is_plain_folder(&folder)?;
+        }
+        let files = self.state().manifest.files.clone();
+        files.iter().try_for_each(|name| is_plain_file(&self.path.join(name)).map(|_| ()))
+    }
+
+    /// Removes all files that runs have written but these.
+    ///
+    /// # Errors
+    /// As [`ResultsFolder::remove`].
+    pub(crate) fn remove_all_but(&self, keep: &[&str]) -> Result<(), StudyError> {
+        let files = self.state().manifest.files.clone();
+        let files: Vec<_> = files.into_iter().filter(|name| !keep.contains(&name.as_str())).collect();
+        self.remove_files(&files)
+    }
+
+    /// Removes these files, and the folders that are empty then.
+    fn remove_files(&self, names: &[String]) -> Result<(), StudyError> {
+        let folders: BTreeSet<&str> = names.iter().filter_map(|name| Some(name.split_once('/')?.0)).collect();
+        names.iter().try_for_each(|name| self.remove(name))?;
+        for folder in folders {
+            let path = self.path.join(folder);
+            disk::remove_folder(&path).map_err(|source| StudyError::Write { path, source })?;
+        }
+        Ok(())
+    }
+
+    /// The folders of the files that runs have written.
+    pub(crate) fn folders(&self) -> BTreeSet<PathBuf> {
+        let files = &self.state().manifest.files;
+        files.iter().filter_map(|name| Some(self.path.join(name.split_once('/')?.0))).collect()
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The list of a folder, if it has one. A file that a run may write and that is not in it belongs to the user.
+fn known(path: &Path, of: ResultsOf, writes: &impl Fn(&str) -> bool) -> Result<Option<Manifest>, StudyError> {
+    if !path.is_dir() {
+        return Ok(None);
+    }
+    // Another process may be at work: it names a file before it creates it, and forgets it after it has
+    // removed it.
+    let earlier = Manifest::read(path)?;
+    let found = entries(path)?;
+    let manifest = Manifest::read(path)?;
+    if let Some(manifest) = &manifest
+        && manifest.of != of
+    {
+        let (found, expected) = (manifest.of.word(), of.word());
+        return Err(StudyError::OtherResults { folder: path.to_owned(), found, expected });
+    }
+    let is_foreign = |path: &PathBuf| {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let mut lists = [&earlier, &manifest].into_iter().flatten();
+        name.is_some_and(|name| writes(name) && !lists.any(|list| list.files.contains(name)))
+    };
+    match found.into_iter().map(|(path, _)| path).find(is_foreign) {
+        Some(path) => Err(StudyError::NoResults { path }),
+        None => Ok(manifest),
+    }
+}
+
+/// Takes the lock of a folder, and returns whether alone. One that asks for a share waits a little for others
+/// that begin theirs.
+fn take_lock(folder: &Path, lock: &File, access: Access) -> Result<bool, StudyError> {
+    let path = folder.join(LOCK_NAME);
+    let locked = |shared| {
+        disk::lock(lock, &path, shared).map_err(|source| StudyError::Write { path: path.clone(), source })
+    };
+    let clock = Instant::now();
+    loop {
+        if locked(false)? {
+            return Ok(true);
+        }
+        if access == Access::Shared && locked(true)? {
+            return Ok(false);
+        }
+        if access == Access::Alone || clock.elapsed() > PATIENCE {
+            return Err(StudyError::FolderBusy { folder: folder.to_owned() });
+        }
+        std::thread::sleep(LOOK_AGAIN);
+    }
+}
+
+/// Waits for nobody, and lets nobody write into a folder of results until the value is dropped. A folder that
+/// nobody can write into, or of an earlier version, has no lock.
+///
+/// # Errors
+/// [`StudyError::FolderBusy`] where a process writes into it.
+pub(crate) fn hold_still(folder: &Path) -> Result<Option<Lock>, StudyError> {
+    let path = folder.join(LOCK_NAME);
+    let Ok(lock) = File::open(&path).map(Lock) else { return Ok(None) };
+    match disk::lock(&lock.0, &path, true) {
+        Ok(true) => Ok(Some(lock)),
+        Ok(false) => Err(StudyError::FolderBusy { folder: folder.to_owned() }),
+        Err(source) => Err(StudyError::Read { path, source }),
+    }
+}
+
+/// Makes a folder, or takes one that is no link.
+///
+/// # Errors
+/// [`StudyError::Link`], [`StudyError::Write`].
+pub(crate) fn make_plain_folder(path: &Path) -> Result<(), StudyError> {
+    if !is_plain_folder(path)? {
+        disk::make_folder(path).map_err(|source| StudyError::Write { path: path.to_owned(), source })?;
+        is_plain_folder(path)?;
+    }
+    Ok(())
+}
+
+/// Writes a text to a file of the user's choice. A file that exists is written over only if it begins with
+/// what such a text contains; a pipe or terminal is written to as it is.
+///
+/// # Errors
+/// [`StudyError::NoResults`], [`StudyError::Write`].
+pub fn write_text(path: &Path, text: &str, like: &str) -> Result<(), StudyError> {
+    const LOOKED_AT: u64 = 4096;
+    let write = |source| StudyError::Write { path: path.to_owned(), source };
+    match std::fs::metadata(path) {
+        Ok(found) if found.is_file() => {
+            let mut start = Vec::new();
+            let file = File::open(path).map_err(write)?;
+            std::io::Read::read_to_end(&mut std::io::Read::take(file, LOOKED_AT), &mut start)
+                .map_err(write)?;
+            if !start.is_empty() && !String::from_utf8_lossy(&start).contains(like) {
+                return Err(StudyError::NoResults { path: path.to_owned() });
+            }
+            // Through a link, to the file itself.
+            write_atomic(path.canonicalize().map_err(write)?, text.as_bytes()).map(|_| ())
+        }
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound && path.symlink_metadata().is_err() => {
+            write_atomic(path.to_owned(), text.as_bytes()).map(|_| ())
+        }
+        _ => disk::write_to(path, text.as_bytes()).map_err(write),
+    }
+}
