@@ -34,10 +34,10 @@ pub(super) fn share_out(settings: &RunSettings, expected: usize) -> Result<Endin
         0 => lead(&world, settings),
         _ => follow(&world, settings).map(|()| Ending::Well),
     };
-    result.or_else(|error| {
+    result.map_err(|error| {
         eprintln!("error: {error}");
         // The other ranks would wait for this one forever.
-        world.abort(1);
+        world.abort(1)
     })
 }
 
