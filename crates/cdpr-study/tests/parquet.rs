@@ -1,7 +1,7 @@
 //! Tables as Parquet hold what the CSV holds, and say what they are of.
 
 #![cfg(feature = "parquet")]
-use cdpr_study::{ObservationTable, Session, Study, TableFormat, observe_into};
+use cdpr_study::{ObservationTable, ResultsFolder, ResultsOf, Session, Study, TableFormat, observe_into};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::path::Path;
@@ -12,7 +12,8 @@ fn write(folder: &Path, format: TableFormat, observations: usize) {
     study.set_observations(observations).unwrap();
     // Some robots fail at this pose.
     let sampling = study.sampling("geometrical_asymmetric").unwrap();
-    let mut table = ObservationTable::new(folder, &sampling, format).unwrap();
+    let folder = ResultsFolder::begin(folder, ResultsOf::Study, |_| true).unwrap();
+    let mut table = ObservationTable::new(&folder, &sampling, format).unwrap();
     let rows = |part: &_| format.rows(part);
     observe_into(&sampling, &Session::in_memory(), rows, |rows| table.write(rows)).unwrap();
     table.finish().unwrap();
