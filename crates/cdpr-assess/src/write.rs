@@ -25,8 +25,9 @@ pub fn begin_workspace(folder: &Path) -> Result<ResultsFolder, StudyError> {
     })
 }
 
-/// Writes `workspace.csv`, one row for each position, the maps (name and text), and, last of all, `workspace.json`, the rows
-/// with settings and extremes. Maps of an earlier workspace that are not among these are removed.
+/// Writes `workspace.csv`, one row for each position, the maps (name and text), and, last of all,
+/// `workspace.json`, the rows with settings and extremes. Maps of an earlier workspace that are not among
+/// these are removed.
 ///
 /// # Errors
 /// As [`ResultsFolder::claim`].

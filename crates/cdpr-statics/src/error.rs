@@ -39,10 +39,11 @@ pub enum StaticsError {
     },
     /// No tensions within the limits that hold the pose were found.
     #[error(
-        "at position ({x}, {y}, {z}) m: no tensions between {min} N and {max} N balance the wrench{why}: the best from \
-         {starts} starts leave a residual of {force:.3} N and {moment:.3} N m beside tensions up to {largest:.3} \
-         N{blocked}; change the pose, the load or the limits",
-        x = position[0], y = position[1], z = position[2], largest = tensions.iter().copied().fold(0.0, f64::max),
+        "at position ({x}, {y}, {z}) m: no tensions between {min} N and {max} N balance the wrench{why}: the best \
+         from {starts} starts leave a residual of {force:.3} N and {moment:.3} N m beside tensions up to \
+         {largest:.3} N{blocked}; change the pose, the load or the limits",
+        x = position[0], y = position[1], z = position[2],
+        largest = tensions.iter().copied().fold(0.0, f64::max),
         why = if *rank_deficient { ", and cables at this pose cannot resist every wrench" } else { "" },
         blocked = Blocked::list(blocked)
     )]
@@ -70,8 +71,8 @@ pub enum StaticsError {
     },
     /// Tensions that hold the pose were found, but not the best of them.
     #[error(
-        "inverse model: tensions hold the pose, but in {iterations} iterations their optimum was not found: the best \
-         have a slope of {stationarity:e} N left"
+        "inverse model: tensions hold the pose, but in {iterations} iterations their optimum was not found: the \
+         best have a slope of {stationarity:e} N left"
     )]
     InverseNotConverged {
         /// Iterations made, from all starts.

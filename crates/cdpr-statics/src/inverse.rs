@@ -1,15 +1,15 @@
 //! Inverse elasto-geometrical model (IEGM, section 3.1 of the paper): unstrained lengths that hold a pose.
 //!
-//! Eq. (1) to (3) leave the choice of the tensions open. Among all that hold the pose, with every cable in the
-//! shape that its own tension gives it, those nearest to a reference r are chosen:
+//! Eq. (1) to (3) leave the choice of the tensions open. Among all that hold the pose, with every cable in
+//! the shape that its own tension gives it, those nearest to a reference r are chosen:
 //!
 //! ```text
 //! minimise  1/2 sum (t_i - r_i)²   subject to   sum w_i(t_i) + w_ex = 0,   min_i <= t_i <= max_i    (I1)
 //! ```
 //!
 //! w_i is the wrench of cable i on the platform, t_i its tension there, on the branch where the tension falls
-//! as cable is paid out. The direction of a sagging cable changes with its tension, and the derivative dw_i/dt_i
-//! contains that change. With multipliers λ of the balance the optimum has
+//! as cable is paid out. The direction of a sagging cable changes with its tension, and the derivative
+//! dw_i/dt_i contains that change. With multipliers λ of the balance the optimum has
 //!
 //! ```text
 //! t_i - r_i + λ·dw_i/dt_i = 0  on free cables,   >= 0 at min_i,   <= 0 at max_i                     (I2)

@@ -77,8 +77,8 @@ fn in_cube(rng: &mut ChaCha8Rng) -> Vector3<f64> {
     Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0))
 }
 
-/// Robots of 1 m to 300 m with 6 to 16 cables, suspended or held from all sides, straight or sagging nearly as
-/// much as the taut branch allows, some without gravity, some prestressed by far more than their weight.
+/// Robots of 1 m to 300 m with 6 to 16 cables, suspended or held from all sides, straight or sagging nearly
+/// as much as the taut branch allows, some without gravity, some prestressed by far more than their weight.
 fn drawn(seed: u64) -> Option<Drawn> {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let n = rng.random_range(6..=16);

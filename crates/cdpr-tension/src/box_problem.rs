@@ -54,8 +54,8 @@ pub struct BoxSolution {
     pub residual: f64,
 }
 
-/// A gradient below this, relative to the terms that it is the sum of, is rounding; one below the other if a step
-/// does not halve it.
+/// A gradient below this, relative to the terms that it is the sum of, is rounding; one below the other if a
+/// step does not halve it.
 const ROUNDING: f64 = 1e-15;
 const NEARLY_ROUNDING: f64 = 1e-12;
 

@@ -8,8 +8,8 @@
 //!     -- -dict=tests/fuzz/json.dict
 //! ```
 //!
-//! The file formats start from the files of `data/`; mutations of numbers ([`mutate::numbers`]) draw from the cases
-//! of `data/reference/catenary.json`.
+//! The file formats start from the files of `data/`; mutations of numbers ([`mutate::numbers`]) draw from the
+//! cases of `data/reference/catenary.json`.
 
 pub mod cable;
 pub mod file;

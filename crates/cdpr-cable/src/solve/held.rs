@@ -1,7 +1,7 @@
 //! A cable between two held ends, as a function of its chord force.
 //!
-//! With both ends held one number describes the cable. The tension t at A is a poor one: it has a minimum over
-//! the length, where every derivative with respect to t is infinite. The chord force
+//! With both ends held one number describes the cable. The tension t at A is a poor one: it has a minimum
+//! over the length, where every derivative with respect to t is infinite. The chord force
 //!
 //! ```text
 //! σ = fx c/h,      c the chord, h its horizontal part                                            (C16)
@@ -67,8 +67,8 @@ pub struct TensionSlope {
 const VERTICAL: f64 = 1e-20;
 
 /// A cable below this chord force, relative to its weight per length times the chord, is nearly vertical and
-/// folded, or has passed its least tension. Its tension at A is within 1e-10 of its weight of that at any lower
-/// chord force, which rounding of the vertical force at B would hide.
+/// folded, or has passed its least tension. Its tension at A is within 1e-10 of its weight of that at any
+/// lower chord force, which rounding of the vertical force at B would hide.
 const FOLDED: f64 = 1.0 / 24.0;
 
 impl<'a> HeldCable<'a> {
@@ -293,8 +293,8 @@ impl<'a> HeldCable<'a> {
             }
             let v0 = catenary.exit_vertical_force();
             length = (length + dlength).clamp(0.5 * length, 2.0 * length);
-            // Where the cable is nearly vertical at an end, the force there changes its sign only in small steps:
-            // x/fx depends on its logarithm.
+            // Where the cable is nearly vertical at an end, the force there changes its sign only in small
+            // steps: x/fx depends on its logarithm.
             let kept = |from: f64, to: f64| {
                 if fx < 0.1 * from.abs() && to / from < 0.1 { 0.1 * from } else { to }
             };

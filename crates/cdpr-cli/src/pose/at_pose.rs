@@ -65,7 +65,7 @@ impl From<StaticsError> for Failure {
     }
 }
 
-/// A line of JSON: the answer at a pose, or why there is none.
+/// A line of JSON: the answer at a pose, or the reason why the pose has no answer.
 #[derive(Serialize)]
 struct Line<'a, T> {
     pose: [f64; 7],

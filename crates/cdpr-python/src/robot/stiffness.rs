@@ -15,7 +15,8 @@ answer! {
     pub(crate) struct Stiffness {
         /// Stiffness K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
         matrix: Py<PyAny>,
-        /// Eigenvalues of the stiffness in (dp, characteristic_length dphi), from the softest motion [N/m], (6,).
+        /// Eigenvalues of the stiffness in (dp, characteristic_length dphi), from the softest motion [N/m],
+        /// (6,).
         eigenvalues: Py<PyAny>,
         /// Translation of P in each of these motions [m/m], (6, 3).
         translations: Py<PyAny>,

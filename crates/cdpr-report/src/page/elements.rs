@@ -18,14 +18,14 @@ impl Section {
     }
 }
 
-/// The SVG text of a figure, or the reason why there is none.
+/// The SVG text of a figure, or the reason why it was not drawn.
 pub(crate) fn svg<'a>(figures: &'a [Figure], name: &str) -> Result<&'a str, &'a str> {
     let found = figures.iter().find(|figure| figure.name == name);
     let svg = found.map(|figure| figure.svg.as_deref().map_err(String::as_str));
     svg.unwrap_or(Err("it was not drawn"))
 }
 
-/// A figure with its description for screen readers and its caption, or the reason why there is none.
+/// A figure with its description for screen readers and its caption, or the reason why it was not drawn.
 pub(crate) fn figure(name: &str, alt: &str, figures: &[Figure], caption: &Markup) -> Markup {
     match svg(figures, name) {
         Ok(svg) => html! {

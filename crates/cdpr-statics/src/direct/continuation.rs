@@ -66,8 +66,8 @@ pub struct Loss {
     pub kind: LossKind,
     /// The last stable equilibrium before.
     pub before: Box<DirectSolution>,
-    /// The stable equilibrium downhill, a millionth of the change later, to which the platform jumps; or why
-    /// there is none.
+    /// The stable equilibrium downhill, a millionth of the change later, to which the platform jumps, or
+    /// the reason why it was not found.
     pub after: Result<Box<DirectSolution>, StaticsError>,
 }
 

@@ -1,8 +1,8 @@
 //! From where the inverse model is searched, and when a pose is called infeasible.
 //!
 //! The first start is the optimum of the straight-cable problem: directions along the chords, and where no
-//! tensions balance the wrench in these directions, those that come nearest. Where the search from there fails,
-//! the residual of the balance itself is made least, by steps
+//! tensions balance the wrench in these directions, those that come nearest. Where the search from there
+//! fails, the residual of the balance itself is made least, by steps
 //!
 //! ```text
 //! minimise  |J d + F|² + η sum (d_i/σ_i)²   within the limits,                                      (I4)
@@ -25,7 +25,8 @@ use cdpr_tension::{Bound, BoxProblem, BoxUnknown};
 /// A residual below this, relative to wrench and tensions, balances.
 const BALANCED: f64 = 1e-8;
 
-/// The optimum: of cables that sag little from the first start that leads to one, else the best of all starts.
+/// The optimum: of cables that sag little from the first start that leads to one, else the best of all
+/// starts.
 pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
     let mut nearest = Point::new(question, &straight(question))?;
     let mut best = nearest.optimise().then(|| nearest.clone());
@@ -78,7 +79,8 @@ fn straight(question: &Question) -> Vec<f64> {
 /// The first start, and those of [`starts`].
 const STARTS: usize = 9;
 
-/// Tensions to start from: those of straight cables, the reference, and levels from the least to the greatest.
+/// Tensions to start from: those of straight cables, the reference, and levels from the least to the
+/// greatest.
 fn starts(question: &Question) -> [Vec<f64>; STARTS - 1] {
     let level = |share: f64| {
         let of = |limits: &TensionLimits| limits.min * (limits.max / limits.min).powf(share);

@@ -137,8 +137,8 @@ impl<'a> Strand<'a> {
         (0..2).find(|side| self.chord_forces[*side] == Some(self.held.chord_force))
     }
 
-    /// The least of y·w over the tensions within the limits, on a grid of tensions; `None` where a cable cannot
-    /// be closed.
+    /// The least of y·w over the tensions within the limits, on a grid of tensions; `None` where a cable
+    /// cannot be closed.
     pub(super) fn least_along(&self, y: &Vector6<f64>, arm: f64) -> Option<f64> {
         const INTERVALS: i32 = 12;
         let TensionLimits { min, max } = self.limits;
@@ -169,8 +169,8 @@ impl<'a> Strand<'a> {
     }
 }
 
-/// A cable's tension and wrench with their derivatives with respect to its chord force; moments are divided by
-/// a length.
+/// A cable's tension and wrench with their derivatives with respect to its chord force; moments are divided
+/// by a length.
 #[derive(Clone)]
 pub(super) struct Row {
     pub(super) tension: f64,

@@ -10,8 +10,8 @@
 //!
 //! by its dual (`cdpr_tension::BoxProblem`), which also finds the active bounds. h is the exact second
 //! derivative of the Lagrangian; where it is not clearly positive its size is taken instead, until a step on
-//! the exact one is known to lead to a minimum. A merit function, the objective plus a multiple of |F|, shortens
-//! steps that lead too far.
+//! the exact one is known to lead to a minimum. A merit function, the objective plus a multiple of |F|,
+//! shortens steps that lead too far.
 
 use super::held::{Row, Strand};
 use super::question::Question;

@@ -36,8 +36,8 @@ impl Deflection {
         self.displacement().norm()
     }
 
-    /// Error of the displacement [m] by rounding: what the closure and the balance of both equilibria may leave
-    /// open. A shorter displacement is not told from none.
+    /// Error of the displacement [m] by rounding: what the closure and the balance of both equilibria may
+    /// leave open. A shorter displacement cannot be distinguished from zero.
     pub fn rounding(&self, robot: &Robot) -> f64 {
         let size = self.lengths.iter().copied().fold(0.0, f64::max);
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);

@@ -26,8 +26,8 @@ pub(crate) fn read(path: &Path) -> Result<String, StudyError> {
 /// Reads and checks a robot file.
 ///
 /// # Errors
-/// As [`read_text`]; [`StudyError::OtherKind`] for a study or a law; [`StudyError::Robot`] naming file, field,
-/// value and what is expected.
+/// As [`read_text`]; [`StudyError::OtherKind`] for a study or a law; [`StudyError::Robot`] naming file,
+/// field, value and what is expected.
 pub fn open_robot(path: &Path) -> Result<Robot, StudyError> {
     let text = read_text(path, InputKind::Robot)?;
     Robot::from_json(&text).map_err(|source| {

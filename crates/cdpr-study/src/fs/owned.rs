@@ -357,7 +357,8 @@ impl ResultsFolder {
     }
 }
 
-/// The list of a folder, if it has one. A file that a run may write and that is not in it belongs to the user.
+/// The list of a folder, if it has one. A file that a run may write and that is not in it belongs to the
+/// user.
 fn known(path: &Path, of: ResultsOf, writes: &impl Fn(&str) -> bool) -> Result<Option<Manifest>, StudyError> {
     if !path.is_dir() {
         return Ok(None);

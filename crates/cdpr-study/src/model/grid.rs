@@ -52,8 +52,8 @@ impl Grid {
         Ok(Self { x, y, z })
     }
 
-    /// The plane in which the coordinate along `normal` is `value` [m], over the frame: the ranges of the exit
-    /// points' other two coordinates, with so many points each. Where all exit points are at about one
+    /// The plane in which the coordinate along `normal` is `value` [m], over the frame: the ranges of the
+    /// exit points' other two coordinates, with so many points each. Where all exit points are at about one
     /// height, heights begin at the floor of the base frame, z = 0.
     ///
     /// # Errors
