@@ -47,13 +47,13 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
         } else if best.is_none() && (k == 0 || point.residue() < nearest.residue()) {
             nearest = point;
             if nearest.residue() > BALANCED && nearest.refutes() {
-                return Err(nearest.refusal(question, k + 2, iterations));
+                return Err(nearest.refusal(question, k + 2, iterations, true));
             }
         }
     }
     match best {
         Some(best) => Ok(Optimum { iterations, ..best.optimum() }),
-        None => Err(nearest.refusal(question, STARTS, iterations)),
+        None => Err(nearest.refusal(question, STARTS, iterations, false)),
     }
 }
 
@@ -148,10 +148,10 @@ impl Point<'_> {
     }
 
     /// Whether no tensions within the limits balance the wrench in the direction of the residual.
-    fn refutes(&self) -> bool {
+    fn refutes(&mut self) -> bool {
         let direction = self.residual().normalize();
         let mut least = direction.dot(&self.external);
-        for strand in &self.strands {
+        for strand in &mut self.strands {
             match strand.least_along(&direction, self.arm) {
                 Some(value) => least += value,
                 None => return false,
@@ -160,7 +160,7 @@ impl Point<'_> {
         least > 1e-9 * self.size()
     }
 
-    fn refusal(&self, question: &Question, starts: usize, iterations: usize) -> StaticsError {
+    fn refusal(&self, question: &Question, starts: usize, iterations: usize, refuted: bool) -> StaticsError {
         let residual = self.residual();
         if self.residue() <= BALANCED {
             return StaticsError::InverseNotConverged {
@@ -186,7 +186,7 @@ impl Point<'_> {
             min: question.limits.iter().map(|limits| limits.min).fold(f64::INFINITY, f64::min),
             max: question.limits.iter().map(|limits| limits.max).fold(0.0, f64::max),
             starts,
-            refuted: self.refutes(),
+            refuted,
             rank_deficient,
             force: residual.fixed_rows::<3>(0).norm(),
             moment: residual.fixed_rows::<3>(3).norm() * self.arm,

@@ -137,21 +137,22 @@ impl<'a> Strand<'a> {
         (0..2).find(|side| self.chord_forces[*side] == Some(self.held.chord_force))
     }
 
-    /// The least of y·w over the tensions within the limits, on a grid of tensions; `None` where a cable
+    /// The least of y·w over the tensions within the limits, on a grid of chord forces; `None` where a cable
     /// cannot be closed.
-    pub(super) fn least_along(&self, y: &Vector6<f64>, arm: f64) -> Option<f64> {
+    pub(super) fn least_along(&mut self, y: &Vector6<f64>, arm: f64) -> Option<f64> {
         const INTERVALS: i32 = 12;
-        let TensionLimits { min, max } = self.limits;
-        let mut least = f64::INFINITY;
-        for k in 0..=INTERVALS {
-            let share = f64::from(k) / f64::from(INTERVALS);
-            let tension = if k == INTERVALS { max } else { min * (max / min).powf(share) };
-            match self.held.with_tension(tension) {
-                Ok(held) => least = least.min(y.dot(&self.wrench(held.catenary.force, arm))),
-                // No cable over this span has so little tension.
-                Err(CableError::TensionTooSmall { .. }) => {}
-                Err(_) => return None,
+        for side in 0..2 {
+            if !self.knows(side) {
+                self.learn(side).ok()?;
             }
+        }
+        let [Some(low), Some(high)] = self.chord_forces else { return None };
+        let mut least = f64::INFINITY;
+        let mut held = self.at(low).ok()?;
+        for k in 0..=INTERVALS {
+            held =
+                held.with_chord_force(low * (high / low).powf(f64::from(k) / f64::from(INTERVALS))).ok()?;
+            least = least.min(y.dot(&self.wrench(held.catenary.force, arm)));
         }
         Some(least)
     }

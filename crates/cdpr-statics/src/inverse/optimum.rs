@@ -60,6 +60,9 @@ const LEAST_CURVATURE: f64 = 0.01;
 const ROUNDING: f64 = 1e-14;
 const NEARLY_ROUNDING: f64 = 1e-11;
 
+/// A residual above this, relative to wrench and tensions, is far above what elastic equations leave.
+const UNBALANCED: f64 = 1e-6;
+
 impl<'a> Point<'a> {
     /// All cables at the chord forces nearest to `tensions` [N].
     pub(super) fn new(question: &Question<'a>, tensions: &[f64]) -> Result<Self, StaticsError> {
@@ -207,6 +210,12 @@ impl<'a> Point<'a> {
             let Some((mut step, mut multipliers)) = self.step(&convex, true, ELASTICITY) else {
                 return false;
             };
+            // Within the limits no change of the tensions brings the balance nearer: the search for a balance
+            // tells whether another point does.
+            let linear = self.rows.iter().zip(&step).fold(residual, |sum, (row, d)| sum + row.slope * *d);
+            if residual.norm() > UNBALANCED * size && linear.norm() > 0.99 * residual.norm() {
+                return false;
+            }
             let near = error <= 1e-3 * size;
             if near
                 && exact.iter().zip(&convex).any(|(a, b)| a != b)
