@@ -280,9 +280,14 @@ fn random_case(seed: u64) -> Case {
     let modulus = 10f64.powf(rng.random_range(-1.5..0.5));
     let density = 10f64.powf(rng.random_range(-1.0..0.7));
     let mut cables = ring(n, || rng.random_range(-0.5..0.5));
-    for cable in &mut cables {
+    for (i, cable) in cables.iter_mut().enumerate() {
         cable.properties.youngs_modulus *= modulus;
         cable.properties.linear_density *= density;
+        // In the last cases heavy cables from the ground pull as little as their weight allows.
+        if seed >= 100 && i % 3 == 0 {
+            cable.exit_point.z = 0.0;
+            cable.properties.linear_density *= 4.0;
+        }
     }
     let mass = 10f64.powf(rng.random_range(1.0..2.7));
     let robot = Robot {
@@ -305,7 +310,7 @@ fn random_case(seed: u64) -> Case {
 
 #[test]
 fn derivatives_of_random_robots_are_those_of_differences() {
-    let outcomes: Vec<_> = (0..100u64).into_par_iter().map(|seed| check(&random_case(seed))).collect();
+    let outcomes: Vec<_> = (0..140u64).into_par_iter().map(|seed| check(&random_case(seed))).collect();
     let (mut all, mut refused) = (Vec::new(), BTreeMap::<_, usize>::new());
     for outcome in outcomes {
         match outcome {
@@ -317,7 +322,7 @@ fn derivatives_of_random_robots_are_those_of_differences() {
     println!("no observation: {refused:?}");
     assert!(all.len() > 80);
     let sum = |count: fn(&Found) -> usize| all.iter().map(count).sum::<usize>();
-    assert!(sum(|f| f.active) > sum(|f| f.demanded) + 5 && sum(|f| f.demanded) > 0);
+    assert!(sum(|f| f.active) > sum(|f| f.demanded) + 5 && sum(|f| f.demanded) > 5);
     assert!(sum(|f| f.clamped) > 5 && sum(|f| f.raised) > 5);
 }
 

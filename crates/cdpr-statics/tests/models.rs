@@ -136,10 +136,11 @@ fn a_tension_below_what_the_span_demands_is_raised_to_it() {
 }
 
 #[test]
-fn poses_are_held_where_a_cable_carries_less_than_its_own_weight() {
-    let robot = caroca();
-    let mut hang_loosely = 0;
-    for i in 0..300 {
+fn poses_are_held_where_a_cable_carries_less_than_its_own_weight_or_rests_on_a_limit() {
+    let mut robot = caroca();
+    let (mut hang_loosely, mut at_bound) = (0, 0);
+    for (i, min) in (0..300).flat_map(|i| [1.0, 250.0].map(|min| (i, min))) {
+        robot.tension_limits.min = min;
         let share = |k: usize| (i * k % 300) as f64 / 300.0;
         let pose = Pose::at(6.4 * share(1) - 3.2, 3.4 * share(7) - 1.7, 0.3 + 2.7 * share(53));
         let wanted = match inverse(&robot, &pose, &Load::none(), None) {
@@ -149,14 +150,15 @@ fn poses_are_held_where_a_cable_carries_less_than_its_own_weight() {
                 continue;
             }
         };
-        let cables = wanted.tensions.iter().zip(&wanted.lengths).enumerate();
+        let mut cables = wanted.tensions.iter().zip(&wanted.lengths).enumerate();
         let loose = |(i, (t, length)): (usize, (&f64, &f64))| *t < robot.cable(i).weight_per_length * length;
-        hang_loosely += usize::from(cables.into_iter().any(loose));
+        hang_loosely += usize::from(cables.any(loose));
+        at_bound += usize::from(wanted.active.iter().any(Option::is_some));
         assert!(wanted.residual.force < 1e-7, "{:?}", wanted.residual);
         let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
         assert!(pose.motion_to(&found.equilibrium.pose).norm() < 1e-8);
     }
-    assert!(hang_loosely > 0, "{hang_loosely}");
+    assert!(hang_loosely > 0 && at_bound > 10, "{hang_loosely} {at_bound}");
 }
 
 #[test]

@@ -10,6 +10,8 @@ fn write(folder: &Path, format: TableFormat, observations: usize) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json");
     let mut study = Study::open(path.as_ref()).unwrap();
     study.set_observations(observations).unwrap();
+    // Some robots are not held within this limit; the nominal robot's largest tension is 1311 N.
+    study.robot.tension_limits.max = 1450.0;
     let sampling = study.sampling("geometrical_asymmetric").unwrap();
     let folder =
         ResultsFolder::begin(folder, ResultsOf::Study, |name| name.starts_with("geometrical")).unwrap();
@@ -51,7 +53,7 @@ fn parquet_reads_back_as_the_numbers_and_words_of_the_csv() {
     }
     assert!(rows.next().is_none());
     assert_eq!(count, 66_000);
-    assert!(failed < count, "{failed} failed");
+    assert!(failed > 0 && failed < count, "{failed} failed");
 }
 
 #[test]
