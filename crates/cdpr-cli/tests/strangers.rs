@@ -67,16 +67,22 @@ fn a_pipe_that_nobody_writes_into_is_refused_at_once() {
     }
 }
 
+/// A study of 50 observations and nothing else.
 #[cfg(unix)]
-#[test]
-fn links_in_a_circle_among_the_blocks_are_not_followed() {
-    let bench = Bench::new("caroca.json", |study| {
+fn bench_of_one_sampling() -> Bench {
+    Bench::new("caroca.json", |study| {
         study["samplings"].as_object_mut().unwrap().retain(|name, _| name == "mechanical");
         study["samplings"]["mechanical"]["observations"] = json!(50);
         study["replicates"] = json!(0);
         study["surfaces"] = json!({});
         study["comparison"] = json!([]);
-    });
+    })
+}
+
+#[cfg(unix)]
+#[test]
+fn links_in_a_circle_among_the_blocks_are_not_followed() {
+    let bench = bench_of_one_sampling();
     bench.run("out", &[]);
     for name in ["a", "b"] {
         std::os::unix::fs::symlink(bench.path("out/blocks"), bench.path("out/blocks").join(name)).unwrap();
@@ -90,13 +96,7 @@ fn links_in_a_circle_among_the_blocks_are_not_followed() {
 #[test]
 fn paths_that_are_not_utf_8_cause_no_panic() {
     use std::os::unix::ffi::OsStrExt;
-    let bench = Bench::new("caroca.json", |study| {
-        study["samplings"].as_object_mut().unwrap().retain(|name, _| name == "mechanical");
-        study["samplings"]["mechanical"]["observations"] = json!(50);
-        study["replicates"] = json!(0);
-        study["surfaces"] = json!({});
-        study["comparison"] = json!([]);
-    });
+    let bench = bench_of_one_sampling();
     let out = std::ffi::OsStr::from_bytes(b"out\xff");
     let run = |arguments: &[&str]| {
         let mut command = bench.study_command(arguments);

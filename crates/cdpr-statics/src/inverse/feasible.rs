@@ -14,7 +14,7 @@
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
 //! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual has
 //! that direction, if one exists and the cables are nearly straight; it is tried on a grid of each cable's
-//! tensions. Then no other start is tried.
+//! chord forces. Then no other start is tried.
 
 use super::optimum::{ELASTICITY, Optimum, Point};
 use super::question::Question;

@@ -184,7 +184,7 @@ impl<'a> Point<'a> {
         Some(learned)
     }
 
-    /// Newton's method from here. `Ok(true)` at the optimum; `false` where no step leads on.
+    /// Newton's method from here. Returns whether it ended at an optimum.
     pub(super) fn optimise(&mut self) -> bool {
         let mut before = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
