@@ -38,7 +38,7 @@ enum Command {
     Catenary(cable::catenary::Settings),
     /// Find the unstrained lengths that hold a pose.
     #[command(after_help = "Example: cdpr inverse data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
-    Inverse(RobotAtPose),
+    Inverse(pose::inverse::Settings),
     /// Find where the platform stands for given unstrained lengths.
     #[command(after_help = "Example: cdpr direct data/robots/caroca.json \
                       --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44 --certify")]

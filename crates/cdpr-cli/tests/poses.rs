@@ -328,3 +328,26 @@ fn the_direct_model_under_a_payload_finds_the_loaded_platform_of_the_deflection(
         assert!(text(output.stderr).contains("expected a mass, zero or more [kg]"));
     }
 }
+
+#[test]
+fn along_a_path_lengths_are_continuous_and_jumps_have_a_column() {
+    let robot = data_path("reference/robots/stadium.json");
+    let path: String = (0..=20).map(|k| format!("{},-4.667,10\n", -2.5 + 0.25 * f64::from(k))).collect();
+    let file = File::new(&format!("{path}0,0,100\n2.5,-4.667,10\n"));
+    let along = ["inverse", &robot, "--path"];
+    let found = lines(&file.run(3, &[&along[..], &["--format", "json"]].concat()));
+    let held: Vec<_> = found.iter().filter(|line| line["error"].is_null()).collect();
+    assert_eq!((found.len(), held.len()), (23, 22));
+    assert!(held.iter().all(|line| line["jump"] == false));
+    for pair in held.windows(2) {
+        let [a, b] = [flat(&pair[0]["lengths"]), flat(&pair[1]["lengths"])];
+        assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 0.5), "{a:?} {b:?}");
+    }
+    let table = file.run(3, &along);
+    let mut rows = csv::Reader::from_reader(table.as_bytes());
+    let jump = rows.headers().unwrap().iter().position(|column| column == "jump").unwrap();
+    let cells: Vec<_> = rows.records().map(|row| row.unwrap()[jump].to_owned()).collect();
+    assert!(cells.iter().enumerate().all(|(k, cell)| cell == if k == 21 { "" } else { "false" }));
+    let alone = cdpr(&["inverse", &robot, "--pose", "0,0,10", "--path"]);
+    assert_eq!(alone.status.code(), Some(2));
+}

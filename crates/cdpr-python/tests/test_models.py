@@ -343,3 +343,13 @@ def test_a_robot_is_made_of_arrays_and_read_back_to_the_last_bit(caroca):
     stiffer = caroca.with_parameters({"youngs_modulus": 2e11, "a1.x": 0.25})
     assert stiffer.parameters["youngs_modulus"] == 2e11 and stiffer.anchor_points[0, 0] == 0.25
     assert caroca.parameters["youngs_modulus"] != 2e11
+
+
+def test_along_a_path_lengths_are_continuous_and_jumps_are_reported(caroca):
+    xs = numpy.linspace(-1.0, 1.0, 21)
+    poses = numpy.column_stack([xs, 0 * xs, 1.75 + 0 * xs])
+    found = caroca.inverse(poses, path=True)
+    assert found.jump.shape == (21,) and not found.jump.any()
+    numpy.testing.assert_allclose(found.lengths, caroca.inverse(poses).lengths, rtol=1e-12)
+    assert caroca.inverse(poses).jump is None
+    assert caroca.inverse(poses[0], path=True).jump is False

@@ -20,8 +20,9 @@
 //!
 //! The modules below solve it in the chord force σ_i of each cable (`cdpr_cable::HeldCable`), in which all
 //! derivatives are finite: `optimum` by Newton's method, `feasible` from several starts before a pose is
-//! called infeasible.
+//! called infeasible, `branch` from the optimum at a pose nearby.
 
+mod branch;
 mod feasible;
 mod held;
 mod optimum;
@@ -31,6 +32,7 @@ use crate::equations::Span;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
+use branch::Answered;
 use cdpr_cable::{CableError, Catenary, length_for_tension};
 use cdpr_robot::{Pose, Robot, Vector2, Vector6};
 use cdpr_tension::Bound;
@@ -77,32 +79,75 @@ pub fn inverse(
     load: &Load,
     reference: Option<&[f64]>,
 ) -> Result<InverseSolution, StaticsError> {
-    let n = robot.cables.len();
-    load.validate()?;
-    if !pose.is_finite() {
-        let position = format!("{:?}", pose.position.as_slice());
-        return Err(StaticsError::invalid("pose".to_owned(), position, "a finite pose"));
-    }
-    if let Some(i) = (0..n).find(|i| robot.span(pose, *i).norm() == 0.0) {
-        return Err(StaticsError::invalid(
-            format!("cables[{i}].exit_point"),
-            format!("{:?}", robot.cables[i].exit_point.as_slice()),
-            "a point away from the cable's anchor point at this pose",
-        ));
-    }
-    let reference = reference.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);
-    StaticsError::one_per_cable("reference", &reference, n)?;
-    if let Some((i, value)) = reference.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-        return Err(StaticsError::invalid(format!("reference[{i}]"), value, "a finite tension [N]"));
-    }
-    let limits = vec![robot.tension_limits; n];
-    let question = Question { robot, pose, load, reference, limits };
+    let question = Question::new(robot, pose, load, reference)?;
     InverseSolution::new(&question, search(&question)?)
+}
+
+/// The inverse model along a path: each pose is answered on the branch of the one before.
+///
+/// (I1) may have several local minima. While pose, load and reference go straight from one question to the
+/// next, a strict local minimum moves along a curve, its branch, until it ceases to be a minimum or to exist.
+/// The branch is followed, so that lengths are continuous, also where another branch becomes better. Only
+/// where it ends is the next pose answered as by [`inverse`]; this is a jump.
+///
+/// ```
+/// use cdpr_robot::{Pose, Robot};
+/// use cdpr_statics::{InversePath, Load};
+///
+/// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+/// let mut path = InversePath::new(&robot);
+/// for k in 0..=10 {
+///     let found = path.solve(&Pose::at(0.1 * f64::from(k), 0.0, 1.75), &Load::none(), None)?;
+///     assert!(!found.jump && found.solution.lengths.len() == 8);
+/// }
+/// # Ok::<(), cdpr_statics::StaticsError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct InversePath<'a> {
+    robot: &'a Robot,
+    last: Option<Answered>,
+}
+
+/// A pose of a path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathSolution {
+    /// The unstrained lengths that hold it.
+    pub solution: InverseSolution,
+    /// Whether the branch of the last solution ended on the way, so that the lengths may jump.
+    pub jump: bool,
+}
+
+impl<'a> InversePath<'a> {
+    /// A path of `robot` that has yet to begin.
+    pub fn new(robot: &'a Robot) -> Self {
+        Self { robot, last: None }
+    }
+
+    /// The lengths at the next pose; the arguments are those of [`inverse`], by which the first pose is
+    /// answered.
+    ///
+    /// # Errors
+    /// Those of [`inverse`]. The path then goes on from the last pose that has an answer.
+    pub fn solve(
+        &mut self,
+        pose: &Pose,
+        load: &Load,
+        reference: Option<&[f64]>,
+    ) -> Result<PathSolution, StaticsError> {
+        let question = Question::new(self.robot, pose, load, reference)?;
+        let followed = self.last.as_ref().and_then(|last| last.followed(&question));
+        let jump = self.last.is_some() && followed.is_none();
+        let optimum = followed.map_or_else(|| search(&question), Ok)?;
+        let answered = Answered::new(&question, &optimum);
+        let solution = InverseSolution::new(&question, optimum)?;
+        self.last = Some(answered);
+        Ok(PathSolution { solution, jump })
+    }
 }
 
 impl InverseSolution {
     fn new(question: &Question, optimum: Optimum) -> Result<Self, StaticsError> {
-        let Optimum { catenaries, tensions, active, multipliers, iterations, stationarity } = optimum;
+        let Optimum { catenaries, tensions, active, multipliers, iterations, stationarity, .. } = optimum;
         let HeldPose { lengths, equilibrium } = HeldPose::new(question.pose, &catenaries);
         let problem = DirectProblem::new(question.robot, &lengths, question.load)?;
         let residual = Residual::of(&problem, &equilibrium);

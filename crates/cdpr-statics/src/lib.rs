@@ -3,6 +3,7 @@
 //! | question | function |
 //! |---|---|
 //! | which unstrained lengths hold a pose (IEGM)? | [`inverse`] |
+//! | and those of a path, without jumps where there need be none? | [`InversePath`] |
 //! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
 //! | and for the next lengths and load, in a microsecond or two? | [`Tracker`] |
 //! | is it stable, and how far is it from becoming unstable? | [`DirectSolution::stability`] |
@@ -60,7 +61,7 @@ pub use direct::{
 };
 pub use equations::{Inputs, Linearization};
 pub use error::{Blocked, StaticsError};
-pub use inverse::{HeldPose, InverseSolution, inverse, lengths_for_tensions};
+pub use inverse::{HeldPose, InversePath, InverseSolution, PathSolution, inverse, lengths_for_tensions};
 pub use lanes::{Observation, Observer, Tracker};
 pub use loading::{
     CycleStep, Deflection, HysteresisLaw, LoadCycle, PoseDeflections, PoseStiffness, Unloading, deflection,

@@ -84,9 +84,12 @@ impl RobotAtPose {
         solve: impl Fn(&Robot, &Pose) -> Result<T, StaticsError> + Sync,
         text: impl FnOnce(&T, &str),
     ) -> Result<Ending, ProgramError> {
-        let robot = open_robot(&self.robot)?;
+        let robot = self.robot()?;
         let pose = match (&self.pose, &self.poses) {
-            (_, Some(path)) => return self.answer_all(&robot, path, |pose| solve(&robot, pose)),
+            (_, Some(path)) => {
+                let solve = |pose: &Pose| solve(&robot, pose).map_err(Failure::from);
+                return self.answer_all(&robot, path, |poses| poses.par_iter().map(solve).collect());
+            }
             (Some(pose), None) => self.angles.of(pose)?,
             (None, None) => return Err(ProgramError::Usage("expected --pose or --poses".to_owned())),
         };
@@ -96,11 +99,27 @@ impl RobotAtPose {
         Ok(answer.ending())
     }
 
+    /// The robot of the file.
+    pub(crate) fn robot(&self) -> Result<Robot, ProgramError> {
+        Ok(open_robot(&self.robot)?)
+    }
+
+    /// Answers what `solve` answers at the poses of the file, one after the other.
+    pub(crate) fn answer_in_order<T: Row>(
+        &self,
+        robot: &Robot,
+        mut solve: impl FnMut(&Pose) -> Result<T, StaticsError>,
+    ) -> Result<Ending, ProgramError> {
+        let path = self.poses.as_ref().ok_or_else(|| ProgramError::Usage("expected --poses".to_owned()))?;
+        let mut solve = |pose: &Pose| solve(pose).map_err(Failure::from);
+        self.answer_all(robot, path, |poses| poses.iter().map(&mut solve).collect())
+    }
+
     fn answer_all<T: Row>(
         &self,
         robot: &Robot,
         path: &Path,
-        solve: impl Fn(&Pose) -> Result<T, StaticsError> + Sync,
+        mut solve: impl FnMut(&[Pose]) -> Vec<Result<T, Failure>>,
     ) -> Result<Ending, ProgramError> {
         let poses = pose_file(path)?;
         let columns = T::columns(robot);
@@ -112,7 +131,7 @@ impl RobotAtPose {
         }
         let mut ending = Ending::Well;
         for chunk in poses.chunks(CHUNK) {
-            let answers: Vec<_> = chunk.par_iter().map(|pose| solve(pose).map_err(Failure::from)).collect();
+            let answers = solve(chunk);
             for (pose, answer) in chunk.iter().zip(&answers) {
                 ending = ending.and(answer.as_ref().map_or(Ending::SomethingWrong, Row::ending));
                 match self.format {

@@ -5,14 +5,58 @@ use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use cdpr_robot::Robot;
-use cdpr_statics::{Bound, InverseSolution, inverse};
+use cdpr_statics::{Bound, InversePath, InverseSolution, inverse};
 use serde::Serialize;
 
-pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
+/// The robot, its poses and the load.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtPose,
+    /// The poses of the file are a path: lengths change steadily along it, and `jump` says where they cannot.
+    ///
+    /// Several sets of tensions may be the best of all near them. Each pose then keeps to the one of the pose
+    /// before, as long as it exists between them, even where another becomes better.
+    #[arg(long, requires = "poses")]
+    path: bool,
+}
+
+pub(crate) fn run(Settings { at, path }: &Settings) -> Result<Ending, ProgramError> {
     let load = at.load.load();
+    if *path {
+        let robot = at.robot()?;
+        let mut path = InversePath::new(&robot);
+        return at.answer_in_order(&robot, |pose| {
+            let found = path.solve(pose, &load, None)?;
+            Ok(OnPath { jump: found.jump, answer: Answer::new(&robot, &found.solution) })
+        });
+    }
     let solve =
         |robot: &Robot, pose: &_| inverse(robot, pose, &load, None).map(|found| Answer::new(robot, &found));
     at.answer(solve, Answer::print)
+}
+
+/// The lengths at a pose of a path.
+#[derive(Serialize)]
+struct OnPath {
+    /// Whether the lengths may jump here.
+    jump: bool,
+    #[serde(flatten)]
+    answer: Answer,
+}
+
+impl Row for OnPath {
+    fn columns(robot: &Robot) -> Vec<String> {
+        ["jump".to_owned()].into_iter().chain(Answer::columns(robot)).collect()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        [self.jump.to_string()].into_iter().chain(self.answer.cells()).collect()
+    }
+
+    fn ending(&self) -> Ending {
+        self.answer.ending()
+    }
 }
 
 /// The lengths, in SI units.

@@ -107,6 +107,7 @@ class Robot:
         moment: ArrayLike | None = None,
         payload: ArrayLike | None = None,
         reference: ArrayLike | None = None,
+        path: bool = False,
     ) -> InverseSolution: ...
     def direct(
         self,
@@ -204,6 +205,8 @@ class InverseSolution:
     def residual(self) -> _Floats: ...
     @property
     def iterations(self) -> _Int: ...
+    @property
+    def jump(self) -> NDArray[np.bool_] | bool | None: ...
     @property
     def reasons(self) -> _Words: ...
     @property

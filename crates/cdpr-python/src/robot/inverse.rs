@@ -1,9 +1,10 @@
 //! `Robot.inverse`: the unstrained lengths that hold a pose.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, run};
 use crate::robot::Robot;
-use cdpr_statics::{Bound, StaticsError, inverse};
+use cdpr_statics::{Bound, InversePath, InverseSolution as InverseModel, PathSolution, StaticsError, inverse};
 use pyo3::prelude::*;
+use std::sync::atomic::Ordering::Relaxed;
 
 answer! {
     /// Unstrained lengths that hold poses.
@@ -24,6 +25,8 @@ answer! {
         residual: Py<PyAny>,
         /// Iterations of distribution and Newton's method; 0 where there is no answer.
         iterations: Py<PyAny>,
+        /// Where the lengths may jump, because the branch of the pose before ends; only along a path, ().
+        jump: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
@@ -42,9 +45,12 @@ impl Robot {
     /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
     /// payload: mass added at the platform's centre of mass [kg].
     /// reference: tensions that the tensions are nearest to, in place of zero [N], (n,).
+    /// path: whether the cases are a path, so that each keeps to the branch of tensions of the one before as
+    ///     long as it exists on the straight way between them.
     ///
     /// Raises InputError; for one case NoSolutionError.
-    #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None))]
+    #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None, path=false))]
+    #[allow(clippy::too_many_arguments)]
     fn inverse(
         &self,
         py: Python,
@@ -53,6 +59,7 @@ impl Robot {
         moment: Option<Numbers>,
         payload: Option<Numbers>,
         reference: Option<Numbers>,
+        path: bool,
     ) -> Answer<InverseSolution> {
         let cables = self.robot.cables.len();
         let poses = Rows::poses("pose", &pose)?;
@@ -61,16 +68,31 @@ impl Robot {
             reference.map(|reference| Rows::of_cables("reference", &reference, cables)).transpose()?;
         let cases = loads.cases([&poses].into_iter().chain(&reference))?;
         let robot = &self.robot;
-        let outcomes: Vec<Result<_, StaticsError>> = each(py, cases.count, |case| {
+        let of_case = |case: usize| -> Result<_, StaticsError> {
             let reference = reference.as_ref().map(|reference| reference.row(case));
-            inverse(robot, &poses.pose(case)?, &loads.load(case)?, reference)
-        })?;
+            Ok((poses.pose(case)?, loads.load(case)?, reference))
+        };
+        let outcomes: Vec<Result<PathSolution, StaticsError>> = if path {
+            let mut path = InversePath::new(robot);
+            let mut one = |case| {
+                let (pose, load, reference) = of_case(case)?;
+                path.solve(&pose, &load, reference)
+            };
+            run(py, |stop| (0..cases.count).take_while(|_| !stop.load(Relaxed)).map(&mut one).collect())?
+        } else {
+            each(py, cases.count, |case| {
+                let (pose, load, reference) = of_case(case)?;
+                Ok(PathSolution { solution: inverse(robot, &pose, &load, reference)?, jump: false })
+            })?
+        };
         let all = Columns::new(py, cases, &outcomes)?;
+        let jump = path.then(|| all.array(false, &[], |found, out: &mut [bool]| out[0] = found.jump));
         Ok(InverseSolution {
-            lengths: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.lengths))?,
-            tensions: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.tensions))?,
-            cable_forces: all.pairs(cables, |found| &found.equilibrium.cable_forces)?,
+            lengths: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.solution.lengths))?,
+            tensions: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.solution.tensions))?,
+            cable_forces: all.pairs(cables, |found| &found.solution.equilibrium.cable_forces)?,
             active: all.array(0, &[cables], |found, out: &mut [i8]| {
+                let found = &found.solution;
                 for (out, bound) in out.iter_mut().zip(&found.active) {
                     *out = match bound {
                         Some(Bound::Min) => -1,
@@ -79,9 +101,12 @@ impl Robot {
                     };
                 }
             })?,
-            residual: all
-                .vector(|found| [found.residual.closure, found.residual.force, found.residual.moment])?,
-            iterations: all.array(0, &[], |found, out: &mut [i64]| out[0] = found.iterations as i64)?,
+            residual: all.vector(|PathSolution { solution: InverseModel { residual, .. }, .. }| {
+                [residual.closure, residual.force, residual.moment]
+            })?,
+            iterations: all
+                .array(0, &[], |found, out: &mut [i64]| out[0] = found.solution.iterations as i64)?,
+            jump: jump.transpose()?.unwrap_or_else(|| py.None()),
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

@@ -31,28 +31,54 @@ pub(super) struct Strand<'a> {
 impl<'a> Strand<'a> {
     /// Cable i at the chord force that is nearest to `tension` [N] within its limits.
     pub(super) fn new(question: &Question<'a>, i: usize, tension: f64) -> Result<Self, StaticsError> {
-        let cable = question.robot.cable(i);
-        let span = Span::new(question.robot.span(question.pose, i).into());
-        let end = Vector2::from(span.end);
         let limits = question.limits[i];
         let tension = tension.clamp(limits.min, limits.max);
+        let strand = || -> Result<Self, CableError> {
+            let mut strand = Self::with_floor(question, i, |floor| tension.max(floor))?;
+            if tension < strand.floor {
+                strand.learn(0)?;
+                let lowest = strand.chord_forces[0].unwrap_or_default();
+                strand.held = strand.at(tension.max(lowest))?;
+            }
+            Ok(strand)
+        };
+        strand().map_err(StaticsError::cable(i))
+    }
+
+    /// Cable i as it is at a pose nearby: at the same limit, or else at the same chord force [N].
+    pub(super) fn near(
+        question: &Question<'a>,
+        i: usize,
+        chord_force: f64,
+        limit: Option<usize>,
+    ) -> Result<Self, CableError> {
+        let mut strand = Self::with_floor(question, i, |_| chord_force)?;
+        if let Some(side) = limit {
+            strand.learn(side)?;
+            strand.held = strand.at(strand.chord_forces[side].unwrap_or(chord_force))?;
+        }
+        Ok(strand)
+    }
+
+    /// Cable i at a chord force [N] that may follow from its floor, with its limits unasked for.
+    fn with_floor(
+        question: &Question<'a>,
+        i: usize,
+        chord_force: impl FnOnce(f64) -> f64,
+    ) -> Result<Self, CableError> {
+        let cable = question.robot.cable(i);
+        let span = Span::new(question.robot.span(question.pose, i).into());
+        let limits = question.limits[i];
         let floor = (ABOVE_ANY_LEAST * ABOVE_LEAST * cable.weight_per_length * span.chord()).max(limits.min);
-        let mut strand = Self {
-            held: HeldCable::at_chord_force(&cable, end, tension.max(floor))
-                .map_err(StaticsError::cable(i))?,
+        Ok(Self {
+            held: HeldCable::at_chord_force(&cable, Vector2::from(span.end), chord_force(floor))?,
             plane: span.plane,
             arm: question.robot.anchor_arm(question.pose, i),
             limits,
             floor,
             chord_forces: [None; 2],
             reference: question.reference[i],
-        };
-        if tension < floor {
-            strand.learn(0).map_err(StaticsError::cable(i))?;
-            let lowest = strand.chord_forces[0].unwrap_or_default();
-            strand.held = strand.at(tension.max(lowest)).map_err(StaticsError::cable(i))?;
-        }
-        Ok(strand)
+        })
     }
 
     /// Wrench about P of a force on the cable, its moment divided by `arm` [m].

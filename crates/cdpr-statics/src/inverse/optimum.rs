@@ -24,6 +24,8 @@ use nalgebra::{DMatrix, DVector};
 /// The optimum, or the best near a start.
 pub(super) struct Optimum<'a> {
     pub(super) catenaries: Vec<Catenary<'a>>,
+    /// Chord forces [N].
+    pub(super) chord_forces: Vec<f64>,
     /// Tensions [N]; exactly the limit where one is active.
     pub(super) tensions: Vec<f64>,
     pub(super) active: Vec<Option<Bound>>,
@@ -57,8 +59,8 @@ pub(super) const ELASTICITY: f64 = 1e-9;
 const LEAST_CURVATURE: f64 = 0.01;
 
 /// A residual below this, relative to wrench and tensions, is rounding, or nearly.
-const ROUNDING: f64 = 1e-14;
-const NEARLY_ROUNDING: f64 = 1e-11;
+pub(super) const ROUNDING: f64 = 1e-14;
+pub(super) const NEARLY_ROUNDING: f64 = 1e-11;
 
 /// A residual above this, relative to wrench and tensions, is far above what elastic equations leave.
 const UNBALANCED: f64 = 1e-6;
@@ -67,11 +69,15 @@ impl<'a> Point<'a> {
     /// All cables at the chord forces nearest to `tensions` [N].
     pub(super) fn new(question: &Question<'a>, tensions: &[f64]) -> Result<Self, StaticsError> {
         let strands = tensions.iter().enumerate().map(|(i, tension)| Strand::new(question, i, *tension));
-        let strands = strands.collect::<Result<Vec<_>, _>>()?;
+        Ok(Self::of(question, strands.collect::<Result<Vec<_>, _>>()?))
+    }
+
+    /// The cables as they are, without multipliers.
+    pub(super) fn of(question: &Question<'a>, strands: Vec<Strand<'a>>) -> Self {
         let arm = question.arm();
         let rows = strands.iter().map(|strand| strand.row(&strand.held, arm)).collect();
         let external = question.external();
-        Ok(Self { strands, rows, external, arm, multipliers: Vector6::zeros(), iterations: 0 })
+        Self { strands, rows, external, arm, multipliers: Vector6::zeros(), iterations: 0 }
     }
 
     /// F [N].
@@ -85,7 +91,7 @@ impl<'a> Point<'a> {
     }
 
     /// What is left of (I2) in the worst cable, in units of its own tension [N].
-    fn stationarity(&self) -> f64 {
+    pub(super) fn stationarity(&self) -> f64 {
         let each = self.rows.iter().zip(&self.strands).map(|(row, strand)| {
             let slope = row.gradient() + row.slope.dot(&self.multipliers);
             match strand.at_limit() {
@@ -173,7 +179,7 @@ impl<'a> Point<'a> {
     }
 
     /// Whether a limit is violated that has not been asked for; asks for it.
-    fn learns_violated(&mut self) -> Option<bool> {
+    pub(super) fn learns_violated(&mut self) -> Option<bool> {
         let mut learned = false;
         for strand in &mut self.strands {
             if let Some(side) = strand.unknown_limit() {
@@ -203,9 +209,7 @@ impl<'a> Point<'a> {
             if self.multipliers.amax() > 1e4 * largest {
                 self.multipliers = Vector6::zeros();
             }
-            let each = self.strands.iter().zip(&self.rows);
-            let exact: Vec<f64> =
-                each.map(|(strand, row)| strand.hessian(row, &self.multipliers, self.arm)).collect();
+            let exact = self.hessian();
             let convex: Vec<f64> = exact.iter().map(|h| h.abs().max(LEAST_CURVATURE)).collect();
             let Some((mut step, mut multipliers)) = self.step(&convex, true, ELASTICITY) else {
                 return false;
@@ -295,8 +299,32 @@ impl<'a> Point<'a> {
     /// Newton's step on the free cables with the exact Hessian; `None` unless it leads to a minimum and stays
     /// within the limits.
     fn exact_step(&self, hessian: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
-        let free: Vec<usize> =
-            (0..self.rows.len()).filter(|i| self.strands[*i].at_limit().is_none()).collect();
+        let fixed: Vec<_> = self.strands.iter().map(|strand| strand.at_limit().map(|_| 0.0)).collect();
+        let (step, multipliers) = self.newton_step(hessian, &fixed)?;
+        let within = self.strands.iter().zip(&step).zip(&fixed).all(|((strand, d), fixed)| {
+            let [low, high] = strand.room();
+            fixed.is_some() || (low..=high).contains(d)
+        });
+        within.then_some((step, multipliers))
+    }
+
+    /// Second derivatives of the Lagrangian, h of (I3).
+    pub(super) fn hessian(&self) -> Vec<f64> {
+        let each = self.strands.iter().zip(&self.rows);
+        each.map(|(strand, row)| strand.hessian(row, &self.multipliers, self.arm)).collect()
+    }
+
+    /// Newton's step and the new multipliers, with the steps of some cables given: the others are free.
+    /// `None` unless it leads to a minimum over the free cables.
+    pub(super) fn newton_step(
+        &self,
+        hessian: &[f64],
+        fixed: &[Option<f64>],
+    ) -> Option<(Vec<f64>, Vector6<f64>)> {
+        let mut step: Vec<f64> = fixed.iter().map(|fixed| fixed.unwrap_or(0.0)).collect();
+        let residual =
+            self.rows.iter().zip(&step).fold(self.residual(), |sum, (row, d)| sum + row.slope * *d);
+        let free: Vec<usize> = (0..fixed.len()).filter(|i| fixed[*i].is_none()).collect();
         let k = free.len();
         let mut kkt = DMatrix::zeros(k + 6, k + 6);
         let mut right = DVector::zeros(k + 6);
@@ -308,23 +336,19 @@ impl<'a> Point<'a> {
                 kkt[(column, k + row)] = self.rows[i].slope[row];
             }
         }
-        let residual = self.residual();
         for row in 0..6 {
             kkt[(k + row, k + row)] = -ELASTICITY;
             right[k + row] = -residual[row] - ELASTICITY * self.multipliers[row];
         }
         // The reduced Hessian is positive where the matrix has as many positive eigenvalues as free cables.
-        let eigenvalues = kkt.clone().symmetric_eigenvalues();
-        if eigenvalues.iter().filter(|value| **value > 0.0).count() != k {
-            return None;
-        }
-        let solution = kkt.lu().solve(&right)?;
-        let mut step = vec![0.0; self.rows.len()];
-        for (row, &i) in free.iter().enumerate() {
-            let [low, high] = self.strands[i].room();
-            if !(low..=high).contains(&solution[row]) {
+        if free.iter().any(|i| hessian[*i] <= 0.0) {
+            let eigenvalues = kkt.clone().symmetric_eigenvalues();
+            if eigenvalues.iter().filter(|value| **value > 0.0).count() != k {
                 return None;
             }
+        }
+        let solution = kkt.lu().solve(&right)?;
+        for (row, &i) in free.iter().enumerate() {
             step[i] = solution[row];
         }
         Some((step, solution.fixed_rows::<6>(k).into()))
@@ -341,6 +365,7 @@ impl<'a> Point<'a> {
         };
         Optimum {
             catenaries: self.strands.iter().map(|strand| strand.held.catenary).collect(),
+            chord_forces: self.strands.iter().map(|strand| strand.held.chord_force).collect(),
             tensions: self.strands.iter().map(tension).collect(),
             active: self.strands.iter().map(bound).collect(),
             multipliers,

@@ -1,9 +1,11 @@
 //! What the inverse model is asked.
 
+use crate::error::StaticsError;
 use crate::state::Load;
 use cdpr_robot::{Pose, Robot, TensionLimits, Vector6};
 
 /// A robot to be held at a pose.
+#[derive(Clone)]
 pub(super) struct Question<'a> {
     pub(super) robot: &'a Robot,
     pub(super) pose: &'a Pose,
@@ -13,7 +15,35 @@ pub(super) struct Question<'a> {
     pub(super) limits: Vec<TensionLimits>,
 }
 
-impl Question<'_> {
+impl<'a> Question<'a> {
+    /// A question with valid inputs.
+    pub(super) fn new(
+        robot: &'a Robot,
+        pose: &'a Pose,
+        load: &'a Load,
+        reference: Option<&[f64]>,
+    ) -> Result<Self, StaticsError> {
+        let n = robot.cables.len();
+        load.validate()?;
+        if !pose.is_finite() {
+            let position = format!("{:?}", pose.position.as_slice());
+            return Err(StaticsError::invalid("pose".to_owned(), position, "a finite pose"));
+        }
+        if let Some(i) = (0..n).find(|i| robot.span(pose, *i).norm() == 0.0) {
+            return Err(StaticsError::invalid(
+                format!("cables[{i}].exit_point"),
+                format!("{:?}", robot.cables[i].exit_point.as_slice()),
+                "a point away from the cable's anchor point at this pose",
+            ));
+        }
+        let reference = reference.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);
+        StaticsError::one_per_cable("reference", &reference, n)?;
+        if let Some((i, value)) = reference.iter().enumerate().find(|(_, value)| !value.is_finite()) {
+            return Err(StaticsError::invalid(format!("reference[{i}]"), value, "a finite tension [N]"));
+        }
+        Ok(Self { robot, pose, load, reference, limits: vec![robot.tension_limits; n] })
+    }
+
     pub(super) fn cables(&self) -> usize {
         self.reference.len()
     }
