@@ -1,6 +1,7 @@
-"""Least-norm tensions of random robots by SciPy's SLSQP, from many starts (SciPy, NumPy; some minutes):
+"""Least-norm tensions by SciPy's SLSQP, from many starts (SciPy, NumPy; some minutes each):
 
 cargo run -p cdpr-statics --example drawn_robots -- 200 | python3 drawn.py > drawn.json
+python3 drawn.py robots/stadium.json > stadium.json
 
 A cable ends (h, z) away from its exit point with the force (H, V) on it and V0 = V - w L, T, T0 its tensions at
 both ends:
@@ -19,9 +20,8 @@ import json
 import sys
 
 import numpy as np
-from scipy.optimize import minimize
+from scipy.optimize import least_squares, minimize
 
-STARTS = 24
 STEP = 1e-30
 # The least tension allowed over the least that the span demands.
 MARGIN = 1.001
@@ -151,14 +151,31 @@ def solve(cables, start, level):
     return (float(np.linalg.norm(tension)), float(residual)) if residual < 1e-12 else None
 
 
-def best(robot):
+def balanced(cables, start):
+    """Tensions near a start that balance, nearly; None if the least residual is not zero."""
+    low, high = cables.bounds
+    inside = np.clip(start, low + 1e-6 * (high - low), high - 1e-6 * (high - low))
+    scale = np.linalg.norm(cables.external)
+    found = least_squares(
+        lambda v: cables.at(v)[2] / scale,
+        inside,
+        jac=lambda v: cables.at(v)[3].copy() / scale,
+        bounds=(low, high),
+        max_nfev=60,
+    )
+    return found.x if np.linalg.norm(found.fun) < 1e-3 else None
+
+
+def best(robot, count=24, balance=False):
     """The least norm from all starts, its residual, how many led there, and how many found tensions."""
     cables = Cables(robot)
     rng = np.random.default_rng(robot["seed"])
     low, high = cables.bounds
     level = np.sqrt(robot["limits"][0] * robot["limits"][1])
     starts = [low + s * (high - low) for s in (0.25, 0.5, 0.75)]
-    starts += [low + rng.random(len(low)) * (high - low) for _ in range(STARTS - len(starts))]
+    starts += [low + rng.random(len(low)) * (high - low) for _ in range(count - len(starts))]
+    if balance:
+        starts = [v for v in (balanced(cables, start) for start in starts) if v is not None]
     found = [result for result in (solve(cables, start, level) for start in starts) if result]
     if not found:
         return None
@@ -166,17 +183,55 @@ def best(robot):
     return norm, residual, sum(other < norm * (1 + 1e-8) for other, _ in found), len(found)
 
 
-def main():
+def table(columns, name, rows):
+    rows = ",\n  ".join(map(json.dumps, rows))
+    print(f'{{\n "columns": {json.dumps(columns)},\n "{name}": [\n  {rows}\n ]\n}}')
+
+
+def random_robots():
     rows = []
     for line in sys.stdin:
         robot = json.loads(line)
-        answer = best(robot)
-        drawn = float(np.linalg.norm(robot["drawn"]))
-        rows.append([robot["seed"], drawn, *(answer or [None] * 4)])
+        rows.append([robot["seed"], float(np.linalg.norm(robot["drawn"])), *(best(robot) or [None] * 4)])
         print(rows[-1], file=sys.stderr)
-    print('{\n "columns": ["seed", "drawn_norm", "least_norm", "residual", "starts_there", "starts_held"],')
-    print(' "robots": [\n  ' + ",\n  ".join(map(json.dumps, rows)) + "\n ]\n}")
+    table(["seed", "drawn_norm", "least_norm", "residual", "starts_there", "starts_held"], "robots", rows)
+
+
+def poses(path):
+    """A level robot over a plane, without and with a payload."""
+    with open(path) as file:
+        content = json.load(file)
+    gravity, platform, limits = content["gravity"], content["platform"], content["tension_limits"]
+    properties = content["cable"]
+    cables = [
+        {
+            "exit": cable["exit_point"],
+            "anchor": cable["anchor_point"],
+            "weight": gravity * properties["linear_density"],
+            "stiffness": properties["youngs_modulus"] * properties["section"],
+        }
+        for cable in content["cables"]
+    ]
+    rows = []
+    for payload in (0, 40):
+        for x in range(-48, 49, 12):
+            for y in range(-32, 33, 16):
+                robot = {
+                    "seed": 0,
+                    "gravity": gravity,
+                    "mass": platform["mass"] + payload,
+                    "center_of_mass": platform["center_of_mass"],
+                    "limits": [limits["min"], limits["max"]],
+                    "position": [x, y, 10],
+                    "rotation": np.eye(3),
+                    "force": np.zeros(3),
+                    "moment": np.zeros(3),
+                    "cables": cables,
+                }
+                rows.append([payload, x, y, (best(robot, 6, balance=True) or [None])[0]])
+                print(rows[-1], file=sys.stderr)
+    table(["payload", "x", "y", "least_norm"], "poses", rows)
 
 
 if __name__ == "__main__":
-    main()
+    poses(sys.argv[1]) if len(sys.argv) > 1 else random_robots()

@@ -125,6 +125,37 @@ fn a_pose_that_tensions_hold_is_never_refused() {
     assert!(found == CASES - count("not drawn") && found > 9_000 && others < 5, "{counts:?}");
 }
 
+/// `data/reference/drawn.py` looks for the least norm of the first 200 of these robots from 24 starts each.
+#[test]
+fn no_norm_is_above_the_best_that_an_independent_solver_finds() {
+    let file: Value = serde_json::from_str(include_str!("../../../data/reference/drawn.json")).unwrap();
+    let norm = |t: &[f64]| t.iter().map(|t| t * t).sum::<f64>().sqrt();
+    let mut counts = BTreeMap::new();
+    for row in file["robots"].as_array().unwrap() {
+        let (seed, row) = (row[0].as_u64().unwrap(), numbers(row));
+        let Drawn { robot, pose, load, tensions } = drawn(seed).unwrap();
+        let (drawn_norm, least, starts, held) = (row[1], row[2], row[4], row[5]);
+        assert!((norm(&tensions) / drawn_norm - 1.0).abs() < 1e-12, "seed {seed} is another robot there");
+        let ours = match inverse(&robot, &pose, &load, None) {
+            Ok(found) => norm(&found.tensions) / least - 1.0,
+            Err(error) => panic!("seed {seed}: {error}"),
+        };
+        let outcome = match ours {
+            _ if ours > 1e-9 => "above",
+            _ if ours < -1e-9 => "below",
+            _ if starts < held => "the same, where starts lead to several minima",
+            _ => "the same",
+        };
+        *counts.entry(outcome).or_insert(0) += 1;
+        if ours.abs() > 1e-9 {
+            println!("{outcome}, seed {seed}: {ours:e}, {starts} of {held} starts");
+        }
+    }
+    println!("{counts:?}");
+    assert!(!counts.contains_key("above"), "{counts:?}");
+    assert_eq!(counts.values().sum::<i32>(), 200);
+}
+
 /// CAROCA with everything that its tensions can be in doubt about.
 fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
