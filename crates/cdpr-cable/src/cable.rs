@@ -1,7 +1,10 @@
 //! What a cable is made of.
 
 use crate::error::{CableError, SMALLEST, check};
+use crate::guide::{Guide, Straight};
+use crate::kernel::closure_of_limp;
 use crate::law::ElasticLaw;
+use nalgebra::Vector2;
 
 /// What a cable is made of, per metre of unstrained length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,12 +15,51 @@ pub struct Cable<'a> {
     pub axial_stiffness: f64,
     /// Elastic law: the strain as a function of the tension.
     pub law: ElasticLaw<'a>,
+    /// What leads it to the point where it leaves for the platform; `None` for an exit point alone.
+    pub guide: Option<Guide>,
+}
+
+/// The numbers that the response of a cable depends on, of any kind.
+#[derive(Clone, Copy)]
+pub(crate) struct Numbers<T> {
+    /// w [N/m].
+    pub(crate) weight_per_length: T,
+    /// 1/EA [1/N].
+    pub(crate) axial_flexibility: T,
+    /// Lead of the guide [m]; zero without one.
+    pub(crate) lead: T,
+    /// Radius of the pulley [m]; zero without one.
+    pub(crate) radius: T,
+    /// Unstrained length L [m].
+    pub(crate) length: T,
+}
+
+impl<T> Numbers<T> {
+    /// The same numbers of another kind.
+    #[inline]
+    pub(crate) fn map<U>(self, of: impl Fn(T) -> U) -> Numbers<U> {
+        Numbers {
+            weight_per_length: of(self.weight_per_length),
+            axial_flexibility: of(self.axial_flexibility),
+            lead: of(self.lead),
+            radius: of(self.radius),
+            length: of(self.length),
+        }
+    }
 }
 
 impl Cable<'_> {
     /// A linear cable of this weight per unstrained length [N/m] and axial stiffness EA [N].
     pub const fn linear(weight_per_length: f64, axial_stiffness: f64) -> Self {
-        Self { weight_per_length, axial_stiffness, law: ElasticLaw::Linear }
+        Self { weight_per_length, axial_stiffness, law: ElasticLaw::Linear, guide: None }
+    }
+
+    /// The numbers of this cable with an unstrained length [m].
+    #[inline]
+    pub(crate) fn numbers(&self, length: f64) -> Numbers<f64> {
+        let [lead, radius] = self.guide.map_or([0.0; 2], |guide| [guide.lead, guide.radius]);
+        let axial_flexibility = 1.0 / self.axial_stiffness;
+        Numbers { weight_per_length: self.weight_per_length, axial_flexibility, lead, radius, length }
     }
 
     /// Strain at a tension [N].
@@ -34,6 +76,35 @@ impl Cable<'_> {
         match self.law {
             ElasticLaw::Linear => (self.axial_stiffness * strain).max(0.0),
             ElasticLaw::Piecewise(law) => law.tension(self.axial_stiffness * strain),
+        }
+    }
+
+    /// Elastic energy per unstrained length at a tension [N], `T ε - ∫ ε dT` [J/m].
+    pub(crate) fn elastic_energy(&self, tension: f64) -> f64 {
+        let complementary = match self.law {
+            ElasticLaw::Linear => 0.5 * tension * tension,
+            ElasticLaw::Piecewise(law) => law.scaled_energy(tension),
+        };
+        tension * self.strain(tension) - complementary / self.axial_stiffness
+    }
+
+    /// Length of a straight cable to `end = (x, z)` [m], lead and arc included [m]; that of the chord where
+    /// the end lies too near to the pulley for one.
+    pub fn straight_length(&self, end: Vector2<f64>) -> f64 {
+        let straight = self.guide.and_then(|guide| guide.straight(end.into()));
+        straight.map_or_else(|| end.norm(), |straight| straight.free + straight.guided)
+    }
+
+    /// Closure residual of a slack cable without weight: see [`crate::kernel::closure_of_limp`].
+    ///
+    /// With a guide it points along a straight cable.
+    pub fn closure_of_limp(&self, end: [f64; 2], rest: f64) -> [f64; 2] {
+        match self.guide.and_then(|guide| guide.straight(end)) {
+            None => closure_of_limp(end, rest),
+            Some(Straight { leave: [x, z], free, guided }) => {
+                let missing = (free + guided - rest).max(0.0);
+                [(end[0] - x) * missing / free, (end[1] - z) * missing / free]
+            }
         }
     }
 
@@ -58,6 +129,7 @@ impl Cable<'_> {
             "a weight per length, zero or from 1e-30 to 1e30 [N/m]",
         )?;
         check("axial_stiffness", ea, ea >= SMALLEST, "an axial stiffness from 1e-30 to 1e30 [N]")?;
+        self.guide.map_or(Ok(()), |guide| guide.validate())?;
         match self.law {
             ElasticLaw::Linear => Ok(()),
             ElasticLaw::Piecewise(_) => {

@@ -3,6 +3,7 @@
 //! What follows from the force at its end is in the modules of this folder.
 
 pub(crate) mod compliance;
+mod guided;
 mod mechanics;
 mod pieces;
 mod shape;
@@ -49,21 +50,30 @@ impl<'a> Catenary<'a> {
         self.force.norm()
     }
 
-    /// Tension at the exit point B [N].
+    /// Tension at the exit point B, or where the cable leaves its pulley [N].
     #[inline]
     pub fn exit_tension(&self) -> f64 {
         Vector2::new(self.force.x, self.exit_vertical_force()).norm()
     }
 
-    /// Vertical component V0 of the cable's tension at B [N], `fz - w L`.
+    /// Vertical component V0 of the cable's tension at B [N], `fz - w L` with the length beyond B.
     pub fn exit_vertical_force(&self) -> f64 {
         self.force.y - self.weight()
     }
 
-    /// Weight of the whole cable w L [N].
+    /// Weight of the cable beyond B [N], w L without a guide.
     #[inline]
     pub fn weight(&self) -> f64 {
-        self.cable.weight_per_length * self.unstrained_length
+        self.cable.weight_per_length * self.free_length()
+    }
+
+    /// Unstrained length beyond the exit point or, with a pulley, beyond the leave point [m].
+    #[inline]
+    pub fn free_length(&self) -> f64 {
+        match &self.cable.guide {
+            None => self.unstrained_length,
+            Some(guide) => self.guided(guide).free,
+        }
     }
 
     /// Length of the cable without tension and weight [m], `L (1 + ε(0))`.

@@ -32,6 +32,7 @@
 mod cable;
 mod catenary;
 mod error;
+mod guide;
 pub mod kernel;
 mod law;
 mod record;
@@ -42,6 +43,7 @@ pub use cable::Cable;
 pub use catenary::Catenary;
 pub use catenary::compliance::Compliance;
 pub use error::CableError;
+pub use guide::{Entry, Guide};
 pub use law::{ElasticLaw, PiecewiseLaw, Segment};
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen, TangentModulus};

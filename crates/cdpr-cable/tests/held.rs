@@ -124,7 +124,7 @@ fn a_vertical_cable_is_regular() {
 fn a_cable_with_a_law_has_the_derivatives_of_its_segments() {
     let segment = |(tension, ratio)| Segment { tension, ratio };
     let law = PiecewiseLaw::new(100.0, &[(0.0, 0.5), (40.0, 1.0), (55.0, 2.0)].map(segment)).unwrap();
-    let cable = Cable { weight_per_length: 2.0, axial_stiffness: 1e4, law: ElasticLaw::Piecewise(&law) };
+    let cable = Cable { law: ElasticLaw::Piecewise(&law), ..Cable::linear(2.0, 1e4) };
     let end = Vector2::new(6.0, 5.0);
     // Its tension lies in one segment or in two.
     for sigma in [20.0, 38.0, 50.0, 70.0] {

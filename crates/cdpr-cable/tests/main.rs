@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 mod dual;
+mod guided;
 mod held;
 mod piecewise;
 mod properties;

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use serde_json::Value;
 
 fn cable(law: &PiecewiseLaw, weight_per_length: f64, axial_stiffness: f64) -> Cable<'_> {
-    Cable { weight_per_length, axial_stiffness, law: ElasticLaw::Piecewise(law) }
+    Cable { law: ElasticLaw::Piecewise(law), ..Cable::linear(weight_per_length, axial_stiffness) }
 }
 
 /// A law from the tension at which each of its segments begins and its stiffness over the cable's.

@@ -99,6 +99,7 @@ impl Robot {
             weight_per_length: properties.linear_density * self.gravity,
             axial_stiffness: properties.axial_stiffness(),
             law: properties.law.as_ref().map_or(ElasticLaw::Linear, ElasticLaw::Piecewise),
+            guide: None,
         }
     }
 

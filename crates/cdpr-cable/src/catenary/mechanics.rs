@@ -3,11 +3,11 @@
 //! The equations of a linear cable are in `kernel/response.rs`, those of one with a piecewise linear law in
 //! `pieces.rs`.
 
-use crate::cable::Cable;
+use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
 use crate::catenary::compliance::Compliance;
-use crate::catenary::pieces;
-use crate::kernel::{Real, Response, Terms, closure_of_limp, response};
+use crate::catenary::{guided, pieces};
+use crate::kernel::{Real, Response, Terms, response};
 use crate::law::ElasticLaw;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
@@ -15,13 +15,17 @@ impl Cable<'_> {
     /// The response to the force `force` [N] at A of a cable with this law, over any kind of number: see
     /// [`crate::kernel::response`].
     #[inline]
-    pub(crate) fn response<T: Real>(
-        &self,
-        weight_per_length: T,
-        axial_flexibility: T,
-        length: T,
-        force: [T; 2],
-    ) -> Response<T> {
+    pub(crate) fn response<T: Real>(&self, numbers: &Numbers<T>, force: [T; 2]) -> Response<T> {
+        match &self.guide {
+            None => self.free_response(numbers, force),
+            Some(guide) => guided::response(self, guide, numbers, force),
+        }
+    }
+
+    /// The response of a cable without its guide.
+    #[inline]
+    pub(crate) fn free_response<T: Real>(&self, numbers: &Numbers<T>, force: [T; 2]) -> Response<T> {
+        let Numbers { weight_per_length, axial_flexibility, length, .. } = *numbers;
         match self.law {
             ElasticLaw::Linear => response(weight_per_length, axial_flexibility, length, force),
             ElasticLaw::Piecewise(law) => {
@@ -34,9 +38,10 @@ impl Cable<'_> {
 impl Catenary<'_> {
     /// Position `(x, z)` of A relative to B [m], (C1)-(C2).
     pub fn end_position(&self) -> Vector2<f64> {
-        match self.cable.law {
-            ElasticLaw::Linear => self.terms().end_position().into(),
-            ElasticLaw::Piecewise(law) => pieces::end_position(self, law),
+        match (&self.cable.guide, self.cable.law) {
+            (None, ElasticLaw::Linear) => self.terms().end_position().into(),
+            (None, ElasticLaw::Piecewise(law)) => pieces::end_position(self, law),
+            (Some(_), _) => self.leave_point() + self.free().end_position(),
         }
     }
 
@@ -46,7 +51,7 @@ impl Catenary<'_> {
     /// ([`closure_of_limp`]).
     pub fn closure(&self, end: Vector2<f64>) -> Vector2<f64> {
         if self.is_limp() {
-            closure_of_limp(end.into(), self.length_at_rest()).into()
+            self.cable.closure_of_limp(end.into(), self.length_at_rest()).into()
         } else {
             end - self.end_position()
         }
@@ -55,9 +60,7 @@ impl Catenary<'_> {
     /// End position, flexibility and tension, as [`crate::kernel::response`] gives them for a linear cable.
     #[inline]
     pub fn response(&self) -> Response<f64> {
-        let Self { cable, unstrained_length, force } = *self;
-        let flexibility = 1.0 / cable.axial_stiffness;
-        cable.response(cable.weight_per_length, flexibility, unstrained_length, force.into())
+        self.cable.response(&self.cable.numbers(self.unstrained_length), self.force.into())
     }
 
     /// End position, in-plane flexibility and lateral stiffness.
@@ -70,9 +73,10 @@ impl Catenary<'_> {
     ///
     /// The force at A and the unstrained length are constant.
     pub fn end_per_weight(&self) -> Vector2<f64> {
-        match self.cable.law {
-            ElasticLaw::Linear => self.terms().end_per_weight(),
-            ElasticLaw::Piecewise(law) => pieces::end_per_weight(self, law),
+        match (&self.cable.guide, self.cable.law) {
+            (None, ElasticLaw::Linear) => self.terms().end_per_weight(),
+            (None, ElasticLaw::Piecewise(law)) => pieces::end_per_weight(self, law),
+            (Some(guide), _) => guided::end_slopes(self, guide).per_weight,
         }
     }
 
@@ -80,10 +84,19 @@ impl Catenary<'_> {
     ///
     /// The force at A and the unstrained length are constant.
     pub fn end_per_stiffness(&self) -> Vector2<f64> {
-        match self.cable.law {
-            ElasticLaw::Linear => self.terms().end_per_stiffness(),
-            ElasticLaw::Piecewise(law) => pieces::end_per_stiffness(self, law),
+        match (&self.cable.guide, self.cable.law) {
+            (None, ElasticLaw::Linear) => self.terms().end_per_stiffness(),
+            (None, ElasticLaw::Piecewise(law)) => pieces::end_per_stiffness(self, law),
+            (Some(guide), _) => guided::end_slopes(self, guide).per_stiffness,
         }
+    }
+
+    /// Derivatives of the end position with respect to the lead and the radius of the guide [m/m], (C24).
+    ///
+    /// The force at A and the unstrained length are constant. `None` without a guide.
+    pub fn end_per_guide(&self) -> Option<[Vector2<f64>; 2]> {
+        let slopes = guided::end_slopes(self, self.cable.guide.as_ref()?);
+        Some([slopes.per_lead, slopes.per_radius])
     }
 
     /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], `C⁻¹`; zero for a slack cable without weight.
@@ -103,20 +116,22 @@ impl Catenary<'_> {
 
     /// Complementary energy U*(f) [J], (C6): strictly convex, with the end position for its gradient.
     pub fn complementary_energy(&self) -> f64 {
-        match self.cable.law {
-            ElasticLaw::Linear => self.terms().complementary_energy(),
-            ElasticLaw::Piecewise(law) => pieces::complementary_energy(self, law),
+        match (&self.cable.guide, self.cable.law) {
+            (None, ElasticLaw::Linear) => self.terms().complementary_energy(),
+            (None, ElasticLaw::Piecewise(law)) => pieces::complementary_energy(self, law),
+            (Some(_), _) => self.force.dot(&self.end_position()) - self.potential_energy(),
         }
     }
 
     /// Potential energy V [J], (C7): elastic energy plus the work done against gravity.
     ///
     /// It is zero for a cable at rest with its weight at the height of B. As a function of the end position
-    /// it has the force at A for its gradient.
+    /// it has the force at A for its gradient; with a guide but for the part that is not conservative (C25).
     pub fn potential_energy(&self) -> f64 {
-        match self.cable.law {
-            ElasticLaw::Linear => self.terms().potential_energy(),
-            ElasticLaw::Piecewise(law) => pieces::potential_energy(self, law),
+        match (&self.cable.guide, self.cable.law) {
+            (None, ElasticLaw::Linear) => self.terms().potential_energy(),
+            (None, ElasticLaw::Piecewise(law)) => pieces::potential_energy(self, law),
+            (Some(guide), _) => guided::potential_energy(self, guide),
         }
     }
 

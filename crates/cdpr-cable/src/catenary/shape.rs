@@ -1,4 +1,5 @@
-//! The shape of a cable in equilibrium, along its unstrained arc length `s` from the exit point B.
+//! The shape of a cable in equilibrium, along its unstrained arc length `s` from the exit point B or, with a
+//! pulley, from its leave point.
 //!
 //! The piece of cable between B and `s` is itself a catenary of unstrained length `s` that carries
 //! `(fx, V0 + w s)` at its end: every point comes from the same equations (C1)-(C2) as the end.
@@ -7,36 +8,45 @@ use crate::catenary::Catenary;
 use nalgebra::Vector2;
 
 impl<'a> Catenary<'a> {
-    /// The piece between B and the unstrained arc length `s`, which is clamped to `[0, L]`.
+    /// The piece of a cable without a guide between B and the unstrained arc length `s`, which is clamped to
+    /// `[0, L]`.
     fn up_to(&self, s: f64) -> Catenary<'a> {
         let s = s.clamp(0.0, self.unstrained_length);
         let vertical = self.exit_vertical_force() + self.cable.weight_per_length * s;
         Catenary { unstrained_length: s, force: Vector2::new(self.force.x, vertical), ..*self }
     }
 
-    /// Position `(x, z)` [m] of the point at unstrained arc length `s` [m] from B, clamped to `[0, L]`.
-    pub fn point(&self, s: f64) -> Vector2<f64> {
+    fn free_point(&self, s: f64) -> Vector2<f64> {
         if s <= 0.0 { Vector2::zeros() } else { self.up_to(s).end_position() }
+    }
+
+    /// Position `(x, z)` [m] of the point at unstrained arc length `s` [m] from B, clamped to `[0, L]`.
+    ///
+    /// With a guide the origin is where the cable enters it.
+    pub fn point(&self, s: f64) -> Vector2<f64> {
+        self.leave_point() + self.free().free_point(s)
     }
 
     /// Tension [N] at unstrained arc length `s` [m] from B, clamped to `[0, L]`.
     pub fn tension(&self, s: f64) -> f64 {
-        self.up_to(s).anchor_tension()
+        self.free().up_to(s).anchor_tension()
     }
 
     /// Positions [m] of `points` points (2 at least) from B to A, at equal unstrained distances.
     pub fn profile(&self, points: usize) -> Vec<Vector2<f64>> {
         let last = points.max(2) - 1;
-        (0..=last).map(|k| self.point(self.unstrained_length * k as f64 / last as f64)).collect()
+        let (leave, free) = (self.leave_point(), self.free());
+        (0..=last).map(|k| leave + free.free_point(free.unstrained_length * k as f64 / last as f64)).collect()
     }
 
     /// Unstrained arc length [m] from B to the lowest point: where the cable is level, or its lower end.
     pub fn lowest_arc_length(&self) -> f64 {
-        let (w, v0) = (self.cable.weight_per_length, self.exit_vertical_force());
+        let (w, free) = (self.cable.weight_per_length, self.free());
+        let v0 = free.exit_vertical_force();
         if w > 0.0 {
-            (-v0 / w).clamp(0.0, self.unstrained_length)
+            (-v0 / w).clamp(0.0, free.unstrained_length)
         } else if v0 < 0.0 {
-            self.unstrained_length
+            free.unstrained_length
         } else {
             0.0
         }
@@ -49,12 +59,13 @@ impl<'a> Catenary<'a> {
 
     /// Sag [m]: the greatest distance of the cable across its chord (Irvine 1981, section 2.5).
     pub fn sag(&self) -> f64 {
-        let end = self.end_position();
+        let free = self.free();
+        let end = free.end_position();
         let chord = end.norm();
         if self.cable.weight_per_length == 0.0 || chord == 0.0 {
             return 0.0;
         }
-        let point = self.parallel_point(end);
+        let point = free.parallel_point(end);
         (point.x * end.y - point.y * end.x).abs() / chord
     }
 
@@ -62,21 +73,22 @@ impl<'a> Catenary<'a> {
     ///
     /// Where the two ends lie one above the other it is how far the cable hangs below the lower of them.
     pub fn vertical_sag(&self) -> f64 {
-        let end = self.end_position();
+        let free = self.free();
+        let end = free.end_position();
         if self.cable.weight_per_length == 0.0 {
             0.0
         } else if end.x > 0.0 {
-            let point = self.parallel_point(end);
+            let point = free.parallel_point(end);
             (point.x / end.x * end.y - point.y).max(0.0)
         } else {
-            end.y.min(0.0) - self.lowest_point().y
+            end.y.min(0.0) - free.lowest_point().y
         }
     }
 
     /// The point where a cable with weight is parallel to its chord from the origin to `end`: V/fx = z/x.
     fn parallel_point(&self, end: Vector2<f64>) -> Vector2<f64> {
         let v = if end.x > 0.0 { self.force.x * end.y / end.x } else { 0.0 };
-        self.point((v - self.exit_vertical_force()) / self.cable.weight_per_length)
+        self.free_point((v - self.exit_vertical_force()) / self.cable.weight_per_length)
     }
 }
 

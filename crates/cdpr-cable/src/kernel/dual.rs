@@ -120,6 +120,11 @@ impl<const N: usize> Real for Dual<N> {
         self.chain(self.value.ln(), 1.0 / self.value)
     }
 
+    fn atan2(self, x: Self) -> Self {
+        let square = self.value * self.value + x.value * x.value;
+        self.combined(x, self.value.atan2(x.value), [x.value / square, -self.value / square])
+    }
+
     fn within(self, _error: f64) -> Self {
         self
     }

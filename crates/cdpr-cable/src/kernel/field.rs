@@ -37,6 +37,9 @@ pub trait Real: Field {
     /// Natural logarithm of a positive number.
     fn ln(self) -> Self;
 
+    /// Angle of the vector (x, self) from the x axis [rad], for a number that is not negative.
+    fn atan2(self, x: Self) -> Self;
+
     /// This number, known to within `error` only, as the remainder of a series.
     ///
     /// Kinds of number that do not bound errors ignore it.
@@ -68,6 +71,10 @@ impl Real for f64 {
 
     fn ln(self) -> Self {
         Self::ln(self)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        Self::atan2(self, x)
     }
 
     fn within(self, _error: f64) -> Self {

@@ -17,6 +17,7 @@ use crate::cable::Cable;
 use crate::catenary::Catenary;
 use crate::catenary::compliance::Compliance;
 use crate::error::{CableError, check, check_length};
+use crate::guide::{Guide, Straight};
 use crate::law::ElasticLaw;
 use nalgebra::Vector2;
 
@@ -63,6 +64,14 @@ pub fn end_force<'a>(
     cable.validate()?;
     check_length(unstrained_length)?;
     check_end(end)?;
+    if let Some(guide) = &cable.guide {
+        let start = guided_start(cable, guide, unstrained_length, end)?;
+        return if cable.is_weightless(unstrained_length) {
+            Ok(Solution::of(start, end, 0))
+        } else {
+            newton(start, end, MAX_ITERATIONS)
+        };
+    }
     let at = |force| Catenary { cable: *cable, unstrained_length, force };
     if cable.is_weightless(unstrained_length) {
         let cable = &Cable { weight_per_length: 0.0, ..*cable };
@@ -109,6 +118,36 @@ pub fn end_force_near<'a>(near: &Catenary<'a>, end: Vector2<f64>) -> Result<Solu
         }
     }
     end_force(&near.cable, near.unstrained_length, end)
+}
+
+/// The cable with the force of one that leaves its pulley where a straight cable does; exact without weight.
+fn guided_start<'a>(
+    cable: &Cable<'a>,
+    guide: &Guide,
+    unstrained_length: f64,
+    end: Vector2<f64>,
+) -> Result<Catenary<'a>, CableError> {
+    let (Straight { free, guided, .. }, plain, beyond) = straightened(cable, guide, end)?;
+    let strain = ((free + guided) / unstrained_length - 1.0).max(cable.strain(0.0));
+    let force = end_force(&plain, unstrained_length - guided / (1.0 + strain), beyond)?.catenary.force;
+    Ok(Catenary { cable: *cable, unstrained_length, force })
+}
+
+/// The straight cable over a guide to `end` [m], the cable without its guide, and the end from where that
+/// leaves it [m].
+pub(crate) fn straightened<'a>(
+    cable: &Cable<'a>,
+    guide: &Guide,
+    end: Vector2<f64>,
+) -> Result<(Straight, Cable<'a>, Vector2<f64>), CableError> {
+    let straight = guide.straight(end.into()).ok_or(CableError::InvalidInput {
+        field: "end.x",
+        value: end.x,
+        expected: "a horizontal distance [m] from the swivel axis at which the cable can leave the pulley \
+                   away from the axis: more than its diameter beyond the wheel",
+    })?;
+    let leave = Vector2::from(straight.leave);
+    Ok((straight, Cable { guide: None, ..*cable }, Vector2::new((end.x - leave.x).max(0.0), end.y - leave.y)))
 }
 
 /// Checks that an end position is finite and not on the wrong side of the exit point.

@@ -24,11 +24,12 @@
 //!
 //! Second derivatives are (C18) differentiated by dual numbers.
 
-use crate::cable::Cable;
+use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
 use crate::error::{CableError, SMALLEST, check};
+use crate::guide::Straight;
 use crate::kernel::{Dual, Field, Real, Response};
-use crate::solve::end_force::check_end;
+use crate::solve::end_force::{check_end, straightened};
 use crate::solve::length_for_tension::length_for_tension_near;
 use nalgebra::Vector2;
 
@@ -61,6 +62,8 @@ pub struct TensionSlope {
     pub per_weight: Vector2<f64>,
     /// dv/dEA at constant t, per axial stiffness [1/N].
     pub per_stiffness: Vector2<f64>,
+    /// dv by lead and radius of the guide at constant t [1/m]; zero without a guide.
+    pub per_guide: [Vector2<f64>; 2],
 }
 
 /// Share of the chord that stands for the horizontal distance of a vertical cable: far below rounding.
@@ -85,6 +88,14 @@ impl<'a> HeldCable<'a> {
         check_end(end)?;
         check("end", end.norm(), end.norm() >= SMALLEST, "an end position away from the exit point [m]")?;
         check("chord_force", chord_force, chord_force >= SMALLEST, "a chord force from 1e-30 to 1e30 [N]")?;
+        if let Some(guide) = &cable.guide {
+            let (Straight { guided, .. }, plain, beyond) = straightened(cable, guide, end)?;
+            let horizontal = chord_force * end.x / end.norm();
+            let plain_chord_force = horizontal * beyond.norm() / beyond.x.max(VERTICAL * beyond.norm());
+            let free = Self::at_chord_force(&plain, beyond, plain_chord_force)?.catenary;
+            let led = guided / (1.0 + cable.strain(free.exit_tension()));
+            return Self::close(cable, end, chord_force, [free.force.y, free.unstrained_length + led]);
+        }
         // The inextensible catenary with this horizontal force.
         let chord = end.norm();
         let u = 0.5 * cable.weight_per_length * chord / chord_force;
@@ -171,13 +182,14 @@ impl<'a> HeldCable<'a> {
         let along = |value, slope| Dual { value, slopes: [slope] };
         let cable = InPlane::<Dual<1>> {
             end: cable.end.map(Dual::of),
-            weight: Dual::of(cable.weight),
-            flexibility: Dual::of(cable.flexibility),
+            numbers: Numbers {
+                length: along(cable.numbers.length, self.length_slope),
+                ..cable.numbers.map(Dual::of)
+            },
             chord_force: along(cable.chord_force, 1.0),
             fz: along(cable.fz, self.force_slope.y),
-            length: along(cable.length, self.length_slope),
         };
-        let [_, fz_slope, _] = cable.slopes(&cable.response(&self.catenary));
+        let [_, fz_slope, _] = cable.slopes(&self.catenary, &cable.response(&self.catenary));
         Vector2::new(0.0, fz_slope.slopes[0])
     }
 
@@ -187,78 +199,99 @@ impl<'a> HeldCable<'a> {
         (f.dot(force_curvature) + self.force_slope.norm_squared() - slope * slope) / self.tension()
     }
 
-    /// Second derivatives with respect to the tension, the end and the material.
+    /// Second derivatives with respect to the tension, the end, the material and the guide.
     pub fn tension_slopes(&self) -> TensionSlope {
-        const INPUTS: usize = 5;
-        let Catenary { cable, unstrained_length, force } = self.catenary;
-        let (w, flexibility) = (cable.weight_per_length, 1.0 / cable.axial_stiffness);
-        let inputs = [self.end.x, self.end.y, w, flexibility, self.chord_force];
-        let mut inputs: [Dual<INPUTS>; INPUTS] = std::array::from_fn(|k| Dual::input(inputs[k], k));
-        let mut cable = InPlane {
-            end: [inputs[0], inputs[1]],
-            weight: inputs[2],
-            flexibility: inputs[3],
-            chord_force: inputs[4],
-            fz: Dual::of(force.y),
-            length: Dual::of(unstrained_length),
+        let numbers = self.catenary.cable.numbers(self.catenary.unstrained_length);
+        let Numbers { weight_per_length: w, axial_flexibility: flexibility, lead, radius, .. } = numbers;
+        let [x, z] = self.end.into();
+        let of = |[v, x, z, w, flexibility, t]: [Vector2<f64>; 6], per_guide| TensionSlope {
+            force_per_tension: v,
+            per_tension: t,
+            per_end: [x, z],
+            per_weight: w,
+            per_stiffness: flexibility * (-numbers.axial_flexibility * numbers.axial_flexibility),
+            per_guide,
         };
+        if self.catenary.cable.guide.is_none() {
+            let (v, slopes) = self.slopes_by([x, z, w, flexibility, self.chord_force], 1);
+            let [x, z, w, flexibility, t] = slopes;
+            of([v, x, z, w, flexibility, t], [Vector2::zeros(); 2])
+        } else {
+            // The flexibility that closes the cable is known to about w r/T0: each pass squares what is left.
+            let (v, slopes) = self.slopes_by([x, z, w, flexibility, lead, radius, self.chord_force], 3);
+            let [x, z, w, flexibility, lead, radius, t] = slopes;
+            of([v, x, z, w, flexibility, t], [lead, radius])
+        }
+    }
+
+    /// v = df/dt, and its derivatives with respect to the inputs at constant t; the last input is the chord
+    /// force, whose place t itself takes.
+    ///
+    /// The inputs are x, z, w, 1/EA and, with a guide, its lead and radius.
+    fn slopes_by<const N: usize>(
+        &self,
+        values: [f64; N],
+        passes: usize,
+    ) -> (Vector2<f64>, [Vector2<f64>; N]) {
+        let mut inputs: [Dual<N>; N] = std::array::from_fn(|k| Dual::input(values[k], k));
+        let plain = self.in_plane();
+        let mut numbers = plain.numbers.map(Dual::of);
+        (numbers.weight_per_length, numbers.axial_flexibility) = (inputs[2], inputs[3]);
+        if N == 7 {
+            (numbers.lead, numbers.radius) = (inputs[4], inputs[5]);
+        }
+        let (end, chord_force) = ([inputs[0], inputs[1]], inputs[N - 1]);
+        let mut cable = InPlane { end, numbers, chord_force, fz: Dual::of(plain.fz) };
         // What closes the cable for every change of an input.
-        let response = cable.response(&self.catenary);
-        let [across, height] = cable.misclosure(&response);
-        let matrix = ClosureMatrix::of(&self.in_plane(), &self.catenary.response());
-        for k in 0..INPUTS {
-            let [fz, length] = matrix.solve([across.slopes[k], height.slopes[k]]);
-            cable.fz.slopes[k] = fz;
-            cable.length.slopes[k] = length;
+        let matrix = ClosureMatrix::of(&plain, &self.catenary.response());
+        for _ in 0..passes {
+            let [across, height] = cable.misclosure(&cable.response(&self.catenary));
+            for k in 0..N {
+                let [fz, length] = matrix.solve([across.slopes[k], height.slopes[k]]);
+                cable.fz.slopes[k] += fz;
+                cable.numbers.length.slopes[k] += length;
+            }
         }
         // The same with the tension held, by a change of the chord force.
-        let tension = |cable: &InPlane<Dual<INPUTS>>| {
+        let tension = |cable: &InPlane<Dual<N>>| {
             let fx = cable.fx();
             (fx * fx + cable.fz * cable.fz).sqrt()
         };
         let slopes = tension(&cable).slopes;
-        let per_sigma = slopes[4];
-        let along = |number: &mut Dual<INPUTS>| {
-            let own = number.slopes[4] / per_sigma;
-            for (slope, tension) in number.slopes[..4].iter_mut().zip(slopes) {
+        let per_sigma = slopes[N - 1];
+        let along = |number: &mut Dual<N>| {
+            let own = number.slopes[N - 1] / per_sigma;
+            for (slope, tension) in number.slopes[..N - 1].iter_mut().zip(slopes) {
                 *slope -= tension * own;
             }
-            number.slopes[4] = own;
+            number.slopes[N - 1] = own;
         };
         inputs.iter_mut().for_each(along);
-        cable = InPlane { chord_force: inputs[4], ..cable };
+        cable.chord_force = inputs[N - 1];
         along(&mut cable.fz);
-        along(&mut cable.length);
+        along(&mut cable.numbers.length);
         let response = cable.response(&self.catenary);
-        let [fx, fz, _] = cable.slopes(&response);
+        let [fx, fz, _] = cable.slopes(&self.catenary, &response);
         let t_slope = (cable.fx() * fx + cable.fz * fz) / tension(&cable);
         let v = [fx / t_slope, fz / t_slope];
         let slope = |k: usize| Vector2::new(v[0].slopes[k], v[1].slopes[k]);
-        TensionSlope {
-            force_per_tension: Vector2::new(v[0].value, v[1].value),
-            per_tension: slope(4),
-            per_end: [slope(0), slope(1)],
-            per_weight: slope(2),
-            per_stiffness: slope(3) * (-flexibility * flexibility),
-        }
+        (Vector2::new(v[0].value, v[1].value), std::array::from_fn(slope))
     }
 
     fn in_plane(&self) -> InPlane<f64> {
         let Catenary { cable, unstrained_length, force } = self.catenary;
         InPlane {
             end: self.end.into(),
-            weight: cable.weight_per_length,
-            flexibility: 1.0 / cable.axial_stiffness,
+            numbers: cable.numbers(unstrained_length),
             chord_force: self.chord_force,
             fz: force.y,
-            length: unstrained_length,
         }
     }
 
     fn at(catenary: Catenary<'a>, end: Vector2<f64>, chord_force: f64) -> Self {
         let force_slope = Vector2::zeros();
         let held = Self { catenary, end, chord_force, force_slope, length_slope: 0.0 };
-        let [fx, fz, length_slope] = held.in_plane().slopes(&catenary.response());
+        let [fx, fz, length_slope] = held.in_plane().slopes(&catenary, &catenary.response());
         Self { force_slope: Vector2::new(fx, fz), length_slope, ..held }
     }
 
@@ -276,14 +309,7 @@ impl<'a> HeldCable<'a> {
         for iteration in 1..=MAX_ITERATIONS {
             let catenary = Catenary { cable: *cable, unstrained_length: length, force: Vector2::new(fx, fz) };
             let response = catenary.response();
-            let in_plane = InPlane {
-                end: end.into(),
-                weight: cable.weight_per_length,
-                flexibility: 1.0 / cable.axial_stiffness,
-                chord_force,
-                fz,
-                length,
-            };
+            let in_plane = InPlane { end: end.into(), numbers: cable.numbers(length), chord_force, fz };
             let misclosure = in_plane.misclosure(&response);
             let before = residual;
             residual = (misclosure[0] * fx).hypot(misclosure[1]);
@@ -291,16 +317,17 @@ impl<'a> HeldCable<'a> {
             if !(dfz.is_finite() && dlength.is_finite()) {
                 return Err(CableError::NotConverged { iterations: iteration, residual });
             }
-            let v0 = catenary.exit_vertical_force();
+            let free = catenary.free_length();
+            let (v0, led) = (fz - cable.weight_per_length * free, length - free);
             length = (length + dlength).clamp(0.5 * length, 2.0 * length);
             // Where the cable is nearly vertical at an end, the force there changes its sign only in small
             // steps: x/fx depends on its logarithm.
             let kept = |from: f64, to: f64| {
                 if fx < 0.1 * from.abs() && to / from < 0.1 { 0.1 * from } else { to }
             };
-            let weight = cable.weight_per_length * length;
+            let weight = cable.weight_per_length * (length - led);
             fz = weight + kept(v0, kept(fz, fz + dfz) - weight);
-            let forces = catenary.force.norm() + catenary.weight();
+            let forces = catenary.force.norm() + cable.weight_per_length * free;
             let small = |limit: f64| dfz.abs() <= limit * forces && dlength.abs() <= limit * chord;
             // The next step squares this one, or nothing but rounding is left.
             if small(1e-8) || (small(1e-6) && residual >= 0.5 * before) {
@@ -317,11 +344,9 @@ impl<'a> HeldCable<'a> {
 #[derive(Clone, Copy)]
 struct InPlane<T> {
     end: [T; 2],
-    weight: T,
-    flexibility: T,
+    numbers: Numbers<T>,
     chord_force: T,
     fz: T,
-    length: T,
 }
 
 impl<T: Real> InPlane<T> {
@@ -340,7 +365,7 @@ impl<T: Real> InPlane<T> {
     }
 
     fn response(&self, catenary: &Catenary) -> Response<T> {
-        catenary.cable.response(self.weight, self.flexibility, self.length, [self.fx(), self.fz])
+        catenary.cable.response(&self.numbers, [self.fx(), self.fz])
     }
 
     /// c/σ - x/fx and the height that is missing, (C17).
@@ -349,13 +374,21 @@ impl<T: Real> InPlane<T> {
     }
 
     /// (fx', fz', L'), (C18).
-    fn slopes(&self, response: &Response<T>) -> [T; 3] {
+    fn slopes(&self, catenary: &Catenary, response: &Response<T>) -> [T; 3] {
         let (fx, fx_slope) = (self.fx(), self.horizontal() / self.chord());
-        let [xx, xz, zz] = response.flexibility;
-        let (k, v0) = (response.end_per_length[0] / fx, self.fz - self.weight * self.length);
+        let ([xx, shear, zz], mut determinant) = (response.flexibility, response.determinant);
+        let (mut xz, mut zx) = (shear, shear);
+        if let Some(asymmetry) = catenary.cable.asymmetry(&self.numbers, [fx, self.fz]) {
+            (xz, zx) = (shear + asymmetry, shear - asymmetry);
+            determinant = determinant + asymmetry * asymmetry;
+        }
+        // The cable enters along the tangent at B: the slope there is V0/fx.
+        let [entering, rising] = response.end_per_length;
+        let k = entering / fx;
+        let v0 = rising / k;
         let m = (zz - v0 * xz / fx).recip();
-        let fz_slope = (v0 * xx / self.chord_force - xz * fx_slope) * m;
-        [fx_slope, fz_slope, -(response.determinant * m) / (self.chord_force * k)]
+        let fz_slope = (v0 * xx / self.chord_force - zx * fx_slope) * m;
+        [fx_slope, fz_slope, -(determinant * m) / (self.chord_force * k)]
     }
 }
 

@@ -14,7 +14,8 @@
 use crate::cable::Cable;
 use crate::catenary::Catenary;
 use crate::error::{CableError, SMALLEST, check};
-use crate::solve::end_force::{Solution, check_end, end_force};
+use crate::guide::Straight;
+use crate::solve::end_force::{Solution, check_end, end_force, straightened};
 use nalgebra::Vector2;
 
 /// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the tension `tension` [N] at A.
@@ -28,7 +29,7 @@ pub fn length_for_tension<'a>(
     tension: f64,
 ) -> Result<Solution<'a>, CableError> {
     check_inputs(cable, end, tension)?;
-    match newton(taut_start(cable, end, tension), end, tension) {
+    match newton(start(cable, end, tension)?, end, tension) {
         Some(solution) => Ok(solution),
         None => bisect(cable, end, tension).map_err(|error| match error {
             CableError::InvalidInput { field: "unstrained_length", .. } => CableError::InvalidInput {
@@ -76,6 +77,20 @@ fn check_inputs(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<(), Ca
     check_end(end)?;
     check("tension", tension, tension >= SMALLEST, "a tension from 1e-30 to 1e30 [N]")?;
     check("end", end.norm(), end.norm() >= SMALLEST, "an end position away from the exit point [m]")
+}
+
+/// A catenary with nearly this end position and tension.
+fn start<'a>(cable: &Cable<'a>, end: Vector2<f64>, tension: f64) -> Result<Catenary<'a>, CableError> {
+    let Some(guide) = &cable.guide else { return Ok(taut_start(cable, end, tension)) };
+    let (Straight { guided, .. }, plain, beyond) = straightened(cable, guide, end)?;
+    // A cable that cannot have this tension without its guide can hardly have it with it: the search for
+    // the least tension decides.
+    let free = match length_for_tension(&plain, beyond, tension) {
+        Ok(solution) => solution.catenary,
+        Err(_) => taut_start(&plain, beyond, tension),
+    };
+    let led = guided / (1.0 + cable.strain(free.exit_tension()));
+    Ok(Catenary { cable: *cable, unstrained_length: free.unstrained_length + led, force: free.force })
 }
 
 /// A straight spring, rotated by half its weight and lengthened by the sag of a parabola.
@@ -157,8 +172,8 @@ fn bisect<'a>(cable: &Cable<'a>, end: Vector2<f64>, tension: f64) -> Result<Solu
 
 /// A length [m] so short that the tension is at least `tension` [N].
 fn short_enough(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, CableError> {
-    let chord = end.norm();
-    let mut short = chord / (1.0 + cable.strain(tension + cable.weight_per_length * chord));
+    let straight = cable.straight_length(end);
+    let mut short = straight / (1.0 + cable.strain(tension + cable.weight_per_length * straight));
     while end_force(cable, short, end)?.catenary.anchor_tension() < tension {
         short *= 0.5;
     }
@@ -169,7 +184,7 @@ fn short_enough(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, C
 fn lowest<'a>(cable: &Cable<'a>, end: Vector2<f64>, enough: f64) -> Result<Catenary<'a>, CableError> {
     let solve = |length: f64| end_force(cable, length, end).map(|solution| solution.catenary);
     // A cable so long that it has passed the least tension; without weight it is slack.
-    let mut long = 2.0 * end.norm();
+    let mut long = 2.0 * cable.straight_length(end);
     while cable.weight_per_length > 0.0 && tension_slope(&solve(long)?) < 0.0 {
         long *= 2.0;
     }

@@ -1,0 +1,254 @@
+//! A cable over a lead and a swivelling pulley: references, limits, derivatives.
+
+use cdpr_cable::{
+    Cable, Catenary, Entry, Guide, HeldCable, Vector2, Vector3, end_force, end_force_near, length_for_tension,
+};
+use proptest::prelude::*;
+use serde_json::Value;
+
+fn number(value: &Value) -> f64 {
+    value.as_str().map_or_else(|| value.as_f64().unwrap(), |digits| digits.parse().unwrap())
+}
+
+fn vector(value: &Value) -> Vector3<f64> {
+    Vector3::from_iterator(value.as_array().unwrap().iter().map(number))
+}
+
+/// Each cable with a vertical swivel axis of `data/reference/pulleys.json`, over the span that its platform
+/// gives it.
+#[test]
+fn cables_on_pulleys_match_arithmetic_of_20_digits() {
+    let file: Value = serde_json::from_str(include_str!("../../../data/reference/pulleys.json")).unwrap();
+    let mut compared = 0;
+    for case in file["cases"].as_array().unwrap() {
+        let gravity = vector(&case["gravity"]);
+        if gravity.x != 0.0 || gravity.y != 0.0 {
+            continue;
+        }
+        let rows = case["rotation"].as_array().unwrap().iter().map(vector);
+        let rotation: Vec<_> = rows.collect();
+        for (i, expected) in case["cables"].as_array().unwrap().iter().enumerate() {
+            let pulley = &case["pulleys"][i];
+            let axis = vector(&pulley["axis"]);
+            if axis.x != 0.0 || axis.y != 0.0 {
+                continue;
+            }
+            let anchor = vector(&case["anchor_points"][i]);
+            let arm = Vector3::from_fn(|row, _| rotation[row].dot(&anchor));
+            let span = vector(&case["position"]) + arm - vector(&pulley["entry_point"]);
+            let horizontal = Vector2::new(span.x, span.y);
+            let guide = Guide {
+                lead: number(&pulley["lead"]),
+                radius: number(&pulley["radius"]),
+                entry: if axis.z > 0.0 { Entry::Upwards } else { Entry::Downwards },
+            };
+            let ea = number(&case["axial_stiffness"][i]);
+            let cable =
+                Cable { guide: Some(guide), ..Cable::linear(number(&case["weight_per_length"][i]), ea) };
+            let length = number(&case["unstrained_lengths"][i]);
+            let end = Vector2::new(horizontal.norm(), span.z);
+            let solution = end_force(&cable, length, end).unwrap();
+            let catenary = solution.catenary;
+            let force = -vector(&expected["force_on_platform"]);
+            let force = Vector2::new(force.x.hypot(force.y), force.z);
+            // The positions of the file have 20 digits, doubles 16: the stiffness of the cable between.
+            let rounding = 4.0 * f64::EPSILON * catenary.in_plane_stiffness().norm() * (end.norm() + length);
+            let error = (catenary.force - force).norm();
+            assert!(error <= 1e-9 * force.norm() + rounding, "{} {i}: {error:e}", case["kind"]);
+            let free = number(&expected["free_unstrained_length"]);
+            assert!((catenary.free_length() - free).abs() <= 1e-12 * length);
+            let at_pulley = number(&expected["tension_at_pulley"]);
+            assert!((catenary.exit_tension() - at_pulley).abs() <= 1e-9 * at_pulley + rounding);
+            let leave = vector(&expected["leave_point"]) - vector(&pulley["entry_point"]);
+            let leave = Vector2::new(leave.x.hypot(leave.y), leave.z);
+            assert!((catenary.leave_point() - leave).norm() <= 1e-9 * guide.radius);
+            let arc = number(&expected["arc"]);
+            assert!((guide.radius * catenary.wrap() - arc).abs() <= 1e-9 * guide.radius);
+            let found = length_for_tension(&cable, end, force.norm()).unwrap().catenary.unstrained_length;
+            let per_tension = -1.0 / HeldCable::of(catenary, end).catenary.cable.axial_stiffness;
+            assert!((found - length).abs() <= 1e-9 * length + per_tension.abs() * rounding);
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 52);
+}
+
+/// Cables over a guide, from taut to a sag of a third of the span, with their end.
+fn any_guided() -> impl Strategy<Value = (Cable<'static>, Vector2<f64>, f64)> {
+    let span = (0.0..2.0f64, -1.4..1.4f64)
+        .prop_map(|(chord, angle): (f64, f64)| 10f64.powf(chord) * Vector2::new(angle.cos(), angle.sin()));
+    let guide = (0.0..1.0f64, 0.0..0.05f64, any::<bool>());
+    (span, -3.0..1.0f64, 3.0..6.0f64, 0.7..300.0f64, guide).prop_map(
+        |(end, w, stiffness, level, (lead, radius, up))| {
+            let w = 10f64.powf(w);
+            let weight = w * end.norm();
+            let stiffness = (weight * 10f64.powf(stiffness)).max(20.0 * level * weight);
+            let guide = Guide {
+                lead: (0.001 + lead) * end.norm(),
+                radius: (0.001 + radius) * end.norm(),
+                entry: if up { Entry::Upwards } else { Entry::Downwards },
+            };
+            (Cable { guide: Some(guide), ..Cable::linear(w, stiffness) }, end, level * weight)
+        },
+    )
+}
+
+/// Central differences of the fourth order.
+fn difference(step: f64, at: &dyn Fn(f64) -> Vector2<f64>) -> Vector2<f64> {
+    (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_response_is_the_derivative_of_the_end_position((cable, end, sigma) in any_guided()) {
+        let guide = cable.guide.unwrap();
+        // Beside the wheel and less than its diameter away from the axis no cable leaves it forwards.
+        prop_assume!(end.x > 3.0 * guide.radius);
+        let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
+        let catenary = held.catenary;
+        let scale = end.norm() + catenary.unstrained_length;
+        prop_assert!(catenary.closure(end).norm() <= 64.0 * f64::EPSILON * scale);
+        let compliance = catenary.compliance();
+        let h = 1e-3 * catenary.force.x.min(catenary.exit_tension());
+        let with = |force: Vector2<f64>| Catenary { force, ..catenary }.end_position();
+        let columns = [Vector2::x(), Vector2::y()]
+            .map(|axis| difference(h, &|s| with(catenary.force + axis * s)));
+        // The two shears differ by the asymmetry, and by no more than it says.
+        let shear = 0.5 * (columns[0].y + columns[1].x);
+        let asymmetry = (columns[0].y - columns[1].x).abs();
+        let led = catenary.unstrained_length - catenary.free_length();
+        let w = cable.weight_per_length;
+        let bound = 2.0 * led / cable.axial_stiffness * w
+            * (guide.radius / catenary.exit_tension() + led / cable.axial_stiffness);
+        let size = compliance.flexibility.norm();
+        prop_assert!(asymmetry <= bound + 1e-7 * size, "{asymmetry:e} {bound:e}");
+        let c = &compliance.flexibility;
+        prop_assert!((c.m11 - columns[0].x).abs() < 1e-7 * size);
+        prop_assert!((c.m22 - columns[1].y).abs() < 1e-7 * size);
+        prop_assert!((c.m12 - shear).abs() < 1e-7 * size);
+        prop_assert!((compliance.determinant / c.determinant() - 1.0).abs() < 1e-13 * size * size / compliance.determinant);
+        prop_assert!((compliance.lateral_stiffness * end.x / catenary.force.x - 1.0).abs() < 1e-12);
+        let by = |of: &dyn Fn(f64) -> Catenary<'static>| difference(1e-4, &|s| of(s).end_position());
+        let (ea, length) = (cable.axial_stiffness, catenary.unstrained_length);
+        let made = |cable: Cable<'static>| Catenary { cable, ..catenary };
+        let guided = |guide| made(Cable { guide: Some(guide), ..cable });
+        let [per_lead, per_radius] = catenary.end_per_guide().unwrap();
+        let size = end.norm();
+        let cases = [
+            ("L", compliance.end_per_length * length, by(&|s| Catenary { unstrained_length: length * (1.0 + s), ..catenary })),
+            ("w", catenary.end_per_weight() * w, by(&|s| made(Cable { weight_per_length: w * (1.0 + s), ..cable }))),
+            ("EA", catenary.end_per_stiffness() * ea, by(&|s| made(Cable { axial_stiffness: ea * (1.0 + s), ..cable }))),
+            ("lead", per_lead * size, by(&|s| guided(Guide { lead: guide.lead + size * s, ..guide }))),
+            ("radius", per_radius * size, by(&|s| guided(Guide { radius: guide.radius + size * s, ..guide }))),
+        ];
+        for (name, exact, difference) in cases {
+            let error = (exact - difference).norm();
+            prop_assert!(error < 1e-7 * (exact.norm() + size), "{name}: {exact} {difference}");
+        }
+    }
+
+    #[test]
+    fn a_held_cable_on_a_guide_has_the_derivatives_it_says((cable, end, sigma) in any_guided()) {
+        let guide = cable.guide.unwrap();
+        prop_assume!(end.x > 4.0 * guide.radius);
+        let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
+        let step = 1e-4 * sigma;
+        let at = |h: f64| held.with_chord_force(sigma + h).unwrap();
+        let (less, more) = (at(-step), at(step));
+        let slope = (more.catenary.force - less.catenary.force) / (2.0 * step);
+        prop_assert!((slope - held.force_slope).norm() < 1e-6 * slope.norm());
+        let curvature = (more.force_slope - less.force_slope) / (2.0 * step);
+        let size = held.force_slope.norm() / sigma;
+        prop_assert!((curvature - held.force_curvature()).norm() < 1e-5 * size);
+        // Next to the least tension, differences say nothing.
+        prop_assume!(held.tension_slope() > 0.3);
+        let (t, slopes, chord) = (held.tension(), held.tension_slopes(), end.norm());
+        let v = |cable: Cable<'static>, end: Vector2<f64>, t: f64| {
+            let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap().with_tension(t).unwrap();
+            held.force_slope / held.tension_slope()
+        };
+        let direction = v(cable, end, t);
+        prop_assert!((slopes.force_per_tension - direction).norm() < 1e-10);
+        let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
+        let guided = |guide| Cable { guide: Some(guide), ..cable };
+        let by = |at: &dyn Fn(f64) -> Vector2<f64>| difference(1e-4, at);
+        let cases = [
+            ("t", slopes.per_tension * t, by(&|s| v(cable, end, t * (1.0 + s)))),
+            ("x", slopes.per_end[0] * chord, by(&|s| v(cable, end + Vector2::x() * (chord * s), t))),
+            ("z", slopes.per_end[1] * chord, by(&|s| v(cable, end + Vector2::y() * (chord * s), t))),
+            ("w", slopes.per_weight * w, by(&|s| v(Cable { weight_per_length: w * (1.0 + s), ..cable }, end, t))),
+            ("EA", slopes.per_stiffness * ea, by(&|s| v(Cable { axial_stiffness: ea * (1.0 + s), ..cable }, end, t))),
+            ("lead", slopes.per_guide[0] * chord, by(&|s| v(guided(Guide { lead: guide.lead + chord * s, ..guide }), end, t))),
+            ("radius", slopes.per_guide[1] * chord, by(&|s| v(guided(Guide { radius: guide.radius + chord * s, ..guide }), end, t))),
+        ];
+        for (name, exact, difference) in cases {
+            prop_assert!((exact - difference).norm() < 1e-6 * (1.0 + exact.norm()), "{name}: {exact} {difference}");
+        }
+    }
+
+    #[test]
+    fn a_guide_without_lead_and_radius_changes_no_bit((cable, end, sigma) in any_guided()) {
+        let plain = Cable { guide: None, ..cable };
+        let guide = Guide { lead: 0.0, radius: 0.0, entry: cable.guide.unwrap().entry };
+        let guided = Cable { guide: Some(guide), ..cable };
+        let held = HeldCable::at_chord_force(&plain, end, sigma).unwrap().catenary;
+        let same = Catenary { cable: guided, ..held };
+        prop_assert_eq!(same.end_position(), held.end_position());
+        prop_assert_eq!(same.compliance().flexibility, held.compliance().flexibility);
+        prop_assert_eq!(same.compliance().determinant, held.compliance().determinant);
+        prop_assert_eq!(same.exit_tension(), held.exit_tension());
+        let (length, tension) = (held.unstrained_length, held.anchor_tension());
+        let with = end_force(&guided, length, end).unwrap().catenary.force;
+        let force = end_force(&plain, length, end).unwrap().catenary.force;
+        prop_assert!((with - force).norm() <= 1e-12 * tension + 8.0 * f64::EPSILON * held.in_plane_stiffness().norm() * length);
+    }
+
+    #[test]
+    fn the_energy_has_the_force_for_its_gradient_but_for_what_is_not_conservative((cable, end, sigma) in any_guided()) {
+        let guide = cable.guide.unwrap();
+        prop_assume!(end.x > 4.0 * guide.radius);
+        let catenary = HeldCable::at_chord_force(&cable, end, sigma).unwrap().catenary;
+        let h = 1e-3 * catenary.anchor_tension() / catenary.in_plane_stiffness().norm();
+        let energy = |end| end_force_near(&catenary, end).unwrap().catenary.potential_energy();
+        for (axis, force) in [(Vector2::x(), catenary.force.x), (Vector2::y(), catenary.force.y)] {
+            let slope = (energy(end + axis * h) - energy(end - axis * h)) / (2.0 * h);
+            // (C25): w B_z times what lead and arc stretch, which is less than A moves.
+            let led = (catenary.unstrained_length - catenary.free_length()) / catenary.unstrained_length;
+            let bound = cable.weight_per_length * catenary.leave_point().y.abs() * led;
+            let rounding = 1e-5 * catenary.anchor_tension();
+            prop_assert!((slope - force).abs() <= bound + rounding, "{slope} {force} {bound}");
+        }
+    }
+}
+
+#[test]
+fn a_weightless_cable_on_a_pulley_is_straight_beyond_it() {
+    // By hand: under a wheel of 0.5 m a level cable leaves at its lowest point, a quarter turn from D.
+    let guide = Guide { lead: 2.0, radius: 0.5, entry: Entry::Downwards };
+    let cable = Cable { guide: Some(guide), ..Cable::linear(0.0, 1e4) };
+    let quarter = 0.25 * std::f64::consts::PI;
+    let straight = 3.0 + quarter + 2.0;
+    let end = Vector2::new(0.5 + 3.0, -0.5);
+    let catenary = end_force(&cable, straight / 1.01, end).unwrap().catenary;
+    assert!((catenary.force - Vector2::new(100.0, 0.0)).norm() < 1e-9);
+    assert!((catenary.leave_point() - Vector2::new(0.5, -0.5)).norm() < 1e-14);
+    assert!((catenary.potential_energy() - 0.5 * 100.0 * 0.01 * straight / 1.01).abs() < 1e-9);
+    // Longer than the way, it is slack and carries nothing.
+    let slack = end_force(&cable, straight + 0.1, end).unwrap();
+    assert!(slack.catenary.is_limp() && slack.residual == 0.0);
+}
+
+#[test]
+fn an_end_within_the_wheel_or_behind_it_is_refused() {
+    let guide = Guide { lead: 0.0, radius: 0.5, entry: Entry::Upwards };
+    let cable = Cable { guide: Some(guide), ..Cable::linear(1.0, 1e6) };
+    for end in [Vector2::new(0.6, 0.1), Vector2::new(0.3, -5.0)] {
+        let error = end_force(&cable, 6.0, end).unwrap_err().to_string();
+        assert!(error.contains("end.x") && error.contains("pulley"), "{error}");
+    }
+    let cable = Cable { guide: Some(Guide { radius: -0.1, ..guide }), ..cable };
+    let error = end_force(&cable, 6.0, Vector2::new(3.0, 0.0)).unwrap_err().to_string();
+    assert!(error.contains("pulley.radius is -0.1"), "{error}");
+}
