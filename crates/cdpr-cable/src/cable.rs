@@ -1,7 +1,7 @@
 //! What a cable is made of.
 
 use crate::error::{CableError, SMALLEST, check};
-use crate::guide::{Guide, Straight};
+use crate::guide::Guide;
 use crate::kernel::closure_of_limp;
 use crate::law::ElasticLaw;
 use nalgebra::Vector2;
@@ -96,16 +96,8 @@ impl Cable<'_> {
     }
 
     /// Closure residual of a slack cable without weight: see [`crate::kernel::closure_of_limp`].
-    ///
-    /// With a guide it points along a straight cable.
-    pub fn closure_of_limp(&self, end: [f64; 2], rest: f64) -> [f64; 2] {
-        match self.guide.and_then(|guide| guide.straight(end)) {
-            None => closure_of_limp(end, rest),
-            Some(Straight { leave: [x, z], free, guided }) => {
-                let missing = (free + guided - rest).max(0.0);
-                [(end[0] - x) * missing / free, (end[1] - z) * missing / free]
-            }
-        }
+    pub(crate) fn closure_of_limp(&self, end: [f64; 2], rest: f64) -> [f64; 2] {
+        self.guide.map_or_else(|| closure_of_limp(end, rest), |guide| guide.closure_of_limp(end, rest))
     }
 
     /// Tangent stiffness dT/dε [N] at a tension [N].

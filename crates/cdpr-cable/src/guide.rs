@@ -1,6 +1,7 @@
 //! What leads a cable from its winch to the point where it leaves for the platform.
 
 use crate::error::{CableError, check};
+use crate::kernel::closure_of_limp;
 
 /// A lead and a swivelling pulley with a vertical swivel axis.
 ///
@@ -51,6 +52,16 @@ impl Guide {
             "a length between winch and exit point, zero or more [m]",
         )?;
         check("pulley.radius", self.radius, self.radius >= 0.0, "a radius, zero or more [m]")
+    }
+
+    /// Closure residual [m] of a slack cable without weight, as [`crate::kernel::closure_of_limp`] has it, along
+    /// a straight cable.
+    pub fn closure_of_limp(&self, end: [f64; 2], rest: f64) -> [f64; 2] {
+        let Some(Straight { leave, free, guided }) = self.straight(end) else {
+            return closure_of_limp(end, rest);
+        };
+        let missing = (free + guided - rest).max(0.0) / free;
+        [0, 1].map(|k| (end[k] - leave[k]) * missing)
     }
 
     /// Where a straight cable to `end = (x, z)` [m] from D leaves the wheel; `None` where `end` lies within

@@ -70,10 +70,12 @@ impl Robot {
         let densities = of_cables("linear_density", &linear_density, anchors.len())?;
         let moduli = of_cables("youngs_modulus", &youngs_modulus, anchors.len())?;
         let cables = (0..anchors.len())
-            .map(|i| RobotCable {
-                exit_point: exits[i],
-                anchor_point: anchors[i],
-                properties: CableProperties::linear(sections[i], densities[i], moduli[i]),
+            .map(|i| {
+                RobotCable::between(
+                    exits[i],
+                    anchors[i],
+                    CableProperties::linear(sections[i], densities[i], moduli[i]),
+                )
             })
             .collect();
         let [min, max] = components("tension_limits", &tension_limits)?;

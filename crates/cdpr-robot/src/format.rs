@@ -3,7 +3,7 @@
 use crate::error::RobotError;
 use crate::json::from_json;
 use crate::law::LawSegment;
-use crate::robot::{CableProperties, Platform, Robot, RobotCable, TensionLimits};
+use crate::robot::{CableProperties, Platform, Pulley, Robot, RobotCable, TensionLimits};
 use cdpr_cable::{CableError, PiecewiseLaw};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -31,6 +31,13 @@ struct RobotFile {
     /// Properties of every cable that has none of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cable: Option<PropertiesEntry>,
+    /// Swivelling pulley of every cable that has none of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pulley: Option<PulleyEntry>,
+    /// Length between winch and exit point of every cable that has none of its own [m], stretched; elastic and
+    /// without weight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    lead: Option<f64>,
     /// Limits of every cable's tension at the platform.
     tension_limits: LimitsEntry,
     /// The cables, 6 at least.
@@ -77,6 +84,16 @@ struct LawEntry {
     segments: Vec<LawSegment>,
 }
 
+#[derive(Serialize, Deserialize, JsonSchema, Clone, Copy)]
+#[serde(deny_unknown_fields)]
+struct PulleyEntry {
+    /// Radius to the middle of the cable [m].
+    radius: f64,
+    /// Swivel axis in the base frame, the direction in which the cable enters at the exit point: [0, 0, 1] from
+    /// below or [0, 0, -1] from above.
+    axis: [f64; 3],
+}
+
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct LimitsEntry {
@@ -89,13 +106,19 @@ struct LimitsEntry {
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CableEntry {
-    /// Exit point in the base frame [m].
+    /// Exit point in the base frame [m]; with a pulley, where the cable enters it.
     exit_point: [f64; 3],
     /// Anchor point in the platform frame [m].
     anchor_point: [f64; 3],
     /// Properties of this cable, if they differ from the common ones.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cable: Option<PropertiesEntry>,
+    /// Swivelling pulley of this cable, if it differs from the common one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pulley: Option<PulleyEntry>,
+    /// Length between winch and exit point of this cable [m], if it differs from the common one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    lead: Option<f64>,
 }
 
 /// The JSON Schema of the robot file, as pretty-printed text.
@@ -129,6 +152,8 @@ impl Robot {
                 center_of_mass: self.platform.center_of_mass.into(),
             },
             cable: entries.first().filter(|_| shared).cloned(),
+            pulley: None,
+            lead: None,
             tension_limits: LimitsEntry { min: self.tension_limits.min, max: self.tension_limits.max },
             cables: self
                 .cables
@@ -138,6 +163,10 @@ impl Robot {
                     exit_point: cable.exit_point.into(),
                     anchor_point: cable.anchor_point.into(),
                     cable: (!shared).then(|| entry.clone()),
+                    pulley: cable
+                        .pulley
+                        .map(|Pulley { radius, axis }| PulleyEntry { radius, axis: axis.into() }),
+                    lead: (cable.lead != 0.0).then_some(cable.lead),
                 })
                 .collect(),
         };
@@ -175,6 +204,11 @@ impl RobotFile {
                     exit_point: Vector3::from(cable.exit_point),
                     anchor_point: Vector3::from(cable.anchor_point),
                     properties,
+                    pulley: cable
+                        .pulley
+                        .or(self.pulley)
+                        .map(|PulleyEntry { radius, axis }| Pulley { radius, axis: axis.into() }),
+                    lead: cable.lead.or(self.lead).unwrap_or(0.0),
                 })
             })
             .collect::<Result<_, RobotError>>()?;

@@ -44,6 +44,6 @@ pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vecto
 pub use number::{decimal, rounded};
 pub use parameter::{Parameter, ParameterLayout, Perturbed, deviations};
 pub use pose::{Pose, orthonormalized};
-pub use robot::{CableProperties, Platform, Robot, RobotCable, TensionLimits};
+pub use robot::{CableProperties, Platform, Pulley, Robot, RobotCable, TensionLimits};
 pub use shown::{shown, shown_lines};
 pub use wrench::Wrench;

@@ -11,7 +11,7 @@
 use crate::error::RobotError;
 use crate::pose::Pose;
 use crate::wrench::Wrench;
-use cdpr_cable::{Cable, ElasticLaw, PiecewiseLaw};
+use cdpr_cable::{Cable, ElasticLaw, Entry, Guide, PiecewiseLaw};
 use nalgebra::{Matrix6xX, Vector3};
 
 /// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables.
@@ -58,6 +58,45 @@ pub struct RobotCable {
     pub anchor_point: Vector3<f64>,
     /// Material of the cable.
     pub properties: CableProperties,
+    /// Swivelling pulley at the exit point, which is where the cable enters it; `None` for a fixed point.
+    pub pulley: Option<Pulley>,
+    /// Stretched length between the winch and the exit point [m], elastic and without weight; zero where the
+    /// winch stands at the exit point, or where its cable is of no interest.
+    pub lead: f64,
+}
+
+/// A pulley that swivels about an axis through the exit point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulley {
+    /// Radius to the middle of the cable [m].
+    pub radius: f64,
+    /// Swivel axis in the base frame: the direction in which the cable travels where it enters the pulley.
+    ///
+    /// It is vertical, (0, 0, 1) or (0, 0, -1) up to its length.
+    pub axis: Vector3<f64>,
+}
+
+impl RobotCable {
+    /// A cable between two points, without pulley and lead.
+    pub fn between(
+        exit_point: Vector3<f64>,
+        anchor_point: Vector3<f64>,
+        properties: CableProperties,
+    ) -> Self {
+        Self { exit_point, anchor_point, properties, pulley: None, lead: 0.0 }
+    }
+
+    /// What leads the cable to its exit point; `None` for one that begins there.
+    #[inline]
+    pub fn guide(&self) -> Option<Guide> {
+        let radius = self.pulley.map_or(0.0, |pulley| pulley.radius);
+        if radius == 0.0 && self.lead == 0.0 {
+            return None;
+        }
+        let downwards = self.pulley.is_some_and(|pulley| pulley.axis.z < 0.0);
+        let entry = if downwards { Entry::Downwards } else { Entry::Upwards };
+        Some(Guide { lead: self.lead, radius, entry })
+    }
 }
 
 /// Section, density, modulus and elastic law of a cable.
@@ -99,7 +138,7 @@ impl Robot {
             weight_per_length: properties.linear_density * self.gravity,
             axial_stiffness: properties.axial_stiffness(),
             law: properties.law.as_ref().map_or(ElasticLaw::Linear, ElasticLaw::Piecewise),
-            guide: None,
+            guide: self.cables[i].guide(),
         }
     }
 
@@ -107,6 +146,12 @@ impl Robot {
     #[inline]
     pub fn is_linear(&self) -> bool {
         self.cables.iter().all(|cable| cable.properties.law.is_none())
+    }
+
+    /// Whether all cables are linear and begin at their exit points, without pulley and lead.
+    #[inline]
+    pub fn is_plain(&self) -> bool {
+        self.is_linear() && self.cables.iter().all(|cable| cable.guide().is_none())
     }
 
     /// Young's modulus of cable `i` at a tension [N]: the slope of its law there [Pa].
@@ -185,6 +230,7 @@ impl Robot {
         for (i, cable) in self.cables.iter().enumerate() {
             finite(|| format!("cables[{i}].exit_point"), &cable.exit_point)?;
             finite(|| format!("cables[{i}].anchor_point"), &cable.anchor_point)?;
+            cable.validate_guide(i)?;
             self.validate_properties(i)?;
         }
         self.validate_points()
@@ -239,6 +285,29 @@ impl Robot {
         Ok(())
     }
 }
+
+impl RobotCable {
+    fn validate_guide(&self, i: usize) -> Result<(), RobotError> {
+        let field = |name: &'static str| move || format!("cables[{i}].{name}");
+        let expected = "a finite length between winch and exit point, zero or more [m]";
+        require(field("lead"), self.lead, self.lead >= 0.0, expected)?;
+        let Some(Pulley { radius, axis }) = self.pulley else { return Ok(()) };
+        require(field("pulley.radius"), radius, radius >= 0.0, "a finite radius, zero or more [m]")?;
+        if axis.z != 0.0 && axis.iter().all(|c| c.is_finite()) && axis.xy().norm() <= VERTICAL * axis.z.abs()
+        {
+            return Ok(());
+        }
+        Err(RobotError::invalid(
+            format!("cables[{i}].pulley.axis"),
+            format!("{:?}", axis.as_slice()),
+            "a vertical swivel axis, [0, 0, 1] where the cable comes from below and [0, 0, -1] from above: \
+             others are not modelled",
+        ))
+    }
+}
+
+/// Horizontal part of a vertical axis at most, relative to its length.
+const VERTICAL: f64 = 1e-9;
 
 /// Cables of a robot at most: the inverse model of more takes seconds where they hold no pose.
 const MOST_CABLES: usize = 100;

@@ -70,8 +70,8 @@ impl DirectProblem<'_> {
     ///   hangs vertically or folded, or stiffnesses so different that rounding hides the equilibrium.
     pub fn certify(&self, solution: &DirectSolution) -> Result<Certificate, StaticsError> {
         self.check("solution.equilibrium", &solution.equilibrium)?;
-        if !self.robot.is_linear() {
-            let reason = "a cable's elastic law has pieces; certificates are for linear cables";
+        if !self.robot.is_plain() {
+            let reason = "a cable has an elastic law with pieces, a pulley or a lead; certificates are for plain cables";
             return Err(StaticsError::NotCertified { reason, growth: f64::INFINITY });
         }
         prove(self, &solution.equilibrium)

@@ -55,11 +55,11 @@ fn case(seed: u64) -> Case {
         .map(|_| {
             let exit = Vector3::from_fn(|_, _| rng.random_range(-0.5..0.5) * size);
             let height = if suspended { 0.5 * size * (1.0 + 0.2 * exit.z / size) } else { exit.z };
-            RobotCable {
-                exit_point: Vector3::new(exit.x, exit.y, height),
-                anchor_point: Vector3::from_fn(|_, _| rng.random_range(-0.5..0.5) * platform),
-                properties: properties.clone(),
-            }
+            RobotCable::between(
+                Vector3::new(exit.x, exit.y, height),
+                Vector3::from_fn(|_, _| rng.random_range(-0.5..0.5) * platform),
+                properties.clone(),
+            )
         })
         .collect();
     let center_of_mass = Vector3::from_fn(|_, _| rng.random_range(-0.2..0.2) * platform);

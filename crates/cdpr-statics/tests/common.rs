@@ -18,11 +18,11 @@ pub(crate) fn ring(n: usize, mut jitter: impl FnMut() -> f64) -> Vec<RobotCable>
         let around = std::f64::consts::TAU * i as f64 / n as f64;
         let (a, b, c) = (jitter(), jitter(), jitter());
         let (anchor, height) = if i.is_multiple_of(2) { (around + 0.5, 0.3) } else { (around - 0.5, -0.3) };
-        RobotCable {
-            exit_point: Vector3::new((5.0 + a) * around.cos(), (5.0 + b) * around.sin(), 4.0 + c),
-            anchor_point: Vector3::new((0.5 + 0.1 * b) * anchor.cos(), 0.5 * anchor.sin(), height + 0.1 * a),
-            properties: properties.clone(),
-        }
+        RobotCable::between(
+            Vector3::new((5.0 + a) * around.cos(), (5.0 + b) * around.sin(), 4.0 + c),
+            Vector3::new((0.5 + 0.1 * b) * anchor.cos(), 0.5 * anchor.sin(), height + 0.1 * a),
+            properties.clone(),
+        )
     };
     (0..n).map(cable).collect()
 }

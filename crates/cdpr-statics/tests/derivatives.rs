@@ -1,6 +1,7 @@
 //! Every derivative against central differences of the models themselves, and against what mechanics demands.
 
-use crate::common::{caroca, ring};
+use crate::common::{caroca, cogiro, ring};
+use crate::pulleys::led;
 use cdpr_robot::{Parameter, Platform, Pose, Robot, Rotation3, TensionLimits, Vector3, Vector6, Wrench};
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, EquilibriumDerivatives, HeldPose, Load, StaticsError,
@@ -268,6 +269,29 @@ fn derivatives_of_caroca_are_those_of_differences() {
             let case = Case { robot: caroca(), pose, offsets, load: Load::payload(50.0) };
             let found = check(&case).unwrap();
             report(&format!("CAROCA at {position:?}, offsets of {offset} N"), &[found]);
+        }
+    }
+}
+
+#[test]
+fn derivatives_over_pulleys_are_those_of_differences() {
+    for (robot, position) in
+        [(caroca(), [0.0, 0.0, 1.75]), (caroca(), [3.2, 1.7, 3.0]), (cogiro(), [1.0, -2.0, 2.0])]
+    {
+        for load in [
+            Load::payload(50.0),
+            Load {
+                payload: 20.0,
+                wrench: Wrench { force: Vector3::new(40.0, -30.0, 10.0), moment: Vector3::zeros() },
+            },
+        ] {
+            let pose = Pose { position: position.into(), rotation: Rotation3::identity() };
+            let case = Case { robot: led(robot.clone(), 0.1, 3.0), pose, offsets: vec![0.0; 8], load };
+            let found = check(&case).unwrap();
+            report(
+                &format!("{} over pulleys of 100 mm with leads of 3 m at {position:?}", robot.name),
+                &[found],
+            );
         }
     }
 }

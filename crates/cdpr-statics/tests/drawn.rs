@@ -50,7 +50,7 @@ pub(crate) fn drawn(seed: u64) -> Option<Drawn> {
             if suspended {
                 exit_point.z = size;
             }
-            RobotCable { exit_point, anchor_point: in_cube(rng) * platform, properties: properties.clone() }
+            RobotCable::between(exit_point, in_cube(rng) * platform, properties.clone())
         })
         .collect();
     let mass = level / 9.81 * log_uniform(rng, 1e-4, 10.0);

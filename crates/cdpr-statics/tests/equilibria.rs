@@ -20,10 +20,8 @@ pub(crate) fn robot(case: &Value) -> Robot {
     let gravity = number(&case["gravity"]);
     let density = number(&case["weight_per_length"]) / gravity;
     let properties = CableProperties::linear(1.0, density, number(&case["axial_stiffness"]));
-    let cable = |(exit, anchor): (&Value, &Value)| RobotCable {
-        exit_point: vector(exit),
-        anchor_point: vector(anchor),
-        properties: properties.clone(),
+    let cable = |(exit, anchor): (&Value, &Value)| {
+        RobotCable::between(vector(exit), vector(anchor), properties.clone())
     };
     let [exits, anchors] = ["exit_points", "anchor_points"].map(|points| case[points].as_array().unwrap());
     Robot {

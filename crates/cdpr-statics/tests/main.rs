@@ -14,6 +14,7 @@ mod inverse;
 mod models;
 mod observer;
 mod paths;
+mod pulleys;
 mod reference;
 mod search;
 mod tracker;

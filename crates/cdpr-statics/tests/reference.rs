@@ -5,7 +5,7 @@ use cdpr_robot::{Matrix3, Pose, Rotation3, Vector3, Wrench};
 use cdpr_statics::{DirectProblem, Load, Start, direct};
 use serde_json::Value;
 
-fn rotation(value: &Value) -> Rotation3<f64> {
+pub(crate) fn rotation(value: &Value) -> Rotation3<f64> {
     Rotation3::from_matrix_unchecked(Matrix3::from_fn(|i, j| number(&value[i][j])))
 }
 

@@ -14,15 +14,11 @@ fn tripod(radius: f64, height: f64, mass: f64) -> Robot {
     let cable = |i: usize| {
         let around = std::f64::consts::TAU * (i / 2) as f64 / 3.0;
         let up = if i.is_multiple_of(2) { 2.0 } else { -2.0 };
-        RobotCable {
-            exit_point: Vector3::new(3.0 * around.cos(), 3.0 * around.sin(), up),
-            anchor_point: Vector3::new(
-                radius * (around + 0.3 * up).cos(),
-                radius * (around + 0.3 * up).sin(),
-                0.0,
-            ),
-            properties: properties.clone(),
-        }
+        RobotCable::between(
+            Vector3::new(3.0 * around.cos(), 3.0 * around.sin(), up),
+            Vector3::new(radius * (around + 0.3 * up).cos(), radius * (around + 0.3 * up).sin(), 0.0),
+            properties.clone(),
+        )
     };
     Robot {
         platform: Platform { mass, center_of_mass: Vector3::new(0.0, 0.0, height) },

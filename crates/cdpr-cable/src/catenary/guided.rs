@@ -222,6 +222,14 @@ impl<'a> Catenary<'a> {
         }
     }
 
+    /// Half the difference `dx/dfz - dz/dfx` of the flexibility [m/N], (C22); zero without a guide.
+    ///
+    /// [`crate::kernel::Response::flexibility`] is the symmetric part alone.
+    pub fn asymmetry(&self) -> f64 {
+        let numbers = self.cable.numbers(self.unstrained_length);
+        self.cable.asymmetry(&numbers, self.force.into()).unwrap_or(0.0)
+    }
+
     /// Where the cable leaves its pulley, from the entry point [m]; zero without a pulley.
     pub fn leave_point(&self) -> Vector2<f64> {
         self.cable.guide.map_or_else(Vector2::zeros, |guide| self.guided(&guide).leave.into())

@@ -84,14 +84,16 @@ pub(crate) fn solution(
     let Converged { equilibrium, iterations, residual, stability, .. } = converged;
     let mut slack = Vec::new();
     for (i, force) in equilibrium.cable_forces.iter().enumerate() {
-        let (length, chord) = (problem.lengths[i], problem.span(&equilibrium.pose, i).chord());
+        let cable = problem.cable(i);
+        let span = problem.span(&equilibrium.pose, i);
+        let (length, straight) = (problem.lengths[i], cable.straight_length(span.end.into()));
         let catenary = problem.catenary(i, *force);
         let tension = catenary.anchor_tension().max(catenary.exit_tension());
-        let strain = problem.cable(i).strain(tension);
+        let strain = cable.strain(tension);
         if strain > MAX_STRAIN {
-            return Err(StaticsError::Overstrained { index: i, length, distance: chord, strain });
+            return Err(StaticsError::Overstrained { index: i, length, distance: straight, strain });
         }
-        if length >= chord {
+        if length >= straight {
             slack.push(i);
         }
     }

@@ -131,7 +131,9 @@ pub(crate) fn jacobian<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
             jacobian.fixed_view_mut::<1, 3>(place + j, 0).copy_from(&axis.transpose());
             jacobian.fixed_view_mut::<1, 3>(place + j, 3).copy_from(&turned.transpose());
         }
-        let flexibility = nalgebra::Matrix2::new(-xx, -xz, -xz, -zz);
+        let force = Vector2::from(cable.force.map(Real::value));
+        let asymmetry = T::of(problem.catenary(i, force).asymmetry());
+        let flexibility = nalgebra::Matrix2::new(-xx, -(xz + asymmetry), -(xz - asymmetry), -zz);
         jacobian.fixed_view_mut::<2, 2>(place, place).copy_from(&flexibility);
     }
     jacobian.fixed_view_mut::<6, 6>(0, 0).copy_from(&platform);

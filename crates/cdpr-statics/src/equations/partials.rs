@@ -137,15 +137,22 @@ impl CableDerivatives {
                 per_actuation: o,
             };
         };
+        let mut stiffness = Matrix3::from(linearized.stiffness_in_space());
+        if catenary.cable.guide.is_some() {
+            // (C22): K = C⁻¹ of a flexibility that is not quite symmetric.
+            let asymmetry = catenary.asymmetry();
+            let determinant = response.determinant + asymmetry * asymmetry;
+            let forwards = Vector3::from(cable.span.plane.lift([1.0, 0.0]));
+            let up = Vector3::z();
+            stiffness -= (forwards * up.transpose() - up * forwards.transpose()) * (asymmetry / determinant);
+        }
         // The force by which the cable gives way to a motion of its free end.
-        let held = |end: Vector2<f64>| -> Vector3<f64> {
-            cable.span.plane.lift(linearized.answer([0.0; 2], end.into())).into()
-        };
+        let held = |end: Vector2<f64>| stiffness * Vector3::from(cable.span.plane.lift(end.into()));
         Self {
             arm,
             force,
             direction: force / tension,
-            stiffness: linearized.stiffness_in_space().into(),
+            stiffness,
             per_density: held(catenary.end_per_weight()) * robot.gravity,
             per_modulus: held(catenary.end_per_stiffness()) * robot.cables[i].properties.section,
             per_actuation: held(response.end_per_length.into()),

@@ -3,8 +3,8 @@
 use crate::equations::cable::{LinearizedCable, Span, between};
 use crate::equations::vector::wrench;
 use crate::problem::DirectProblem;
-use cdpr_cable::Catenary;
 use cdpr_cable::kernel::{Real, Response, closure_of_limp, response};
+use cdpr_cable::{Catenary, Guide};
 use cdpr_robot::{Pose, Robot, Vector2};
 
 /// A cable with a force that need not fit its two points.
@@ -19,6 +19,7 @@ pub(crate) struct SpannedCable<T> {
     pub(crate) response: Option<Response<T>>,
     /// Length without tension and weight [m].
     length_at_rest: f64,
+    guide: Option<Guide>,
 }
 
 impl SpannedCable<f64> {
@@ -32,6 +33,7 @@ impl SpannedCable<f64> {
             force: catenary.force.into(),
             response: (!limp).then(|| catenary.response()),
             length_at_rest: if limp { catenary.length_at_rest() } else { catenary.unstrained_length },
+            guide: catenary.cable.guide,
         }
     }
 }
@@ -48,14 +50,14 @@ impl<T: Real> SpannedCable<T> {
         let cable = &problem.robot.cables[i];
         let p = &cable.properties;
         let catenary = problem.catenary(i, Vector2::from(force.map(T::value)));
-        let answer = || match p.law {
-            None => {
+        let answer = || match (&p.law, catenary.cable.guide) {
+            (None, None) => {
                 let weight = T::of(p.linear_density) * T::of(problem.robot.gravity);
                 let stiffness = T::of(p.youngs_modulus) * T::of(p.section);
                 response(weight, stiffness.recip(), T::of(problem.lengths[i]), force)
             }
             // Only doubles come here: certificates refuse such a cable.
-            Some(_) => catenary.response().map(T::of),
+            _ => catenary.response().map(T::of),
         };
         Self {
             anchor_arm,
@@ -63,6 +65,7 @@ impl<T: Real> SpannedCable<T> {
             force,
             response: (!catenary.is_limp()).then(answer),
             length_at_rest: catenary.length_at_rest(),
+            guide: catenary.cable.guide,
         }
     }
 
@@ -83,7 +86,12 @@ impl<T: Real> SpannedCable<T> {
     pub(crate) fn misclosure(&self) -> [T; 2] {
         match &self.response {
             Some(response) => self.span.misclosure(response.end),
-            None => closure_of_limp(self.span.end, T::of(self.length_at_rest)),
+            None => match &self.guide {
+                None => closure_of_limp(self.span.end, T::of(self.length_at_rest)),
+                Some(guide) => {
+                    guide.closure_of_limp(self.span.end.map(T::value), self.length_at_rest).map(T::of)
+                }
+            },
         }
     }
 

@@ -69,9 +69,11 @@ impl<'a> Strand<'a> {
         let cable = question.robot.cable(i);
         let span = Span::new(question.robot.span(question.pose, i).into());
         let limits = question.limits[i];
-        let floor = (ABOVE_ANY_LEAST * ABOVE_LEAST * cable.weight_per_length * span.chord()).max(limits.min);
+        let end = Vector2::from(span.end);
+        let longest = cable.straight_length(end);
+        let floor = (ABOVE_ANY_LEAST * ABOVE_LEAST * cable.weight_per_length * longest).max(limits.min);
         Ok(Self {
-            held: HeldCable::at_chord_force(&cable, Vector2::from(span.end), chord_force(floor))?,
+            held: HeldCable::at_chord_force(&cable, end, chord_force(floor))?,
             plane: span.plane,
             arm: question.robot.anchor_arm(question.pose, i),
             limits,
@@ -216,7 +218,7 @@ impl Row {
 
 /// `tension` [N], or [`ABOVE_LEAST`] times the least tension that the span to `end` demands, if that is more.
 pub(super) fn least_allowed(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, CableError> {
-    if cable.weight_per_length * end.norm() * ABOVE_ANY_LEAST * ABOVE_LEAST <= tension {
+    if cable.weight_per_length * cable.straight_length(end) * ABOVE_ANY_LEAST * ABOVE_LEAST <= tension {
         return Ok(tension);
     }
     Ok(tension.max(ABOVE_LEAST * HeldCable::at_least_tension(cable, end)?.tension()))

@@ -102,8 +102,8 @@ impl<'a> Observer<'a> {
 impl Nominal {
     fn new(robot: &Robot, pose: &Pose, load: &Load) -> Option<Self> {
         // A moment has no potential: pivots do not show whether its equilibria are stable. The lanes hold
-        // linear cables.
-        if load.wrench.moment != Vector3::zeros() || !robot.is_linear() {
+        // plain cables.
+        if load.wrench.moment != Vector3::zeros() || !robot.is_plain() {
             return None;
         }
         let solution = inverse(robot, pose, &Load::none(), None).ok()?;

@@ -71,9 +71,9 @@ impl<'a> Tracker<'a> {
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let problem = DirectProblem::new(self.robot, lengths, load)?;
         // A moment has no potential: pivots do not show whether its equilibria are stable. The lanes hold
-        // linear cables.
+        // plain cables.
         let taut = load.wrench.moment == Vector3::zeros()
-            && self.robot.is_linear()
+            && self.robot.is_plain()
             && dispatch(Update { tracker: self, problem: &problem });
         if !taut {
             let solution = direct(self.robot, lengths, load, Start::Near(&self.equilibrium))?;

@@ -1,0 +1,144 @@
+//! Robots whose cables run over swivelling pulleys with a lead, against arithmetic of 20 digits
+//! (`data/reference/README.md`) and against the same robots without.
+
+use crate::common::{caroca, cogiro};
+use crate::equilibria::{number, vector};
+use crate::reference::rotation;
+use cdpr_robot::{
+    CableProperties, Platform, Pose, Pulley, Robot, RobotCable, TensionLimits, Vector3, Wrench,
+};
+use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse};
+use nalgebra::Matrix6;
+use serde_json::Value;
+
+/// A case of the file as a robot; `None` for axes or a gravity that are not vertical.
+fn robot(case: &Value) -> Option<Robot> {
+    let gravity = vector(&case["gravity"]);
+    let vertical = |v: &Vector3<f64>| v.x == 0.0 && v.y == 0.0;
+    let pulleys = case["pulleys"].as_array().unwrap();
+    if !vertical(&gravity) || pulleys.iter().any(|pulley| !vertical(&vector(&pulley["axis"]))) {
+        return None;
+    }
+    let cables = pulleys.iter().enumerate().map(|(i, pulley)| {
+        let density = number(&case["weight_per_length"][i]) / gravity.norm();
+        let properties = CableProperties::linear(1.0, density, number(&case["axial_stiffness"][i]));
+        let anchor = vector(&case["anchor_points"][i]);
+        RobotCable {
+            pulley: Some(Pulley { radius: number(&pulley["radius"]), axis: vector(&pulley["axis"]) }),
+            lead: number(&pulley["lead"]),
+            ..RobotCable::between(vector(&pulley["entry_point"]), anchor, properties)
+        }
+    });
+    Some(Robot {
+        name: case["kind"].as_str().unwrap().to_owned(),
+        source: None,
+        gravity: gravity.norm(),
+        platform: Platform { mass: number(&case["mass"]), center_of_mass: vector(&case["center_of_mass"]) },
+        tension_limits: TensionLimits { min: 1e-3, max: 1e7 },
+        cables: cables.collect(),
+    })
+}
+
+#[test]
+fn equilibria_over_pulleys_match_arithmetic_of_20_digits() {
+    let file: Value = serde_json::from_str(include_str!("../../../data/reference/pulleys.json")).unwrap();
+    let cases = file["cases"].as_array().unwrap();
+    let mut compared = 0;
+    for case in cases {
+        let Some(robot) = robot(case) else { continue };
+        robot.validate().unwrap();
+        let lengths: Vec<f64> = case["unstrained_lengths"].as_array().unwrap().iter().map(number).collect();
+        let load = Load::wrench(Wrench { force: vector(&case["force"]), moment: vector(&case["moment"]) });
+        let start =
+            Pose { position: vector(&case["start_position"]), rotation: rotation(&case["start_rotation"]) };
+        let expected = Pose { position: vector(&case["position"]), rotation: rotation(&case["rotation"]) };
+        let solution = direct(&robot, &lengths, &load, Start::Pose(&start)).unwrap();
+        let motion = expected.motion_to(&solution.equilibrium.pose);
+        let (position, angle) = (motion.fixed_rows::<3>(0).norm(), motion.fixed_rows::<3>(3).norm());
+        let tensions: Vec<f64> = case["cables"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|cable| number(&cable["tension_at_anchor"]))
+            .collect();
+        let errors = solution.equilibrium.tensions();
+        let worst = errors.iter().zip(&tensions).map(|(t, e)| (t / e - 1.0).abs()).fold(0.0, f64::max);
+        let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
+        let exact = Matrix6::from_fn(|i, j| number(&case["stiffness"][i][j]));
+        let symmetric = 0.5 * (exact + exact.transpose());
+        let stiffness = *problem.linearize(&solution.equilibrium).unwrap().stiffness();
+        let off = (stiffness - symmetric).norm() / symmetric.norm();
+        let method = solution.report.method;
+        let line = format!(
+            "{:18} {position:8.1e} m {angle:8.1e} rad, tensions {worst:8.1e}, stiffness {off:8.1e}, {method} {}",
+            robot.name, solution.report.iterations
+        );
+        println!("{line}");
+        assert!(position < 1e-9 && angle < 1e-9 && worst < 1e-9 && off < 1e-9, "{line}");
+        assert!(solution.stability.is_stable());
+        // The inverse model asks for those very tensions and finds those lengths.
+        let pose = solution.equilibrium.pose;
+        let held = inverse(&robot, &pose, &load, Some(&tensions)).unwrap();
+        for (i, (found, length)) in held.lengths.iter().zip(&lengths).enumerate() {
+            assert!((found - length).abs() < 1e-9 * length, "{line}: length {i} {found} {length}");
+        }
+        compared += 1;
+    }
+    println!("{compared} of {}", cases.len());
+    assert_eq!(compared, 7);
+}
+
+/// CAROCA and CoGiRo with pulleys of this radius [m] and this lead [m].
+pub(crate) fn led(robot: Robot, radius: f64, lead: f64) -> Robot {
+    let cables = robot.cables.into_iter().map(|cable| RobotCable {
+        pulley: Some(Pulley { radius, axis: Vector3::z() }),
+        lead,
+        ..cable
+    });
+    Robot { cables: cables.collect(), ..robot }
+}
+
+#[test]
+fn pulleys_and_leads_of_caroca_deflect_as_an_independent_program_says() {
+    // Deflections under 50 kg [mm], from the same program as the reference.
+    let cases = [
+        ([0.0, 0.0, 1.75], 0.0, [1.331, 1.631, 2.229]),
+        ([0.0, 0.0, 1.75], 0.045, [1.262, 1.542, 2.103]),
+        ([3.2, 1.7, 3.0], 0.0, [0.822, 1.164, 1.886]),
+        ([3.2, 1.7, 3.0], 0.045, [0.689, 0.955, 1.530]),
+    ];
+    for ([x, y, z], radius, expected) in cases {
+        for (lead, expected) in [0.0, 1.0, 3.0].into_iter().zip(expected) {
+            let robot = led(caroca(), radius, lead);
+            let found = deflection(&robot, &Pose::at(x, y, z), &[0.0; 8], &Load::payload(50.0)).unwrap();
+            let found = 1e3 * found.displacement().norm();
+            // Printed to a micrometre, from tensions that differ by a few tenths of a newton.
+            assert!(
+                (found - expected).abs() < 1e-3,
+                "r {radius} m, lead {lead} m: {found} mm, {expected} mm"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_robot_with_pulleys_is_found_again_from_its_lengths() {
+    for (robot, pose) in [(caroca(), Pose::at(1.2, -0.7, 2.0)), (cogiro(), Pose::at(-1.0, 2.0, 2.0))] {
+        let robot = led(robot, 0.06, 2.5);
+        let held = inverse(&robot, &pose, &Load::none(), None).unwrap();
+        assert!(held.stationarity < 1e-9);
+        let start = pose.moved(Vector3::new(0.3, -0.2, 0.1), Vector3::new(0.05, 0.1, -0.1));
+        let found = direct(&robot, &held.lengths, &Load::none(), Start::Pose(&start)).unwrap();
+        assert!(pose.motion_to(&found.equilibrium.pose).norm() < 1e-11);
+    }
+}
+
+#[test]
+fn no_radius_and_no_lead_change_no_bit() {
+    let pose = Pose::at(1.2, -0.7, 2.0);
+    let (plain, led) = (caroca(), led(caroca(), 0.0, 0.0));
+    let [a, b] =
+        [&plain, &led].map(|robot| deflection(robot, &pose, &[0.0; 8], &Load::payload(50.0)).unwrap());
+    assert_eq!(a.displacement(), b.displacement());
+    assert_eq!(a.lengths, b.lengths);
+}
