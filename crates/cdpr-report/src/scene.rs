@@ -10,6 +10,9 @@ use serde::Serialize;
 /// Number of points along a cable.
 const POINTS: usize = 49;
 
+/// Points of a cable on its pulley.
+const POINTS_ON_PULLEY: usize = 8;
+
 /// Robot at all poses of a study.
 #[derive(Serialize)]
 pub(crate) struct Scene {
@@ -56,7 +59,7 @@ pub(crate) struct State {
 /// Cable in equilibrium.
 #[derive(Serialize)]
 pub(crate) struct SceneCable {
-    /// Points from the exit point to the anchor point [m].
+    /// Points from the exit point, over the pulley, to the anchor point [m].
     pub(crate) points: Vec<[f64; 3]>,
     /// Tension at the platform [N].
     pub tension: f64,
@@ -137,7 +140,12 @@ impl State {
                 (exit + Vector3::new(along.x * point.x, along.y * point.x, point.y)).into()
             };
             SceneCable {
-                points: catenary.profile(POINTS).into_iter().map(in_space).collect(),
+                points: catenary
+                    .on_the_pulley(POINTS_ON_PULLEY)
+                    .into_iter()
+                    .chain(catenary.profile(POINTS))
+                    .map(in_space)
+                    .collect(),
                 tension: force.norm(),
                 sag_mm: 1e3 * catenary.sag(),
             }

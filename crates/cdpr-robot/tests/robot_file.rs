@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+use cdpr_cable::Entry;
 use cdpr_robot::{Pose, Robot, RobotError, Rotation3, Vector3, Wrench, deviations};
 
 const CAROCA: &str = include_str!("../../../data/robots/caroca.json");
@@ -25,6 +26,33 @@ fn a_cable_may_have_its_own_properties() {
     assert!((robot.cables[0].properties.section - 2.827_433e-5).abs() < 1e-11);
     assert_eq!(robot.cables[1].properties.linear_density, 0.1015);
     assert_eq!(Robot::from_json(&robot.to_json()).unwrap(), robot);
+}
+
+#[test]
+fn cables_may_run_over_pulleys_behind_a_lead() {
+    let limits = r#""tension_limits":"#;
+    let common = r#""pulley": {"radius": 0.045, "axis": [0, 0, 1]}, "lead": 3.0,"#;
+    let point = r#""anchor_point": [0.2, 0.15, 0.125]"#;
+    let own = r#""pulley": {"radius": 0.1, "axis": [0, 0, -1]}, "lead": 0"#;
+    let text = CAROCA.replacen(limits, &format!("{common} {limits}"), 1);
+    let robot = Robot::from_json(&text.replacen(point, &format!("{point}, {own}"), 1)).unwrap();
+    let guides: Vec<_> = robot.cables[..2].iter().map(|cable| cable.guide().unwrap()).collect();
+    assert_eq!((guides[0].radius, guides[0].lead, guides[0].entry), (0.1, 0.0, Entry::Downwards));
+    assert_eq!((guides[1].radius, guides[1].lead, guides[1].entry), (0.045, 3.0, Entry::Upwards));
+    assert!(!robot.is_plain() && robot.is_linear());
+    assert_eq!(Robot::from_json(&robot.to_json()).unwrap(), robot);
+    let refusal = |common: &str| {
+        let text = CAROCA.replacen(limits, &format!("{common}, {limits}"), 1);
+        Robot::from_json(&text).unwrap_err().to_string()
+    };
+    let refused = refusal(r#""lead": -1"#);
+    assert!(refused.contains("cables[0].lead is -1") && refused.contains("[m]"), "{refused}");
+    let refused = refusal(r#""pulley": {"radius": -0.1, "axis": [0, 0, 1]}"#);
+    assert!(refused.contains("cables[0].pulley.radius is -0.1"), "{refused}");
+    for axis in ["[1, 0, 0]", "[0, 0, 0]", "[0, 0.1, 1]"] {
+        let refused = refusal(&format!(r#""pulley": {{"radius": 0.1, "axis": {axis}}}"#));
+        assert!(refused.contains("cables[0].pulley.axis is") && refused.contains("vertical"), "{refused}");
+    }
 }
 
 #[test]

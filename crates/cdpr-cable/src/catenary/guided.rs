@@ -235,6 +235,16 @@ impl<'a> Catenary<'a> {
         self.cable.guide.map_or_else(Vector2::zeros, |guide| self.guided(&guide).leave.into())
     }
 
+    /// Positions [m] of `points` points (2 at least) of the cable on its pulley, from where it enters to just
+    /// before it leaves; none without a pulley.
+    pub fn on_the_pulley(&self, points: usize) -> Vec<Vector2<f64>> {
+        let Some(guide) = self.cable.guide.filter(|guide| guide.radius > 0.0) else { return Vec::new() };
+        let (wrap, count) = (self.wrap(), points.max(2));
+        let angles = (0..count).map(|k| std::f64::consts::PI - wrap * k as f64 / count as f64);
+        let of = |angle: f64| Vector2::new(1.0 + angle.cos(), guide.entry.sign() * angle.sin());
+        angles.map(|angle| guide.radius * of(angle)).collect()
+    }
+
     /// Angle over which the cable lies on its pulley [rad]; zero without a pulley.
     pub fn wrap(&self) -> f64 {
         match &self.cable.guide {
