@@ -24,6 +24,6 @@ pub use robustness::{
 };
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
 pub use workspace::{
-    Dominant, Held, Workspace, WorkspacePose, WorkspaceRow, WorkspaceSummary, compute_workspace,
+    Anew, Dominant, HELD, Held, Workspace, WorkspacePose, WorkspaceRow, WorkspaceSummary, compute_workspace,
 };
 pub use write::{begin_robustness, begin_workspace, write_robustness, write_workspace};

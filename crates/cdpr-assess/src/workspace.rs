@@ -1,8 +1,12 @@
 //! Where a robot can work, and how well: tensions, deflection, stiffness and the tolerance that matters most,
 //! pose by pose.
+//!
+//! A load can come onto the platform in two ways. Where the lengths are kept, as in the paper, the platform
+//! yields, and its tensions are what the direct model says. Where the winches hold the pose, the tensions are
+//! distributed anew, by the inverse model with the load. A pose may be held in one way and not in the other.
 
 use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
-use cdpr_statics::{Deflection, Derivatives, Load, StaticsError, deflection, derivatives};
+use cdpr_statics::{Deflection, Derivatives, Load, StaticsError, deflection, derivatives, inverse};
 use cdpr_study::{ErrorModel, Extremes, Grid, StudyError};
 use indexmap::IndexMap;
 use rayon::prelude::*;
@@ -24,16 +28,28 @@ pub struct Workspace<'a> {
     pub tolerances: Option<&'a ErrorModel>,
 }
 
-/// A position and its result.
+/// A position and its results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorkspacePose {
     /// The wanted pose.
     pub pose: Pose,
-    /// The result there, or the reason why no tensions hold the platform or bear the load.
+    /// The result with the lengths kept under the load, or the reason why no tensions hold the platform or
+    /// bear the load.
     pub outcome: Result<Held, StaticsError>,
+    /// The tensions distributed anew under the load, or the reason why there are none; `None` without a load.
+    pub anew: Option<Result<Anew, StaticsError>>,
 }
 
-/// A pose with feasible tensions.
+/// Tensions within the limits that hold a pose under the load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anew {
+    /// Least tension at the platform [N].
+    pub least_tension: f64,
+    /// Greatest tension at the platform [N].
+    pub greatest_tension: f64,
+}
+
+/// A pose with feasible tensions, on lengths that the load does not change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Held {
     /// Least tension at the platform, without and with the load [N].
@@ -63,6 +79,9 @@ pub struct Dominant {
     /// Standard deviation of |dp| from all of them [m].
     pub std: f64,
 }
+
+/// The status of a position that is held with all tensions within the limits.
+pub const HELD: &str = "held";
 
 /// Rounding of a tension that rests on its limit.
 const ROUNDING: f64 = 1e-9;
@@ -110,8 +129,12 @@ pub fn compute_workspace(
         }
         let pose = Pose { rotation, ..level };
         let outcome = held(robot, &pose, &load, tolerances);
+        let anew = (load != Load::none()).then(|| {
+            let [least_tension, greatest_tension] = range(&inverse(robot, &pose, &load, None)?.tensions);
+            Ok(Anew { least_tension, greatest_tension })
+        });
         tick();
-        Ok(WorkspacePose { pose, outcome })
+        Ok(WorkspacePose { pose, outcome, anew })
     };
     workspace.grid.poses().into_par_iter().map(one).collect()
 }
@@ -136,15 +159,16 @@ fn held(
     }
 }
 
+/// The least and the greatest.
+fn range(tensions: &[f64]) -> [f64; 2] {
+    tensions.iter().fold([f64::INFINITY, 0.0], |[least, greatest], t| [least.min(*t), greatest.max(*t)])
+}
+
 impl Held {
     fn new(robot: &Robot, deflection: &Deflection, dominant: Option<Dominant>) -> Self {
         let Deflection { unloaded, loaded, .. } = deflection;
-        let extremes = |tensions: Vec<f64>| {
-            let least = tensions.iter().copied().fold(f64::INFINITY, f64::min);
-            (least, tensions.iter().copied().fold(0.0, f64::max))
-        };
-        let (least_before, greatest_before) = extremes(unloaded.equilibrium.tensions());
-        let (least, greatest) = extremes(loaded.equilibrium.tensions());
+        let [least_before, greatest_before] = range(&unloaded.equilibrium.tensions());
+        let [least, greatest] = range(&loaded.equilibrium.tensions());
         let limits = robot.tension_limits;
         Self {
             least_tension: least.min(least_before),
@@ -178,7 +202,8 @@ pub struct WorkspaceRow {
     pub x: f64,
     pub y: f64,
     pub z: f64,
-    /// `held`; `beyond_limits` where the load takes a tension out of the limits; else the kind of failure.
+    /// With the lengths kept: `held`; `beyond_limits` where the load takes a tension out of the limits; else
+    /// the kind of failure.
     pub status: &'static str,
     pub least_tension: Option<f64>,
     pub greatest_tension: Option<f64>,
@@ -197,6 +222,12 @@ pub struct WorkspaceRow {
     pub std_mm: Option<f64>,
     /// Why the pose is not held.
     pub reason: Option<String>,
+    /// `held` where tensions distributed anew hold the pose under the load, else the kind of failure; this and
+    /// the following are empty without a load.
+    pub anew_status: Option<&'static str>,
+    pub anew_least_tension: Option<f64>,
+    pub anew_greatest_tension: Option<f64>,
+    pub anew_reason: Option<String>,
 }
 
 impl WorkspaceRow {
@@ -207,13 +238,15 @@ impl WorkspaceRow {
         let loaded = held.filter(|_| workspace.load != Load::none());
         let displacement = loaded.map(|held| 1e3 * held.displacement);
         let dominant = held.and_then(|held| held.dominant);
+        let anew = pose.anew.as_ref();
+        let tensions = anew.and_then(|anew| anew.as_ref().ok());
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {
             x,
             y,
             z,
             status: match &pose.outcome {
-                Ok(held) if held.within_limits => "held",
+                Ok(held) if held.within_limits => HELD,
                 Ok(_) => "beyond_limits",
                 Err(error) => error.kind(),
             },
@@ -230,6 +263,10 @@ impl WorkspaceRow {
             dominant_share: dominant.map(|dominant| dominant.share),
             std_mm: dominant.map(|dominant| 1e3 * dominant.std),
             reason: pose.outcome.as_ref().err().map(ToString::to_string),
+            anew_status: anew.map(|anew| anew.as_ref().map_or_else(StaticsError::kind, |_| HELD)),
+            anew_least_tension: tensions.map(|anew| anew.least_tension),
+            anew_greatest_tension: tensions.map(|anew| anew.greatest_tension),
+            anew_reason: anew.and_then(|anew| anew.as_ref().err().map(ToString::to_string)),
         }
     }
 }
@@ -253,8 +290,10 @@ pub struct WorkspaceSummary {
     pub grid: Grid,
     /// Standard deviation of every cause, in SI units.
     pub uncertainties: IndexMap<String, f64>,
-    /// Number of positions by status.
+    /// Number of positions by status, with the lengths kept under the load.
     pub status: BTreeMap<&'static str, usize>,
+    /// Number of positions by status, with the tensions distributed anew under the load; empty without a load.
+    pub anew_status: BTreeMap<&'static str, usize>,
     /// Number of positions at which each cause dominates.
     pub dominant: BTreeMap<String, usize>,
     /// |dp| [mm] over the positions with status `held`. This and the following are absent without such
@@ -266,11 +305,18 @@ pub struct WorkspaceSummary {
     pub greatest_tension: Option<Extremes>,
     /// Least tension [N].
     pub least_tension: Option<Extremes>,
+    /// Greatest tension [N] where tensions are distributed anew, over the positions that they hold.
+    pub anew_greatest_tension: Option<Extremes>,
     /// Every position, in the order of the grid.
     pub rows: Vec<WorkspaceRow>,
 }
 
 impl WorkspaceSummary {
+    /// Whether there is a load besides the platform's own weight.
+    pub fn is_loaded(&self) -> bool {
+        self.payload != 0.0 || self.force != [0.0; 3] || self.moment != [0.0; 3]
+    }
+
     /// Load and orientation, as in `payload 50 kg, force (0, 100, 0) N`.
     pub fn conditions(&self) -> String {
         let mut words = vec![format!("payload {} kg", self.payload)];
@@ -290,9 +336,12 @@ impl WorkspaceSummary {
     /// Summarises the poses of a workspace.
     pub fn new(workspace: &Workspace, poses: &[WorkspacePose]) -> Self {
         let rows: Vec<_> = poses.iter().map(|pose| WorkspaceRow::new(workspace, pose)).collect();
-        let (mut status, mut dominant) = (BTreeMap::new(), BTreeMap::new());
+        let (mut status, mut anew_status, mut dominant) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
         for row in &rows {
             *status.entry(row.status).or_insert(0) += 1;
+            if let Some(anew) = row.anew_status {
+                *anew_status.entry(anew).or_insert(0) += 1;
+            }
             if let Some(name) = &row.dominant {
                 *dominant.entry(name.clone()).or_insert(0) += 1;
             }
@@ -308,17 +357,25 @@ impl WorkspaceSummary {
             grid: workspace.grid,
             uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.law.std())).collect(),
             status,
+            anew_status,
             dominant,
-            rms_mm: extremes(&rows, |row| row.rms_mm),
-            least_stiffness: extremes(&rows, |row| row.least_stiffness),
-            greatest_tension: extremes(&rows, |row| row.greatest_tension),
-            least_tension: extremes(&rows, |row| row.least_tension),
+            rms_mm: held_extremes(&rows, |row| row.rms_mm),
+            least_stiffness: held_extremes(&rows, |row| row.least_stiffness),
+            greatest_tension: held_extremes(&rows, |row| row.greatest_tension),
+            least_tension: held_extremes(&rows, |row| row.least_tension),
+            anew_greatest_tension: extremes(rows.iter(), |row| row.anew_greatest_tension),
             rows,
         }
     }
 }
 
-fn extremes(rows: &[WorkspaceRow], value: impl Fn(&WorkspaceRow) -> Option<f64>) -> Option<Extremes> {
-    let held = rows.iter().filter(|row| row.status == "held");
-    Extremes::of(held.filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
+fn held_extremes(rows: &[WorkspaceRow], value: impl Fn(&WorkspaceRow) -> Option<f64>) -> Option<Extremes> {
+    extremes(rows.iter().filter(|row| row.status == HELD), value)
+}
+
+fn extremes<'a>(
+    rows: impl Iterator<Item = &'a WorkspaceRow>,
+    value: impl Fn(&WorkspaceRow) -> Option<f64>,
+) -> Option<Extremes> {
+    Extremes::of(rows.filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
 }

@@ -2,8 +2,9 @@
 
 use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace};
 use cdpr_robot::{Parameter, Robot, Rotation3};
-use cdpr_statics::{Load, derivatives};
+use cdpr_statics::{Load, derivatives, inverse};
 use cdpr_study::{ErrorModel, Grid, GridAxis, StudyError, uncertainties};
+use serde_json::Value;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn caroca() -> Robot {
@@ -50,6 +51,10 @@ fn every_position_is_what_the_models_say_of_it() {
         assert!(tensions.contains(&held.least_tension) && tensions.contains(&held.greatest_tension));
         assert_eq!(held.least_stiffness, exact.deflection.loaded.stability.least_stiffness());
         assert!(held.within_limits);
+        let anew = inverse(&robot, &pose, &Load::payload(50.0), None).unwrap().tensions;
+        let found = found.anew.clone().unwrap().unwrap();
+        assert!(anew.contains(&found.least_tension) && anew.contains(&found.greatest_tension));
+        assert!(anew.iter().all(|t| (found.least_tension..=found.greatest_tension).contains(t)));
 
         let variances: Vec<f64> = deviations.iter().map(|std| std * std).collect();
         let budget = exact.variance_budget(&variances).unwrap();
@@ -87,6 +92,45 @@ fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
         (summary.rms_mm, summary.rows[1].rms_mm, summary.rows[0].dominant.clone()),
         (None, None, None)
     );
+}
+
+/// `data/reference/drawn.py` looks for tensions with a solver and a catenary of its own.
+#[test]
+fn the_stadium_robot_is_held_wherever_an_independent_program_finds_tensions() {
+    let robot = Robot::from_json(include_str!("../../../data/reference/robots/stadium.json")).unwrap();
+    let file: Value = serde_json::from_str(include_str!("../../../data/reference/stadium.json")).unwrap();
+    let axis = |min, max, points| GridAxis { min, max, points };
+    let grid = Grid::new([axis(-48.0, 48.0, 9), axis(-32.0, 32.0, 5), axis(10.0, 10.0, 1)]).unwrap();
+    for payload in [0.0, 40.0] {
+        let load = Load::payload(payload);
+        let rotation = Rotation3::identity();
+        let workspace = Workspace { robot: &robot, grid, rotation, load, tolerances: None };
+        let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
+        let rows = file["poses"].as_array().unwrap().iter().filter(|row| row[0] == payload);
+        let rows: Vec<_> = rows.collect();
+        assert_eq!(rows.len(), poses.len());
+        let (mut kept, mut anew, mut independent) = (0, 0, 0);
+        for (row, found) in rows.iter().zip(&poses) {
+            let position = found.pose.position;
+            assert_eq!((row[1].as_f64(), row[2].as_f64()), (Some(position.x), Some(position.y)));
+            kept += usize::from(found.outcome.as_ref().is_ok_and(|held| held.within_limits));
+            let tensions = inverse(&robot, &found.pose, &load, None);
+            anew += usize::from(tensions.is_ok());
+            if let Some(status) = &found.anew {
+                assert_eq!(status.is_ok(), tensions.is_ok());
+            }
+            if let Some(least) = row[3].as_f64() {
+                independent += 1;
+                let norm = tensions.unwrap().tensions.iter().map(|t| t * t).sum::<f64>().sqrt();
+                assert!((norm / least - 1.0).abs() < 1e-9, "{position:?}: {norm} {least}");
+            }
+        }
+        println!(
+            "{payload} kg: held at {kept} positions with the lengths kept, at {anew} with the tensions \
+            distributed anew, at {independent} by the independent program"
+        );
+        assert!(anew >= independent && independent > 0);
+    }
 }
 
 #[test]

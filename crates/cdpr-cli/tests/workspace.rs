@@ -3,7 +3,7 @@
 use crate::common::{answered, cdpr_in, data, data_path, text};
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
 use cdpr_statics::{Load, deflection};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -40,6 +40,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
             "deflection.svg",
             "dominant_tolerance.svg",
             "greatest_tension.svg",
+            "greatest_tension_anew.svg",
             "least_stiffness.svg",
             "workspace.csv",
             "workspace.json"
@@ -48,7 +49,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
     assert!(printed.contains("63 positions, payload 50 kg"));
 
     let summary: Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(summary, serde_json::from_slice::<Value>(&written[5].1).unwrap());
+    assert_eq!(summary, serde_json::from_slice::<Value>(&written[6].1).unwrap());
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 25);
     let robot = Robot::from_json(&std::fs::read_to_string(data("robots/caroca.json")).unwrap()).unwrap();
     let center = &summary["rows"][31];
@@ -61,7 +62,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
         (&"infeasible_tension".into(), &Value::Null)
     );
 
-    let table = text(written[4].1.clone());
+    let table = text(written[5].1.clone());
     let lines: Vec<_> = table.lines().collect();
     assert_eq!(lines.len(), 64);
     assert!(lines[0].starts_with("x,y,z,status,least_tension,greatest_tension,dx_mm"));
@@ -85,13 +86,13 @@ fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 62);
     // A uniform law of half width 18 kg.
     assert!((summary["uncertainties"]["mass"].as_f64().unwrap() - 18.0 / 3f64.sqrt()).abs() < 1e-12);
-    assert_eq!(files(&folder.path().join("out")).len(), 6, "the box is a plane: y has one coordinate");
+    assert_eq!(files(&folder.path().join("out")).len(), 7, "the box is a plane: y has one coordinate");
     run(folder.path(), &["--box=-1:1:2,0:1:2,1:2:2", "--payload", "50", "--out", "box"]);
     let names: Vec<_> = files(&folder.path().join("box")).into_iter().map(|(name, _)| name).collect();
-    let layers = ["deflection", "greatest_tension", "least_stiffness"]
+    let layers = ["deflection", "greatest_tension_anew", "greatest_tension", "least_stiffness"]
         .map(|name| [format!("{name}_z00.svg"), format!("{name}_z01.svg")]);
-    assert_eq!(names[..6], layers.concat());
-    assert_eq!(names[6..], ["workspace.csv", "workspace.json"]);
+    assert_eq!(names[..8], layers.concat());
+    assert_eq!(names[8..], ["workspace.csv", "workspace.json"]);
 }
 
 #[test]
@@ -114,6 +115,7 @@ fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_d
     // The map of the load goes, and a file of the user stays.
     std::fs::write(folder.path().join("out/mine.svg"), "mine").unwrap();
     let unloaded = summary(&[]);
+    assert_eq!((&unloaded["anew_status"], &unloaded["rows"][4]["anew_status"]), (&json!({}), &Value::Null));
     assert_eq!((&unloaded["rms_mm"], &unloaded["rows"][4]["rms_mm"]), (&Value::Null, &Value::Null));
     assert!(unloaded["least_stiffness"]["min"].as_f64().unwrap() > 0.0);
     assert!(!folder.path().join("out/deflection.svg").exists());

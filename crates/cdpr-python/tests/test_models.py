@@ -120,7 +120,10 @@ def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
     assert found.status == [row["status"] for row in printed["rows"]]
     assert found.reasons == [row["reason"] for row in printed["rows"]]
     assert found.dominant == [row["dominant"] for row in printed["rows"]]
-    for name in ("least_tension", "greatest_tension", "least_stiffness", "dominant_share"):
+    assert found.anew_status == [row["anew_status"] for row in printed["rows"]]
+    assert found.anew_reasons == [row["anew_reason"] for row in printed["rows"]]
+    for name in ("least_tension", "greatest_tension", "least_stiffness", "dominant_share",
+                 "anew_least_tension", "anew_greatest_tension"):
         same(getattr(found, name), [numpy.nan if row[name] is None else row[name] for row in printed["rows"]])
     bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
     assert numpy.isnan(bare.rms).all() and not numpy.isnan(bare.least_stiffness).any()

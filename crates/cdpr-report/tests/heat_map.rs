@@ -29,9 +29,15 @@ fn count(svg: &str, what: &str) -> usize {
 fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
     let robot = caroca();
     let summary = summary(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap());
-    let not_held = summary.rows.iter().filter(|row| row.status != "held").count();
-    assert!(not_held > 0 && not_held < 63);
+    let count_held = |of: &dyn Fn(&WorkspaceRow) -> bool| summary.rows.iter().filter(|row| of(row)).count();
+    let kept = 63 - count_held(&|row| row.status == "held");
+    let anew = 63 - count_held(&|row| row.anew_status == Some("held"));
+    assert!(anew > 0 && kept >= anew && kept < 63, "{kept} {anew}");
     for quantity in MapQuantity::ALL {
+        let (not_held, words) = match quantity {
+            MapQuantity::GreatestTensionAnew => (anew, "tensions distributed anew"),
+            _ => (kept, "lengths kept"),
+        };
         let svg = heat_map(&robot, &summary, quantity).unwrap();
         // The paper, 63 cells, 128 steps of the colour bar; grey for a cell without value and for the key's
         // bar as a line.
@@ -39,7 +45,7 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
         assert_eq!(count(&svg, "fill=\"#B0B0B0\""), not_held);
         assert_eq!(count(&svg, "<circle"), 8);
         for words in
-            ["CAROCA: ", "at z = 1.75 m, payload 50 kg", "x [m]", "y [m]", "frame of the exit points"]
+            ["CAROCA: ", "at z = 1.75 m, payload 50 kg", "x [m]", "y [m]", "frame of the exit points", words]
         {
             assert!(svg.contains(words), "{quantity:?}: {words}");
         }

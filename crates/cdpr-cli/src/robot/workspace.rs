@@ -8,6 +8,7 @@ use cdpr_assess::{Workspace, WorkspaceSummary, begin_workspace, compute_workspac
 use cdpr_report::workspace_maps;
 use cdpr_robot::{Axis, Robot, Rotation3, shown};
 use cdpr_study::{ErrorModel, Extremes, Grid, Study, open_robot};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -125,9 +126,19 @@ impl Settings {
 
 fn print(summary: &WorkspaceSummary) {
     println!("{}: {} positions, {}", shown(&summary.robot), summary.rows.len(), summary.conditions());
-    for (status, count) in &summary.status {
-        println!("{count:8} {status}");
+    let counts = |status: &BTreeMap<&str, usize>| {
+        for (status, count) in status {
+            println!("{count:8} {status}");
+        }
+    };
+    if summary.is_loaded() {
+        println!("with the lengths kept under the load:");
     }
+    counts(&summary.status);
+    if summary.is_loaded() {
+        println!("with the tensions distributed anew:");
+    }
+    counts(&summary.anew_status);
     let mut rows = table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
     let position = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
     for (name, extremes) in [
@@ -135,6 +146,7 @@ fn print(summary: &WorkspaceSummary) {
         ("least stiffness [N/m]", summary.least_stiffness),
         ("greatest tension [N]", summary.greatest_tension),
         ("least tension [N]", summary.least_tension),
+        ("greatest tension, distributed anew [N]", summary.anew_greatest_tension),
     ] {
         if let Some(Extremes { min, min_at, max, max_at }) = extremes {
             rows.add_row([

@@ -2,7 +2,9 @@
 
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, run};
 use crate::robot::Robot;
-use cdpr_statics::{Bound, InversePath, InverseSolution as InverseModel, PathSolution, StaticsError, inverse};
+use cdpr_statics::{
+    Bound, InversePath, InverseSolution as InverseModel, PathSolution, StaticsError, inverse,
+};
 use pyo3::prelude::*;
 use std::sync::atomic::Ordering::Relaxed;
 

@@ -21,7 +21,8 @@ answer! {
         positions: Py<PyAny>,
         /// `held`, `beyond_limits`, or the kind of failure; m of them.
         ///
-        /// A position is `beyond_limits` where the load takes a tension out of the limits.
+        /// The lengths are kept under the load. A position is `beyond_limits` where the load takes a tension
+        /// out of the limits.
         status: Vec<String>,
         /// Why a position is not held, None where it is; m of them.
         reasons: Vec<Option<String>>,
@@ -41,6 +42,15 @@ answer! {
         dominant_share: Py<PyAny>,
         /// Standard deviation of |dp| from all uncertain parameters [m], (m,).
         std: Py<PyAny>,
+        /// `held` where tensions distributed anew hold the position under the load, or the kind of failure;
+        /// None without a load; m of them.
+        anew_status: Vec<Option<String>>,
+        /// Why no tensions distributed anew hold a position, None where they do; m of them.
+        anew_reasons: Vec<Option<String>>,
+        /// Least tension, distributed anew [N], (m,).
+        anew_least_tension: Py<PyAny>,
+        /// Greatest tension, distributed anew [N], (m,).
+        anew_greatest_tension: Py<PyAny>,
     }
 }
 
@@ -115,6 +125,10 @@ impl Robot {
             dominant: rows.iter().map(|row| row.dominant.clone()).collect(),
             dominant_share: column(&|row| Some(held(row)?.dominant?.share)),
             std: column(&|row| Some(held(row)?.dominant?.std)),
+            anew_status: rows.iter().map(|row| row.anew_status.map(str::to_owned)).collect(),
+            anew_reasons: rows.iter().map(|row| row.anew_reason.clone()).collect(),
+            anew_least_tension: column(&|row| rows[row].anew_least_tension),
+            anew_greatest_tension: column(&|row| rows[row].anew_greatest_tension),
         })
     }
 }

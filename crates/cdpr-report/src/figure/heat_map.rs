@@ -7,7 +7,7 @@ use crate::drawing::plane::{self, Paint, Plane};
 use crate::error::ReportError;
 use crate::figure::pose_map::NamedMap;
 use crate::text::number;
-use cdpr_assess::{WorkspaceRow, WorkspaceSummary};
+use cdpr_assess::{HELD, WorkspaceRow, WorkspaceSummary};
 use cdpr_robot::Robot;
 
 /// Quantity that is drawn over the plane.
@@ -19,11 +19,14 @@ pub enum MapQuantity {
     LeastStiffness,
     /// Greatest tension of any cable, without and with the load.
     GreatestTension,
+    /// Greatest tension of any cable where tensions are distributed anew under the load.
+    GreatestTensionAnew,
 }
 
 impl MapQuantity {
     /// All quantities.
-    pub const ALL: [Self; 3] = [Self::Deflection, Self::LeastStiffness, Self::GreatestTension];
+    pub const ALL: [Self; 4] =
+        [Self::Deflection, Self::LeastStiffness, Self::GreatestTension, Self::GreatestTensionAnew];
 
     /// Name of its figure file.
     pub fn name(self) -> &'static str {
@@ -31,7 +34,23 @@ impl MapQuantity {
             Self::Deflection => "deflection",
             Self::LeastStiffness => "least_stiffness",
             Self::GreatestTension => "greatest_tension",
+            Self::GreatestTensionAnew => "greatest_tension_anew",
         }
+    }
+
+    /// Whether it exists without a load.
+    fn needs_no_load(self) -> bool {
+        matches!(self, Self::LeastStiffness | Self::GreatestTension)
+    }
+
+    /// How the load is borne, for the title.
+    fn under_load(self) -> &'static str {
+        if self == Self::GreatestTensionAnew { "tensions distributed anew" } else { "lengths kept" }
+    }
+
+    /// Whether a position is held, with all tensions within the limits.
+    fn is_held(self, row: &WorkspaceRow) -> bool {
+        if self == Self::GreatestTensionAnew { row.anew_status == Some(HELD) } else { row.status == HELD }
     }
 
     /// Words for the title, label of the colour bar, and unit.
@@ -39,7 +58,9 @@ impl MapQuantity {
         match self {
             Self::Deflection => ("static deflection", "|dp|", "mm"),
             Self::LeastStiffness => ("stiffness of the softest motion", "least stiffness", "kN/m"),
-            Self::GreatestTension => ("greatest tension", "greatest tension", "N"),
+            Self::GreatestTension | Self::GreatestTensionAnew => {
+                ("greatest tension", "greatest tension", "N")
+            }
         }
     }
 
@@ -49,6 +70,7 @@ impl MapQuantity {
             Self::Deflection => row.rms_mm,
             Self::LeastStiffness => row.least_stiffness.map(|stiffness| 1e-3 * stiffness),
             Self::GreatestTension => row.greatest_tension,
+            Self::GreatestTensionAnew => row.anew_greatest_tension,
         }
     }
 }
@@ -79,10 +101,11 @@ fn values(
     let rows: Vec<_> = plane.positions.iter().map(|position| &summary.rows[*position]).collect();
     let values = rows.iter().map(|row| quantity.value(row)).collect();
     let map = ColorMap::new(plane.cells()?, values, quantity.name(), &format!("{label} [{unit}]"))?;
-    let hatched = |index: usize| rows[index].status != "held";
+    let hatched = |index: usize| !quantity.is_held(rows[index]);
     let held = (0..rows.len()).filter(|index| !hatched(*index)).count();
+    let borne = if summary.is_loaded() { format!(", {}", quantity.under_load()) } else { String::new() };
     let heading = Heading {
-        title: &format!("{}: {words} at {}, {}", summary.robot, plane.words(), summary.conditions()),
+        title: &format!("{}: {words} at {}, {}{borne}", summary.robot, plane.words(), summary.conditions()),
         lines: &[format!(
             "{} {unit} to {} {unit}; {held} of {} positions held with all tensions within limits, the others \
                 are hatched",
@@ -126,9 +149,7 @@ pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary) -> Vec<NamedMap
     let mut maps = Vec::new();
     for plane in Plane::of(&summary.grid) {
         let name = |quantity: &str| format!("{quantity}{}", plane.suffix());
-        // Without a load there is no deflection.
-        let deflection = summary.rows.iter().any(|row| row.rms_mm.is_some());
-        let shown = MapQuantity::ALL.into_iter().filter(|of| deflection || *of != MapQuantity::Deflection);
+        let shown = MapQuantity::ALL.into_iter().filter(|of| summary.is_loaded() || of.needs_no_load());
         maps.extend(
             shown.map(|of| NamedMap { name: name(of.name()), svg: values(&plane, robot, summary, of) }),
         );
