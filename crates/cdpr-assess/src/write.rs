@@ -40,8 +40,7 @@ pub fn write_workspace(
     folder.remove(WORKSPACE)?;
     folder.write_rows("workspace.csv", &summary.rows)?;
     write_figures(folder, maps)?;
-    folder.remove_stale(&[WORKSPACE])?;
-    folder.write_json(WORKSPACE, summary).map(|_| ())
+    folder.conclude(WORKSPACE, summary, &[]).map(|_| ())
 }
 
 /// Makes a folder for the robustness of the direct model, or takes one of an earlier run.
@@ -67,8 +66,7 @@ pub fn write_robustness(
     write_solves(folder, results)?;
     write_refused(folder, results)?;
     write_figures(folder, figures)?;
-    folder.remove_stale(&[ROBUSTNESS])?;
-    folder.write_json(ROBUSTNESS, summary).map(|_| ())
+    folder.conclude(ROBUSTNESS, summary, &[]).map(|_| ())
 }
 
 fn write_figures(folder: &ResultsFolder, figures: &[(String, String)]) -> Result<(), StudyError> {

@@ -5,7 +5,7 @@ use cdpr_cable::{CableError, RecordError};
 use cdpr_report::ReportError;
 use cdpr_robot::{JsonError, rounded};
 use cdpr_statics::StaticsError;
-use cdpr_study::{InputKind, StudyError};
+use cdpr_study::{InputKind, ROBOT_NAME, STUDY_NAME, StudyError};
 use std::path::{Path, PathBuf};
 
 /// Why a command did not do what it was asked for.
@@ -108,6 +108,13 @@ fn with_options(error: &StudyError) -> String {
         StudyError::NotAnalysed { .. } => {
             ": analyse it with cdpr study merge, or cdpr study run --resume where blocks are missing"
         }
+        StudyError::Changed { path } if path.ends_with(STUDY_NAME) => {
+            ": put it back, or go on with what it says now: cdpr study run --resume"
+        }
+        StudyError::Changed { path } if path.ends_with(ROBOT_NAME) => {
+            ": put it back, or give this robot a folder of its own"
+        }
+        StudyError::Changed { .. } => ": cdpr study merge makes it again",
         _ => "",
     };
     format!("{error}{help}")

@@ -55,7 +55,7 @@ fn a_strangers_folder_names_no_file_outside_of_it() {
     assert!(safe());
     // A list of files outside.
     for name in ["../victim/2024.csv", "../victim.csv", "plane/../../victim.csv", "/victim.csv"] {
-        bench.change("out/cdpr-results.json", |list| list["files"] = json!([name]));
+        bench.change("out/cdpr-results.json", |list| list["files"] = json!({name: null}));
         for option in ["--overwrite", "--resume"] {
             let message = bench.refused(&["run", "study.json", "--out", "out", option]);
             assert!(message.contains(&format!("cdpr-results.json: files is {name}: expected")), "{message}");
@@ -356,7 +356,95 @@ fn files_of_different_studies_in_one_folder_are_noticed() {
     bench.change("out/robot.json", |robot| robot["platform"]["mass"] = json!(400.0));
     for command in ["merge", "status"] {
         let message = bench.refused(&[command, "out"]);
-        assert!(message.contains("out/study.json is of study "), "{message}");
+        assert!(
+            message.contains("out/robot.json is not what the run has written here: it was changed"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn edited_files_of_results_are_noticed_wherever_they_are_read() {
+    let bench = bench();
+    bench.run("out", &[]);
+    assert!(!bench.done(&["status", "out"]).contains("not what"));
+    for (name, edit, commands) in [
+        ("robot.json", ["\"mass\": ", "\"mass\": 1"], &["report", "merge", "status", "extend"][..]),
+        // Neither title nor number enters the hash of the study.
+        (
+            "study.json",
+            ["\"observations\": 20", "\"observations\": 30"],
+            &["report", "merge", "status", "extend"],
+        ),
+        ("study.json", ["\"title\": \"", "\"title\": \"My "], &["report", "merge", "status", "extend"]),
+        ("summary.json", ["\"mean\": ", "\"mean\": 1"], &["report"]),
+        ("plane.csv", ["held,", "held,1"], &["report"]),
+        ("surface_E_rho.csv", [",ok", "1,ok"], &["report"]),
+    ] {
+        let path = bench.path("out").join(name);
+        let kept = std::fs::read_to_string(&path).unwrap();
+        let edited = kept.replacen(edit[0], edit[1], 1);
+        assert_ne!(edited, kept);
+        write(&path, &edited);
+        for command in commands {
+            let (code, message) = match *command {
+                "report" => report(&bench, &["out"]),
+                "extend" => (Some(1), bench.refused(&["extend", "out", "--observations", "40"])),
+                command => (Some(1), bench.refused(&[command, "out"])),
+            };
+            let told = format!("out/{name} is not what the run has written here: it was changed");
+            assert!(code == Some(1) && message.contains(&told), "{command}: {message}");
+        }
+        if commands.len() == 1 {
+            let told = format!("not what the run has written: out/{name}");
+            assert!(bench.done(&["status", "out"]).contains(&told));
+        }
+        write(&path, &kept);
+    }
+    assert_eq!(report(&bench, &["out"]).0, Some(0));
+    // The digests are those that b3sum prints, of tables that the program does not read back, too.
+    let table = std::fs::read(bench.path("out/mechanical.csv")).unwrap();
+    let list = bench.json("out/cdpr-results.json");
+    assert_eq!(list["files"]["mechanical.csv"], blake3::hash(&table).to_string());
+    write(bench.path("out/mechanical.csv"), "index\n");
+    std::fs::remove_file(bench.path("out/mechanical.svg")).unwrap();
+    let status: serde_json::Value =
+        serde_json::from_str(&bench.done(&["status", "out", "--format", "json"])).unwrap();
+    assert_eq!(status["changed"], json!(["out/mechanical.csv", "out/mechanical.svg"]));
+    // An edited study goes on if it is run, and a changed summary is made again.
+    bench.change("out/study.json", |study| study["samplings"]["mechanical"]["title"] = json!("Mine"));
+    bench.done(&["run", "out/study.json", "--out", "out", "--resume"]);
+    write(bench.path("out/summary.json"), "{}");
+    assert_eq!(report(&bench, &["out"]).0, Some(1));
+    bench.done(&["merge", "out"]);
+    assert!(!bench.done(&["status", "out"]).contains("not what"));
+}
+
+#[cfg(unix)]
+#[test]
+fn pipes_in_a_folder_of_results_are_not_waited_for() {
+    let bench = bench();
+    let names =
+        ["study.json", "robot.json", "summary.json", "cdpr-results.json", "cdpr-results.lock", "plane.csv"];
+    for name in names.into_iter().chain(["blocks/mechanical/sampling/000000.block"]) {
+        bench.run("out", &["--overwrite"]);
+        let path = bench.path("out").join(name);
+        let kept = std::fs::read(&path).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        assert!(bench.command("mkfifo").arg(&path).status().unwrap().success());
+        for arguments in [
+            &["study", "run", "study.json", "--out", "out", "--resume"][..],
+            &["study", "run", "study.json", "--out", "out", "--overwrite"],
+            &["study", "merge", "out"],
+            &["study", "status", "out"],
+            &["report", "out"],
+        ] {
+            let mut command = bench.command("timeout");
+            let output = command.arg("20").arg(env!("CARGO_BIN_EXE_cdpr")).args(arguments).output().unwrap();
+            assert_eq!(output.status.code().filter(|code| *code > 1), None, "{name}: {arguments:?}");
+        }
+        std::fs::remove_file(&path).unwrap();
+        std::fs::write(&path, kept).unwrap();
     }
 }
 

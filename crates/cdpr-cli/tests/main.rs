@@ -10,6 +10,8 @@ mod common;
 mod derivatives;
 #[path = "../../cdpr-statics/tests/equilibria.rs"]
 mod equilibria;
+#[cfg(debug_assertions)]
+mod faults;
 mod folder;
 mod hysteresis;
 mod models;

@@ -212,6 +212,12 @@ pub enum StudyError {
         /// Hash of the study of the other files.
         expected: String,
     },
+    /// A file in a folder of results was changed after the run that wrote it.
+    #[error("{path} is not what the run has written here: it was changed")]
+    Changed {
+        /// The file.
+        path: PathBuf,
+    },
     /// A study cannot be analysed yet.
     #[error("{folder} lacks {missing} of {blocks} blocks, the first one {first}")]
     MissingBlocks {

@@ -11,10 +11,10 @@ use crate::analysis::summary::Summary;
 use crate::analysis::surface::{SurfaceResult, SurfaceSummary, compute_surface};
 use crate::error::StudyError;
 use crate::file::study_file::StudyFile;
-use crate::fs::files::read;
+use crate::fs::manifest::{Manifest, read};
 use crate::fs::owned::ResultsFolder;
 use crate::model::study::{Sampling, Study};
-use crate::names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
+use crate::names::{ROBOT_NAME, STUDY_NAME};
 use crate::observe::observation::{Session, Tally, observe_into};
 use crate::results::read::Results;
 use crate::results::table::{ObservationTable, TableFormat};
@@ -135,16 +135,15 @@ pub fn run(
     let drawn = draw(study, Drawable::Whole { studies: &run.studies });
     run.figures(drawn)?;
     let Running { studies, surfaces, poses, timings, figures, .. } = run;
-    // What is of an earlier run and not of this one would not belong to the summary.
-    out.remove_stale(&[ROBOT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME, REPORT_NAME])?;
     let summary = Summary::new(study, studies)?;
     write_summary(out, &summary)?;
     blocks.remove_unfinished()?;
     let timings =
         Timings { threads: rayon::current_num_threads(), all: clock.elapsed().as_secs_f64(), ..timings };
     write_timings(out, &timings)?;
-    let path = out.path().join(STUDY_NAME);
-    let (study_json, robot_json) = (read(&path)?, read(&out.path().join(ROBOT_NAME))?);
+    let list = Manifest::read(out.path())?;
+    let [study_json, robot_json] = [STUDY_NAME, ROBOT_NAME].map(|name| read(out.path(), list.as_ref(), name));
+    let (path, study_json, robot_json) = (out.path().join(STUDY_NAME), study_json?, robot_json?);
     let file = StudyFile { robot: ROBOT_NAME.to_owned(), ..study.file.clone() };
     let study = Study { path, file, ..study.clone() };
     let results = Results { study, study_json, robot_json, summary, surfaces, poses, timings: Some(timings) };
@@ -258,191 +257,5 @@ impl<'a> Running<'a> {
         }
         self.figures.extend(drawn);
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fs::disk::faults::{DIED, Fault, with};
-    use crate::names::LOCK_NAME;
-    use crate::store::folder::{Existing, begin};
-    use serde_json::{Value, json};
-    use std::collections::BTreeMap;
-    use std::path::{Path, PathBuf};
-    use std::process::Command;
-
-    /// Variable with the folder, the number of the operation and the fault, for a process that a fault ends.
-    const FAULT: &str = "CDPR_TEST_FAULT";
-
-    type Files = BTreeMap<PathBuf, Vec<u8>>;
-
-    /// CAROCA at one pose and at a list of two, with tables, and a surface.
-    fn study(change: impl FnOnce(&mut Value)) -> Study {
-        let data = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies"));
-        let path = data.join("caroca-poses.json");
-        let mut study: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
-        let model = study["error_models"]["table_4"].as_object_mut().unwrap();
-        model.retain(|name, _| ["mass", "youngs_modulus"].contains(&name.as_str()));
-        let pose = json!({"position": [0.0, 0.0, 1.75]});
-        let plane = &mut study["samplings"]["plane"];
-        plane["observations"] = json!(3);
-        let mut alone = plane.clone();
-        plane["poses"] = json!({"list": [pose]});
-        alone.as_object_mut().unwrap().remove("poses");
-        alone["pose"] = pose.clone();
-        study["samplings"]["alone"] = alone;
-        (study["replicates"], study["bootstrap_resamples"]) = (json!(0), json!(1));
-        let axis = |parameter: &str| json!({"parameter": parameter, "min": -1.0, "max": 1.0, "points": 2});
-        study["surfaces"] = json!({
-            "sheet": {"title": "Sheet", "pose": pose, "x": axis("mass"), "y": axis("linear_density")}
-        });
-        study["surfaces"]["sheet"]["y"]["min"] = json!(-0.01);
-        study["surfaces"]["sheet"]["y"]["max"] = json!(0.01);
-        change(&mut study);
-        Study::from_json(&study.to_string(), &path).unwrap()
-    }
-
-    /// A run with its report.
-    fn whole(study: &Study, out: &Path, existing: Existing) -> Result<(), StudyError> {
-        let blocks = begin(out, study, existing)?;
-        let figure = |name: &str| Figure { name: name.to_owned(), svg: Ok("<svg></svg>".to_owned()) };
-        let draw = |_: &Study, of: Drawable| match of {
-            Drawable::Sampling { name, .. } | Drawable::Surface { name, .. } => vec![figure(name)],
-            Drawable::Poses { name, .. } => vec![figure(&format!("{name}_mean"))],
-            Drawable::Whole { .. } => vec![figure("robot")],
-        };
-        let watcher =
-            Watcher { begin: &|_| (), tick: &|_| (), warn: &|_| (), note: &|_| (), stop: &|| false };
-        let Run { results, .. } = run(study, &blocks, Some(TableFormat::Csv), &draw, watcher)?;
-        let report = format!("report of {}", results.summary.hash);
-        blocks.results()?.write(REPORT_NAME, report.as_bytes()).map(|_| ())
-    }
-
-    /// All files below a folder.
-    fn files(out: &Path) -> Files {
-        let (mut folders, mut files) = (vec![out.to_owned()], Files::new());
-        while let Some(folder) = folders.pop() {
-            for path in std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
-                if path.is_dir() {
-                    folders.push(path);
-                } else {
-                    files.insert(path.strip_prefix(out).unwrap().to_owned(), std::fs::read(&path).unwrap());
-                }
-            }
-        }
-        files
-    }
-
-    fn put(files: &Files, out: &Path) {
-        for (name, content) in files {
-            let path = out.join(name);
-            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-            std::fs::write(path, content).unwrap();
-        }
-    }
-
-    /// Runs `second` over what `first` has left, with a fault at each operation in turn; then nothing of the
-    /// user is lost, nothing is mixed, and the run that goes on ends with the bytes of one without a fault.
-    fn at_every_operation(test: &str, first: Option<&Study>, second: &Study, existing: Existing) {
-        if let Some(fault) = std::env::var_os(FAULT) {
-            let (out, number, after) = serde_json::from_str(fault.to_str().unwrap()).unwrap();
-            let (out, number, after): (PathBuf, usize, bool) = (out, number, after);
-            let fault = if after { Fault::DieAfter } else { Fault::DieBefore };
-            let (ended, _) = with(Some((number, fault)), || whole(second, &out, existing));
-            panic!("the process goes on: {ended:?}");
-        }
-        let folder = tempfile::tempdir().unwrap();
-        let out = folder.path().join("out");
-        if let Some(first) = first {
-            whole(first, &out, Existing::Refuse).unwrap();
-            for name in ["mine.csv", "plane/2024.csv", "blocks/mine.txt", "blocks/alone/mine.block"] {
-                put(&[(PathBuf::from(name), b"mine".to_vec())].into(), &out);
-            }
-        }
-        let before = if first.is_some() { files(&out) } else { Files::new() };
-        let mine: Vec<_> = before.iter().filter(|(_, content)| *content == b"mine").collect();
-        let (ended, operations) = with(None, || whole(second, &out, existing));
-        ended.unwrap();
-        let without_times = |mut files: Files| {
-            assert!(files.remove(Path::new(TIMINGS_NAME)).is_some());
-            files
-        };
-        let after = without_times(files(&out));
-        assert!(operations.len() > 50 && after.contains_key(Path::new(LOCK_NAME)), "{operations:?}");
-        let summary = |files: &Files| files.get(Path::new(SUMMARY_NAME)).cloned();
-        let mut died = 0;
-        for (number, (operation, path)) in operations.iter().enumerate() {
-            // EIO and ENOSPC in turn: the program does not tell them apart.
-            let error = Fault::Error([5, 28][number % 2]);
-            for fault in [error, Fault::DieBefore, Fault::DieAfter] {
-                let what = format!("{fault:?} at {number}, {operation} {}", path.display());
-                // What a process leaves before an operation is what it leaves after the one before.
-                if fault == Fault::DieAfter && !["rename", "unlink"].contains(operation) {
-                    continue;
-                }
-                if out.exists() {
-                    std::fs::remove_dir_all(&out).unwrap();
-                }
-                put(&before, &out);
-                if let Fault::Error(_) = fault {
-                    let (ended, _) = with(Some((number, fault)), || whole(second, &out, existing));
-                    assert!(ended.is_err(), "{what}");
-                } else {
-                    let fault = json!([out, number, fault == Fault::DieAfter]).to_string();
-                    let mut child = Command::new(std::env::current_exe().unwrap());
-                    child.args(["--exact", test, "--nocapture"]).env(FAULT, fault);
-                    assert_eq!(child.output().unwrap().status.code(), Some(DIED), "{what}");
-                    died += 1;
-                }
-                let left = if out.exists() { files(&out) } else { Files::new() };
-                for (name, content) in &mine {
-                    assert_eq!(left.get(*name), Some(*content), "{what}");
-                }
-                if let Some(found) = summary(&left) {
-                    // A summary stands beside the files of its own run alone.
-                    let whole = if Some(&found) == summary(&after).as_ref() { &after } else { &before };
-                    for name in ["alone.csv", "plane.csv", "sheet.csv", "study.json", "alone.svg"] {
-                        assert_eq!(left.get(Path::new(name)), whole.get(Path::new(name)), "{what}: {name}");
-                    }
-                }
-                match whole(second, &out, Existing::GoOn) {
-                    Err(StudyError::ForeignFolder { .. }) if existing == Existing::Overwrite => {
-                        whole(second, &out, Existing::Overwrite).unwrap();
-                    }
-                    resumed => resumed.unwrap_or_else(|error| panic!("{what}: {error}")),
-                }
-                let resumed = without_times(files(&out));
-                assert_eq!(resumed.keys().collect::<Vec<_>>(), after.keys().collect::<Vec<_>>(), "{what}");
-                assert!(resumed == after, "{what}");
-            }
-        }
-        assert!(died > operations.len());
-    }
-
-    #[test]
-    fn a_first_run_that_fails_or_dies_at_any_operation_is_told_and_resumed_to_the_same_bytes() {
-        let test = "run::tests::\
-                    a_first_run_that_fails_or_dies_at_any_operation_is_told_and_resumed_to_the_same_bytes";
-        at_every_operation(test, None, &study(|_| ()), Existing::Refuse);
-    }
-
-    #[test]
-    fn a_run_that_overwrites_another_and_fails_or_dies_at_any_operation_loses_and_mixes_nothing() {
-        let test = "run::tests::\
-                    a_run_that_overwrites_another_and_fails_or_dies_at_any_operation_loses_and_mixes_nothing";
-        let second = study(|study| study["payload"] = json!(60.0));
-        at_every_operation(test, Some(&study(|_| ())), &second, Existing::Overwrite);
-    }
-
-    #[test]
-    fn a_larger_study_that_fails_or_dies_at_any_operation_goes_on_with_the_blocks_of_the_smaller() {
-        let test = "run::tests::\
-                    a_larger_study_that_fails_or_dies_at_any_operation_goes_on_with_the_blocks_of_the_smaller";
-        let second = study(|study| {
-            study["samplings"]["plane"]["observations"] = json!(4);
-            study["samplings"]["further"] = study["samplings"]["alone"].clone();
-        });
-        at_every_operation(test, Some(&study(|_| ())), &second, Existing::GoOn);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::arguments::Format;
 use crate::error::ProgramError;
-use crate::output::table;
+use crate::output::{patiently, table};
 use cdpr_robot::shown;
 use cdpr_study::{Provisional, Status, StoredStudy, open_results, status};
 use clap::Args;
@@ -18,8 +18,10 @@ pub(crate) struct Settings {
 }
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let StoredStudy { study, blocks } = open_results(&settings.folder)?;
-    let found = status(&study, &blocks)?;
+    let found = patiently("reading the results", || {
+        let StoredStudy { study, blocks } = open_results(&settings.folder)?;
+        status(&study, &blocks)
+    })?;
     Ok(settings.format.print(&found, print)?)
 }
 
@@ -53,6 +55,9 @@ fn print(status: &Status) {
         if let Some(Provisional { mean, std }) = sampling.provisional_rms_mm {
             println!("{name}: so far {mean:.4} mm, standard deviation {std:.4} mm");
         }
+    }
+    for path in &status.changed {
+        println!("not what the run has written: {}", path.display());
     }
     println!(
         "\n{}",

@@ -1,10 +1,9 @@
 //! The first study of a user's own robot: a file that runs as it is, and whose numbers the user replaces.
 
 use crate::error::StudyError;
+use crate::fs::atomic::write_new;
 use cdpr_robot::{Pose, Robot, Vector3, rounded};
 use cdpr_statics::{Load, deflection};
-use std::fs::File;
-use std::io::Write;
 use std::path::Path;
 
 /// What the fields of a study file mean, for people; the format itself has no comments.
@@ -137,8 +136,7 @@ pub fn write_template(
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let from_here = robot.strip_prefix(whole(folder)?).unwrap_or(&robot);
     let text = text(&from_here.display().to_string())?;
-    let write = || File::create_new(path)?.write_all(text.as_bytes());
-    write().map_err(|source| StudyError::Write { path: path.to_owned(), source })
+    write_new(path.to_owned(), text.as_bytes()).map(|_| ())
 }
 
 /// Positions above each other in the middle of the exit points, between the lowest and the highest of these;

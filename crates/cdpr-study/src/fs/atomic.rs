@@ -67,11 +67,18 @@ impl AtomicFile {
     /// # Errors
     /// [`StudyError::Write`].
     pub(crate) fn finish(self) -> Result<PathBuf, StudyError> {
+        self.named_by(disk::rename)
+    }
+
+    fn named_by(
+        self,
+        rename: impl FnOnce(NamedTempFile, &Path) -> std::io::Result<()>,
+    ) -> Result<PathBuf, StudyError> {
         let Self { path, file } = self;
         let finish = || -> std::io::Result<()> {
             let file = file.into_inner().map_err(std::io::IntoInnerError::into_error)?.file;
             disk::sync(file.as_file(), &path)?;
-            disk::rename(file, &path)?;
+            rename(file, &path)?;
             // The name is part of the folder.
             #[cfg(unix)]
             disk::sync(&File::open(folder_of(&path))?, folder_of(&path))?;
@@ -122,9 +129,21 @@ pub(crate) fn remove_unfinished(path: PathBuf) -> Result<(), StudyError> {
 /// # Errors
 /// [`StudyError::Write`].
 pub(crate) fn write_atomic(path: PathBuf, text: &[u8]) -> Result<PathBuf, StudyError> {
+    written(path, text)?.finish()
+}
+
+/// The same for a file that does not exist yet.
+///
+/// # Errors
+/// [`StudyError::Write`], also if there is such a file.
+pub(crate) fn write_new(path: PathBuf, text: &[u8]) -> Result<PathBuf, StudyError> {
+    written(path, text)?.named_by(disk::rename_new)
+}
+
+fn written(path: PathBuf, text: &[u8]) -> Result<AtomicFile, StudyError> {
     let mut file = AtomicFile::new(path)?;
     match file.write_all(text) {
-        Ok(()) => file.finish(),
+        Ok(()) => Ok(file),
         Err(source) => Err(file.unwritten(source)),
     }
 }

@@ -1,5 +1,6 @@
-//! The one place where files and folders are changed: each function is one operation of the system. Tests let
-//! any of them fail, or end the process before or after it.
+//! The one place where files and folders are changed: each function is one operation of the system. Tests of
+//! the program (`crates/cdpr-cli/tests/faults.rs`) let any of them fail, or end the process before or after
+//! it.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Write};
@@ -60,6 +61,11 @@ pub(crate) fn sync(file: &File, path: &Path) -> io::Result<()> {
     step("fsync", path, || file.sync_all())
 }
 
+/// Gives a file its name, if no other file has it.
+pub(crate) fn rename_new(file: NamedTempFile, path: &Path) -> io::Result<()> {
+    step("rename", path, || file.persist_noclobber(path).map(|_| ()).map_err(io::Error::from))
+}
+
 /// Gives a file its name, in place of one that has it.
 pub(crate) fn rename(file: NamedTempFile, path: &Path) -> io::Result<()> {
     step("rename", path, || file.persist(path).map(|_| ()).map_err(io::Error::from))
@@ -82,72 +88,55 @@ pub(crate) fn remove_folder(path: &Path) -> io::Result<()> {
 }
 
 /// Carries out one operation.
-#[cfg(not(test))]
+#[cfg(not(debug_assertions))]
 fn step<T>(_: &'static str, _: &Path, operation: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
     operation()
 }
 
-#[cfg(test)]
+#[cfg(debug_assertions)]
 use faults::step;
 
-/// Failures of operations, in tests alone.
-#[cfg(test)]
-pub(crate) mod faults {
-    use std::cell::{Cell, RefCell};
-    use std::io;
-    use std::path::{Path, PathBuf};
+/// Failures of operations that tests ask for. Programs for users are built without debug assertions.
+#[cfg(debug_assertions)]
+mod faults {
+    use std::io::{self, Write};
+    use std::path::Path;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// What happens at an operation.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    pub(crate) enum Fault {
-        /// It fails with this error of the system.
-        Error(i32),
-        /// The process ends before it.
-        DieBefore,
-        /// The process ends after it.
-        DieAfter,
-    }
+    /// Variable with the number of an operation, from 0, and what happens at it: `EIO`, `ENOSPC`, or the end
+    /// of the process `before` or `after` it, such as `12 EIO`.
+    const VARIABLE: &str = "CDPR_TEST_FAULT";
 
-    /// Exit code of a process that a fault has ended.
-    pub(crate) const DIED: i32 = 86;
-
-    thread_local! {
-        static PLAN: Cell<Option<(usize, Fault)>> = const { Cell::new(None) };
-        static LOG: RefCell<Vec<(&'static str, PathBuf)>> = const { RefCell::new(Vec::new()) };
-    }
-
-    /// Runs `act` with a fault at the operation of this number, from 0. Returns what `act` returns and all
-    /// operations of this thread in their order.
-    pub(crate) fn with<T>(
-        plan: Option<(usize, Fault)>,
-        act: impl FnOnce() -> T,
-    ) -> (T, Vec<(&'static str, PathBuf)>) {
-        LOG.with_borrow_mut(Vec::clear);
-        PLAN.set(plan);
-        let result = act();
-        PLAN.set(None);
-        (result, LOG.take())
-    }
+    /// Operations so far.
+    static OPERATIONS: AtomicUsize = AtomicUsize::new(0);
 
     pub(super) fn step<T>(
         name: &'static str,
         path: &Path,
         operation: impl FnOnce() -> io::Result<T>,
     ) -> io::Result<T> {
-        let number = LOG.with_borrow_mut(|log| {
-            log.push((name, path.to_owned()));
-            log.len() - 1
-        });
-        let fault = PLAN.get().filter(|(at, _)| *at == number).map(|(_, fault)| fault);
+        let number = OPERATIONS.fetch_add(1, Ordering::Relaxed);
+        let plan = std::env::var(VARIABLE).unwrap_or_default();
+        let Some((_, fault)) = plan.split_once(' ').filter(|(at, _)| *at == number.to_string()) else {
+            return operation();
+        };
+        // The test reads there what has failed.
+        let _ = writeln!(io::stderr(), "fault: {fault} at {number}, {name} {}", path.display());
         match fault {
-            Some(Fault::Error(code)) => return Err(io::Error::from_raw_os_error(code)),
-            Some(Fault::DieBefore) => std::process::exit(DIED),
+            "EIO" => return Err(io::Error::from_raw_os_error(5)),
+            "ENOSPC" => return Err(io::Error::from_raw_os_error(28)),
+            "before" => end(),
             _ => (),
         }
         let done = operation();
-        if fault == Some(Fault::DieAfter) {
-            std::process::exit(DIED);
+        if fault == "after" {
+            end();
         }
         done
+    }
+
+    /// Ends the process without anything being put in order.
+    fn end() {
+        std::process::exit(86);
     }
 }

@@ -18,11 +18,6 @@ pub(crate) fn check_folder(folder: &Path) -> Result<(), StudyError> {
     disk::probe(folder).map_err(write)
 }
 
-/// The text of a file in a folder of results.
-pub(crate) fn read(path: &Path) -> Result<String, StudyError> {
-    read_text(path, InputKind::Results)
-}
-
 /// Reads and checks a robot file.
 ///
 /// # Errors

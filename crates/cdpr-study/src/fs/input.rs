@@ -14,7 +14,11 @@ use std::path::Path;
 /// [`StudyError::Read`]; [`StudyError::NotRegular`] for a folder, a pipe or a device;
 /// [`StudyError::TooLarge`].
 pub fn read_text(path: &Path, kind: InputKind) -> Result<String, StudyError> {
-    let bytes = read_bytes(path, kind)?;
+    text_of(path, read_bytes(path, kind)?)
+}
+
+/// The text that the bytes of a file are, as [`read_text`] has it.
+pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StudyError> {
     let unreadable = |reason: &str| StudyError::Read {
         path: path.to_owned(),
         source: io::Error::new(ErrorKind::InvalidData, reason),
@@ -32,14 +36,9 @@ pub fn read_text(path: &Path, kind: InputKind) -> Result<String, StudyError> {
 /// As [`read_text`].
 pub(crate) fn read_bytes(path: &Path, kind: InputKind) -> Result<Vec<u8>, StudyError> {
     let unread = |source| StudyError::Read { path: path.to_owned(), source };
-    let file = open(path).map_err(unread)?;
-    let found = file.metadata().map_err(unread)?;
-    if !found.is_file() {
-        let found = described(found.file_type());
-        return Err(StudyError::NotRegular { path: path.to_owned(), found, kind });
-    }
+    let file = open(path, kind)?;
     let too_large = || StudyError::TooLarge { path: path.to_owned(), kind, most: kind.most_bytes() };
-    if found.len() > kind.most_bytes() {
+    if file.metadata().map_err(unread)?.len() > kind.most_bytes() {
         return Err(too_large());
     }
     let mut bytes = Vec::new();
@@ -60,13 +59,33 @@ pub(crate) fn other_kind(path: &Path, text: &str, kind: InputKind) -> Option<Stu
     (found != kind).then(|| StudyError::OtherKind { path: path.to_owned(), found, kind })
 }
 
-/// Opens a file; a pipe without a writer is opened, too, instead of being waited for.
-fn open(path: &Path) -> io::Result<File> {
+/// The first bytes of a file, so many at most.
+///
+/// # Errors
+/// [`StudyError::Read`], [`StudyError::NotRegular`].
+pub(crate) fn read_start(path: &Path, kind: InputKind, most: u64) -> Result<Vec<u8>, StudyError> {
+    let mut start = Vec::new();
+    let read = open(path, kind)?.take(most).read_to_end(&mut start);
+    read.map(|_| start).map_err(|source| StudyError::Read { path: path.to_owned(), source })
+}
+
+/// Opens a regular file. A pipe without a writer is opened at first, too, instead of being waited for.
+///
+/// # Errors
+/// [`StudyError::Read`], [`StudyError::NotRegular`].
+pub(crate) fn open(path: &Path, kind: InputKind) -> Result<File, StudyError> {
+    let unread = |source| StudyError::Read { path: path.to_owned(), source };
     let mut options = File::options();
     options.read(true);
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK | libc::O_NOCTTY);
-    options.open(path)
+    let file = options.open(path).map_err(unread)?;
+    let found = file.metadata().map_err(unread)?.file_type();
+    if !found.is_file() {
+        let found = described(found);
+        return Err(StudyError::NotRegular { path: path.to_owned(), found, kind });
+    }
+    Ok(file)
 }
 
 #[cfg(unix)]

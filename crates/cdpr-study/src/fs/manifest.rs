@@ -1,13 +1,15 @@
 //! `cdpr-results.json`, the list of the files in a folder that runs have written. A name is in it before its
-//! file is created; only files that it names are ever replaced or removed.
+//! file is created; only files that it names are ever replaced or removed. When all files of a run are
+//! written, the list has the digest of each, by which a file that was changed later is noticed.
 
 use crate::error::StudyError;
 use crate::fs::atomic::write_atomic;
-use crate::fs::files::read;
+use crate::fs::input::{open, read_bytes, read_text, text_of};
+use crate::kind::InputKind;
 use crate::names::{BLOCKS_NAME, LOCK_NAME, MANIFEST_NAME};
 use cdpr_robot::from_json;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -52,13 +54,19 @@ pub(crate) struct Manifest {
     /// Hash of the study ([`crate::Study::hash`]).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) study: Option<String>,
-    /// Names of the files, relative to the folder.
-    pub(crate) files: BTreeSet<String>,
+    /// The files by their names, relative to the folder, each with the [`digest`] of its content; `None` for
+    /// one that is being written, or that holds no results.
+    pub(crate) files: BTreeMap<String, Option<String>>,
+}
+
+/// The BLAKE3 hash of a content, in hexadecimal digits, as `b3sum` prints it.
+pub(crate) fn digest(content: &[u8]) -> String {
+    blake3::hash(content).to_string()
 }
 
 impl Manifest {
     pub(crate) fn new(of: ResultsOf) -> Self {
-        Self { format: MANIFEST_FORMAT.to_owned(), of, study: None, files: BTreeSet::new() }
+        Self { format: MANIFEST_FORMAT.to_owned(), of, study: None, files: BTreeMap::new() }
     }
 
     /// The list of a folder, if it has one.
@@ -71,8 +79,8 @@ impl Manifest {
         if !is_plain_file(&path)? {
             return Ok(None);
         }
-        let manifest: Self =
-            from_json(&read(&path)?).map_err(|source| StudyError::Format { path: path.clone(), source })?;
+        let manifest: Self = from_json(&read_text(&path, InputKind::Results)?)
+            .map_err(|source| StudyError::Format { path: path.clone(), source })?;
         let invalid = |field: &str, value: &str, expected: &str| StudyError::Invalid {
             path: path.clone(),
             field: field.to_owned(),
@@ -82,7 +90,7 @@ impl Manifest {
         if manifest.format != MANIFEST_FORMAT {
             return Err(invalid("format", &manifest.format, MANIFEST_FORMAT));
         }
-        match manifest.files.iter().find(|name| !is_name_of_results(name)) {
+        match manifest.files.keys().find(|name| !is_name_of_results(name)) {
             Some(name) => Err(invalid("files", name, "names of tables, figures and reports in this folder")),
             None => Ok(Some(manifest)),
         }
@@ -99,6 +107,49 @@ impl Manifest {
             Err(error) => Err(StudyError::Write { path, source: error.into() }),
         }
     }
+
+    /// The digest of a file's content, if the list has one.
+    fn digest_of(&self, name: &str) -> Option<&str> {
+        self.files.get(name)?.as_deref()
+    }
+}
+
+/// The text of a file in a folder of results.
+///
+/// # Errors
+/// As [`read_text`]; [`StudyError::Changed`] for a text that is not the one in the folder's list.
+pub(crate) fn read(folder: &Path, list: Option<&Manifest>, name: &str) -> Result<String, StudyError> {
+    let path = folder.join(name);
+    let bytes = read_bytes(&path, InputKind::Results)?;
+    match list.and_then(|list| list.digest_of(name)) {
+        Some(expected) if digest(&bytes) != expected => Err(StudyError::Changed { path }),
+        _ => text_of(&path, bytes),
+    }
+}
+
+/// The files of a folder that are not, or no longer, what its list says.
+///
+/// # Errors
+/// [`StudyError::Read`] and those of the list.
+pub(crate) fn changed_files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
+    let mut changed = Vec::new();
+    for (name, expected) in Manifest::read(folder)?.into_iter().flat_map(|list| list.files) {
+        let (path, Some(expected)) = (folder.join(name), expected) else { continue };
+        let found = match open(&path, InputKind::Results) {
+            Ok(file) => {
+                let mut hasher = blake3::Hasher::new();
+                let hashed = hasher.update_reader(file).map(|hasher| hasher.finalize().to_string());
+                Some(hashed.map_err(|source| StudyError::Read { path: path.clone(), source })?)
+            }
+            Err(StudyError::NotRegular { .. }) => None,
+            Err(StudyError::Read { source, .. }) if source.kind() == ErrorKind::NotFound => None,
+            Err(error) => return Err(error),
+        };
+        if found != Some(expected) {
+            changed.push(path);
+        }
+    }
+    Ok(changed)
 }
 
 /// Whether a run may give a file this name: plain words with a known ending, in the folder itself or in one

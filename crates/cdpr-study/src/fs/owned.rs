@@ -5,17 +5,19 @@
 //! removed, and no link is ever followed.
 
 use crate::error::StudyError;
-use crate::fs::atomic::{AtomicFile, write_atomic};
+use crate::fs::atomic::{AtomicFile, is_unfinished, remove_unfinished, write_atomic};
 use crate::fs::disk;
 use crate::fs::files::check_folder;
-use crate::fs::manifest::{Manifest, ResultsOf, entries, is_plain_file, is_plain_folder};
+use crate::fs::input::read_start;
+use crate::fs::manifest::{Manifest, ResultsOf, digest, entries, is_plain_file, is_plain_folder};
+use crate::kind::InputKind;
 use crate::names::LOCK_NAME;
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long a process waits for another one that begins or ends a share of the same study.
@@ -38,7 +40,7 @@ pub enum Access {
 pub struct ResultsFolder {
     path: PathBuf,
     lock: Lock,
-    state: Mutex<State>,
+    state: Arc<Mutex<State>>,
 }
 
 /// The file of a lock. It is unlocked when it is dropped, even if a process that was started meanwhile has
@@ -60,8 +62,45 @@ struct State {
     alone: bool,
     /// Whether the list is on the disk.
     listed: bool,
-    /// Files of this run.
-    written: BTreeSet<String>,
+    /// Files of this run, with the digests of those that are finished.
+    written: BTreeMap<String, Option<String>>,
+}
+
+/// A file of a folder of results, being written.
+pub(crate) struct ResultFile {
+    name: String,
+    file: AtomicFile,
+    hasher: blake3::Hasher,
+    state: Arc<Mutex<State>>,
+}
+
+impl ResultFile {
+    /// The error of a failure to write to the file.
+    pub(crate) fn unwritten(&self, source: std::io::Error) -> StudyError {
+        self.file.unwritten(source)
+    }
+
+    /// Gives the file its name. It is on the disk when this returns.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub(crate) fn finish(self) -> Result<PathBuf, StudyError> {
+        let path = self.file.finish()?;
+        held(&self.state).written.insert(self.name, Some(self.hasher.finalize().to_string()));
+        Ok(path)
+    }
+}
+
+impl Write for ResultFile {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let written = self.file.write(bytes)?;
+        self.hasher.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
 }
 
 impl ResultsFolder {
@@ -96,8 +135,8 @@ impl ResultsFolder {
         let manifest = known(path, of, &writes)?;
         let listed = manifest.is_some();
         let manifest = manifest.unwrap_or_else(|| Manifest::new(of));
-        let state = Mutex::new(State { manifest, alone, listed, written: BTreeSet::new() });
-        Ok(Self { path: path.to_owned(), lock, state })
+        let state = State { manifest, alone, listed, written: BTreeMap::new() };
+        Ok(Self { path: path.to_owned(), lock, state: Arc::new(Mutex::new(state)) })
     }
 
     /// Shares the folder from now on with other processes that make blocks of the same study.
@@ -156,22 +195,31 @@ impl ResultsFolder {
 
     /// Whether runs have written a file of this name.
     pub(crate) fn has(&self, name: &str) -> bool {
-        self.state().manifest.files.contains(name)
+        self.state().manifest.files.contains_key(name)
     }
 
-    /// Says of which study the results are, and names these files.
-    pub(crate) fn set_study(&self, hash: &str, names: &[&str]) -> Result<(), StudyError> {
+    /// Says of which study the results are, and gives these files their digests.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub(crate) fn set_study(&self, hash: &str, files: &[(&str, Option<String>)]) -> Result<(), StudyError> {
         let mut state = self.state();
-        let State { manifest, listed, .. } = &mut *state;
-        let changed = manifest.study.as_deref() != Some(hash)
-            || names.iter().any(|name| !manifest.files.contains(*name));
-        if *listed && !changed {
+        let mut manifest = state.manifest.clone();
+        manifest.study = Some(hash.to_owned());
+        manifest.files.extend(files.iter().map(|(name, digest)| ((*name).to_owned(), digest.clone())));
+        if state.listed && state.manifest == manifest {
             return Ok(());
         }
-        manifest.study = Some(hash.to_owned());
-        manifest.files.extend(names.iter().map(|name| (*name).to_owned()));
-        *listed = true;
-        manifest.write(&self.path)
+        state.listed = true;
+        state.manifest = manifest;
+        state.manifest.write(&self.path)
+    }
+
+    /// Whether the results are of this study, and these files have these digests.
+    pub(crate) fn is_of(&self, hash: &str, files: &[(&str, Option<String>)]) -> bool {
+        let State { manifest, .. } = &*self.state();
+        let is_listed = |(name, digest): &(&str, _)| manifest.files.get(*name) == Some(digest);
+        manifest.study.as_deref() == Some(hash) && files.iter().all(is_listed)
     }
 
     /// Names files that will be written.
@@ -183,7 +231,7 @@ impl ResultsFolder {
         let mut new = Vec::new();
         for name in names {
             let path = self.path.join(&name);
-            if state.manifest.files.contains(&name) {
+            if state.manifest.files.contains_key(&name) {
                 is_plain_file(&path)?;
             } else if path.symlink_metadata().is_ok() {
                 return Err(StudyError::NoResults { path });
@@ -194,7 +242,7 @@ impl ResultsFolder {
         if new.is_empty() && state.listed {
             return Ok(());
         }
-        state.manifest.files.extend(new);
+        state.manifest.files.extend(new.into_iter().map(|name| (name, None)));
         state.listed = true;
         state.manifest.write(&self.path)
     }
@@ -203,13 +251,15 @@ impl ResultsFolder {
     ///
     /// # Errors
     /// As [`ResultsFolder::claim`].
-    pub(crate) fn create(&self, name: &str) -> Result<AtomicFile, StudyError> {
+    pub(crate) fn create(&self, name: &str) -> Result<ResultFile, StudyError> {
         self.claim([name.to_owned()])?;
         if let Some((folder, _)) = name.split_once('/') {
             make_plain_folder(&self.path.join(folder))?;
         }
-        self.state().written.insert(name.to_owned());
-        AtomicFile::new(self.path.join(name))
+        self.state().written.insert(name.to_owned(), None);
+        let file = AtomicFile::new(self.path.join(name))?;
+        let (name, hasher) = (name.to_owned(), blake3::Hasher::new());
+        Ok(ResultFile { name, file, hasher, state: self.state.clone() })
     }
 
     /// Writes a file that is whole and on the disk when this returns.
@@ -229,8 +279,45 @@ impl ResultsFolder {
     /// # Errors
     /// As [`ResultsFolder::claim`].
     pub fn write_json(&self, name: &str, value: &impl Serialize) -> Result<PathBuf, StudyError> {
+        self.write(name, self.json(name, value)?.as_bytes())
+    }
+
+    /// Writes the summary of all results as indented JSON, the last file of a run. Before that, what earlier
+    /// runs have written and this one has not is removed, except the files in `keep`, and the list gets the
+    /// digests of all files of this run: beside a summary they are whole.
+    ///
+    /// # Errors
+    /// As [`ResultsFolder::claim`] and [`ResultsFolder::remove`].
+    pub fn conclude(
+        &self,
+        name: &str,
+        summary: &impl Serialize,
+        keep: &[&str],
+    ) -> Result<PathBuf, StudyError> {
+        let text = self.json(name, summary)?;
+        self.remove_unfinished()?;
+        self.claim([name.to_owned()])?;
+        let written = self.state().written.clone();
+        let (mut files, stale): (BTreeMap<_, _>, BTreeMap<_, _>) =
+            self.state().manifest.files.clone().into_iter().partition(|(found, _)| {
+                written.contains_key(found) || found == name || keep.contains(&found.as_str())
+            });
+        self.remove_files(&stale.into_keys().collect::<Vec<_>>())?;
+        files.extend(written);
+        files.insert(name.to_owned(), Some(digest(text.as_bytes())));
+        {
+            let mut state = self.state();
+            if state.manifest.files != files {
+                state.manifest.files = files;
+                state.manifest.write(&self.path)?;
+            }
+        }
+        self.write(name, text.as_bytes())
+    }
+
+    fn json(&self, name: &str, value: &impl Serialize) -> Result<String, StudyError> {
         match serde_json::to_string_pretty(value) {
-            Ok(text) => self.write(name, (text + "\n").as_bytes()),
+            Ok(text) => Ok(text + "\n"),
             Err(error) => Err(StudyError::Write { path: self.path.join(name), source: error.into() }),
         }
     }
@@ -262,7 +349,7 @@ impl ResultsFolder {
     fn write_table(
         &self,
         name: &str,
-        write: impl FnOnce(&mut csv::Writer<AtomicFile>) -> Result<(), csv::Error>,
+        write: impl FnOnce(&mut csv::Writer<ResultFile>) -> Result<(), csv::Error>,
     ) -> Result<PathBuf, StudyError> {
         let mut table = csv::Writer::from_writer(self.create(name)?);
         let unwritten = |source| StudyError::Write { path: self.path.join(name), source };
@@ -291,28 +378,6 @@ impl ResultsFolder {
         Ok(())
     }
 
-    /// Removes what earlier runs have written and this one has not, except the files in `keep`. The list then
-    /// holds the files of this run and those.
-    ///
-    /// # Errors
-    /// As [`ResultsFolder::remove`].
-    pub fn remove_stale(&self, keep: &[&str]) -> Result<(), StudyError> {
-        let (stale, written) = {
-            let State { manifest, written, .. } = &*self.state();
-            let kept = |name: &&String| written.contains(*name) || keep.contains(&name.as_str());
-            (manifest.files.iter().filter(|name| !kept(name)).cloned().collect::<Vec<_>>(), written.clone())
-        };
-        self.remove_files(&stale)?;
-        let mut state = self.state();
-        let names: BTreeSet<_> =
-            written.into_iter().chain(keep.iter().map(|name| (*name).to_owned())).collect();
-        if state.manifest.files != names {
-            state.manifest.files = names;
-            state.manifest.write(&self.path)?;
-        }
-        Ok(())
-    }
-
     /// Checks that no link stands in the place of a file that runs have written, or of its folder.
     ///
     /// # Errors
@@ -322,7 +387,7 @@ impl ResultsFolder {
             is_plain_folder(&folder)?;
         }
         let files = self.state().manifest.files.clone();
-        files.iter().try_for_each(|name| is_plain_file(&self.path.join(name)).map(|_| ()))
+        files.keys().try_for_each(|name| is_plain_file(&self.path.join(name)).map(|_| ()))
     }
 
     /// Removes all files that runs have written but these.
@@ -331,8 +396,26 @@ impl ResultsFolder {
     /// As [`ResultsFolder::remove`].
     pub(crate) fn remove_all_but(&self, keep: &[&str]) -> Result<(), StudyError> {
         let files = self.state().manifest.files.clone();
-        let files: Vec<_> = files.into_iter().filter(|name| !keep.contains(&name.as_str())).collect();
+        let files: Vec<_> = files.into_keys().filter(|name| !keep.contains(&name.as_str())).collect();
         self.remove_files(&files)
+    }
+
+    /// Removes unfinished files of killed processes beside the files that runs have written.
+    ///
+    /// # Errors
+    /// [`StudyError::Read`], [`StudyError::Write`].
+    pub(crate) fn remove_unfinished(&self) -> Result<(), StudyError> {
+        // Only directly beside them: the folder may hold much else.
+        for folder in [self.path.clone()].into_iter().chain(self.folders()) {
+            if folder == self.path || is_plain_folder(&folder)? {
+                let plain = entries(&folder)?.into_iter().filter(|(_, kind)| kind.is_file());
+                plain
+                    .map(|(path, _)| path)
+                    .filter(|path| is_unfinished(path))
+                    .try_for_each(remove_unfinished)?;
+            }
+        }
+        Ok(())
     }
 
     /// Removes these files, and the folders that are empty then.
@@ -347,14 +430,18 @@ impl ResultsFolder {
     }
 
     /// The folders of the files that runs have written.
-    pub(crate) fn folders(&self) -> BTreeSet<PathBuf> {
+    fn folders(&self) -> BTreeSet<PathBuf> {
         let files = &self.state().manifest.files;
-        files.iter().filter_map(|name| Some(self.path.join(name.split_once('/')?.0))).collect()
+        files.keys().filter_map(|name| Some(self.path.join(name.split_once('/')?.0))).collect()
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        held(&self.state)
     }
+}
+
+fn held(state: &Mutex<State>) -> MutexGuard<'_, State> {
+    state.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The list of a folder, if it has one. A file that a run may write and that is not in it belongs to the
@@ -377,7 +464,7 @@ fn known(path: &Path, of: ResultsOf, writes: &impl Fn(&str) -> bool) -> Result<O
     let is_foreign = |path: &PathBuf| {
         let name = path.file_name().and_then(|name| name.to_str());
         let mut lists = [&earlier, &manifest].into_iter().flatten();
-        name.is_some_and(|name| writes(name) && !lists.any(|list| list.files.contains(name)))
+        name.is_some_and(|name| writes(name) && !lists.any(|list| list.files.contains_key(name)))
     };
     match found.into_iter().map(|(path, _)| path).find(is_foreign) {
         Some(path) => Err(StudyError::NoResults { path }),
@@ -411,9 +498,13 @@ fn take_lock(folder: &Path, lock: &File, access: Access) -> Result<bool, StudyEr
 /// nobody can write into, or of an earlier version, has no lock.
 ///
 /// # Errors
-/// [`StudyError::FolderBusy`] where a process writes into it.
+/// [`StudyError::FolderBusy`] where a process writes into it, [`StudyError::Link`] for a lock that no run has
+/// made.
 pub(crate) fn hold_still(folder: &Path) -> Result<Option<Lock>, StudyError> {
     let path = folder.join(LOCK_NAME);
+    if !is_plain_file(&path)? {
+        return Ok(None);
+    }
     let Ok(lock) = File::open(&path).map(Lock) else { return Ok(None) };
     match disk::lock(&lock.0, &path, true) {
         Ok(true) => Ok(Some(lock)),
@@ -444,10 +535,7 @@ pub fn write_text(path: &Path, text: &str, like: &str) -> Result<(), StudyError>
     let write = |source| StudyError::Write { path: path.to_owned(), source };
     match std::fs::metadata(path) {
         Ok(found) if found.is_file() => {
-            let mut start = Vec::new();
-            let file = File::open(path).map_err(write)?;
-            std::io::Read::read_to_end(&mut std::io::Read::take(file, LOOKED_AT), &mut start)
-                .map_err(write)?;
+            let start = read_start(path, InputKind::Results, LOOKED_AT)?;
             if !start.is_empty() && !String::from_utf8_lossy(&start).contains(like) {
                 return Err(StudyError::NoResults { path: path.to_owned() });
             }

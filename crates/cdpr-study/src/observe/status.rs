@@ -23,6 +23,9 @@ pub struct Status {
     pub complete: bool,
     /// Its samplings by name.
     pub samplings: IndexMap<String, SamplingStatus>,
+    /// Files of the analysed results that were changed or removed after the run that wrote them.
+    #[serde(serialize_with = "as_texts", skip_serializing_if = "Vec::is_empty")]
+    pub changed: Vec<PathBuf>,
 }
 
 /// Progress of a sampling.
@@ -71,7 +74,7 @@ fn as_texts<S: serde::Serializer>(paths: &[PathBuf], serializer: S) -> Result<S:
     serializer.collect_seq(paths.iter().map(|path| path.to_string_lossy()))
 }
 
-/// Reads all blocks of a study and reports its progress.
+/// Reads all blocks of a study, and all files of its results if it was analysed, and reports its progress.
 ///
 /// # Errors
 /// [`StudyError::Read`]; [`StudyError::ForeignBlock`].
@@ -120,7 +123,8 @@ pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
     }
     let mut all = samplings.values().flat_map(|sampling: &SamplingStatus| sampling.designs.values());
     let complete = all.all(|design| design.blocks_missing == 0);
-    Ok(Status { study: study.file.name.clone(), hash: study.hash()?, complete, samplings })
+    let changed = blocks.changed_results()?;
+    Ok(Status { study: study.file.name.clone(), hash: study.hash()?, complete, samplings, changed })
 }
 
 /// Checks that all blocks of the study in `folder` exist.

@@ -2,8 +2,7 @@
 //! metadata.
 
 use crate::error::StudyError;
-use crate::fs::atomic::AtomicFile;
-use crate::fs::owned::ResultsFolder;
+use crate::fs::owned::{ResultFile, ResultsFolder};
 use crate::model::observed::{observed_mm, status};
 use crate::model::study::Sampling;
 use crate::observe::observation::Part;
@@ -28,7 +27,7 @@ const OBSERVED: [&str; 4] = ["dx_mm", "dy_mm", "dz_mm", "rms_mm"];
 /// `NAME.parquet`, being written.
 pub(crate) struct ParquetTable {
     path: PathBuf,
-    writer: SerializedFileWriter<AtomicFile>,
+    writer: SerializedFileWriter<ResultFile>,
     inputs: usize,
     /// Rows of the next group.
     parts: Vec<Part>,
@@ -136,7 +135,7 @@ fn provenance(sampling: &Sampling, hash: String) -> Vec<KeyValue> {
 
 /// Column by column, as Parquet stores them.
 fn write_columns(
-    group: &mut SerializedRowGroupWriter<'_, AtomicFile>,
+    group: &mut SerializedRowGroupWriter<'_, ResultFile>,
     parts: &[Part],
     inputs: usize,
 ) -> Result<()> {
@@ -168,7 +167,7 @@ fn write_columns(
 
 /// The next column: its values that are there, and for each row whether it has one, unless all have.
 fn write_column<T: DataType>(
-    group: &mut SerializedRowGroupWriter<'_, AtomicFile>,
+    group: &mut SerializedRowGroupWriter<'_, ResultFile>,
     values: &[T::T],
     levels: Option<&[i16]>,
 ) -> Result<()> {

@@ -5,9 +5,10 @@ use crate::analysis::poses::{PoseRow, PosesSummary};
 use crate::analysis::summary::Summary;
 use crate::analysis::surface::{SurfaceResult, SurfaceSummary};
 use crate::error::StudyError;
-use crate::fs::files::read;
-use crate::fs::manifest::{Manifest, ResultsOf};
+use crate::fs::input::read_text;
+use crate::fs::manifest::{Manifest, ResultsOf, read};
 use crate::fs::owned::{ResultsFolder, hold_still, write_text};
+use crate::kind::InputKind;
 use crate::model::study::Study;
 use crate::names::{REPORT_MARK, REPORT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
 use crate::results::write::Timings;
@@ -41,32 +42,37 @@ impl Results {
     ///
     /// # Errors
     /// [`StudyError`] naming the missing or invalid file, with field and reason; [`StudyError::FolderBusy`]
-    /// where a process writes into the folder, [`StudyError::Mixed`] for files of different studies.
+    /// where a process writes into the folder, [`StudyError::Mixed`] for files of different studies,
+    /// [`StudyError::Changed`] for a file that was changed since.
     pub fn read(folder: &Path) -> Result<Self, StudyError> {
         let _lock = hold_still(folder)?;
+        let list = Manifest::read(folder)?;
+        let listed = |name: &str| read(folder, list.as_ref(), name);
         let path = folder.join(STUDY_NAME);
-        let study_json = read(&path)?;
-        let study = Study::from_json(&study_json, &path)?;
-        let robot_json = read(&folder.join(&study.file.robot))?;
+        let study = Study::open(&path)?;
+        let robot_json = listed(&study.file.robot)?;
+        let hash = study.hash()?;
+        check_hash(folder, list.as_ref(), &hash)?;
+        let study_json = listed(STUDY_NAME)?;
         let path = folder.join(SUMMARY_NAME);
         if !path.exists() {
             return Err(StudyError::NotAnalysed { folder: folder.to_owned() });
         }
         let summary: Summary = read_json(&path)?;
-        let hash = study.hash()?;
-        check_hash(folder, STUDY_NAME, &hash)?;
         if !summary.hash.is_empty() && summary.hash != hash {
             return Err(StudyError::Mixed { path, found: summary.hash, expected: hash });
         }
+        listed(SUMMARY_NAME)?;
         let (mut surfaces, mut poses) = (IndexMap::new(), IndexMap::new());
         for (name, found) in &summary.studies {
-            let path = folder.join(format!("{name}.csv"));
+            let table = format!("{name}.csv");
+            let path = folder.join(&table);
             match found {
                 StudySummary::Surface(surface) => {
-                    surfaces.insert(name.clone(), read_surface(&path, surface)?);
+                    surfaces.insert(name.clone(), read_surface(&path, &listed(&table)?, surface)?);
                 }
                 StudySummary::Poses(summary) => {
-                    poses.insert(name.clone(), read_poses(&path, summary)?);
+                    poses.insert(name.clone(), read_poses(&path, &listed(&table)?, summary)?);
                 }
                 StudySummary::Sampling(_) => (),
             }
@@ -96,23 +102,24 @@ impl Results {
         if !path.exists() || read_json::<Summary>(&path)? != self.summary {
             return Err(StudyError::NotAnalysed { folder: folder.to_owned() });
         }
+        owned.remove_unfinished()?;
         owned.write(REPORT_NAME, page.as_bytes())
     }
 }
 
 fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, StudyError> {
-    from_json(&read(path)?).map_err(|source| StudyError::Format { path: path.to_owned(), source })
+    from_json(&read_text(path, InputKind::Results)?)
+        .map_err(|source| StudyError::Format { path: path.to_owned(), source })
 }
 
 /// Reads the table that `write_poses` has written.
-fn read_poses(path: &Path, summary: &PosesSummary) -> Result<Vec<PoseRow>, StudyError> {
+fn read_poses(path: &Path, text: &str, summary: &PosesSummary) -> Result<Vec<PoseRow>, StudyError> {
     let invalid = |field: String, value: String, expected: String| StudyError::Invalid {
         path: path.to_owned(),
         field,
         value,
         expected,
     };
-    let text = read(path)?;
     let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize().enumerate();
     let row = |(k, row): (usize, Result<PoseRow, csv::Error>)| {
         row.map_err(|error| {
@@ -131,14 +138,17 @@ fn read_poses(path: &Path, summary: &PosesSummary) -> Result<Vec<PoseRow>, Study
 }
 
 /// Reads the table that `write_surface` has written: the second parameter runs faster.
-fn read_surface(path: &Path, summary: &SurfaceSummary) -> Result<SurfaceResult<String>, StudyError> {
+fn read_surface(
+    path: &Path,
+    text: &str,
+    summary: &SurfaceSummary,
+) -> Result<SurfaceResult<String>, StudyError> {
     let invalid = |field: String, value: &str, expected: &str| StudyError::Invalid {
         path: path.to_owned(),
         field,
         value: value.to_owned(),
         expected: expected.to_owned(),
     };
-    let text = read(path)?;
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let mut points = Vec::new();
     for (k, record) in reader.deserialize::<(f64, f64, Option<f64>, String)>().enumerate() {

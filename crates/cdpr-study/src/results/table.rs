@@ -2,8 +2,7 @@
 //! from its nominal value, dp, RMS, status and reason.
 
 use crate::error::StudyError;
-use crate::fs::atomic::AtomicFile;
-use crate::fs::owned::ResultsFolder;
+use crate::fs::owned::{ResultFile, ResultsFolder};
 use crate::model::observed::{observed_mm, status};
 use crate::model::study::Sampling;
 use crate::observe::observation::Part;
@@ -36,7 +35,7 @@ enum Content {
 pub struct ObservationTable(Table);
 
 enum Table {
-    Csv(Box<AtomicFile>),
+    Csv(Box<ResultFile>),
     #[cfg(feature = "parquet")]
     Parquet(Box<crate::results::parquet::ParquetTable>),
     None,

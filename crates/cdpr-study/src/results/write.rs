@@ -7,7 +7,7 @@ use crate::analysis::surface::SurfaceResult;
 use crate::error::StudyError;
 use crate::fs::owned::ResultsFolder;
 use crate::model::study::Surface;
-use crate::names::{SUMMARY_NAME, TIMINGS_NAME};
+use crate::names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -59,12 +59,12 @@ pub fn write_poses(folder: &ResultsFolder, name: &str, rows: &[PoseRow]) -> Resu
     folder.write_rows(&format!("{name}.csv"), rows)
 }
 
-/// Writes `summary.json`.
+/// Writes `summary.json`, after all else that belongs to it ([`ResultsFolder::conclude`]).
 ///
 /// # Errors
-/// As [`ResultsFolder::claim`].
+/// As [`ResultsFolder::conclude`].
 pub fn write_summary(folder: &ResultsFolder, summary: &Summary) -> Result<PathBuf, StudyError> {
-    folder.write_json(SUMMARY_NAME, summary)
+    folder.conclude(SUMMARY_NAME, summary, &[ROBOT_NAME, STUDY_NAME, TIMINGS_NAME, REPORT_NAME])
 }
 
 /// Writes the figure `NAME.svg`.

@@ -5,8 +5,8 @@
 use crate::error::StudyError;
 use crate::fs::atomic::{is_unfinished, remove_unfinished, write_atomic};
 use crate::fs::disk;
-use crate::fs::input::read_bytes;
-use crate::fs::manifest::{entries, is_plain_file, is_plain_folder};
+use crate::fs::input::{read_bytes, read_start};
+use crate::fs::manifest::{Manifest, changed_files, entries, is_plain_file, is_plain_folder};
 use crate::fs::owned::{ResultsFolder, make_plain_folder};
 use crate::kind::InputKind;
 use crate::model::observed::{Observed, count_failed, failures};
@@ -14,8 +14,7 @@ use crate::model::study::Study;
 use crate::names::{BLOCKS_NAME, REPORT_NAME, SUMMARY_NAME};
 use crate::store::block::{BLOCK, BlockHeader, decode, encode, header_of};
 use indexmap::IndexMap;
-use std::fs;
-use std::io::{ErrorKind, Read};
+use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
@@ -205,21 +204,27 @@ impl Blocks {
         [SUMMARY_NAME, REPORT_NAME].into_iter().try_for_each(|name| self.results()?.remove(name))
     }
 
+    /// Files of the analysed results that were changed or removed after the run that wrote them. There are
+    /// none while another run makes new ones.
+    ///
+    /// # Errors
+    /// [`StudyError::Read`] and those of the list.
+    pub(crate) fn changed_results(&self) -> Result<Vec<PathBuf>, StudyError> {
+        let state = || {
+            Ok::<_, StudyError>((self.results.join(SUMMARY_NAME).exists(), Manifest::read(&self.results)?))
+        };
+        let before = state()?;
+        let changed = if before.0 { changed_files(&self.results)? } else { Vec::new() };
+        Ok(if state()? == before { changed } else { Vec::new() })
+    }
+
     /// Removes unfinished files of killed processes, among the blocks and beside them.
     ///
     /// # Errors
     /// [`StudyError::Read`], [`StudyError::Write`].
     pub(crate) fn remove_unfinished(&self) -> Result<(), StudyError> {
-        let mut all = files(&self.folder)?;
-        // Only directly beside the blocks: the folder of results may hold much else.
-        let tables = self.results()?.folders();
-        for folder in [&self.results].into_iter().chain(&tables) {
-            if folder == &self.results || is_plain_folder(folder)? {
-                let plain = entries(folder)?.into_iter().filter(|(_, kind)| kind.is_file());
-                all.extend(plain.map(|(path, _)| path));
-            }
-        }
-        all.into_iter().filter(|path| is_unfinished(path)).try_for_each(remove_unfinished)
+        self.results()?.remove_unfinished()?;
+        files(&self.folder)?.into_iter().filter(|path| is_unfinished(path)).try_for_each(remove_unfinished)
     }
 
     fn header(&self, id: &BlockId, outcomes: &[Observed]) -> BlockHeader {
@@ -247,7 +252,6 @@ fn is_block(path: &Path) -> bool {
 /// Whether a run has written a file among the blocks: one with the header of this very place, or one that is
 /// damaged there.
 fn belongs(folder: &Path, path: &Path) -> Result<bool, StudyError> {
-    let read = |source| StudyError::Read { path: path.to_owned(), source };
     let place = path.strip_prefix(folder).unwrap_or(path).components().map(|part| match part {
         Component::Normal(part) => part.to_str(),
         _ => None,
@@ -260,8 +264,7 @@ fn belongs(folder: &Path, path: &Path) -> Result<bool, StudyError> {
     if !(1..=2).contains(&sampling.len()) {
         return Ok(false);
     }
-    let mut start = Vec::new();
-    fs::File::open(path).map_err(read)?.take(HEADER).read_to_end(&mut start).map_err(read)?;
+    let start = read_start(path, InputKind::Block, HEADER)?;
     Ok(match header_of(&start) {
         Some(Ok(header)) => {
             header.sampling == sampling.join("/")
@@ -315,6 +318,7 @@ mod tests {
     use crate::fs::atomic::AtomicFile;
     use crate::fs::manifest::ResultsOf;
     use cdpr_robot::Vector3;
+    use std::fs;
     use std::io::Write;
 
     fn blocks(results: &Path) -> Blocks {

@@ -4,9 +4,10 @@
 
 use crate::error::StudyError;
 use crate::file::study_file::StudyFile;
-use crate::fs::files::read;
-use crate::fs::manifest::{Manifest, ResultsOf, is_plain_folder};
+use crate::fs::input::{read_bytes, read_text};
+use crate::fs::manifest::{Manifest, ResultsOf, digest, is_plain_folder, read};
 use crate::fs::owned::{Access, ResultsFolder, make_plain_folder};
+use crate::kind::InputKind;
 use crate::model::study::Study;
 use crate::names::{BLOCKS_NAME, ROBOT_NAME, STUDY_NAME};
 use crate::store::blocks::Blocks;
@@ -74,7 +75,6 @@ fn settle(results: &Arc<ResultsFolder>, study: &Study, existing: Existing) -> Re
     if results.study().is_some_and(|found| found != hash) {
         blocks.remove_summary()?;
     }
-    results.set_study(&hash, &BEGUN)?;
     make_plain_folder(&results.path().join(BLOCKS_NAME))?;
     write_study(results, study, &blocks)
 }
@@ -91,10 +91,17 @@ pub struct StoredStudy {
 /// Opens the study in a folder of results, to be read.
 ///
 /// # Errors
-/// As [`Study::open`]; [`StudyError::Read`] for a folder without blocks, [`StudyError::Mixed`] for a study
-/// file that is not the one that was run.
+/// As [`Study::open`]; [`StudyError::Read`] for a folder without blocks, [`StudyError::Mixed`] and
+/// [`StudyError::Changed`] for a study or robot that is not the one that was run.
 pub fn open_results(folder: &Path) -> Result<StoredStudy, StudyError> {
-    let study = open_study(folder)?;
+    let study = loop {
+        let before = Manifest::read(folder)?;
+        let study = open_study(folder);
+        // A run that has begun meanwhile may have written another study.
+        if study.is_ok() || Manifest::read(folder)? == before {
+            break study?;
+        }
+    };
     let blocks = Blocks::new(folder, &study)?;
     Ok(StoredStudy { study, blocks })
 }
@@ -133,19 +140,22 @@ fn open_study(folder: &Path) -> Result<Study, StudyError> {
     let study = Study::open(&folder.join(STUDY_NAME))?;
     let path = folder.join(BLOCKS_NAME);
     std::fs::read_dir(&path).map_err(|source| StudyError::Read { path: path.clone(), source })?;
-    check_hash(folder, STUDY_NAME, &study.hash()?)?;
+    let list = Manifest::read(folder)?;
+    read(folder, list.as_ref(), ROBOT_NAME)?;
+    check_hash(folder, list.as_ref(), &study.hash()?)?;
+    read(folder, list.as_ref(), STUDY_NAME)?;
     Ok(study)
 }
 
-/// Checks that a file in a folder of results is of the study that the folder's list names. A folder of an
-/// earlier version has no list.
+/// Checks that the study in a folder of results has the hash of the folder's list. A folder of an earlier
+/// version has no list.
 ///
 /// # Errors
-/// [`StudyError::Mixed`], and those of the list.
-pub(crate) fn check_hash(folder: &Path, name: &str, found: &str) -> Result<(), StudyError> {
-    match Manifest::read(folder)?.and_then(|manifest| manifest.study) {
+/// [`StudyError::Mixed`].
+pub(crate) fn check_hash(folder: &Path, list: Option<&Manifest>, found: &str) -> Result<(), StudyError> {
+    match list.and_then(|list| list.study.clone()) {
         Some(expected) if expected != found => {
-            Err(StudyError::Mixed { path: folder.join(name), found: found.to_owned(), expected })
+            Err(StudyError::Mixed { path: folder.join(STUDY_NAME), found: found.to_owned(), expected })
         }
         _ => Ok(()),
     }
@@ -159,7 +169,7 @@ fn check_study(results: &ResultsFolder, study: &Study) -> Result<(), StudyError>
     if listed == expected || !path.exists() {
         return Ok(());
     }
-    let stored = Study::unchecked(&read(&path)?, &path)?;
+    let stored = Study::unchecked(&read_text(&path, InputKind::Study)?, &path)?;
     if listed == stored.hash()? && contains(study, &stored)? {
         return Ok(());
     }
@@ -182,19 +192,25 @@ fn contains(study: &Study, other: &Study) -> Result<bool, StudyError> {
 /// belongs to the study beside it: it is removed when the study changes, and only then.
 fn write_study(results: &ResultsFolder, study: &Study, blocks: &Blocks) -> Result<(), StudyError> {
     let file = StudyFile { robot: ROBOT_NAME.to_owned(), ..study.file.clone() };
-    for (name, text) in
-        [(ROBOT_NAME, Ok(study.robot.to_json())), (STUDY_NAME, serde_json::to_string_pretty(&file))]
-    {
-        let path = results.path().join(name);
-        let text = match text {
-            Ok(text) => text + "\n",
-            Err(error) => return Err(StudyError::Write { path, source: error.into() }),
-        };
-        if std::fs::read(&path).is_ok_and(|found| found == text.as_bytes()) {
-            continue;
-        }
-        blocks.remove_summary()?;
-        results.write(name, text.as_bytes())?;
+    let path = results.path().join(STUDY_NAME);
+    let json = serde_json::to_string_pretty(&file);
+    let json = json.map_err(|error| StudyError::Write { path, source: error.into() })?;
+    let texts = [(ROBOT_NAME, study.robot.to_json() + "\n"), (STUDY_NAME, json + "\n")];
+    let (hash, digests) =
+        (study.hash()?, texts.each_ref().map(|(name, text)| (*name, Some(digest(text.as_bytes())))));
+    let is_there = |(name, text): &&(&str, String)| {
+        let found = read_bytes(&results.path().join(name), InputKind::Study);
+        found.is_ok_and(|found| found == text.as_bytes())
+    };
+    let missing: Vec<_> = texts.iter().filter(|text| !is_there(text)).collect();
+    if missing.is_empty() && results.is_of(&hash, &digests) {
+        return Ok(());
     }
-    Ok(())
+    if !results.is_alone() {
+        return Err(StudyError::FolderBusy { folder: results.path().to_owned() });
+    }
+    blocks.remove_summary()?;
+    results.set_study(&hash, &BEGUN.map(|name| (name, None)))?;
+    missing.into_iter().try_for_each(|(name, text)| results.write(name, text.as_bytes()).map(|_| ()))?;
+    results.set_study(&hash, &digests)
 }
