@@ -324,4 +324,24 @@ mod tests {
         });
         assert!(swapped.contains(&"cables[*].anchor_point".to_owned()), "{swapped:?}");
     }
+
+    #[test]
+    fn of_cables_that_touch_many_others_each_is_warned_about_once() {
+        let mut robot = robot();
+        let cable = robot.cables[0].clone();
+        let at = |k: u32| {
+            let (angle, height) = (0.1 * f64::from(k), 3.0 + 0.001 * f64::from(k));
+            let mut cable = cable.clone();
+            cable.exit_point = Vector3::new(4.0 * angle.cos(), 4.0 * angle.sin(), height);
+            cable.anchor_point = Vector3::new(0.2 * angle.sin(), 0.2 * angle.cos(), 0.1);
+            cable
+        };
+        robot.cables = (0..80).map(at).collect();
+        robot.validate().unwrap();
+        let findings = inspect(&robot);
+        let touching: Vec<_> = findings.iter().filter(|finding| finding.why.contains("touch")).collect();
+        let fields: std::collections::BTreeSet<_> = touching.iter().map(|finding| &finding.field).collect();
+        assert!(fields.len() == touching.len() && touching.len() > 10, "{touching:?}");
+        assert!(touching.iter().any(|finding| finding.value.contains("and touching ")), "{touching:?}");
+    }
 }

@@ -164,10 +164,10 @@ fn what_no_machine_could_hold_is_refused_before_the_work_with_what_is_possible()
             json!({"exit_point": [4.0 * angle.cos(), 4.0 * angle.sin(), 3.0 + 0.001 * f64::from(k)],
                 "anchor_point": [0.2 * angle.sin(), 0.2 * angle.cos(), 0.1]})
         };
-        robot["cables"] = (0..101).map(cable).collect();
+        robot["cables"] = (0..201).map(cable).collect();
     });
     let message = bench.refused(&["run", "study.json"]);
-    assert!(message.contains("cables is a list of 101: expected at most 100 cables"), "{message}");
+    assert!(message.contains("cables is a list of 201: expected at most 200 cables"), "{message}");
     let message = bench.misused(&["run", "study.json", "--threads", "65535"]);
     assert!(message.contains("65535 is not in 1..=1024"), "{message}");
 }

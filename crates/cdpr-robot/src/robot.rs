@@ -310,7 +310,7 @@ impl RobotCable {
 const VERTICAL: f64 = 1e-9;
 
 /// Cables of a robot at most: the inverse model of more takes seconds where they hold no pose.
-const MOST_CABLES: usize = 100;
+const MOST_CABLES: usize = 200;
 
 /// Checks a value of a field.
 ///

@@ -59,38 +59,40 @@ impl Findings<'_> {
             );
         }
         for j in cables {
-            for i in 0..j {
-                self.crossing(pose, (i, j), (&spans[i], &spans[j]), &at);
-            }
+            self.crossings(pose, j, &spans, &at);
         }
     }
 
-    /// Whether two cables, drawn straight, touch away from their ends.
-    fn crossing(
-        &mut self,
-        pose: &Pose,
-        (i, j): (usize, usize),
-        spans: (&Vector3<f64>, &Vector3<f64>),
-        at: &str,
-    ) {
+    /// Which of the cables before this one touch it away from their ends, all drawn straight: one finding,
+    /// with the nearest of them.
+    fn crossings(&mut self, pose: &Pose, j: usize, spans: &[Vector3<f64>], at: &str) {
         let cables = &self.robot.cables;
-        let between = cables[j].exit_point - cables[i].exit_point;
-        let anchors = self.robot.anchor_arm(pose, j) - self.robot.anchor_arm(pose, i);
         let width = |k: usize| cables[k].properties.diameter.unwrap_or(0.0);
-        let touch = 0.5 * (width(i) + width(j));
-        if between.norm() < 1e-9 || anchors.norm() < 1e-9 {
+        let anchor = self.robot.anchor_arm(pose, j);
+        let distance = |i: usize| {
+            let between = cables[j].exit_point - cables[i].exit_point;
+            let anchors = anchor - self.robot.anchor_arm(pose, i);
+            let touch = 0.5 * (width(i) + width(j));
+            let apart = between.norm() >= 1e-9 && anchors.norm() >= 1e-9;
+            let distance = apart.then(|| line_distance((&spans[i], &spans[j]), &between))??;
+            (distance <= touch.max(1e-9)).then_some((distance, i))
+        };
+        let touching: Vec<_> = (0..j).filter_map(distance).collect();
+        let Some((distance, i)) = touching.iter().copied().min_by(|one, other| one.0.total_cmp(&other.0))
+        else {
             return;
-        }
-        if let Some(distance) = line_distance(spans, &between).filter(|distance| *distance <= touch.max(1e-9))
-        {
-            self.add(
-                Severity::Warning,
-                format!("cables[{j}]"),
-                format!("{:.1} mm from cables[{i}] {at}", 1e3 * distance),
-                "the two cables, drawn straight, touch",
-                "check the order of the points: each exit_point beside the anchor_point of the same cable",
-            );
-        }
+        };
+        let others = match touching.len() - 1 {
+            0 => String::new(),
+            more => format!(" and touching {more} cables more"),
+        };
+        self.add(
+            Severity::Warning,
+            format!("cables[{j}]"),
+            format!("{:.1} mm from cables[{i}]{others} {at}", 1e3 * distance),
+            "these cables, drawn straight, touch",
+            "check the order of the points: each exit_point beside the anchor_point of the same cable",
+        );
     }
 }
 
