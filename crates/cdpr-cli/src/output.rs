@@ -9,7 +9,7 @@ use std::fmt;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
 use std::sync::OnceLock;
-use std::sync::mpsc::RecvTimeoutError;
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 /// Exit codes, as `cdpr --help` and docs/COMMANDS.md state them.
@@ -109,34 +109,49 @@ pub(crate) fn table(header: &[&str]) -> Table {
     table
 }
 
-/// Time between two lines of progress in a log.
-const LOGGED: Duration = Duration::from_secs(30);
+/// Time until progress is shown, and between two times that it is shown.
+#[derive(Clone, Copy)]
+struct Pace {
+    first: Duration,
+    step: Duration,
+}
+
+/// On a terminal.
+const SEEN: Pace = Pace { first: Duration::from_secs(1), step: Duration::from_secs(1) };
+
+/// In a log, a line each time.
+const LOGGED: Pace = Pace { first: Duration::from_secs(5), step: Duration::from_secs(30) };
+
+impl Pace {
+    /// Shows progress until the work is done, whose end the channel tells by being closed.
+    fn show(self, work: &Receiver<()>, mut show: impl FnMut()) {
+        let mut wait = self.first;
+        while work.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+            wait = self.step;
+            show();
+        }
+    }
+}
 
 /// Does what may take long and cannot count its steps; after a second, its time is shown.
 pub(crate) fn patiently<T>(doing: &str, work: impl FnOnce() -> T) -> T {
     let clock = Instant::now();
-    let (done, waiting) = std::sync::mpsc::channel::<()>();
+    let (working, waiting) = std::sync::mpsc::channel::<()>();
     std::thread::scope(|scope| {
         scope.spawn(move || {
-            let is_terminal = io::stderr().is_terminal();
-            let (first, step) =
-                if is_terminal { (Duration::from_secs(1), Duration::from_secs(1)) } else { (LOGGED, LOGGED) };
-            let bar = ProgressBar::new_spinner().with_message(doing.to_owned());
-            let mut wait = first;
-            while waiting.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
-                wait = step;
-                let seconds = clock.elapsed().as_secs();
-                if is_terminal {
-                    bar.set_message(format!("{doing}, {seconds} s"));
-                    bar.tick();
-                } else {
-                    eprintln!("{doing}, {seconds} s");
-                }
+            let line = || format!("{doing}, {} s", clock.elapsed().as_secs());
+            if !io::stderr().is_terminal() {
+                return LOGGED.show(&waiting, || eprintln!("{}", line()));
             }
+            let bar = ProgressBar::new_spinner();
+            SEEN.show(&waiting, || {
+                bar.set_message(line());
+                bar.tick();
+            });
             bar.finish_and_clear();
         });
         let result = work();
-        drop(done);
+        drop(working);
         result
     })
 }
@@ -144,8 +159,10 @@ pub(crate) fn patiently<T>(doing: &str, work: impl FnOnce() -> T) -> T {
 /// Writes a line now and then while a bar is not seen, such as in a log.
 fn log_progress(bar: WeakProgressBar, unit: String) {
     std::thread::spawn(move || {
+        let mut wait = LOGGED.first;
         loop {
-            std::thread::sleep(LOGGED);
+            std::thread::sleep(wait);
+            wait = LOGGED.step;
             let Some(bar) = bar.upgrade().filter(|bar| !bar.is_finished()) else { return };
             let (message, done, all) = (bar.message(), bar.position(), bar.length().unwrap_or_default());
             let separator = if message.is_empty() { "" } else { ": " };
@@ -154,7 +171,7 @@ fn log_progress(bar: WeakProgressBar, unit: String) {
     });
 }
 
-/// A progress bar over `steps`, with rate and time left; in a log it is a line now and then.
+/// A progress bar over `steps`, with rate, time so far and time left; in a log it is a line now and then.
 pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
     let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
         // A terminal that takes no text cannot be helped.
@@ -164,7 +181,10 @@ pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
     if !io::stderr().is_terminal() {
         log_progress(bar.downgrade(), unit.to_owned());
     }
-    let template = format!("{{msg:24}} {{bar:30}} {{pos}}/{{len}} {unit}, {{rate}}, {{eta}} left");
+    // What follows the last step takes time, too.
+    bar.enable_steady_tick(SEEN.step);
+    let template =
+        format!("{{msg:24}} {{bar:30}} {{pos}}/{{len}} {unit}, {{rate}}, {{elapsed}}, {{eta}} left");
     match ProgressStyle::with_template(&template) {
         Ok(style) => bar.with_style(style.with_key("rate", rate)),
         Err(_) => bar,
@@ -175,4 +195,32 @@ pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
 pub(crate) fn drawn(name: &str, svg: Result<String, ReportError>) -> Option<(String, String)> {
     let svg = svg.map_err(|error| eprintln!("note: no figure {name}: {error}")).ok()?;
     Some((name.to_owned(), svg))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn progress_is_shown_at_first_then_at_each_step_until_the_work_is_done() {
+        let pace = Pace { first: Duration::from_millis(1), step: Duration::from_millis(2) };
+        let (working, waiting) = std::sync::mpsc::channel::<()>();
+        let (mut shown, mut working) = (Vec::new(), Some(working));
+        let clock = Instant::now();
+        pace.show(&waiting, || {
+            shown.push(clock.elapsed());
+            if shown.len() == 3 {
+                working = None;
+            }
+        });
+        assert!(shown.len() == 3 && shown[2] >= Duration::from_millis(5), "{shown:?}");
+    }
+
+    #[test]
+    fn work_that_is_soon_done_shows_nothing() {
+        let (working, waiting) = std::sync::mpsc::channel::<()>();
+        drop(working);
+        SEEN.show(&waiting, || panic!("progress is shown"));
+        assert_eq!(patiently("adding", || 1 + 1), 2);
+    }
 }

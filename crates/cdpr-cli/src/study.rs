@@ -13,7 +13,7 @@ pub(crate) mod tolerances;
 
 use crate::arguments::Threads;
 use crate::error::ProgramError;
-use crate::output::Ending;
+use crate::output::{Ending, patiently};
 use cdpr_study::{Access, StoredStudy, take_results};
 use clap::Subcommand;
 use common::{FolderSettings, RunSettings, begun};
@@ -78,7 +78,8 @@ pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Merge(FolderSettings { folder, common }) => {
             common.threads.start()?;
             let StoredStudy { study, blocks } = take_results(&folder, Access::Alone)?;
-            cdpr_study::check_complete(&folder, &study, &blocks)?;
+            let complete = || cdpr_study::check_complete(&folder, &study, &blocks);
+            patiently("looking for blocks", complete)?;
             carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
         }
         Command::Status(settings) => status::run(&settings).map(well),

@@ -2,7 +2,8 @@
 
 use crate::common::{cdpr, data_path, text};
 use serde_json::Value;
-use std::process::Output;
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Command, Output, Stdio};
 
 fn tolerances(arguments: &[&str]) -> Output {
     let study = data_path("studies/caroca.json");
@@ -42,4 +43,41 @@ fn what_is_wrong_is_named_and_the_exit_code_is_not_zero() {
         let message = text(output.stderr);
         assert!(!output.status.success() && message.contains(words), "{message}");
     }
+}
+
+/// What takes minutes.
+const LONG: [&str; 4] = ["--limit", "1.4", "--observations", "16777216"];
+
+#[test]
+fn a_long_search_writes_a_line_of_progress_to_a_log() {
+    let study = data_path("studies/caroca.json");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cdpr"));
+    command.args(["tolerances", &study, "--sampling", "mechanical"]).args(LONG);
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    let first = lines.next();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(first.unwrap().unwrap(), "looking for the tolerances, 5 s");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_long_search_shows_its_time_on_a_terminal_after_a_second() {
+    let study = data_path("studies/caroca.json");
+    let program = env!("CARGO_BIN_EXE_cdpr");
+    let command = format!("exec {program} tolerances {study} --sampling mechanical {}", LONG.join(" "));
+    // A terminal that ends with its reader.
+    let mut command = {
+        let mut script = Command::new("script");
+        script.args(["--quiet", "--flush", "--return", "--command", &command, "/dev/null"]);
+        script
+    };
+    let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn().unwrap();
+    let (mut seen, mut bytes) = (String::new(), BufReader::new(child.stdout.take().unwrap()).bytes());
+    while !seen.contains("looking for the tolerances, 1 s") {
+        seen.push(char::from(bytes.next().unwrap().unwrap()));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
 }

@@ -4,7 +4,7 @@ mod published;
 
 use crate::arguments::{Format, number};
 use crate::error::ProgramError;
-use crate::output::table;
+use crate::output::{patiently, table};
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_study::{CableLaw, LAW_FORMAT, law_json, open_record, write_text};
@@ -100,7 +100,7 @@ impl From<SecantModulus> for Modulus {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let record = open_record(&settings.record)?;
+    let record = patiently("reading the record", || open_record(&settings.record))?;
     let published = settings.published.as_deref().map(Published::open).transpose()?;
     let (breaking_force, section, ranges) = match (&published, settings.breaking_force, settings.section) {
         (Some(table), ..) => (table.breaking_force, table.section, &table.ranges),

@@ -2,11 +2,12 @@
 
 use crate::arguments::{Format, LoadArguments};
 use crate::error::ProgramError;
-use crate::output::Ending;
+use crate::output::{Ending, patiently, progress};
 use crate::poses::{Angles, COLUMNS, place, pose, pose_file, pose_numbers};
 use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::StaticsError;
 use cdpr_study::open_robot;
+use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -87,14 +88,20 @@ impl RobotAtPose {
         let robot = self.robot()?;
         let pose = match (&self.pose, &self.poses) {
             (_, Some(path)) => {
-                let solve = |pose: &Pose| solve(&robot, pose).map_err(Failure::from);
-                return self.answer_all(&robot, path, |poses| poses.par_iter().map(solve).collect());
+                let solve = |pose: &Pose, progress: &ProgressBar| {
+                    let answer = solve(&robot, pose).map_err(Failure::from);
+                    progress.inc(1);
+                    answer
+                };
+                return self.answer_all(&robot, path, |poses, progress| {
+                    poses.par_iter().map(|pose| solve(pose, progress)).collect()
+                });
             }
             (Some(pose), None) => self.angles.of(pose)?,
             (None, None) => return Err(ProgramError::Usage("expected --pose or --poses".to_owned())),
         };
         let heading = format!("{} at {}", shown(&robot.name), place(&pose));
-        let answer = solve(&robot, &pose)?;
+        let answer = patiently("solving", || solve(&robot, &pose))?;
         self.format.print(&answer, |answer| text(answer, &heading))?;
         Ok(answer.ending())
     }
@@ -111,15 +118,21 @@ impl RobotAtPose {
         mut solve: impl FnMut(&Pose) -> Result<T, StaticsError>,
     ) -> Result<Ending, ProgramError> {
         let path = self.poses.as_ref().ok_or_else(|| ProgramError::Usage("expected --poses".to_owned()))?;
-        let mut solve = |pose: &Pose| solve(pose).map_err(Failure::from);
-        self.answer_all(robot, path, |poses| poses.iter().map(&mut solve).collect())
+        let mut solve = |pose: &Pose, progress: &ProgressBar| {
+            let answer = solve(pose).map_err(Failure::from);
+            progress.inc(1);
+            answer
+        };
+        self.answer_all(robot, path, |poses, progress| {
+            poses.iter().map(|pose| solve(pose, progress)).collect()
+        })
     }
 
     fn answer_all<T: Row>(
         &self,
         robot: &Robot,
         path: &Path,
-        mut solve: impl FnMut(&[Pose]) -> Vec<Result<T, Failure>>,
+        mut solve: impl FnMut(&[Pose], &ProgressBar) -> Vec<Result<T, Failure>>,
     ) -> Result<Ending, ProgramError> {
         let poses = pose_file(path)?;
         let columns = T::columns(robot);
@@ -130,21 +143,38 @@ impl RobotAtPose {
             );
         }
         let mut ending = Ending::Well;
+        let progress = progress(poses.len(), "poses");
         for chunk in poses.chunks(CHUNK) {
-            let answers = solve(chunk);
-            for (pose, answer) in chunk.iter().zip(&answers) {
+            let answers = solve(chunk, &progress);
+            for answer in &answers {
                 ending = ending.and(answer.as_ref().map_or(Ending::SomethingWrong, Row::ending));
-                match self.format {
-                    Format::Json => {
-                        let (pose, error) = (pose_numbers(pose), answer.as_ref().err());
-                        let line = Line { pose, answer: answer.as_ref().ok(), error };
-                        println!("{}", serde_json::to_string(&line)?);
-                    }
-                    Format::Text => print_row(pose, answer, columns.len()),
-                }
             }
+            let print = || {
+                let mut rows = chunk.iter().zip(&answers);
+                rows.try_for_each(|(pose, answer)| self.print_answer(pose, answer, columns.len()))
+            };
+            progress.suspend(print)?;
         }
+        progress.finish_and_clear();
         Ok(ending)
+    }
+
+    /// Prints the answer at one of many poses; `columns` of its cells are empty where there is none.
+    fn print_answer<T: Row>(
+        &self,
+        pose: &Pose,
+        answer: &Result<T, Failure>,
+        columns: usize,
+    ) -> Result<(), ProgramError> {
+        match self.format {
+            Format::Json => {
+                let (pose, error) = (pose_numbers(pose), answer.as_ref().err());
+                let line = Line { pose, answer: answer.as_ref().ok(), error };
+                println!("{}", serde_json::to_string(&line)?);
+            }
+            Format::Text => print_row(pose, answer, columns),
+        }
+        Ok(())
     }
 }
 

@@ -5,7 +5,7 @@
 use crate::answer::Found;
 use crate::arguments::{self, Format};
 use crate::error::ProgramError;
-use crate::output::Ending;
+use crate::output::{Ending, patiently, progress};
 use crate::pose::at_pose::Failure;
 use crate::poses::{self, Angles};
 use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json};
@@ -78,7 +78,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     };
     match cases {
         Cases::One(case) => {
-            let answer = solve(&robot, &case, settings.certify);
+            let answer = patiently("solving", || solve(&robot, &case, settings.certify));
             let answer = match &settings.from {
                 Some(path) => answer.map_err(ProgramError::in_file(path))?,
                 None => answer?,
@@ -87,8 +87,14 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             Ok(answer.ending())
         }
         Cases::List(cases) => {
-            let answers: Vec<Entry> =
-                cases.iter().map(|case| solve(&robot, case, settings.certify).into()).collect();
+            let progress = progress(cases.len(), "cases");
+            let answer = |case| {
+                let answer = solve(&robot, case, settings.certify).into();
+                progress.inc(1);
+                answer
+            };
+            let answers: Vec<Entry> = cases.iter().map(answer).collect();
+            progress.finish_and_clear();
             settings.format.print(&answers, |answers| {
                 for (i, (entry, case)) in answers.iter().zip(&cases).enumerate() {
                     println!("case {}", i + 1);

@@ -3,7 +3,7 @@
 use crate::answer::vector;
 use crate::arguments::{Format, number, payload};
 use crate::error::ProgramError;
-use crate::output::table;
+use crate::output::{patiently, table};
 use crate::poses::{self, Angles};
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable, Segment};
@@ -84,7 +84,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let robot = open_robot(&settings.robot)?;
     let laws = laws(&robot, settings)?;
     let pose = settings.angles.of(&settings.pose)?;
-    let cycle = load_cycle(&robot, &laws, &pose, settings.payload, settings.steps)?;
+    let cycle = || load_cycle(&robot, &laws, &pose, settings.payload, settings.steps);
+    let cycle = patiently("following the load", cycle)?;
     let found = Found::new(&robot, &laws, &cycle);
     settings.format.print(&found, print)?;
     if found.cables.iter().any(|cable| cable.dissipated_j < 0.0) {

@@ -2,7 +2,7 @@
 
 use crate::arguments::{self, Format, Named};
 use crate::error::ProgramError;
-use crate::output::table;
+use crate::output::{patiently, progress, table};
 use crate::poses;
 use cdpr_robot::{Pose, Robot, rounded, shown};
 use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement, ParameterValue};
@@ -55,7 +55,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let mut calibration =
         Calibration::new(&robot, &arguments::uncertainties(&robot, &settings.uncertainty)?)?;
     let (mut poses, mut refused) = (Vec::new(), BTreeMap::new());
+    let bar = progress(candidates.len(), "poses");
     for pose in candidates {
+        bar.inc(1);
         match calibration.add(&pose, &Load::payload(settings.payload), &measurements) {
             Ok(()) => poses.push(pose),
             // Noise and payload are the same at all poses: an invalid one is no property of a pose.
@@ -63,12 +65,15 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
             Err(error) => *refused.entry(error.kind()).or_insert(0) += 1,
         }
     }
+    bar.finish_and_clear();
     if poses.is_empty() {
         let reasons: Vec<_> = refused.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         return Err(ProgramError::NoPoseHeld { reasons: reasons.join(", ") });
     }
-    let found = calibration.identify(0..poses.len());
-    let output = Output::new(poses, refused, &found, &calibration, settings.choose);
+    let output = patiently("choosing poses", || {
+        let found = calibration.identify(0..poses.len());
+        Output::new(poses, refused, &found, &calibration, settings.choose)
+    });
     Ok(settings.format.print(&output, |output| print(&robot, output))?)
 }
 

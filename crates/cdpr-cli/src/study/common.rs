@@ -2,6 +2,7 @@
 
 use crate::arguments::{Format, Threads};
 use crate::error::ProgramError;
+use crate::output::patiently;
 use cdpr_study::{Blocks, Existing, Shard, Study, StudyError, TableFormat};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -77,10 +78,13 @@ impl From<TableName> for TableFormat {
 /// Opens the study to run and the folder for its results.
 pub(super) fn begun(settings: &RunSettings) -> Result<(Study, Blocks), ProgramError> {
     settings.common.threads.start()?;
-    let mut study = Study::open(&settings.study)?;
-    if let Some(observations) = settings.observations {
-        study.set_observations(observations)?;
-    }
+    let study = patiently("checking the study", || {
+        let mut study = Study::open(&settings.study)?;
+        if let Some(observations) = settings.observations {
+            study.set_observations(observations)?;
+        }
+        Ok::<_, StudyError>(study)
+    })?;
     let existing = match (settings.shard()?, settings.resume, settings.overwrite) {
         (Some(_), ..) => Existing::Share,
         (None, true, _) => Existing::GoOn,

@@ -2,6 +2,7 @@
 
 use crate::arguments;
 use crate::error::ProgramError;
+use crate::output::patiently;
 use cdpr_study::{TEMPLATE_NOTES, open_robot, template, write_template};
 use clap::Args;
 use std::path::PathBuf;
@@ -25,7 +26,7 @@ pub(crate) struct Settings {
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { robot: path, out, position, payload } = settings;
     let robot = open_robot(path)?;
-    let text = |robot_path: &str| template(&robot, robot_path, *position, *payload);
+    let text = |path: &str| patiently("trying poses", || template(&robot, path, *position, *payload));
     match out {
         Some(out) => {
             write_template(out, path, text)?;

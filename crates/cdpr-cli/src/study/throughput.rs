@@ -2,6 +2,7 @@
 
 use crate::arguments::Threads;
 use crate::error::ProgramError;
+use crate::output::progress;
 use cdpr_study::{Session, Study, analyse, observe};
 use serde_json::json;
 use std::path::Path;
@@ -21,10 +22,13 @@ pub(crate) fn run(
     study.file.sensitivity = None;
     let sampling = study.sampling(sampling)?;
     let clock = Instant::now();
-    let session = Session::in_memory();
+    let bar = progress(observations, "observations");
+    let tick = |done: usize| bar.inc(done as u64);
+    let session = Session { tick: &tick, ..Session::in_memory() };
     let tally = observe(&sampling, &session)?;
     let summary = analyse(&sampling, &tally, &session)?;
     let wall = clock.elapsed().as_secs_f64();
+    bar.finish_and_clear();
     let threads = rayon::current_num_threads();
     let rms = summary.rms_mm.map(|rms| json!({ "mean": rms.mean, "std": rms.std }));
     let line = json!({

@@ -51,7 +51,7 @@ enum Of {
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     settings.threads.start()?;
-    let study = Study::open(&settings.study)?;
+    let study = patiently("checking the study", || Study::open(&settings.study))?;
     let sampling = study.sampling(&settings.sampling)?;
     let limit = Limit {
         of: match settings.of {
