@@ -5,6 +5,7 @@
 mod common;
 mod cycle;
 mod figures;
+mod finite;
 mod heat_map;
 mod report;
 mod reread;
