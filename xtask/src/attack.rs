@@ -3,10 +3,14 @@
 //! Whatever a stranger's file or a careless user asks for, the program ends by itself, soon, without a panic,
 //! and touches no file besides those of its own folder of results.
 
+mod case;
 mod cases;
+mod folders;
 
 use crate::cargo::cargo;
+use case::{Case, MINE, OUT};
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fmt;
 use std::fs;
 use std::io::{self, Read};
@@ -18,23 +22,6 @@ use std::time::{Duration, Instant, SystemTime};
 const TIME: Duration = Duration::from_secs(10);
 /// Most address space of a case [KiB].
 const MEMORY: usize = 1 << 20;
-/// Folder of results, the only one in which a case may write.
-const OUT: &str = "out";
-
-/// Something to run in the folder of all cases.
-pub(super) struct Case {
-    /// What is wrong.
-    pub(super) what: String,
-    /// Files that are written before, and removed after the case.
-    pub(super) files: Vec<(String, Vec<u8>)>,
-    /// A command of the shell that prepares what no file can be.
-    pub(super) shell: Option<&'static str>,
-    /// Arguments of the program.
-    pub(super) arguments: Vec<String>,
-    /// Whether an answer is possible, too: a bad value may be harmless.
-    pub(super) may_succeed: bool,
-}
-
 /// What must not happen.
 enum Failure {
     Panic(String),
@@ -44,6 +31,7 @@ enum Failure {
     Touched(PathBuf),
     Succeeded,
     NotFinite(PathBuf),
+    NoXml(PathBuf),
     Leaked,
     System(io::Error),
 }
@@ -57,6 +45,7 @@ impl fmt::Display for Failure {
             Self::Touched(path) => write!(f, "touches {}", path.display()),
             Self::Succeeded => f.write_str("succeeds, though it cannot be right"),
             Self::NotFinite(path) => write!(f, "writes a number that is not finite: {}", path.display()),
+            Self::NoXml(path) => write!(f, "writes a figure that is no XML: {}", path.display()),
             Self::Leaked => f.write_str("prints what a terminal would obey, or what no user can read"),
             Self::System(error) => write!(f, "cannot be run: {error}"),
         }
@@ -95,9 +84,10 @@ fn attack(folder: &Path) -> io::Result<(usize, usize)> {
     let program = std::env::current_exe()?.with_file_name("cdpr");
     fs::create_dir_all(folder)?;
     cases::prepare(folder)?;
+    folders::prepare(folder, &program)?;
     let before = contents(folder)?;
     let (mut cases, mut failures) = (0, 0);
-    for case in cases::all()? {
+    for case in cases::all()?.into_iter().chain(folders::all()) {
         cases += 1;
         if let Err(failure) = case.run(&program, folder, &before) {
             failures += 1;
@@ -112,14 +102,21 @@ impl Case {
         for (name, bytes) in &self.files {
             fs::write(folder.join(name), bytes)?;
         }
-        if let Some(shell) = self.shell {
-            Command::new("sh").args(["-c", shell]).current_dir(folder).status()?;
+        if let Some(shell) = &self.shell {
+            let prepared = Command::new("sh").args(["-ec", shell]).current_dir(folder).status()?;
+            if !prepared.success() {
+                return Err(Failure::System(io::Error::other(format!("{shell}: {prepared}"))));
+            }
         }
         let given = contents(folder)?;
+        let is_mine = |name: &PathBuf| fs::read(folder.join(name)).is_ok_and(|found| found == MINE);
+        let mine = given.iter().filter(|(_, (length, _))| *length == MINE.len() as u64);
+        let mine: Vec<_> = mine.map(|(name, _)| name).filter(|name| is_mine(name)).collect();
         let result = self.end(program, folder);
         let judged = result.and_then(|()| {
             let after = contents(folder)?;
-            let mut names = given.keys().chain(after.keys()).filter(|name| !name.starts_with(OUT));
+            let is_out = |name: &&PathBuf| name.starts_with(OUT) && !mine.contains(name);
+            let mut names = given.keys().chain(after.keys()).filter(|name| !is_out(name));
             match names.find(|name| given.get(*name) != after.get(*name)) {
                 Some(name) => Err(Failure::Touched(name.clone())),
                 None => finite(folder),
@@ -134,10 +131,11 @@ impl Case {
 
     /// Runs the program to its end, and judges how it ended.
     fn end(&self, program: &Path, folder: &Path) -> Result<(), Failure> {
+        let around = if self.around.is_empty() { "exec \"$0\" \"$@\"" } else { self.around };
         let mut child = Command::new("sh")
-            .args(["-c", &format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\"")])
+            .args(["-c", &format!("ulimit -v {MEMORY}; {around}")])
             .arg(program)
-            .args(&self.arguments)
+            .args(self.arguments.iter().map(|argument| raw(argument)))
             .current_dir(folder)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
@@ -174,6 +172,18 @@ impl Case {
     }
 }
 
+/// An argument with the bytes that are not UTF-8.
+#[cfg(unix)]
+fn raw(argument: &str) -> OsString {
+    let parts: Vec<_> = argument.split('\u{fffd}').map(str::as_bytes).collect();
+    std::os::unix::ffi::OsStringExt::from_vec(parts.join(&b"\xff"[..]))
+}
+
+#[cfg(not(unix))]
+fn raw(argument: &str) -> OsString {
+    argument.into()
+}
+
 /// Reads an output of a child to its end.
 fn reader(output: Option<impl Read + Send + 'static>) -> std::thread::JoinHandle<String> {
     std::thread::spawn(move || {
@@ -204,17 +214,22 @@ fn contents(folder: &Path) -> io::Result<Contents> {
     Ok(files)
 }
 
-/// Whether all numbers in tables and JSON files of the results are finite.
+/// Whether all numbers in the results are finite, and figures have no character that XML forbids.
 fn finite(folder: &Path) -> Result<(), Failure> {
     for name in contents(folder)?.into_keys().filter(|name| name.starts_with(OUT)) {
-        if !name.extension().is_some_and(|ending| ending == "csv" || ending == "json") {
+        let ending = name.extension().and_then(|ending| ending.to_str());
+        let path = folder.join(&name);
+        if !matches!(ending, Some("csv" | "json" | "svg")) || !path.symlink_metadata()?.is_file() {
             continue;
         }
-        let text = String::from_utf8_lossy(&fs::read(folder.join(&name))?).into_owned();
+        let text = String::from_utf8_lossy(&fs::read(path)?).into_owned();
         // Reasons of failures may speak of them.
-        let mut cells = text.split([',', '\n', '[', ']']).map(str::trim);
+        let mut cells = text.split([',', '\n', '[', ']', '"', ' ']).map(str::trim);
         if cells.any(|cell| ["NaN", "inf", "-inf"].contains(&cell)) {
             return Err(Failure::NotFinite(name));
+        }
+        if ending == Some("svg") && text.contains(|c: char| c.is_control() && !"\t\r\n".contains(c)) {
+            return Err(Failure::NoXml(name));
         }
     }
     Ok(())

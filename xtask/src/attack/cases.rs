@@ -1,7 +1,7 @@
 //! The cases: good files with every value of them made bad in turn, damaged texts, arguments, and what
 //! strangers have put into folders.
 
-use super::Case;
+use super::case::{Case, split};
 use crate::cargo::root;
 use serde_json::{Value, json};
 use std::fs;
@@ -95,10 +95,6 @@ pub(super) fn all() -> io::Result<Vec<Case>> {
     Ok(cases)
 }
 
-fn split(command: &str) -> Vec<String> {
-    command.split(' ').map(str::to_owned).collect()
-}
-
 impl Kind {
     /// The case of a bad content of such a file.
     fn case(&self, what: String, content: Vec<u8>, may_succeed: bool) -> Case {
@@ -111,9 +107,9 @@ impl Kind {
         Case {
             what: format!("{}: {what}", self.name),
             files: vec![(bad, content)],
-            shell: None,
             arguments,
             may_succeed,
+            ..Case::default()
         }
     }
 }
@@ -251,7 +247,7 @@ fn arguments(cases: &mut Vec<Case>) {
             let mut arguments = split(command);
             arguments.push(format!("{option}={value}"));
             let what = format!("{option} is {value}");
-            cases.push(Case { what, files: Vec::new(), shell: None, arguments, may_succeed: true });
+            cases.push(Case { what, arguments, may_succeed: true, ..Case::default() });
         }
     }
 }
@@ -259,9 +255,9 @@ fn arguments(cases: &mut Vec<Case>) {
 /// What strangers give, and what a careless user types.
 fn strangers(kinds: &[Kind; 6], cases: &mut Vec<Case>) -> io::Result<()> {
     let [robot, study, ..] = kinds;
-    let mut push = |what: &str, shell: Option<&'static str>, command: &str| {
-        let (what, arguments) = (what.to_owned(), split(command));
-        cases.push(Case { what, files: Vec::new(), shell, arguments, may_succeed: false });
+    let mut push = |what: &str, shell: Option<&str>, command: &str| {
+        let (what, shell, arguments) = (what.to_owned(), shell.map(str::to_owned), split(command));
+        cases.push(Case { what, shell, arguments, ..Case::default() });
     };
     for kind in kinds {
         for (what, path, shell) in [
