@@ -50,6 +50,9 @@ pub struct Input {
     pub steps: Option<Steps>,
 }
 
+/// Steps on each side of the middle that can be told apart.
+const MOST_STEPS: f64 = 1e15;
+
 impl Input {
     /// A continuous input.
     pub fn continuous(name: impl Into<String>, law: Law) -> Self {
@@ -64,8 +67,8 @@ impl Input {
     /// Checks the law and the steps. The other methods expect a valid input.
     ///
     /// # Errors
-    /// [`SensitivityError::InvalidInput`] with the reason: an invalid law, a step that is not positive or
-    /// longer than the distance from the middle to an end, or steps of equal mass for a law that is not
+    /// [`SensitivityError::InvalidInput`] with the reason: an invalid law, a step that is not positive, longer
+    /// than the distance from the middle to an end, or too short to be counted, or steps of equal mass for a law that is not
     /// uniform.
     pub fn validate(&self) -> Result<(), SensitivityError> {
         let check = || {
@@ -77,6 +80,10 @@ impl Input {
             let (lowest, highest) = self.grid(step);
             let fits = lowest <= -1.0 && highest >= 1.0;
             require(fits, "step", step, "at most the distance from the middle to each end of the range")?;
+            // Numbers are no finer, and the number of steps must not overflow.
+            let steps = |u: f64| ((self.law.quantile(u) - self.law.middle()) / step).abs();
+            let counted = steps(f64::EPSILON).max(steps(1.0 - f64::EPSILON)) < MOST_STEPS;
+            require(counted, "step", step, "at least 1e-15 of the range")?;
             let uniform = matches!(self.law, Law::Uniform { .. });
             if matches!(self.steps, Some(Steps::EqualMass { .. })) && !uniform {
                 return Err(SensitivityError::EqualMassNeedsUniform);
