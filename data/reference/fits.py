@@ -1,8 +1,8 @@
 """Writes fits.json: samples, and the maximum-likelihood law of each family with its log-likelihood and
 Kolmogorov-Smirnov distance. laws.json: quantile, distribution function, log-density, moments of each law.
 
-Distributions are those of scipy.stats. SciPy's numerical fits stop early (weibull_min at 1e-4): where there is no
-closed form, the likelihood equations are solved again here, by scipy.optimize.brentq to 1e-15.
+Distributions are those of scipy.stats. SciPy's numerical fits stop early (weibull_min at 1e-4): where there
+is no closed form, the likelihood equations are solved again here, by scipy.optimize.brentq to 1e-15.
 
     python3 fits.py        (SciPy 1.17.1, NumPy 2.4)
 """
@@ -35,7 +35,8 @@ def gumbel(x):
 
 def logistic(x):
     def location(scale):
-        return optimize.brentq(lambda m: np.tanh((x - m) / scale / 2).sum(), x.min(), x.max(), xtol=1e-15, rtol=1e-15)
+        slope = lambda m: np.tanh((x - m) / scale / 2).sum()
+        return optimize.brentq(slope, x.min(), x.max(), xtol=1e-15, rtol=1e-15)
 
     def equation(scale):
         z = (x - location(scale)) / scale
@@ -58,7 +59,8 @@ def laws(x):
     mean, std = np.log(x).mean(), np.log(x).std()
     yield "log_normal", {"log_mean": mean, "log_std": std}, stats.lognorm(std, 0, np.exp(mean))
     location, scale = gumbel(-np.log(x))
-    yield "weibull", {"shape": 1 / scale, "scale": np.exp(-location)}, stats.weibull_min(1 / scale, 0, np.exp(-location))
+    shape, size = 1 / scale, np.exp(-location)
+    yield "weibull", {"shape": shape, "scale": size}, stats.weibull_min(shape, 0, size)
 
 
 out = []
@@ -72,21 +74,25 @@ for name, x in samples.items():
             "ks_distance": float(stats.kstest(x, law.cdf).statistic),
         })
     best = {f: getattr(stats, s).fit(x, **kw) for f, s, kw in
-            [("logistic", "logistic", {}), ("gumbel", "gumbel_r", {}), ("weibull", "weibull_min", {"floc": 0})]}
+            [("logistic", "logistic", {}), ("gumbel", "gumbel_r", {}),
+             ("weibull", "weibull_min", {"floc": 0})]}
     for row in rows:  # no worse than SciPy's own fit
         if row["family"] in best:
-            name_ = {"logistic": stats.logistic, "gumbel": stats.gumbel_r, "weibull": stats.weibull_min}[row["family"]]
+            name_ = {"logistic": stats.logistic, "gumbel": stats.gumbel_r,
+                     "weibull": stats.weibull_min}[row["family"]]
             assert row["log_likelihood"] >= name_(*best[row["family"]]).logpdf(x).sum() - 1e-9
     out.append({"name": name, "values": [float(v) for v in x], "fits": rows})
-(HERE / "fits.json").write_text(json.dumps(
-    {"source": "fits.py, scipy 1.17.1", "samples": out}, separators=(",", ":")).replace('{"name"', '\n{"name"') + "\n")
+text = json.dumps({"source": "fits.py, scipy 1.17.1", "samples": out}, separators=(",", ":"))
+(HERE / "fits.json").write_text(text.replace('{"name"', '\n{"name"') + "\n")
 
 LAWS = [
     ({"uniform": {"min": -18.0, "max": 18.0}}, stats.uniform(-18, 36)),
     ({"normal": {"mean": 102.2, "std": 3.0}}, stats.norm(102.2, 3)),
-    ({"truncated_normal": {"mean": 1.0, "std": 2.0, "min": 0.0, "max": 4.0}}, stats.truncnorm(-0.5, 1.5, 1, 2)),
+    ({"truncated_normal": {"mean": 1.0, "std": 2.0, "min": 0.0, "max": 4.0}},
+     stats.truncnorm(-0.5, 1.5, 1, 2)),
     ({"truncated_normal": {"mean": 0.0, "std": 1.0, "min": 3.0, "max": 5.0}}, stats.truncnorm(3, 5, 0, 1)),
-    ({"truncated_normal": {"mean": 0.0, "std": 1.0, "min": -9.0, "max": -6.0}}, stats.truncnorm(-9, -6, 0, 1)),
+    ({"truncated_normal": {"mean": 0.0, "std": 1.0, "min": -9.0, "max": -6.0}},
+     stats.truncnorm(-9, -6, 0, 1)),
     ({"triangular": {"min": -1.0, "mode": 0.5, "max": 2.0}}, stats.triang(0.5, -1, 3)),
     ({"triangular": {"min": 0.0, "mode": 0.0, "max": 2.0}}, stats.triang(0.0, 0, 2)),
     ({"triangular": {"min": 0.0, "mode": 2.0, "max": 2.0}}, stats.triang(1.0, 0, 2)),
@@ -102,7 +108,8 @@ U = [1e-6, 0.01, 0.2, 0.5, 0.51, 0.9, 0.999]
 rows = []
 for law, reference in LAWS:
     x = [float(v) for v in reference.ppf(U)]
-    rows.append({"law": law, "mean": float(reference.mean()), "std": float(reference.std()), "u": U, "quantile": x,
-                 "cdf": [float(v) for v in reference.cdf(x)], "ln_pdf": [float(v) for v in reference.logpdf(x)]})
-(HERE / "laws.json").write_text(json.dumps(
-    {"source": "fits.py, scipy 1.17.1", "laws": rows}, separators=(",", ":")).replace('{"law":{', '\n{"law":{') + "\n")
+    rows.append({"law": law, "mean": float(reference.mean()), "std": float(reference.std()), "u": U,
+                 "quantile": x, "cdf": [float(v) for v in reference.cdf(x)],
+                 "ln_pdf": [float(v) for v in reference.logpdf(x)]})
+text = json.dumps({"source": "fits.py, scipy 1.17.1", "laws": rows}, separators=(",", ":"))
+(HERE / "laws.json").write_text(text.replace('{"law":{', '\n{"law":{') + "\n")

@@ -59,7 +59,8 @@ def coefficients(x, y):
     src = np.linalg.solve(correlation[:-1, :-1], correlation[:-1, -1])
     inverse = np.linalg.inv(correlation)
     pcc = -inverse[:-1, -1] / np.sqrt(np.diag(inverse)[:-1] * inverse[-1, -1])
-    return {"standardised": src.tolist(), "partial": pcc.tolist(), "r_squared": float(src @ correlation[:-1, -1])}
+    r_squared = float(src @ correlation[:-1, -1])
+    return {"standardised": src.tolist(), "partial": pcc.tolist(), "r_squared": r_squared}
 
 
 def regression():

@@ -1,8 +1,10 @@
-"""Cables with a piecewise linear law by integration of their differential equations: python3 piecewise.py > piecewise.json
+"""Cables with a piecewise linear law by integration of their differential equations:
 
-dx/ds = (1 + eps(T)) fx/T, dz/ds = (1 + eps(T)) V/T, V = fz - w (L - s), T = hypot(fx, V), from s = 0 to L, by the tanh-sinh
-rule of mpmath (30 digits), split where the integrand has a kink (found by bisection of T(s) - T_k on a
-grid). Nothing of the closed form is used.
+    python3 piecewise.py > piecewise.json
+
+dx/ds = (1 + eps(T)) fx/T, dz/ds = (1 + eps(T)) V/T, V = fz - w (L - s), T = hypot(fx, V), from s = 0 to L, by
+the tanh-sinh rule of mpmath (30 digits), split where the integrand has a kink (found by bisection of
+T(s) - T_k on a grid). Nothing of the closed form is used.
 """
 
 import json

@@ -23,5 +23,6 @@ for dimensions, indices in CASES.items():
         out.append({"dimensions": dimensions, "index": index, "numerators": [int(k) for k in point]})
 lines = ",\n".join(json.dumps(row, separators=(",", ":")) for row in out)
 Path(__file__).with_suffix(".json").write_text(
-    '{"source":"scipy 1.17.1, scipy.stats.qmc.Sobol(dimensions, scramble=False), value = numerator / 2^30","points":[\n'
+    '{"source":"scipy 1.17.1, scipy.stats.qmc.Sobol(dimensions, scramble=False), '
+    'value = numerator / 2^30","points":[\n'
     + lines + "\n]}\n")

@@ -49,7 +49,8 @@ void catenary(const T& fx, const T& fz, const L& length, double w, double ea, T&
   using std::sqrt;
   const T v0 = fz - w * length;
   x = fx * length / ea + fx / w * (asinh_of(fz / fx) - asinh_of(v0 / fx));
-  z = fz * length / ea - w * length * length / (2 * ea) + (sqrt(fx * fx + fz * fz) - sqrt(fx * fx + v0 * v0)) / w;
+  z = fz * length / ea - w * length * length / (2 * ea) +
+      (sqrt(fx * fx + fz * fz) - sqrt(fx * fx + v0 * v0)) / w;
 }
 
 // Robot with the parameter vector: mass, density, modulus, a (24), b (24), centre of mass, dt (8).
@@ -88,7 +89,8 @@ struct Direct {
       const T &fx = x[6 + 2 * i], &fz = x[7 + 2 * i];
       T arm[3], xc, zc;
       rotated(rotation, robot.a.col(i), arm);
-      const T r[3] = {x[0] + arm[0] - robot.b(0, i), x[1] + arm[1] - robot.b(1, i), x[2] + arm[2] - robot.b(2, i)};
+      const T r[3] = {x[0] + arm[0] - robot.b(0, i), x[1] + arm[1] - robot.b(1, i),
+                      x[2] + arm[2] - robot.b(2, i)};
       const T h = sqrt(r[0] * r[0] + r[1] * r[1]);
       const T f[3] = {fx * r[0] / h, fx * r[1] / h, fz};
       T moment[3];
@@ -106,7 +108,9 @@ struct Direct {
 
   template <typename T, typename V>
   static void rotated(const T* rotation, const V& point, T* turned) {
-    for (int k = 0; k < 3; ++k) turned[k] = rotation[k] * point[0] + rotation[3 + k] * point[1] + rotation[6 + k] * point[2];
+    for (int k = 0; k < 3; ++k) {
+      turned[k] = rotation[k] * point[0] + rotation[3 + k] * point[1] + rotation[6 + k] * point[2];
+    }
   }
 };
 
@@ -132,13 +136,16 @@ bool tiny = false;
 
 // Brings all equations to zero; column i of `x` holds the unknowns of equations i.
 template <typename Equations, int Count>
-void solve(const std::vector<Equations>& equations, Eigen::Matrix<double, Equations::NUM_PARAMETERS, Count>& x) {
+void solve(const std::vector<Equations>& equations,
+           Eigen::Matrix<double, Equations::NUM_PARAMETERS, Count>& x) {
   constexpr int n = Equations::NUM_PARAMETERS;
   if (tiny) {
     using Function = ceres::TinySolverAutoDiffFunction<Equations, n, n>;
     ceres::TinySolver<Function, Eigen::PartialPivLU<Eigen::Matrix<double, n, n>>> solver;
     solver.options.initial_trust_region_radius = 1e16;
-    solver.options.parameter_tolerance = solver.options.gradient_tolerance = solver.options.function_tolerance = 0;
+    solver.options.parameter_tolerance = 0;
+    solver.options.gradient_tolerance = 0;
+    solver.options.function_tolerance = 0;
     solver.options.cost_threshold = 1e-18;  // residual of 1.4e-9 mm or N
     for (int i = 0; i < Count; ++i) {
       Vector<n> column = x.col(i);
@@ -203,7 +210,10 @@ Vector<3> observation(const Robot& robot, const Vector<3>& position, double payl
   hold(tensions);
   Vector<22> start = Vector<22>::Zero();
   start.head<3>() = position;
-  for (int i = 0; i < 8; ++i) start.segment<2>(6 + 2 * i) << tensions[i] * std::cos(held(0, i)), tensions[i] * std::sin(held(0, i));
+  for (int i = 0; i < 8; ++i) {
+    const double angle = held(0, i);
+    start.segment<2>(6 + 2 * i) << tensions[i] * std::cos(angle), tensions[i] * std::sin(angle);
+  }
   const Vector8 lengths = held.row(1);
   const Vector<22> unloaded = direct(robot, lengths, 0, start);
   return direct(robot, lengths, payload, unloaded).head<3>() - unloaded.head<3>();
@@ -252,11 +262,14 @@ int main(int count, char** arguments) try {
 
   const Robot robot(gravity, section, nominal);
   std::vector<double> direct_times, times;
-  const Vector<22> loaded = timed([&] { return direct(robot, lengths, payload, start); }, repeats, direct_times);
+  const Vector<22> loaded =
+      timed([&] { return direct(robot, lengths, payload, start); }, repeats, direct_times);
   json displacements;
   for (const json& row : problem["deviations"]) {
     const Eigen::VectorXd deviation = vector(row);
-    const auto observe = [&] { return observation(Robot(gravity, section, nominal + deviation), position, payload); };
+    const auto observe = [&] {
+      return observation(Robot(gravity, section, nominal + deviation), position, payload);
+    };
     const Vector<3> dp = timed(observe, repeats, times);
     displacements.push_back({dp[0], dp[1], dp[2]});
   }

@@ -148,10 +148,12 @@ robot = make_robot(problem, problem.parameters);
 displacements = [];
 times = [];
 for deviation = problem.deviations'
-  run = @() observation(make_robot(problem, problem.parameters + deviation), problem.position, problem.payload);
+  run = @() observation(make_robot(problem, problem.parameters + deviation), ...
+                        problem.position, problem.payload);
   [displacements(end + 1, :), taken] = timed(run, problem.repeats);
   times = [times, taken];
 end
-answer = struct("version", OCTAVE_VERSION, "solver", [args{2} ", forward differences"], "direct_us", median(direct_times), ...
-                "direct_position", loaded(1:3), "observation_us", median(times), "displacements", displacements);
+answer = struct("version", OCTAVE_VERSION, "solver", [args{2} ", forward differences"], ...
+                "direct_us", median(direct_times), "direct_position", loaded(1:3), ...
+                "observation_us", median(times), "displacements", displacements);
 disp(jsonencode(answer));

@@ -148,7 +148,8 @@ def main():
     direct, direct_times = timed(lambda: robot.direct(lengths, payload, start), repeats)
     displacements, times = [], []
     for deviation in np.array(problem["deviations"]):
-        result, taken = timed(lambda: Robot(problem, nominal + deviation).observation(position, payload), repeats)
+        observe = lambda: Robot(problem, nominal + deviation).observation(position, payload)
+        result, taken = timed(observe, repeats)
         displacements.append(result.tolist())
         times += taken
     answer = {
