@@ -14,7 +14,7 @@ mod series;
 
 pub use dual::Dual;
 pub use field::{Field, Real};
-pub use plane::{closure_of_limp, in_plane_stiffness};
+pub use plane::{closure_of_limp, in_plane_stiffness, stiffness_in_space};
 pub(crate) use response::Terms;
 pub use response::{Response, TautEnd, response, taut_end, taut_response};
 pub use series::TAUT;

@@ -5,7 +5,7 @@
 use crate::output::{Ending, table};
 pub(crate) use cdpr_robot::decimal;
 use cdpr_robot::{Pose, Robot, TensionLimits};
-use cdpr_statics::{DirectSolution, Equilibrium};
+use cdpr_statics::{Bound, DirectSolution, Equilibrium};
 use serde::Serialize;
 use std::fmt;
 
@@ -183,6 +183,14 @@ fn rows(pose: &Pose) -> [[f64; 3]; 3] {
 pub(crate) fn vector(components: &[f64], decimals: usize) -> String {
     let texts: Vec<_> = components.iter().map(|component| decimal(*component, decimals)).collect();
     format!("({})", texts.join(", "))
+}
+
+/// `min` or `max`.
+pub(crate) fn bound_name(bound: Bound) -> &'static str {
+    match bound {
+        Bound::Min => "min",
+        Bound::Max => "max",
+    }
 }
 
 /// Numbers separated by commas.

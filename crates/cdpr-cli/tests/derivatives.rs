@@ -46,6 +46,51 @@ fn json_holds_the_numbers_of_the_library() {
 }
 
 #[test]
+fn a_parameter_with_two_sides_has_both_in_json_table_and_csv() {
+    let file = std::fs::read_to_string(data("reference/robots/ipanema.json")).unwrap();
+    let robot = Robot::from_json(&file).unwrap();
+    let load = ["--pose", "0.2,0.1,1", "--payload", "2"];
+    let ipanema = data("reference/robots/ipanema.json");
+    let output = run(&ipanema, &[&load[..], &["--format", "json"]].concat());
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let left = derivatives(&robot, &Pose::at(0.2, 0.1, 1.0), &[0.0; 8], &Load::payload(2.0)).unwrap();
+    let right = left.right();
+    let one_sided = json["one_sided"].as_array().unwrap();
+    assert!(!one_sided.is_empty() && one_sided.len() == left.one_sided.len());
+    let table = text(run(&ipanema, &load).stdout);
+    for (found, exact) in one_sided.iter().zip(&left.one_sided) {
+        let name = left.inputs.parameters[exact.column].to_string();
+        assert_eq!(found["parameter"], name);
+        let cable = exact.cables[0].cable + 1;
+        assert_eq!(name, format!("dt{cable}"));
+        assert_eq!((&found["cables"][0], &found["bounds"][0]), (&Value::from(cable), &Value::from("min")));
+        for (side, exact_side) in [("left", &left), ("right", &right)] {
+            assert_eq!(found[side]["rms_mm"], 1e3 * exact_side.rms().unwrap()[exact.column]);
+            for i in 0..8 {
+                let length = &found[side]["unstrained_lengths"][i];
+                assert_eq!(*length, exact_side.lengths[(i, exact.column)]);
+            }
+            assert!(table.contains(&format!("{name}, {side}")), "{table}");
+        }
+        assert_eq!(found["left"]["rms_mm"], 0.0);
+        assert_ne!(found["right"]["rms_mm"], 0.0);
+        assert!(
+            table.contains(&format!("{name}: cable {cable} leaves its minimum tension on one side only"))
+        );
+    }
+    let directory = tempfile::tempdir().unwrap();
+    let poses = directory.path().join("poses.csv");
+    std::fs::write(&poses, "0.2,0.1,1\n").unwrap();
+    let list = run(&ipanema, &["--poses", poses.to_str().unwrap(), "--payload", "2"]);
+    let list = text(list.stdout);
+    let mut lines = csv::Reader::from_reader(list.as_bytes());
+    let column = lines.headers().unwrap().iter().position(|name| name == "one_sided").unwrap();
+    let row = lines.records().next().unwrap().unwrap();
+    let names: Vec<_> = one_sided.iter().map(|one| one["parameter"].as_str().unwrap()).collect();
+    assert_eq!(row[column], names.join(" "));
+}
+
+#[test]
 fn the_table_begins_with_what_matters_most() {
     let output = run(&caroca(), &["--pose", "0,0,1.75", "--payload", "50"]);
     let table = text(output.stdout);

@@ -109,6 +109,44 @@ def test_the_derivatives_are_those_of_the_command_line(caroca, caroca_file):
     same(1e3 * found.rms[:count], printed["rms_mm"])
     same(1e3 * found.displacement[:, :count].T, printed["deflection_mm"])
     same(found.lengths[:, :count].T, printed["unstrained_lengths"])
+    assert not found.one_sided.any() and "one_sided" not in printed
+    same(found.rms_right, found.rms)
+
+
+def test_left_and_right_derivatives_of_cables_on_their_least_tension_differ(caroca):
+    tensions = caroca.inverse(POSE).tensions
+    robot = cdpr.Robot.from_dict({**caroca.to_dict(), "tension_limits": {"min": 1.001 * tensions.min(),
+                                                                        "max": 10290.0}})
+    cables = numpy.flatnonzero(robot.inverse(POSE).tensions == 1.001 * tensions.min())
+    found = robot.derivatives(POSE, payload=50)
+    names = [name for name, one in zip(found.inputs, found.one_sided) if one]
+    assert names == [f"dt{cable + 1}" for cable in cables] and names
+    for cable in cables:
+        column = found.inputs.index(f"dt{cable + 1}")
+        assert found.set_points[cable, column] == 0 and found.set_points_right[cable, column] == 1
+        assert (found.lengths[:, column] == 0).all() and found.lengths_right[cable, column] < 0
+    same(found.tensions[:, ~found.one_sided], found.tensions_right[:, ~found.one_sided])
+
+
+def test_a_moment_makes_the_stiffness_unsymmetric(caroca):
+    moment = numpy.array([5.0, -3.0, 8.0])
+    found = caroca.stiffness(TURNED, moment=moment)
+    skew = (found.matrix - found.matrix.T)[3:, 3:]
+    cross = numpy.array([[0, -moment[2], moment[1]], [moment[2], 0, -moment[0]], [-moment[1], moment[0], 0]])
+    numpy.testing.assert_allclose(skew, -cross, atol=1e-6)
+    same(found.symmetric_part, 0.5 * (found.matrix + found.matrix.T))
+
+
+def test_quaternions_in_doubt_are_questioned(caroca):
+    with pytest.raises(cdpr.InputError, match="has the length 2.0000: expected the length 1"):
+        caroca.inverse([0, 0, 1.75, 2, 0, 0, 0])
+    with pytest.warns(UserWarning, match="as if it were qx,qy,qz,qw"):
+        caroca.inverse([[0, 0, 1.75, 0, 0, 0, 1]])
+    with pytest.raises(cdpr.InputError, match="20 GPa is 2e10"):
+        cdpr.Robot(caroca.anchor_points, caroca.exit_points, mass=180, section=1e-5, linear_density=0.1,
+                   youngs_modulus=20, tension_limits=(1, 1e4))
+    with pytest.raises(cdpr.InputError, match="expected lengths in m"):
+        caroca.direct(1000 * caroca.inverse(POSE).lengths)
 
 
 def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):

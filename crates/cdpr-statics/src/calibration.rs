@@ -17,11 +17,14 @@
 //! C = (1 + AᵀA)⁻¹ = sum v_k v_kᵀ/(1 + s_k²)                                                       (K2)
 //! ```
 //!
-//! A further pose with the matrix B adds the information, in bits, and leaves the covariance
+//! With the triangular factor of `C⁻¹ = RᵀR`, a further pose with the matrix B adds the information, in bits,
 //!
 //! ```text
-//! ½ log2 det(1 + B C Bᵀ),      C - C Bᵀ (1 + B C Bᵀ)⁻¹ B C                                        (K3)
+//! ½ log2 det(1 + B C Bᵀ) = ½ log2 det(1 + YᵀY),      Rᵀ Y = Bᵀ                                    (K3)
 //! ```
+//!
+//! which is the sum of log2 of the diagonal of the triangular factor of `[Y; 1]`; the factor of `[R; B]` is the
+//! next R. Neither forms a square whose rounding exceeds the unit matrix where measurements are precise.
 //!
 //! Taking the pose that adds most, one after the other, comes within 1 - 1/e of the information of the best
 //! choice (D-optimal design; Nemhauser, Wolsey, Fisher 1978: the information is submodular).
@@ -170,14 +173,8 @@ impl Calibration {
         let n = self.indices.len();
         // The triangular factor has the singular values and right vectors of the whole; a row of zeros adds
         // nothing.
-        let triangle = poses.into_iter().filter_map(|pose| self.poses.get(pose)).fold(
-            DMatrix::zeros(n, n),
-            |above: DMatrix<f64>, block| {
-                let mut stacked = above.resize_vertically(n + block.nrows(), 0.0);
-                stacked.rows_mut(n, block.nrows()).copy_from(block);
-                stacked.qr().r()
-            },
-        );
+        let blocks = poses.into_iter().filter_map(|pose| self.poses.get(pose));
+        let triangle = blocks.fold(DMatrix::zeros(n, n), triangle);
         let svd = triangle.svd(false, true);
         let vectors = svd.v_t.unwrap_or_else(|| DMatrix::identity(n, n));
         let values = svd.singular_values;
@@ -209,32 +206,35 @@ impl Calibration {
     /// The `count` poses that identify most together, each the one that adds most to those before it,
     /// equation (K3).
     pub fn best_poses(&self, count: usize) -> Vec<ChosenPose> {
-        let mut covariance = DMatrix::identity(self.indices.len(), self.indices.len());
+        let n = self.indices.len();
+        let mut factor = DMatrix::identity(n, n);
         let mut left: Vec<usize> = (0..self.poses.len()).collect();
         let mut chosen = Vec::new();
         while chosen.len() < count {
             let information = |pose: &usize| {
-                let block = &self.poses[*pose];
-                let cholesky = (block * &covariance * block.transpose() + identity(block.nrows())).cholesky();
-                cholesky
-                    .map_or(0.0, |factor| factor.l_dirty().diagonal().iter().map(|d| d.log2()).sum::<f64>())
+                let mut seen = self.poses[*pose].transpose();
+                // R has no singular value below 1.
+                factor.tr_solve_upper_triangular_unchecked_mut(&mut seen);
+                let size = seen.ncols();
+                let bits = triangle(seen, &DMatrix::identity(size, size)).diagonal().map(|d| d.abs().log2());
+                bits.sum()
             };
             let best = left.iter().map(information).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
             let Some((index, information)) = best else { break };
             let pose = left.remove(index);
-            let seen = &self.poses[pose] * &covariance;
-            let covariance_of_measurements = &seen * self.poses[pose].transpose() + identity(seen.nrows());
-            if let Some(factor) = covariance_of_measurements.cholesky() {
-                covariance -= seen.transpose() * factor.solve(&seen);
-            }
+            factor = triangle(factor, &self.poses[pose]);
             chosen.push(ChosenPose { pose, information });
         }
         chosen
     }
 }
 
-fn identity(size: usize) -> DMatrix<f64> {
-    DMatrix::identity(size, size)
+/// The triangular factor of two matrices, one below the other.
+fn triangle(above: DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
+    let rows = above.nrows();
+    let mut stacked = above.resize_vertically(rows + below.nrows(), 0.0);
+    stacked.rows_mut(rows, below.nrows()).copy_from(below);
+    stacked.qr().r()
 }
 
 /// Combines the rows, by Gauss and Jordan with complete pivoting, so that each has a column that is zero in

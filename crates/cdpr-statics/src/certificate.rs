@@ -28,7 +28,7 @@
 mod interval;
 
 use crate::direct::DirectSolution;
-use crate::equations::{FactoredJacobian, NEAR_VERTICAL, State, jacobian, residual, skew};
+use crate::equations::{FactoredJacobian, NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
@@ -189,7 +189,7 @@ fn degenerate(problem: &DirectProblem, state: &State<Interval>) -> Option<&'stat
         let span = state.cable(problem, i).span;
         let [h, z] = span.end;
         if catenary.is_limp() {
-            if span.chord().high >= problem.lengths[i] {
+            if span.chord().high >= catenary.length_at_rest() {
                 return Some("a slack cable without weight is about to become taut");
             }
             continue;
@@ -244,7 +244,7 @@ fn turned(mut jacobian: DMatrix<Interval>, per_delta: &Matrix3<Interval>) -> DMa
 fn least_stiffness(problem: &DirectProblem, state: &State<Interval>, jacobian: &DMatrix<Interval>) -> f64 {
     let mut hessian: Matrix6<Interval> = jacobian.fixed_view::<6, 6>(0, 0).into_owned();
     for i in 0..problem.cables() {
-        let place = 6 + 2 * i;
+        let at = closure_row(i);
         // A slack cable without weight resists nothing.
         let Some(cable) = state.cable(problem, i).linearized() else { continue };
         let [xx, xz, zz] = cable.stiffness;
@@ -254,7 +254,7 @@ fn least_stiffness(problem: &DirectProblem, state: &State<Interval>, jacobian: &
                 for (j, stiffness) in stiffness.iter().enumerate() {
                     for (k, stiffness) in stiffness.iter().enumerate() {
                         hessian[(row, column)] +=
-                            jacobian[(row, place + j)] * *stiffness * jacobian[(place + k, column)];
+                            jacobian[(row, at + j)] * *stiffness * jacobian[(at + k, column)];
                     }
                 }
             }
@@ -305,7 +305,7 @@ fn bounds(
     Certificate {
         position: norm(0, 3),
         rotation: up(norm(3, 3) + off.norm()),
-        force: (0..state.forces.len()).map(|i| norm(6 + 2 * i, 2)).fold(0.0, f64::max),
+        force: (0..state.forces.len()).map(|i| norm(closure_row(i), 2)).fold(0.0, f64::max),
         least_stiffness,
     }
 }

@@ -22,12 +22,16 @@
 //!
 //! The derivatives of v_i are second derivatives of the catenary (`cdpr_cable::TensionSlope`).
 //!
-//! **Active bounds stay active.** On the robot's own limits `dt_i = 0`. A cable whose weight demands more
-//! rests on the constant [`ABOVE_LEAST`] times the least tension over its span. That least tension, a minimum
-//! over the length, changes as if the length at which it is taken were held:
+//! **Active bounds stay active** while their multipliers are not zero. On the robot's own limits `dt_i = 0`. A
+//! cable whose weight demands more rests on the constant [`ABOVE_LEAST`] times the least tension over its span.
+//! That least tension, a minimum over the length, changes as if the length at which it is taken were held:
 //! `dt_i = ABOVE_LEAST u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary.
 //!
 //! **Set-points** are `t_i + dt_i`, or the bounds above where that is less: then the offset changes nothing.
+//!
+//! **Two sides.** Where a bound is left when an input grows and kept when it falls, or the other way round, the
+//! right and the left derivative differ: `derivatives/optimum.rs` and `winding.rs`. An offset of a cable on its
+//! bound is such an input.
 //!
 //! **Lengths** follow from (D1) at the set-points:
 //!
@@ -45,19 +49,27 @@
 //! Nothing larger than 6 x 6 is factored: the cables are eliminated, as in Newton's method of the direct
 //! model.
 
-use crate::equations::{CableDerivatives, Inputs, Partials, Reading, Span, read, solve, tensions};
+mod optimum;
+mod winding;
+
+use crate::equations::{CableDerivatives, Inputs, Partials, Reading, solve};
 use crate::error::StaticsError;
-use crate::inverse::{ABOVE_LEAST, InverseSolution};
-use crate::loading::{Deflection, Wound, deflection_from, wind};
+#[cfg(doc)]
+use crate::inverse::ABOVE_LEAST;
+use crate::loading::{Deflection, deflection_from, wind};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
-use cdpr_cable::least_tension;
-use cdpr_robot::{Matrix6xX, ParameterLayout, Pose, Robot, Vector3};
-use cdpr_tension::Bound;
-use nalgebra::{DMatrix, Matrix3xX, Matrix6};
+use cdpr_robot::{Matrix6xX, Pose, Robot};
+use nalgebra::{DMatrix, Matrix3xX};
+pub use optimum::AtBound;
+pub use winding::OneSided;
+use winding::{SetPoints, Winding};
 
 /// A deflection with its derivatives. Each matrix has a column for every input ([`Inputs`]): the parameters
 /// of the robot, the payload, the wanted pose.
+///
+/// The columns of inputs in `one_sided` hold the left derivatives, as the input falls; [`Derivatives::right`]
+/// has the right ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivatives {
     /// The deflection that is differentiated.
@@ -72,6 +84,18 @@ pub struct Derivatives {
     pub unloaded: EquilibriumDerivatives,
     /// Derivatives of the equilibrium with the load added.
     pub loaded: EquilibriumDerivatives,
+    /// The inputs whose left and right derivatives differ, because a cable leaves a bound on one side.
+    pub one_sided: Vec<OneSided>,
+    /// By how much the right derivatives exceed the left ones, a column for each of `one_sided`.
+    excess: Box<Excess>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Excess {
+    set_points: DMatrix<f64>,
+    lengths: DMatrix<f64>,
+    unloaded: EquilibriumDerivatives,
+    loaded: EquilibriumDerivatives,
 }
 
 /// Derivatives of an equilibrium; columns as in [`Derivatives`].
@@ -95,7 +119,7 @@ pub struct VarianceBudget {
 
 /// The deflection at a wanted pose as [`crate::deflection`] gives it, with its derivatives.
 ///
-/// At the edge of a bound they are those of the side on which the bound is active.
+/// Where a bound is left on one side of an input, left and right derivatives differ: [`OneSided`].
 ///
 /// ```
 /// use cdpr_robot::{Parameter, Pose, Robot};
@@ -120,21 +144,59 @@ pub fn derivatives(
 ) -> Result<Derivatives, StaticsError> {
     let wound = wind(robot, pose, tension_offsets)?;
     let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.held)?;
-    let stage = Stage { robot, pose, inputs: Inputs::new(robot.cables.len()), wound: &wound };
-    let set_points = stage.set_points(tension_offsets)?;
-    let lengths = stage.lengths(&set_points)?;
+    let winding = Winding { robot, pose, inputs: Inputs::new(robot.cables.len()), wound: &wound };
+    let SetPoints { rows: mut set_points, one_sided } = winding.set_points(tension_offsets)?;
+    let mut lengths = winding.lengths(&set_points)?;
     let at = |load: &Load, equilibrium| {
         let problem = DirectProblem::new(robot, &wound.lengths, load)?;
-        EquilibriumDerivatives::new(&problem, &stage.inputs, equilibrium, Some(&lengths))
+        EquilibriumDerivatives::new(&problem, &winding.inputs, equilibrium, Some(&lengths))
     };
     let mut unloaded = at(&Load::none(), &deflection.unloaded.equilibrium)?;
-    let loaded = at(load, &deflection.loaded.equilibrium)?;
-    unloaded.pose.column_mut(stage.inputs.payload()).fill(0.0);
-    unloaded.tensions.column_mut(stage.inputs.payload()).fill(0.0);
-    Ok(Derivatives { deflection, inputs: stage.inputs, set_points, lengths, unloaded, loaded })
+    let mut loaded = at(load, &deflection.loaded.equilibrium)?;
+    let inputs = winding.inputs;
+    unloaded.pose.column_mut(inputs.payload()).fill(0.0);
+    unloaded.tensions.column_mut(inputs.payload()).fill(0.0);
+    let count = inputs.count();
+    let excess = Box::new(Excess {
+        set_points: split_off(&mut set_points, count),
+        lengths: split_off(&mut lengths, count),
+        unloaded: unloaded.split_off(count),
+        loaded: loaded.split_off(count),
+    });
+    Ok(Derivatives { deflection, inputs, set_points, lengths, unloaded, loaded, one_sided, excess })
+}
+
+fn add<'a>(sum: impl Iterator<Item = &'a mut f64>, more: impl Iterator<Item = &'a f64>) {
+    sum.zip(more).for_each(|(sum, more)| *sum += more);
+}
+
+/// The columns from `count` on, which the matrix loses.
+fn split_off(matrix: &mut DMatrix<f64>, count: usize) -> DMatrix<f64> {
+    let last = matrix.columns(count, matrix.ncols() - count).into_owned();
+    if last.ncols() > 0 {
+        matrix.resize_horizontally_mut(count, 0.0);
+    }
+    last
 }
 
 impl Derivatives {
+    /// The right derivatives: those of every input as it grows, with an empty `one_sided`. They differ from the
+    /// left ones in the columns of the inputs in `one_sided`.
+    pub fn right(&self) -> Self {
+        let mut right = self.clone();
+        let Excess { set_points, lengths, unloaded, loaded } = &*self.excess;
+        for (k, OneSided { column, .. }) in self.one_sided.iter().enumerate() {
+            add(right.set_points.column_mut(*column).iter_mut(), set_points.column(k).iter());
+            add(right.lengths.column_mut(*column).iter_mut(), lengths.column(k).iter());
+            for (at, more) in [(&mut right.unloaded, unloaded), (&mut right.loaded, loaded)] {
+                add(at.pose.column_mut(*column).iter_mut(), more.pose.column(k).iter());
+                add(at.tensions.column_mut(*column).iter_mut(), more.tensions.column(k).iter());
+            }
+        }
+        right.one_sided.clear();
+        right
+    }
+
     /// Derivatives of the deflection dp, 3 x count [m per unit].
     pub fn displacement(&self) -> Matrix3xX<f64> {
         self.loaded.pose.fixed_rows::<3>(0) - self.unloaded.pose.fixed_rows::<3>(0)
@@ -156,15 +218,16 @@ impl Derivatives {
     }
 
     /// Variance of |dp| from that of each parameter (squared SI units), to first order:
-    /// `sum (d|dp|/dθ_j)² var_j`.
+    /// `sum (d|dp|/dθ_j)² var_j`, with the mean of both squares where left and right derivative differ.
     ///
     /// # Errors
     /// [`StaticsError::Invalid`] unless there is one finite variance, not negative, for each parameter; as
     /// [`Derivatives::rms`].
     pub fn variance_budget(&self, variances: &[f64]) -> Result<VarianceBudget, StaticsError> {
         self.inputs.check("variances", variances)?;
-        let parts = self.rms()?.into_iter().zip(variances).map(|(slope, variance)| slope * slope * variance);
-        let parts: Vec<f64> = parts.collect();
+        let (left, right) = (self.rms()?, self.right().rms()?);
+        let squares = left.iter().zip(&right).map(|(left, right)| 0.5 * (left * left + right * right));
+        let parts: Vec<f64> = squares.zip(variances).map(|(square, variance)| square * variance).collect();
         let variance: f64 = parts.iter().sum();
         let share = |part: &f64| if variance > 0.0 { part / variance } else { 0.0 };
         Ok(VarianceBudget { shares: parts.iter().map(share).collect(), std: variance.sqrt() })
@@ -199,6 +262,10 @@ impl EquilibriumDerivatives {
         let (hessian, tensions_per_motion) = partials.take_pose(inputs);
         let Partials { mut balance, readings: mut tensions } = partials;
         if let Some(winding) = winding {
+            if winding.ncols() > inputs.count() {
+                balance.resize_horizontally_mut(winding.ncols(), 0.0);
+                tensions.resize_horizontally_mut(winding.ncols(), 0.0);
+            }
             let per_actuation: Vec<_> = cables.iter().map(CableDerivatives::wrench_per_actuation).collect();
             balance.gemm(1.0, &Matrix6xX::from_columns(&per_actuation), winding, 1.0);
             for (i, cable) in cables.iter().enumerate() {
@@ -211,127 +278,13 @@ impl EquilibriumDerivatives {
         tensions.gemm(1.0, &tensions_per_motion, &balance, 1.0);
         Ok(Self { pose: balance, tensions })
     }
-}
 
-const DISTRIBUTION: &str = "the tension distribution";
-
-/// From the wanted pose to the lengths.
-struct Stage<'a> {
-    robot: &'a Robot,
-    pose: &'a Pose,
-    inputs: Inputs,
-    wound: &'a Wound,
-}
-
-impl Stage<'_> {
-    fn cables(
-        &self,
-        lengths: &[f64],
-        equilibrium: &Equilibrium,
-    ) -> Result<Vec<CableDerivatives>, StaticsError> {
-        let problem = DirectProblem::new(self.robot, lengths, &Load::none())?;
-        Ok(CableDerivatives::all(&problem, self.pose, &equilibrium.cable_forces))
-    }
-
-    /// Derivatives of the tensions of the inverse model, equation (D6); `bounds` has a row for each active
-    /// bound.
-    fn tensions(&self, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
-        let InverseSolution { lengths, active, equilibrium, multipliers, .. } = &self.wound.wanted;
-        let problem = DirectProblem::new(self.robot, lengths, &Load::none())?;
-        let forces = equilibrium.cable_forces.iter().enumerate();
-        let rates: Vec<_> = forces
-            .map(|(i, force)| {
-                let catenary = problem.catenary(i, *force);
-                CableDerivatives::of_tension_slope(self.robot, self.pose, i, catenary)
-            })
-            .collect();
-        let cables = CableDerivatives::all(&problem, self.pose, &equilibrium.cable_forces);
-        let cables: Vec<_> = cables.iter().map(CableDerivatives::at_tension).collect();
-        let [translation, rotation]: [Vector3<f64>; 2] =
-            [0, 3].map(|row| multipliers.fixed_view::<3, 1>(row, 0).into());
-        let motion = |cable: &CableDerivatives| translation + rotation.cross(&cable.arm);
-
-        let Partials { mut balance, .. } =
-            Partials::new(self.robot, &self.inputs, self.pose, &Load::none(), &cables, Reading::tension);
-        let mut rows = read(&self.inputs, self.pose, &rates, |rate| Reading {
-            per_force: motion(rate),
-            per_arm: rate.force.cross(&rotation),
-        });
-        balance.column_mut(self.inputs.payload()).fill(0.0);
-        let mut per_actuation = Matrix6xX::zeros(cables.len());
-        // -c_i/D_i, zero for a cable on a bound.
-        let mut answers = DMatrix::zeros(cables.len(), 6);
-        for (i, (cable, rate)) in cables.iter().zip(&rates).enumerate() {
-            let slope = cable.wrench_per_actuation();
-            per_actuation.set_column(i, &slope);
-            if active[i].is_some() {
-                rows.set_row(i, &bounds.row(i));
-                continue;
-            }
-            let d = 1.0 + motion(rate).dot(&rate.per_actuation);
-            rows.row_mut(i).unscale_mut(-d);
-            answers.set_row(i, &-(slope / d).transpose());
+    /// The columns from `count` on, which the derivatives lose.
+    fn split_off(&mut self, count: usize) -> Self {
+        let last = self.pose.columns(count, self.pose.ncols() - count).into_owned();
+        if last.ncols() > 0 {
+            self.pose.resize_horizontally_mut(count, 0.0);
         }
-        let matrix: Matrix6<f64> = (&per_actuation * &answers).fixed_columns::<6>(0).into();
-        balance.gemm(1.0, &per_actuation, &rows, 1.0);
-        balance.neg_mut();
-        solve(matrix, &mut balance, DISTRIBUTION)?;
-        rows.gemm(1.0, &answers, &balance, 1.0);
-        Ok(rows)
-    }
-
-    /// Derivatives of the set-points.
-    fn set_points(&self, tension_offsets: &[f64]) -> Result<DMatrix<f64>, StaticsError> {
-        let Wound { wanted, set_points, held, .. } = self.wound;
-        let least = self.robot.tension_limits.min;
-        // What the weight of a cable demands is more than the robot's limit, or more than the set-point.
-        let demanded = |i: &usize| wanted.active[*i] == Some(Bound::Min) && wanted.tensions[*i] > least;
-        let raised = |i: &usize| held.cable_forces[*i].norm() > (1.0 + 1e-9) * set_points[*i];
-        let n = set_points.len();
-        let which: Vec<usize> = (0..n).filter(|i| demanded(i) || raised(i)).collect();
-        let bounds = self.least_tensions(&which)?;
-        let mut rows = self.tensions(&bounds)?;
-        let layout = ParameterLayout::new(n);
-        for i in 0..n {
-            if raised(&i) {
-                rows.set_row(i, &bounds.row(i));
-            } else if wanted.tensions[i] + tension_offsets[i] <= least {
-                rows.row_mut(i).fill(0.0);
-            } else {
-                rows[(i, layout.tension_offset(i))] += 1.0;
-            }
-        }
-        Ok(rows)
-    }
-
-    /// Derivatives of the tensions that the weights of the cables in `which` demand; zero rows for all
-    /// others.
-    fn least_tensions(&self, which: &[usize]) -> Result<DMatrix<f64>, StaticsError> {
-        let mut rows = self.inputs.zeros(self.wound.set_points.len());
-        if which.is_empty() {
-            return Ok(rows);
-        }
-        let mut cables = self.cables(&self.wound.lengths, &self.wound.held)?;
-        for &i in which {
-            let end = Span::new(self.robot.span(self.pose, i).into()).end.into();
-            let catenary = least_tension(&self.robot.cable(i), end).map_err(StaticsError::cable(i))?;
-            cables[i] = CableDerivatives::new(self.robot, self.pose, i, &catenary);
-        }
-        let least = tensions(&self.inputs, self.pose, &cables);
-        which.iter().for_each(|i| rows.set_row(*i, &(ABOVE_LEAST * least.row(*i))));
-        Ok(rows)
-    }
-
-    /// Derivatives of the lengths, equation (D7).
-    fn lengths(&self, set_points: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
-        let cables = self.cables(&self.wound.lengths, &self.wound.held)?;
-        let mut rows = tensions(&self.inputs, self.pose, &cables);
-        for (i, cable) in cables.iter().enumerate() {
-            let per_length = cable.direction.dot(&cable.per_actuation);
-            for (slope, set_point) in rows.row_mut(i).iter_mut().zip(set_points.row(i).iter()) {
-                *slope = (set_point - *slope) / per_length;
-            }
-        }
-        Ok(rows)
+        Self { pose: last, tensions: split_off(&mut self.tensions, count) }
     }
 }

@@ -9,7 +9,7 @@ mod rounding;
 mod spanned;
 pub(crate) mod vector;
 
-pub(crate) use assembled::{FactoredJacobian, NEAR_VERTICAL, State, jacobian, residual, skew};
+pub(crate) use assembled::{FactoredJacobian, NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
 pub(crate) use balance::Balance;
 pub(crate) use cable::{CablePlane, LinearizedCable, Span, between};
 pub use linearization::Linearization;

@@ -37,7 +37,7 @@ use cdpr_cable::{CableError, Catenary, length_for_tension};
 use cdpr_robot::{Pose, Robot, Vector2, Vector6};
 use cdpr_tension::Bound;
 use feasible::search;
-pub(crate) use held::ABOVE_LEAST;
+pub(crate) use held::{ABOVE_LEAST, least_allowed};
 use optimum::Optimum;
 use question::Question;
 
@@ -186,7 +186,7 @@ pub fn lengths_for_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Res
         let cable = robot.cable(i);
         let end = Vector2::from(Span::new(robot.span(pose, i).into()).end);
         let held = || -> Result<Catenary, CableError> {
-            let least = held::least_allowed(&cable, end, *tension)?;
+            let least = least_allowed(&cable, end, *tension)?;
             Ok(length_for_tension(&cable, end, least)?.catenary)
         };
         held().map_err(StaticsError::cable(i))

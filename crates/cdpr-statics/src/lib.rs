@@ -54,7 +54,7 @@ mod state;
 
 pub use calibration::{Calibration, ChosenPose, Combination, Identifiability, Measurement, ParameterValue};
 pub use certificate::Certificate;
-pub use derivatives::{Derivatives, EquilibriumDerivatives, VarianceBudget, derivatives};
+pub use derivatives::{AtBound, Derivatives, EquilibriumDerivatives, OneSided, VarianceBudget, derivatives};
 pub use direct::{
     DirectMethod, DirectSolution, Equilibria, Found, Loss, LossKind, Mode, Path, PathStep, Report, Setting,
     Stability, Start, Starts, direct, rough_pose,
@@ -67,7 +67,7 @@ pub use loading::{
     CycleStep, Deflection, HysteresisLaw, LoadCycle, PoseDeflections, PoseStiffness, Unloading, deflection,
     deflection_from, deflections, follow, load_cycle, stiffness_at, wound_lengths,
 };
-pub use problem::DirectProblem;
+pub use problem::{DirectProblem, check_lengths};
 pub use state::{Equilibrium, Load, Residual};
 
 pub use cdpr_robot::{Matrix6xX, Vector2, Vector3, Vector6};

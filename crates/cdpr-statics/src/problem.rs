@@ -3,7 +3,7 @@
 use crate::error::StaticsError;
 use crate::state::{Equilibrium, Load};
 use cdpr_cable::{Cable, Catenary};
-use cdpr_robot::{Robot, Vector2};
+use cdpr_robot::{Robot, RobotCable, Vector2};
 
 /// A robot whose cables have given unstrained lengths, under a load: what the direct model solves.
 ///
@@ -16,7 +16,7 @@ use cdpr_robot::{Robot, Vector2};
 /// let problem = DirectProblem::new(&robot, &wanted.lengths, &Load::payload(50.0))?;
 /// let found = problem.direct(Start::Near(&wanted.equilibrium))?;
 /// assert!(problem.certify(&found)?.position < 1e-12); // [m]
-/// let stiffness = *problem.linearize(&found.equilibrium)?.stiffness();
+/// let stiffness = problem.linearize(&found.equilibrium)?.symmetric_stiffness();
 /// assert!(stiffness.symmetric_eigenvalues().min() > 0.0);
 /// # Ok::<(), cdpr_statics::StaticsError>(())
 /// ```
@@ -93,6 +93,31 @@ impl<'a> DirectProblem<'a> {
             )),
         }
     }
+}
+
+/// All cables longer than this many widths of a robot would let the platform hang far below it; lengths in mm are
+/// a thousand times too long.
+const LONGEST: f64 = 30.0;
+
+/// Questions lengths [m] that are all so much longer than the robot is wide that they must be in another unit.
+///
+/// # Errors
+/// [`StaticsError::Invalid`] with what the shortest would be if it were in mm.
+pub fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), StaticsError> {
+    let away = |cable: &RobotCable| (cable.exit_point - robot.cables[0].exit_point).norm();
+    let wide = robot.cables.iter().map(away).fold(robot.platform_size(), f64::max);
+    let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+    if shortest.is_finite() && shortest > LONGEST * wide {
+        return Err(StaticsError::invalid(
+            "lengths".to_owned(),
+            format!("{lengths:?}"),
+            format!(
+                "lengths in m for a robot that is {wide:.3} m wide: {shortest} mm is {}",
+                shortest / 1000.0
+            ),
+        ));
+    }
+    Ok(())
 }
 
 impl Load {

@@ -156,6 +156,23 @@ fn the_best_poses_identify_more_than_the_first_and_their_information_adds_up() {
 }
 
 #[test]
+fn measurements_of_any_precision_have_their_information() {
+    for noise in [1e-6, 1e-9, 1e-12, 1e-15] {
+        let exact = Measurement::Pose { position: noise, rotation: noise };
+        let calibration = calibration(&[50.0], &[exact, Measurement::Lengths(noise)]);
+        let found = calibration.identify(0..27);
+        let values = found.identifiable.iter().map(|combination| combination.signal_to_noise);
+        let expected: f64 = values.map(|s| 0.5 * (1.0 + s * s).log2()).sum();
+        let chosen = calibration.best_poses(27);
+        let sum: f64 = chosen.iter().map(|pose| pose.information).sum();
+        println!("noise {noise:e}: {sum:.3} bit of 27 poses, {expected:.3} by singular values");
+        assert!((sum / expected - 1.0).abs() < 1e-6, "noise {noise:e}: {sum} bit, expected {expected}");
+        // No pose is without information: even the last one halves the variance of some combination.
+        assert!(chosen.iter().all(|pose| pose.information > 1.0), "noise {noise:e}");
+    }
+}
+
+#[test]
 fn invalid_inputs_are_named() {
     let mut wrong = uncertainties();
     wrong[3] = -1.0;

@@ -1,6 +1,6 @@
 //! Robots of several tests.
 
-use cdpr_robot::{Robot, RobotCable, Vector3};
+use cdpr_robot::{Pose, Robot, RobotCable, Vector3};
 
 pub(crate) fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
@@ -8,6 +8,18 @@ pub(crate) fn caroca() -> Robot {
 
 pub(crate) fn cogiro() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap()
+}
+
+/// CAROCA, CoGiRo, and robots of a stadium, a hall and a telescope, each with a pose that it holds.
+pub(crate) fn robots() -> [(Robot, Pose); 5] {
+    let reference = |text| Robot::from_json(text).unwrap();
+    [
+        (caroca(), Pose::at(0.4, -0.3, 1.6)),
+        (cogiro(), Pose::at(1.0, -0.5, 2.0)),
+        (reference(include_str!("../../../data/reference/robots/stadium.json")), Pose::at(3.0, -2.0, 10.0)),
+        (reference(include_str!("../../../data/reference/robots/ipanema.json")), Pose::at(0.2, 0.1, 1.0)),
+        (reference(include_str!("../../../data/reference/robots/fast.json")), Pose::at(10.0, 5.0, 100.0)),
+    ]
 }
 
 /// Cables of CAROCA that alternate between the upper and the lower rim of a drum, from a ring of exit points;

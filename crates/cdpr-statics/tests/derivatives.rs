@@ -17,19 +17,19 @@ const STUDY_POSES: [[f64; 3]; 2] = [[0.0, 0.0, 1.75], [3.2, 1.7, 3.0]];
 
 /// A robot at a pose with a load, and what is to be differentiated there.
 #[derive(Clone)]
-struct Case {
-    robot: Robot,
-    pose: Pose,
-    offsets: Vec<f64>,
-    load: Load,
+pub(crate) struct Case {
+    pub(crate) robot: Robot,
+    pub(crate) pose: Pose,
+    pub(crate) offsets: Vec<f64>,
+    pub(crate) load: Load,
 }
 
 /// The outputs, in groups of one unit each: name, values, and the size by which errors are judged.
-type Outputs = Vec<(&'static str, Vec<f64>)>;
+pub(crate) type Outputs = Vec<(&'static str, Vec<f64>)>;
 
 /// What decides which formula holds for a cable. Differences must not cross it.
 #[derive(PartialEq)]
-struct Regime {
+pub(crate) struct Regime {
     /// The bound that the inverse model's tension rests on.
     active: Option<cdpr_tension::Bound>,
     /// Whether that bound is what the cable's weight demands.
@@ -42,7 +42,7 @@ struct Regime {
 
 impl Case {
     /// The case with one input moved.
-    fn moved(&self, column: usize, step: f64) -> Self {
+    pub(crate) fn moved(&self, column: usize, step: f64) -> Self {
         let mut case = self.clone();
         let parameters = Parameter::all(self.robot.cables.len()).len();
         if column < parameters {
@@ -62,7 +62,7 @@ impl Case {
     }
 
     /// A step of an input that changes lengths and tensions little, but far above rounding.
-    fn step(&self, column: usize) -> f64 {
+    pub(crate) fn step(&self, column: usize) -> f64 {
         let parameters = Parameter::all(self.robot.cables.len());
         let length = 1e-3 * self.robot.platform_size();
         match parameters.get(column) {
@@ -78,7 +78,7 @@ impl Case {
     }
 
     /// As the library computes it, from an equilibrium nearby.
-    fn outputs(&self, about: &Deflection) -> Result<(Outputs, Vec<Regime>), StaticsError> {
+    pub(crate) fn outputs(&self, about: &Deflection) -> Result<(Outputs, Vec<Regime>), StaticsError> {
         let wanted = inverse(&self.robot, &self.pose, &Load::none(), None)?;
         let limits = self.robot.tension_limits;
         let set_points = cdpr_tension::offset(&wanted.tensions, &self.offsets, limits);
@@ -120,7 +120,7 @@ impl Case {
 }
 
 /// A column of all derivatives, in the order of [`Case::outputs`].
-fn column(exact: &Derivatives, column: usize) -> Vec<DVector<f64>> {
+pub(crate) fn column(exact: &Derivatives, column: usize) -> Vec<DVector<f64>> {
     let rms = exact.rms().unwrap();
     let pose =
         |at: &EquilibriumDerivatives, first: usize| DVector::from_fn(3, |i, _| at.pose[(first + i, column)]);

@@ -119,7 +119,7 @@ fn the_stiffness_is_that_of_small_loads() {
         .unwrap()
         .linearize(&gone.unloaded.equilibrium)
         .unwrap();
-    assert!(linearization.stiffness().symmetric_eigenvalues().min() > 0.0);
+    assert!(linearization.symmetric_stiffness().symmetric_eigenvalues().min() > 0.0);
 }
 
 #[test]
@@ -143,4 +143,29 @@ fn lanes_and_certificates_never_take_such_a_cable_for_a_linear_one() {
     assert!(
         path.lost.is_none() && (end.pose.position - wanted.loaded.equilibrium.pose.position).norm() < 1e-11
     );
+}
+
+#[test]
+fn a_weightless_cable_is_slack_up_to_its_length_at_rest() {
+    let mut robot = caroca();
+    let strain = 1e-3;
+    for cable in &mut robot.cables {
+        let properties = &mut cable.properties;
+        properties.linear_density = 0.0;
+        let at_rest = strain * properties.axial_stiffness();
+        properties.law = Some(PiecewiseLaw::new(at_rest, &[Segment { tension: 0.0, ratio: 1.0 }]).unwrap());
+    }
+    let pose = Pose::at(0.0, 0.0, 1.75);
+    let mut lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+    lengths[3] *= 1.1;
+    let loose = direct(&robot, &lengths, &Load::none(), Start::Pose(&pose)).unwrap();
+    let chord = robot.span(&loose.equilibrium.pose, 3).norm();
+    assert_eq!(loose.report.slack, [3]);
+    // Its points are farther apart than its unstrained length, and nearer than its length without tension.
+    lengths[3] = chord / (1.0 + 0.5 * strain);
+    let found = direct(&robot, &lengths, &Load::none(), Start::Near(&loose.equilibrium)).unwrap();
+    let chord = robot.span(&found.equilibrium.pose, 3).norm();
+    assert!(lengths[3] < chord && chord < lengths[3] * (1.0 + strain), "{} {chord}", lengths[3]);
+    assert_eq!(found.equilibrium.tensions()[3], 0.0);
+    assert_eq!(found.report.slack, [3]);
 }

@@ -2,7 +2,7 @@
 
 use crate::common::caroca;
 use crate::elastic_law::law;
-use cdpr_robot::Pose;
+use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{HysteresisLaw, Load, StaticsError, Unloading, deflection, load_cycle};
 
 /// One law for all eight cables.
@@ -66,6 +66,27 @@ fn a_way_back_from_the_turning_point_begins_as_the_record_does() {
     let [soft, stiff] = [soft, moved].map(|law| load_cycle(&caroca(), &law, &pose(), 50.0, 20).unwrap());
     assert!(soft.residual().z > 0.0 && soft.payload_work < 0.0);
     assert!(stiff.residual().z < 0.0 && stiff.payload_work > 0.0);
+}
+
+#[test]
+fn weightless_cables_that_the_payload_makes_slack_come_back() {
+    let mut robot = Robot::from_json(include_str!("../../../data/reference/robots/ipanema.json")).unwrap();
+    robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density = 0.0);
+    let segments = [(0.0, 0.8), (600.0, 1.0)];
+    let pose = Pose::at(0.2, 0.1, 1.0);
+    for unloading_from in [Unloading::SameTension, Unloading::TurningPoint] {
+        let laws: Vec<_> = curves(&segments, &segments)
+            .into_iter()
+            .map(|law| HysteresisLaw { unloading_from, turning_tension: 0.0, ..law })
+            .collect();
+        let cycle = load_cycle(&robot, &laws, &pose, 400.0, 20).unwrap();
+        let slack = cycle.tensions.iter().filter(|[_, loaded, _]| *loaded == 0.0).count();
+        println!("{slack} cables slack under the payload");
+        assert!(slack > 0);
+        assert!(cycle.tensions.iter().all(|[before, _, after]| (before - after).abs() < 1e-6));
+        assert!(cycle.residual().norm() < 1e-10, "{}", cycle.residual());
+        assert!(cycle.dissipated.iter().all(|energy| energy.abs() < 1e-9), "{:?}", cycle.dissipated);
+    }
 }
 
 #[test]

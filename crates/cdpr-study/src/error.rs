@@ -151,7 +151,7 @@ pub enum StudyError {
         version: &'static str,
     },
     /// A folder with blocks, without instructions to resume or to overwrite them.
-    #[error("{folder} holds {blocks} blocks of this study")]
+    #[error("{folder} holds {blocks} block{s} of this study", s = plural(*blocks))]
     FolderInUse {
         /// The folder.
         folder: PathBuf,
@@ -219,7 +219,7 @@ pub enum StudyError {
         path: PathBuf,
     },
     /// A study cannot be analysed yet.
-    #[error("{folder} lacks {missing} of {blocks} blocks, the first one {first}")]
+    #[error("{folder} lacks {missing} of {blocks} block{s}, the first one {first}", s = plural(*blocks))]
     MissingBlocks {
         /// The folder.
         folder: PathBuf,
@@ -259,6 +259,11 @@ pub enum StudyError {
         /// What would be right.
         expected: String,
     },
+}
+
+/// The ending of a noun behind a count.
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
 }
 
 impl StudyError {

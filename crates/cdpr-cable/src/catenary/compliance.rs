@@ -1,6 +1,6 @@
 //! The flexibility of a cable at its end, and the stiffness that is its inverse.
 
-use crate::kernel::{Response, in_plane_stiffness};
+use crate::kernel::{Response, in_plane_stiffness, stiffness_in_space};
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 /// End position of a cable with its derivatives with respect to force and length.
@@ -41,19 +41,7 @@ impl Compliance {
     #[inline]
     pub fn stiffness(&self, azimuth: Vector2<f64>) -> Matrix3<f64> {
         let k = self.in_plane_stiffness();
-        let across = self.lateral_stiffness;
-        let (c, s) = (azimuth.x, azimuth.y);
-        Matrix3::new(
-            c * c * k.m11 + s * s * across,
-            c * s * (k.m11 - across),
-            c * k.m12,
-            c * s * (k.m11 - across),
-            s * s * k.m11 + c * c * across,
-            s * k.m12,
-            c * k.m21,
-            s * k.m21,
-            k.m22,
-        )
+        stiffness_in_space([k.m11, k.m12, k.m22], self.lateral_stiffness, azimuth.into()).into()
     }
 }
 

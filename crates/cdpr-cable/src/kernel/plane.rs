@@ -20,6 +20,18 @@ pub fn in_plane_stiffness<T: Field>([xx, xz, zz]: [T; 3], determinant: T) -> [T;
     [zz * inverse, -xz * inverse, xx * inverse]
 }
 
+/// Stiffness `dF/dr` of the end force in space [N/m], `z` up: a symmetric matrix.
+///
+/// The cable has the elements xx, xz = zx and zz of its in-plane stiffness, the stiffness `lateral` across its
+/// plane, and the horizontal unit vector `azimuth` from B towards A.
+#[inline(always)]
+pub fn stiffness_in_space<T: Field>(in_plane: [T; 3], lateral: T, azimuth: [T; 2]) -> [[T; 3]; 3] {
+    let ([h, hz, z], [c, s]) = (in_plane, azimuth);
+    let (hc, hs, across) = (h * c, h * s, lateral * s);
+    let (xy, xz, yz) = (hc * s - across * c, hz * c, hz * s);
+    [[hc * c + across * s, xy, xz], [xy, hs * s + lateral * c * c, yz], [xz, yz, z]]
+}
+
 /// Closure residual of a slack cable without weight, from `end = (x, z)` [m] of its anchor point.
 ///
 /// Such a cable has no shape: it spans any distance up to its length at rest `rest`, `L (1 + ε(0))` [m]

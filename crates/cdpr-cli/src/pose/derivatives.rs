@@ -1,11 +1,11 @@
 //! `cdpr derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
-use crate::answer::decimal;
+use crate::answer::{bound_name, decimal};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtPose, Row, cells};
 use cdpr_robot::{Parameter, Robot};
-use cdpr_statics::{Derivatives, StaticsError, derivatives};
+use cdpr_statics::{Derivatives, OneSided, StaticsError, derivatives};
 use serde::Serialize;
 
 pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
@@ -17,6 +17,8 @@ pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
 }
 
 /// Derivatives with respect to each parameter; the outer lists are in the order of the parameters.
+///
+/// Those of the parameters in `one_sided` are left derivatives.
 #[derive(Serialize)]
 struct Slopes {
     /// |dp| under the load [mm].
@@ -31,34 +33,89 @@ struct Slopes {
     deflection_mm: Vec<[f64; 3]>,
     /// Derivative of the unstrained length of each cable [m].
     unstrained_lengths: Vec<Vec<f64>>,
+    /// Parameters whose left and right derivatives differ.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    one_sided: Vec<TwoSlopes>,
     unit: &'static str,
+}
+
+/// The two derivatives with respect to a parameter.
+#[derive(Serialize)]
+struct TwoSlopes {
+    parameter: String,
+    /// The cables, from 1, that leave a bound on one side.
+    cables: Vec<usize>,
+    /// The bound of each.
+    bounds: Vec<&'static str>,
+    /// As the parameter falls.
+    left: Slope,
+    /// As it grows.
+    right: Slope,
+    #[serde(skip)]
+    index: usize,
+}
+
+/// The derivative with respect to one parameter.
+#[derive(Clone, Serialize)]
+struct Slope {
+    rms_mm: f64,
+    deflection_mm: [f64; 3],
+    unstrained_lengths: Vec<f64>,
+}
+
+/// The derivatives with respect to each parameter, on one side.
+fn slopes(found: &Derivatives) -> Result<Vec<Slope>, StaticsError> {
+    let each = found.rms()?.into_iter().enumerate().take(found.inputs.parameters.len());
+    let displacement = found.displacement();
+    let slope = |(j, rms): (usize, f64)| Slope {
+        rms_mm: 1e3 * rms,
+        deflection_mm: (1e3 * displacement.column(j)).into(),
+        unstrained_lengths: found.lengths.column(j).iter().copied().collect(),
+    };
+    Ok(each.map(slope).collect())
 }
 
 impl Slopes {
     fn new(found: &Derivatives) -> Result<Self, StaticsError> {
         let parameters = &found.inputs.parameters;
-        let count = parameters.len();
-        let mut rms = found.rms()?;
-        rms.truncate(count);
+        let (left, right) = (slopes(found)?, slopes(&found.right())?);
+        let of_parameter = found.one_sided.iter().filter(|one| one.column < parameters.len());
+        let both = |OneSided { column, cables }: &OneSided| TwoSlopes {
+            parameter: parameters[*column].to_string(),
+            cables: cables.iter().map(|at| at.cable + 1).collect(),
+            bounds: cables.iter().map(|at| bound_name(at.bound)).collect(),
+            left: left[*column].clone(),
+            right: right[*column].clone(),
+            index: *column,
+        };
         Ok(Self {
             deflection_rms_mm: 1e3 * found.deflection.rms(),
             inputs: parameters.clone(),
             parameters: parameters.iter().map(ToString::to_string).collect(),
-            rms_mm: rms.iter().map(|slope| 1e3 * slope).collect(),
-            deflection_mm: found
-                .displacement()
-                .column_iter()
-                .take(count)
-                .map(|dp| (1e3 * dp).into())
-                .collect(),
-            unstrained_lengths: found
-                .lengths
-                .column_iter()
-                .take(count)
-                .map(|lengths| lengths.iter().copied().collect())
-                .collect(),
+            rms_mm: left.iter().map(|slope| slope.rms_mm).collect(),
+            deflection_mm: left.iter().map(|slope| slope.deflection_mm).collect(),
+            one_sided: of_parameter.map(both).collect(),
+            unstrained_lengths: left.into_iter().map(|slope| slope.unstrained_lengths).collect(),
             unit: "per SI unit of the parameter",
         })
+    }
+
+    /// The rows of the table: a parameter's name and index, and its derivative.
+    fn rows(&self) -> Vec<(String, usize, Slope)> {
+        let of = |index: usize| {
+            let name = self.parameters[index].clone();
+            if let Some(both) = self.one_sided.iter().find(|both| both.index == index) {
+                let left = (format!("{name}, left"), index, both.left.clone());
+                return vec![left, (format!("{name}, right"), index, both.right.clone())];
+            }
+            let slope = Slope {
+                rms_mm: self.rms_mm[index],
+                deflection_mm: self.deflection_mm[index],
+                unstrained_lengths: self.unstrained_lengths[index].clone(),
+            };
+            vec![(name, index, slope)]
+        };
+        (0..self.parameters.len()).flat_map(of).collect()
     }
 
     fn print(&self, heading: &str) {
@@ -72,19 +129,20 @@ impl Slopes {
             "d dz [\u{b5}m]",
             "largest dL [mm]",
         ];
-        let mut rows: Vec<_> = self.inputs.iter().map(handy_unit).enumerate().collect();
-        rows.sort_by(|(i, (_, one)), (j, (_, other))| {
-            (self.rms_mm[*j] * other).abs().total_cmp(&(self.rms_mm[*i] * one).abs())
-        });
+        let units: Vec<_> = self.inputs.iter().map(handy_unit).collect();
+        let mut rows = self.rows();
+        let size = |(_, index, slope): &(String, usize, Slope)| (slope.rms_mm * units[*index].1).abs();
+        rows.sort_by(|one, other| size(other).total_cmp(&size(one)));
         let mut lines = table(&header);
-        for (i, (unit, step)) in rows {
+        for (name, index, slope) in rows {
+            let (unit, step) = units[index];
             let micrometres = |slope: f64| decimal(1e3 * slope * step, 5);
-            let [dx, dy, dz] = self.deflection_mm[i].map(micrometres);
-            let lengths = self.unstrained_lengths[i].iter();
+            let [dx, dy, dz] = slope.deflection_mm.map(micrometres);
+            let lengths = slope.unstrained_lengths.iter();
             let largest = lengths.fold(0.0, |size: f64, slope| size.max(slope.abs()));
             lines.add_row([
-                self.parameters[i].clone(),
-                micrometres(self.rms_mm[i]),
+                name,
+                micrometres(slope.rms_mm),
                 unit.to_owned(),
                 dx,
                 dy,
@@ -93,6 +151,12 @@ impl Slopes {
             ]);
         }
         println!("{lines}");
+        for TwoSlopes { parameter, cables, bounds, .. } in &self.one_sided {
+            let at =
+                |(cable, bound): (&usize, &&str)| format!("cable {cable} leaves its {bound}imum tension");
+            let cables: Vec<_> = cables.iter().zip(bounds).map(at).collect();
+            println!("{parameter}: {} on one side only", cables.join(", "));
+        }
     }
 }
 
@@ -106,12 +170,14 @@ impl Row for Slopes {
             let slope = |output| format!("{output}/{parameter}");
             outputs.iter().map(slope).collect::<Vec<_>>()
         };
-        parameters.iter().flat_map(slopes).collect()
+        parameters.iter().flat_map(slopes).chain(["one_sided".to_owned()]).collect()
     }
 
     fn cells(&self) -> Vec<String> {
         let rows = self.rms_mm.iter().zip(&self.deflection_mm).zip(&self.unstrained_lengths);
-        cells(rows.flat_map(|((rms, dp), lengths)| [rms].into_iter().chain(dp).chain(lengths)))
+        let slopes = cells(rows.flat_map(|((rms, dp), lengths)| [rms].into_iter().chain(dp).chain(lengths)));
+        let one_sided: Vec<_> = self.one_sided.iter().map(|both| both.parameter.as_str()).collect();
+        slopes.into_iter().chain([one_sided.join(" ")]).collect()
     }
 }
 

@@ -1,11 +1,11 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
-use crate::answer::{self, OutOfLimits, Residual};
+use crate::answer::{self, OutOfLimits, Residual, bound_name};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use cdpr_robot::Robot;
-use cdpr_statics::{Bound, InversePath, InverseSolution, inverse};
+use cdpr_statics::{InversePath, InverseSolution, inverse};
 use serde::Serialize;
 
 /// The robot, its poses and the load.
@@ -98,12 +98,6 @@ impl Row for Answer {
 
 impl Answer {
     fn new(robot: &Robot, solution: &InverseSolution) -> Self {
-        let bound = |bound: &Option<Bound>| {
-            bound.map(|bound| match bound {
-                Bound::Min => "min",
-                Bound::Max => "max",
-            })
-        };
         Self {
             lengths: solution.lengths.clone(),
             tensions: solution.tensions.clone(),
@@ -111,7 +105,7 @@ impl Answer {
             cable_forces: answer::forces(&solution.equilibrium),
             report: Report {
                 iterations: solution.iterations,
-                active: solution.active.iter().map(bound).collect(),
+                active: solution.active.iter().map(|bound| bound.map(bound_name)).collect(),
                 residual: Residual::new(&solution.residual),
             },
         }

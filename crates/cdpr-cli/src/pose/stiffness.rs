@@ -16,9 +16,13 @@ pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
 /// The stiffness.
 #[derive(Serialize)]
 struct Answer {
-    /// Rows of K in (dp, dφ) [N/m, N/rad, N, N m/rad].
+    /// Rows of K in (dp, dφ) [N/m, N/rad, N, N m/rad]: the true tangent of the balance.
     stiffness: [[f64; 6]; 6],
-    /// Eigenvalues, the softest motion first.
+    /// Rows of the symmetric part of K.
+    symmetric_part: [[f64; 6]; 6],
+    #[serde(skip)]
+    symmetric: bool,
+    /// Eigenvalues of the symmetric part, the softest motion first.
     eigenvalues: Vec<Eigenvalue>,
     least_stiffness: f64,
     stable: bool,
@@ -53,9 +57,13 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(PoseStiffness { matrix, stability }: &PoseStiffness) -> Self {
+    fn new(PoseStiffness { matrix, symmetric_part, stability }: &PoseStiffness) -> Self {
+        let skew = (matrix - symmetric_part).amax();
         Self {
             stiffness: matrix.transpose().into(),
+            symmetric_part: symmetric_part.transpose().into(),
+            // To rounding: K has entries in N/m to N m.
+            symmetric: skew <= 1e-9 * matrix.amax(),
             eigenvalues: stability
                 .modes()
                 .iter()
@@ -73,8 +81,15 @@ impl Answer {
 
     fn print(&self, heading: &str) {
         println!("{heading}: K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]");
-        for row in self.stiffness {
-            println!("{}", row.map(|entry| format!("{:>14}", decimal(entry, 1))).concat());
+        let print = |matrix: &[[f64; 6]; 6]| {
+            for row in matrix {
+                println!("{}", row.map(|entry| format!("{:>14}", decimal(entry, 1))).concat());
+            }
+        };
+        print(&self.stiffness);
+        if !self.symmetric {
+            println!("symmetric part of K, whose eigenvalues follow:");
+            print(&self.symmetric_part);
         }
         let mut rows = table(&["eigenvalue [N/m]", "translation [m/m]", "rotation [rad/m]"]);
         for Eigenvalue { stiffness, translation, rotation } in &self.eigenvalues {

@@ -10,6 +10,9 @@ use pyo3::prelude::*;
 answer! {
     /// A deflection with its exact derivatives, per SI unit of the k inputs.
     ///
+    /// Where a cable leaves a bound on one side of an input only, the derivatives as the input falls (left) and
+    /// as it grows (right) differ: `one_sided` says where. Fields without `right` in their name are left ones.
+    ///
     /// The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
     /// answer, and `reasons` says why.
     #[pyclass(frozen, get_all, module = "cdpr")]
@@ -18,6 +21,8 @@ answer! {
         ///
         /// The inputs of the pose are `x`, `y`, `z` [m] and `rx`, `ry`, `rz` [rad].
         inputs: Vec<String>,
+        /// Inputs whose left and right derivatives differ, (k,).
+        one_sided: Py<PyAny>,
         /// Derivatives of |dp| [m per unit], (k,).
         rms: Py<PyAny>,
         /// Derivatives of dp [m per unit], (3, k).
@@ -28,6 +33,16 @@ answer! {
         set_points: Py<PyAny>,
         /// Derivatives of the tensions with the load [N per unit], (n, k).
         tensions: Py<PyAny>,
+        /// Right derivatives of |dp| [m per unit], (k,).
+        rms_right: Py<PyAny>,
+        /// Right derivatives of dp [m per unit], (3, k).
+        displacement_right: Py<PyAny>,
+        /// Right derivatives of the unstrained lengths [m per unit], (n, k).
+        lengths_right: Py<PyAny>,
+        /// Right derivatives of the tension set-points [N per unit], (n, k).
+        set_points_right: Py<PyAny>,
+        /// Right derivatives of the tensions with the load [N per unit], (n, k).
+        tensions_right: Py<PyAny>,
         /// The deflection itself.
         deflection: Py<Deflection>,
         /// Why there is no answer, None where there is one; None for one case.
@@ -37,6 +52,14 @@ answer! {
     }
 }
 
+/// The derivatives on both sides.
+struct Sides {
+    left: Slopes,
+    right: Slopes,
+    one_sided: Vec<usize>,
+    given: Given,
+}
+
 /// The matrices of derivatives, row by row.
 struct Slopes {
     rms: Vec<f64>,
@@ -44,7 +67,19 @@ struct Slopes {
     lengths: Vec<f64>,
     set_points: Vec<f64>,
     tensions: Vec<f64>,
-    given: Given,
+}
+
+impl Slopes {
+    fn new(found: &cdpr_statics::Derivatives) -> Result<Self, StaticsError> {
+        // nalgebra stores matrices column by column.
+        Ok(Self {
+            rms: found.rms()?,
+            displacement: found.displacement().transpose().as_slice().to_vec(),
+            lengths: found.lengths.transpose().as_slice().to_vec(),
+            set_points: found.set_points.transpose().as_slice().to_vec(),
+            tensions: found.loaded.tensions.transpose().as_slice().to_vec(),
+        })
+    }
 }
 
 #[pymethods]
@@ -73,15 +108,12 @@ impl Robot {
         let robot = &self.robot;
         let cables = robot.cables.len();
         let no_offsets = vec![0.0; cables];
-        let outcomes: Vec<Result<Slopes, StaticsError>> = each(py, cases.count, |case| {
+        let outcomes: Vec<Result<Sides, StaticsError>> = each(py, cases.count, |case| {
             let found = derivatives(robot, &poses.pose(case)?, &no_offsets, &loads.load(case)?)?;
-            // nalgebra stores matrices column by column.
-            Ok(Slopes {
-                rms: found.rms()?,
-                displacement: found.displacement().transpose().as_slice().to_vec(),
-                lengths: found.lengths.transpose().as_slice().to_vec(),
-                set_points: found.set_points.transpose().as_slice().to_vec(),
-                tensions: found.loaded.tensions.transpose().as_slice().to_vec(),
+            Ok(Sides {
+                left: Slopes::new(&found)?,
+                right: Slopes::new(&found.right())?,
+                one_sided: found.one_sided.iter().map(|input| input.column).collect(),
                 given: found.deflection.into(),
             })
         })?;
@@ -90,16 +122,30 @@ impl Robot {
         let others = ["payload"].into_iter().chain(Pose::COORDINATES).map(str::to_owned);
         let inputs: Vec<String> = parameters.iter().map(ToString::to_string).chain(others).collect();
         let count = inputs.len();
-        let matrix = |rows: usize, matrix: fn(&Slopes) -> &[f64]| {
-            all.numbers(&[rows, count], |slopes: &Slopes, out| out.copy_from_slice(matrix(slopes)))
+        let (left, right) = (all.part(|sides| &sides.left), all.part(|sides| &sides.right));
+        let numbers = |side: &Columns<Slopes>, shape: &[usize], field: fn(&Slopes) -> &[f64]| {
+            side.numbers(shape, |slopes: &Slopes, out| out.copy_from_slice(field(slopes)))
         };
-        let deflection = Deflection::new(py, &all.part(|slopes| &slopes.given), cables)?;
+        let rms = |side| numbers(side, &[count], |slopes| &slopes.rms);
+        let displacement = |side| numbers(side, &[3, count], |slopes| &slopes.displacement);
+        let lengths = |side| numbers(side, &[cables, count], |slopes| &slopes.lengths);
+        let set_points = |side| numbers(side, &[cables, count], |slopes| &slopes.set_points);
+        let tensions = |side| numbers(side, &[cables, count], |slopes| &slopes.tensions);
+        let deflection = Deflection::new(py, &all.part(|sides| &sides.given), cables)?;
         Ok(Derivatives {
-            rms: all.numbers(&[count], |slopes, out| out.copy_from_slice(&slopes.rms))?,
-            displacement: matrix(3, |slopes| &slopes.displacement)?,
-            lengths: matrix(cables, |slopes| &slopes.lengths)?,
-            set_points: matrix(cables, |slopes| &slopes.set_points)?,
-            tensions: matrix(cables, |slopes| &slopes.tensions)?,
+            one_sided: all.array(false, &[count], |sides, out| {
+                sides.one_sided.iter().for_each(|column| out[*column] = true);
+            })?,
+            rms: rms(&left)?,
+            displacement: displacement(&left)?,
+            lengths: lengths(&left)?,
+            set_points: set_points(&left)?,
+            tensions: tensions(&left)?,
+            rms_right: rms(&right)?,
+            displacement_right: displacement(&right)?,
+            lengths_right: lengths(&right)?,
+            set_points_right: set_points(&right)?,
+            tensions_right: tensions(&right)?,
             deflection: Py::new(py, deflection)?,
             reasons: all.reasons(),
             kinds: all.kinds(),

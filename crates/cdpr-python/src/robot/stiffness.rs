@@ -14,8 +14,13 @@ answer! {
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Stiffness {
         /// Stiffness K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
+        ///
+        /// It is the true tangent of the balance, with rotations R <- exp(dphi) R, and not symmetric under a
+        /// moment.
         matrix: Py<PyAny>,
-        /// Eigenvalues of the stiffness in (dp, characteristic_length dphi), from the softest motion [N/m],
+        /// Symmetric part of K, (6, 6).
+        symmetric_part: Py<PyAny>,
+        /// Eigenvalues of the symmetric part of the stiffness in (dp, characteristic_length dphi), from the softest motion [N/m],
         /// (6,).
         eigenvalues: Py<PyAny>,
         /// Translation of P in each of these motions [m/m], (6, 3).
@@ -82,6 +87,10 @@ impl Robot {
         Ok(Stiffness {
             matrix: all.numbers(&[6, 6], |found, out| {
                 out.copy_from_slice(found.stiffness.matrix.transpose().as_slice());
+            })?,
+            // nalgebra stores matrices column by column, and this one is its own transpose.
+            symmetric_part: all.numbers(&[6, 6], |found, out| {
+                out.copy_from_slice(found.stiffness.symmetric_part.as_slice());
             })?,
             eigenvalues: all.vector(|found| found.modes.map(|mode| mode.stiffness))?,
             translations: vectors(|mode| mode.translation)?,

@@ -51,8 +51,8 @@ pub struct Report {
     pub iterations: usize,
     /// Residuals of all equations.
     pub residual: Residual,
-    /// Indices of the slack cables, whose unstrained length exceeds the distance of their points: they carry
-    /// little but their own weight.
+    /// Indices of the slack cables, whose length at rest `L (1 + ε(0))` is at least the distance of their
+    /// points: they carry little but their own weight.
     pub slack: Vec<usize>,
 }
 
@@ -93,7 +93,7 @@ pub(crate) fn solution(
         if strain > MAX_STRAIN {
             return Err(StaticsError::Overstrained { index: i, length, distance: straight, strain });
         }
-        if length >= straight {
+        if catenary.length_at_rest() >= straight {
             slack.push(i);
         }
     }

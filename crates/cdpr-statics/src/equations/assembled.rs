@@ -82,6 +82,11 @@ fn weight<T: Number>(problem: &DirectProblem, state: &State<T>) -> (Vector3<T>, 
     (weight, state.rotation * platform.center_of_mass.map(T::of))
 }
 
+/// Index of the first of the two equations of cable i, and of its first unknown fx.
+pub(crate) fn closure_row(i: usize) -> usize {
+    6 + 2 * i
+}
+
 /// Left-hand sides of all equations.
 pub(crate) fn residual<T: Number>(problem: &DirectProblem, state: &State<T>) -> DVector<T> {
     let mut residual = DVector::from_element(6 + 2 * problem.cables(), T::zero());
@@ -96,7 +101,7 @@ pub(crate) fn residual<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
         balance -= Vector6::from(cable.wrench());
         // Eq. (2a), Eq. (2b): from the end of the cable to its anchor point.
         let misclosure = Vector2::from(cable.misclosure());
-        residual.fixed_rows_mut::<2>(6 + 2 * i).copy_from(&misclosure);
+        residual.fixed_rows_mut::<2>(closure_row(i)).copy_from(&misclosure);
     }
     residual
 }
@@ -110,10 +115,10 @@ pub(crate) fn jacobian<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
     platform.fixed_view_mut::<3, 3>(3, 3).copy_from(&-(skew(&weight) * skew(&center)));
     for i in 0..problem.cables() {
         let cable = state.cable(problem, i);
-        let place = 6 + 2 * i;
+        let at = closure_row(i);
         let Some(Response { flexibility: [xx, xz, zz], lateral_flexibility, .. }) = cable.response else {
             // Its force stays zero.
-            jacobian.fixed_view_mut::<2, 2>(place, place).fill_with_identity();
+            jacobian.fixed_view_mut::<2, 2>(at, at).fill_with_identity();
             continue;
         };
         let plane = &cable.span.plane;
@@ -126,15 +131,15 @@ pub(crate) fn jacobian<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
         for (j, axis) in [[T::one(), T::zero()], [T::zero(), T::one()]].into_iter().enumerate() {
             let axis = plane.lift(axis);
             let [axis, turned] = [axis, cross(&cable.anchor_arm, &axis)].map(Vector3::from);
-            jacobian.fixed_view_mut::<3, 1>(0, place + j).copy_from(&axis);
-            jacobian.fixed_view_mut::<3, 1>(3, place + j).copy_from(&turned);
-            jacobian.fixed_view_mut::<1, 3>(place + j, 0).copy_from(&axis.transpose());
-            jacobian.fixed_view_mut::<1, 3>(place + j, 3).copy_from(&turned.transpose());
+            jacobian.fixed_view_mut::<3, 1>(0, at + j).copy_from(&axis);
+            jacobian.fixed_view_mut::<3, 1>(3, at + j).copy_from(&turned);
+            jacobian.fixed_view_mut::<1, 3>(at + j, 0).copy_from(&axis.transpose());
+            jacobian.fixed_view_mut::<1, 3>(at + j, 3).copy_from(&turned.transpose());
         }
         let force = Vector2::from(cable.force.map(Real::value));
         let asymmetry = T::of(problem.catenary(i, force).asymmetry());
         let flexibility = nalgebra::Matrix2::new(-xx, -(xz + asymmetry), -(xz - asymmetry), -zz);
-        jacobian.fixed_view_mut::<2, 2>(place, place).copy_from(&flexibility);
+        jacobian.fixed_view_mut::<2, 2>(at, at).copy_from(&flexibility);
     }
     jacobian.fixed_view_mut::<6, 6>(0, 0).copy_from(&platform);
     jacobian

@@ -24,7 +24,7 @@ use nalgebra::{ClosedAddAssign, Matrix6, Scalar};
 pub(crate) struct Balance {
     /// -G [N, N m], equation (S4): the gradient of the potential.
     pub(crate) gradient: Vector6<f64>,
-    /// H, equation (S5); symmetric where the gradient vanishes.
+    /// H, equation (S5); symmetric where the gradient vanishes without an external moment.
     pub(crate) hessian: Matrix6<f64>,
 }
 
@@ -49,8 +49,12 @@ impl Balance {
 
     /// The Hessian of the potential: symmetric, in the increment `R <- exp(dφ) R`.
     pub(crate) fn symmetric_hessian(&self) -> Matrix6<f64> {
-        0.5 * (self.hessian + self.hessian.transpose())
+        symmetric_part(&self.hessian)
     }
+}
+
+pub(crate) fn symmetric_part(matrix: &Matrix6<f64>) -> Matrix6<f64> {
+    0.5 * (matrix + matrix.transpose())
 }
 
 /// Adds a cable with the stiffness K3 and the force F on the platform at the arm s, equation (S5).

@@ -24,7 +24,7 @@
 //!
 //! with the flexibility C of `cdpr_cable` and the lateral stiffness k_l.
 
-use cdpr_cable::kernel::{Field, Real, Response};
+use cdpr_cable::kernel::{Field, Real, Response, stiffness_in_space};
 
 /// The vertical plane of a cable.
 #[derive(Clone, Copy, Debug)]
@@ -142,10 +142,6 @@ impl<T: Field> LinearizedCable<T> {
     /// Stiffness K3 in space [N/m], equation (S3): a symmetric matrix.
     #[inline(always)]
     pub(crate) fn stiffness_in_space(&self) -> [[T; 3]; 3] {
-        let [c, s] = self.plane.azimuth;
-        let ([h, hz, z], lateral) = (self.stiffness, self.lateral_stiffness);
-        let (hc, hs, across) = (h * c, h * s, lateral * s);
-        let (xy, xz, yz) = (hc * s - across * c, hz * c, hz * s);
-        [[hc * c + across * s, xy, xz], [xy, hs * s + lateral * c * c, yz], [xz, yz, z]]
+        stiffness_in_space(self.stiffness, self.lateral_stiffness, self.plane.azimuth)
     }
 }

@@ -4,13 +4,13 @@
 //! wrenches, lengths and whatever else moves the platform. Section 3.3 of the paper says why such a
 //! displacement is not the static deflection of a robot with sagging cables; both are here to be compared.
 
-use crate::equations::assembled::{FactoredJacobian, State, jacobian};
-use crate::equations::balance::Balance;
+use crate::equations::assembled::{FactoredJacobian, State, closure_row, jacobian};
+use crate::equations::balance::{Balance, symmetric_part};
 use crate::equations::spanned::SpannedCable;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
-use cdpr_robot::{Matrix6xX, Vector2, Vector6, Wrench};
+use cdpr_robot::{Matrix3, Matrix6xX, Vector2, Vector3, Vector6, Wrench};
 use nalgebra::{DMatrix, Matrix6};
 
 /// The direct problem linearised at an equilibrium.
@@ -31,17 +31,28 @@ impl DirectProblem<'_> {
         let mut balance = Balance::of_load(self, &equilibrium.pose);
         let mut end_per_length = Vec::with_capacity(self.cables());
         for (i, force) in equilibrium.cable_forces.iter().enumerate() {
-            let cable = SpannedCable::of(self.robot, &equilibrium.pose, i, &self.catenary(i, *force));
+            let catenary = self.catenary(i, *force);
+            let cable = SpannedCable::of(self.robot, &equilibrium.pose, i, &catenary);
             if let Some(linearized) = cable.linearized() {
                 let stiffness = linearized.stiffness_in_space();
                 balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), stiffness);
+            }
+            if let Some(skew) = cable.skew_stiffness(&catenary) {
+                // dr_i = dp - [s_i] dφ
+                let arm = Vector3::from(cable.anchor_arm).cross_matrix();
+                for (row, left) in [(0, Matrix3::identity()), (3, arm)] {
+                    for (column, right) in [(0, Matrix3::identity()), (3, -arm)] {
+                        let mut block = balance.hessian.fixed_view_mut::<3, 3>(row, column);
+                        block += left * skew * right;
+                    }
+                }
             }
             // Paying out a slack cable without weight moves nothing.
             end_per_length.push(cable.response.map_or([0.0; 2], |response| response.end_per_length).into());
         }
         Ok(Linearization {
             factored: FactoredJacobian::new(&jacobian(self, &State::from(equilibrium))),
-            stiffness: balance.symmetric_hessian(),
+            stiffness: balance.hessian,
             end_per_length,
         })
     }
@@ -50,12 +61,19 @@ impl DirectProblem<'_> {
 impl Linearization {
     /// Cartesian stiffness matrix H, 6 x 6, of (dp, dφ) in the base frame about P [N/m, N/rad, N, N m/rad].
     ///
-    /// It is the Hessian of the potential, with sag and weight of the cables: symmetric, and positive
-    /// definite where the equilibrium is stable. A moment M of constant components has no potential. Its
-    /// unsymmetric part [M]/2, which depends on how rotations are counted, is missing here and contained in
-    /// [`Linearization::displacement`].
+    /// It is the true tangent `-dG/d(p, φ)` of the balance, with sag and weight of the cables and rotations
+    /// `R <- exp(dφ) R`: a small additional wrench is H times the displacement. It is symmetric to rounding
+    /// unless a moment M acts, or cables with weight run over pulleys. A moment of constant components has no
+    /// potential, and the lower right block of H has the skew part `-[M]/2`.
     pub fn stiffness(&self) -> &Matrix6<f64> {
         &self.stiffness
+    }
+
+    /// Symmetric part of [`Linearization::stiffness`]: positive definite where the equilibrium is stable.
+    ///
+    /// Without moment and pulleys it is the Hessian of the potential.
+    pub fn symmetric_stiffness(&self) -> Matrix6<f64> {
+        symmetric_part(&self.stiffness)
     }
 
     /// Displacement (dp, dφ) [m, rad] under a small additional wrench.
@@ -70,7 +88,7 @@ impl Linearization {
         let n = self.end_per_length.len();
         let mut right = DMatrix::zeros(6 + 2 * n, n);
         for (i, end) in self.end_per_length.iter().enumerate() {
-            right.fixed_view_mut::<2, 1>(6 + 2 * i, i).copy_from(end);
+            right.fixed_view_mut::<2, 1>(closure_row(i), i).copy_from(end);
         }
         let solution = self.factored.solve(&right);
         Matrix6xX::from_fn(n, |row, column| solution[(row, column)])

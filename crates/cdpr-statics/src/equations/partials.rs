@@ -79,13 +79,13 @@ impl Inputs {
     /// Checks that there is one finite value, not negative, for each parameter.
     pub(crate) fn check(&self, field: &str, values: &[f64]) -> Result<(), StaticsError> {
         let count = self.parameters.len();
-        let (place, value) = match values.iter().position(|value| !(value.is_finite() && *value >= 0.0)) {
+        let (index, value) = match values.iter().position(|value| !(value.is_finite() && *value >= 0.0)) {
             _ if values.len() != count => (String::new(), format!("a list of {}", values.len())),
             Some(i) => (format!("[{i}]"), values[i].to_string()),
             None => return Ok(()),
         };
         let expected = format!("a finite number, zero or more, for each of the {count} parameters");
-        Err(StaticsError::invalid(format!("{field}{place}"), value, expected))
+        Err(StaticsError::invalid(format!("{field}{index}"), value, expected))
     }
 }
 
@@ -138,13 +138,8 @@ impl CableDerivatives {
             };
         };
         let mut stiffness = Matrix3::from(linearized.stiffness_in_space());
-        if catenary.cable.guide.is_some() {
-            // (C22): K = C⁻¹ of a flexibility that is not quite symmetric.
-            let asymmetry = catenary.asymmetry();
-            let determinant = response.determinant + asymmetry * asymmetry;
-            let forwards = Vector3::from(cable.span.plane.lift([1.0, 0.0]));
-            let up = Vector3::z();
-            stiffness -= (forwards * up.transpose() - up * forwards.transpose()) * (asymmetry / determinant);
+        if let Some(skew) = cable.skew_stiffness(catenary) {
+            stiffness += skew;
         }
         // The force by which the cable gives way to a motion of its free end.
         let held = |end: Vector2<f64>| stiffness * Vector3::from(cable.span.plane.lift(end.into()));

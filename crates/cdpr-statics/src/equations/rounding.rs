@@ -1,6 +1,6 @@
 //! Residuals of the equations, and whether rounding explains them.
 
-use crate::equations::assembled::{State, residual};
+use crate::equations::assembled::{State, closure_row, residual};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual, rounding_of_closure};
@@ -24,7 +24,8 @@ impl DirectProblem<'_> {
 impl Residual {
     pub(crate) fn of(problem: &DirectProblem, equilibrium: &Equilibrium) -> Self {
         let r = residual(problem, &State::from(equilibrium));
-        let closure = (0..problem.cables()).map(|i| r.fixed_rows::<2>(6 + 2 * i).norm()).fold(0.0, f64::max);
+        let closure =
+            (0..problem.cables()).map(|i| r.fixed_rows::<2>(closure_row(i)).norm()).fold(0.0, f64::max);
         Self { closure, force: r.fixed_rows::<3>(0).norm(), moment: r.fixed_rows::<3>(3).norm() }
     }
 

@@ -5,7 +5,7 @@ use crate::equations::vector::wrench;
 use crate::problem::DirectProblem;
 use cdpr_cable::kernel::{Real, Response, closure_of_limp, response};
 use cdpr_cable::{Catenary, Guide};
-use cdpr_robot::{Pose, Robot, Vector2};
+use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
 
 /// A cable with a force that need not fit its two points.
 #[derive(Clone, Copy)]
@@ -35,6 +35,19 @@ impl SpannedCable<f64> {
             length_at_rest: if limp { catenary.length_at_rest() } else { catenary.unstrained_length },
             guide: catenary.cable.guide,
         }
+    }
+}
+
+impl SpannedCable<f64> {
+    /// Skew part of the stiffness in space [N/m], besides [`LinearizedCable::stiffness_in_space`]: of a cable over a
+    /// guide, whose flexibility is not quite symmetric (C22).
+    pub(crate) fn skew_stiffness(&self, catenary: &Catenary) -> Option<Matrix3<f64>> {
+        catenary.cable.guide?;
+        let asymmetry = catenary.asymmetry();
+        let determinant = self.response?.determinant + asymmetry * asymmetry;
+        let forwards = Vector3::from(self.span.plane.lift([1.0, 0.0]));
+        let up = Vector3::z();
+        Some((up * forwards.transpose() - forwards * up.transpose()) * (asymmetry / determinant))
     }
 }
 

@@ -217,7 +217,7 @@ impl Row {
 }
 
 /// `tension` [N], or [`ABOVE_LEAST`] times the least tension that the span to `end` demands, if that is more.
-pub(super) fn least_allowed(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, CableError> {
+pub(crate) fn least_allowed(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, CableError> {
     if cable.weight_per_length * cable.straight_length(end) * ABOVE_ANY_LEAST * ABOVE_LEAST <= tension {
         return Ok(tension);
     }

@@ -180,21 +180,21 @@ impl<S: Simd> Rows<'_, S> {
 
     /// One parameter, in the order of [`Parameter::all`]: its nominal value and deviations.
     #[inline(always)]
-    fn parameter(&self, place: usize, nominal: f64) -> Lanes<S> {
+    fn parameter(&self, index: usize, nominal: f64) -> Lanes<S> {
         let last = self.rows.len() - self.parameters;
         let mut values = [0.0; MAX_LANES];
         for (lane, value) in values.iter_mut().enumerate() {
-            *value = self.rows[last.min(lane * self.parameters) + place];
+            *value = self.rows[last.min(lane * self.parameters) + index];
         }
         Lanes::from_array(self.simd, &values) + nominal
     }
 
     #[inline(always)]
-    fn point(&self, place: usize, nominal: &Vector3<f64>) -> [Lanes<S>; 3] {
+    fn point(&self, first: usize, nominal: &Vector3<f64>) -> [Lanes<S>; 3] {
         [
-            self.parameter(place, nominal.x),
-            self.parameter(place + 1, nominal.y),
-            self.parameter(place + 2, nominal.z),
+            self.parameter(first, nominal.x),
+            self.parameter(first + 1, nominal.y),
+            self.parameter(first + 2, nominal.z),
         ]
     }
 
@@ -267,7 +267,7 @@ mod tests {
         for pose in [Pose::at(0.0, 0.0, 1.75), Pose::at(3.2, 1.7, 3.0)] {
             let observer = &Observer::new(&robot, &pose, &Load::payload(50.0)).unwrap();
             // A sawtooth through the ranges of the paper's Table 3.
-            let half = |place: usize| match place {
+            let half = |parameter: usize| match parameter {
                 0 => 18.0,
                 1 => 0.01,
                 2 => 1.8e10,

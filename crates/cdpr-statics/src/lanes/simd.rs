@@ -48,8 +48,8 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(crate) fn from_fn(simd: S, value: impl Fn(usize) -> f64) -> Self {
         let mut values = [0.0; MAX_LANES];
-        for (lane, place) in values[..Self::COUNT].iter_mut().enumerate() {
-            *place = value(lane);
+        for (lane, number) in values[..Self::COUNT].iter_mut().enumerate() {
+            *number = value(lane);
         }
         Self::from_array(simd, &values)
     }

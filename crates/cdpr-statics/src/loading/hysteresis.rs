@@ -109,11 +109,13 @@ impl HysteresisLaw {
         };
         // Each segment begins at `moved` less than on its curve; what lies below zero is cut off.
         let below = self.unloading.segments().map(|at| Segment { tension: at.tension - moved, ..at });
-        let below = below.filter(|segment| 0.0 < segment.tension && segment.tension < tension);
+        let below = below.filter(|segment| 0.0 < segment.tension);
         let above = self.loading.segments().filter(|segment| segment.tension > tension);
         let segments: Vec<_> = [Segment { tension: 0.0, ratio: self.unloading.ratio(moved) }]
             .into_iter()
             .chain(below)
+            // A slack cable without weight has nothing to unload.
+            .filter(|segment| segment.tension < tension)
             .chain([Segment { tension, ratio: self.loading.ratio(tension) }])
             .chain(above)
             .collect();

@@ -11,9 +11,12 @@ use nalgebra::Matrix6;
 /// Stiffness of a robot at a pose that the inverse model holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoseStiffness {
-    /// Stiffness K in (dp, dφ) [N/m, N/rad, N, N m/rad], see [`crate::Linearization::stiffness`].
+    /// Stiffness K in (dp, dφ) [N/m, N/rad, N, N m/rad], the true tangent: see
+    /// [`crate::Linearization::stiffness`].
     pub matrix: Matrix6<f64>,
-    /// Its eigenvalues and motions, and whether the equilibrium is stable.
+    /// Its symmetric part, which differs from it under a moment.
+    pub symmetric_part: Matrix6<f64>,
+    /// Eigenvalues and motions of the symmetric part, and whether the equilibrium is stable.
     pub stability: Stability,
 }
 
@@ -26,6 +29,10 @@ pub fn stiffness_at(robot: &Robot, pose: &Pose, load: &Load) -> Result<PoseStiff
     let wanted = inverse(robot, pose, load, None)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
     let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
-    let matrix = *problem.linearize(&held.equilibrium)?.stiffness();
-    Ok(PoseStiffness { matrix, stability: held.stability })
+    let linearization = problem.linearize(&held.equilibrium)?;
+    Ok(PoseStiffness {
+        matrix: *linearization.stiffness(),
+        symmetric_part: linearization.symmetric_stiffness(),
+        stability: held.stability,
+    })
 }
