@@ -3,7 +3,7 @@
 use cdpr_assess::AssessError;
 use cdpr_cable::{CableError, RecordError};
 use cdpr_report::ReportError;
-use cdpr_robot::{JsonError, rounded};
+use cdpr_robot::{JsonError, QuaternionError};
 use cdpr_statics::StaticsError;
 use cdpr_study::{InputKind, ROBOT_NAME, STUDY_NAME, StudyError};
 use std::path::{Path, PathBuf};
@@ -132,25 +132,6 @@ pub(crate) enum PoseError {
     Count(usize),
     #[error("columns {0}: expected x_m,y_m,z_m, then none, qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg")]
     Columns(String),
-    #[error("the quaternion is zero: expected one that can be normalised")]
-    Zero,
-    #[error(
-        "the quaternion {} has the length {length:.4}: expected the length 1, such as {}",
-        words(given),
-        words(unit)
-    )]
-    Length { given: [f64; 4], length: f64, unit: [f64; 4] },
-    #[error(
-        "the quaternion {} has a small qw and a large qz, as if it were qx,qy,qz,qw: expected qw,qx,qy,qz, \
-         which would be {}; or, if the platform is turned so far, its angles (roll, pitch, yaw) = {} degrees",
-        words(given),
-        words(reordered),
-        words(angles)
-    )]
-    Order { given: [f64; 4], reordered: [f64; 4], angles: [f64; 3] },
-}
-
-/// Numbers as they are typed.
-fn words(numbers: &[f64]) -> String {
-    numbers.iter().map(|number| rounded(*number, 6).to_string()).collect::<Vec<_>>().join(",")
+    #[error(transparent)]
+    Quaternion(#[from] QuaternionError),
 }

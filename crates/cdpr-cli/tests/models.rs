@@ -147,6 +147,27 @@ fn the_direct_model_finds_the_equilibria_of_40_digit_arithmetic_from_a_file() {
 }
 
 #[test]
+fn values_in_another_unit_get_a_question_instead_of_an_answer() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("robot.json");
+    std::fs::write(&path, data_text("robots/cogiro.json").replace("1.0e11", "100")).unwrap();
+    let soft = cdpr(&["inverse", path.to_str().unwrap(), "--pose", "0,0,2"]);
+    let question = text(soft.stderr);
+    assert!(question.contains("cable.youngs_modulus is 100: expected a modulus in Pa"), "{question}");
+    assert!(question.contains("100 GPa is 1e11"), "{question}");
+
+    let robot = data_path("robots/caroca.json");
+    let held = inverse(&caroca(), &Pose::at(0.3, 0.2, 1.4), &Load::none(), None).unwrap();
+    let in_mm: Vec<f64> = held.lengths.iter().map(|length| (1000.0 * length).round()).collect();
+    let question = text(cdpr(&["direct", &robot, "--lengths", &joined(&in_mm)]).stderr);
+    assert!(question.contains("expected lengths in m for a robot that is 8.062 m wide: "), "{question}");
+    // Slack cables are no mistake.
+    let slack: Vec<f64> = held.lengths.iter().map(|length| 20.0 * length).collect();
+    let hanging = cdpr(&["direct", &robot, "--lengths", &joined(&slack)]);
+    assert!(!text(hanging.stderr).contains("lengths in m"));
+}
+
+#[test]
 fn a_case_without_answer_keeps_its_place_among_the_others() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("cases.json");

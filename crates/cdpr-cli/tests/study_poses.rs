@@ -149,13 +149,18 @@ fn a_list_of_poses_has_a_table_and_no_map_and_a_box_a_map_a_layer() {
     let bench = plane(|study| {
         study["samplings"]["box"] = layered(study);
         let turned = json!({"position": [0, 0, 1.75], "quaternion": [0.9998, 0, 0, 0.02]});
+        let yaw = 2.0 * 0.02_f64.atan2(0.9998).to_degrees();
+        let by_angles = json!({"position": [0, 0, 1.75], "rpy_deg": [0, 0, yaw]});
         study["samplings"]["plane"]["poses"] =
-            json!({"list": [{"position": [0, 0, 1.75]}, turned, {"position": [0, 0, 9]}]});
+            json!({"list": [{"position": [0, 0, 1.75]}, turned, {"position": [0, 0, 9]}, by_angles]});
     });
     let text = bench.run("out", &[]);
     let found = rows(&bench, "out/plane.csv");
-    assert_eq!(found.iter().filter(|row| row["status"] == "held").count(), 2);
+    assert_eq!(found.iter().filter(|row| row["status"] == "held").count(), 3);
     assert_ne!(found[0]["mean_mm"], found[1]["mean_mm"]);
+    // A rotation by angles is that of its quaternion.
+    let [one, other] = [1, 3].map(|row| found[row]["mean_mm"].as_str().unwrap().parse::<f64>().unwrap());
+    assert!((one / other - 1.0).abs() < 1e-9, "{one} mm, {other} mm");
     assert!(text.contains("note: no map of plane: its poses are on no plane or box"), "{text}");
     let svg = std::fs::read_to_string(bench.path("out/box_mean_z01.svg")).unwrap();
     assert!(svg.contains("at z = 2 m") && svg.contains("4 of 4 poses"));
@@ -178,7 +183,7 @@ fn a_study_in_which_no_pose_is_held_says_so_and_ends_well() {
 #[test]
 fn invalid_poses_are_refused_with_file_and_line() {
     type Spoil = fn(&mut Value);
-    let cases: [(Spoil, &str); 10] = [
+    let cases: [(Spoil, &str); 13] = [
         (
             |s| s["poses"]["grid"]["x"]["points"] = json!(0),
             "samplings.plane.poses.grid.x is -3.5:3.5:0: expected min:max:points in [m]",
@@ -198,7 +203,24 @@ fn invalid_poses_are_refused_with_file_and_line() {
                     {"position": [0, 0, 1.75]}, {"position": [0, 0, 1], "quaternion": [0, 0, 0, 0]}
                 ]});
             },
-            "samplings.plane.poses.list[1] is ",
+            "samplings.plane.poses.list[1].quaternion is 0,0,0,0, which is zero or not finite: expected one",
+        ),
+        (
+            |s| s["poses"] = json!({"list": [{"position": [0, 0, 1], "quaternion": [1, 0, 0, 1]}]}),
+            "samplings.plane.poses.list[0].quaternion is 1,0,0,1, which has the length 1.4142: expected the \
+             length 1, such as 0.707107,0,0,0.707107",
+        ),
+        (
+            |s| s["poses"] = json!({"list": [{"position": [0, 0, 1], "quaternion": [0, 0, 0.1, 0.995]}]}),
+            "expected qw,qx,qy,qz, which would be 0.995,0,0,0.1; or, if the platform is turned so far, its",
+        ),
+        (
+            |s| {
+                let both =
+                    json!({"position": [0, 0, 1], "quaternion": [0.6, 0, 0, 0.8], "rpy_deg": [0, 0, 9]});
+                s["poses"] = json!({"list": [both]});
+            },
+            "samplings.plane.poses.list[0].rpy_deg is [0.0, 0.0, 9.0]: expected finite angles [degrees], and no",
         ),
         (
             |s| s["poses"] = json!({"lists": []}),

@@ -92,6 +92,7 @@ impl Robot {
             cables,
         };
         robot.validate()?;
+        robot.check_units()?;
         Ok(Self { robot })
     }
 

@@ -131,8 +131,19 @@ impl Robot {
     ///
     /// # Errors
     /// [`RobotError::Format`] with field, line and column for a file of another shape;
-    /// [`RobotError::Invalid`] within [`RobotError::At`] for an invalid value.
+    /// [`RobotError::Invalid`] within [`RobotError::At`] for an invalid value, or one in another unit
+    /// ([`Robot::check_units`]).
     pub fn from_json(text: &str) -> Result<Self, RobotError> {
+        let robot = Self::from_json_in_any_unit(text)?;
+        robot.check_units().map_err(|error| error.placed(text))?;
+        Ok(robot)
+    }
+
+    /// Reads and validates a robot file without questioning its units: for an inspection, which names them all.
+    ///
+    /// # Errors
+    /// As [`Robot::from_json`].
+    pub fn from_json_in_any_unit(text: &str) -> Result<Self, RobotError> {
         let file: RobotFile = from_json(text)?;
         file.checked().map_err(|error| error.placed(text))
     }

@@ -30,6 +30,7 @@ mod law;
 mod number;
 mod parameter;
 mod pose;
+mod quaternion;
 mod robot;
 mod shown;
 mod wrench;
@@ -44,6 +45,7 @@ pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vecto
 pub use number::{decimal, rounded};
 pub use parameter::{Parameter, ParameterLayout, Perturbed, deviations};
 pub use pose::{Pose, orthonormalized};
+pub use quaternion::{QuaternionError, rotation_by_angles, rotation_in_order, rotation_of};
 pub use robot::{CableProperties, Platform, Pulley, Robot, RobotCable, TensionLimits};
 pub use shown::{shown, shown_lines};
 pub use wrench::Wrench;

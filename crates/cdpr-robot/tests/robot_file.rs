@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use cdpr_cable::Entry;
-use cdpr_robot::{Pose, Robot, RobotError, Rotation3, Vector3, Wrench, deviations};
+use cdpr_robot::{CableProperties, Pose, Robot, RobotError, Rotation3, Vector3, Wrench, deviations};
 
 const CAROCA: &str = include_str!("../../../data/robots/caroca.json");
 const COGIRO: &str = include_str!("../../../data/robots/cogiro.json");
@@ -14,6 +14,58 @@ fn the_robot_files_are_read_and_written_back() {
         let robot = Robot::from_json(text).unwrap();
         assert_eq!(robot.cables.len(), 8);
         assert_eq!(Robot::from_json(&robot.to_json()).unwrap(), robot);
+    }
+}
+
+#[test]
+fn values_in_another_unit_are_questioned_with_what_they_would_be() {
+    let modulus = |text: &str| refusal("1.022e11", text);
+    assert_eq!(
+        modulus("20"),
+        "cable.youngs_modulus is 20: expected a modulus in Pa, soft rubber has 1e6: 20 GPa is 2e10, 20 MPa is \
+         2e7 (line 7, column 104)"
+    );
+    assert!(modulus("102200").contains("102200 MPa is 1.022e11"));
+    let in_mm = {
+        let mut robot = Robot::from_json(CAROCA).unwrap();
+        for cable in &mut robot.cables {
+            cable.exit_point *= 1000.0;
+            cable.anchor_point *= 1000.0;
+        }
+        robot
+    };
+    let question = Robot::from_json(&in_mm.to_json()).unwrap_err().to_string();
+    assert!(question.starts_with("cables["), "{question}");
+    assert!(question.contains("coordinates in m, less than 2000 m apart: from mm, divide by 1000"));
+    // An inspection reads them all the same.
+    assert_eq!(Robot::from_json_in_any_unit(&in_mm.to_json()).unwrap(), in_mm);
+}
+
+#[test]
+fn no_robot_that_exists_is_questioned() {
+    let files = [
+        CAROCA,
+        COGIRO,
+        include_str!("../../../data/robots/caroca-law.json"),
+        include_str!("../../../data/reference/robots/stadium.json"),
+        include_str!("../../../data/reference/robots/ipanema.json"),
+        include_str!("../../../data/reference/robots/fast.json"),
+    ];
+    let robots = files.map(|text| Robot::from_json(text).unwrap());
+    // From a desk to twice the widest telescope, from rubber to carbon fibre, thread to bridge cable; and EA given
+    // as the modulus of a unit section.
+    for (modulus, section) in [(1e6, 1e-7), (2e8, 2.8e-5), (1.77e9, 3.8e-5), (1e12, 1e-2), (5e5, 1.0)] {
+        for size in [0.02, 1.0, 2.0] {
+            for robot in &robots {
+                let mut robot = robot.clone();
+                for cable in &mut robot.cables {
+                    cable.exit_point *= size;
+                    cable.anchor_point *= size;
+                    cable.properties = CableProperties::linear(section, 0.1, modulus);
+                }
+                robot.check_units().unwrap();
+            }
+        }
     }
 }
 

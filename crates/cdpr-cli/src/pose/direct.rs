@@ -9,7 +9,7 @@ use crate::output::{Ending, patiently, progress};
 use crate::pose::at_pose::Failure;
 use crate::poses::{self, Angles};
 use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json};
-use cdpr_statics::{Certificate, DirectProblem, Load, Start, StaticsError, rough_pose};
+use cdpr_statics::{Certificate, DirectProblem, Load, Start, StaticsError, check_lengths, rough_pose};
 use cdpr_study::{InputKind, StudyError, open_robot, read_text};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -194,6 +194,7 @@ fn solve(robot: &Robot, case: &Case, prove: bool) -> Result<Answer, StaticsError
             expected: "lengths within reach of the robot's frame [m]".to_owned(),
         });
     }
+    check_lengths(&robot, &case.lengths)?;
     let problem = DirectProblem::new(&robot, &case.lengths, &load)?;
     let solution = problem.direct(Start::Pose(&start))?;
     let certificate = (prove || case.certify).then(|| problem.certify(&solution).into());

@@ -5,7 +5,7 @@ use crate::error::ProgramError;
 use crate::output::{Ending, patiently};
 use cdpr_assess::{Finding, Severity, inspect};
 use cdpr_robot::shown;
-use cdpr_study::open_robot;
+use cdpr_study::open_robot_in_any_unit;
 use std::path::PathBuf;
 
 /// The robot file.
@@ -19,7 +19,7 @@ pub(crate) struct Settings {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
-    let robot = open_robot(&settings.robot)?;
+    let robot = open_robot_in_any_unit(&settings.robot)?;
     let findings = patiently("inspecting the robot", || inspect(&robot));
     let warnings = findings.iter().filter(|finding| finding.severity == Severity::Warning).count();
     settings.format.print(&findings, |findings| {

@@ -2,11 +2,12 @@
 
 use crate::convert::error::{Answer, Failure, Raised};
 use cdpr_cable::Vector2;
-use cdpr_robot::{Pose, Vector3, Wrench};
+use cdpr_robot::{Pose, QuaternionError, Vector3, Wrench, rotation_in_order, rotation_of};
 use cdpr_statics::{Load, StaticsError};
 use numpy::{Element, IxDyn, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
+use std::ffi::CString;
 
 /// Anything that NumPy makes an array of real numbers of.
 pub(crate) type Numbers<'py> = Bound<'py, PyAny>;
@@ -142,6 +143,7 @@ impl Rows {
     pub(crate) fn poses(name: &'static str, numbers: &Numbers) -> Answer<Self> {
         let rows = Self::vectors(name, numbers)?;
         if matches!(rows.width, 3 | 7) {
+            rows.question_order()?;
             Ok(rows)
         } else {
             let width = rows.width;
@@ -149,6 +151,25 @@ impl Rows {
                 "{name} has {width} numbers a row: expected x,y,z [m] or x,y,z,qw,qx,qy,qz"
             )))
         }
+    }
+
+    /// Warns of the first quaternion that looks like x, y, z, w.
+    fn question_order(&self) -> Answer<()> {
+        if self.width != 7 {
+            return Ok(());
+        }
+        let question = self.values.chunks_exact(7).find_map(|row| match *row {
+            [_, _, _, w, i, j, k] => {
+                rotation_in_order([w, i, j, k]).err().filter(|e| matches!(e, QuaternionError::Order { .. }))
+            }
+            _ => None,
+        });
+        let Some(question) = question else { return Ok(()) };
+        let message = format!("{}: {question}; it is taken as given", self.name);
+        Python::attach(|py| {
+            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(message).unwrap_or_default(), 1)
+        })?;
+        Ok(())
     }
 
     /// Numbers, one or one for each case.
@@ -186,13 +207,17 @@ impl Rows {
     pub(crate) fn pose(&self, case: usize) -> Result<Pose, StaticsError> {
         let row = self.row(case);
         let position = Vector3::new(row[0], row[1], row[2]);
+        let invalid =
+            |value, expected| StaticsError::Invalid { field: self.name.to_owned(), value, expected };
+        if !position.iter().all(|component| component.is_finite()) {
+            return Err(invalid(format!("{row:?}"), "finite numbers".to_owned()));
+        }
         // The quaternion (1, 0, 0, 0) makes the same matrix as `Pose::at`.
         let quaternion = if let [_, _, _, w, i, j, k] = *row { [w, i, j, k] } else { [1.0, 0.0, 0.0, 0.0] };
-        Pose::with_quaternion(position, quaternion).ok_or_else(|| StaticsError::Invalid {
-            field: self.name.to_owned(),
-            value: format!("{row:?}"),
-            expected: "finite numbers, and a quaternion that can be normalised".to_owned(),
-        })
+        let rotation = rotation_of(quaternion).map_err(|error| {
+            invalid(format!("{row:?}, whose quaternion {}", error.fault()), error.expected())
+        })?;
+        Ok(Pose { position, rotation })
     }
 
     /// The vector of a case, with the number of components that was asked for.

@@ -2,7 +2,7 @@
 
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
-use cdpr_statics::{Start, StaticsError, direct, rough_pose};
+use cdpr_statics::{Start, StaticsError, check_lengths, direct, rough_pose};
 use pyo3::prelude::*;
 
 answer! {
@@ -84,6 +84,7 @@ impl Robot {
         let robot = &self.robot;
         let one = |case| -> Result<Found, StaticsError> {
             let lengths = lengths.row(case);
+            check_lengths(robot, lengths)?;
             let start = match &start {
                 Some(start) => start.pose(case)?,
                 None => rough_pose(robot, lengths),

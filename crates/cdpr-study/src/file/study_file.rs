@@ -83,13 +83,20 @@ pub struct InputSpec {
 pub struct PoseSpec {
     /// Position of P in the base frame [m].
     pub position: [f64; 3],
-    /// Unit quaternion (w, x, y, z). Without this field the platform is not rotated.
-    #[serde(default = "no_rotation")]
+    /// Unit quaternion (w, x, y, z). Without a rotation the platform is level.
+    #[serde(default = "PoseSpec::level")]
     pub quaternion: [f64; 4],
+    /// Rotation by the angles roll, pitch, yaw [degrees] in place of a quaternion: R = Rz(yaw) Ry(pitch)
+    /// Rx(roll).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rpy_deg: Option<[f64; 3]>,
 }
 
-fn no_rotation() -> [f64; 4] {
-    [1.0, 0.0, 0.0, 0.0]
+impl PoseSpec {
+    /// The quaternion of a level platform.
+    pub(crate) fn level() -> [f64; 4] {
+        [1.0, 0.0, 0.0, 0.0]
+    }
 }
 
 /// Wanted poses of the platform.

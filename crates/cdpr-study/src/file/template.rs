@@ -17,8 +17,8 @@ The study runs as it is. Replace by what you know of your robot:
     law                  uniform {min, max}, normal {mean, std}, truncated_normal,
                          triangular {min, mode, max}, beta
     steps                optional: {nearest: {step: 0.001}} rounds values to steps of 1 mm
-  samplings              all parameters vary at once: pose (position [m]; quaternion [w, x, y, z]) or
-                         poses (a list or a grid), error model, number of observations
+  samplings              all parameters vary at once: pose (position [m]; quaternion [w, x, y, z] or
+                         rpy_deg) or poses (a list or a grid), error model, observations
   surfaces               two parameters vary over a grid, all others are as in the robot file
   replicates             scrambled samplings behind the intervals of signed effects
   sensitivity            all measures of sensitivity; without it the study is faster

@@ -5,7 +5,7 @@ use crate::error::StudyError;
 use crate::file::study_file::{PoseSpec, PosesSpec, SamplingSpec};
 use crate::model::grid::Grid;
 use crate::model::study::{Study, keys};
-use cdpr_robot::{Pose, Vector3};
+use cdpr_robot::{Pose, QuaternionError, Vector3, rotation_by_angles, rotation_in_order};
 
 /// The poses of a sampling.
 #[derive(Clone, Copy, Debug)]
@@ -142,13 +142,31 @@ impl Study {
     }
 
     pub(crate) fn pose(&self, field: &str, spec: &PoseSpec) -> Result<Pose, StudyError> {
-        Pose::with_quaternion(Vector3::from(spec.position), spec.quaternion).ok_or_else(|| {
-            self.invalid(
-                field,
-                format!("{spec:?}"),
-                "a finite position [m] and a quaternion that is not zero",
-            )
-        })
+        let finite = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
+        if !finite(&spec.position) {
+            let field = format!("{field}.position");
+            return Err(self.invalid(&field, format!("{:?}", spec.position), "finite numbers [m]"));
+        }
+        let rotation = match spec.rpy_deg {
+            Some(angles) if spec.quaternion == PoseSpec::level() && finite(&angles) => {
+                rotation_by_angles(angles)
+            }
+            Some(angles) => {
+                let expected = "finite angles [degrees], and no `quaternion` beside them";
+                return Err(self.invalid(&format!("{field}.rpy_deg"), format!("{angles:?}"), expected));
+            }
+            None => rotation_in_order(spec.quaternion).map_err(|error| {
+                let or_angles =
+                    if matches!(error, QuaternionError::Order { .. }) { " in `rpy_deg`" } else { "" };
+                let expected = format!("{}{or_angles}", error.expected());
+                self.invalid(
+                    &format!("{field}.quaternion"),
+                    format!("{}, which {}", error.value(), error.fault()),
+                    &expected,
+                )
+            })?,
+        };
+        Ok(Pose { position: Vector3::from(spec.position), rotation })
     }
 }
 
