@@ -3,7 +3,7 @@
 
 mod pose;
 
-use cdpr_robot::{CableProperties, Robot, Vector3};
+use cdpr_robot::{CableProperties, Robot, RobotCable, Vector3};
 use cdpr_study::frame;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -186,44 +186,25 @@ impl Findings<'_> {
                 "a force in N, not in kN or kg",
             );
         }
-        let max = self.robot.tension_limits.max;
-        if max > force {
-            self.add(
-                Severity::Warning,
-                "tension_limits.max",
-                format!("{max} N"),
-                &format!("above {path}.breaking_force, {force} N"),
-                "a limit that leaves the cable whole, with a margin",
-            );
-        } else if max > 0.5 * force {
-            self.add(
-                Severity::Note,
-                "tension_limits.max",
-                format!("{max} N"),
-                &format!("{:.0} % of {path}.breaking_force: a safety factor below 2", 100.0 * max / force),
-                "a limit of half the breaking force or less, where people are near",
-            );
-        }
     }
 
+    /// Greatest tensions beside the strength and stiffness of their cables, once where they are the robot's and
+    /// all cables are the same.
     fn limits(&mut self) {
-        let Robot { cables, platform, gravity, tension_limits: limits, .. } = self.robot;
-        let softest =
-            cables.iter().map(|cable| cable.properties.axial_stiffness()).fold(f64::INFINITY, f64::min);
-        if limits.max > STRAIN * softest {
-            self.add(
-                Severity::Warning,
-                "tension_limits.max",
-                format!("{} N", limits.max),
-                &format!(
-                    "strains a cable of EA = {softest:.3e} N by {:.1} %, where the models end at 10 %",
-                    100.0 * limits.max / softest
-                ),
-                "check youngs_modulus, section and the limit",
-            );
+        let Robot { cables, platform, gravity, .. } = self.robot;
+        let same = |a: &RobotCable, b: &RobotCable| {
+            a.properties == b.properties && a.tension_limits.max == b.tension_limits.max
+        };
+        for (i, cable) in cables.iter().enumerate() {
+            // What was said of an earlier cable is not said again.
+            if cables[..i].iter().any(|before| same(before, cable)) {
+                continue;
+            }
+            let own = cable.tension_limits.max.map(|_| format!("cables[{i}].tension_limits.max"));
+            self.greatest(&own.unwrap_or_else(|| "tension_limits.max".to_owned()), i);
         }
         let weight = platform.mass * gravity;
-        let most = limits.max * cables.len() as f64;
+        let most: f64 = (0..cables.len()).map(|i| self.robot.limits(i).max).sum();
         if weight > most {
             self.add(
                 Severity::Warning,
@@ -231,6 +212,50 @@ impl Findings<'_> {
                 format!("{} kg, {weight:.1} N", platform.mass),
                 &format!("all cables at tension_limits.max, drawn straight up, hold {most:.1} N"),
                 "a smaller mass or a greater limit",
+            );
+        }
+    }
+
+    /// The greatest tension of cable `i`, which stands in `field`.
+    fn greatest(&mut self, field: &str, i: usize) {
+        let cables = &self.robot.cables;
+        let (properties, max) = (&cables[i].properties, self.robot.limits(i).max);
+        let shared = cables.iter().all(|cable| cable.properties == *properties);
+        let cable = if shared { "cable".to_owned() } else { format!("cables[{i}].cable") };
+        if let Some(force) = properties.breaking_force {
+            if max > force {
+                self.add(
+                    Severity::Warning,
+                    field,
+                    format!("{max} N"),
+                    &format!("above {cable}.breaking_force, {force} N"),
+                    "a limit that leaves the cable whole, with a margin",
+                );
+            } else if max > 0.5 * force {
+                let why = format!(
+                    "{:.0} % of {cable}.breaking_force: a safety factor below 2",
+                    100.0 * max / force
+                );
+                self.add(
+                    Severity::Note,
+                    field,
+                    format!("{max} N"),
+                    &why,
+                    "a limit of half the breaking force or less, where people are near",
+                );
+            }
+        }
+        let stiffness = properties.axial_stiffness();
+        if max > STRAIN * stiffness {
+            let strain = 100.0 * max / stiffness;
+            self.add(
+                Severity::Warning,
+                field,
+                format!("{max} N"),
+                &format!(
+                    "strains a cable of EA = {stiffness:.3e} N by {strain:.1} %, where the models end at 10 %"
+                ),
+                "check youngs_modulus, section and the limit",
             );
         }
     }

@@ -6,7 +6,10 @@
 //! distributed anew, by the inverse model with the load. A pose may be held in one way and not in the other.
 
 use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
-use cdpr_statics::{Deflection, Derivatives, Load, StaticsError, deflection, derivatives, inverse};
+use cdpr_statics::{
+    Deflection, Derivatives, Limit, Load, OutOfLimits, StaticsError, deflection, derivatives, inverse,
+    out_of_limits,
+};
 use cdpr_study::{ErrorModel, Extremes, Grid, StudyError};
 use indexmap::IndexMap;
 use rayon::prelude::*;
@@ -56,8 +59,8 @@ pub struct Held {
     pub least_tension: f64,
     /// Greatest tension at the platform, without and with the load [N].
     pub greatest_tension: f64,
-    /// Whether the load leaves all tensions within the robot's limits; without it they always are.
-    pub within_limits: bool,
+    /// Tensions out of limits, without or with the load, the most serious one of each cable.
+    pub out_of_limits: Vec<OutOfLimits>,
     /// dp, Eq. (4) [m].
     pub displacement: Vector3<f64>,
     /// Stiffness of the softest motion with the load [N/m], see [`cdpr_statics::Stability`].
@@ -67,6 +70,13 @@ pub struct Held {
     /// The tolerance that matters most; `None` if no tolerance is wanted, nothing is uncertain, or |dp| has
     /// no derivative.
     pub dominant: Option<Dominant>,
+}
+
+impl WorkspacePose {
+    /// Whether a tension there is above its greatest value or breaks the cable.
+    fn is_too_much(&self) -> bool {
+        self.outcome.as_ref().is_ok_and(|held| held.out_of_limits.iter().any(OutOfLimits::is_too_much))
+    }
 }
 
 /// The cause behind the largest share of the variance of |dp|, to first order.
@@ -82,9 +92,6 @@ pub struct Dominant {
 
 /// The status of a position that is held with all tensions within the limits.
 pub const HELD: &str = "held";
-
-/// Rounding of a tension that rests on its limit.
-const ROUNDING: f64 = 1e-9;
 
 /// Computes all positions in parallel, in the order of the grid. `tick` is called after each position; a
 /// `stop` that returns true ends the run.
@@ -166,20 +173,23 @@ fn range(tensions: &[f64]) -> [f64; 2] {
 
 impl Held {
     fn new(robot: &Robot, deflection: &Deflection, dominant: Option<Dominant>) -> Self {
-        let Deflection { unloaded, loaded, .. } = deflection;
+        let Deflection { lengths, unloaded, loaded } = deflection;
         let [least_before, greatest_before] = range(&unloaded.equilibrium.tensions());
         let [least, greatest] = range(&loaded.equilibrium.tensions());
-        let limits = robot.tension_limits;
         Self {
             least_tension: least.min(least_before),
             greatest_tension: greatest.max(greatest_before),
-            within_limits: least >= limits.min * (1.0 - ROUNDING)
-                && greatest <= limits.max * (1.0 + ROUNDING),
+            out_of_limits: out_of_limits(robot, lengths, &[&unloaded.equilibrium, &loaded.equilibrium]),
             displacement: deflection.displacement(),
             least_stiffness: loaded.stability.least_stiffness(),
             slack: loaded.report.slack.clone(),
             dominant,
         }
+    }
+
+    /// Whether all tensions are within the limits of their cables and below the breaking forces.
+    pub fn is_within_limits(&self) -> bool {
+        self.out_of_limits.iter().all(|found| found.limit == Limit::MaxElsewhere)
     }
 }
 
@@ -215,6 +225,8 @@ pub struct WorkspaceRow {
     pub least_stiffness: Option<f64>,
     /// Their numbers, from 1, with spaces between.
     pub slack_cables: Option<String>,
+    /// Tensions out of limits, in words.
+    pub out_of_limits: Option<String>,
     /// The cause with the largest share of the variance of |dp|.
     pub dominant: Option<String>,
     pub dominant_share: Option<f64>,
@@ -246,7 +258,7 @@ impl WorkspaceRow {
             y,
             z,
             status: match &pose.outcome {
-                Ok(held) if held.within_limits => HELD,
+                Ok(held) if held.is_within_limits() => HELD,
                 Ok(_) => "beyond_limits",
                 Err(error) => error.kind(),
             },
@@ -259,6 +271,9 @@ impl WorkspaceRow {
             least_stiffness: held.map(|held| held.least_stiffness),
             slack_cables: held
                 .map(|held| held.slack.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")),
+            out_of_limits: held.filter(|held| !held.out_of_limits.is_empty()).map(|held| {
+                held.out_of_limits.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+            }),
             dominant: dominant.and_then(name),
             dominant_share: dominant.map(|dominant| dominant.share),
             std_mm: dominant.map(|dominant| 1e3 * dominant.std),
@@ -294,6 +309,8 @@ pub struct WorkspaceSummary {
     pub status: BTreeMap<&'static str, usize>,
     /// Number of positions by status, with the tensions distributed anew under the load; empty without a load.
     pub anew_status: BTreeMap<&'static str, usize>,
+    /// Number of positions with tensions above a greatest tension or a breaking force.
+    pub too_much: usize,
     /// Number of positions at which each cause dominates.
     pub dominant: BTreeMap<String, usize>,
     /// |dp| [mm] over the positions with status `held`. This and the following are absent without such
@@ -358,6 +375,7 @@ impl WorkspaceSummary {
             uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.law.std())).collect(),
             status,
             anew_status,
+            too_much: poses.iter().filter(|pose| pose.is_too_much()).count(),
             dominant,
             rms_mm: held_extremes(&rows, |row| row.rms_mm),
             least_stiffness: held_extremes(&rows, |row| row.least_stiffness),

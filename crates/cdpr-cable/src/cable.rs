@@ -1,4 +1,13 @@
-//! What a cable is made of.
+//! What a cable is made of, and what follows from that alone.
+//!
+//! Between two points of a cable in equilibrium the tension depends on their difference in height z alone:
+//! with `T dT = V w ds` and `dz = (V/T)(1 + ε) ds` the arc length s drops out of
+//!
+//! ```text
+//! ∫ (1 + ε(T)) dT = w z      from the lower tension to the upper one                              (C26)
+//! ```
+//!
+//! For a linear cable that is `t + t²/2EA = T0 + T0²/2EA + w z`, whatever its sag.
 
 use crate::error::{CableError, SMALLEST, check};
 use crate::guide::Guide;
@@ -106,6 +115,36 @@ impl Cable<'_> {
             ElasticLaw::Linear => self.axial_stiffness,
             ElasticLaw::Piecewise(law) => self.axial_stiffness * law.ratio(tension),
         }
+    }
+
+    /// The integral of the strain over the tension, from zero to a tension [N].
+    pub fn energy_per_length(&self, tension: f64) -> f64 {
+        match self.law {
+            ElasticLaw::Linear => 0.5 * tension * tension / self.axial_stiffness,
+            ElasticLaw::Piecewise(law) => law.scaled_energy(tension) / self.axial_stiffness,
+        }
+    }
+
+    /// The tension [N] at `height` [m] above a point of the cable where it is `tension` [N], equation (C26);
+    /// `None` where even without tension the cable between them weighs more.
+    pub fn tension_above(&self, tension: f64, height: f64) -> Option<f64> {
+        const MAX_ITERATIONS: usize = 100;
+        let weight = self.weight_per_length * height;
+        let below = self.energy_per_length(tension);
+        if tension + below + weight <= 0.0 {
+            return None;
+        }
+        // Newton's method on a convex function: after a step it comes from above.
+        let mut above = tension;
+        for _ in 0..MAX_ITERATIONS {
+            let open = (above - tension) + (self.energy_per_length(above) - below) - weight;
+            let step = open / (1.0 + self.strain(above));
+            above -= step;
+            if step.abs() <= 4.0 * f64::EPSILON * above {
+                return Some(above);
+            }
+        }
+        Some(above)
     }
 
     /// Checks that the weight is zero or from 1e-30 N/m to 1e30 N/m, the stiffness from 1e-30 N to 1e30 N.

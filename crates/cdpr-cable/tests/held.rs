@@ -1,6 +1,6 @@
 //! A cable between held ends as a function of its chord force: closure, derivatives, least tension.
 
-use cdpr_cable::{Cable, ElasticLaw, HeldCable, PiecewiseLaw, Segment, Vector2, least_tension};
+use cdpr_cable::{Cable, Catenary, ElasticLaw, HeldCable, PiecewiseLaw, Segment, Vector2, least_tension};
 use proptest::prelude::*;
 
 /// Cables over spans of any direction, from taut to nearly their least tension.
@@ -136,4 +136,31 @@ fn a_cable_with_a_law_has_the_derivatives_of_its_segments() {
         let curvature = (more.force_slope - less.force_slope) / 2e-3;
         assert!((curvature - held.force_curvature()).norm() < 1e-8, "{sigma}");
     }
+}
+
+#[test]
+fn the_tension_at_one_end_follows_from_that_at_the_other_and_the_height_alone() {
+    let segments = [(0.0, 0.5), (40.0, 1.0), (900.0, 2.0)].map(|(tension, ratio)| Segment { tension, ratio });
+    let law = PiecewiseLaw::new(30.0, &segments).unwrap();
+    let linear = Cable::linear(2.5, 1e4);
+    let cables = [linear, Cable { law: ElasticLaw::Piecewise(&law), ..linear }, Cable::linear(0.0, 1e4)];
+    for cable in cables {
+        for (length, fx, fz) in
+            [(10.0, 300.0, 40.0), (80.0, 50.0, 90.0), (30.0, 5.0, 2000.0), (90.0, 1.0, -150.0)]
+        {
+            let catenary = Catenary { cable, unstrained_length: length, force: Vector2::new(fx, fz) };
+            let (t, t0, z) = (catenary.anchor_tension(), catenary.exit_tension(), catenary.end_position().y);
+            let above = cable.tension_above(t0, z).unwrap();
+            assert!((above - t).abs() <= 1e-13 * t.max(t0), "{above} N, not {t} N");
+            let below = cable.tension_above(t, -z).unwrap();
+            assert!((below - t0).abs() <= 1e-13 * t.max(t0), "{below} N, not {t0} N");
+            if cable.law == ElasticLaw::Linear {
+                let known = |t: f64| t + t * t / (2.0 * cable.axial_stiffness);
+                let open = known(t) - known(t0) - cable.weight_per_length * z;
+                assert!(open.abs() < 1e-12 * known(t.max(t0)), "{open:e} N open");
+            }
+        }
+    }
+    // 200 m of this cable weigh more than the tension at its upper end.
+    assert_eq!(linear.tension_above(400.0, -200.0), None);
 }

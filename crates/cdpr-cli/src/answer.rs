@@ -4,10 +4,9 @@
 
 use crate::output::{Ending, table};
 pub(crate) use cdpr_robot::decimal;
-use cdpr_robot::{Pose, Robot, TensionLimits};
-use cdpr_statics::{Bound, DirectSolution, Equilibrium};
+use cdpr_robot::{CableEnd, Pose, Robot};
+use cdpr_statics::{Bound, DirectSolution, Equilibrium, Limit};
 use serde::Serialize;
-use std::fmt;
 
 /// Residuals of the equations at a solution.
 #[derive(Serialize)]
@@ -36,53 +35,48 @@ impl Residual {
 #[derive(Serialize)]
 pub(crate) struct OutOfLimits {
     cable: usize,
-    /// Its tension [N].
+    /// The end that has it: `anchor` or `exit`.
+    end: CableEnd,
+    /// The tension [N].
     tension: f64,
-    /// `min` or `max` of the robot's limits, or `breaking_force` of the cable.
+    /// `min` or `max` of its limits, or `breaking_force`.
     limit: &'static str,
     /// The limit [N].
     value: f64,
+    #[serde(skip)]
+    found: cdpr_statics::OutOfLimits,
 }
 
-/// Share by which rounding may put a tension beyond a limit on which it rests.
-const ON_LIMIT: f64 = 1e-9;
-
 impl OutOfLimits {
-    /// Those of all cables, the most serious limit of each.
-    pub(crate) fn all(robot: &Robot, tensions: &[f64]) -> Vec<Self> {
-        let TensionLimits { min, max } = robot.tension_limits;
-        let of_cable = |(i, tension): (usize, &f64)| {
-            let above = |limit: f64| *tension > limit * (1.0 + ON_LIMIT);
-            let (limit, value) = match robot.cables[i].properties.breaking_force {
-                Some(force) if above(force) => ("breaking_force", force),
-                _ if above(max) => ("max", max),
-                _ if *tension < min * (1.0 - ON_LIMIT) => ("min", min),
-                _ => return None,
-            };
-            Some(Self { cable: i + 1, tension: *tension, limit, value })
+    /// Those of an answer of these unstrained lengths [m], over all its equilibria.
+    pub(crate) fn all(robot: &Robot, lengths: &[f64], equilibria: &[&Equilibrium]) -> Vec<Self> {
+        let one = |found: cdpr_statics::OutOfLimits| Self {
+            cable: found.cable + 1,
+            end: found.end,
+            tension: found.tension,
+            limit: match found.limit {
+                Limit::BreakingForce => "breaking_force",
+                Limit::Max | Limit::MaxElsewhere => "max",
+                Limit::Min => "min",
+            },
+            value: found.value,
+            found,
         };
-        tensions.iter().enumerate().filter_map(of_cable).collect()
+        cdpr_statics::out_of_limits(robot, lengths, equilibria).into_iter().map(one).collect()
     }
 
     pub(crate) fn print(list: &[Self]) {
-        list.iter().for_each(|found| println!("{found}"));
+        list.iter().for_each(|one| println!("{}", one.found));
+    }
+
+    /// In one cell of a table.
+    pub(crate) fn cell(list: &[Self]) -> String {
+        list.iter().map(|one| one.found.to_string()).collect::<Vec<_>>().join("; ")
     }
 
     /// A cable that is slack answers the question; one that breaks or may not be strained so does not.
     pub(crate) fn ending(list: &[Self]) -> Ending {
-        if list.iter().any(|found| found.limit != "min") { Ending::SomethingWrong } else { Ending::Well }
-    }
-}
-
-impl fmt::Display for OutOfLimits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { cable, tension, limit, value } = self;
-        let (side, name) = match *limit {
-            "min" => ("below", "tension_limits.min"),
-            "max" => ("above", "tension_limits.max"),
-            _ => ("above", "its breaking force"),
-        };
-        write!(f, "cable {cable}: its tension of {} N is {side} {name}, {value} N", decimal(*tension, 3))
+        if list.iter().any(|one| one.found.is_too_much()) { Ending::SomethingWrong } else { Ending::Well }
     }
 }
 
@@ -96,8 +90,9 @@ pub(crate) struct Found {
     /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
     cable_forces: Vec<[f64; 2]>,
     pub(crate) tensions: Vec<f64>,
+    pub(crate) exit_tensions: Vec<f64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    out_of_limits: Vec<OutOfLimits>,
+    pub(crate) out_of_limits: Vec<OutOfLimits>,
     stable: bool,
     residual: Residual,
     report: Report,
@@ -114,14 +109,15 @@ struct Report {
 }
 
 impl Found {
-    pub(crate) fn new(robot: &Robot, solution: &DirectSolution) -> Self {
+    pub(crate) fn new(robot: &Robot, lengths: &[f64], solution: &DirectSolution) -> Self {
         let DirectSolution { equilibrium, report, stability } = solution;
         Self {
             position: equilibrium.pose.position.into(),
             rotation: rows(&equilibrium.pose),
             cable_forces: forces(equilibrium),
             tensions: equilibrium.tensions(),
-            out_of_limits: OutOfLimits::all(robot, &equilibrium.tensions()),
+            exit_tensions: equilibrium.exit_tensions(robot, lengths),
+            out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
             stable: stability.is_stable(),
             residual: Residual::new(&report.residual),
             report: Report {
@@ -143,7 +139,7 @@ impl Found {
             let [a, b, c] = row.map(|entry| decimal(entry, 6));
             println!("{}  [{a:>9} {b:>9} {c:>9}]", if i == 0 { "rotation" } else { "        " });
         }
-        print_cables(lengths, &self.cable_forces, &self.tensions);
+        print_cables(lengths, &self.cable_forces, &self.tensions, &self.exit_tensions);
         OutOfLimits::print(&self.out_of_limits);
         let Report { method, iterations, least_stiffness, slack_cables } = &self.report;
         let stable = if self.stable { "stable" } else { "unstable" };
@@ -155,16 +151,19 @@ impl Found {
     }
 }
 
-/// Prints lengths, forces and tensions of all cables.
-pub(crate) fn print_cables(lengths: &[f64], forces: &[[f64; 2]], tensions: &[f64]) {
-    let mut rows = table(&["cable", "unstrained length [m]", "fx [N]", "fz [N]", "tension [N]"]);
-    for (i, ((length, [fx, fz]), tension)) in lengths.iter().zip(forces).zip(tensions).enumerate() {
+/// Prints lengths, forces and tensions of all cables, these at the platform and at the exit point.
+pub(crate) fn print_cables(lengths: &[f64], forces: &[[f64; 2]], tensions: &[f64], exit_tensions: &[f64]) {
+    let header = ["cable", "unstrained length [m]", "fx [N]", "fz [N]", "tension [N]", "at exit [N]"];
+    let mut rows = table(&header);
+    let tensions = tensions.iter().zip(exit_tensions);
+    for (i, ((length, [fx, fz]), (tension, exit))) in lengths.iter().zip(forces).zip(tensions).enumerate() {
         rows.add_row([
             (i + 1).to_string(),
             format!("{length:.6}"),
             decimal(*fx, 3),
             decimal(*fz, 3),
             decimal(*tension, 3),
+            decimal(*exit, 3),
         ]);
     }
     println!("{rows}");

@@ -3,10 +3,11 @@
 //! A parser says what is wrong with the text; clap adds the argument and the value.
 
 use crate::error::ProgramError;
-use cdpr_robot::{Robot, Wrench};
+use cdpr_robot::{Robot, TensionReference, Wrench};
 use cdpr_statics::Load;
-use cdpr_study::{Grid, GridAxis};
+use cdpr_study::{Grid, GridAxis, Study, open_robot, open_robot_in_any_unit};
 use serde::Serialize;
+use std::path::Path;
 
 /// How the results are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -113,6 +114,48 @@ impl LoadArguments {
             )),
             load => Ok(load),
         }
+    }
+}
+
+/// The tensions that the inverse model prefers.
+#[derive(clap::Args)]
+pub(crate) struct Preference {
+    /// Tensions that those of the inverse model come as near to as they can: one for all cables or t1,..,tn
+    /// [N], or `mid`, the middle of the limits.
+    ///
+    /// In place of those in the file; without either the tensions have the least norm.
+    #[arg(long, value_name = "TENSIONS", value_parser = str::parse::<TensionReference>)]
+    #[arg(allow_hyphen_values = true)]
+    pub(crate) tension_reference: Option<TensionReference>,
+}
+
+impl Preference {
+    /// The robot of a file, with this preference if there is one.
+    pub(crate) fn open_robot(&self, path: &Path) -> Result<Robot, ProgramError> {
+        self.given_to(open_robot(path)?)
+    }
+
+    /// As [`Preference::open_robot`], for a robot whose values may be in another unit.
+    pub(crate) fn open_robot_in_any_unit(&self, path: &Path) -> Result<Robot, ProgramError> {
+        self.given_to(open_robot_in_any_unit(path)?)
+    }
+
+    fn given_to(&self, mut robot: Robot) -> Result<Robot, ProgramError> {
+        if let Some(reference) = &self.tension_reference {
+            robot.tension_reference = Some(reference.clone());
+            robot.validate().map_err(|error| ProgramError::Usage(format!("--tension-reference: {error}")))?;
+        }
+        Ok(robot)
+    }
+
+    /// The study of a file, with this preference if there is one.
+    pub(crate) fn open_study(&self, path: &Path) -> Result<Study, ProgramError> {
+        let mut study = Study::open(path)?;
+        if let Some(reference) = &self.tension_reference {
+            self.given_to(study.robot.clone())?;
+            study.set_tension_reference(reference.clone())?;
+        }
+        Ok(study)
     }
 }
 

@@ -11,7 +11,7 @@ mod template;
 mod throughput;
 pub(crate) mod tolerances;
 
-use crate::arguments::Threads;
+use crate::arguments::{Preference, Threads};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently};
 use cdpr_study::{Access, StoredStudy, take_results};
@@ -63,6 +63,8 @@ or, built with the feature `mpi`: mpirun -n 4 cdpr study run ....")]
         #[arg(long, default_value_t = 1_000_000)]
         observations: usize,
         #[command(flatten)]
+        preference: Preference,
+        #[command(flatten)]
         threads: Threads,
     },
 }
@@ -88,8 +90,8 @@ pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
             let StoredStudy { study, blocks } = take_results(&folder, Access::Alone)?.extend(observations)?;
             carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
         }
-        Command::Throughput { study, sampling, observations, threads } => {
-            throughput::run(&study, &sampling, observations, &threads).map(well)
+        Command::Throughput { study, sampling, observations, preference, threads } => {
+            throughput::run(&study, &sampling, observations, &preference, &threads).map(well)
         }
     }
 }

@@ -23,5 +23,6 @@ mod study_blocks;
 mod study_poses;
 mod study_run;
 mod study_together;
+mod tensions;
 mod tolerances;
 mod workspace;

@@ -11,7 +11,10 @@ pub(crate) mod stiffness;
 pub(crate) mod workspace;
 
 use crate::convert::{Answer, Array, Numbers, Raised, components, json_text};
-use cdpr_robot::{CableProperties, Parameter, Platform, RobotCable, TensionLimits, Vector3};
+use cdpr_robot::{
+    CableEnd, CableProperties, OwnLimits, Parameter, Platform, RobotCable, TensionLimits, TensionReference,
+    Vector3,
+};
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -30,7 +33,11 @@ use std::path::PathBuf;
 /// section: section that carries the tension [m²]; one number, or one for each cable, as for the next two.
 /// linear_density: mass per unstrained length [kg/m].
 /// youngs_modulus: Young's modulus [Pa].
-/// tension_limits: least and greatest tension of a cable at the platform [N].
+/// tension_limits: least and greatest tension of a cable [N], (2,), or one row for each cable, (n, 2).
+/// max_at: the end at which the greatest tension is limited, "anchor", on the platform, or "exit", where the
+///     limit is the winch's.
+/// tension_reference: tensions that those of the inverse model come as near to as they can: a number for all
+///     cables [N], one for each, or "mid", the middle of the limits; the least norm if left out.
 /// center_of_mass: centre of mass in the platform frame [m]; P if left out.
 /// gravity: acceleration due to gravity [m/s²].
 ///
@@ -44,7 +51,8 @@ pub(crate) struct Robot {
 impl Robot {
     #[new]
     #[pyo3(signature = (anchor_points, exit_points, *, mass, section, linear_density, youngs_modulus,
-        tension_limits, center_of_mass = None, gravity = 9.81, name = "robot".to_owned()))]
+        tension_limits, center_of_mass = None, gravity = 9.81, name = "robot".to_owned(), max_at = "anchor",
+        tension_reference = None))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         anchor_points: Numbers,
@@ -57,6 +65,8 @@ impl Robot {
         center_of_mass: Option<Numbers>,
         gravity: f64,
         name: String,
+        max_at: &str,
+        tension_reference: Option<Numbers>,
     ) -> Answer<Self> {
         let (anchors, exits) =
             (points("anchor_points", &anchor_points)?, points("exit_points", &exit_points)?);
@@ -69,16 +79,17 @@ impl Robot {
         let sections = of_cables("section", &section, anchors.len())?;
         let densities = of_cables("linear_density", &linear_density, anchors.len())?;
         let moduli = of_cables("youngs_modulus", &youngs_modulus, anchors.len())?;
+        let (tension_limits, own_limits) = limits(&tension_limits, anchors.len())?;
         let cables = (0..anchors.len())
-            .map(|i| {
-                RobotCable::between(
+            .map(|i| RobotCable {
+                tension_limits: own_limits[i],
+                ..RobotCable::between(
                     exits[i],
                     anchors[i],
                     CableProperties::linear(sections[i], densities[i], moduli[i]),
                 )
             })
             .collect();
-        let [min, max] = components("tension_limits", &tension_limits)?;
         let center_of_mass = match center_of_mass {
             Some(point) => components("center_of_mass", &point)?.into(),
             None => Vector3::zeros(),
@@ -88,7 +99,16 @@ impl Robot {
             source: None,
             gravity,
             platform: Platform { mass, center_of_mass },
-            tension_limits: TensionLimits { min, max },
+            tension_limits,
+            max_at: match max_at {
+                "anchor" => CableEnd::Anchor,
+                "exit" => CableEnd::Exit,
+                _ => {
+                    let message = format!("max_at is {max_at:?}: expected \"anchor\" or \"exit\"");
+                    return Err(Raised::Input(message));
+                }
+            },
+            tension_reference: tension_reference.as_ref().map(reference).transpose()?,
             cables,
         };
         robot.validate()?;
@@ -182,10 +202,52 @@ impl Robot {
         self.properties(py, |cable| cable.youngs_modulus)
     }
 
-    /// Least and greatest tension of a cable at the platform [N].
+    /// Least and greatest tension of a cable that has no limits of its own [N].
     #[getter]
     fn tension_limits(&self) -> (f64, f64) {
         (self.robot.tension_limits.min, self.robot.tension_limits.max)
+    }
+
+    /// Least and greatest tension of each cable [N], (n, 2).
+    #[getter]
+    fn cable_limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let of_cable = |i| {
+            let TensionLimits { min, max } = self.robot.limits(i);
+            vec![min, max]
+        };
+        let rows: Vec<Vec<f64>> = (0..self.robot.cables.len()).map(of_cable).collect();
+        Ok(PyArray2::from_vec2(py, &rows)?)
+    }
+
+    /// The end at which the greatest tension of each cable is limited: "anchor" or "exit".
+    #[getter]
+    fn max_at(&self) -> Vec<&'static str> {
+        let of_cable = |i| match self.robot.max_at(i) {
+            CableEnd::Anchor => "anchor",
+            CableEnd::Exit => "exit",
+        };
+        (0..self.robot.cables.len()).map(of_cable).collect()
+    }
+
+    /// Tension of each cable that the inverse model comes as near to as it can [N], (n,); zeros for the least
+    /// norm.
+    #[getter]
+    fn tension_reference<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, self.robot.reference())
+    }
+
+    /// Makes a robot whose inverse model prefers other tensions.
+    ///
+    /// reference: a number for all cables [N], one for each, "mid" for the middle of the limits, or None for
+    ///     the least norm.
+    ///
+    /// Raises InputError for a negative tension or another number of them than of cables.
+    #[pyo3(signature = (reference))]
+    fn with_tension_reference(&self, reference: Option<Numbers>) -> Answer<Self> {
+        let tension_reference = reference.as_ref().map(self::reference).transpose()?;
+        let robot = cdpr_robot::Robot { tension_reference, ..self.robot.clone() };
+        robot.validate()?;
+        Ok(Self { robot })
     }
 
     /// Acceleration due to gravity [m/s²].
@@ -283,6 +345,42 @@ fn points(name: &str, array: &Numbers) -> Answer<Vec<Vector3<f64>>> {
         )));
     }
     Ok(values.chunks_exact(3).map(Vector3::from_column_slice).collect())
+}
+
+/// Limits of all cables, and those that differ from them: of one row, or of one row for each cable.
+fn limits(array: &Numbers, cables: usize) -> Answer<(TensionLimits, Vec<OwnLimits>)> {
+    const NAME: &str = "tension_limits";
+    let Array { shape, values } = Array::new(NAME, array)?;
+    if shape.len() < 2 {
+        let [min, max] = components(NAME, array)?;
+        return Ok((TensionLimits { min, max }, vec![OwnLimits::default(); cables]));
+    }
+    if shape != [cables, 2] {
+        return Err(Raised::Input(format!(
+            "{NAME} has the shape {shape:?}: expected (2,), or ({cables}, 2), one row for each cable"
+        )));
+    }
+    let shared = TensionLimits { min: values[0], max: values[1] };
+    let own = values.chunks_exact(2).map(|row| OwnLimits {
+        min: Some(row[0]).filter(|min| *min != shared.min),
+        max: Some(row[1]).filter(|max| *max != shared.max),
+        max_at: None,
+    });
+    Ok((shared, own.collect()))
+}
+
+fn reference(given: &Numbers) -> Answer<TensionReference> {
+    if let Ok(word) = given.extract::<String>() {
+        return Ok(word.parse()?);
+    }
+    let Array { shape, values } = Array::new("tension_reference", given)?;
+    match shape[..] {
+        [] => Ok(TensionReference::All(values[0])),
+        [_] => Ok(TensionReference::Each(values)),
+        _ => Err(Raised::Input(format!(
+            "tension_reference has the shape {shape:?}: expected a number, or one for each cable"
+        ))),
+    }
 }
 
 /// A number for each cable.

@@ -394,3 +394,48 @@ def test_along_a_path_lengths_are_continuous_and_jumps_are_reported(caroca):
     numpy.testing.assert_allclose(found.lengths, caroca.inverse(poses).lengths, rtol=1e-12)
     assert caroca.inverse(poses).jump is None
     assert caroca.inverse(poses[0], path=True).jump is False
+def test_tensions_come_nearer_to_those_that_are_preferred(caroca):
+    pose = [0.6, -0.4, 1.4]
+    least_norm = caroca.inverse(pose)
+    same(caroca.tension_reference, [0.0] * 8)
+    preferring = caroca.with_tension_reference(900.0)
+    same(preferring.tension_reference, [900.0] * 8)
+    found = preferring.inverse(pose)
+    same(found.tensions, caroca.inverse(pose, reference=[900.0] * 8).tensions)
+    distance = [numpy.linalg.norm(t - 900.0) for t in (found.tensions, least_norm.tensions)]
+    assert distance[0] < distance[1]
+    assert numpy.linalg.norm(found.tensions) > 1.001 * numpy.linalg.norm(least_norm.tensions)
+    loaded = preferring.deflection(pose, payload=50.0)
+    numpy.testing.assert_allclose(loaded.unloaded.tensions, found.tensions, rtol=1e-9)
+    middle = caroca.with_tension_reference("mid")
+    same(middle.tension_reference, [sum(caroca.tension_limits) / 2] * 8)
+    assert cdpr.Robot.from_json(middle.to_json()) == middle
+    assert middle.with_tension_reference(None) == caroca
+    for wrong in (-1.0, [1.0, 2.0], "middle", [[1.0]]):
+        with pytest.raises(cdpr.InputError, match="tension"):
+            caroca.with_tension_reference(wrong)
+
+
+def test_limits_of_a_cable_and_at_exit_points_are_kept_and_named(caroca):
+    pose = [0.6, -0.4, 1.4]
+    found = caroca.inverse(pose)
+    exits = found.exit_tensions
+    assert numpy.all(exits > found.tensions) and numpy.all(found.out_of_limits == 0)
+    highest = int(numpy.argmax(exits))
+    limits = caroca.cable_limits
+    limits[highest, 1] = 0.99 * exits[highest]
+    made = cdpr.Robot(caroca.anchor_points, caroca.exit_points, mass=caroca.mass, section=caroca.section,
+                      linear_density=caroca.linear_density, youngs_modulus=caroca.youngs_modulus,
+                      center_of_mass=caroca.center_of_mass, gravity=caroca.gravity,
+                      tension_limits=limits, max_at="exit", tension_reference=found.tensions)
+    same(made.cable_limits, limits)
+    assert made.max_at == ["exit"] * 8
+    kept = made.inverse(pose)
+    assert kept.active[highest] == 1
+    assert abs(kept.exit_tensions[highest] / limits[highest, 1] - 1) < 1e-11
+    loaded = made.deflection(pose, payload=50.0).loaded
+    above = loaded.exit_tensions[highest] > limits[highest, 1] * (1 + 1e-9)
+    assert loaded.out_of_limits[highest] == int(above)
+    with pytest.raises(cdpr.InputError, match="max_at"):
+        cdpr.Robot(caroca.anchor_points, caroca.exit_points, mass=1, section=1, linear_density=1,
+                   youngs_modulus=1, tension_limits=(1, 2), max_at="winch")

@@ -57,6 +57,7 @@ fn sampling() -> SamplingSummary {
             small_displacement_rms_mm: Some(1.3),
             unloaded_tensions: vec![574.0; 8],
             loaded_tensions: vec![730.0; 8],
+            out_of_limits: Vec::new(),
         },
         operating_moduli_gpa: None,
         fits: vec![

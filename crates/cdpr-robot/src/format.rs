@@ -3,7 +3,8 @@
 use crate::error::RobotError;
 use crate::json::from_json;
 use crate::law::LawSegment;
-use crate::robot::{CableProperties, Platform, Pulley, Robot, RobotCable, TensionLimits};
+use crate::limits::{CableEnd, OwnLimits, TensionLimits, TensionReference};
+use crate::robot::{CableProperties, Platform, Pulley, Robot, RobotCable};
 use cdpr_cable::{CableError, PiecewiseLaw};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -38,8 +39,13 @@ struct RobotFile {
     /// without weight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     lead: Option<f64>,
-    /// Limits of every cable's tension at the platform.
+    /// Limits of the tension of every cable that has none of its own.
     tension_limits: LimitsEntry,
+    /// Tensions that those of the inverse model come as near to as they can: one for all cables [N], a list
+    /// with one for each cable, or "mid", the middle of the limits. Without this field they have the least
+    /// norm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    tension_reference: Option<TensionReference>,
     /// The cables, 6 at least.
     cables: Vec<CableEntry>,
 }
@@ -97,10 +103,14 @@ struct PulleyEntry {
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct LimitsEntry {
-    /// Least tension [N].
+    /// Least tension at the anchor point [N].
     min: f64,
     /// Greatest tension [N].
     max: f64,
+    /// Where the greatest tension is limited: "anchor", on the platform, or "exit", where the limit is the
+    /// winch's.
+    #[serde(default, skip_serializing_if = "CableEnd::is_anchor")]
+    max_at: CableEnd,
 }
 
 #[derive(Serialize, Deserialize, JsonSchema)]
@@ -119,6 +129,9 @@ struct CableEntry {
     /// Length between winch and exit point of this cable [m], if it differs from the common one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     lead: Option<f64>,
+    /// Limits of this cable's tension in place of the robot's, each on its own.
+    #[serde(default, skip_serializing_if = "OwnLimits::is_empty")]
+    tension_limits: OwnLimits,
 }
 
 /// The JSON Schema of the robot file, as pretty-printed text.
@@ -165,7 +178,12 @@ impl Robot {
             cable: entries.first().filter(|_| shared).cloned(),
             pulley: None,
             lead: None,
-            tension_limits: LimitsEntry { min: self.tension_limits.min, max: self.tension_limits.max },
+            tension_limits: LimitsEntry {
+                min: self.tension_limits.min,
+                max: self.tension_limits.max,
+                max_at: self.max_at,
+            },
+            tension_reference: self.tension_reference.clone(),
             cables: self
                 .cables
                 .iter()
@@ -178,6 +196,7 @@ impl Robot {
                         .pulley
                         .map(|Pulley { radius, axis }| PulleyEntry { radius, axis: axis.into() }),
                     lead: (cable.lead != 0.0).then_some(cable.lead),
+                    tension_limits: cable.tension_limits,
                 })
                 .collect(),
         };
@@ -220,6 +239,7 @@ impl RobotFile {
                         .or(self.pulley)
                         .map(|PulleyEntry { radius, axis }| Pulley { radius, axis: axis.into() }),
                     lead: cable.lead.or(self.lead).unwrap_or(0.0),
+                    tension_limits: cable.tension_limits,
                 })
             })
             .collect::<Result<_, RobotError>>()?;
@@ -232,6 +252,8 @@ impl RobotFile {
                 center_of_mass: Vector3::from(self.platform.center_of_mass),
             },
             tension_limits: TensionLimits { min: self.tension_limits.min, max: self.tension_limits.max },
+            max_at: self.tension_limits.max_at,
+            tension_reference: self.tension_reference,
             cables,
         })
     }

@@ -9,6 +9,7 @@
 //! Both equations are those of Baklouti, Caro, Courteille (CableCon 2017).
 
 use crate::error::RobotError;
+use crate::limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionReference};
 use crate::pose::Pose;
 use crate::wrench::Wrench;
 use cdpr_cable::{Cable, ElasticLaw, Entry, Guide, PiecewiseLaw};
@@ -25,8 +26,12 @@ pub struct Robot {
     pub gravity: f64,
     /// The platform.
     pub platform: Platform,
-    /// Limits of every cable's tension at the platform.
+    /// Limits of the tension of every cable that has none of its own; [`Robot::limits`] has both.
     pub tension_limits: TensionLimits,
+    /// Where the greatest tension of every cable is limited that does not say so itself.
+    pub max_at: CableEnd,
+    /// The tensions that the inverse model comes as near to as it can; `None` for the least norm.
+    pub tension_reference: Option<TensionReference>,
     /// The cables with their points, in the order of their numbers.
     pub cables: Vec<RobotCable>,
 }
@@ -38,15 +43,6 @@ pub struct Platform {
     pub mass: f64,
     /// Centre of mass G in the platform frame [m].
     pub center_of_mass: Vector3<f64>,
-}
-
-/// Limits of a cable's tension at its anchor point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TensionLimits {
-    /// Least tension [N], positive.
-    pub min: f64,
-    /// Greatest tension [N].
-    pub max: f64,
 }
 
 /// One cable of the robot and the two points it joins.
@@ -63,6 +59,8 @@ pub struct RobotCable {
     /// Stretched length between the winch and the exit point [m], elastic and without weight; zero where the
     /// winch stands at the exit point, or where its cable is of no interest.
     pub lead: f64,
+    /// Limits of its tension that differ from the robot's.
+    pub tension_limits: OwnLimits,
 }
 
 /// A pulley that swivels about an axis through the exit point.
@@ -77,13 +75,20 @@ pub struct Pulley {
 }
 
 impl RobotCable {
-    /// A cable between two points, without pulley and lead.
+    /// A cable between two points, without pulley and lead, with the limits of its robot.
     pub fn between(
         exit_point: Vector3<f64>,
         anchor_point: Vector3<f64>,
         properties: CableProperties,
     ) -> Self {
-        Self { exit_point, anchor_point, properties, pulley: None, lead: 0.0 }
+        Self {
+            exit_point,
+            anchor_point,
+            properties,
+            pulley: None,
+            lead: 0.0,
+            tension_limits: OwnLimits::default(),
+        }
     }
 
     /// What leads the cable to its exit point; `None` for one that begins there.
@@ -159,6 +164,35 @@ impl Robot {
         self.cable(i).tangent_stiffness(tension) / self.cables[i].properties.section
     }
 
+    /// Limits of the tension of cable `i`: its own where it has them, or else the robot's.
+    #[inline]
+    pub fn limits(&self, i: usize) -> TensionLimits {
+        let own = self.cables[i].tension_limits;
+        TensionLimits {
+            min: own.min.unwrap_or(self.tension_limits.min),
+            max: own.max.unwrap_or(self.tension_limits.max),
+        }
+    }
+
+    /// Where the greatest tension of cable `i` is limited.
+    #[inline]
+    pub fn max_at(&self, i: usize) -> CableEnd {
+        self.cables[i].tension_limits.max_at.unwrap_or(self.max_at)
+    }
+
+    /// The tension of every cable that the inverse model comes as near to as it can [N].
+    pub fn reference(&self) -> Vec<f64> {
+        let middle = |i: usize| 0.5 * (self.limits(i).min + self.limits(i).max);
+        match &self.tension_reference {
+            None => vec![0.0; self.cables.len()],
+            Some(TensionReference::All(tension)) => vec![*tension; self.cables.len()],
+            Some(TensionReference::Each(tensions)) => tensions.clone(),
+            Some(TensionReference::Named(NamedReference::Mid)) => {
+                (0..self.cables.len()).map(middle).collect()
+            }
+        }
+    }
+
     /// Arm s_i = R a_i from P to anchor point i, in the base frame [m].
     #[inline]
     pub fn anchor_arm(&self, pose: &Pose, i: usize) -> Vector3<f64> {
@@ -232,6 +266,10 @@ impl Robot {
             finite(|| format!("cables[{i}].anchor_point"), &cable.anchor_point)?;
             cable.validate_guide(i)?;
             self.validate_properties(i)?;
+            self.validate_limits(i)?;
+        }
+        if let Some(reference) = &self.tension_reference {
+            reference.validate(self.cables.len())?;
         }
         self.validate_points()
     }
@@ -267,6 +305,21 @@ impl Robot {
                 ),
                 format!("coordinates in m, less than {WIDEST} m apart: from mm, divide by 1000"),
             ));
+        }
+        Ok(())
+    }
+
+    /// Checks the limits of a cable that are not the robot's.
+    fn validate_limits(&self, i: usize) -> Result<(), RobotError> {
+        let own = self.cables[i].tension_limits;
+        let TensionLimits { min, max } = self.limits(i);
+        let field = |name: &'static str| move || format!("cables[{i}].tension_limits.{name}");
+        if own.max.is_some() {
+            require(field("max"), max, max > min, &format!("a finite tension above its least one, {min} N"))?;
+        }
+        if own.min.is_some() {
+            let expected = format!("a finite, positive tension below its greatest one, {max} N");
+            require(field("min"), min, min > 0.0 && min < max, &expected)?;
         }
         Ok(())
     }

@@ -52,7 +52,7 @@ pub enum StaticsError {
         position: [f64; 3],
         /// Least tension allowed in any cable [N].
         min: f64,
-        /// Greatest tension allowed in any cable [N].
+        /// Greatest tension allowed in any cable, at the platform [N].
         max: f64,
         /// Starts that were tried.
         starts: usize,
@@ -68,6 +68,25 @@ pub enum StaticsError {
         tensions: Vec<f64>,
         /// The limits that they rest on.
         blocked: Vec<Blocked>,
+    },
+    /// A cable's weight leaves no tension at the platform between the least one there and the greatest one at
+    /// the exit point.
+    #[error(
+        "cable {}: its greatest tension at the exit point, {exit} N, leaves {max:.3} N at the platform, {depth:.3} m \
+         below, less than its least tension there, {min} N; change the pose or the limits",
+        index + 1
+    )]
+    ExitLimit {
+        /// Index of the cable, from 0.
+        index: usize,
+        /// Greatest tension at the exit point [N].
+        exit: f64,
+        /// How far the anchor point lies below the exit point [m].
+        depth: f64,
+        /// What this leaves at the platform [N]; zero if nothing.
+        max: f64,
+        /// Least tension at the platform [N].
+        min: f64,
     },
     /// Tensions that hold the pose were found, but not the best of them.
     #[error(
@@ -193,7 +212,7 @@ impl StaticsError {
             Self::Cable { source: CableError::TensionTooSmall { .. }, .. } => "tension_too_small",
             Self::Cable { .. } => "cable",
             Self::Invalid { .. } => "invalid_input",
-            Self::NoTensions { .. } => "infeasible_tension",
+            Self::NoTensions { .. } | Self::ExitLimit { .. } => "infeasible_tension",
             Self::InverseNotConverged { .. } => "inverse_not_converged",
             Self::Overstrained { .. } => "cable_overstrained",
             Self::Indifferent { .. } => "indifferent",

@@ -15,8 +15,9 @@
 //! t_i - r_i + λ·dw_i/dt_i = 0  on free cables,   >= 0 at min_i,   <= 0 at max_i                     (I2)
 //! ```
 //!
-//! The least tension of a cable is the robot's, or [`ABOVE_LEAST`] times what its own weight demands over its
-//! span where that is more.
+//! r is zero, or what the robot prefers. The limits of a cable are its own or the robot's; its least tension is
+//! at least [`ABOVE_LEAST`] times what its own weight demands over its span, and a greatest tension at its exit
+//! point is converted to the platform by `limits`.
 //!
 //! The modules below solve it in the chord force σ_i of each cable (`cdpr_cable::HeldCable`), in which all
 //! derivatives are finite: `optimum` by Newton's method, `feasible` from several starts before a pose is
@@ -25,6 +26,7 @@
 mod branch;
 mod feasible;
 mod held;
+mod limits;
 mod optimum;
 mod question;
 
@@ -38,6 +40,7 @@ use cdpr_robot::{Pose, Robot, Vector2, Vector6};
 use cdpr_tension::Bound;
 use feasible::search;
 pub(crate) use held::{ABOVE_LEAST, least_allowed};
+pub use limits::limits_at;
 use optimum::Optimum;
 use question::Question;
 
@@ -64,11 +67,12 @@ pub struct InverseSolution {
 
 /// The unstrained lengths with which the platform rests at `pose` under its weight and `load`.
 ///
-/// Within the robot's limits the tensions are as near as possible to `reference` [N], one for each cable;
-/// `None` asks for the least-norm tensions.
+/// Within their limits the tensions are as near as possible to `reference` [N], one for each cable; `None`
+/// asks for the robot's own reference, which is zero unless it is stated: the least-norm tensions.
 ///
 /// # Errors
 /// - [`StaticsError::NoTensions`] where no tensions within the limits were found that hold the pose.
+/// - [`StaticsError::ExitLimit`] where the limits of a cable contradict each other at this pose.
 /// - [`StaticsError::Cable`] where a cable's own weight demands more than the greatest tension.
 /// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, or a reference of another
 ///   number of cables.

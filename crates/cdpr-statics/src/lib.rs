@@ -61,14 +61,16 @@ pub use direct::{
 };
 pub use equations::{Inputs, Linearization};
 pub use error::{Blocked, StaticsError};
-pub use inverse::{HeldPose, InversePath, InverseSolution, PathSolution, inverse, lengths_for_tensions};
+pub use inverse::{
+    HeldPose, InversePath, InverseSolution, PathSolution, inverse, lengths_for_tensions, limits_at,
+};
 pub use lanes::{Observation, Observer, Tracker};
 pub use loading::{
     CycleStep, Deflection, HysteresisLaw, LoadCycle, PoseDeflections, PoseStiffness, Unloading, deflection,
     deflection_from, deflections, follow, load_cycle, stiffness_at, wound_lengths,
 };
 pub use problem::{DirectProblem, check_lengths};
-pub use state::{Equilibrium, Load, Residual};
+pub use state::{Equilibrium, Limit, Load, OutOfLimits, Residual, out_of_limits};
 
 pub use cdpr_robot::{Matrix6xX, Vector2, Vector3, Vector6};
 pub use cdpr_tension::Bound;

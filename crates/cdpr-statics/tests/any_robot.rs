@@ -2,7 +2,7 @@
 //! outcome that is true.
 
 use cdpr_robot::{
-    CableProperties, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
+    CableEnd, CableProperties, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
 };
 use cdpr_statics::{DirectProblem, Load, Start, StaticsError, direct};
 use rand::{RngExt, SeedableRng};
@@ -69,6 +69,8 @@ fn case(seed: u64) -> Case {
         gravity: 9.81,
         platform: Platform { mass, center_of_mass },
         tension_limits: TensionLimits { min: 1.0, max: 1e9 },
+        max_at: CableEnd::Anchor,
+        tension_reference: None,
         cables,
     };
     let position = Vector3::from_fn(|_, _| rng.random_range(-0.3..0.3) * size);

@@ -12,14 +12,28 @@ pub(crate) fn cogiro() -> Robot {
 
 /// CAROCA, CoGiRo, and robots of a stadium, a hall and a telescope, each with a pose that it holds.
 pub(crate) fn robots() -> [(Robot, Pose); 5] {
-    let reference = |text| Robot::from_json(text).unwrap();
     [
         (caroca(), Pose::at(0.4, -0.3, 1.6)),
         (cogiro(), Pose::at(1.0, -0.5, 2.0)),
-        (reference(include_str!("../../../data/reference/robots/stadium.json")), Pose::at(3.0, -2.0, 10.0)),
-        (reference(include_str!("../../../data/reference/robots/ipanema.json")), Pose::at(0.2, 0.1, 1.0)),
-        (reference(include_str!("../../../data/reference/robots/fast.json")), Pose::at(10.0, 5.0, 100.0)),
+        (stadium(), Pose::at(3.0, -2.0, 10.0)),
+        (ipanema(), Pose::at(0.2, 0.1, 1.0)),
+        (fast(), Pose::at(10.0, 5.0, 100.0)),
     ]
+}
+
+/// A light robot whose cables hold the platform from all sides.
+pub(crate) fn ipanema() -> Robot {
+    Robot::from_json(include_str!("../../../data/reference/robots/ipanema.json")).unwrap()
+}
+
+/// A camera robot of 100 m, whose cables sag strongly.
+pub(crate) fn stadium() -> Robot {
+    Robot::from_json(include_str!("../../../data/reference/robots/stadium.json")).unwrap()
+}
+
+/// Six cables of 300 m that hold the receiver of a telescope.
+pub(crate) fn fast() -> Robot {
+    Robot::from_json(include_str!("../../../data/reference/robots/fast.json")).unwrap()
 }
 
 /// Cables of CAROCA that alternate between the upper and the lower rim of a drum, from a ring of exit points;

@@ -1,11 +1,14 @@
 //! Every derivative against central differences of the models themselves, and against what mechanics demands.
 
-use crate::common::{caroca, cogiro, ring};
+use crate::common::{caroca, cogiro, ipanema, ring, stadium};
 use crate::pulleys::led;
-use cdpr_robot::{Parameter, Platform, Pose, Robot, Rotation3, TensionLimits, Vector3, Vector6, Wrench};
+use cdpr_robot::{
+    CableEnd, Parameter, Platform, Pose, Robot, Rotation3, TensionLimits, TensionReference, Vector3, Vector6,
+    Wrench,
+};
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, EquilibriumDerivatives, HeldPose, Load, StaticsError,
-    deflection_from, derivatives, inverse, lengths_for_tensions,
+    deflection_from, derivatives, inverse, lengths_for_tensions, limits_at,
 };
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
@@ -36,6 +39,8 @@ pub(crate) struct Regime {
     demanded: bool,
     /// Whether the set-point is kept at the robot's least tension.
     clamped: bool,
+    /// Whether the set-point is kept at the greatest tension.
+    lowered: bool,
     /// Whether the cable's weight demands more than the set-point.
     raised: bool,
 }
@@ -80,8 +85,8 @@ impl Case {
     /// As the library computes it, from an equilibrium nearby.
     pub(crate) fn outputs(&self, about: &Deflection) -> Result<(Outputs, Vec<Regime>), StaticsError> {
         let wanted = inverse(&self.robot, &self.pose, &Load::none(), None)?;
-        let limits = self.robot.tension_limits;
-        let set_points = cdpr_tension::offset(&wanted.tensions, &self.offsets, limits);
+        let limits = limits_at(&self.robot, &self.pose)?;
+        let set_points = cdpr_tension::offset(&wanted.tensions, &self.offsets, &limits);
         let HeldPose { lengths, equilibrium: held } =
             lengths_for_tensions(&self.robot, &self.pose, &set_points)?;
         let found = deflection_from(&self.robot, lengths, &self.load, &held)?;
@@ -90,8 +95,9 @@ impl Case {
                 let (active, raised) = (wanted.active[i], held.tensions()[i] > (1.0 + 1e-9) * set_points[i]);
                 Regime {
                     active,
-                    demanded: active == Some(cdpr_tension::Bound::Min) && wanted.tensions[i] > limits.min,
-                    clamped: !raised && wanted.tensions[i] + self.offsets[i] <= limits.min,
+                    demanded: active == Some(cdpr_tension::Bound::Min) && wanted.tensions[i] > limits[i].min,
+                    clamped: !raised && wanted.tensions[i] + self.offsets[i] <= limits[i].min,
+                    lowered: wanted.tensions[i] + self.offsets[i] >= limits[i].max,
                     raised,
                 }
             })
@@ -151,6 +157,7 @@ struct Found {
     active: usize,
     demanded: usize,
     clamped: usize,
+    lowered: usize,
     raised: usize,
 }
 
@@ -175,6 +182,7 @@ fn check(case: &Case) -> Result<Found, StaticsError> {
         active: regime.iter().filter(|cable| cable.active.is_some()).count(),
         demanded: regime.iter().filter(|cable| cable.demanded).count(),
         clamped: regime.iter().filter(|cable| cable.clamped).count(),
+        lowered: regime.iter().filter(|cable| cable.lowered).count(),
         raised: regime.iter().filter(|cable| cable.raised).count(),
         ..Found::default()
     };
@@ -241,7 +249,7 @@ fn report(title: &str, all: &[Found]) {
     let sum = |count: fn(&Found) -> usize| all.iter().map(count).sum::<usize>();
     println!(
         "{title}: {} cases, {} columns ({} cross a bound), {} derivatives compared; {} active bounds \
-         ({} of the cable's weight), {} clamped and {} raised set-points",
+         ({} of the cable's weight), {} clamped, {} lowered and {} raised set-points",
         all.len(),
         sum(|f| f.columns),
         sum(|f| f.crossed),
@@ -249,6 +257,7 @@ fn report(title: &str, all: &[Found]) {
         sum(|f| f.active),
         sum(|f| f.demanded),
         sum(|f| f.clamped),
+        sum(|f| f.lowered),
         sum(|f| f.raised)
     );
     let names: BTreeSet<_> = all.iter().flat_map(|f| f.worst.keys()).collect();
@@ -348,6 +357,50 @@ fn derivatives_of_random_robots_are_those_of_differences() {
     let sum = |count: fn(&Found) -> usize| all.iter().map(count).sum::<usize>();
     assert!(sum(|f| f.active) > sum(|f| f.demanded) + 5 && sum(|f| f.demanded) > 5);
     assert!(sum(|f| f.clamped) > 5 && sum(|f| f.raised) > 5);
+}
+
+/// Greatest tensions at exit points and of single cables, on which tensions and set-points rest, and tensions
+/// that are preferred.
+#[test]
+fn derivatives_follow_the_limits_of_single_cables_and_exit_points_and_the_preferred_tensions() {
+    let lawful = include_str!("../../../data/robots/caroca-law.json");
+    let robots = [
+        (caroca(), Pose::at(0.6, -0.4, 1.4), 900.0),
+        (Robot::from_json(lawful).unwrap(), Pose::at(0.6, -0.4, 1.4), 900.0),
+        (cogiro(), Pose::at(0.5, -0.4, 3.0), 1200.0),
+        (ipanema(), Pose::at(0.3, 0.2, 1.5), 600.0),
+        (stadium(), Pose::at(-8.0, -4.0, 10.0), 1500.0),
+    ];
+    let mut all = Vec::new();
+    for (mut robot, pose, reference) in robots {
+        robot.tension_reference = Some(TensionReference::All(reference));
+        let free = inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let exits = free.equilibrium.exit_tensions(&robot, &free.lengths);
+        let order = |sign: f64| {
+            (0..exits.len()).max_by(|a, b| (sign * exits[*a]).total_cmp(&(sign * exits[*b]))).unwrap()
+        };
+        let (tightest, slackest) = (order(1.0), order(-1.0));
+        let own = &mut robot.cables[tightest].tension_limits;
+        (own.max, own.max_at) = (Some(0.999 * exits[tightest]), Some(CableEnd::Exit));
+        robot.cables[slackest].tension_limits.min = Some(1.001 * free.tensions[slackest]);
+        let n = exits.len();
+        for at in 0..2 {
+            let mut offsets = vec![0.0; n];
+            // Another set-point is led beyond its limit, at the exit point or at the platform.
+            let third = (0..n).find(|i| ![tightest, slackest].contains(i)).unwrap();
+            let limited = &mut robot.cables[third].tension_limits;
+            limited.max_at = Some([CableEnd::Exit, CableEnd::Anchor][at]);
+            limited.max = Some(1.05 * exits[third].max(free.tensions[third]));
+            offsets[third] = 0.3 * exits[third];
+            offsets[tightest] = -0.01 * exits[tightest];
+            let load = Load::payload(0.1 * robot.platform.mass);
+            let found = check(&Case { robot: robot.clone(), pose, offsets, load }).unwrap();
+            assert_eq!((found.active, found.lowered), (2, 1), "{}", robot.name);
+            assert!(found.crossed < found.columns / 10, "{}", robot.name);
+            all.push(found);
+        }
+    }
+    report("limits of single cables", &all);
 }
 
 /// A CAROCA that is turned and off centre, with offsets.

@@ -1,7 +1,7 @@
 //! Random robots, each held at a pose by tensions that were drawn.
 
 use cdpr_robot::{
-    CableProperties, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
+    CableEnd, CableProperties, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
 };
 use cdpr_statics::{Load, lengths_for_tensions};
 use rand::{RngExt, SeedableRng};
@@ -61,6 +61,8 @@ pub(crate) fn drawn(seed: u64) -> Option<Drawn> {
         gravity,
         platform: Platform { mass, center_of_mass: in_cube(rng) * platform },
         tension_limits: limits,
+        max_at: CableEnd::Anchor,
+        tension_reference: None,
         cables,
     };
     robot.validate().ok()?;

@@ -1,6 +1,6 @@
 //! Robots of the equilibria in 40-digit arithmetic (`data/reference/README.md`).
 
-use cdpr_robot::{CableProperties, Platform, Robot, RobotCable, TensionLimits, Vector3};
+use cdpr_robot::{CableEnd, CableProperties, Platform, Robot, RobotCable, TensionLimits, Vector3};
 use serde_json::Value;
 
 /// A number, which may stand as text.
@@ -30,6 +30,8 @@ pub(crate) fn robot(case: &Value) -> Robot {
         gravity,
         platform: Platform { mass: number(&case["mass"]), center_of_mass: vector(&case["center_of_mass"]) },
         tension_limits: TensionLimits { min: 1.0, max: 1e6 },
+        max_at: CableEnd::Anchor,
+        tension_reference: None,
         cables: exits.iter().zip(anchors).map(cable).collect(),
     }
 }

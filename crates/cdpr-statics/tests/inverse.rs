@@ -1,5 +1,6 @@
 //! The inverse model against solutions of independent programs, and on robots of every kind.
 
+use crate::common::ipanema;
 use crate::drawn::{Drawn, drawn};
 use cdpr_robot::{Pose, Robot, TensionLimits, UnitQuaternion, Vector3, Wrench};
 use cdpr_statics::{Bound, DirectProblem, Load, Start, StaticsError, inverse, lengths_for_tensions};
@@ -172,11 +173,6 @@ fn set_points_around_the_least_tension_change_lengths_steadily() {
         let [below, above] = [-1e-6, 1e-6].map(|e| length(least * share * (1.0 + e)));
         assert!((below - above).abs() < 1e-3, "{share}: {below} {above}");
     }
-}
-
-/// A light robot whose cables hold the platform from all sides.
-fn ipanema() -> Robot {
-    Robot::from_json(include_str!("../../../data/reference/robots/ipanema.json")).unwrap()
 }
 
 #[test]

@@ -19,4 +19,5 @@ mod pulleys;
 mod reference;
 mod search;
 mod tangent;
+mod tensions;
 mod tracker;

@@ -1,7 +1,7 @@
 //! Observer robots in lanes: the answers of the scalar models, whoever else is in the batch.
 
-use crate::common::{caroca, cogiro};
-use cdpr_robot::{Pose, Robot, RobotError, Vector3};
+use crate::common::{caroca, cogiro, ipanema};
+use cdpr_robot::{CableEnd, Pose, Robot, RobotError, TensionReference, Vector3};
 use cdpr_statics::{Load, Observer, StaticsError};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -58,6 +58,41 @@ fn the_papers_observations_are_those_of_the_scalar_models() {
     let (left, failed) = compare(&robot, &Pose::at(3.2, 1.7, 3.0), &load, &rows);
     println!("non-symmetric pose: {left} of 2000 left to the scalar models, {failed} failed there");
     assert!(left < 60 && failed < 5);
+}
+
+#[test]
+fn lanes_prefer_the_same_tensions_and_keep_the_same_limits() {
+    let robots = [
+        (caroca(), Pose::at(0.5, 0.2, 1.75), 700.0),
+        (cogiro(), Pose::at(0.5, 1.0, 2.0), 1200.0),
+        (ipanema(), Pose::at(0.3, 0.2, 1.5), 600.0),
+    ];
+    for (mut robot, pose, reference) in robots {
+        let load = Load::payload(0.2 * robot.platform.mass);
+        let rows = rows(&robot, 300, 0.5, 3);
+        let least_norm = Observer::new(&robot, &pose, &load).unwrap().observe_all(&rows);
+        for preferred in [TensionReference::All(reference), TensionReference::MID] {
+            robot.tension_reference = Some(preferred);
+            assert_eq!(compare(&robot, &pose, &load, &rows), (0, 0), "{}", robot.name);
+        }
+        let observed = Observer::new(&robot, &pose, &load).unwrap().observe_all(&rows);
+        let differ = observed.iter().zip(&least_norm).filter(|(a, b)| {
+            (a.as_ref().unwrap().rms() - b.as_ref().unwrap().rms()).abs() > 1e-4 * b.as_ref().unwrap().rms()
+        });
+        assert_eq!(differ.count(), 300, "{}", robot.name);
+        // Limits that some of the perturbed robots reach by their offsets, and some do not.
+        robot.tension_reference = Some(TensionReference::All(reference));
+        let free = cdpr_statics::inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let tightest =
+            (0..free.tensions.len()).max_by(|a, b| free.tensions[*a].total_cmp(&free.tensions[*b])).unwrap();
+        for end in [CableEnd::Anchor, CableEnd::Exit] {
+            let own = &mut robot.cables[tightest].tension_limits;
+            (own.max_at, own.max) = (Some(end), Some(free.tensions[tightest] + 4.0));
+            let (left, failed) = compare(&robot, &pose, &load, &rows);
+            println!("{}: {left} of 300 left to the scalar models, {failed} failed there", robot.name);
+            assert!(left > 30 && left < 300, "{}: {left}", robot.name);
+        }
+    }
 }
 
 #[test]

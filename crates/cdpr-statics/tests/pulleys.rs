@@ -5,7 +5,7 @@ use crate::common::{caroca, cogiro};
 use crate::equilibria::{number, vector};
 use crate::reference::rotation;
 use cdpr_robot::{
-    CableProperties, Platform, Pose, Pulley, Robot, RobotCable, TensionLimits, Vector3, Wrench,
+    CableEnd, CableProperties, Platform, Pose, Pulley, Robot, RobotCable, TensionLimits, Vector3, Wrench,
 };
 use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse};
 use nalgebra::Matrix6;
@@ -35,6 +35,8 @@ fn robot(case: &Value) -> Option<Robot> {
         gravity: gravity.norm(),
         platform: Platform { mass: number(&case["mass"]), center_of_mass: vector(&case["center_of_mass"]) },
         tension_limits: TensionLimits { min: 1e-3, max: 1e7 },
+        max_at: CableEnd::Anchor,
+        tension_reference: None,
         cables: cables.collect(),
     })
 }

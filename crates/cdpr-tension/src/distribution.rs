@@ -78,9 +78,10 @@ pub fn closed_form(problem: &Problem) -> Option<DVector<f64>> {
     Some(reference - w.transpose() * multipliers)
 }
 
-/// Set-points [N]: each tension with its offset added, kept at or above the least tension.
-pub fn offset(tensions: &[f64], offsets: &[f64], limits: TensionLimits) -> Vec<f64> {
-    tensions.iter().zip(offsets).map(|(t, dt)| (t + dt).max(limits.min)).collect()
+/// Set-points [N]: each tension with its offset added, kept within its limits.
+pub fn offset(tensions: &[f64], offsets: &[f64], limits: &[TensionLimits]) -> Vec<f64> {
+    let each = tensions.iter().zip(offsets).zip(limits);
+    each.map(|((t, dt), limits)| (t + dt).max(limits.min).min(limits.max)).collect()
 }
 
 /// Tensions and the bounds that hold them.

@@ -125,9 +125,11 @@ fn cables_from_above_cannot_push_a_lifted_platform_down_and_the_error_says_what_
 }
 
 #[test]
-fn an_offset_set_point_stays_at_or_above_the_least_tension() {
-    let limits = TensionLimits { min: 1.0, max: 100.0 };
-    assert_eq!(offset(&[10.0, 10.0, 10.0], &[5.0, -15.0, 0.0], limits), [15.0, 1.0, 10.0]);
+fn an_offset_set_point_stays_within_the_limits_of_its_cable() {
+    let limits =
+        [(1.0, 100.0), (1.0, 100.0), (3.0, 9.0), (3.0, 9.0)].map(|(min, max)| TensionLimits { min, max });
+    let set_points = offset(&[10.0, 10.0, 8.0, 8.0], &[5.0, -15.0, 2.0, -6.0], &limits);
+    assert_eq!(set_points, [15.0, 1.0, 9.0, 3.0]);
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! A robot at a pose, or at each pose of a file: arguments and answers of several commands.
 
-use crate::arguments::{Format, LoadArguments};
+use crate::answer::OutOfLimits;
+use crate::arguments::{Format, LoadArguments, Preference};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, progress};
 use crate::poses::{Angles, COLUMNS, place, pose, pose_file, pose_numbers};
 use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::StaticsError;
-use cdpr_study::open_robot;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -37,6 +37,8 @@ pub(crate) struct RobotAtPose {
     format: Format,
     #[command(flatten)]
     pub(crate) load: LoadArguments,
+    #[command(flatten)]
+    preference: Preference,
 }
 
 /// An answer that is a row of a table.
@@ -47,9 +49,19 @@ pub(crate) trait Row: Serialize + Send {
     /// Its cells.
     fn cells(&self) -> Vec<String>;
 
+    /// Its tensions that are out of limits, in one list for each of its equilibria.
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]>;
+
     /// How a command ends that gives this answer.
     fn ending(&self) -> Ending {
-        Ending::Well
+        let lists = self.out_of_limits().into_iter();
+        lists.fold(Ending::Well, |ending, list| ending.and(OutOfLimits::ending(list)))
+    }
+
+    /// What is to be said of it in a table.
+    fn remark(&self) -> String {
+        let lists = self.out_of_limits().into_iter();
+        lists.filter(|list| !list.is_empty()).map(OutOfLimits::cell).collect::<Vec<_>>().join("; ")
     }
 }
 
@@ -108,7 +120,7 @@ impl RobotAtPose {
 
     /// The robot of the file.
     pub(crate) fn robot(&self) -> Result<Robot, ProgramError> {
-        Ok(open_robot(&self.robot)?)
+        self.preference.open_robot(&self.robot)
     }
 
     /// Answers what `solve` answers at the poses of the file, one after the other.
@@ -181,7 +193,7 @@ impl RobotAtPose {
 /// Prints the line of CSV of a pose; `columns` of them are empty where there is no answer.
 fn print_row<T: Row>(pose: &Pose, answer: &Result<T, Failure>, columns: usize) {
     let (status, found, reason) = match answer {
-        Ok(answer) => ("held", answer.cells(), String::new()),
+        Ok(answer) => ("held", answer.cells(), answer.remark()),
         Err(Failure { kind, message }) => (*kind, vec![String::new(); columns], message.clone()),
     };
     let pose = cells(&pose_numbers(pose));

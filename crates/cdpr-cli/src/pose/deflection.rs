@@ -1,6 +1,6 @@
 //! `cdpr deflection`: how far a load displaces and rotates the platform, with both equilibria.
 
-use crate::answer::{Found, vector};
+use crate::answer::{Found, OutOfLimits, vector};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
@@ -39,19 +39,20 @@ impl Row for Answer {
         let cables = robot.cables.len();
         let motion = ["dx_mm", "dy_mm", "dz_mm", "rms_mm", "rx_deg", "ry_deg", "rz_deg"];
         let motion = motion.iter().map(ToString::to_string);
-        let tensions =
-            ["unloaded_tension", "loaded_tension"].into_iter().flat_map(|name| numbered(name, "n", cables));
+        let tensions = ["unloaded_tension", "loaded_tension", "unloaded_exit_tension", "loaded_exit_tension"];
+        let tensions = tensions.into_iter().flat_map(|name| numbered(name, "n", cables));
         motion.chain(numbered("length", "m", cables)).chain(tensions).collect()
     }
 
     fn cells(&self) -> Vec<String> {
         let motion = self.deflection_mm.iter().chain([&self.rms_mm]).chain(&self.rotation_deg);
         let tensions = self.unloaded.tensions.iter().chain(&self.loaded.tensions);
-        cells(motion.chain(&self.lengths).chain(tensions))
+        let exit_tensions = self.unloaded.exit_tensions.iter().chain(&self.loaded.exit_tensions);
+        cells(motion.chain(&self.lengths).chain(tensions).chain(exit_tensions))
     }
 
-    fn ending(&self) -> Ending {
-        self.unloaded.ending().and(self.loaded.ending())
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        vec![&self.unloaded.out_of_limits, &self.loaded.out_of_limits]
     }
 }
 
@@ -66,8 +67,8 @@ impl Answer {
             rounding_mm: 1e3 * rounding,
             rotation_deg: [3, 4, 5].map(|row| motion[row].to_degrees()),
             lengths: found.lengths.clone(),
-            unloaded: Found::new(robot, &found.unloaded),
-            loaded: Found::new(robot, &found.loaded),
+            unloaded: Found::new(robot, &found.lengths, &found.unloaded),
+            loaded: Found::new(robot, &found.lengths, &found.loaded),
         }
     }
 

@@ -1,6 +1,6 @@
 //! `cdpr derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
-use crate::answer::{bound_name, decimal};
+use crate::answer::{OutOfLimits, bound_name, decimal};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtPose, Row, cells};
@@ -11,7 +11,7 @@ use serde::Serialize;
 pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
     let solve = |robot: &Robot, pose: &_| {
-        Slopes::new(&derivatives(robot, pose, &vec![0.0; robot.cables.len()], &load)?)
+        Slopes::new(robot, &derivatives(robot, pose, &vec![0.0; robot.cables.len()], &load)?)
     };
     at.answer(solve, Slopes::print)
 }
@@ -37,6 +37,9 @@ struct Slopes {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     one_sided: Vec<TwoSlopes>,
     unit: &'static str,
+    /// Tensions of the nominal robot, without and with the load.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
 }
 
 /// The two derivatives with respect to a parameter.
@@ -76,7 +79,7 @@ fn slopes(found: &Derivatives) -> Result<Vec<Slope>, StaticsError> {
 }
 
 impl Slopes {
-    fn new(found: &Derivatives) -> Result<Self, StaticsError> {
+    fn new(robot: &Robot, found: &Derivatives) -> Result<Self, StaticsError> {
         let parameters = &found.inputs.parameters;
         let (left, right) = (slopes(found)?, slopes(&found.right())?);
         let of_parameter = found.one_sided.iter().filter(|one| one.column < parameters.len());
@@ -88,6 +91,8 @@ impl Slopes {
             right: right[*column].clone(),
             index: *column,
         };
+        let deflection = &found.deflection;
+        let equilibria = [&deflection.unloaded.equilibrium, &deflection.loaded.equilibrium];
         Ok(Self {
             deflection_rms_mm: 1e3 * found.deflection.rms(),
             inputs: parameters.clone(),
@@ -97,6 +102,7 @@ impl Slopes {
             one_sided: of_parameter.map(both).collect(),
             unstrained_lengths: left.into_iter().map(|slope| slope.unstrained_lengths).collect(),
             unit: "per SI unit of the parameter",
+            out_of_limits: OutOfLimits::all(robot, &deflection.lengths, &equilibria),
         })
     }
 
@@ -157,6 +163,7 @@ impl Slopes {
             let cables: Vec<_> = cables.iter().zip(bounds).map(at).collect();
             println!("{parameter}: {} on one side only", cables.join(", "));
         }
+        OutOfLimits::print(&self.out_of_limits);
     }
 }
 
@@ -178,6 +185,10 @@ impl Row for Slopes {
         let slopes = cells(rows.flat_map(|((rms, dp), lengths)| [rms].into_iter().chain(dp).chain(lengths)));
         let one_sided: Vec<_> = self.one_sided.iter().map(|both| both.parameter.as_str()).collect();
         slopes.into_iter().chain([one_sided.join(" ")]).collect()
+    }
+
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        vec![&self.out_of_limits]
     }
 }
 

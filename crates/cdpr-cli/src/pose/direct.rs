@@ -198,7 +198,7 @@ fn solve(robot: &Robot, case: &Case, prove: bool) -> Result<Answer, StaticsError
     let problem = DirectProblem::new(&robot, &case.lengths, &load)?;
     let solution = problem.direct(Start::Pose(&start))?;
     let certificate = (prove || case.certify).then(|| problem.certify(&solution).into());
-    Ok(Answer { found: Found::new(&robot, &solution), certificate })
+    Ok(Answer { found: Found::new(&robot, &case.lengths, &solution), certificate })
 }
 
 impl Answer {

@@ -1,14 +1,14 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
-use crate::answer::vector;
-use crate::arguments::{Format, number, payload};
+use crate::answer::{OutOfLimits, vector};
+use crate::arguments::{Format, Preference, number, payload};
 use crate::error::ProgramError;
-use crate::output::{patiently, table};
+use crate::output::{Ending, patiently, table};
 use crate::poses::{self, Angles};
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable, Segment};
 use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
-use cdpr_study::{CableLaw, open_law, open_record, open_robot, write_text};
+use cdpr_study::{CableLaw, open_law, open_record, write_text};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -37,6 +37,8 @@ pub(crate) struct Settings {
     /// Mass put on the platform's centre of mass and taken off again [kg].
     #[arg(long, value_parser = payload, allow_hyphen_values = true)]
     payload: f64,
+    #[command(flatten)]
+    preference: Preference,
     /// The part of the unloading curve that a cable follows.
     #[arg(long, value_enum, default_value_t = Branch::TurningPoint)]
     unloading: Branch,
@@ -67,6 +69,9 @@ struct Found {
     payload_work_j: f64,
     dissipated_j: f64,
     cables: Vec<InCable>,
+    /// Tensions at any step of the cycle.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
 }
 
 /// The load cycle of a cable, with the tensions at its middle.
@@ -80,8 +85,8 @@ struct InCable {
     dissipated_j: f64,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let robot = open_robot(&settings.robot)?;
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let robot = settings.preference.open_robot(&settings.robot)?;
     let laws = laws(&robot, settings)?;
     let pose = settings.angles.of(&settings.pose)?;
     let cycle = || load_cycle(&robot, &laws, &pose, settings.payload, settings.steps);
@@ -95,7 +100,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
              turning point from which it was measured"
         );
     }
-    settings.figure.as_deref().map_or(Ok(()), |path| draw(&robot, &cycle, &found, path))
+    if let Some(path) = &settings.figure {
+        draw(&robot, &cycle, &found, path)?;
+    }
+    Ok(OutOfLimits::ending(&found.out_of_limits))
 }
 
 /// The hysteresis of each cable.
@@ -153,12 +161,15 @@ impl Found {
                 * laws[i].loading.secant_ratio(tensions[0], tensions[1]),
             dissipated_j: *dissipated,
         });
+        let steps = cycle.loading.iter().chain(&cycle.unloading);
+        let equilibria: Vec<_> = steps.map(|step| &step.solution.equilibrium).collect();
         Self {
             deflection_mm: (1e3 * cycle.deflection()).into(),
             residual_mm: (1e3 * cycle.residual()).into(),
             payload_work_j: cycle.payload_work,
             dissipated_j: cycle.dissipated.iter().sum(),
             cables: cables.collect(),
+            out_of_limits: OutOfLimits::all(robot, &cycle.lengths, &equilibria),
         }
     }
 }
@@ -181,6 +192,7 @@ fn print(found: &Found) {
         1e3 * found.payload_work_j,
         1e3 * found.dissipated_j
     );
+    OutOfLimits::print(&found.out_of_limits);
 }
 
 fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<(), ProgramError> {

@@ -54,8 +54,8 @@ impl Row for OnPath {
         [self.jump.to_string()].into_iter().chain(self.answer.cells()).collect()
     }
 
-    fn ending(&self) -> Ending {
-        self.answer.ending()
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        self.answer.out_of_limits()
     }
 }
 
@@ -65,6 +65,8 @@ struct Answer {
     /// Unstrained lengths.
     lengths: Vec<f64>,
     tensions: Vec<f64>,
+    /// Tensions at the exit points.
+    exit_tensions: Vec<f64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
     /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
@@ -84,15 +86,16 @@ struct Report {
 impl Row for Answer {
     fn columns(robot: &Robot) -> Vec<String> {
         let cables = robot.cables.len();
-        numbered("length", "m", cables).chain(numbered("tension", "n", cables)).collect()
+        let tensions = ["tension", "exit_tension"].into_iter().flat_map(|name| numbered(name, "n", cables));
+        numbered("length", "m", cables).chain(tensions).collect()
     }
 
     fn cells(&self) -> Vec<String> {
-        cells(self.lengths.iter().chain(&self.tensions))
+        cells(self.lengths.iter().chain(&self.tensions).chain(&self.exit_tensions))
     }
 
-    fn ending(&self) -> Ending {
-        OutOfLimits::ending(&self.out_of_limits)
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        vec![&self.out_of_limits]
     }
 }
 
@@ -101,7 +104,8 @@ impl Answer {
         Self {
             lengths: solution.lengths.clone(),
             tensions: solution.tensions.clone(),
-            out_of_limits: OutOfLimits::all(robot, &solution.tensions),
+            exit_tensions: solution.equilibrium.exit_tensions(robot, &solution.lengths),
+            out_of_limits: OutOfLimits::all(robot, &solution.lengths, &[&solution.equilibrium]),
             cable_forces: answer::forces(&solution.equilibrium),
             report: Report {
                 iterations: solution.iterations,
@@ -113,7 +117,7 @@ impl Answer {
 
     fn print(&self, heading: &str) {
         println!("{heading}");
-        answer::print_cables(&self.lengths, &self.cable_forces, &self.tensions);
+        answer::print_cables(&self.lengths, &self.cable_forces, &self.tensions, &self.exit_tensions);
         OutOfLimits::print(&self.out_of_limits);
         for (i, bound) in self.report.active.iter().enumerate() {
             if let Some(bound) = bound {

@@ -1,6 +1,6 @@
 //! `cdpr stiffness`: the Cartesian stiffness at a pose, with its eigenvalues and their motions.
 
-use crate::answer::{self, decimal};
+use crate::answer::{self, OutOfLimits, decimal};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtPose, Row, cells};
@@ -10,7 +10,9 @@ use serde::Serialize;
 
 pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
     let load = at.load.load();
-    at.answer(|robot, pose| stiffness_at(robot, pose, &load).map(|found| Answer::new(&found)), Answer::print)
+    let solve =
+        |robot: &Robot, pose: &_| stiffness_at(robot, pose, &load).map(|found| Answer::new(robot, &found));
+    at.answer(solve, Answer::print)
 }
 
 /// The stiffness.
@@ -28,6 +30,8 @@ struct Answer {
     stable: bool,
     /// Characteristic length ℓ, which makes rotations comparable with translations [m].
     characteristic_length: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
 }
 
 /// An eigenvalue of the stiffness in (dp, ℓ dφ) and its motion.
@@ -54,10 +58,15 @@ impl Row for Answer {
         let first = [&self.least_stiffness, &self.characteristic_length].into_iter();
         cells(first.chain(eigenvalues).chain(self.stiffness.as_flattened()))
     }
+
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        vec![&self.out_of_limits]
+    }
 }
 
 impl Answer {
-    fn new(PoseStiffness { matrix, symmetric_part, stability }: &PoseStiffness) -> Self {
+    fn new(robot: &Robot, found: &PoseStiffness) -> Self {
+        let PoseStiffness { matrix, symmetric_part, stability, lengths, equilibrium } = found;
         let skew = (matrix - symmetric_part).amax();
         Self {
             stiffness: matrix.transpose().into(),
@@ -76,6 +85,7 @@ impl Answer {
             least_stiffness: stability.least_stiffness(),
             stable: stability.is_stable(),
             characteristic_length: stability.characteristic_length(),
+            out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
         }
     }
 
@@ -102,5 +112,6 @@ impl Answer {
             "{stable}; least stiffness {:.1} N/m, with rotations times \u{2113} = {:.4} m",
             self.least_stiffness, self.characteristic_length
         );
+        OutOfLimits::print(&self.out_of_limits);
     }
 }

@@ -1,12 +1,12 @@
 //! `cdpr calibration`: the combinations of parameters that measurements identify, and the best poses.
 
-use crate::arguments::{self, Format, Named};
+use crate::arguments::{self, Format, Named, Preference};
 use crate::error::ProgramError;
 use crate::output::{patiently, progress, table};
 use crate::poses;
 use cdpr_robot::{Pose, Robot, rounded, shown};
 use cdpr_statics::{Calibration, Combination, Identifiability, Load, Measurement, ParameterValue};
-use cdpr_study::{Grid, open_robot};
+use cdpr_study::Grid;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -36,6 +36,8 @@ pub(crate) struct Settings {
     /// Known mass added at the platform's centre of mass [kg].
     #[arg(long, value_parser = arguments::mass, default_value = "0", allow_hyphen_values = true)]
     payload: f64,
+    #[command(flatten)]
+    preference: Preference,
     /// Number of poses to choose.
     #[arg(long, default_value_t = 10)]
     choose: usize,
@@ -45,7 +47,7 @@ pub(crate) struct Settings {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let robot = open_robot(&settings.robot)?;
+    let robot = settings.preference.open_robot(&settings.robot)?;
     let candidates = match (&settings.grid, &settings.poses) {
         (Some(grid), _) => grid.poses(),
         (None, Some(path)) => poses::pose_file(path)?,

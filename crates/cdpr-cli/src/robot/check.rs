@@ -1,11 +1,10 @@
 //! `cdpr check`: everything about a robot file that is odd and yet no error.
 
-use crate::arguments::Format;
+use crate::arguments::{Format, Preference};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently};
 use cdpr_assess::{Finding, Severity, inspect};
 use cdpr_robot::shown;
-use cdpr_study::open_robot_in_any_unit;
 use std::path::PathBuf;
 
 /// The robot file.
@@ -13,13 +12,15 @@ use std::path::PathBuf;
 pub(crate) struct Settings {
     /// Robot file (JSON, `cdpr-robot/1`).
     robot: PathBuf,
+    #[command(flatten)]
+    preference: Preference,
     /// How the findings are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
-    let robot = open_robot_in_any_unit(&settings.robot)?;
+    let robot = settings.preference.open_robot_in_any_unit(&settings.robot)?;
     let findings = patiently("inspecting the robot", || inspect(&robot));
     let warnings = findings.iter().filter(|finding| finding.severity == Severity::Warning).count();
     settings.format.print(&findings, |findings| {

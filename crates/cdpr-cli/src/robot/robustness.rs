@@ -1,6 +1,6 @@
 //! `cdpr robustness`: how often the direct model finds the true pose from a wrong start.
 
-use crate::arguments::Format;
+use crate::arguments::{Format, Preference};
 use crate::error::ProgramError;
 use crate::output::{drawn, progress, table};
 use cdpr_assess::{
@@ -8,7 +8,6 @@ use cdpr_assess::{
     write_robustness,
 };
 use cdpr_robot::shown;
-use cdpr_study::open_robot;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -27,6 +26,8 @@ pub(crate) struct Settings {
     /// Seed of poses and starts. The same seed gives the same numbers, but for the times.
     #[arg(long, default_value_t = 2017)]
     seed: u64,
+    #[command(flatten)]
+    preference: Preference,
     /// Folder for the results; made if missing.
     #[arg(long, default_value = "robustness")]
     out: PathBuf,
@@ -43,7 +44,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     for protocol in &protocols {
         protocol.validate()?;
     }
-    let robot = open_robot(&settings.robot)?;
+    let robot = settings.preference.open_robot(&settings.robot)?;
     let folder = begin_robustness(&settings.out)?;
 
     let steps = protocols.iter().map(|protocol| protocol.poses + protocol.solves()).sum();

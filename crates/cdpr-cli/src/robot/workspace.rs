@@ -1,13 +1,13 @@
 //! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::arguments::{self, Format, LoadArguments, Named, Threads};
+use crate::arguments::{self, Format, LoadArguments, Named, Preference, Threads};
 use crate::error::ProgramError;
-use crate::output::{drawn, progress, table};
+use crate::output::{Ending, drawn, progress, table};
 use crate::poses::{self, Angles};
 use cdpr_assess::{Workspace, WorkspaceSummary, begin_workspace, compute_workspace, write_workspace};
 use cdpr_report::workspace_maps;
 use cdpr_robot::{Axis, Robot, Rotation3, shown};
-use cdpr_study::{ErrorModel, Extremes, Grid, Study, open_robot};
+use cdpr_study::{ErrorModel, Extremes, Grid, Study};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -36,6 +36,8 @@ pub(crate) struct Settings {
     angles: Angles,
     #[command(flatten)]
     load: LoadArguments,
+    #[command(flatten)]
+    preference: Preference,
     /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5.
     #[arg(long, value_parser = arguments::named)]
     uncertainty: Option<Named>,
@@ -79,9 +81,9 @@ fn points(text: &str) -> Result<[usize; 2], String> {
     }
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     settings.threads.start()?;
-    let robot = open_robot(&settings.robot)?;
+    let robot = settings.preference.open_robot(&settings.robot)?;
     let grid = match (&settings.within, settings.plane) {
         (Some(grid), _) => *grid,
         (None, Some(Plane { normal, coordinate })) => {
@@ -107,10 +109,11 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let maps = workspace_maps(&robot, &summary).into_iter();
     let maps: Vec<_> = maps.filter_map(|map| drawn(&map.name, map.svg)).collect();
     write_workspace(&folder, &summary, &maps)?;
-    Ok(settings.format.print(&summary, |summary| {
+    settings.format.print(&summary, |summary| {
         print(summary);
         println!("{} poses in {seconds:.2} s; results in {}", poses.len(), settings.out.display());
-    })?)
+    })?;
+    Ok(if summary.too_much > 0 { Ending::SomethingWrong } else { Ending::Well })
 }
 
 impl Settings {
@@ -135,6 +138,12 @@ fn print(summary: &WorkspaceSummary) {
         println!("with the lengths kept under the load:");
     }
     counts(&summary.status);
+    if summary.too_much > 0 {
+        let positions = summary.too_much;
+        println!(
+            "{positions:8} with tensions above tension_limits.max or a breaking force: see workspace.csv"
+        );
+    }
     if summary.is_loaded() {
         println!("with the tensions distributed anew:");
     }

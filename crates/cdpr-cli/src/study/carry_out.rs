@@ -4,14 +4,13 @@
 
 use super::common::Common;
 use super::print;
-use crate::answer::OutOfLimits;
 use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::{Ending, progress};
 use cdpr_report::{draw, report_with};
 use cdpr_study::{
-    Blocks, NominalSummary, Plan, REPORT_NAME, Run, STUDY_NAME, Session, Shard, Study, StudyError,
-    StudySummary, Summary, TableFormat, Watcher, observe_shard,
+    Blocks, Plan, REPORT_NAME, Run, STUDY_NAME, Session, Shard, Study, StudyError, Summary, TableFormat,
+    Watcher, observe_shard,
 };
 use clap::ValueEnum;
 use indicatif::ProgressBar;
@@ -78,11 +77,11 @@ pub(super) fn whole(
     if common.format == Format::Text {
         println!("\nresults in {}\nreport in {}", out.display(), path.display());
     }
-    Ok(ending(study, &results.summary))
+    Ok(ending(&results.summary))
 }
 
 /// Names what is wrong about results: parts without any, nominal robots that are strained too much.
-fn ending(study: &Study, summary: &Summary) -> Ending {
+fn ending(summary: &Summary) -> Ending {
     let mut ending = Ending::Well;
     for (name, part) in &summary.studies {
         let failed: usize = part.failed().values().sum();
@@ -90,16 +89,9 @@ fn ending(study: &Study, summary: &Summary) -> Ending {
             eprintln!("warning: {name}: every observation failed");
             ending = Ending::SomethingWrong;
         }
-        if let StudySummary::Sampling(sampling) = part {
-            let NominalSummary { unloaded_tensions, loaded_tensions, .. } = &sampling.nominal;
-            for (load, tensions) in [("without", unloaded_tensions), ("with", loaded_tensions)] {
-                let mut found = OutOfLimits::all(&study.robot, tensions);
-                found.retain(|found| OutOfLimits::ending(std::slice::from_ref(found)) != Ending::Well);
-                for beyond in &found {
-                    eprintln!("warning: {name}, nominal robot {load} the payload: {beyond}");
-                }
-                ending = ending.and(OutOfLimits::ending(&found));
-            }
+        for beyond in part.out_of_limits() {
+            eprintln!("warning: {name}, nominal robot {beyond}");
+            ending = Ending::SomethingWrong;
         }
     }
     ending

@@ -1,6 +1,6 @@
 //! The arguments that several commands of `cdpr study` share, and the start of a study.
 
-use crate::arguments::{Format, Threads};
+use crate::arguments::{Format, Preference, Threads};
 use crate::error::ProgramError;
 use crate::output::patiently;
 use cdpr_study::{Blocks, Existing, Shard, Study, StudyError, TableFormat};
@@ -17,6 +17,8 @@ pub(crate) struct RunSettings {
     /// Number of observations of each sampling, in place of the file's.
     #[arg(long)]
     observations: Option<usize>,
+    #[command(flatten)]
+    preference: Preference,
     /// Continue with the blocks of this study that the folder holds.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
@@ -79,11 +81,11 @@ impl From<TableName> for TableFormat {
 pub(super) fn begun(settings: &RunSettings) -> Result<(Study, Blocks), ProgramError> {
     settings.common.threads.start()?;
     let study = patiently("checking the study", || {
-        let mut study = Study::open(&settings.study)?;
+        let mut study = settings.preference.open_study(&settings.study)?;
         if let Some(observations) = settings.observations {
             study.set_observations(observations)?;
         }
-        Ok::<_, StudyError>(study)
+        Ok::<_, ProgramError>(study)
     })?;
     let existing = match (settings.shard()?, settings.resume, settings.overwrite) {
         (Some(_), ..) => Existing::Share,

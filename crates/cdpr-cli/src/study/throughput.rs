@@ -1,9 +1,9 @@
 //! `cdpr study throughput`: how fast a sampling runs, in one line of JSON.
 
-use crate::arguments::Threads;
+use crate::arguments::{Preference, Threads};
 use crate::error::ProgramError;
 use crate::output::progress;
-use cdpr_study::{Session, Study, analyse, observe};
+use cdpr_study::{Session, analyse, observe};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -12,10 +12,11 @@ pub(crate) fn run(
     path: &Path,
     sampling: &str,
     observations: usize,
+    preference: &Preference,
     threads: &Threads,
 ) -> Result<(), ProgramError> {
     threads.start()?;
-    let mut study = Study::open(path)?;
+    let mut study = preference.open_study(path)?;
     study.set_observations(observations)?;
     // The intervals of replicates and the measures of sensitivity are observations of their own.
     study.file.replicates = 0;

@@ -1,11 +1,11 @@
 //! `cdpr tolerances`: the tolerances to tighten so that an error stays below a limit.
 
-use crate::arguments::{self, Format, Named, Threads};
+use crate::arguments::{self, Format, Named, Preference, Threads};
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
 use cdpr_assess::{Limit, Limited, Reached, ToleranceBudget, tolerance_budget};
 use cdpr_robot::shown;
-use cdpr_study::{Estimate, Study};
+use cdpr_study::Estimate;
 use std::path::PathBuf;
 
 /// The study, the sampling and the limit.
@@ -34,6 +34,8 @@ pub(crate) struct Settings {
     #[arg(long, default_value_t = 20_000)]
     observations: usize,
     #[command(flatten)]
+    preference: Preference,
+    #[command(flatten)]
     threads: Threads,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -51,7 +53,7 @@ enum Of {
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     settings.threads.start()?;
-    let study = patiently("checking the study", || Study::open(&settings.study))?;
+    let study = patiently("checking the study", || settings.preference.open_study(&settings.study))?;
     let sampling = study.sampling(&settings.sampling)?;
     let limit = Limit {
         of: match settings.of {

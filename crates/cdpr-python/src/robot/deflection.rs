@@ -43,15 +43,15 @@ pub(crate) struct Given {
     loaded: Found,
 }
 
-impl From<cdpr_statics::Deflection> for Given {
-    fn from(found: cdpr_statics::Deflection) -> Self {
+impl Given {
+    pub(crate) fn new(robot: &cdpr_robot::Robot, found: cdpr_statics::Deflection) -> Self {
         Self {
             rms: found.rms(),
             displacement: found.displacement().into(),
             motion: found.unloaded.equilibrium.pose.motion_to(&found.loaded.equilibrium.pose),
+            unloaded: Found::new(robot, &found.lengths, found.unloaded),
+            loaded: Found::new(robot, &found.lengths, found.loaded),
             lengths: found.lengths,
-            unloaded: found.unloaded.into(),
-            loaded: found.loaded.into(),
         }
     }
 }
@@ -90,7 +90,8 @@ impl Robot {
         let none = vec![0.0; cables];
         let outcomes: Vec<Result<Given, StaticsError>> = each(py, cases.count, |case| {
             let offsets = offsets.as_ref().map_or(none.as_slice(), |offsets| offsets.row(case));
-            deflection(robot, &poses.pose(case)?, offsets, &loads.load(case)?).map(Given::from)
+            let found = deflection(robot, &poses.pose(case)?, offsets, &loads.load(case)?)?;
+            Ok(Given::new(robot, found))
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
         Deflection::new(py, &all, cables)

@@ -114,7 +114,7 @@ impl Robot {
                 left: Slopes::new(&found)?,
                 right: Slopes::new(&found.right())?,
                 one_sided: found.one_sided.iter().map(|input| input.column).collect(),
-                given: found.deflection.into(),
+                given: Given::new(robot, found.deflection),
             })
         })?;
         let all = Columns::new(py, cases, &outcomes)?;

@@ -2,7 +2,7 @@
 
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
-use cdpr_statics::{Start, StaticsError, check_lengths, direct, rough_pose};
+use cdpr_statics::{Limit, OutOfLimits, Start, StaticsError, check_lengths, direct, out_of_limits, rough_pose};
 use pyo3::prelude::*;
 
 answer! {
@@ -24,6 +24,11 @@ answer! {
         cable_forces: Py<PyAny>,
         /// Tension of each cable at the platform [N], (n,).
         tensions: Py<PyAny>,
+        /// Tension of each cable at its exit point [N], (n,).
+        exit_tensions: Py<PyAny>,
+        /// Whether its tension, at either end, is out of limits: 2 above the breaking force, 1 above the
+        /// greatest tension, -1 below the least one, 0 within, (n,).
+        out_of_limits: Py<PyAny>,
         /// Whether the equilibrium is stable.
         stable: Py<PyAny>,
         /// Stiffness of the softest motion [N/m].
@@ -47,11 +52,34 @@ answer! {
 pub(crate) struct Found {
     solution: cdpr_statics::DirectSolution,
     least_stiffness: f64,
+    exit_tensions: Vec<f64>,
+    out_of_limits: Vec<OutOfLimits>,
 }
 
-impl From<cdpr_statics::DirectSolution> for Found {
-    fn from(solution: cdpr_statics::DirectSolution) -> Self {
-        Self { least_stiffness: solution.stability.least_stiffness(), solution }
+impl Found {
+    pub(crate) fn new(
+        robot: &cdpr_robot::Robot,
+        lengths: &[f64],
+        solution: cdpr_statics::DirectSolution,
+    ) -> Self {
+        Self {
+            least_stiffness: solution.stability.least_stiffness(),
+            exit_tensions: solution.equilibrium.exit_tensions(robot, lengths),
+            out_of_limits: out_of_limits(robot, lengths, &[&solution.equilibrium]),
+            solution,
+        }
+    }
+}
+
+/// Writes the number of the limit that each cable's tension passes.
+pub(crate) fn numbers_of_limits(found: &[OutOfLimits], out: &mut [i8]) {
+    for one in found {
+        out[one.cable] = match one.limit {
+            Limit::BreakingForce => 2,
+            Limit::Max => 1,
+            Limit::MaxElsewhere => 0,
+            Limit::Min => -1,
+        };
     }
 }
 
@@ -89,7 +117,8 @@ impl Robot {
                 Some(start) => start.pose(case)?,
                 None => rough_pose(robot, lengths),
             };
-            direct(robot, lengths, &loads.load(case)?, Start::Pose(&start)).map(Found::from)
+            let solution = direct(robot, lengths, &loads.load(case)?, Start::Pose(&start))?;
+            Ok(Found::new(robot, lengths, solution))
         };
         let outcomes = each(py, cases.count, one)?;
         let found = Columns::new(py, cases, &outcomes)?;
@@ -115,6 +144,10 @@ impl DirectSolution {
             cable_forces: all.pairs(cables, |found| &found.solution.equilibrium.cable_forces)?,
             tensions: all.numbers(&[cables], |found, out| {
                 out.copy_from_slice(&found.solution.equilibrium.tensions());
+            })?,
+            exit_tensions: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.exit_tensions))?,
+            out_of_limits: all.array(0, &[cables], |found, out: &mut [i8]| {
+                numbers_of_limits(&found.out_of_limits, out);
             })?,
             stable: all.array(false, &[], |found, out| out[0] = found.solution.stability.is_stable())?,
             least_stiffness: all.number(|found| found.least_stiffness)?,

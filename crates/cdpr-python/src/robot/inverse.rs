@@ -2,8 +2,9 @@
 
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, run};
 use crate::robot::Robot;
+use crate::robot::direct::numbers_of_limits;
 use cdpr_statics::{
-    Bound, InversePath, InverseSolution as InverseModel, PathSolution, StaticsError, inverse,
+    Bound, InversePath, InverseSolution as InverseModel, PathSolution, StaticsError, inverse, out_of_limits,
 };
 use pyo3::prelude::*;
 use std::sync::atomic::Ordering::Relaxed;
@@ -19,6 +20,11 @@ answer! {
         lengths: Py<PyAny>,
         /// Tension of each cable at the platform [N], (n,).
         tensions: Py<PyAny>,
+        /// Tension of each cable at its exit point [N], (n,).
+        exit_tensions: Py<PyAny>,
+        /// Whether its tension, at either end, is out of limits: 2 above the breaking force, 1 above the
+        /// greatest tension, 0 within, (n,).
+        out_of_limits: Py<PyAny>,
         /// Force (fx, fz) on each cable at its anchor point, in its vertical plane [N], (n, 2).
         cable_forces: Py<PyAny>,
         /// The bound that each tension rests on: -1 the least, 1 the greatest, 0 none, (n,).
@@ -40,13 +46,14 @@ answer! {
 impl Robot {
     /// Computes the unstrained lengths that hold the platform at a pose under its weight and a load.
     ///
-    /// The tensions are those of least norm within the robot's limits. Arguments are of one case, or have a
+    /// The tensions are those within their limits that come nearest to a reference. Arguments are of one case, or have a
     /// first axis of m cases.
     ///
     /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
     /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
     /// payload: mass added at the platform's centre of mass [kg].
-    /// reference: tensions that the tensions are nearest to, in place of zero [N], (n,).
+    /// reference: tensions that the tensions are nearest to [N], (n,), in place of the robot's own
+    ///     `tension_reference`; zeros for the least norm.
     /// path: whether the cases are a path, so that each keeps to the branch of tensions of the one before as
     ///     long as it exists on the straight way between them.
     ///
@@ -92,6 +99,14 @@ impl Robot {
         Ok(InverseSolution {
             lengths: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.solution.lengths))?,
             tensions: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.solution.tensions))?,
+            exit_tensions: all.numbers(&[cables], |found, out| {
+                let InverseModel { equilibrium, lengths, .. } = &found.solution;
+                out.copy_from_slice(&equilibrium.exit_tensions(robot, lengths));
+            })?,
+            out_of_limits: all.array(0, &[cables], |found, out: &mut [i8]| {
+                let InverseModel { equilibrium, lengths, .. } = &found.solution;
+                numbers_of_limits(&out_of_limits(robot, lengths, &[equilibrium]), out);
+            })?,
             cable_forces: all.pairs(cables, |found| &found.solution.equilibrium.cable_forces)?,
             active: all.array(0, &[cables], |found, out: &mut [i8]| {
                 let found = &found.solution;

@@ -3,7 +3,7 @@
 use crate::page::elements::{Section, cell, table};
 use crate::parameters;
 use crate::text;
-use cdpr_robot::Parameter;
+use cdpr_robot::{CableEnd, NamedReference, Parameter, Robot, TensionLimits, TensionReference};
 use cdpr_study::{GridSpec, IndexMap, InputSpec, PoseSpec, PosesSpec, Results, StudySummary};
 use maud::{Markup, html};
 
@@ -31,9 +31,10 @@ fn settings(results: &Results) -> Markup {
                 (text::digits(1e6 * cable.section, 4))
                 " mm\u{b2}, " (text::digits(1e3 * cable.linear_density, 4)) " g/m" }
             dt { "Tension limits" }
-            dd {
-                (text::digits(robot.tension_limits.min, 5)) " N to "
-                (text::digits(robot.tension_limits.max, 5)) " N"
+            dd { (tension_limits(robot)) }
+            @if let Some(reference) = &robot.tension_reference {
+                dt { "Tensions preferred" }
+                dd { (tension_reference(reference)) }
             }
             dt { "Load" }
             dd { (text::digits(file.payload, 5)) " kg added at the platform's centre of mass" }
@@ -49,6 +50,38 @@ fn settings(results: &Results) -> Markup {
             dt { "Seed" }
             dd { (file.seed) }
         }
+    }
+}
+
+/// Least and greatest tension, as ranges where cables have their own.
+fn tension_limits(robot: &Robot) -> String {
+    let range = |of: fn(&TensionLimits) -> f64| {
+        let values = || (0..robot.cables.len()).map(|i| of(&robot.limits(i)));
+        let [low, high] = [values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max)];
+        let digits = |value: f64| text::digits(value, 5);
+        if low == high {
+            digits(low)
+        } else {
+            format!("{} \u{2013} {} (by cable)", digits(low), digits(high))
+        }
+    };
+    let at_exit = (0..robot.cables.len()).filter(|i| robot.max_at(*i) == CableEnd::Exit).count();
+    let end = match at_exit {
+        0 => "",
+        count if count == robot.cables.len() => ", greatest tension at the exit point",
+        _ => ", greatest tension of some cables at the exit point",
+    };
+    format!("{} N to {} N{end}", range(|limits| limits.min), range(|limits| limits.max))
+}
+
+fn tension_reference(reference: &TensionReference) -> String {
+    match reference {
+        TensionReference::All(tension) => format!("{} N in every cable", text::digits(*tension, 5)),
+        TensionReference::Each(tensions) => {
+            let each: Vec<_> = tensions.iter().map(|tension| text::digits(*tension, 5)).collect();
+            format!("{} N", each.join(", "))
+        }
+        TensionReference::Named(NamedReference::Mid) => "the middle of the limits".to_owned(),
     }
 }
 

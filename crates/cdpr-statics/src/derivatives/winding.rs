@@ -1,7 +1,8 @@
 //! From the wanted pose to set-points and lengths, with the derivatives on both sides of every input.
 //!
-//! A set-point is the greatest of `t_i + dt_i` and the lower bound of the cable. Where both are the same its
-//! right derivative is the greater one of theirs, its left derivative the smaller one.
+//! A set-point is `t_i + dt_i` between the lower and the upper bound of the cable. Where it reaches the lower one
+//! its right derivative is the greater one of theirs, its left derivative the smaller one; at the upper bound it
+//! is the other way round.
 
 use super::optimum::{AtBound, Optimum, ROUNDING, Sides};
 use crate::equations::{CableDerivatives, Inputs, Partials, Reading, Span, read, tensions};
@@ -11,9 +12,9 @@ use crate::loading::Wound;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_cable::least_tension;
-use cdpr_robot::{ParameterLayout, Pose, Robot, Vector3};
+use cdpr_robot::{CableEnd, ParameterLayout, Pose, Robot, TensionLimits, Vector3};
 use cdpr_tension::Bound;
-use nalgebra::{DMatrix, Matrix6xX};
+use nalgebra::{DMatrix, Matrix6xX, RowDVector};
 
 /// An input whose left and right derivatives differ.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,10 +38,28 @@ pub(super) struct SetPoints {
 enum SetPoint {
     /// The tension of the inverse model with its offset.
     Offset,
-    /// The cable's lower bound.
-    Bound,
+    /// A bound of the cable.
+    Bound(Bound),
     /// Both, to rounding.
-    Either,
+    Either(Bound),
+}
+
+/// The bounds of all tensions, and how they change.
+struct Bounds {
+    /// Lower and upper bound of each cable [N].
+    values: Vec<[f64; 2]>,
+    /// Derivatives of the lower and of the upper bounds, n x count each.
+    rows: [DMatrix<f64>; 2],
+}
+
+impl Bounds {
+    fn value(&self, i: usize, bound: Bound) -> f64 {
+        self.values[i][bound as usize]
+    }
+
+    fn row(&self, i: usize, bound: Bound) -> RowDVector<f64> {
+        self.rows[bound as usize].row(i).into_owned()
+    }
 }
 
 /// From the wanted pose to the lengths.
@@ -74,22 +93,18 @@ impl Winding<'_> {
         Ok(CableDerivatives::all(&problem, self.pose, &equilibrium.cable_forces))
     }
 
-    /// Lower bounds of all tensions [N]: the robot's, or what the weight of the cable demands.
-    fn lower_bounds(&self) -> Result<Vec<f64>, StaticsError> {
-        let of = |i| {
-            let least = self.robot.tension_limits.min;
-            least_allowed(&self.robot.cable(i), self.end(i).end.into(), least).map_err(StaticsError::cable(i))
+    /// Bounds of all tensions [N]: the limits, or what the weight of the cable demands.
+    fn bound_values(&self) -> Result<Vec<[f64; 2]>, StaticsError> {
+        let of = |(i, limits): (usize, &TensionLimits)| {
+            let (cable, end) = (self.robot.cable(i), self.end(i).end.into());
+            let least = least_allowed(&cable, end, limits.min).map_err(StaticsError::cable(i))?;
+            Ok([least, limits.max])
         };
-        (0..self.robot.cables.len()).map(of).collect()
+        self.wound.limits.iter().enumerate().map(of).collect()
     }
 
-    /// Derivatives of the tensions of the inverse model; `bounds` has those of the lower bounds, and
-    /// `lower_bounds` their values [N].
-    fn tensions(
-        &self,
-        lower_bounds: &[f64],
-        bounds: DMatrix<f64>,
-    ) -> Result<(Sides, Vec<AtBound>), StaticsError> {
+    /// Derivatives of the tensions of the inverse model.
+    fn tensions(&self, bounds: &Bounds) -> Result<(Sides, Vec<AtBound>), StaticsError> {
         let InverseSolution { lengths, active, equilibrium, multipliers, tensions, .. } = &self.wound.wanted;
         let problem = DirectProblem::new(self.robot, lengths, &Load::none())?;
         let forces = equilibrium.cable_forces.iter().enumerate();
@@ -113,27 +128,33 @@ impl Winding<'_> {
             per_arm: rate.force.cross(&rotation),
         });
         let per_tension: Vec<_> = cables.iter().map(CableDerivatives::wrench_per_actuation).collect();
+        // The bound that each cable is on, or could come to be on.
+        let bound = |i: usize| match active[i] {
+            Some(bound) => Some(bound),
+            None => [Bound::Min, Bound::Max].into_iter().find(|at| same(tensions[i], bounds.value(i, *at))),
+        };
+        let mut rows = self.inputs.zeros(tensions.len());
+        for i in 0..tensions.len() {
+            if let Some(bound) = bound(i) {
+                rows.set_row(i, &bounds.row(i, bound));
+            }
+        }
         let optimum = Optimum {
             balance,
             slopes,
             per_tension: Matrix6xX::from_columns(&per_tension),
             curvatures: rates.iter().map(|rate| 1.0 + motion(rate).dot(&rate.per_actuation)).collect(),
-            bounds,
+            bounds: rows,
         };
+        let reference = self.robot.reference();
         let largest = tensions.iter().copied().fold(0.0, f64::max);
         let undecided = (0..tensions.len()).filter_map(|cable| {
-            let t = tensions[cable];
-            let at = |bound| Some(AtBound { cable, bound });
-            match active[cable] {
-                // ρ_i of (D5): the reference is zero.
-                Some(bound) => {
-                    let slope = t + motion(&rates[cable]).dot(&rates[cable].force);
-                    if slope.abs() <= NO_MULTIPLIER * largest { at(bound) } else { None }
-                }
-                None if same(t, lower_bounds[cable]) => at(Bound::Min),
-                None if same(t, self.robot.tension_limits.max) => at(Bound::Max),
-                None => None,
-            }
+            let bound = bound(cable)?;
+            // ρ_i of (D5).
+            let slope =
+                tensions[cable] - reference[cable] + motion(&rates[cable]).dot(&rates[cable].force);
+            let kept = active[cable].is_some() && slope.abs() > NO_MULTIPLIER * largest;
+            (!kept).then_some(AtBound { cable, bound })
         });
         let undecided: Vec<_> = undecided.collect();
         let on_bound: Vec<bool> = active.iter().map(Option::is_some).collect();
@@ -144,35 +165,41 @@ impl Winding<'_> {
     pub(super) fn set_points(&self, tension_offsets: &[f64]) -> Result<SetPoints, StaticsError> {
         let Wound { wanted, .. } = self.wound;
         let n = tension_offsets.len();
-        let lower_bounds = self.lower_bounds()?;
+        let values = self.bound_values()?;
         let set_point = |i: usize| {
-            let offset = wanted.tensions[i] + tension_offsets[i];
-            match offset > lower_bounds[i] {
-                _ if same(offset, lower_bounds[i]) => SetPoint::Either,
-                true => SetPoint::Offset,
-                false => SetPoint::Bound,
+            let (offset, [least, greatest]) = (wanted.tensions[i] + tension_offsets[i], values[i]);
+            match () {
+                () if same(offset, least) => SetPoint::Either(Bound::Min),
+                () if same(offset, greatest) => SetPoint::Either(Bound::Max),
+                () if offset < least => SetPoint::Bound(Bound::Min),
+                () if offset > greatest => SetPoint::Bound(Bound::Max),
+                () => SetPoint::Offset,
             }
         };
         let set_points: Vec<SetPoint> = (0..n).map(set_point).collect();
-        // A bound that the weight of a cable demands changes with the inputs.
-        let changes = |i: &usize| {
-            let demanded = lower_bounds[*i] > self.robot.tension_limits.min;
-            let meets = set_points[*i] != SetPoint::Offset || same(wanted.tensions[*i], lower_bounds[*i]);
-            demanded && meets
+        let meets = |i: usize, bound: Bound| {
+            let by_offset = [SetPoint::Bound(bound), SetPoint::Either(bound)].contains(&set_points[i]);
+            by_offset || wanted.active[i] == Some(bound) || same(wanted.tensions[i], values[i][bound as usize])
         };
-        let which: Vec<usize> = (0..n).filter(changes).collect();
-        let bounds = self.least_tensions(&which)?;
-        let (tensions, undecided) = self.tensions(&lower_bounds, bounds.clone())?;
+        // A bound that the weight of a cable demands, or one at its exit point, changes with the inputs.
+        let demanded = |i: &usize| values[*i][0] > self.wound.limits[*i].min && meets(*i, Bound::Min);
+        let at_exit = |i: &usize| self.robot.max_at(*i) == CableEnd::Exit && meets(*i, Bound::Max);
+        let [least, greatest]: [Vec<usize>; 2] =
+            [(0..n).filter(demanded).collect(), (0..n).filter(at_exit).collect()];
+        let rows = [self.least_tensions(&least)?, self.exit_limits(&greatest)?];
+        let bounds = Bounds { values, rows };
+        let (tensions, undecided) = self.tensions(&bounds)?;
 
         let layout = ParameterLayout::new(n);
-        let side = |mut rows: DMatrix<f64>, choose: fn(f64, f64) -> f64| {
+        let side = |mut rows: DMatrix<f64>, [at_least, at_greatest]: [fn(f64, f64) -> f64; 2]| {
             for (i, set_point) in set_points.iter().enumerate() {
                 rows[(i, layout.tension_offset(i))] += 1.0;
                 match set_point {
                     SetPoint::Offset => {}
-                    SetPoint::Bound => rows.set_row(i, &bounds.row(i)),
-                    SetPoint::Either => {
-                        rows.row_mut(i).zip_apply(&bounds.row(i), |slope, bound| {
+                    SetPoint::Bound(bound) => rows.set_row(i, &bounds.row(i, *bound)),
+                    SetPoint::Either(bound) => {
+                        let choose = if *bound == Bound::Min { at_least } else { at_greatest };
+                        rows.row_mut(i).zip_apply(&bounds.row(i, *bound), |slope, bound| {
                             *slope = choose(*slope, bound);
                         });
                     }
@@ -180,14 +207,20 @@ impl Winding<'_> {
             }
             rows
         };
-        let either = (0..n).filter(|i| set_points[*i] == SetPoint::Either);
-        let mut doubtful: Vec<_> = either.map(|cable| AtBound { cable, bound: Bound::Min }).collect();
+        let mut doubtful: Vec<_> = (0..n)
+            .filter_map(|cable| match set_points[cable] {
+                SetPoint::Either(bound) => Some(AtBound { cable, bound }),
+                _ => None,
+            })
+            .collect();
+        let (left, right) = ([f64::min as fn(f64, f64) -> f64, f64::max], [f64::max as fn(f64, f64) -> f64, f64::min]);
         if doubtful.is_empty() && undecided.is_empty() {
-            return Ok(SetPoints { rows: side(tensions.left, f64::min), one_sided: Vec::new() });
+            return Ok(SetPoints { rows: side(tensions.left, left), one_sided: Vec::new() });
         }
-        let right = side(tensions.right.unwrap_or_else(|| tensions.left.clone()), f64::max);
-        let mut rows = side(tensions.left, f64::min);
-        doubtful.extend(undecided.iter().filter(|at| set_points[at.cable] != SetPoint::Either));
+        let right = side(tensions.right.unwrap_or_else(|| tensions.left.clone()), right);
+        let mut rows = side(tensions.left, left);
+        let decided = |at: &&AtBound| !matches!(set_points[at.cable], SetPoint::Either(_));
+        doubtful.extend(undecided.iter().filter(decided));
         let count = self.inputs.count();
         let mut one_sided = Vec::new();
         for column in 0..count {
@@ -224,6 +257,26 @@ impl Winding<'_> {
         }
         let least = tensions(&self.inputs, self.pose, &cables);
         which.iter().for_each(|i| rows.set_row(*i, &(ABOVE_LEAST * least.row(*i))));
+        Ok(rows)
+    }
+
+    /// Derivatives of the tensions that the limits at the exit points leave to the cables in `which`; zero rows
+    /// for all others.
+    fn exit_limits(&self, which: &[usize]) -> Result<DMatrix<f64>, StaticsError> {
+        let mut rows = self.inputs.zeros(self.wound.set_points.len());
+        if which.is_empty() {
+            return Ok(rows);
+        }
+        if which.iter().any(|i| self.robot.cables[*i].pulley.is_some()) {
+            let reason = "the limit is that of a cable on a pulley, at its leave point";
+            return Err(StaticsError::NoDerivative { quantity: "a tension on its greatest value", reason });
+        }
+        let mut cables = self.cables(&self.wound.lengths, &self.wound.held)?;
+        for &i in which {
+            cables[i] = CableDerivatives::of_exit_limit(self.robot, self.pose, i, self.wound.limits[i].max);
+        }
+        let each = tensions(&self.inputs, self.pose, &cables);
+        which.iter().for_each(|i| rows.set_row(*i, &each.row(*i)));
         Ok(rows)
     }
 

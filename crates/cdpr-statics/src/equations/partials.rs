@@ -199,6 +199,24 @@ impl CableDerivatives {
         }
     }
 
+    /// The derivatives of the tension `t` [N] that the greatest tension of cable i at its exit point leaves at
+    /// the platform, in the place of those of F_i: equation (C26) of `cdpr_cable` differentiated.
+    pub(crate) fn of_exit_limit(robot: &Robot, pose: &Pose, i: usize, t: f64) -> Self {
+        let (cable, exit) = (robot.cable(i), robot.limits(i).max);
+        let up = Vector3::z() / (1.0 + cable.strain(t));
+        let energy = cable.energy_per_length(t) - cable.energy_per_length(exit);
+        Self {
+            arm: robot.anchor_arm(pose, i),
+            force: t * Vector3::z(),
+            direction: Vector3::z(),
+            stiffness: -cable.weight_per_length * up * Vector3::z().transpose(),
+            per_density: up * (robot.span(pose, i).z * robot.gravity),
+            // The energy falls in proportion to 1/E.
+            per_modulus: up * (energy / robot.cables[i].properties.youngs_modulus),
+            per_actuation: Vector3::zeros(),
+        }
+    }
+
     /// Wrench about P per length, or per tension where the tension is given.
     pub(crate) fn wrench_per_actuation(&self) -> Vector6<f64> {
         wrench(&self.arm, &self.per_actuation)

@@ -1,5 +1,6 @@
 //! What the inverse model is asked.
 
+use super::limits::limits_at;
 use crate::error::StaticsError;
 use crate::state::Load;
 use cdpr_robot::{Pose, Robot, TensionLimits, Vector6};
@@ -36,12 +37,12 @@ impl<'a> Question<'a> {
                 "a point away from the cable's anchor point at this pose",
             ));
         }
-        let reference = reference.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);
+        let reference = reference.map_or_else(|| robot.reference(), <[f64]>::to_vec);
         StaticsError::one_per_cable("reference", &reference, n)?;
         if let Some((i, value)) = reference.iter().enumerate().find(|(_, value)| !value.is_finite()) {
             return Err(StaticsError::invalid(format!("reference[{i}]"), value, "a finite tension [N]"));
         }
-        Ok(Self { robot, pose, load, reference, limits: vec![robot.tension_limits; n] })
+        Ok(Self { robot, pose, load, reference, limits: limits_at(robot, pose)? })
     }
 
     pub(super) fn cables(&self) -> usize {

@@ -10,12 +10,12 @@
 //! ```
 //!
 //! for a change dt of its tension. With w the wrench of a unit tension, n its derivative with respect to θ,
-//! and λ the multipliers of the balance, the least-norm optimum (I2) and a step towards it are
+//! and λ the multipliers of the balance, the optimum (I2) for the reference r and a step towards it are
 //!
 //! ```text
-//! t + c·λ = 0,      sum t w + w_ex = 0,      c = w + t β n                                             (L2)
+//! t - r + c·λ = 0,      sum t w + w_ex = 0,      c = w + t β n                                         (L2)
 //! [ sum c cᵀ/D ] dλ = R2 - sum c R1/D,      dt = -(R1 + c·dλ)/D,                                       (L3)
-//!      R1 = t + (c + α (n - t β w))·λ,   R2 = sum t (w + α n) + w_ex,   D = 1 - t β² w·λ
+//!      R1 = t - r + (c + α (n - t β w))·λ,   R2 = sum t (w + α n) + w_ex,   D = 1 - t β² w·λ
 //! ```
 //!
 //! c is the derivative of the cable's wrench with respect to its tension. D holds the derivative of c for a
@@ -30,6 +30,7 @@ use crate::lanes::cable::TautCable;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots, Scale};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::{Field, Response, TAUT};
+use cdpr_robot::{CableEnd, TensionLimits};
 
 /// Robots at their wanted pose, with lengths and forces to start from.
 pub(crate) struct ChainStart<S: Simd> {
@@ -40,13 +41,22 @@ pub(crate) struct ChainStart<S: Simd> {
     pub(crate) multipliers: Lanes6<S>,
 }
 
-/// What all robots of a batch share.
+/// The tensions that a cable may have, and the one that is preferred.
 #[derive(Clone, Copy, Debug)]
+pub(crate) struct Choice {
+    /// r [N].
+    pub(crate) reference: f64,
+    /// Least and greatest tension allowed [N].
+    pub(crate) limits: TensionLimits,
+    /// Where the greatest tension is limited.
+    pub(crate) max_at: CableEnd,
+}
+
+/// What all robots of a batch share.
+#[derive(Clone, Debug)]
 pub(crate) struct Shared {
-    /// Least tension allowed [N].
-    pub(crate) least: f64,
-    /// Greatest tension allowed [N].
-    pub(crate) greatest: f64,
+    /// For each cable.
+    pub(crate) choices: Vec<Choice>,
     /// Weight of the payload [N].
     pub(crate) payload: f64,
     /// Force of the load at P [N].
@@ -108,6 +118,24 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome
     Outcome { valid, displacement: three(|k| robots.position[k] - stood[k]), unloaded, loaded }
 }
 
+impl<S: Simd> TautCable<S> {
+    /// Whether a tension at the platform does not exceed the greatest one.
+    ///
+    /// An offset may lead beyond it: what becomes of the set-point then is not decided here.
+    #[inline(always)]
+    fn is_below_greatest(&self, span: &Span<Lanes<S>>, tension: Lanes<S>, choice: &Choice) -> Mask<S> {
+        let greatest = tension.all(choice.limits.max);
+        match choice.max_at {
+            CableEnd::Anchor => tension.less_or_equal(greatest),
+            CableEnd::Exit => {
+                // (C26) of `cdpr_cable`, for a linear cable.
+                let whole = |t: Lanes<S>| t + t * t * self.axial_flexibility * 0.5;
+                whole(tension).less_or_equal(whole(greatest) + self.weight_per_length * span.end[1])
+            }
+        }
+    }
+}
+
 /// A cable at its held ends, equation (L1).
 #[derive(Clone, Copy)]
 struct HeldCable<S: Simd> {
@@ -160,7 +188,7 @@ impl<S: Simd> HeldCable<S> {
     }
 }
 
-/// Least-norm tensions at the wanted pose, equations (L2) and (L3); `offsets` are added to them and become
+/// The tensions nearest to their reference at the wanted pose, equations (L2) and (L3); `offsets` are added to them and become
 /// set-points, towards which cables make a first step. Returns the lanes with taut cables and all tensions
 /// within the limits.
 #[inline(always)]
@@ -172,7 +200,6 @@ fn distribute<S: Simd>(
     shared: &Shared,
 ) -> Mask<S> {
     let zero = robots.weight.all(0.0);
-    let (least, greatest) = (zero.all(shared.least), zero.all(shared.greatest));
     let last_change = zero.all(LAST_DISTRIBUTION);
     let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
     let mut going = zero.less_or_equal(zero);
@@ -182,7 +209,7 @@ fn distribute<S: Simd>(
         linear.clear();
         let mut matrix = [[zero; 6]; 6];
         let mut right = weight;
-        for (span, cable) in spans.iter().zip(&robots.cables) {
+        for ((span, cable), choice) in spans.iter().zip(&robots.cables).zip(&shared.choices) {
             let held = HeldCable::new(cable, span, &cable.response());
             let [ux, uz] = held.along;
             let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(held.along));
@@ -190,7 +217,8 @@ fn distribute<S: Simd>(
             let (pulled, rotated) = (dot(&pull, &multipliers), dot(&rotation, &multipliers));
             let bent = held.tension * held.beta;
             let d_inv = (-(bent * held.beta * pulled) + 1.0).recip();
-            let left = held.tension + pulled + bent * rotated + held.alpha * (rotated - bent * pulled);
+            let beyond = held.tension + -choice.reference;
+            let left = beyond + pulled + bent * rotated + held.alpha * (rotated - bent * pulled);
             let slope = six(|k| pull[k] + rotation[k] * bent);
             for k in 0..6 {
                 let c = slope[k] * d_inv;
@@ -210,14 +238,18 @@ fn distribute<S: Simd>(
         multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
         let last = going & moved.less_or_equal(last_change);
         if last.any() {
-            for (((held, ..), cable), offset) in linear.iter().zip(&mut robots.cables).zip(&mut *offsets) {
+            let cables = linear.iter().zip(&mut robots.cables).zip(&mut *offsets);
+            for ((((held, ..), cable), offset), (span, choice)) in
+                cables.zip(spans.iter().zip(&shared.choices))
+            {
                 let tension = dot(&cable.force, &cable.force).sqrt();
+                let least = zero.all(choice.limits.min);
+                let set_point = (tension + *offset).max(least);
                 let sound = zero.less_or_equal(cable.force[0])
                     & held.slackness.less_or_equal(zero.all(TAUT))
                     & least.less_or_equal(tension)
-                    & tension.less_or_equal(greatest);
+                    & cable.is_below_greatest(span, tension.max(set_point), choice);
                 within = within & (sound | !last);
-                let set_point = (tension + *offset).max(least);
                 *offset = last.select(set_point, *offset);
                 let closed = HeldCable { alpha: zero, gamma: zero, ..*held };
                 closed.change(cable, set_point - tension, last, shared);

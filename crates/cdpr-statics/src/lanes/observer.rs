@@ -8,7 +8,7 @@ use crate::error::StaticsError;
 use crate::inverse::inverse;
 use crate::lanes::algebra::{six, three};
 use crate::lanes::cable::TautCable;
-use crate::lanes::chain::{ChainStart, Shared, observe};
+use crate::lanes::chain::{ChainStart, Choice, Shared, observe};
 use crate::lanes::newton::{LaneResidual, Layout, Robots, Scale};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::deflection;
@@ -109,9 +109,14 @@ impl Nominal {
         let solution = inverse(robot, pose, &Load::none(), None).ok()?;
         let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
+        let reference = robot.reference();
+        let choice = |(i, reference): (usize, &f64)| Choice {
+            reference: *reference,
+            limits: robot.limits(i),
+            max_at: robot.max_at(i),
+        };
         let shared = Shared {
-            least: robot.tension_limits.min,
-            greatest: robot.tension_limits.max,
+            choices: reference.iter().enumerate().map(choice).collect(),
             payload: load.payload * robot.gravity,
             force: load.wrench.force.into(),
             tension: solution.tensions.iter().sum(),

@@ -7,10 +7,10 @@
 use crate::direct::{DirectSolution, Start, direct};
 use crate::equations::FORCES;
 use crate::error::StaticsError;
-use crate::inverse::{HeldPose, InverseSolution, inverse, lengths_for_tensions};
+use crate::inverse::{HeldPose, InverseSolution, inverse, lengths_for_tensions, limits_at};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, rounding_of_closure};
-use cdpr_robot::{Pose, Robot, Vector3, Wrench};
+use cdpr_robot::{Pose, Robot, TensionLimits, Vector3, Wrench};
 use cdpr_tension::offset;
 
 /// The platform without and with a load, on the same cable lengths.
@@ -67,7 +67,9 @@ impl Deflection {
 pub(crate) struct Wound {
     /// The inverse model under the platform's own weight.
     pub(crate) wanted: InverseSolution,
-    /// Its tensions after the offsets [N].
+    /// Limits of the tensions at the platform.
+    pub(crate) limits: Vec<TensionLimits>,
+    /// The tensions after the offsets [N], within the limits.
     pub(crate) set_points: Vec<f64>,
     /// The lengths that give these tensions at the pose [m].
     pub(crate) lengths: Vec<f64>,
@@ -75,8 +77,8 @@ pub(crate) struct Wound {
     pub(crate) held: Equilibrium,
 }
 
-/// Deflection under `load` at the wanted pose `pose`, with `tension_offsets` [N] added to the least-norm
-/// tension set-points.
+/// Deflection under `load` at the wanted pose `pose`, with `tension_offsets` [N] added to the set-points of the
+/// inverse model and these kept within the limits.
 ///
 /// # Errors
 /// Those of the inverse and the direct model.
@@ -92,8 +94,8 @@ pub fn deflection(
 
 /// Unstrained lengths [m] that give offset tension set-points while the platform is held at `pose`.
 ///
-/// The set-points are the least-norm tensions under the platform's own weight plus `tension_offsets` [N].
-/// Once released, the platform stands elsewhere.
+/// The set-points are the tensions of the inverse model under the platform's own weight plus
+/// `tension_offsets` [N], kept within the limits. Once released, the platform stands elsewhere.
 ///
 /// # Errors
 /// Those of the inverse model.
@@ -108,9 +110,10 @@ pub(crate) fn wind(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Resul
         return Err(StaticsError::invalid(format!("tension_offsets[{i}]"), offset, "a finite offset [N]"));
     }
     let wanted = inverse(robot, pose, &Load::none(), None)?;
-    let set_points = offset(&wanted.tensions, tension_offsets, robot.tension_limits);
+    let limits = limits_at(robot, pose)?;
+    let set_points = offset(&wanted.tensions, tension_offsets, &limits);
     let HeldPose { lengths, equilibrium: held } = lengths_for_tensions(robot, pose, &set_points)?;
-    Ok(Wound { wanted, set_points, lengths, held })
+    Ok(Wound { wanted, limits, set_points, lengths, held })
 }
 
 /// Deflection under `load` for given unstrained lengths [m], searched from `start`.

@@ -4,7 +4,7 @@ use crate::direct::{Stability, Start};
 use crate::error::StaticsError;
 use crate::inverse::inverse;
 use crate::problem::DirectProblem;
-use crate::state::Load;
+use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Pose, Robot};
 use nalgebra::Matrix6;
 
@@ -18,6 +18,10 @@ pub struct PoseStiffness {
     pub symmetric_part: Matrix6<f64>,
     /// Eigenvalues and motions of the symmetric part, and whether the equilibrium is stable.
     pub stability: Stability,
+    /// Unstrained lengths [m].
+    pub lengths: Vec<f64>,
+    /// The equilibrium.
+    pub equilibrium: Equilibrium,
 }
 
 /// The Cartesian stiffness at a wanted pose under the platform's weight and `load`, be the equilibrium there
@@ -34,5 +38,7 @@ pub fn stiffness_at(robot: &Robot, pose: &Pose, load: &Load) -> Result<PoseStiff
         matrix: *linearization.stiffness(),
         symmetric_part: linearization.symmetric_stiffness(),
         stability: held.stability,
+        lengths: wanted.lengths.clone(),
+        equilibrium: held.equilibrium,
     })
 }

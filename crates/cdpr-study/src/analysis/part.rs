@@ -46,6 +46,18 @@ impl StudySummary {
         }
     }
 
+    /// What of the nominal robot is above limits or breaking forces, as in `with the payload: cable 3 ...`.
+    pub fn out_of_limits(&self) -> Vec<String> {
+        match self {
+            Self::Sampling(sampling) => sampling.nominal.out_of_limits.clone(),
+            Self::Surface(surface) => surface.out_of_limits.clone(),
+            Self::Poses(PosesSummary { out_of_limits: 0, .. }) => Vec::new(),
+            Self::Poses(PosesSummary { out_of_limits, poses, .. }) => vec![format!(
+                "at {out_of_limits} of {poses} poses: tensions above tension_limits.max or a breaking force"
+            )],
+        }
+    }
+
     /// The row of this part in an overview of the study.
     pub fn overview(&self) -> Overview<'_> {
         match self {

@@ -5,6 +5,7 @@
 use crate::analysis::extremes::Extremes;
 use crate::error::StudyError;
 use crate::model::grid::Grid;
+use crate::model::nominal::too_much;
 use crate::model::observed::rms_mm;
 use crate::model::pose_set::PoseSet;
 use crate::model::study::{Sampling, Study};
@@ -51,7 +52,8 @@ pub struct PoseRow {
     pub dominant_t: Option<f64>,
     /// Mean RMS in the upper half of its range minus that in the lower half [mm].
     pub dominant_effect_mm: Option<f64>,
-    /// Why the nominal robot has no feasible tensions there.
+    /// Why the nominal robot has no feasible tensions there, or which of its tensions are above their limits
+    /// or breaking forces, without or with the payload.
     pub reason: Option<String>,
 }
 
@@ -76,6 +78,9 @@ pub struct PosesSummary {
     pub mean_mm: Option<Extremes>,
     /// Its standard deviation [mm].
     pub std_mm: Option<Extremes>,
+    /// Number of poses at which tensions of the nominal robot are above their limits or breaking forces.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub out_of_limits: usize,
     /// Number of poses at which each parameter has the largest t-Student index.
     pub dominant: BTreeMap<String, usize>,
 }
@@ -123,6 +128,7 @@ pub fn observe_poses(
         failed: BTreeMap::new(),
         mean_mm: None,
         std_mm: None,
+        out_of_limits: 0,
         dominant: BTreeMap::new(),
     };
     let one = |number: usize| {
@@ -163,10 +169,16 @@ pub fn observe_poses(
     Ok(PosesResult { summary, rows })
 }
 
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
 impl PosesSummary {
     fn add(&mut self, row: &PoseRow, failed: BTreeMap<String, usize>) {
         *self.status.entry(row.status.clone()).or_default() += 1;
         self.observations += row.observations;
+        self.out_of_limits += usize::from(row.status == HELD && row.reason.is_some());
         for (kind, count) in failed {
             *self.failed.entry(kind).or_default() += count;
         }
@@ -229,6 +241,8 @@ impl PoseRow {
             dominant: dominant.as_ref().map(|effect| effect.input.clone()),
             dominant_t: dominant.as_ref().map(|effect| effect.student),
             dominant_effect_mm: dominant.as_ref().map(|effect| effect.effect),
+            reason: Some(too_much(sampling.robot, &sampling.nominal).join("; "))
+                .filter(|text| !text.is_empty()),
             ..Self::at(sampling.name.clone(), &sampling.pose)
         }
     }

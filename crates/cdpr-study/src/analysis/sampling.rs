@@ -3,6 +3,7 @@
 use crate::analysis::sensitivity::{SensitivitySummary, measure};
 use crate::error::StudyError;
 use crate::model::designs::replicate_name;
+use crate::model::nominal::too_much;
 use crate::model::study::Sampling;
 use crate::observe::observation::{FITTED, KEPT, Session, Tally, observe_tally};
 use cdpr_robot::Robot;
@@ -97,6 +98,9 @@ pub struct NominalSummary {
     pub unloaded_tensions: Vec<f64>,
     /// Tension of every cable with the payload [N].
     pub loaded_tensions: Vec<f64>,
+    /// Its tensions above their limits or breaking forces, without or with the payload.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub out_of_limits: Vec<String>,
 }
 
 /// A law fitted to the RMS [mm].
@@ -138,6 +142,7 @@ impl NominalSummary {
             small_displacement_rms_mm: small,
             unloaded_tensions: nominal.unloaded.equilibrium.tensions(),
             loaded_tensions: nominal.loaded.equilibrium.tensions(),
+            out_of_limits: too_much(robot, nominal),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Surfaces: the deflection over a grid of two parameters.
 
+use crate::model::nominal::too_much;
 use crate::model::observed::{count_failed, rms_mm};
 use crate::model::study::{Surface, SurfaceAxis};
 use cdpr_robot::Parameter;
@@ -37,6 +38,9 @@ pub struct SurfaceSummary {
     pub parameters: [String; 2],
     /// Extremes of the RMS and its nominal value [mm].
     pub rms_mm: SurfaceRms,
+    /// Tensions of the nominal robot above their limits or breaking forces, without or with the payload.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub out_of_limits: Vec<String>,
 }
 
 /// Extremes of the RMS over a surface [mm]; absent where no point succeeded.
@@ -103,6 +107,7 @@ impl SurfaceSummary {
                 max: succeeded().reduce(f64::max),
                 nominal: 1e3 * surface.nominal.rms(),
             },
+            out_of_limits: too_much(surface.robot, &surface.nominal),
         }
     }
 }

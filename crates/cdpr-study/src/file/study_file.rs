@@ -4,6 +4,7 @@
 use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
 use crate::file::value::Value;
+use cdpr_robot::TensionReference;
 use cdpr_sensitivity::{Expansion, Law, SobolIndices, Steps, Truncation};
 use indexmap::IndexMap;
 use schemars::JsonSchema;
@@ -28,6 +29,10 @@ pub struct StudyFile {
     pub robot: String,
     /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
     pub payload: f64,
+    /// Tensions that those of the inverse model come as near to as they can, in place of the robot's: one for
+    /// all cables [N], a list with one for each cable, or "mid", the middle of the limits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension_reference: Option<TensionReference>,
     /// Seed of all random numbers (replicates, bootstrap): the same seed gives the same numbers.
     pub seed: u64,
     /// Number of scrambled replicates of each sampling, which give the intervals of signed effects; 0 or at

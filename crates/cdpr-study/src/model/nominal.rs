@@ -1,7 +1,7 @@
 //! The nominal robot at the poses of a study, solved once for each.
 
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{Deflection, Load, StaticsError, deflection};
+use cdpr_statics::{Deflection, DirectSolution, Load, OutOfLimits, StaticsError, deflection, out_of_limits};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Poses that are kept: those of single samplings and of surfaces, and the first ones of a sampling at
@@ -46,4 +46,14 @@ impl Nominals {
         }
         Ok(found)
     }
+}
+
+/// The tensions of a deflection above their limits or breaking forces, in words.
+pub(crate) fn too_much(robot: &Robot, Deflection { lengths, unloaded, loaded }: &Deflection) -> Vec<String> {
+    let words = |when: &str, at: &DirectSolution| {
+        let found = out_of_limits(robot, lengths, &[&at.equilibrium]).into_iter();
+        let found = found.filter(OutOfLimits::is_too_much);
+        found.map(|one| format!("{when} the payload: {one}")).collect::<Vec<_>>()
+    };
+    [words("without", unloaded), words("with", loaded)].concat()
 }

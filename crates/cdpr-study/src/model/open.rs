@@ -10,7 +10,7 @@ use crate::model::nominal::Nominals;
 use crate::model::prepare::FEWEST_OBSERVATIONS;
 use crate::model::study::Study;
 use crate::names::BLOCKS_NAME;
-use cdpr_robot::from_json;
+use cdpr_robot::{RobotError, TensionReference, from_json};
 use std::path::Path;
 
 /// Designs of a sampling besides the first: intervals of a quantile need no more.
@@ -59,8 +59,22 @@ impl Study {
             other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
         })?;
         let robot_path = path.parent().unwrap_or(Path::new(".")).join(&file.robot);
-        let robot = open_robot(&robot_path)?;
+        let mut robot = open_robot(&robot_path)?;
+        if let Some(reference) = &file.tension_reference {
+            robot.tension_reference = Some(reference.clone());
+        }
         Ok(Self { path: path.to_owned(), file, robot, nominals: Nominals::default() })
+    }
+
+    /// Gives the inverse model other tensions to prefer.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] for a negative tension or another number of them than of cables;
+    /// [`StudyError::Nominal`] for a pose that the nominal robot does not hold.
+    pub fn set_tension_reference(&mut self, reference: TensionReference) -> Result<(), StudyError> {
+        self.robot.tension_reference = Some(reference.clone());
+        self.file.tension_reference = Some(reference);
+        self.validate()
     }
 
     /// Gives every sampling this number of observations.
@@ -99,6 +113,11 @@ impl Study {
         }
         if !(file.payload.is_finite() && file.payload > 0.0) {
             return Err(self.invalid("payload", file.payload, "a finite mass above zero [kg]"));
+        }
+        if file.tension_reference.is_some()
+            && let Err(RobotError::Invalid { field, value, expected }) = self.robot.validate()
+        {
+            return Err(self.invalid(&field, value, &expected));
         }
         if file.replicates == 1 || file.replicates > MOST_REPLICATES {
             let expected = format!("none (0), or 2 to {MOST_REPLICATES} for an interval");

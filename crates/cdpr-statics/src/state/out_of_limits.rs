@@ -1,0 +1,100 @@
+//! Tensions that a cable is not to have: what is named about an answer, whichever model gave it.
+
+use crate::state::equilibrium::Equilibrium;
+use cdpr_robot::{CableEnd, Robot, TensionLimits, decimal};
+use std::fmt;
+
+/// A tension outside of what a cable is to bear, or can bear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutOfLimits {
+    /// Index of the cable, from 0.
+    pub cable: usize,
+    /// The end at which it has this tension.
+    pub end: CableEnd,
+    /// The tension [N].
+    pub tension: f64,
+    /// The limit that it passes.
+    pub limit: Limit,
+    /// The limit [N].
+    pub value: f64,
+}
+
+/// A limit of a tension, the most serious one first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Limit {
+    /// The breaking force of the cable.
+    BreakingForce,
+    /// Its greatest tension, limited at this end.
+    Max,
+    /// Its greatest tension, which is limited at the other end.
+    MaxElsewhere,
+    /// Its least tension.
+    Min,
+}
+
+/// Share by which rounding may put a tension beyond a limit on which it rests.
+const ON_LIMIT: f64 = 1e-9;
+
+/// Strain that rounding of the length leaves open.
+const ROUNDED_STRAIN: f64 = 1e-12;
+
+impl OutOfLimits {
+    /// Whether the cable breaks or is strained beyond what is allowed; a slack cable is worth knowing only.
+    pub fn is_too_much(&self) -> bool {
+        matches!(self.limit, Limit::BreakingForce | Limit::Max)
+    }
+
+    /// The one of a cable: beyond the most serious limit of all, at the anchor point if it is passed there, and
+    /// farthest beyond it.
+    fn of_cable(robot: &Robot, cable: usize, tensions: impl Iterator<Item = [f64; 2]>) -> Option<Self> {
+        let TensionLimits { min, max } = robot.limits(cable);
+        let (breaking, max_at) = (robot.cables[cable].properties.breaking_force, robot.max_at(cable));
+        let rounding = ROUNDED_STRAIN * robot.cable(cable).axial_stiffness;
+        let mut worst: Option<Self> = None;
+        for (end, tension) in tensions.flat_map(|[t, exit]| [(CableEnd::Anchor, t), (CableEnd::Exit, exit)]) {
+            let above = |limit: f64| tension > limit * (1.0 + ON_LIMIT) + rounding;
+            let (limit, value) = match breaking {
+                Some(force) if above(force) => (Limit::BreakingForce, force),
+                _ if above(max) && end == max_at => (Limit::Max, max),
+                _ if above(max) => (Limit::MaxElsewhere, max),
+                _ if end == CableEnd::Anchor && tension < min * (1.0 - ON_LIMIT) - rounding => {
+                    (Limit::Min, min)
+                }
+                _ => continue,
+            };
+            let rank =
+                |found: &Self| (found.limit, !found.end.is_anchor(), -(found.tension - found.value).abs());
+            let found = Self { cable, end, tension, limit, value };
+            if worst.is_none_or(|worst| rank(&found) < rank(&worst)) {
+                worst = Some(found);
+            }
+        }
+        worst
+    }
+}
+
+/// The tensions of a robot with these unstrained lengths [m] that are out of limits in any of the equilibria, at
+/// either end: at most one for each cable, that beyond the most serious limit.
+pub fn out_of_limits(robot: &Robot, lengths: &[f64], equilibria: &[&Equilibrium]) -> Vec<OutOfLimits> {
+    let ends: Vec<_> =
+        equilibria.iter().map(|at| (at.tensions(), at.exit_tensions(robot, lengths))).collect();
+    let of_cable = |cable| {
+        OutOfLimits::of_cable(robot, cable, ends.iter().map(|(anchor, exit)| [anchor[cable], exit[cable]]))
+    };
+    (0..lengths.len()).filter_map(of_cable).collect()
+}
+
+impl fmt::Display for OutOfLimits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { cable, end, tension, limit, value } = self;
+        let end = if end.is_anchor() { "" } else { " at the exit point" };
+        let tension = decimal(*tension, 3);
+        write!(f, "cable {}: its tension of {tension} N{end} is ", cable + 1)?;
+        match limit {
+            Limit::BreakingForce => write!(f, "above its breaking force, {value} N"),
+            Limit::Max => write!(f, "above tension_limits.max, {value} N"),
+            Limit::MaxElsewhere => write!(f, "above tension_limits.max, {value} N, of its other end"),
+            Limit::Min => write!(f, "below tension_limits.min, {value} N"),
+        }
+    }
+}
