@@ -98,7 +98,7 @@ impl Robot {
             name,
             source: None,
             gravity,
-            platform: Platform { mass, center_of_mass },
+            platform: Platform::new(mass, center_of_mass),
             tension_limits,
             max_at: match max_at {
                 "anchor" => CableEnd::Anchor,

@@ -6,7 +6,7 @@ use crate::law::LawSegment;
 use crate::limits::{CableEnd, OwnLimits, TensionLimits, TensionReference};
 use crate::robot::{CableProperties, Platform, Pulley, Robot, RobotCable};
 use cdpr_cable::{CableError, PiecewiseLaw};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +57,10 @@ struct PlatformEntry {
     mass: f64,
     /// Centre of mass in the platform frame [m].
     center_of_mass: [f64; 3],
+    /// Inertia about the centre of mass in the platform frame, three rows of three [kg m²]; for natural
+    /// frequencies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    inertia: Option<[[f64; 3]; 3]>,
 }
 
 #[derive(Serialize, Deserialize, JsonSchema, Clone)]
@@ -174,6 +178,7 @@ impl Robot {
             platform: PlatformEntry {
                 mass: self.platform.mass,
                 center_of_mass: self.platform.center_of_mass.into(),
+                inertia: self.platform.inertia.map(|inertia| inertia.transpose().into()),
             },
             cable: entries.first().filter(|_| shared).cloned(),
             pulley: None,
@@ -250,6 +255,7 @@ impl RobotFile {
             platform: Platform {
                 mass: self.platform.mass,
                 center_of_mass: Vector3::from(self.platform.center_of_mass),
+                inertia: self.platform.inertia.map(|rows| Matrix3::from(rows).transpose()),
             },
             tension_limits: TensionLimits { min: self.tension_limits.min, max: self.tension_limits.max },
             max_at: self.tension_limits.max_at,

@@ -13,7 +13,7 @@ use crate::limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionR
 use crate::pose::Pose;
 use crate::wrench::Wrench;
 use cdpr_cable::{Cable, ElasticLaw, Entry, Guide, PiecewiseLaw};
-use nalgebra::{Matrix6xX, Vector3};
+use nalgebra::{Matrix3, Matrix6xX, Vector3};
 
 /// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +43,45 @@ pub struct Platform {
     pub mass: f64,
     /// Centre of mass G in the platform frame [m].
     pub center_of_mass: Vector3<f64>,
+    /// Inertia about the centre of mass in the platform frame [kg m²], if known: symmetric, positive definite.
+    /// Only natural frequencies depend on it.
+    pub inertia: Option<Matrix3<f64>>,
+}
+
+impl Platform {
+    /// A platform of this mass [kg] and centre of mass [m], whose inertia is not known.
+    pub fn new(mass: f64, center_of_mass: Vector3<f64>) -> Self {
+        Self { mass, center_of_mass, inertia: None }
+    }
+
+    fn validate(&self) -> Result<(), RobotError> {
+        let Self { mass, center_of_mass, inertia } = self;
+        require(|| "platform.mass".to_owned(), *mass, *mass > 0.0, "a finite, positive mass [kg]")?;
+        finite(|| "platform.center_of_mass".to_owned(), center_of_mass)?;
+        let Some(inertia) = inertia else { return Ok(()) };
+        let refused = |value: String, expected: &str| {
+            Err(RobotError::invalid("platform.inertia".to_owned(), value, expected.to_owned()))
+        };
+        let rows: Vec<[f64; 3]> = inertia.row_iter().map(|row| [row[0], row[1], row[2]]).collect();
+        if !inertia.iter().all(|entry| entry.is_finite()) {
+            return refused(format!("{rows:?}"), "finite numbers [kg m²]");
+        }
+        if (inertia - inertia.transpose()).norm() > 1e-9 * inertia.norm() {
+            return refused(format!("{rows:?}"), "a symmetric matrix [kg m²]");
+        }
+        let [a, b, c]: [f64; 3] = inertia.symmetric_eigenvalues().into();
+        let least = a.min(b).min(c);
+        // No body has a moment of inertia above the sum of the two others; products with the opposite sign
+        // and rounded figures come close to it.
+        let greatest = a.max(b).max(c);
+        if !(least > 0.0 && greatest <= (a + b + c - greatest) * (1.0 + 1e-3)) {
+            return refused(
+                format!("one with the principal moments {a}, {b}, {c} kg m²"),
+                "positive principal moments, none above the sum of the others, as every body has them",
+            );
+        }
+        Ok(())
+    }
 }
 
 /// One cable of the robot and the two points it joins.
@@ -241,9 +280,7 @@ impl Robot {
     pub fn validate(&self) -> Result<(), RobotError> {
         let named = |name: &'static str| move || name.to_owned();
         require(named("gravity"), self.gravity, self.gravity >= 0.0, "a finite number, zero or more [m/s²]")?;
-        let Platform { mass, center_of_mass } = &self.platform;
-        require(named("platform.mass"), *mass, *mass > 0.0, "a finite, positive mass [kg]")?;
-        finite(named("platform.center_of_mass"), center_of_mass)?;
+        self.platform.validate()?;
         let TensionLimits { min, max } = self.tension_limits;
         require(named("tension_limits.min"), min, min > 0.0, "a finite, positive tension [N]")?;
         require(named("tension_limits.max"), max, max > min, "a finite tension above tension_limits.min")?;

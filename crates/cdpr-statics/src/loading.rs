@@ -3,10 +3,12 @@
 mod deflection;
 mod follow;
 mod hysteresis;
+mod modes;
 mod stiffness;
 
 pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections, wound_lengths};
 pub(crate) use deflection::{Wound, wind};
 pub use follow::follow;
 pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+pub use modes::{NaturalMode, modes_at};
 pub use stiffness::{PoseStiffness, stiffness_at};

@@ -67,7 +67,7 @@ fn case(seed: u64) -> Case {
         name: format!("random robot {seed}"),
         source: None,
         gravity: 9.81,
-        platform: Platform { mass, center_of_mass },
+        platform: Platform::new(mass, center_of_mass),
         tension_limits: TensionLimits { min: 1.0, max: 1e9 },
         max_at: CableEnd::Anchor,
         tension_reference: None,

@@ -325,7 +325,7 @@ fn random_case(seed: u64) -> Case {
     let mass = 10f64.powf(rng.random_range(1.0..2.7));
     let robot = Robot {
         name: format!("random robot {seed}"),
-        platform: Platform { mass, center_of_mass: Vector3::new(0.02, -0.01, -0.05) },
+        platform: Platform::new(mass, Vector3::new(0.02, -0.01, -0.05)),
         tension_limits: TensionLimits { min: 10f64.powf(rng.random_range(-1.0..1.5)), max: 1e5 },
         cables,
         ..caroca()

@@ -59,7 +59,7 @@ pub(crate) fn drawn(seed: u64) -> Option<Drawn> {
         name: "drawn".to_owned(),
         source: None,
         gravity,
-        platform: Platform { mass, center_of_mass: in_cube(rng) * platform },
+        platform: Platform::new(mass, in_cube(rng) * platform),
         tension_limits: limits,
         max_at: CableEnd::Anchor,
         tension_reference: None,

@@ -28,7 +28,7 @@ pub(crate) fn robot(case: &Value) -> Robot {
         name: case["kind"].as_str().unwrap().to_owned(),
         source: None,
         gravity,
-        platform: Platform { mass: number(&case["mass"]), center_of_mass: vector(&case["center_of_mass"]) },
+        platform: Platform::new(number(&case["mass"]), vector(&case["center_of_mass"])),
         tension_limits: TensionLimits { min: 1.0, max: 1e6 },
         max_at: CableEnd::Anchor,
         tension_reference: None,

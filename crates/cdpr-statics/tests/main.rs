@@ -12,6 +12,7 @@ mod equilibria;
 mod hysteresis;
 mod inverse;
 mod models;
+mod modes;
 mod observer;
 mod one_sided;
 mod paths;

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 fn drum(n: usize, jitter: &[f64], mass: f64) -> Robot {
     let mut jitter = jitter.iter().copied();
     Robot {
-        platform: Platform { mass, center_of_mass: Vector3::new(0.02, -0.01, -0.05) },
+        platform: Platform::new(mass, Vector3::new(0.02, -0.01, -0.05)),
         tension_limits: TensionLimits { min: 1.0, max: 1e5 },
         cables: ring(n, || jitter.next().unwrap()),
         ..caroca()

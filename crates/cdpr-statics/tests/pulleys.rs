@@ -12,11 +12,13 @@ use nalgebra::Matrix6;
 use serde_json::Value;
 
 /// A case of the file as a robot; `None` for axes or a gravity that are not vertical.
-fn robot(case: &Value) -> Option<Robot> {
+pub(crate) fn robot(case: &Value) -> Option<Robot> {
     let gravity = vector(&case["gravity"]);
     let vertical = |v: &Vector3<f64>| v.x == 0.0 && v.y == 0.0;
     let pulleys = case["pulleys"].as_array().unwrap();
-    if !vertical(&gravity) || pulleys.iter().any(|pulley| !vertical(&vector(&pulley["axis"]))) {
+    // Without a radius the axis means nothing.
+    let tilted = |pulley: &Value| number(&pulley["radius"]) > 0.0 && !vertical(&vector(&pulley["axis"]));
+    if !vertical(&gravity) || pulleys.iter().any(tilted) {
         return None;
     }
     let cables = pulleys.iter().enumerate().map(|(i, pulley)| {
@@ -24,7 +26,8 @@ fn robot(case: &Value) -> Option<Robot> {
         let properties = CableProperties::linear(1.0, density, number(&case["axial_stiffness"][i]));
         let anchor = vector(&case["anchor_points"][i]);
         RobotCable {
-            pulley: Some(Pulley { radius: number(&pulley["radius"]), axis: vector(&pulley["axis"]) }),
+            pulley: Some(Pulley { radius: number(&pulley["radius"]), axis: vector(&pulley["axis"]) })
+                .filter(|pulley| pulley.radius > 0.0),
             lead: number(&pulley["lead"]),
             ..RobotCable::between(vector(&pulley["entry_point"]), anchor, properties)
         }
@@ -33,7 +36,7 @@ fn robot(case: &Value) -> Option<Robot> {
         name: case["kind"].as_str().unwrap().to_owned(),
         source: None,
         gravity: gravity.norm(),
-        platform: Platform { mass: number(&case["mass"]), center_of_mass: vector(&case["center_of_mass"]) },
+        platform: Platform::new(number(&case["mass"]), vector(&case["center_of_mass"])),
         tension_limits: TensionLimits { min: 1e-3, max: 1e7 },
         max_at: CableEnd::Anchor,
         tension_reference: None,

@@ -21,7 +21,7 @@ fn tripod(radius: f64, height: f64, mass: f64) -> Robot {
         )
     };
     Robot {
-        platform: Platform { mass, center_of_mass: Vector3::new(0.0, 0.0, height) },
+        platform: Platform::new(mass, Vector3::new(0.0, 0.0, height)),
         tension_limits: TensionLimits { min: 1.0, max: 1e5 },
         cables: (0..6).map(cable).collect(),
         ..caroca()

@@ -29,6 +29,11 @@ pub(crate) struct Balance {
 }
 
 impl Balance {
+    /// No force and no stiffness.
+    pub(crate) fn nothing() -> Self {
+        Self { gradient: Vector6::zeros(), hessian: Matrix6::zeros() }
+    }
+
     /// Weight and load alone.
     pub(crate) fn of_load(problem: &DirectProblem, pose: &Pose) -> Self {
         let total = problem.load.total(problem.robot, pose);

@@ -1,0 +1,138 @@
+//! Natural frequencies of the platform on its cables.
+//!
+//! With the lengths held, the stiffness K and the mass matrix M about P give the small free motions
+//! `(dp, dφ) = v sin 2πft` of the platform,
+//!
+//! ```text
+//! K v = (2π f)² M v,      M = [ m 1       -m [R c]  ]      J_P = R J_c Rᵀ - m [R c]²             (V1)
+//!                             [ m [R c]    J_P      ]
+//! ```
+//!
+//! with the inertia J_c about the centre of mass, in the platform frame. The cables have no mass in M. Their
+//! stiffness, and that of the weight at its lever, which acts as on a pendulum, share the energy of a motion:
+//!
+//! ```text
+//! vᵀ K v = sum vᵀ K_i v + vᵀ K_w v                                                               (V2)
+//! ```
+//!
+//! K is symmetric: [`crate::Linearization::stiffness`].
+
+use crate::direct::Start;
+use crate::equations::{Balance, SpannedCable};
+use crate::error::StaticsError;
+use crate::inverse::inverse;
+use crate::problem::DirectProblem;
+use crate::state::{Equilibrium, Load};
+use cdpr_robot::{Matrix3, Pose, Robot, Vector3};
+use nalgebra::Matrix6;
+use std::f64::consts::TAU;
+
+/// A natural motion of the platform, of unit mass: `vᵀ M v = 1`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NaturalMode {
+    /// Natural frequency [Hz].
+    pub frequency: f64,
+    /// Translation of P [1/√kg].
+    pub translation: Vector3<f64>,
+    /// Rotation vector [rad/(m √kg)], in the base frame.
+    pub rotation: Vector3<f64>,
+    /// Share of each cable in the energy of the motion, (V2).
+    pub cables: Vec<f64>,
+    /// Share of the weight of platform and payload, (V2); all shares together are one.
+    pub weight: f64,
+}
+
+impl DirectProblem<'_> {
+    /// The six natural motions of the platform about a stable equilibrium of its own, the slowest first.
+    ///
+    /// A payload moves as a point at the centre of mass. A motion that nothing resists has the frequency zero
+    /// and no shares.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] for a robot without `platform.inertia`, an equilibrium that is not finite or
+    /// has not one force for each cable, and one that is not stable.
+    pub fn modes(&self, equilibrium: &Equilibrium) -> Result<[NaturalMode; 6], StaticsError> {
+        self.check("equilibrium", equilibrium)?;
+        let mass = self.mass_matrix(&equilibrium.pose)?;
+        let weight = Balance::of_load(self, &equilibrium.pose).symmetric_hessian();
+        let cables: Vec<_> = equilibrium
+            .cable_forces
+            .iter()
+            .enumerate()
+            .map(|(i, force)| {
+                let cable = SpannedCable::of(self.robot, &equilibrium.pose, i, &self.catenary(i, *force));
+                let mut own = Balance::nothing();
+                if let Some(linearized) = cable.linearized() {
+                    let stiffness = linearized.stiffness_in_space();
+                    own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), stiffness);
+                }
+                own.symmetric_hessian()
+            })
+            .collect();
+        let stiffness = cables.iter().fold(weight, |sum, cable| sum + cable);
+        let not_positive = || {
+            let expected = "an inertia that is positive definite [kg m²]";
+            StaticsError::invalid("platform.inertia".to_owned(), "not positive definite", expected)
+        };
+        let factor = mass.cholesky().ok_or_else(not_positive)?.l();
+        let inverse = factor.try_inverse().ok_or_else(not_positive)?;
+        let eigen = (inverse * stiffness * inverse.transpose()).symmetric_eigen();
+        let mut order = [0, 1, 2, 3, 4, 5];
+        order.sort_by(|one, other| eigen.eigenvalues[*one].total_cmp(&eigen.eigenvalues[*other]));
+        let rounding = ROUNDING * eigen.eigenvalues.amax();
+        if eigen.eigenvalues.min() < -rounding {
+            let value = format!("unstable ({:.3e} 1/s²)", eigen.eigenvalues.min());
+            let expected = "a stable equilibrium: others have no natural frequencies";
+            return Err(StaticsError::invalid("equilibrium".to_owned(), value, expected));
+        }
+        Ok(order.map(|k| {
+            let square = eigen.eigenvalues[k].max(0.0);
+            let shape = inverse.transpose() * eigen.eigenvectors.column(k);
+            // Of the two signs, the one that makes the largest component positive.
+            let shape = shape * shape[shape.iamax()].signum();
+            let share = |part: &Matrix6<f64>| {
+                if square > rounding { (shape.transpose() * part * shape)[0] / square } else { 0.0 }
+            };
+            NaturalMode {
+                frequency: square.sqrt() / TAU,
+                translation: shape.fixed_rows::<3>(0).into(),
+                rotation: shape.fixed_rows::<3>(3).into(),
+                cables: cables.iter().map(share).collect(),
+                weight: share(&weight),
+            }
+        }))
+    }
+
+    /// M of (V1) [kg, kg m, kg m²].
+    fn mass_matrix(&self, pose: &Pose) -> Result<Matrix6<f64>, StaticsError> {
+        let platform = &self.robot.platform;
+        let inertia = platform.inertia.ok_or_else(|| {
+            let expected = "the inertia about the centre of mass, 3 x 3 in the platform frame [kg m²]";
+            StaticsError::invalid("platform.inertia".to_owned(), "missing", expected)
+        })?;
+        let mass = platform.mass + self.load.payload;
+        let lever = (pose.rotation * platform.center_of_mass).cross_matrix();
+        let rotation = pose.rotation.matrix();
+        let about_p: Matrix3<f64> = rotation * inertia * rotation.transpose() - mass * lever * lever;
+        let mut matrix = Matrix6::zeros();
+        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&(mass * Matrix3::identity()));
+        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-mass * lever));
+        matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&(mass * lever));
+        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&about_p);
+        Ok(matrix)
+    }
+}
+
+/// Squares of frequencies below this share of the greatest one are rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// The natural motions of a robot at a wanted pose under the platform's weight and `load`.
+///
+/// # Errors
+/// Those of [`inverse`], of [`DirectProblem::direct_any`] and of [`DirectProblem::modes`].
+pub fn modes_at(robot: &Robot, pose: &Pose, load: &Load) -> Result<[NaturalMode; 6], StaticsError> {
+    let wanted = inverse(robot, pose, load, None)?;
+    let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
+    let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
+    problem.modes(&held.equilibrium)
+}

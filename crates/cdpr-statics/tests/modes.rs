@@ -1,0 +1,81 @@
+//! Natural frequencies against arithmetic of 20 digits (`data/reference/README.md`), and their invariants.
+
+use crate::common::{caroca, cogiro};
+use crate::equilibria::{number, vector};
+use crate::pulleys::{led, robot};
+use crate::reference::rotation;
+use cdpr_robot::{Matrix3, Platform, Pose, Robot, Vector3, Wrench};
+use cdpr_statics::{DirectProblem, Load, Start, modes_at};
+use nalgebra::Matrix6;
+use serde_json::Value;
+
+fn with_inertia(robot: Robot, inertia: Matrix3<f64>) -> Robot {
+    let platform = Platform { inertia: Some(inertia), ..robot.platform };
+    Robot { platform, ..robot }
+}
+
+#[test]
+fn frequencies_and_shapes_match_arithmetic_of_20_digits() {
+    let file: Value = serde_json::from_str(include_str!("../../../data/reference/modes.json")).unwrap();
+    let mut compared = 0;
+    for case in file["cases"].as_array().unwrap() {
+        // Robots with few cables and tilted axes are not modelled.
+        if case["pulleys"].as_array().unwrap().len() < 6 {
+            continue;
+        }
+        let inertia = Matrix3::from_fn(|i, j| number(&case["inertia_about_com"][i][j]));
+        let robot = with_inertia(robot(case).unwrap(), inertia);
+        robot.validate().unwrap();
+        let lengths: Vec<f64> = case["unstrained_lengths"].as_array().unwrap().iter().map(number).collect();
+        let load = Load::wrench(Wrench { force: vector(&case["force"]), moment: vector(&case["moment"]) });
+        let start =
+            Pose { position: vector(&case["start_position"]), rotation: rotation(&case["start_rotation"]) };
+        let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
+        let found = problem.direct(Start::Pose(&start)).unwrap();
+        let modes = problem.modes(&found.equilibrium).unwrap();
+        let mass = Matrix6::from_fn(|i, j| number(&case["mass_matrix"][i][j]));
+        for (k, mode) in modes.iter().enumerate() {
+            let expected = number(&case["frequencies_hz"][k]);
+            assert!((mode.frequency / expected - 1.0).abs() < 1e-9, "{k}: {} {expected}", mode.frequency);
+            let shape = nalgebra::Vector6::from_iterator(
+                mode.translation.iter().chain(mode.rotation.iter()).copied(),
+            );
+            let expected = nalgebra::Vector6::from_fn(|i, _| number(&case["mode_shapes"][k][i]));
+            // Up to the sign, and next to a neighbour of nearly the same frequency to its distance.
+            let off = (shape - expected).norm().min((shape + expected).norm());
+            assert!(off < 1e-7 * expected.norm(), "{} {k}: {off:e}", case["kind"]);
+            assert!(((shape.transpose() * mass * shape)[0] - 1.0).abs() < 1e-12);
+            let shares = mode.cables.iter().sum::<f64>() + mode.weight;
+            assert!((shares - 1.0).abs() < 1e-9, "{shares}");
+        }
+        compared += 1;
+    }
+    assert_eq!(compared, 2);
+}
+
+#[test]
+fn a_heavier_platform_moves_more_slowly_and_a_payload_is_mass_at_its_centre() {
+    let inertia = Matrix3::from_diagonal(&Vector3::new(12.0, 10.0, 8.0));
+    for robot in [caroca(), cogiro(), led(caroca(), 0.045, 3.0)] {
+        let robot = with_inertia(robot, inertia);
+        let pose = Pose::at(0.5, -0.3, 2.0);
+        let modes = |robot: &Robot, load: &Load| modes_at(robot, &pose, load).unwrap();
+        let light = modes(&robot, &Load::none());
+        assert!(light.windows(2).all(|pair| pair[0].frequency <= pair[1].frequency));
+        let loaded = modes(&robot, &Load::payload(20.0));
+        let heavier = Platform { mass: robot.platform.mass + 20.0, ..robot.platform };
+        let heavier = modes(&Robot { platform: heavier, ..robot.clone() }, &Load::none());
+        for (one, other) in loaded.iter().zip(&heavier) {
+            assert!((one.frequency / other.frequency - 1.0).abs() < 1e-9);
+        }
+        // Twice all masses in the mass matrix alone, by an inertia and a mass without weight.
+        let slow = with_inertia(robot.clone(), 4.0 * inertia);
+        assert!(modes(&slow, &Load::none())[5].frequency < light[5].frequency);
+    }
+}
+
+#[test]
+fn a_robot_without_inertia_and_an_unstable_equilibrium_have_no_frequencies() {
+    let error = modes_at(&caroca(), &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap_err().to_string();
+    assert!(error.contains("platform.inertia is missing"), "{error}");
+}
