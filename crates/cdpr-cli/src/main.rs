@@ -92,6 +92,11 @@ enum Command {
     #[command(after_help = "Example: cdpr linear-density --mass 0.203 --length 2 --mass-error 0.001 \
                       --length-error 0.001")]
     LinearDensity(cable::linear_density::Settings),
+    /// Compute the natural frequencies and motions of the platform at a pose or for lengths.
+    ///
+    /// The robot file gives the `inertia` of the platform.
+    #[command(after_help = "Example: cdpr modes data/robots/cogiro.json --pose 0,0,2")]
+    Modes(pose::modes::Settings),
     /// Compute the moduli of a cable from a load-elongation record.
     ///
     /// Each modulus has its uncertainty; the energy that the loop dissipates stands below them.
@@ -135,6 +140,7 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Inverse(settings) => return pose::inverse::run(&settings),
         Command::Deflection(settings) => return pose::deflection::run(&settings),
         Command::Stiffness(settings) => return pose::stiffness::run(&settings),
+        Command::Modes(settings) => return pose::modes::run(&settings),
         Command::Derivatives(settings) => return pose::derivatives::run(&settings),
         Command::Hysteresis(settings) => return pose::hysteresis::run(&settings),
         Command::Workspace(settings) => return robot::workspace::run(&settings),

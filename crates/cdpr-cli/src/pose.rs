@@ -6,4 +6,5 @@ pub(crate) mod derivatives;
 pub(crate) mod direct;
 pub(crate) mod hysteresis;
 pub(crate) mod inverse;
+pub(crate) mod modes;
 pub(crate) mod stiffness;

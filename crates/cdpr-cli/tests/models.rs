@@ -5,7 +5,7 @@
 use crate::common::{answered, cdpr, data_path, data_text, text};
 use crate::equilibria::{self, number, vector};
 use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3, Wrench};
-use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse};
+use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse, modes_at};
 use serde_json::{Value, json};
 use std::process::{Command, Stdio};
 use tempfile::TempDir;
@@ -287,4 +287,24 @@ fn every_shell_gets_completions_of_every_command() {
             assert!(script.contains(word), "{shell}: {word}");
         }
     }
+}
+
+#[test]
+fn natural_frequencies_are_those_of_the_library_by_pose_and_by_lengths() {
+    let file = data_path("robots/cogiro.json");
+    let robot = Robot::from_json(&data_text("robots/cogiro.json")).unwrap();
+    let pose = Pose::at(0.5, 0.2, 2.0);
+    let expected = modes_at(&robot, &pose, &Load::none()).unwrap().map(|mode| mode.frequency);
+    let at_pose = answer(&["modes", &file, "--pose", "0.5,0.2,2"]);
+    assert_eq!(numbers(&at_pose["frequencies_hz"]), expected);
+    let lengths = joined(&inverse(&robot, &pose, &Load::none(), None).unwrap().lengths);
+    let by_lengths = answer(&["modes", &file, "--lengths", &lengths, "--start", "0,0,2.5"]);
+    for (one, other) in numbers(&by_lengths["frequencies_hz"]).into_iter().zip(expected) {
+        assert!(close(one, other, 1e-9));
+    }
+    let printed = printed(&["modes", &file, "--pose", "0.5,0.2,2"]);
+    assert!(printed.contains(&format!("{:.4}", expected[0])), "{printed}");
+    let without = cdpr(&["modes", &data_path("robots/caroca.json"), "--pose", "0,0,1.75"]);
+    assert_eq!(without.status.code(), Some(1));
+    assert!(text(without.stderr).contains("platform.inertia is missing"));
 }

@@ -31,6 +31,8 @@ mod _core {
     #[pymodule_export]
     use crate::robot::inverse::InverseSolution;
     #[pymodule_export]
+    use crate::robot::modes::Modes;
+    #[pymodule_export]
     use crate::robot::observe::Observations;
     #[pymodule_export]
     use crate::robot::stiffness::Stiffness;

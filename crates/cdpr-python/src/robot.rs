@@ -6,6 +6,7 @@ pub(crate) mod deflection;
 pub(crate) mod derivatives;
 pub(crate) mod direct;
 pub(crate) mod inverse;
+pub(crate) mod modes;
 pub(crate) mod observe;
 pub(crate) mod stiffness;
 pub(crate) mod workspace;

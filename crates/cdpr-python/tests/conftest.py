@@ -27,6 +27,16 @@ def caroca(caroca_file):
     return cdpr.Robot.from_file(caroca_file)
 
 
+@pytest.fixture(scope="session")
+def cogiro_file(data):
+    return str(data / "robots" / "cogiro.json")
+
+
+@pytest.fixture(scope="session")
+def cogiro(cogiro_file):
+    return cdpr.Robot.from_file(cogiro_file)
+
+
 def program():
     """The command line: CDPR, or what cargo has built last."""
     if "CDPR" in os.environ:

@@ -89,6 +89,15 @@ def test_the_deflection_is_that_of_the_command_line(caroca, caroca_file):
     check_direct(given.loaded, printed["loaded"])
 
 
+def test_the_natural_motions_are_those_of_the_command_line(cogiro, cogiro_file):
+    printed = answer("modes", cogiro_file, "--pose=0.5,0.2,2", "--payload=50")
+    found = cogiro.modes([0.5, 0.2, 2], payload=50)
+    same(found.frequencies_hz, printed["frequencies_hz"])
+    same(found.translations, [mode["translation"] for mode in printed["modes"]])
+    same(found.cable_shares, [mode["cable_shares"] for mode in printed["modes"]])
+    assert numpy.allclose(found.cable_shares.sum(axis=1) + found.weight_shares, 1)
+
+
 def test_the_stiffness_is_that_of_the_command_line(caroca, caroca_file):
     printed = answer("stiffness", caroca_file, f"--pose={words(TURNED)}", "--payload=50")
     found = caroca.stiffness(TURNED, payload=50)

@@ -108,6 +108,26 @@ fn cables_may_run_over_pulleys_behind_a_lead() {
 }
 
 #[test]
+fn an_inertia_that_no_body_has_is_refused() {
+    let with = |inertia: &str| {
+        let own = "[[36.598, -0.453, 3.012], [-0.453, 35.982, -1.539], [3.012, -1.539, 25.439]]";
+        assert!(COGIRO.contains(own));
+        Robot::from_json(&COGIRO.replace(own, inertia))
+    };
+    let robot = with("[[2, 0.1, 0], [0.1, 3, 0], [0, 0, 4]]").unwrap();
+    assert_eq!(robot.platform.inertia.unwrap()[(0, 1)], 0.1);
+    assert_eq!(Robot::from_json(&robot.to_json()).unwrap(), robot);
+    for (inertia, why) in [
+        ("[[2, 0.1, 0], [0, 3, 0], [0, 0, 4]]", "symmetric"),
+        ("[[2, 0, 0], [0, 3, 0], [0, 0, 6]]", "sum of the others"),
+        ("[[2, 0, 0], [0, 3, 0], [0, 0, -1]]", "positive"),
+    ] {
+        let error = with(inertia).unwrap_err().to_string();
+        assert!(error.contains("platform.inertia is") && error.contains(why), "{error}");
+    }
+}
+
+#[test]
 fn every_double_is_written_and_read_back_to_the_last_bit() {
     // Decimals whose nearest double is not found by multiplying digits with a power of ten.
     for mass in

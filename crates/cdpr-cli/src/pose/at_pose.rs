@@ -114,7 +114,12 @@ impl RobotAtPose {
         };
         let heading = format!("{} at {}", shown(&robot.name), place(&pose));
         let answer = patiently("solving", || solve(&robot, &pose))?;
-        self.format.print(&answer, |answer| text(answer, &heading))?;
+        self.print(&answer, |answer| text(answer, &heading))
+    }
+
+    /// Prints a single answer.
+    pub(crate) fn print<T: Row>(&self, answer: &T, text: impl FnOnce(&T)) -> Result<Ending, ProgramError> {
+        self.format.print(answer, text)?;
         Ok(answer.ending())
     }
 

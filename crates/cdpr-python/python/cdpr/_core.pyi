@@ -21,6 +21,7 @@ __all__ = [
     "SaltelliDesign",
     "SobolDesign",
     "SobolIndices",
+    "Modes",
     "Stiffness",
     "VERSION",
     "Workspace",
@@ -144,6 +145,14 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
     ) -> Stiffness: ...
+    def modes(
+        self,
+        pose: ArrayLike,
+        *,
+        payload: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        moment: ArrayLike | None = None,
+    ) -> Modes: ...
     def derivatives(
         self,
         pose: ArrayLike,
@@ -276,6 +285,24 @@ class Deflection:
     def unloaded(self) -> DirectSolution: ...
     @property
     def loaded(self) -> DirectSolution: ...
+    @property
+    def reasons(self) -> _Words: ...
+    @property
+    def kinds(self) -> _Words: ...
+
+@final
+class Modes:
+    def __new__(cls, *fields: Any) -> Modes: ...
+    @property
+    def frequencies_hz(self) -> _Floats: ...
+    @property
+    def translations(self) -> _Floats: ...
+    @property
+    def rotations(self) -> _Floats: ...
+    @property
+    def cable_shares(self) -> _Floats: ...
+    @property
+    def weight_shares(self) -> _Floats: ...
     @property
     def reasons(self) -> _Words: ...
     @property

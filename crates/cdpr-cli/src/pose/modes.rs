@@ -1,0 +1,116 @@
+//! `cdpr modes`: natural frequencies and motions of the platform on its cables.
+
+use crate::answer;
+use crate::arguments;
+use crate::error::ProgramError;
+use crate::output::{Ending, table};
+use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
+use crate::poses;
+use cdpr_robot::{Pose, Robot, shown};
+use cdpr_statics::{DirectProblem, NaturalMode, Start, StaticsError, modes_at, rough_pose};
+use serde::Serialize;
+
+/// A robot at a pose or with lengths, and a load.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtPose,
+    /// Unstrained lengths of the cables in place of a pose, in the order of the file: l1,..,ln [m].
+    #[arg(long, group = "where", value_parser = arguments::list, allow_hyphen_values = true)]
+    lengths: Option<arguments::List>,
+    /// Start of the search for the pose of the lengths: x,y,z [m], or x,y,z,qw,qx,qy,qz.
+    ///
+    /// If left out, the search starts where straight cables would hold a point.
+    #[arg(long, value_parser = poses::pose, requires = "lengths", allow_hyphen_values = true)]
+    start: Option<Pose>,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let Settings { at, lengths, start } = settings;
+    let load = at.load.load();
+    let Some(arguments::List(lengths)) = lengths else {
+        let solve = |robot: &Robot, pose: &Pose| Ok(Answer::new(&modes_at(robot, pose, &load)?));
+        return at.answer(solve, Answer::print);
+    };
+    let robot = at.robot()?;
+    let solve = || -> Result<_, StaticsError> {
+        let problem = DirectProblem::new(&robot, lengths, &load)?;
+        let start = start.unwrap_or_else(|| rough_pose(&robot, lengths));
+        let found = problem.direct(Start::Pose(&start))?;
+        Ok((Answer::new(&problem.modes(&found.equilibrium)?), found.equilibrium.pose))
+    };
+    let (answer, pose) = solve()?;
+    let heading = format!("{} at {}", shown(&robot.name), poses::place(&pose));
+    at.print(&answer, |answer| answer.print(&heading))
+}
+
+/// The natural motions.
+#[derive(Serialize)]
+struct Answer {
+    /// Natural frequencies, ascending [Hz].
+    frequencies_hz: Vec<f64>,
+    /// The motion of each frequency.
+    modes: Vec<Mode>,
+}
+
+/// A natural motion of unit mass.
+#[derive(Serialize)]
+struct Mode {
+    /// Translation of P [1/√kg].
+    translation: [f64; 3],
+    /// Rotation vector [rad/(m √kg)].
+    rotation: [f64; 3],
+    /// Share of each cable in the energy of the motion.
+    cable_shares: Vec<f64>,
+    /// Share of the weight.
+    weight_share: f64,
+}
+
+impl Row for Answer {
+    fn columns(_: &Robot) -> Vec<String> {
+        numbered("frequency", "hz", 6).collect()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        cells(&self.frequencies_hz)
+    }
+}
+
+impl Answer {
+    fn new(modes: &[NaturalMode]) -> Self {
+        Self {
+            frequencies_hz: modes.iter().map(|mode| mode.frequency).collect(),
+            modes: modes
+                .iter()
+                .map(|mode| Mode {
+                    translation: mode.translation.into(),
+                    rotation: mode.rotation.into(),
+                    cable_shares: mode.cables.clone(),
+                    weight_share: mode.weight,
+                })
+                .collect(),
+        }
+    }
+
+    fn print(&self, heading: &str) {
+        println!("{heading}: natural motions, of unit mass");
+        let names = [
+            "frequency [Hz]",
+            "translation [1/\u{221a}kg]",
+            "rotation [rad/(m \u{221a}kg)]",
+            "weight [%]",
+            "cables [%]",
+        ];
+        let mut rows = table(&names);
+        for (frequency, mode) in self.frequencies_hz.iter().zip(&self.modes) {
+            let words = |vector: &[f64; 3]| answer::vector(vector, 4);
+            let percent = |share: &f64| format!("{:.1}", 100.0 * share);
+            let cables: Vec<_> = mode.cable_shares.iter().map(percent).collect();
+            let (translation, rotation) = (words(&mode.translation), words(&mode.rotation));
+            let weight = percent(&mode.weight_share);
+            rows.add_row([format!("{frequency:.4}"), translation, rotation, weight, cables.join(" ")]);
+        }
+        println!("{rows}");
+        println!("weight and cables: share of each in the energy of the motion");
+    }
+}

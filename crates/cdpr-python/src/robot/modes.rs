@@ -1,0 +1,81 @@
+//! `Robot.modes`: natural frequencies and motions at a pose.
+
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::robot::Robot;
+use cdpr_robot::Vector3;
+use cdpr_statics::{NaturalMode, modes_at};
+use pyo3::prelude::*;
+
+answer! {
+    /// Natural motions of the platform, of unit mass.
+    ///
+    /// The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
+    /// answer, and `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Modes {
+        /// Natural frequencies, ascending [Hz], (6,).
+        frequencies_hz: Py<PyAny>,
+        /// Translation of P in each motion [1/sqrt(kg)], (6, 3).
+        translations: Py<PyAny>,
+        /// Rotation in each motion [rad/(m sqrt(kg))], (6, 3).
+        rotations: Py<PyAny>,
+        /// Share of each cable in the energy of each motion, (6, n).
+        cable_shares: Py<PyAny>,
+        /// Share of the weight in the energy of each motion, (6,).
+        weight_shares: Py<PyAny>,
+        /// Why there is no answer, None where there is one; None for one pose.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, in the same form: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
+}
+
+#[pymethods]
+impl Robot {
+    /// Computes the natural frequencies and motions at a pose with a load; the lengths are held.
+    ///
+    /// Arguments are of one case, or have a first axis of m cases.
+    ///
+    /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+    /// payload: mass that the platform carries there, at its centre of mass [kg].
+    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
+    ///
+    /// Raises InputError, also where the robot has no inertia; for one case NoSolutionError.
+    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None))]
+    fn modes(
+        &self,
+        py: Python,
+        pose: Numbers,
+        payload: Option<Numbers>,
+        force: Option<Numbers>,
+        moment: Option<Numbers>,
+    ) -> Answer<Modes> {
+        let poses = Rows::poses("pose", &pose)?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let cases = loads.cases([&poses])?;
+        let outcomes =
+            each(py, cases.count, |case| modes_at(&self.robot, &poses.pose(case)?, &loads.load(case)?))?;
+        let all = Columns::new(py, cases, &outcomes)?;
+        let vectors = |vector: fn(&NaturalMode) -> Vector3<f64>| {
+            all.numbers(&[6, 3], |modes: &[NaturalMode; 6], out| {
+                for (out, mode) in out.chunks_exact_mut(3).zip(modes) {
+                    out.copy_from_slice(vector(mode).as_slice());
+                }
+            })
+        };
+        let cables = self.robot.cables.len();
+        Ok(Modes {
+            frequencies_hz: all.vector(|modes| modes.each_ref().map(|mode| mode.frequency))?,
+            translations: vectors(|mode| mode.translation)?,
+            rotations: vectors(|mode| mode.rotation)?,
+            cable_shares: all.numbers(&[6, cables], |modes, out| {
+                for (out, mode) in out.chunks_exact_mut(cables).zip(modes) {
+                    out.copy_from_slice(&mode.cables);
+                }
+            })?,
+            weight_shares: all.vector(|modes| modes.each_ref().map(|mode| mode.weight))?,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
+        })
+    }
+}
