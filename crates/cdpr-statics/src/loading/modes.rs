@@ -15,7 +15,7 @@
 //! vᵀ K v = sum vᵀ K_i v + vᵀ K_w v                                                               (V2)
 //! ```
 //!
-//! K is symmetric: [`crate::Linearization::stiffness`].
+//! K is the symmetric part of the stiffness, [`crate::Linearization::symmetric_stiffness`].
 
 use crate::direct::Start;
 use crate::equations::{Balance, SpannedCable};
