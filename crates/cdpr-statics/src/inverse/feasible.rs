@@ -8,8 +8,9 @@
 //! minimise  |J d + F|² + η sum (d_i/σ_i)²   within the limits,                                      (I4)
 //! ```
 //!
-//! from that start, from the reference, from the least, middle and greatest tensions and from levels between
-//! them. From every point where the balance holds the optimum is searched again.
+//! from that start, from the reference, from the middle of the limits and from tensions spread over them, each
+//! cable's for itself: other optima mostly differ in one cable or two. From every point where the balance holds
+//! the optimum is searched again.
 //!
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
 //! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual has
@@ -28,7 +29,8 @@ const BALANCED: f64 = 1e-8;
 /// The optimum: of cables that sag little from the first start that leads to one, else the best of all
 /// starts.
 pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
-    let mut nearest = Point::new(question, &straight(question))?;
+    let straight = straight(question);
+    let mut nearest = Point::new(question, &straight)?;
     let mut best = nearest.optimise().then(|| nearest.clone());
     if let Some(best) = &best
         && !best.may_have_others()
@@ -36,7 +38,7 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
         return Ok(best.optimum());
     }
     let mut iterations = nearest.iterations;
-    for (k, tensions) in starts(question).iter().enumerate() {
+    for (k, tensions) in starts(question, straight).iter().enumerate() {
         let mut point = Point::new(question, tensions)?;
         let found = point.balance() && point.optimise();
         iterations += point.iterations;
@@ -79,16 +81,21 @@ fn straight(question: &Question) -> Vec<f64> {
 /// The first start, and those of [`starts`].
 const STARTS: usize = 9;
 
-/// Tensions to start from: those of straight cables, the reference, and levels from the least to the
-/// greatest.
-fn starts(question: &Question) -> [Vec<f64>; STARTS - 1] {
-    let level = |share: f64| {
-        let of = |limits: &TensionLimits| limits.min * (limits.max / limits.min).powf(share);
-        question.limits.iter().map(of).collect::<Vec<_>>()
-    };
+/// Tensions to start from: those of straight cables, the reference, the middle, and others spread over the
+/// limits.
+fn starts(question: &Question, straight: Vec<f64>) -> [Vec<f64>; STARTS - 1] {
     let middle = question.limits.iter().map(|limits| 0.5 * (limits.min + limits.max)).collect();
-    let [a, b, c, d, e] = [0.25, 0.5, 0.75, 1.0, 0.0].map(level);
-    [straight(question), question.reference.clone(), middle, a, b, c, d, e]
+    // Multiples of a step that is another one for each cable, but for whole numbers: on the unit interval
+    // these are spread evenly (additive recurrence of the plastic number).
+    let spread = |k: u32| {
+        let tension = |(i, limits): (usize, &TensionLimits)| {
+            let step = ((i + 1) as f64 * 0.754_877_666_246_692_7).fract();
+            limits.min * (limits.max / limits.min).powf((f64::from(k) * step).fract())
+        };
+        question.limits.iter().enumerate().map(tension).collect()
+    };
+    let [a, b, c, d, e] = [1, 2, 3, 4, 5].map(spread);
+    [straight, question.reference.clone(), middle, a, b, c, d, e]
 }
 
 impl Point<'_> {
