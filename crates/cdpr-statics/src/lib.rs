@@ -66,8 +66,9 @@ pub use inverse::{
 };
 pub use lanes::{Observation, Observer, Tracker};
 pub use loading::{
-    CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseStiffness, Unloading,
-    deflection, deflection_from, deflections, follow, load_cycle, modes_at, stiffness_at, wound_lengths,
+    CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes, PoseStiffness,
+    Unloading, deflection, deflection_from, deflections, follow, load_cycle, modes_at, stiffness_at,
+    wound_lengths,
 };
 pub use problem::{DirectProblem, check_lengths};
 pub use state::{Equilibrium, Limit, Load, OutOfLimits, Residual, out_of_limits};

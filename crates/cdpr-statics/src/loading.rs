@@ -10,5 +10,5 @@ pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, d
 pub(crate) use deflection::{Wound, wind};
 pub use follow::follow;
 pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
-pub use modes::{NaturalMode, modes_at};
+pub use modes::{NaturalMode, PoseModes, modes_at};
 pub use stiffness::{PoseStiffness, stiffness_at};

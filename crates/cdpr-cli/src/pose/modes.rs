@@ -1,13 +1,13 @@
 //! `cdpr modes`: natural frequencies and motions of the platform on its cables.
 
-use crate::answer;
+use crate::answer::{self, OutOfLimits};
 use crate::arguments;
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use crate::poses;
 use cdpr_robot::{Pose, Robot, shown};
-use cdpr_statics::{DirectProblem, NaturalMode, Start, StaticsError, modes_at, rough_pose};
+use cdpr_statics::{DirectProblem, PoseModes, Start, StaticsError, modes_at, rough_pose};
 use serde::Serialize;
 
 /// A robot at a pose or with lengths, and a load.
@@ -29,7 +29,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let Settings { at, lengths, start } = settings;
     let load = at.load.load();
     let Some(arguments::List(lengths)) = lengths else {
-        let solve = |robot: &Robot, pose: &Pose| Ok(Answer::new(&modes_at(robot, pose, &load)?));
+        let solve =
+            |robot: &Robot, pose: &Pose| modes_at(robot, pose, &load).map(|found| Answer::new(robot, &found));
         return at.answer(solve, Answer::print);
     };
     let robot = at.robot()?;
@@ -37,10 +38,12 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         let problem = DirectProblem::new(&robot, lengths, &load)?;
         let start = start.unwrap_or_else(|| rough_pose(&robot, lengths));
         let found = problem.direct(Start::Pose(&start))?;
-        Ok((Answer::new(&problem.modes(&found.equilibrium)?), found.equilibrium.pose))
+        let modes = problem.modes(&found.equilibrium)?;
+        Ok(PoseModes { modes, lengths: lengths.clone(), equilibrium: found.equilibrium })
     };
-    let (answer, pose) = solve()?;
-    let heading = format!("{} at {}", shown(&robot.name), poses::place(&pose));
+    let found = solve()?;
+    let answer = Answer::new(&robot, &found);
+    let heading = format!("{} at {}", shown(&robot.name), poses::place(&found.equilibrium.pose));
     at.print(&answer, |answer| answer.print(&heading))
 }
 
@@ -51,6 +54,8 @@ struct Answer {
     frequencies_hz: Vec<f64>,
     /// The motion of each frequency.
     modes: Vec<Mode>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
 }
 
 /// A natural motion of unit mass.
@@ -74,11 +79,16 @@ impl Row for Answer {
     fn cells(&self) -> Vec<String> {
         cells(&self.frequencies_hz)
     }
+
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        vec![&self.out_of_limits]
+    }
 }
 
 impl Answer {
-    fn new(modes: &[NaturalMode]) -> Self {
+    fn new(robot: &Robot, PoseModes { modes, lengths, equilibrium }: &PoseModes) -> Self {
         Self {
+            out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
             frequencies_hz: modes.iter().map(|mode| mode.frequency).collect(),
             modes: modes
                 .iter()
@@ -112,5 +122,6 @@ impl Answer {
         }
         println!("{rows}");
         println!("weight and cables: share of each in the energy of the motion");
+        OutOfLimits::print(&self.out_of_limits);
     }
 }

@@ -2,7 +2,9 @@
 
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
-use cdpr_statics::{Limit, OutOfLimits, Start, StaticsError, check_lengths, direct, out_of_limits, rough_pose};
+use cdpr_statics::{
+    Limit, OutOfLimits, Start, StaticsError, check_lengths, direct, out_of_limits, rough_pose,
+};
 use pyo3::prelude::*;
 
 answer! {

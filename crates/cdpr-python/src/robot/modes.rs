@@ -53,8 +53,9 @@ impl Robot {
         let poses = Rows::poses("pose", &pose)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         let cases = loads.cases([&poses])?;
-        let outcomes =
-            each(py, cases.count, |case| modes_at(&self.robot, &poses.pose(case)?, &loads.load(case)?))?;
+        let outcomes = each(py, cases.count, |case| {
+            modes_at(&self.robot, &poses.pose(case)?, &loads.load(case)?).map(|found| found.modes)
+        })?;
         let all = Columns::new(py, cases, &outcomes)?;
         let vectors = |vector: fn(&NaturalMode) -> Vector3<f64>| {
             all.numbers(&[6, 3], |modes: &[NaturalMode; 6], out| {

@@ -151,8 +151,7 @@ impl Winding<'_> {
         let undecided = (0..tensions.len()).filter_map(|cable| {
             let bound = bound(cable)?;
             // ρ_i of (D5).
-            let slope =
-                tensions[cable] - reference[cable] + motion(&rates[cable]).dot(&rates[cable].force);
+            let slope = tensions[cable] - reference[cable] + motion(&rates[cable]).dot(&rates[cable].force);
             let kept = active[cable].is_some() && slope.abs() > NO_MULTIPLIER * largest;
             (!kept).then_some(AtBound { cable, bound })
         });
@@ -179,7 +178,9 @@ impl Winding<'_> {
         let set_points: Vec<SetPoint> = (0..n).map(set_point).collect();
         let meets = |i: usize, bound: Bound| {
             let by_offset = [SetPoint::Bound(bound), SetPoint::Either(bound)].contains(&set_points[i]);
-            by_offset || wanted.active[i] == Some(bound) || same(wanted.tensions[i], values[i][bound as usize])
+            by_offset
+                || wanted.active[i] == Some(bound)
+                || same(wanted.tensions[i], values[i][bound as usize])
         };
         // A bound that the weight of a cable demands, or one at its exit point, changes with the inputs.
         let demanded = |i: &usize| values[*i][0] > self.wound.limits[*i].min && meets(*i, Bound::Min);
@@ -213,7 +214,8 @@ impl Winding<'_> {
                 _ => None,
             })
             .collect();
-        let (left, right) = ([f64::min as fn(f64, f64) -> f64, f64::max], [f64::max as fn(f64, f64) -> f64, f64::min]);
+        let (left, right) =
+            ([f64::min as fn(f64, f64) -> f64, f64::max], [f64::max as fn(f64, f64) -> f64, f64::min]);
         if doubtful.is_empty() && undecided.is_empty() {
             return Ok(SetPoints { rows: side(tensions.left, left), one_sided: Vec::new() });
         }

@@ -42,6 +42,17 @@ pub struct NaturalMode {
     pub weight: f64,
 }
 
+/// Natural motions of a robot at a pose that the inverse model holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoseModes {
+    /// The six motions, the slowest first.
+    pub modes: [NaturalMode; 6],
+    /// Unstrained lengths [m].
+    pub lengths: Vec<f64>,
+    /// The equilibrium.
+    pub equilibrium: Equilibrium,
+}
+
 impl DirectProblem<'_> {
     /// The six natural motions of the platform about a stable equilibrium of its own, the slowest first.
     ///
@@ -130,9 +141,10 @@ const ROUNDING: f64 = 1e-12;
 ///
 /// # Errors
 /// Those of [`inverse`], of [`DirectProblem::direct_any`] and of [`DirectProblem::modes`].
-pub fn modes_at(robot: &Robot, pose: &Pose, load: &Load) -> Result<[NaturalMode; 6], StaticsError> {
+pub fn modes_at(robot: &Robot, pose: &Pose, load: &Load) -> Result<PoseModes, StaticsError> {
     let wanted = inverse(robot, pose, load, None)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
     let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
-    problem.modes(&held.equilibrium)
+    let modes = problem.modes(&held.equilibrium)?;
+    Ok(PoseModes { modes, lengths: wanted.lengths.clone(), equilibrium: held.equilibrium })
 }
