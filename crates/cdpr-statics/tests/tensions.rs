@@ -127,7 +127,7 @@ fn a_cable_keeps_its_own_limits_and_the_others_keep_the_robots() {
         match inverse(&robot, &pose, &Load::none(), None) {
             Ok(found) => assert!(found.tensions[high] <= robot.tension_limits.min * 1.01, "{}", robot.name),
             Err(error) => {
-                assert!(["infeasible_tension", "tension_too_small"].contains(&error.kind()), "{error}")
+                assert!(["infeasible_tension", "tension_too_small"].contains(&error.kind()), "{error}");
             }
         }
     }
