@@ -113,7 +113,7 @@ fn the_stadium_robot_is_held_wherever_an_independent_program_finds_tensions() {
         for (row, found) in rows.iter().zip(&poses) {
             let position = found.pose.position;
             assert_eq!((row[1].as_f64(), row[2].as_f64()), (Some(position.x), Some(position.y)));
-            kept += usize::from(found.outcome.as_ref().is_ok_and(|held| held.is_within_limits()));
+            kept += usize::from(found.outcome.as_ref().is_ok_and(cdpr_assess::Held::is_within_limits));
             let tensions = inverse(&robot, &found.pose, &load, None);
             anew += usize::from(tensions.is_ok());
             if let Some(status) = &found.anew {

@@ -164,7 +164,8 @@ fn a_bad_file_is_refused_with_field_value_and_remedy() {
         (
             r#""mass": 180.0"#,
             r#""mas": 180.0"#,
-            "line 6, column 20: platform.mas: unknown field `mas`, expected `mass` or `center_of_mass`",
+            "line 6, column 20: platform.mas: unknown field `mas`, expected one of `mass`, `center_of_mass`, \
+             `inertia`",
         ),
         (
             r#""mass": 180.0"#,
