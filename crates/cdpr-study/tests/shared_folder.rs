@@ -60,12 +60,14 @@ fn a_folder_is_gone_on_with_whatever_another_process_has_put_there_so_far_or_is_
         begin(&out, &study, Existing::GoOn).unwrap();
         assert!(["blocks", "study.json", "robot.json"].iter().all(|name| out.join(name).exists()));
     }
-    // What tells it from a user's own comes first: here the rest does not come at all.
+    // Where a user's own file is in the way, nothing is written beside it.
     let unwritten = folder.path().join("unwritten");
     std::fs::create_dir(&unwritten).unwrap();
     std::fs::write(unwritten.join("blocks"), "in the way").unwrap();
     begin(&unwritten, &study, Existing::GoOn).unwrap_err();
-    assert!(unwritten.join("cdpr-results.json").exists() && !unwritten.join("robot.json").exists());
+    assert_eq!(std::fs::read_to_string(unwritten.join("blocks")).unwrap(), "in the way");
+    let written = ["cdpr-results.json", "robot.json", "study.json"].map(|name| unwritten.join(name).exists());
+    assert_eq!(written, [false; 3]);
 }
 
 #[test]
