@@ -353,21 +353,23 @@ mod tests {
     #[test]
     fn of_cables_that_touch_many_others_each_is_warned_about_once() {
         let mut robot = robot();
-        let cable = robot.cables[0].clone();
-        let at = |k: u32| {
-            let (angle, height) = (0.1 * f64::from(k), 3.0 + 0.001 * f64::from(k));
-            let mut cable = cable.clone();
-            cable.exit_point = Vector3::new(4.0 * angle.cos(), 4.0 * angle.sin(), height);
-            // All lines cross the axis at nearly the same height.
-            cable.anchor_point = Vector3::new(-0.2 * angle.cos(), -0.2 * angle.sin(), 0.1);
-            cable
+        // Nine copies of each cable, turned a little about the middle of its span.
+        let copies = |cable: &RobotCable| {
+            let copy = |k: i32| {
+                let aside = 0.02 * f64::from(k) * Vector3::x();
+                let mut copy = cable.clone();
+                copy.exit_point += aside;
+                copy.anchor_point -= aside;
+                copy
+            };
+            (0..10).map(copy).collect::<Vec<_>>()
         };
-        robot.cables = (0..80).map(at).collect();
+        robot.cables = robot.cables.iter().flat_map(copies).collect();
         robot.validate().unwrap();
         let findings = inspect(&robot);
         let touching: Vec<_> = findings.iter().filter(|finding| finding.why.contains("touch")).collect();
         let fields: std::collections::BTreeSet<_> = touching.iter().map(|finding| &finding.field).collect();
-        assert!(fields.len() == touching.len() && touching.len() > 10, "{touching:?}");
+        assert!(fields.len() == touching.len() && touching.len() >= 72, "{touching:?}");
         assert!(touching.iter().any(|finding| finding.value.contains("and touching ")), "{touching:?}");
     }
 }

@@ -1,6 +1,6 @@
 //! `cdpr modes`: natural frequencies and motions of the platform on its cables.
 
-use crate::answer::{self, OutOfLimits};
+use crate::answer::{self, OutOfLimits, decimal};
 use crate::arguments;
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
@@ -114,7 +114,7 @@ impl Answer {
         let mut rows = table(&names);
         for (frequency, mode) in self.frequencies_hz.iter().zip(&self.modes) {
             let words = |vector: &[f64; 3]| answer::vector(vector, 4);
-            let percent = |share: &f64| format!("{:.1}", 100.0 * share);
+            let percent = |share: &f64| decimal(100.0 * share, 1);
             let cables: Vec<_> = mode.cable_shares.iter().map(percent).collect();
             let (translation, rotation) = (words(&mode.translation), words(&mode.rotation));
             let weight = percent(&mode.weight_share);
