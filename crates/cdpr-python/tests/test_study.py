@@ -238,7 +238,7 @@ def test_observations_need_the_blocks_of_their_sampling_alone(study, tmp_path):
     assert not results.status()["complete"]
     numpy.testing.assert_array_equal(results.observations("mechanical"), expected)
     next(blocks.glob("sampling/*.block")).unlink()
-    with pytest.raises(cdpr.FileError, match="lacks 1 of 1 blocks"):
+    with pytest.raises(cdpr.FileError, match="lacks 1 of 1 block,"):
         results.observations("mechanical")
 
 
