@@ -188,8 +188,8 @@ impl Findings<'_> {
         }
     }
 
-    /// Greatest tensions beside the strength and stiffness of their cables, once where they are the robot's and
-    /// all cables are the same.
+    /// Greatest tensions beside the strength and stiffness of their cables, once where they are the robot's
+    /// and all cables are the same.
     fn limits(&mut self) {
         let Robot { cables, platform, gravity, .. } = self.robot;
         let same = |a: &RobotCable, b: &RobotCable| {

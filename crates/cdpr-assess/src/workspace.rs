@@ -39,7 +39,7 @@ pub struct WorkspacePose {
     /// The result with the lengths kept under the load, or the reason why no tensions hold the platform or
     /// bear the load.
     pub outcome: Result<Held, StaticsError>,
-    /// The tensions distributed anew under the load, or the reason why there are none; `None` without a load.
+    /// The tensions distributed anew under the load, or the reason why they cannot be; `None` without a load.
     pub anew: Option<Result<Anew, StaticsError>>,
 }
 
@@ -234,8 +234,8 @@ pub struct WorkspaceRow {
     pub std_mm: Option<f64>,
     /// Why the pose is not held.
     pub reason: Option<String>,
-    /// `held` where tensions distributed anew hold the pose under the load, else the kind of failure; this and
-    /// the following are empty without a load.
+    /// `held` where tensions distributed anew hold the pose under the load, else the kind of failure; this
+    /// and the following are empty without a load.
     pub anew_status: Option<&'static str>,
     pub anew_least_tension: Option<f64>,
     pub anew_greatest_tension: Option<f64>,
@@ -307,7 +307,8 @@ pub struct WorkspaceSummary {
     pub uncertainties: IndexMap<String, f64>,
     /// Number of positions by status, with the lengths kept under the load.
     pub status: BTreeMap<&'static str, usize>,
-    /// Number of positions by status, with the tensions distributed anew under the load; empty without a load.
+    /// Number of positions by status, with the tensions distributed anew under the load; empty without a
+    /// load.
     pub anew_status: BTreeMap<&'static str, usize>,
     /// Number of positions with tensions above a greatest tension or a breaking force.
     pub too_much: usize,

@@ -7,8 +7,8 @@ use crate::kernel::closure_of_limp;
 ///
 /// The cable comes from the winch over the distance `lead`, enters the pulley at the point D on the swivel
 /// axis, along the axis, lies on the wheel for an arc and leaves it along the tangent of the catenary. The
-/// wheel turns about the axis into the plane of the cable. Without a pulley (`radius` zero) the cable bends at
-/// D as at any exit point.
+/// wheel turns about the axis into the plane of the cable. Without a pulley (`radius` zero) the cable bends
+/// at D as at any exit point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guide {
     /// Stretched length between winch and D [m].
@@ -54,8 +54,8 @@ impl Guide {
         check("pulley.radius", self.radius, self.radius >= 0.0, "a radius, zero or more [m]")
     }
 
-    /// Closure residual [m] of a slack cable without weight, as [`crate::kernel::closure_of_limp`] has it, along
-    /// a straight cable.
+    /// Closure residual [m] of a slack cable without weight, as [`crate::kernel::closure_of_limp`] has it,
+    /// along a straight cable.
     pub fn closure_of_limp(&self, end: [f64; 2], rest: f64) -> [f64; 2] {
         let Some(Straight { leave, free, guided }) = self.straight(end) else {
             return closure_of_limp(end, rest);

@@ -93,13 +93,29 @@ fn any_guided() -> impl Strategy<Value = (Cable<'static>, Vector2<f64>, f64)> {
     )
 }
 
+fn heavier(cable: Cable<'static>, share: f64) -> Cable<'static> {
+    Cable { weight_per_length: cable.weight_per_length * (1.0 + share), ..cable }
+}
+
+fn stiffer(cable: Cable<'static>, share: f64) -> Cable<'static> {
+    Cable { axial_stiffness: cable.axial_stiffness * (1.0 + share), ..cable }
+}
+
+/// The cable with a longer lead and a larger pulley [m].
+fn led_by(cable: Cable<'static>, [lead, radius]: [f64; 2]) -> Cable<'static> {
+    let more = |guide: Guide| Guide { lead: guide.lead + lead, radius: guide.radius + radius, ..guide };
+    Cable { guide: cable.guide.map(more), ..cable }
+}
+
 /// Central differences of the fourth order.
 fn difference(step: f64, at: &dyn Fn(f64) -> Vector2<f64>) -> Vector2<f64> {
     (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step)
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 2_000, failure_persistence: None, ..ProptestConfig::default()
+    })]
 
     #[test]
     fn the_response_is_the_derivative_of_the_end_position((cable, end, sigma) in any_guided()) {
@@ -128,20 +144,21 @@ proptest! {
         prop_assert!((c.m11 - columns[0].x).abs() < 1e-7 * size);
         prop_assert!((c.m22 - columns[1].y).abs() < 1e-7 * size);
         prop_assert!((c.m12 - shear).abs() < 1e-7 * size);
-        prop_assert!((compliance.determinant / c.determinant() - 1.0).abs() < 1e-13 * size * size / compliance.determinant);
+        let determinant = compliance.determinant;
+        prop_assert!((determinant / c.determinant() - 1.0).abs() < 1e-13 * size * size / determinant);
         prop_assert!((compliance.lateral_stiffness * end.x / catenary.force.x - 1.0).abs() < 1e-12);
         let by = |of: &dyn Fn(f64) -> Catenary<'static>| difference(1e-4, &|s| of(s).end_position());
         let (ea, length) = (cable.axial_stiffness, catenary.unstrained_length);
         let made = |cable: Cable<'static>| Catenary { cable, ..catenary };
-        let guided = |guide| made(Cable { guide: Some(guide), ..cable });
+        let longer = |more: f64| Catenary { unstrained_length: length + more, ..catenary };
         let [per_lead, per_radius] = catenary.end_per_guide().unwrap();
         let size = end.norm();
         let cases = [
-            ("L", compliance.end_per_length * length, by(&|s| Catenary { unstrained_length: length * (1.0 + s), ..catenary })),
-            ("w", catenary.end_per_weight() * w, by(&|s| made(Cable { weight_per_length: w * (1.0 + s), ..cable }))),
-            ("EA", catenary.end_per_stiffness() * ea, by(&|s| made(Cable { axial_stiffness: ea * (1.0 + s), ..cable }))),
-            ("lead", per_lead * size, by(&|s| guided(Guide { lead: guide.lead + size * s, ..guide }))),
-            ("radius", per_radius * size, by(&|s| guided(Guide { radius: guide.radius + size * s, ..guide }))),
+            ("L", compliance.end_per_length * length, by(&|s| longer(length * s))),
+            ("w", catenary.end_per_weight() * w, by(&|s| made(heavier(cable, s)))),
+            ("EA", catenary.end_per_stiffness() * ea, by(&|s| made(stiffer(cable, s)))),
+            ("lead", per_lead * size, by(&|s| made(led_by(cable, [size * s, 0.0])))),
+            ("radius", per_radius * size, by(&|s| made(led_by(cable, [0.0, size * s])))),
         ];
         for (name, exact, difference) in cases {
             let error = (exact - difference).norm();
@@ -172,19 +189,19 @@ proptest! {
         let direction = v(cable, end, t);
         prop_assert!((slopes.force_per_tension - direction).norm() < 1e-10);
         let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
-        let guided = |guide| Cable { guide: Some(guide), ..cable };
         let by = |at: &dyn Fn(f64) -> Vector2<f64>| difference(1e-4, at);
         let cases = [
             ("t", slopes.per_tension * t, by(&|s| v(cable, end, t * (1.0 + s)))),
             ("x", slopes.per_end[0] * chord, by(&|s| v(cable, end + Vector2::x() * (chord * s), t))),
             ("z", slopes.per_end[1] * chord, by(&|s| v(cable, end + Vector2::y() * (chord * s), t))),
-            ("w", slopes.per_weight * w, by(&|s| v(Cable { weight_per_length: w * (1.0 + s), ..cable }, end, t))),
-            ("EA", slopes.per_stiffness * ea, by(&|s| v(Cable { axial_stiffness: ea * (1.0 + s), ..cable }, end, t))),
-            ("lead", slopes.per_guide[0] * chord, by(&|s| v(guided(Guide { lead: guide.lead + chord * s, ..guide }), end, t))),
-            ("radius", slopes.per_guide[1] * chord, by(&|s| v(guided(Guide { radius: guide.radius + chord * s, ..guide }), end, t))),
+            ("w", slopes.per_weight * w, by(&|s| v(heavier(cable, s), end, t))),
+            ("EA", slopes.per_stiffness * ea, by(&|s| v(stiffer(cable, s), end, t))),
+            ("lead", slopes.per_guide[0] * chord, by(&|s| v(led_by(cable, [chord * s, 0.0]), end, t))),
+            ("radius", slopes.per_guide[1] * chord, by(&|s| v(led_by(cable, [0.0, chord * s]), end, t))),
         ];
         for (name, exact, difference) in cases {
-            prop_assert!((exact - difference).norm() < 1e-6 * (1.0 + exact.norm()), "{name}: {exact} {difference}");
+            let error = (exact - difference).norm();
+            prop_assert!(error < 1e-6 * (1.0 + exact.norm()), "{name}: {exact} {difference}");
         }
     }
 
@@ -202,11 +219,14 @@ proptest! {
         let (length, tension) = (held.unstrained_length, held.anchor_tension());
         let with = end_force(&guided, length, end).unwrap().catenary.force;
         let force = end_force(&plain, length, end).unwrap().catenary.force;
-        prop_assert!((with - force).norm() <= 1e-12 * tension + 8.0 * f64::EPSILON * held.in_plane_stiffness().norm() * length);
+        let rounding = 8.0 * f64::EPSILON * held.in_plane_stiffness().norm() * length;
+        prop_assert!((with - force).norm() <= 1e-12 * tension + rounding);
     }
 
     #[test]
-    fn the_energy_has_the_force_for_its_gradient_but_for_what_is_not_conservative((cable, end, sigma) in any_guided()) {
+    fn the_energy_has_the_force_for_its_gradient_but_for_what_is_not_conservative(
+        (cable, end, sigma) in any_guided(),
+    ) {
         let guide = cable.guide.unwrap();
         prop_assume!(end.x > 4.0 * guide.radius);
         let catenary = HeldCable::at_chord_force(&cable, end, sigma).unwrap().catenary;

@@ -35,8 +35,8 @@ struct RobotFile {
     /// Swivelling pulley of every cable that has none of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pulley: Option<PulleyEntry>,
-    /// Length between winch and exit point of every cable that has none of its own [m], stretched; elastic and
-    /// without weight.
+    /// Length between winch and exit point of every cable that has none of its own [m], stretched; elastic
+    /// and without weight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     lead: Option<f64>,
     /// Limits of the tension of every cable that has none of its own.
@@ -99,8 +99,8 @@ struct LawEntry {
 struct PulleyEntry {
     /// Radius to the middle of the cable [m].
     radius: f64,
-    /// Swivel axis in the base frame, the direction in which the cable enters at the exit point: [0, 0, 1] from
-    /// below or [0, 0, -1] from above.
+    /// Swivel axis in the base frame, the direction in which the cable enters at the exit point: [0, 0, 1]
+    /// from below or [0, 0, -1] from above.
     axis: [f64; 3],
 }
 
@@ -156,7 +156,8 @@ impl Robot {
         Ok(robot)
     }
 
-    /// Reads and validates a robot file without questioning its units: for an inspection, which names them all.
+    /// Reads and validates a robot file without questioning its units: for an inspection, which names them
+    /// all.
     ///
     /// # Errors
     /// As [`Robot::from_json`].

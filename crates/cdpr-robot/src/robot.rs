@@ -43,8 +43,8 @@ pub struct Platform {
     pub mass: f64,
     /// Centre of mass G in the platform frame [m].
     pub center_of_mass: Vector3<f64>,
-    /// Inertia about the centre of mass in the platform frame [kg m²], if known: symmetric, positive definite.
-    /// Only natural frequencies depend on it.
+    /// Inertia about the centre of mass in the platform frame [kg m²], if known: symmetric, positive
+    /// definite. Only natural frequencies depend on it.
     pub inertia: Option<Matrix3<f64>>,
 }
 
@@ -311,8 +311,8 @@ impl Robot {
         self.validate_points()
     }
 
-    /// Questions values that are off by so much that they must be in another unit: a modulus below that of any
-    /// cable, points farther apart than those of any robot.
+    /// Questions values that are off by so much that they must be in another unit: a modulus below that of
+    /// any cable, points farther apart than those of any robot.
     ///
     /// # Errors
     /// [`RobotError::Invalid`] names the field and says what its value would be in the unit that was meant.

@@ -22,7 +22,8 @@ fn values_in_another_unit_are_questioned_with_what_they_would_be() {
     let modulus = |text: &str| refusal("1.022e11", text);
     assert_eq!(
         modulus("20"),
-        "cable.youngs_modulus is 20: expected a modulus in Pa, soft rubber has 1e6: 20 GPa is 2e10, 20 MPa is \
+        "cable.youngs_modulus is 20: expected a modulus in Pa, soft rubber has 1e6: 20 GPa is 2e10, 20 MPa \
+         is \
          2e7 (line 7, column 104)"
     );
     assert!(modulus("102200").contains("102200 MPa is 1.022e11"));
@@ -52,8 +53,8 @@ fn no_robot_that_exists_is_questioned() {
         include_str!("../../../data/reference/robots/fast.json"),
     ];
     let robots = files.map(|text| Robot::from_json(text).unwrap());
-    // From a desk to twice the widest telescope, from rubber to carbon fibre, thread to bridge cable; and EA given
-    // as the modulus of a unit section.
+    // From a desk to twice the widest telescope, from rubber to carbon fibre, thread to bridge cable; and EA
+    // given as the modulus of a unit section.
     for (modulus, section) in [(1e6, 1e-7), (2e8, 2.8e-5), (1.77e9, 3.8e-5), (1e12, 1e-2), (5e5, 1.0)] {
         for size in [0.02, 1.0, 2.0] {
             for robot in &robots {

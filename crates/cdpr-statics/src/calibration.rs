@@ -23,8 +23,8 @@
 //! ½ log2 det(1 + B C Bᵀ) = ½ log2 det(1 + YᵀY),      Rᵀ Y = Bᵀ                                    (K3)
 //! ```
 //!
-//! which is the sum of log2 of the diagonal of the triangular factor of `[Y; 1]`; the factor of `[R; B]` is the
-//! next R. Neither forms a square whose rounding exceeds the unit matrix where measurements are precise.
+//! which is the sum of log2 of the diagonal of the triangular factor of `[Y; 1]`; the factor of `[R; B]` is
+//! the next R. Neither forms a square whose rounding exceeds the unit matrix where measurements are precise.
 //!
 //! Taking the pose that adds most, one after the other, comes within 1 - 1/e of the information of the best
 //! choice (D-optimal design; Nemhauser, Wolsey, Fisher 1978: the information is submodular).

@@ -23,18 +23,18 @@
 //! The derivatives of v_i are second derivatives of the catenary (`cdpr_cable::TensionSlope`).
 //!
 //! **Active bounds stay active** while their multipliers are not zero. On limits at the platform `dt_i = 0`. A
-//! cable whose weight demands more rests on the constant [`ABOVE_LEAST`] times the least tension over its span.
-//! That least tension, a minimum over the length, changes as if the length at which it is taken were held:
-//! `dt_i = ABOVE_LEAST u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary. A greatest tension T0 at the exit point
-//! leaves t at the platform, which (C26) of `cdpr_cable` relates:
-//! `(1 + ε(t)) dt = w dz + z dw + (1/EA ∫ ε) dEA` with the integral over the tension from T0 to t.
+//! cable whose weight demands more rests on the constant [`ABOVE_LEAST`] times the least tension over its
+//! span. That least tension, a minimum over the length, changes as if the length at which it is taken were
+//! held: `dt_i = ABOVE_LEAST u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary. A greatest tension T0 at the
+//! exit point leaves t at the platform, which (C26) of `cdpr_cable` relates: `(1 + ε(t)) dt = w dz + z dw +
+//! (1/EA ∫ ε) dEA` with the integral over the tension from T0 to t.
 //!
 //! **Set-points** are `t_i + dt_i`, or the bounds above where it is beyond them: then the offset changes
 //! nothing.
 //!
 //! **Two sides.** Where a bound is left when an input grows and kept when it falls, or the other way round, the
-//! right and the left derivative differ: `derivatives/optimum.rs` and `winding.rs`. An offset of a cable on its
-//! bound is such an input.
+//! right and the left derivative differ: `derivatives/optimum.rs` and `winding.rs`. An offset of a cable on
+//! its bound is such an input.
 //!
 //! **Lengths** follow from (D1) at the set-points:
 //!
@@ -183,8 +183,8 @@ fn split_off(matrix: &mut DMatrix<f64>, count: usize) -> DMatrix<f64> {
 }
 
 impl Derivatives {
-    /// The right derivatives: those of every input as it grows, with an empty `one_sided`. They differ from the
-    /// left ones in the columns of the inputs in `one_sided`.
+    /// The right derivatives: those of every input as it grows, with an empty `one_sided`. They differ from
+    /// the left ones in the columns of the inputs in `one_sided`.
     pub fn right(&self) -> Self {
         let mut right = self.clone();
         let Excess { set_points, lengths, unloaded, loaded } = &*self.excess;

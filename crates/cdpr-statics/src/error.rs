@@ -39,7 +39,8 @@ pub enum StaticsError {
     },
     /// No tensions within the limits that hold the pose were found.
     #[error(
-        "at position ({x}, {y}, {z}) m: no tensions between {min} N and {max} N balance the wrench{why}: the best \
+        "at position ({x}, {y}, {z}) m: no tensions between {min} N and {max} N balance the wrench{why}: \
+         the best \
          from {starts} starts leave a residual of {force:.3} N and {moment:.3} N m beside tensions up to \
          {largest:.3} N{blocked}; change the pose, the load or the limits",
         x = position[0], y = position[1], z = position[2],
@@ -72,7 +73,8 @@ pub enum StaticsError {
     /// A cable's weight leaves no tension at the platform between the least one there and the greatest one at
     /// the exit point.
     #[error(
-        "cable {}: its greatest tension at the exit point, {exit} N, leaves {max:.3} N at the platform, {depth:.3} m \
+        "cable {}: its greatest tension at the exit point, {exit} N, leaves {max:.3} N at the platform, \
+         {depth:.3} m \
          below, less than its least tension there, {min} N; change the pose or the limits",
         index + 1
     )]
@@ -90,7 +92,8 @@ pub enum StaticsError {
     },
     /// Tensions that hold the pose were found, but not the best of them.
     #[error(
-        "inverse model: tensions hold the pose, but in {iterations} iterations their optimum was not found: the \
+        "inverse model: tensions hold the pose, but in {iterations} iterations their optimum was not found: \
+         the \
          best have a slope of {stationarity:e} N left"
     )]
     InverseNotConverged {

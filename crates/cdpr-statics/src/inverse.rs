@@ -15,9 +15,9 @@
 //! t_i - r_i + λ·dw_i/dt_i = 0  on free cables,   >= 0 at min_i,   <= 0 at max_i                     (I2)
 //! ```
 //!
-//! r is zero, or what the robot prefers. The limits of a cable are its own or the robot's; its least tension is
-//! at least [`ABOVE_LEAST`] times what its own weight demands over its span, and a greatest tension at its exit
-//! point is converted to the platform by `limits`.
+//! r is zero, or what the robot prefers. The limits of a cable are its own or the robot's; its least tension
+//! is at least [`ABOVE_LEAST`] times what its own weight demands over its span, and a greatest tension at its
+//! exit point is converted to the platform by `limits`.
 //!
 //! The modules below solve it in the chord force σ_i of each cable (`cdpr_cable::HeldCable`), in which all
 //! derivatives are finite: `optimum` by Newton's method, `feasible` from several starts before a pose is

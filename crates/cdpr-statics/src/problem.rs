@@ -95,11 +95,12 @@ impl<'a> DirectProblem<'a> {
     }
 }
 
-/// All cables longer than this many widths of a robot would let the platform hang far below it; lengths in mm are
-/// a thousand times too long.
+/// All cables longer than this many widths of a robot would let the platform hang far below it; lengths in mm
+/// are a thousand times too long.
 const LONGEST: f64 = 30.0;
 
-/// Questions lengths [m] that are all so much longer than the robot is wide that they must be in another unit.
+/// Questions lengths [m] that are all so much longer than the robot is wide that they must be in another
+/// unit.
 ///
 /// # Errors
 /// [`StaticsError::Invalid`] with what the shortest would be if it were in mm.

@@ -7,7 +7,8 @@ use cdpr_statics::{AtBound, Bound, Derivatives, InverseSolution, Load, derivativ
 use nalgebra::DVector;
 use std::collections::BTreeMap;
 
-/// Derivatives of all outputs with respect to an input on one side, by differences, and what these leave open.
+/// Derivatives of all outputs with respect to an input on one side, by differences, and what these leave
+/// open.
 fn one_sided(case: &Case, exact: &Derivatives, input: usize, sign: f64) -> Vec<Option<(DVector<f64>, f64)>> {
     let (now, _) = case.outputs(&exact.deflection).unwrap();
     let mut best: Vec<Option<(DVector<f64>, f64)>> = vec![None; now.len()];
@@ -137,8 +138,8 @@ fn where_a_bound_is_reached_without_a_multiplier_every_input_has_two_sides() {
         let greatest = (0..tensions.len()).max_by(|i, j| tensions[*i].total_cmp(&tensions[*j])).unwrap();
         let original = case.robot.tension_limits;
         case.robot.tension_limits.max = tensions[greatest];
-        // With two cables on their least tension and one that reaches its greatest five are left, which decide
-        // nothing.
+        // With two cables on their least tension and one that reaches its greatest five are left, which
+        // decide nothing.
         if on_limit {
             let refused = derivatives(&case.robot, &case.pose, &case.offsets, &case.load).unwrap_err();
             assert_eq!(refused.kind(), "no_derivative");

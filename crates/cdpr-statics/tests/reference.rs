@@ -46,7 +46,8 @@ fn equilibria_match_40_digit_arithmetic() {
         let load = Load::wrench(wrench);
         let proof = DirectProblem::new(&robot, &lengths, &load).unwrap().certify(&solution).unwrap();
         let line = format!(
-            "{:14} {:9.1e} m {:9.1e} rad {:9.1e} N (proved {:7.1e} m {:7.1e} rad {:7.1e} N), {:?} {} iterations, \
+            "{:14} {:9.1e} m {:9.1e} rad {:9.1e} N (proved {:7.1e} m {:7.1e} rad {:7.1e} N), {:?} {} \
+             iterations, \
              slack {:?}",
             robot.name,
             position,

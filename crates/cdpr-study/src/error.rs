@@ -186,7 +186,8 @@ pub enum StudyError {
     },
     /// A link, or something else that no run makes, stands where a run writes or removes.
     #[error(
-        "{path} is a link, or no plain file or folder: links in a folder of results are not followed; move it, \
+        "{path} is a link, or no plain file or folder: links in a folder of results are not followed; move \
+         it, \
          or choose another folder"
     )]
     Link {
@@ -201,7 +202,8 @@ pub enum StudyError {
     },
     /// Files in a folder of results belong to different studies.
     #[error(
-        "{path} is of study {found}: expected {expected}, as the files beside it; it was changed, or a run was \
+        "{path} is of study {found}: expected {expected}, as the files beside it; it was changed, or a run \
+         was \
          interrupted"
     )]
     Mixed {

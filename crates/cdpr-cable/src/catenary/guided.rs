@@ -57,7 +57,8 @@ use nalgebra::Vector2;
 pub(crate) struct Guided<T> {
     /// Unstrained length Lf beyond the leave point [m].
     pub(crate) free: T,
-    /// Angle ψ of the leave point from the horizontal through the wheel's centre [rad], with m = (cos ψ, σ sin ψ).
+    /// Angle ψ of the leave point from the horizontal through the wheel's centre [rad], with m = (cos ψ, σ
+    /// sin ψ).
     pub(crate) psi: T,
     m: [T; 2],
     /// Direction of the cable at the leave point.

@@ -22,8 +22,8 @@ pub fn in_plane_stiffness<T: Field>([xx, xz, zz]: [T; 3], determinant: T) -> [T;
 
 /// Stiffness `dF/dr` of the end force in space [N/m], `z` up: a symmetric matrix.
 ///
-/// The cable has the elements xx, xz = zx and zz of its in-plane stiffness, the stiffness `lateral` across its
-/// plane, and the horizontal unit vector `azimuth` from B towards A.
+/// The cable has the elements xx, xz = zx and zz of its in-plane stiffness, the stiffness `lateral` across
+/// its plane, and the horizontal unit vector `azimuth` from B towards A.
 #[inline(always)]
 pub fn stiffness_in_space<T: Field>(in_plane: [T; 3], lateral: T, azimuth: [T; 2]) -> [[T; 3]; 3] {
     let ([h, hz, z], [c, s]) = (in_plane, azimuth);

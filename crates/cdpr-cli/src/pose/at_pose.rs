@@ -176,7 +176,7 @@ impl RobotAtPose {
         Ok(ending)
     }
 
-    /// Prints the answer at one of many poses; `columns` of its cells are empty where there is none.
+    /// Prints the answer at one of many poses; where the pose has no answer, `columns` cells stay empty.
     fn print_answer<T: Row>(
         &self,
         pose: &Pose,

@@ -10,8 +10,9 @@ use pyo3::prelude::*;
 answer! {
     /// A deflection with its exact derivatives, per SI unit of the k inputs.
     ///
-    /// Where a cable leaves a bound on one side of an input only, the derivatives as the input falls (left) and
-    /// as it grows (right) differ: `one_sided` says where. Fields without `right` in their name are left ones.
+    /// Where a cable leaves a bound on one side of an input only, the derivatives as the input falls (left)
+    /// and as it grows (right) differ: `one_sided` says where. Fields without `right` in their name are left
+    /// ones.
     ///
     /// The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
     /// answer, and `reasons` says why.

@@ -46,8 +46,8 @@ answer! {
 impl Robot {
     /// Computes the unstrained lengths that hold the platform at a pose under its weight and a load.
     ///
-    /// The tensions are those within their limits that come nearest to a reference. Arguments are of one case, or have a
-    /// first axis of m cases.
+    /// The tensions are those within their limits that come nearest to a reference. Arguments are of one
+    /// case, or have a first axis of m cases.
     ///
     /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
     /// force, moment: on the platform in the base frame, about P [N, N m], (3,).

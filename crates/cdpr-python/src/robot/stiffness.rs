@@ -20,8 +20,8 @@ answer! {
         matrix: Py<PyAny>,
         /// Symmetric part of K, (6, 6).
         symmetric_part: Py<PyAny>,
-        /// Eigenvalues of the symmetric part of the stiffness in (dp, characteristic_length dphi), from the softest motion [N/m],
-        /// (6,).
+        /// Eigenvalues of the symmetric part of the stiffness in (dp, characteristic_length dphi), from the
+        /// softest motion [N/m], (6,).
         eigenvalues: Py<PyAny>,
         /// Translation of P in each of these motions [m/m], (6, 3).
         translations: Py<PyAny>,

@@ -67,9 +67,9 @@ impl Input {
     /// Checks the law and the steps. The other methods expect a valid input.
     ///
     /// # Errors
-    /// [`SensitivityError::InvalidInput`] with the reason: an invalid law, a step that is not positive, longer
-    /// than the distance from the middle to an end, or too short to be counted, or steps of equal mass for a law that is not
-    /// uniform.
+    /// [`SensitivityError::InvalidInput`] with the reason: an invalid law, a step that is not positive,
+    /// longer than the distance from the middle to an end, or too short to be counted, or steps of equal mass
+    /// for a law that is not uniform.
     pub fn validate(&self) -> Result<(), SensitivityError> {
         let check = || {
             self.law.validate()?;

@@ -1,16 +1,16 @@
 //! Derivatives of the tensions of the inverse model, on both sides of every input.
 //!
 //! With the cables on their bounds known, equation (D6) gives the derivatives of all tensions. A bound with a
-//! multiplier other than zero stays active for small changes, and the tensions have a derivative. A cable that
-//! rests on its bound with the multiplier zero, or reaches it exactly, leaves the bound or stays on it: along a
-//! direction d of the inputs its tension and the slope ρ_i of (D5) have
+//! multiplier other than zero stays active for small changes, and the tensions have a derivative. A cable
+//! that rests on its bound with the multiplier zero, or reaches it exactly, leaves the bound or stays on it:
+//! along a direction d of the inputs its tension and the slope ρ_i of (D5) have
 //!
 //! ```text
 //! dt_i - b_i >= 0,   dρ_i = D_i dt_i + c_i·dλ + ∂ρ_i >= 0,   one of them zero                       (D9)
 //! ```
 //!
-//! at its least tension, and <= 0 at its greatest; b_i is the change of the bound. The directions +d and -d, the
-//! right and the left derivative, may keep different cables on their bounds.
+//! at its least tension, and <= 0 at its greatest; b_i is the change of the bound. The directions +d and -d,
+//! the right and the left derivative, may keep different cables on their bounds.
 
 use crate::equations::solve;
 use crate::error::StaticsError;
@@ -57,8 +57,8 @@ const MOST_UNDECIDED: usize = 12;
 pub(super) const ROUNDING: f64 = 1e-9;
 
 impl Optimum {
-    /// The derivatives with the cables of `on_bound` on their bounds; those of `undecided` leave them or stay,
-    /// as (D9) decides.
+    /// The derivatives with the cables of `on_bound` on their bounds; those of `undecided` leave them or
+    /// stay, as (D9) decides.
     pub(super) fn sides(&self, on_bound: &[bool], undecided: &[AtBound]) -> Result<Sides, StaticsError> {
         if undecided.is_empty() {
             return Ok(Sides { left: self.with(on_bound)?.0, right: None });

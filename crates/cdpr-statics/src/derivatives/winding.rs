@@ -1,8 +1,8 @@
 //! From the wanted pose to set-points and lengths, with the derivatives on both sides of every input.
 //!
-//! A set-point is `t_i + dt_i` between the lower and the upper bound of the cable. Where it reaches the lower one
-//! its right derivative is the greater one of theirs, its left derivative the smaller one; at the upper bound it
-//! is the other way round.
+//! A set-point is `t_i + dt_i` between the lower and the upper bound of the cable. Where it reaches the lower
+//! one its right derivative is the greater one of theirs, its left derivative the smaller one; at the upper
+//! bound it is the other way round.
 
 use super::optimum::{AtBound, Optimum, ROUNDING, Sides};
 use crate::equations::{CableDerivatives, Inputs, Partials, Reading, Span, read, tensions};
@@ -70,8 +70,8 @@ pub(super) struct Winding<'a> {
     pub(super) wound: &'a Wound,
 }
 
-/// A multiplier below this share of the greatest tension may be rounding: the inverse model leaves 1e-11 of all
-/// forces open, and with several cables on their bounds multipliers are known a thousand times less.
+/// A multiplier below this share of the greatest tension may be rounding: the inverse model leaves 1e-11 of
+/// all forces open, and with several cables on their bounds multipliers are known a thousand times less.
 const NO_MULTIPLIER: f64 = 1e-7;
 
 /// Whether two tensions [N] differ by rounding only.
@@ -262,8 +262,8 @@ impl Winding<'_> {
         Ok(rows)
     }
 
-    /// Derivatives of the tensions that the limits at the exit points leave to the cables in `which`; zero rows
-    /// for all others.
+    /// Derivatives of the tensions that the limits at the exit points leave to the cables in `which`; zero
+    /// rows for all others.
     fn exit_limits(&self, which: &[usize]) -> Result<DMatrix<f64>, StaticsError> {
         let mut rows = self.inputs.zeros(self.wound.set_points.len());
         if which.is_empty() {

@@ -199,8 +199,8 @@ impl CableDerivatives {
         }
     }
 
-    /// The derivatives of the tension `t` [N] that the greatest tension of cable i at its exit point leaves at
-    /// the platform, in the place of those of F_i: equation (C26) of `cdpr_cable` differentiated.
+    /// The derivatives of the tension `t` [N] that the greatest tension of cable i at its exit point leaves
+    /// at the platform, in the place of those of F_i: equation (C26) of `cdpr_cable` differentiated.
     pub(crate) fn of_exit_limit(robot: &Robot, pose: &Pose, i: usize, t: f64) -> Self {
         let (cable, exit) = (robot.cable(i), robot.limits(i).max);
         let up = Vector3::z() / (1.0 + cable.strain(t));

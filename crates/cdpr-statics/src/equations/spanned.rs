@@ -39,8 +39,8 @@ impl SpannedCable<f64> {
 }
 
 impl SpannedCable<f64> {
-    /// Skew part of the stiffness in space [N/m], besides [`LinearizedCable::stiffness_in_space`]: of a cable over a
-    /// guide, whose flexibility is not quite symmetric (C22).
+    /// Skew part of the stiffness in space [N/m], besides [`LinearizedCable::stiffness_in_space`]: of a cable
+    /// over a guide, whose flexibility is not quite symmetric (C22).
     pub(crate) fn skew_stiffness(&self, catenary: &Catenary) -> Option<Matrix3<f64>> {
         catenary.cable.guide?;
         let asymmetry = catenary.asymmetry();

@@ -1,17 +1,17 @@
 //! Following an optimum of the inverse model from one question to another.
 //!
 //! Pose, load and reference go straight from the old question to the new one, in steps. After each step
-//! Newton's method starts from the last optimum, on the equations of (I2) and the balance with the exact second
-//! derivatives. With the cables at a limit as a set W it solves
+//! Newton's method starts from the last optimum, on the equations of (I2) and the balance with the exact
+//! second derivatives. With the cables at a limit as a set W it solves
 //!
 //! ```text
 //! h_i d_i + J_i·λ = -c_i  for i not in W,    d_i = the way to the limit  for i in W,    J d + F = 0   (I5)
 //! ```
 //!
-//! A cable enters W where its d_i passes a limit, and leaves it where its multiplier has the wrong sign, until
-//! W is that of the solution. The optimum lies on the branch of the last one if the method converges as it
-//! does near its limit: every change is at most half of that before, and the reduced Hessian is positive at
-//! each. Otherwise the step is halved. A strict minimum with a regular balance can always be followed by
+//! A cable enters W where its d_i passes a limit, and leaves it where its multiplier has the wrong sign,
+//! until W is that of the solution. The optimum lies on the branch of the last one if the method converges as
+//! it does near its limit: every change is at most half of that before, and the reduced Hessian is positive
+//! at each. Otherwise the step is halved. A strict minimum with a regular balance can always be followed by
 //! steps that are small enough; where the least step fails, the branch has ended.
 
 use super::held::Strand;
@@ -135,7 +135,8 @@ impl Answered {
 }
 
 impl Point<'_> {
-    /// The solution of (I5) with the set W that belongs to it; `None` where none is found or it is no minimum.
+    /// The solution of (I5) with the set W that belongs to it; `None` where none is found or it is no
+    /// minimum.
     fn newton(&mut self) -> Option<(Vec<f64>, Vector6<f64>)> {
         let hessian = self.hessian();
         let rounding = ROUNDING * self.size();

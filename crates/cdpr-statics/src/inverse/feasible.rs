@@ -8,9 +8,9 @@
 //! minimise  |J d + F|² + η sum (d_i/σ_i)²   within the limits,                                      (I4)
 //! ```
 //!
-//! from that start, from the reference, from the middle of the limits and from tensions spread over them, each
-//! cable's for itself: other optima mostly differ in one cable or two. From every point where the balance holds
-//! the optimum is searched again.
+//! from that start, from the reference, from the middle of the limits and from tensions spread over them,
+//! each cable's for itself: other optima mostly differ in one cable or two. From every point where the
+//! balance holds the optimum is searched again.
 //!
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
 //! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual has

@@ -188,9 +188,9 @@ impl<S: Simd> HeldCable<S> {
     }
 }
 
-/// The tensions nearest to their reference at the wanted pose, equations (L2) and (L3); `offsets` are added to them and become
-/// set-points, towards which cables make a first step. Returns the lanes with taut cables and all tensions
-/// within the limits.
+/// The tensions nearest to their reference at the wanted pose, equations (L2) and (L3); `offsets` are added
+/// to them and become set-points, towards which cables make a first step. Returns the lanes with taut cables
+/// and all tensions within the limits.
 #[inline(always)]
 fn distribute<S: Simd>(
     robots: &mut Robots<S>,

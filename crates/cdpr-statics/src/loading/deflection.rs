@@ -77,8 +77,8 @@ pub(crate) struct Wound {
     pub(crate) held: Equilibrium,
 }
 
-/// Deflection under `load` at the wanted pose `pose`, with `tension_offsets` [N] added to the set-points of the
-/// inverse model and these kept within the limits.
+/// Deflection under `load` at the wanted pose `pose`, with `tension_offsets` [N] added to the set-points of
+/// the inverse model and these kept within the limits.
 ///
 /// # Errors
 /// Those of the inverse and the direct model.

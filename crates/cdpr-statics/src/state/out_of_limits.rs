@@ -44,8 +44,8 @@ impl OutOfLimits {
         matches!(self.limit, Limit::BreakingForce | Limit::Max)
     }
 
-    /// The one of a cable: beyond the most serious limit of all, at the anchor point if it is passed there, and
-    /// farthest beyond it.
+    /// The one of a cable: beyond the most serious limit of all, at the anchor point if it is passed there,
+    /// and farthest beyond it.
     fn of_cable(robot: &Robot, cable: usize, tensions: impl Iterator<Item = [f64; 2]>) -> Option<Self> {
         let TensionLimits { min, max } = robot.limits(cable);
         let (breaking, max_at) = (robot.cables[cable].properties.breaking_force, robot.max_at(cable));
@@ -73,8 +73,8 @@ impl OutOfLimits {
     }
 }
 
-/// The tensions of a robot with these unstrained lengths [m] that are out of limits in any of the equilibria, at
-/// either end: at most one for each cable, that beyond the most serious limit.
+/// The tensions of a robot with these unstrained lengths [m] that are out of limits in any of the equilibria,
+/// at either end: at most one for each cable, that beyond the most serious limit.
 pub fn out_of_limits(robot: &Robot, lengths: &[f64], equilibria: &[&Equilibrium]) -> Vec<OutOfLimits> {
     let ends: Vec<_> =
         equilibria.iter().map(|at| (at.tensions(), at.exit_tensions(robot, lengths))).collect();

@@ -232,7 +232,8 @@ impl Study {
             return Ok(());
         }
         if name == BLOCKS_NAME {
-            let expected = "another name for a sampling at several poses: the folder of its tables would be that of \
+            let expected = "another name for a sampling at several poses: the folder of its tables would be \
+             that of \
                             the blocks";
             return Err(self.invalid("samplings", name, expected));
         }
