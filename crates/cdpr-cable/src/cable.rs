@@ -10,7 +10,7 @@
 //! For a linear cable that is `t + t²/2EA = T0 + T0²/2EA + w z`, whatever its sag.
 
 use crate::error::{CableError, SMALLEST, check};
-use crate::guide::Guide;
+use crate::guide::{Guide, in_plane};
 use crate::kernel::closure_of_limp;
 use crate::law::ElasticLaw;
 use nalgebra::Vector2;
@@ -41,18 +41,21 @@ pub(crate) struct Numbers<T> {
     pub(crate) radius: T,
     /// Unstrained length L [m].
     pub(crate) length: T,
+    /// Direction in which the cable enters a pulley whose axis is tilted.
+    pub(crate) axis: [T; 3],
 }
 
-impl<T> Numbers<T> {
+impl<T: Copy> Numbers<T> {
     /// The same numbers of another kind.
     #[inline]
-    pub(crate) fn map<U>(self, of: impl Fn(T) -> U) -> Numbers<U> {
+    pub(crate) fn map<U>(self, of: impl Fn(T) -> U + Copy) -> Numbers<U> {
         Numbers {
             weight_per_length: of(self.weight_per_length),
             axial_flexibility: of(self.axial_flexibility),
             lead: of(self.lead),
             radius: of(self.radius),
             length: of(self.length),
+            axis: self.axis.map(of),
         }
     }
 }
@@ -67,8 +70,9 @@ impl Cable<'_> {
     #[inline]
     pub(crate) fn numbers(&self, length: f64) -> Numbers<f64> {
         let [lead, radius] = self.guide.map_or([0.0; 2], |guide| [guide.lead, guide.radius]);
+        let axis = self.guide.map_or([0.0; 3], |guide| guide.entry.axis());
         let axial_flexibility = 1.0 / self.axial_stiffness;
-        Numbers { weight_per_length: self.weight_per_length, axial_flexibility, lead, radius, length }
+        Numbers { weight_per_length: self.weight_per_length, axial_flexibility, lead, radius, length, axis }
     }
 
     /// Strain at a tension [N].
@@ -100,7 +104,7 @@ impl Cable<'_> {
     /// Length of a straight cable to `end = (x, z)` [m], lead and arc included [m]; that of the chord where
     /// the end lies too near to the pulley for one.
     pub fn straight_length(&self, end: Vector2<f64>) -> f64 {
-        let straight = self.guide.and_then(|guide| guide.straight(end.into()));
+        let straight = self.guide.and_then(|guide| guide.straight(in_plane(end.into())));
         straight.map_or_else(|| end.norm(), |straight| straight.free + straight.guided)
     }
 

@@ -7,6 +7,7 @@ mod guided;
 mod mechanics;
 mod pieces;
 mod shape;
+pub(crate) mod spatial;
 
 use crate::cable::Cable;
 use crate::error::{CableError, check, check_length};

@@ -2,13 +2,14 @@
 
 use crate::error::{CableError, check};
 use crate::kernel::closure_of_limp;
+use nalgebra::Vector3;
 
-/// A lead and a swivelling pulley with a vertical swivel axis.
+/// A lead and a swivelling pulley.
 ///
 /// The cable comes from the winch over the distance `lead`, enters the pulley at the point D on the swivel
 /// axis, along the axis, lies on the wheel for an arc and leaves it along the tangent of the catenary. The
-/// wheel turns about the axis into the plane of the cable. Without a pulley (`radius` zero) the cable bends
-/// at D as at any exit point.
+/// wheel turns about the axis until its plane contains that tangent. Without a pulley (`radius` zero) the
+/// cable bends at D as at any exit point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guide {
     /// Stretched length between winch and D [m].
@@ -20,22 +21,35 @@ pub struct Guide {
 }
 
 /// The direction in which a cable travels where it enters its pulley.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Entry {
     /// From below: the cable leaves over the top of the wheel.
     Upwards,
     /// From above: the cable leaves under the wheel.
     Downwards,
+    /// Along this unit vector.
+    ///
+    /// Of a cable in its vertical plane, such as that of a [`crate::Catenary`], its components are those
+    /// forwards from D, across the plane to the left and upwards; of a [`crate::SpatialCable`] those along
+    /// x, y and z, upwards.
+    Along([f64; 3]),
 }
 
 impl Entry {
-    /// 1 upwards, -1 downwards.
+    /// The direction as a unit vector, upwards its last component.
     #[inline]
-    pub fn sign(self) -> f64 {
+    pub fn axis(self) -> [f64; 3] {
         match self {
-            Self::Upwards => 1.0,
-            Self::Downwards => -1.0,
+            Self::Upwards => [0.0, 0.0, 1.0],
+            Self::Downwards => [0.0, 0.0, -1.0],
+            Self::Along(axis) => axis,
         }
+    }
+
+    /// Whether the direction is not vertical, so that the plane of the wheel need not be that of the cable.
+    #[inline]
+    pub fn is_tilted(self) -> bool {
+        matches!(self, Self::Along(_))
     }
 }
 
@@ -54,25 +68,30 @@ impl Guide {
         check("pulley.radius", self.radius, self.radius >= 0.0, "a radius, zero or more [m]")
     }
 
-    /// Closure residual [m] of a slack cable without weight, as [`crate::kernel::closure_of_limp`] has it,
-    /// along a straight cable.
+    /// Closure residual [m] of a slack cable without weight in its plane, as
+    /// [`crate::kernel::closure_of_limp`] has it, along a straight cable.
     pub fn closure_of_limp(&self, end: [f64; 2], rest: f64) -> [f64; 2] {
-        let Some(Straight { leave, free, guided }) = self.straight(end) else {
+        let Some(Straight { leave, free, guided }) = self.straight(in_plane(end)) else {
             return closure_of_limp(end, rest);
         };
         let missing = (free + guided - rest).max(0.0) / free;
-        [0, 1].map(|k| (end[k] - leave[k]) * missing)
+        [(end[0] - leave.x) * missing, (end[1] - leave.z) * missing]
     }
 
-    /// Where a straight cable to `end = (x, z)` [m] from D leaves the wheel; `None` where `end` lies within
-    /// the wheel, or where the cable would have to lean back towards the swivel axis.
-    pub(crate) fn straight(&self, [x, z]: [f64; 2]) -> Option<Straight> {
-        let (r, up) = (self.radius, self.entry.sign());
+    /// Where a straight cable to `end` [m] from D leaves the wheel; `None` where `end` lies within the wheel,
+    /// or where the cable would have to lean back towards the swivel axis.
+    pub(crate) fn straight(&self, end: Vector3<f64>) -> Option<Straight> {
+        let r = self.radius;
         if r == 0.0 {
-            return Some(Straight { leave: [0.0; 2], free: x.hypot(z), guided: self.lead });
+            return Some(Straight { leave: Vector3::zeros(), free: end.norm(), guided: self.lead });
         }
-        // From the centre (r, 0) the end lies at the distance e; the tangent is sqrt(e² - r²) long.
-        let (from_center, height) = (x - r, up * z);
+        // Away from the swivel axis, and along it.
+        let axis = Vector3::from(self.entry.axis());
+        let height = end.dot(&axis);
+        let away = end - height * axis;
+        let x = away.norm();
+        // From the centre, r away, the end lies at the distance e; the tangent is sqrt(e² - r²) long.
+        let from_center = x - r;
         let free = from_center.mul_add(from_center, height * height - r * r);
         if free <= 0.0 {
             return None;
@@ -83,18 +102,24 @@ impl Guide {
         let psi = (height * r + from_center * free).atan2(from_center * r - height * free);
         let (sin, cos) = psi.sin_cos();
         let arc = r * (std::f64::consts::PI - psi);
+        let outwards = if x > 0.0 { away / x } else { Vector3::x() };
         (psi > 0.0).then_some(Straight {
-            leave: [r * (1.0 + cos), up * r * sin],
+            leave: r * (1.0 + cos) * outwards + r * sin * axis,
             free,
             guided: self.lead + arc,
         })
     }
 }
 
+/// A point (x, z) of a cable's plane [m], forwards, across and upwards.
+pub(crate) fn in_plane([x, z]: [f64; 2]) -> Vector3<f64> {
+    Vector3::new(x, 0.0, z)
+}
+
 /// A straight cable over a guide.
 pub(crate) struct Straight {
     /// Leave point from D [m].
-    pub(crate) leave: [f64; 2],
+    pub(crate) leave: Vector3<f64>,
     /// Length beyond it [m].
     pub(crate) free: f64,
     /// Length of lead and arc [m].

@@ -4,8 +4,10 @@ mod end_force;
 mod held;
 mod known;
 mod length_for_tension;
+mod spatial;
 
 pub use end_force::{Solution, end_force, end_force_near};
 pub use held::{HeldCable, TensionSlope};
 pub use known::Known;
 pub use length_for_tension::{least_tension, length_for_tension, length_for_tension_near};
+pub use spatial::{HeldSpatialCable, SpatialTensionSlope, spatial_end_force};

@@ -6,11 +6,11 @@ use cdpr_cable::{
 use proptest::prelude::*;
 use serde_json::Value;
 
-fn number(value: &Value) -> f64 {
+pub(crate) fn number(value: &Value) -> f64 {
     value.as_str().map_or_else(|| value.as_f64().unwrap(), |digits| digits.parse().unwrap())
 }
 
-fn vector(value: &Value) -> Vector3<f64> {
+pub(crate) fn vector(value: &Value) -> Vector3<f64> {
     Vector3::from_iterator(value.as_array().unwrap().iter().map(number))
 }
 

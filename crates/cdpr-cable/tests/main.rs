@@ -8,3 +8,4 @@ mod held;
 mod piecewise;
 mod properties;
 mod reference;
+mod spatial;

@@ -1,79 +1,88 @@
 //! A cable that is led to its catenary over a lead and a swivelling pulley.
 //!
-//! The cable enters at D, the origin, in the direction `σ e_z` (σ = 1 upwards, -1 downwards). It lies on the
-//! wheel until its direction is the tangent τ of the catenary at the leave point B. The force there is
-//! `f0 = (fx, V0) = T0 τ`. With the wheel's centre at (r, 0)
+//! The cable enters at D, the origin, in the direction k, the swivel axis. It lies on the wheel until its
+//! direction is the tangent τ of the catenary at the leave point B, where the force is `F0 = T0 τ`. The plane
+//! of the wheel contains k and τ; u is its direction normal to k, and n is normal to it:
 //!
 //! ```text
-//! ψ = atan2(fx, -σ V0),   B = r (1 + cos ψ, σ sin ψ),   a = r (π - ψ)                             (C19)
+//! n sin ψ = k x τ,   u = n x k,   cos ψ = -τ·k,   m = cos ψ u + sin ψ k
+//! B = r (u + m),     a = r (π - ψ)                                                               (C19)
 //! ```
 //!
 //! Lead d and arc a carry T0 everywhere; their weight is neglected. Of the unstrained length L
 //!
 //! ```text
-//! Lf = L - (a + d)/(1 + ε(T0)),      V0 = fz - w Lf                                               (C20)
+//! Lf = L - (a + d)/(1 + ε(T0)),      F0 = F - w Lf e_z                                            (C20)
 //! ```
 //!
-//! remain between B and the anchor point A, which lies at `B + (x, z)(f, Lf)`. With `m = (cos ψ, σ sin ψ)`,
-//! the unit vector from the centre to B, and the flexibility C of the free part,
+//! remain between B and the anchor point A, where the force is F. A lies at B + P(F, Lf), with P that of the
+//! free part. With its flexibility C in space,
 //!
 //! ```text
-//! dLf = dL + q·df0,      q = r m/((1 + ε) T0) + (a + d) ε' τ/(1 + ε)²,      β = 1 + w q_z
-//! df0 = df - w e_z dLf,  dLf = (dL + q·df)/β                                                      (C21)
-//! d(x, z)/df = C + κ τ (τ - γ q)ᵀ,      κ = (a + d) ε'/(1 + ε),      γ = w τ_z/β                  (C22)
-//! d(x, z)/dL = (1 + ε - κ γ) τ                                                                    (C23)
+//! dLf = dL + q·dF0,      q = r m/((1 + ε) T0) + (a + d) ε' τ/(1 + ε)²,      β = 1 + w q_z
+//! dF0 = dF - w e_z dLf,  dLf = (dL + q·dF)/β                                                      (C21)
+//! dA/dF = C + κ τ (τ - γ q)ᵀ + μ n (n - δ q)ᵀ,      κ = (a + d) ε'/(1 + ε),   γ = w τ_z/β
+//!                                                   μ = r (1 + cos ψ)/(T0 sin ψ),   δ = w n_z/β   (C22)
+//! dA/dL = (1 + ε - κ γ) τ - μ δ n                                                                 (C23)
 //! ```
 //!
-//! The motion of B along the wheel cancels exactly. (C22) is symmetric but for `κ γ q`: a constant tension
-//! over lead and arc is not quite conservative for a cable with weight. The asymmetry is about `w r/T0` of
-//! the flexibility of lead and arc. [`Response::flexibility`] holds the symmetric part.
+//! The motion of B along the wheel cancels exactly. (C22) is symmetric but for `κ γ q` and `μ δ q`: a
+//! constant tension over lead and arc is not quite conservative for a cable with weight. The asymmetry is
+//! about `w r/T0` of the flexibility of lead and arc. [`Response::flexibility`] holds the symmetric part.
+//! For a vertical axis n is normal to the cable's plane: in the plane the terms with μ vanish, and across it
+//! μ adds to the lateral flexibility.
 //!
 //! With the energy V of the free part (C7) and that of lead and arc, whose elastic energy per unstrained
-//! length is u,
+//! length is u(T0),
 //!
 //! ```text
-//! V + w Lf B_z + w σ r² cos ψ + (a + d) u(T0)/(1 + ε)                                             (C25)
+//! V + w Lf B_z + (a + d) u(T0)/(1 + ε) - w r² ((ψ - π + sin ψ) u_z - cos ψ k_z)                   (C25)
 //! ```
 //!
-//! has the force at A for its gradient but for `w B_z` times what the stretch of lead and arc adds to dLf.
+//! has the force at A for its gradient but for `w B_z` times what the stretch of lead and arc adds to dLf,
+//! and for `w r²` times the turn of u out of the level plane.
 //!
-//! By the other quantities, at constant force and length, with d(x, z)/dL of (C23),
+//! By the other quantities, at constant force and length, with dA/dL of (C23),
 //!
 //! ```text
-//! d(x, z)/dw  = d(x, z)/dw of the free part - κ τ_z Lf/β τ
-//! d(x, z)/dEA = d(x, z)/dEA of the free part - (a + d) ∂(1/(1 + ε))/∂EA d(x, z)/dL
-//! d(x, z)/dd  = -1/(1 + ε) d(x, z)/dL,      d(x, z)/dr = e_x + m - (π - ψ)/(1 + ε) d(x, z)/dL     (C24)
+//! dA/dw  = dP/dw - (κ τ_z τ + μ n_z n) Lf/β
+//! dA/dEA = dP/dEA - (a + d) ∂(1/(1 + ε))/∂EA dA/dL
+//! dA/dd  = -1/(1 + ε) dA/dL,      dA/dr = u + m - (π - ψ)/(1 + ε) dA/dL                           (C24)
 //! ```
 
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
-use crate::guide::Guide;
+use crate::guide::{Entry, Guide};
 use crate::kernel::{Real, Response};
 use crate::law::ElasticLaw;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
+use std::f64::consts::PI;
 
-/// A cable on its guide, for a force at A and an unstrained length, over any kind of number.
+/// A cable on its guide, for a force at A and an unstrained length, over any kind of number. Vectors are in
+/// the axes of the cable's plane: forwards, across and upwards.
 #[derive(Clone, Copy)]
 pub(crate) struct Guided<T> {
     /// Unstrained length Lf beyond the leave point [m].
     pub(crate) free: T,
-    /// Angle ψ of the leave point from the horizontal through the wheel's centre [rad], with m = (cos ψ, σ
-    /// sin ψ).
+    /// Angle ψ between the way in and the way back out [rad]: the cable lies on the wheel for π - ψ.
     pub(crate) psi: T,
-    m: [T; 2],
-    /// Direction of the cable at the leave point.
+    cos: T,
+    u: [T; 3],
+    m: [T; 3],
+    n: [T; 3],
+    /// Direction τ of the cable at the leave point, in its plane.
     tangent: [T; 2],
     /// Leave point B from D [m].
-    pub(crate) leave: [T; 2],
-    /// (1 + cos ψ) r/fx, the lateral flexibility of the leave point [m/N].
-    lateral_flexibility: T,
+    pub(crate) leave: [T; 3],
+    /// μ [m/N].
+    mu: T,
     /// a + d [m].
     pub(crate) guided: T,
     /// 1 + ε(T0).
     stretch: T,
     /// ε'(T0) [1/N].
     flexibility: T,
-    q: [T; 2],
+    q: [T; 3],
     beta: T,
     /// What Lf and the unstrained length of lead and arc exceed L by [m].
     excess: T,
@@ -82,52 +91,71 @@ pub(crate) struct Guided<T> {
 impl<T: Real> Guided<T> {
     /// (C19) to (C21) for an unstrained length `free` beyond the leave point that need not fit L.
     fn with_free(cable: &Cable, guide: &Guide, numbers: &Numbers<T>, [fx, fz]: [T; 2], free: T) -> Self {
-        let Numbers { weight_per_length: w, axial_flexibility, lead, radius, length } = *numbers;
-        let up = guide.entry.sign();
+        let Numbers { weight_per_length: w, axial_flexibility, lead, radius, length, axis } = *numbers;
+        let (zero, one) = (T::of(0.0), T::of(1.0));
         let v0 = fz - w * free;
         let t0 = (fx * fx + v0 * v0 + f64::MIN_POSITIVE).sqrt();
         let (alpha, flexibility) = match cable.law {
-            ElasticLaw::Linear => (T::of(1.0), axial_flexibility),
+            ElasticLaw::Linear => (one, axial_flexibility),
             ElasticLaw::Piecewise(law) => {
                 let segment = law.segment_terms(t0.value(), axial_flexibility);
                 (segment.alpha, segment.flexibility)
             }
         };
         let stretch = alpha + t0 * flexibility;
-        let (cos, sin) = (v0 * -up / t0, fx / t0);
-        let psi = fx.atan2(v0 * -up);
-        // 1 + cos ψ without cancellation.
-        let one_plus_cos = if cos.value() < 0.0 { sin * sin / (-cos + 1.0) } else { cos + 1.0 };
-        // A vertical cable without a pulley has no lateral flexibility to add.
-        let per_fx = if radius.value() == 0.0 && fx.value() == 0.0 {
-            T::of(0.0)
-        } else if cos.value() < 0.0 {
-            sin / (t0 * (-cos + 1.0))
-        } else {
-            (cos + 1.0) / fx
+        let (tx, tz) = (fx / t0, v0 / t0);
+        let ([cos, sin], u, n, [kx, ky, kz]) = match guide.entry {
+            Entry::Along(_) => {
+                let [kx, ky, kz] = axis;
+                let across = [ky * tz, kz * tx - kx * tz, -(ky * tx)];
+                let sin = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).sqrt();
+                let [nx, ny, nz] = across.map(|component| component / sin);
+                let u = [ny * kz - nz * ky, nz * kx - nx * kz, nx * ky - ny * kx];
+                ([-(tx * kx + tz * kz), sin], u, [nx, ny, nz], axis)
+            }
+            vertical => {
+                let up = T::of(vertical.axis()[2]);
+                ([-(tz * up), tx], [one, zero, zero], [zero, up, zero], [zero, zero, up])
+            }
         };
-        let (m, tangent) = ([cos, sin * up], [sin, v0 / t0]);
-        let guided = lead + radius * (-psi + std::f64::consts::PI);
+        let psi = sin.atan2(cos);
+        // 1 + cos ψ, and its share of sin ψ, without cancellation. A cable that goes straight on has no
+        // wheel's plane: without a pulley that adds no flexibility.
+        let backwards = cos.value() < 0.0;
+        let one_plus_cos = if backwards { sin * sin / (-cos + 1.0) } else { cos + 1.0 };
+        let mu = if radius.value() == 0.0 && sin.value() == 0.0 {
+            zero
+        } else if backwards {
+            radius * sin / (t0 * (-cos + 1.0))
+        } else {
+            radius * (cos + 1.0) / (t0 * sin)
+        };
+        let k = [kx, ky, kz];
+        let m = [0, 1, 2].map(|i| cos * u[i] + sin * k[i]);
+        let guided = lead + radius * (-psi + PI);
         let (across, along) = (radius / (stretch * t0), guided * flexibility / (stretch * stretch));
-        let q = [0, 1].map(|k| across * m[k] + along * tangent[k]);
+        let q = [across * m[0] + along * tx, across * m[1], across * m[2] + along * tz];
         Self {
             free,
             psi,
+            cos,
+            u,
             m,
-            tangent,
-            leave: [radius * one_plus_cos, radius * sin * up],
-            lateral_flexibility: radius * per_fx,
+            n,
+            tangent: [tx, tz],
+            leave: [0, 1, 2].map(|i| radius * (one_plus_cos * u[i] + sin * k[i])),
+            mu,
             guided,
             stretch,
             flexibility,
             q,
-            beta: w * q[1] + 1.0,
+            beta: w * q[2] + 1.0,
             excess: free + guided / stretch - length,
         }
     }
 
     /// The cable with the force `force` [N] at A, (C20).
-    fn new(cable: &Cable, guide: &Guide, numbers: &Numbers<T>, force: [T; 2]) -> Self {
+    pub(crate) fn new(cable: &Cable, guide: &Guide, numbers: &Numbers<T>, force: [T; 2]) -> Self {
         let (plain, plain_force) = (numbers.map(T::value), force.map(T::value));
         let at = |free| Guided::with_free(cable, guide, &plain, plain_force, free);
         // A cable that is too short has a negative free length, for which all formulas go on.
@@ -151,24 +179,72 @@ impl<T: Real> Guided<T> {
         self.guided * self.flexibility / self.stretch
     }
 
-    /// The response of the whole cable from that of its free part, (C22) and (C23).
+    /// τ in space.
+    fn along(&self) -> [T; 3] {
+        [self.tangent[0], T::of(0.0), self.tangent[1]]
+    }
+
+    /// The vectors by which κ τ and μ n are multiplied in (C22): τ - γ q and n - δ q.
+    fn coupled(&self, w: T) -> [[T; 3]; 2] {
+        let [gamma, delta] = [self.tangent[1], self.n[2]].map(|z| w * z / self.beta);
+        let along = self.along();
+        [[0, 1, 2].map(|i| along[i] - gamma * self.q[i]), [0, 1, 2].map(|i| self.n[i] - delta * self.q[i])]
+    }
+
+    /// The response of the whole cable in its plane from that of its free part, (C22) and (C23).
     fn response(&self, w: T, free: &Response<T>) -> Response<T> {
-        let Self { tangent: [tx, tz], leave, stretch, q, beta, .. } = *self;
+        let Self { tangent: [tx, tz], leave, n: [nx, ny, nz], mu, stretch, .. } = *self;
         let kappa = self.kappa();
-        let gamma = w * tz / beta;
-        let [px, pz] = [tx - gamma * q[0], tz - gamma * q[1]];
+        let [[px, _, pz], [ox, oy, oz]] = self.coupled(w);
         let [xx, xz, zz] = free.flexibility;
         let twist = tx * pz - tz * px;
         let mixed = xx * tz * pz + zz * tx * px - xz * (tx * pz + tz * px);
-        let paid_out = stretch - kappa * gamma;
+        let mut flexibility =
+            [xx + kappa * tx * px, xz + kappa * (tx * pz + tz * px) * 0.5, zz + kappa * tz * pz];
+        let mut determinant = free.determinant + kappa * mixed - kappa * kappa * twist * twist * 0.25;
+        let delta = w * nz / self.beta;
+        let paid_out = stretch - kappa * w * tz / self.beta;
+        let mut end_per_length = [tx * paid_out, tz * paid_out];
+        if nx.value() != 0.0 || nz.value() != 0.0 {
+            let more = [nx * ox, (nx * oz + nz * ox) * 0.5, nz * oz];
+            flexibility = [0, 1, 2].map(|i| flexibility[i] + mu * more[i]);
+            determinant = flexibility[0] * flexibility[2] - flexibility[1] * flexibility[1];
+            end_per_length = [end_per_length[0] - mu * delta * nx, end_per_length[1] - mu * delta * nz];
+        }
         Response {
-            end: [leave[0] + free.end[0], leave[1] + free.end[1]],
-            flexibility: [xx + kappa * tx * px, xz + kappa * (tx * pz + tz * px) * 0.5, zz + kappa * tz * pz],
-            determinant: free.determinant + kappa * mixed - kappa * kappa * twist * twist * 0.25,
-            lateral_flexibility: free.lateral_flexibility + self.lateral_flexibility,
-            end_per_length: [tx * paid_out, tz * paid_out],
+            end: [leave[0] + free.end[0], leave[2] + free.end[1]],
+            flexibility,
+            determinant,
+            lateral_flexibility: free.lateral_flexibility + mu * ny * oy,
+            end_per_length,
             ..*free
         }
+    }
+
+    /// The response of the whole cable in space: end position, flexibility dA/dF, rows first, and dA/dL, (C22)
+    /// and (C23).
+    pub(crate) fn in_space(&self, w: T, free: &Response<T>) -> ([T; 3], [[T; 3]; 3], [T; 3]) {
+        let Self { leave, n, mu, stretch, .. } = *self;
+        let (kappa, along) = (self.kappa(), self.along());
+        let [p, o] = self.coupled(w);
+        let ([xx, xz, zz], zero) = (free.flexibility, T::of(0.0));
+        let own = [[xx, zero, xz], [zero, free.lateral_flexibility, zero], [xz, zero, zz]];
+        let axes = [0, 1, 2];
+        let entry = |i: usize, j: usize| own[i][j] + kappa * along[i] * p[j] + mu * n[i] * o[j];
+        let [gamma, delta] = [self.tangent[1], n[2]].map(|z| w * z / self.beta);
+        let paid_out = stretch - kappa * gamma;
+        (
+            [leave[0] + free.end[0], leave[1], leave[2] + free.end[1]],
+            axes.map(|i| axes.map(|j| entry(i, j))),
+            axes.map(|i| along[i] * paid_out - mu * delta * n[i]),
+        )
+    }
+
+    /// Half the difference `dx/dfz - dz/dfx` of the flexibility (C22) in the cable's plane [m/N].
+    fn asymmetry(&self, w: T) -> T {
+        let [[px, _, pz], [ox, _, oz]] = self.coupled(w);
+        let ([tx, tz], [nx, _, nz]) = (self.tangent, self.n);
+        (self.kappa() * (tx * pz - tz * px) + self.mu * (nx * oz - nz * ox)) * 0.5
     }
 }
 
@@ -191,9 +267,7 @@ impl Cable<'_> {
     /// Half the difference `dx/dfz - dz/dfx` of the flexibility (C22) [m/N]; `None` without a guide.
     pub(crate) fn asymmetry<T: Real>(&self, numbers: &Numbers<T>, force: [T; 2]) -> Option<T> {
         let guided = Guided::new(self, self.guide.as_ref()?, numbers, force);
-        let Guided { tangent: [tx, tz], q, beta, .. } = guided;
-        let gamma = numbers.weight_per_length * tz / beta;
-        Some(guided.kappa() * gamma * (tz * q[0] - tx * q[1]) * 0.5)
+        Some(guided.asymmetry(numbers.weight_per_length))
     }
 }
 
@@ -233,23 +307,29 @@ impl<'a> Catenary<'a> {
 
     /// Where the cable leaves its pulley, from the entry point [m]; zero without a pulley.
     pub fn leave_point(&self) -> Vector2<f64> {
-        self.cable.guide.map_or_else(Vector2::zeros, |guide| self.guided(&guide).leave.into())
+        let [x, _, z] = self.leave();
+        Vector2::new(x, z)
+    }
+
+    /// Where the cable leaves its pulley, from the entry point, with its distance across the plane [m].
+    pub(crate) fn leave(&self) -> [f64; 3] {
+        self.cable.guide.map_or([0.0; 3], |guide| self.guided(&guide).leave)
     }
 
     /// Positions [m] of `points` points (2 at least) of the cable on its pulley, from where it enters to just
-    /// before it leaves; none without a pulley.
-    pub fn on_the_pulley(&self, points: usize) -> Vec<Vector2<f64>> {
+    /// before it leaves: forwards, across and upwards. None without a pulley.
+    pub fn on_the_pulley(&self, points: usize) -> Vec<Vector3<f64>> {
         let Some(guide) = self.cable.guide.filter(|guide| guide.radius > 0.0) else { return Vec::new() };
-        let (wrap, count) = (self.wrap(), points.max(2));
-        let angles = (0..count).map(|k| std::f64::consts::PI - wrap * k as f64 / count as f64);
-        let of = |angle: f64| Vector2::new(1.0 + angle.cos(), guide.entry.sign() * angle.sin());
-        angles.map(|angle| guide.radius * of(angle)).collect()
+        let (at, count) = (self.guided(&guide), points.max(2));
+        let (u, axis) = (Vector3::from(at.u), Vector3::from(guide.entry.axis()));
+        let angles = (0..count).map(|k| PI - self.wrap() * k as f64 / count as f64);
+        angles.map(|angle| guide.radius * ((1.0 + angle.cos()) * u + angle.sin() * axis)).collect()
     }
 
     /// Angle over which the cable lies on its pulley [rad]; zero without a pulley.
     pub fn wrap(&self) -> f64 {
         match &self.cable.guide {
-            Some(guide) if guide.radius > 0.0 => std::f64::consts::PI - self.guided(guide).psi,
+            Some(guide) if guide.radius > 0.0 => PI - self.guided(guide).psi,
             _ => 0.0,
         }
     }
@@ -259,27 +339,27 @@ impl<'a> Catenary<'a> {
 #[cold]
 pub(crate) fn potential_energy(catenary: &Catenary, guide: &Guide) -> f64 {
     let (at, free, w) = (catenary.guided(guide), catenary.free(), catenary.cable.weight_per_length);
-    let [_, height] = at.leave;
+    let ([_, _, height], [_, _, rise], [_, _, up]) = (at.leave, at.u, guide.entry.axis());
     let led = at.guided / at.stretch * catenary.cable.elastic_energy(free.exit_tension());
-    let [cos, _] = at.m;
-    let over_the_wheel = w * guide.entry.sign() * guide.radius * guide.radius * cos;
-    free.potential_energy() + free.weight() * height + over_the_wheel + led
+    let over_the_wheel = (at.psi - PI + at.psi.sin()) * rise - at.cos * up;
+    let square = guide.radius * guide.radius;
+    free.potential_energy() + free.weight() * height + led - w * square * over_the_wheel
 }
 
 #[cold]
 pub(crate) fn end_slopes(catenary: &Catenary, guide: &Guide) -> EndSlopes {
-    let at = catenary.guided(guide);
-    let free = catenary.free();
+    let (at, free) = (catenary.guided(guide), catenary.free());
     let w = catenary.cable.weight_per_length;
-    let (tangent, m) = (Vector2::from(at.tangent), Vector2::from(at.m));
-    let kappa = at.kappa();
-    let paid_out = tangent * (at.stretch - kappa * w * tangent.y / at.beta);
+    let tangent = Vector2::from(at.tangent);
+    let [u, m, n] = [at.u, at.m, at.n].map(|[x, _, z]| Vector2::new(x, z));
+    let (along, across) = (at.kappa() * tangent.y * tangent, at.mu * n.y * n);
+    let paid_out = tangent * at.stretch - (along + across) * (w / at.beta);
     let strain_per_stiffness = -(at.stretch - 1.0) / catenary.cable.axial_stiffness;
     EndSlopes {
-        per_weight: free.end_per_weight() - tangent * (kappa * tangent.y * at.free / at.beta),
+        per_weight: free.end_per_weight() - (along + across) * (at.free / at.beta),
         per_stiffness: free.end_per_stiffness()
             + paid_out * (at.guided * strain_per_stiffness / (at.stretch * at.stretch)),
         per_lead: -paid_out / at.stretch,
-        per_radius: Vector2::x() + m - paid_out * ((std::f64::consts::PI - at.psi) / at.stretch),
+        per_radius: u + m - paid_out * ((PI - at.psi) / at.stretch),
     }
 }

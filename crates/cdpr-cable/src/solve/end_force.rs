@@ -17,7 +17,7 @@ use crate::cable::Cable;
 use crate::catenary::Catenary;
 use crate::catenary::compliance::Compliance;
 use crate::error::{CableError, check, check_length};
-use crate::guide::{Guide, Straight};
+use crate::guide::{Guide, Straight, in_plane};
 use crate::law::ElasticLaw;
 use nalgebra::Vector2;
 
@@ -140,15 +140,19 @@ pub(crate) fn straightened<'a>(
     guide: &Guide,
     end: Vector2<f64>,
 ) -> Result<(Straight, Cable<'a>, Vector2<f64>), CableError> {
-    let straight = guide.straight(end.into()).ok_or(CableError::InvalidInput {
+    check("pulley.axis", 0.0, !(guide.radius > 0.0 && guide.entry.is_tilted()), UPRIGHT)?;
+    let straight = guide.straight(in_plane(end.into())).ok_or(CableError::InvalidInput {
         field: "end.x",
         value: end.x,
         expected: "a horizontal distance [m] from the swivel axis at which the cable can leave the pulley \
                    away from the axis: more than its diameter beyond the wheel",
     })?;
-    let leave = Vector2::from(straight.leave);
-    Ok((straight, Cable { guide: None, ..*cable }, Vector2::new((end.x - leave.x).max(0.0), end.y - leave.y)))
+    let leave = straight.leave;
+    let beyond = Vector2::new((end.x - leave.x).max(0.0), end.y - leave.z);
+    Ok((straight, Cable { guide: None, ..*cable }, beyond))
 }
+
+const UPRIGHT: &str = "a vertical axis: cables over pulleys with other axes do not stay in a known plane";
 
 /// Checks that an end position is finite and not on the wrong side of the exit point.
 pub(crate) fn check_end(end: Vector2<f64>) -> Result<(), CableError> {
@@ -193,9 +197,11 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
         };
         let moved = next.force - now.force;
         let at_rounding = next_residual.x.abs() <= rounding.x && next_residual.y.abs() <= rounding.y;
-        // After a full step as small as this the next one is below rounding, unless the step met a kink.
+        // After a full step as small as this the next one is below rounding, unless the step met a kink or
+        // left out the asymmetry of a guide.
         let last = fraction == 1.0
             && matches!(now.cable.law, ElasticLaw::Linear)
+            && now.cable.guide.is_none()
             && moved.x.abs() <= LAST_STEP * next.force.x
             && moved.y.abs() <= LAST_STEP * next.anchor_tension().min(next.exit_tension());
         (now, compliance, residual) = (next, next_compliance, next_residual);

@@ -141,29 +141,7 @@ impl<'a> HeldCable<'a> {
     /// # Errors
     /// As [`HeldCable::at_chord_force`], and for a cable without weight, which may be slack.
     pub fn at_least_tension(cable: &Cable<'a>, end: Vector2<f64>) -> Result<Self, CableError> {
-        let w = cable.weight_per_length;
-        check("weight_per_length", w, w >= SMALLEST, "a weight per length from 1e-30 to 1e30 [N/m]")?;
-        let folded = FOLDED * w * end.norm();
-        // The least tension of a level cable, w h/2 coth u with u tanh u = 1.
-        let mut now = Self::at_chord_force(cable, end, w * end.norm() / 2.4)?;
-        let (mut low, mut high) = (folded, f64::INFINITY);
-        for _ in 0..100 {
-            let (sigma, slope) = (now.chord_force, now.tension_slope());
-            *(if slope > 0.0 { &mut high } else { &mut low }) = sigma;
-            // Newton's method for dt/d(ln σ) = 0, within a factor of e and the bounds.
-            let curvature = slope + sigma * now.tension_curvature(&now.force_curvature());
-            let step = if curvature > 0.0 { -slope / curvature } else { -slope.signum() };
-            let mut next = sigma * step.clamp(-1.0, 1.0).exp();
-            if next <= low || next >= high {
-                next = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * sigma };
-            }
-            // At a minimum the tension is exact when the chord force is known to half the digits.
-            if (next - sigma).abs() <= 1e-10 * sigma || next <= 1.001 * folded {
-                return Ok(now);
-            }
-            now = now.with_chord_force(next)?;
-        }
-        Ok(now)
+        least_tension_from(cable, end.norm(), |sigma| Self::at_chord_force(cable, end, sigma))
     }
 
     /// Tension t at A [N].
@@ -338,6 +316,61 @@ impl<'a> HeldCable<'a> {
         }
         Err(CableError::NotConverged { iterations: MAX_ITERATIONS, residual })
     }
+}
+
+/// A cable between held ends as a function of its chord force alone.
+pub(crate) trait ByChordForce: Sized {
+    /// σ [N].
+    fn chord_force(&self) -> f64;
+    /// dt/dσ and d²t/dσ² [1/N].
+    fn tension_slopes(&self) -> [f64; 2];
+    /// The cable with another chord force [N].
+    fn to(&self, chord_force: f64) -> Result<Self, CableError>;
+}
+
+impl ByChordForce for HeldCable<'_> {
+    fn chord_force(&self) -> f64 {
+        self.chord_force
+    }
+
+    fn tension_slopes(&self) -> [f64; 2] {
+        [self.tension_slope(), self.tension_curvature(&self.force_curvature())]
+    }
+
+    fn to(&self, chord_force: f64) -> Result<Self, CableError> {
+        self.with_chord_force(chord_force)
+    }
+}
+
+/// The cable of least tension at A over a span of the length `chord` [m]; `first` has a chord force [N].
+pub(crate) fn least_tension_from<Held: ByChordForce>(
+    cable: &Cable,
+    chord: f64,
+    first: impl FnOnce(f64) -> Result<Held, CableError>,
+) -> Result<Held, CableError> {
+    let w = cable.weight_per_length;
+    check("weight_per_length", w, w >= SMALLEST, "a weight per length from 1e-30 to 1e30 [N/m]")?;
+    let folded = FOLDED * w * chord;
+    // The least tension of a level cable, w h/2 coth u with u tanh u = 1.
+    let mut now = first(w * chord / 2.4)?;
+    let (mut low, mut high) = (folded, f64::INFINITY);
+    for _ in 0..100 {
+        let (sigma, [slope, second]) = (now.chord_force(), now.tension_slopes());
+        *(if slope > 0.0 { &mut high } else { &mut low }) = sigma;
+        // Newton's method for dt/d(ln σ) = 0, within a factor of e and the bounds.
+        let curvature = slope + sigma * second;
+        let step = if curvature > 0.0 { -slope / curvature } else { -slope.signum() };
+        let mut next = sigma * step.clamp(-1.0, 1.0).exp();
+        if next <= low || next >= high {
+            next = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * sigma };
+        }
+        // At a minimum the tension is exact when the chord force is known to half the digits.
+        if (next - sigma).abs() <= 1e-10 * sigma || next <= 1.001 * folded {
+            return Ok(now);
+        }
+        now = now.to(next)?;
+    }
+    Ok(now)
 }
 
 /// The quantities of (C17) and (C18) over any kind of number.

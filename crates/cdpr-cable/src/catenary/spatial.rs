@@ -1,0 +1,169 @@
+//! A cable whose pulley swivels about an axis that is not vertical, with its force as a vector in space.
+//!
+//! Where the axis is tilted, the plane of the wheel is not that of the cable, and the leave point lies beside
+//! the cable's plane. The force F at A is then the unknown, and (C22) its flexibility in space. Axes: the
+//! origin is the entry point D, z points up.
+
+use crate::cable::{Cable, Numbers};
+use crate::catenary::Catenary;
+use crate::catenary::guided::Guided;
+use crate::guide::{Entry, Guide};
+use crate::kernel::{Dual, Real};
+use nalgebra::{Matrix3, Matrix3xX, Vector2, Vector3};
+
+/// A cable in equilibrium over a pulley with any axis: its unstrained length and the force at A in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpatialCable<'a> {
+    /// The cable. The direction [`Entry::Along`] of its guide has the components along x, y and z.
+    pub cable: Cable<'a>,
+    /// Unstrained length L [m].
+    pub unstrained_length: f64,
+    /// Force on the cable at A [N].
+    pub force: Vector3<f64>,
+}
+
+/// How the end of a cable answers in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpatialResponse {
+    /// Position of A from D [m].
+    pub end: Vector3<f64>,
+    /// Flexibility dA/dF at constant length [m/N], (C22); not quite symmetric for a cable with weight.
+    pub flexibility: Matrix3<f64>,
+    /// dA/dL at constant force [m/m], (C23).
+    pub end_per_length: Vector3<f64>,
+}
+
+/// Derivatives of the position of A at constant force and length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpatialSlopes {
+    /// Per weight per length [m²/N].
+    pub per_weight: Vector3<f64>,
+    /// Per axial stiffness [m/N].
+    pub per_stiffness: Vector3<f64>,
+    /// Per lead [m/m].
+    pub per_lead: Vector3<f64>,
+    /// Per radius of the pulley [m/m].
+    pub per_radius: Vector3<f64>,
+    /// Per component of the direction in which the cable enters its pulley [m].
+    pub per_axis: Matrix3<f64>,
+}
+
+/// Horizontal forces below this share of the whole have no direction.
+const VERTICAL: f64 = 1e-20;
+
+/// The cable over any kind of number: position of A, flexibility and dA/dL.
+pub(crate) fn response<T: Real>(
+    cable: &Cable,
+    numbers: &Numbers<T>,
+    force: &[T; 3],
+) -> ([T; 3], [[T; 3]; 3], [T; 3]) {
+    let z = force[2];
+    let (fx, [c, s]) = horizontal(force);
+    let [kx, ky, kz] = numbers.axis;
+    let in_plane = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
+    let guided = Guided::new(cable, &guide(cable), &in_plane, [fx, z]);
+    let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, [fx, z]);
+    let (end, flexibility, per_length) = guided.in_space(numbers.weight_per_length, &free);
+    let turn = |[h, l, z]: [T; 3]| [c * h - s * l, s * h + c * l, z];
+    let rows = flexibility.map(turn);
+    let columns = [0, 1, 2].map(|j| turn(rows.map(|row| row[j])));
+    (turn(end), [0, 1, 2].map(|i| columns.map(|column| column[i])), turn(per_length))
+}
+
+/// The guide of a cable; its axis is one that may be tilted.
+pub(crate) fn guide(cable: &Cable) -> Guide {
+    let guide = cable.guide.unwrap_or(Guide { lead: 0.0, radius: 0.0, entry: Entry::Upwards });
+    Guide { entry: Entry::Along(guide.entry.axis()), ..guide }
+}
+
+/// The horizontal part of a force [N] and its direction, x where it has none.
+pub(crate) fn horizontal<T: Real>([x, y, z]: &[T; 3]) -> (T, [T; 2]) {
+    let square = *x * *x + *y * *y;
+    let least = VERTICAL * z.value().abs();
+    if square.value() <= least * least {
+        return (T::of(0.0), [T::of(1.0), T::of(0.0)]);
+    }
+    let fx = square.sqrt();
+    (fx, [*x / fx, *y / fx])
+}
+
+impl<'a> SpatialCable<'a> {
+    pub(crate) fn numbers(&self) -> Numbers<f64> {
+        self.cable.numbers(self.unstrained_length)
+    }
+
+    /// The cable in its vertical plane, and the horizontal direction of the plane.
+    pub fn in_plane(&self) -> (Catenary<'a>, Vector2<f64>) {
+        let (fx, azimuth) = horizontal(&self.force.into());
+        let cable = self.cable.turned(azimuth);
+        let force = Vector2::new(fx, self.force.z);
+        (Catenary { cable, unstrained_length: self.unstrained_length, force }, azimuth.into())
+    }
+
+    /// Tension at A [N].
+    pub fn anchor_tension(&self) -> f64 {
+        self.force.norm()
+    }
+
+    /// Whether this is a slack cable without weight, which has no shape.
+    pub fn is_limp(&self) -> bool {
+        self.force == Vector3::zeros() && self.cable.is_weightless(self.unstrained_length)
+    }
+
+    /// Position of A, flexibility and dA/dL.
+    pub fn response(&self) -> SpatialResponse {
+        let force = self.force.into();
+        let (end, rows, per_length) = response(&self.cable, &self.numbers(), &force);
+        SpatialResponse {
+            end: end.into(),
+            flexibility: Matrix3::from_fn(|i, j| rows[i][j]),
+            end_per_length: per_length.into(),
+        }
+    }
+
+    /// Derivatives of the position of A with respect to what the cable and its guide are.
+    pub fn slopes(&self) -> SpatialSlopes {
+        let plain = self.numbers();
+        let numbers = plain.with_inputs::<7, 0>();
+        let force = <[f64; 3]>::from(self.force).map(Dual::of);
+        let (end, ..) = response(&self.cable, &numbers, &force);
+        let slopes = Matrix3xX::from_fn(7, |i, k| end[i].slopes[k]);
+        let column = |k: usize| Vector3::from(slopes.fixed_columns::<1>(k));
+        SpatialSlopes {
+            per_weight: column(0),
+            per_stiffness: column(1) * (-plain.axial_flexibility * plain.axial_flexibility),
+            per_lead: column(2),
+            per_radius: column(3),
+            per_axis: slopes.fixed_columns::<3>(4).into(),
+        }
+    }
+}
+
+impl Numbers<f64> {
+    /// The numbers as dual ones, with weight, 1/EA, lead, radius and the three components of the axis as the
+    /// inputs from number `FIRST` on.
+    pub(crate) fn with_inputs<const N: usize, const FIRST: usize>(&self) -> Numbers<Dual<N>> {
+        let input = |value: f64, k: usize| Dual::input(value, FIRST + k);
+        Numbers {
+            weight_per_length: input(self.weight_per_length, 0),
+            axial_flexibility: input(self.axial_flexibility, 1),
+            lead: input(self.lead, 2),
+            radius: input(self.radius, 3),
+            length: Dual::of(self.length),
+            axis: [0, 1, 2].map(|k| input(self.axis[k], 4 + k)),
+        }
+    }
+}
+
+impl Cable<'_> {
+    /// The cable with a tilted axis along x, y and z as it is in the vertical plane of this direction.
+    pub fn turned(&self, [c, s]: [f64; 2]) -> Self {
+        let turned = |guide: Guide| match guide.entry {
+            Entry::Along([x, y, z]) => {
+                Guide { entry: Entry::Along([c * x + s * y, c * y - s * x, z]), ..guide }
+            }
+            _ => guide,
+        };
+        Self { guide: self.guide.map(turned), ..*self }
+    }
+}
