@@ -99,7 +99,18 @@ impl Findings<'_> {
 
     fn loads(&mut self) {
         let Robot { gravity, platform, .. } = self.robot;
-        if !EARTH.contains(gravity) {
+        let tilt = gravity.tilt();
+        if tilt > 0.0 {
+            self.add(
+                Severity::Note,
+                "gravity",
+                format!("{:?} m/s\u{b2}", gravity.vector().as_slice()),
+                &format!("the base is tilted by {:.2}\u{b0}", tilt.to_degrees()),
+                "the direction in which things fall, in the base frame",
+            );
+        }
+        let gravity = gravity.magnitude();
+        if !EARTH.contains(&gravity) {
             let value = format!("{gravity} m/s\u{b2}");
             self.add(
                 Severity::Note,
@@ -203,7 +214,7 @@ impl Findings<'_> {
             let own = cable.tension_limits.max.map(|_| format!("cables[{i}].tension_limits.max"));
             self.greatest(&own.unwrap_or_else(|| "tension_limits.max".to_owned()), i);
         }
-        let weight = platform.mass * gravity;
+        let weight = platform.mass * gravity.magnitude();
         let most: f64 = (0..cables.len()).map(|i| self.robot.limits(i).max).sum();
         if weight > most {
             self.add(

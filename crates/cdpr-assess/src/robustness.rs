@@ -302,7 +302,7 @@ fn answer(robot: &Robot, held: &HeldPose, found: &DirectSolution) -> Answer {
     let residual = found.report.residual;
     // Without gravity the tensions stand in for the weight.
     let least = (0..robot.cables.len()).map(|i| robot.limits(i).min).fold(f64::INFINITY, f64::min);
-    let weight = (robot.platform.mass * robot.gravity).max(least);
+    let weight = (robot.platform.mass * robot.gravity.magnitude()).max(least);
     let longest = held.lengths.iter().copied().fold(0.0, f64::max);
     let is_equilibrium = residual.force <= OPEN_WRENCH * weight
         && residual.moment <= OPEN_WRENCH * weight * robot.platform_size()

@@ -121,7 +121,7 @@ pub fn compute_workspace(
             "a load that displaces the platform, because tolerances act on its deflection",
         ));
     }
-    let parameters = Parameter::all(robot.cables.len()).len();
+    let parameters = Parameter::of(robot).len();
     if let Some(model) = tolerances.filter(|model| model.parameters() != parameters) {
         let expected = format!("one for the {parameters} parameters of {}", robot.name);
         return Err(StudyError::setting(

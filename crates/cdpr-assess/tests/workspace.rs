@@ -23,7 +23,7 @@ fn every_position_is_what_the_models_say_of_it() {
     deviations[0] = 2.0;
     deviations[2] = 5e9;
     deviations[5] = 0.003;
-    let model = ErrorModel::normal(&deviations);
+    let model = ErrorModel::normal(&robot, &deviations);
     let workspace = Workspace {
         robot: &robot,
         grid: grid(),
@@ -59,7 +59,7 @@ fn every_position_is_what_the_models_say_of_it() {
         let variances: Vec<f64> = deviations.iter().map(|std| std * std).collect();
         let budget = exact.variance_budget(&variances).unwrap();
         let dominant = held.dominant.unwrap();
-        let index = Parameter::all(8)
+        let index = Parameter::of(&robot)
             .iter()
             .position(|p| p.to_string() == model.inputs[dominant.input].name)
             .unwrap();
@@ -136,7 +136,8 @@ fn the_stadium_robot_is_held_wherever_an_independent_program_finds_tensions() {
 #[test]
 fn tolerances_of_another_robot_are_refused() {
     let robot = caroca();
-    let model = ErrorModel::normal(&[1.0; 55]);
+    let seven = Robot { cables: robot.cables[..7].to_vec(), ..robot.clone() };
+    let model = ErrorModel::normal(&seven, &[1.0; 55]);
     let workspace = Workspace {
         robot: &robot,
         grid: grid(),

@@ -187,7 +187,10 @@ fn bad_robots_are_refused_with_file_field_value_and_remedy() {
         |r, _| r["platform"]["mas"] = json!(1),
         &[file, "platform.mas: unknown field `mas`", "expected one of `mass`, `center_of_mass`"],
     );
-    refused(|r, _| r["gravity"] = json!(null), &[file, "gravity: invalid type: null, expected a number"]);
+    refused(
+        |r, _| r["gravity"] = json!(null),
+        &[file, "gravity: expected a number [m/s²] or a vector of three"],
+    );
     refused(
         |r, _| r["cables"].as_array_mut().unwrap().truncate(5),
         &[file, "cables is a list of 5", "at least 6 cables"],

@@ -13,13 +13,13 @@ pub(crate) mod workspace;
 
 use crate::convert::{Answer, Array, Numbers, Raised, components, json_text};
 use cdpr_robot::{
-    CableEnd, CableProperties, OwnLimits, Parameter, Platform, RobotCable, TensionLimits, TensionReference,
-    Vector3,
+    CableEnd, CableProperties, Gravity, OwnLimits, Parameter, Platform, RobotCable, TensionLimits,
+    TensionReference, Vector3,
 };
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple, PyType};
+use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 
@@ -40,7 +40,8 @@ use std::path::PathBuf;
 /// tension_reference: tensions that those of the inverse model come as near to as they can: a number for all
 ///     cables [N], one for each, or "mid", the middle of the limits; the least norm if left out.
 /// center_of_mass: centre of mass in the platform frame [m]; P if left out.
-/// gravity: acceleration due to gravity [m/s²].
+/// gravity: acceleration due to gravity [m/s²], a number along -z of the base frame or a vector in it, (3,);
+///     9.81 if left out.
 ///
 /// Raises InputError naming the field, its value and what would be right.
 #[pyclass(frozen, module = "cdpr")]
@@ -52,7 +53,7 @@ pub(crate) struct Robot {
 impl Robot {
     #[new]
     #[pyo3(signature = (anchor_points, exit_points, *, mass, section, linear_density, youngs_modulus,
-        tension_limits, center_of_mass = None, gravity = 9.81, name = "robot".to_owned(), max_at = "anchor",
+        tension_limits, center_of_mass = None, gravity = None, name = "robot".to_owned(), max_at = "anchor",
         tension_reference = None))]
     #[allow(clippy::too_many_arguments)]
     fn new(
@@ -64,7 +65,7 @@ impl Robot {
         youngs_modulus: Numbers,
         tension_limits: Numbers,
         center_of_mass: Option<Numbers>,
-        gravity: f64,
+        gravity: Option<Numbers>,
         name: String,
         max_at: &str,
         tension_reference: Option<Numbers>,
@@ -98,7 +99,7 @@ impl Robot {
         let robot = cdpr_robot::Robot {
             name,
             source: None,
-            gravity,
+            gravity: gravity.as_ref().map_or(Ok(EARTH.into()), self::gravity)?,
             platform: Platform::new(mass, center_of_mass),
             tension_limits,
             max_at: match max_at {
@@ -251,21 +252,28 @@ impl Robot {
         Ok(Self { robot })
     }
 
-    /// Acceleration due to gravity [m/s²].
+    /// Acceleration due to gravity [m/s²] as it was given: a number along -z of the base frame, or a vector in
+    /// it, (3,).
     #[getter]
-    fn gravity(&self) -> f64 {
-        self.robot.gravity
+    fn gravity<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
+        let gravity = self.robot.gravity;
+        if gravity.is_vector() {
+            PyArray1::from_slice(py, gravity.vector().as_slice()).into_any()
+        } else {
+            PyFloat::new(py, gravity.magnitude()).into_any()
+        }
     }
 
     /// All parameters that studies know, by name, with their values in SI units.
     ///
     /// They are mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ... (offsets of
-    /// tension set-points, zero). All cables share one linear density and one modulus here: the value is the
-    /// first cable's.
+    /// tension set-points, zero), and where the robot has them r1 ... (radii of pulleys), lead1 ..., tilt1.u,
+    /// tilt1.v ... (tilts of swivel axes, zero) and gravity.x ... of a vector. All cables share one linear
+    /// density and one modulus here: the value is the first cable's.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let values = PyDict::new(py);
-        for parameter in Parameter::all(self.robot.cables.len()) {
+        for parameter in Parameter::of(&self.robot) {
             values.set_item(parameter.to_string(), parameter.nominal(&self.robot))?;
         }
         Ok(values)
@@ -381,6 +389,22 @@ fn reference(given: &Numbers) -> Answer<TensionReference> {
         _ => Err(Raised::Input(format!(
             "tension_reference has the shape {shape:?}: expected a number, or one for each cable"
         ))),
+    }
+}
+
+/// Gravity on Earth [m/s²].
+const EARTH: f64 = 9.81;
+
+/// Gravity as a number or a vector.
+fn gravity(given: &Numbers) -> Answer<Gravity> {
+    let Array { shape, values } = Array::new("gravity", given)?;
+    match (&shape[..], &values[..]) {
+        ([], [number]) => Ok((*number).into()),
+        ([_], [x, y, z]) => Ok(Vector3::new(*x, *y, *z).into()),
+        _ => {
+            let expected = "a number along -z, or a vector of three numbers";
+            Err(Raised::Input(format!("gravity has the shape {shape:?}: expected {expected}")))
+        }
     }
 }
 

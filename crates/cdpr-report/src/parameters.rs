@@ -1,7 +1,7 @@
 //! Words, symbols and units for the parameters of a robot.
 
 use crate::error::ReportError;
-use cdpr_robot::{Axis, Parameter};
+use cdpr_robot::{Axis, Parameter, TiltAxis};
 
 /// Words for a parameter or a group of parameters, with its symbol.
 pub(crate) fn parameter(name: &str) -> String {
@@ -13,6 +13,10 @@ pub(crate) fn parameter(name: &str) -> String {
         "b" => "exit points, each coordinate of each",
         "cog" => "centre of mass, each coordinate",
         "dt" => "tension set-points, each",
+        "r" => "radii of the pulleys, each",
+        "lead" => "leads, each",
+        "tilt" => "tilts of the swivel axes, two of each",
+        "gravity" => "gravity, each component",
         other => other,
     };
     words.to_owned()
@@ -35,12 +39,17 @@ pub(crate) fn reading_unit(name: &str) -> (&'static str, f64) {
         "b" => Some(Parameter::ExitPoint(0, Axis::X)),
         "cog" => Some(Parameter::CenterOfMass(Axis::X)),
         "dt" => Some(Parameter::TensionOffset(0)),
+        "r" => Some(Parameter::PulleyRadius(0)),
+        "lead" => Some(Parameter::Lead(0)),
+        "tilt" => Some(Parameter::Tilt(0, TiltAxis::U)),
+        "gravity" => Some(Parameter::Gravity(Axis::X)),
         name => name.parse().ok(),
     };
     match parameter.map(|parameter| parameter.unit()) {
         Some("Pa") => ("GPa", 1e-9),
         Some("m") => ("mm", 1e3),
         Some("kg/m") => ("g/m", 1e3),
+        Some("rad") => ("mrad", 1e3),
         Some(unit) => (unit, 1.0),
         None => ("", 1.0),
     }
@@ -58,5 +67,9 @@ pub(crate) fn axis_of(name: &str) -> Result<(String, f64), ReportError> {
         Parameter::ExitPoint(..) => (format!("exit point, {name} [m]"), 1.0),
         Parameter::CenterOfMass(_) => (format!("centre of mass, {name} [m]"), 1.0),
         Parameter::TensionOffset(_) => (format!("offset of the tension set-point, {name} [N]"), 1.0),
+        Parameter::PulleyRadius(_) => (format!("radius of the pulley, {name} [m]"), 1.0),
+        Parameter::Lead(_) => (format!("lead, {name} [m]"), 1.0),
+        Parameter::Tilt(..) => (format!("tilt of the swivel axis, {name} [rad]"), 1.0),
+        Parameter::Gravity(_) => (format!("gravity, {name} [m/s\u{b2}]"), 1.0),
     })
 }

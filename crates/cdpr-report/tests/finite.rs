@@ -140,7 +140,7 @@ fn robots_that_are_odd_but_valid() {
 #[test]
 fn workspaces_of_which_nothing_is_held_or_without_load() {
     let robot = Robot::from_json(&data("robots/caroca.json").to_string()).unwrap();
-    let tolerances = ErrorModel::normal(&uncertainties(&robot, &[("mass".to_owned(), 0.5)]).unwrap());
+    let tolerances = ErrorModel::normal(&robot, &uncertainties(&robot, &[("mass".to_owned(), 0.5)]).unwrap());
     let point = |min: f64, max: f64, points: usize| GridAxis { min, max, points };
     let near = [point(0.0, 0.5, 2), point(0.0, 0.5, 2), point(1.75, 1.75, 1)];
     let far = [point(50.0, 60.0, 2), point(0.0, 0.5, 2), point(1.75, 1.75, 1)];

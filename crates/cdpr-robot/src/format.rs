@@ -1,6 +1,7 @@
 //! The robot file, `cdpr-robot/1`: JSON, SI units, base frame with z up. Described by [`json_schema`].
 
 use crate::error::RobotError;
+use crate::gravity::Gravity;
 use crate::json::from_json;
 use crate::law::LawSegment;
 use crate::limits::{CableEnd, OwnLimits, TensionLimits, TensionReference};
@@ -13,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// Name and version of the format.
 pub const FORMAT: &str = "cdpr-robot/1";
 
-/// A cable-driven parallel robot. SI units; base frame with z up; gravity along -z.
+/// A cable-driven parallel robot. SI units; base frame with z up.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "cdpr-robot/1")]
@@ -25,8 +26,9 @@ struct RobotFile {
     /// Where the values come from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     source: Option<String>,
-    /// Acceleration due to gravity [m/s²].
-    gravity: f64,
+    /// Acceleration due to gravity [m/s²]: a number, along -z of the base frame, or a vector in it, [x, y, z],
+    /// for a base that is not level.
+    gravity: Gravity,
     /// The moving platform.
     platform: PlatformEntry,
     /// Properties of every cable that has none of its own.

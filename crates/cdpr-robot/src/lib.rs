@@ -3,7 +3,7 @@
 //! The robot has exit points, anchor points, a platform, cables and limits of tension. With a pose come its
 //! spans, the wrench on it and its wrench matrix. Its uncertain parameters form one vector.
 //!
-//! Frames: the base frame `F_b` has `z` up, gravity acts along `-z`; the platform frame `F_p` sits at the
+//! Frames: gravity acts along `-z` of the base frame `F_b`, unless it is a vector; the platform frame `F_p` sits at the
 //! platform's reference point P. Units are SI throughout. Signs and symbols: `docs/NOTATION.md` of the
 //! repository.
 //!
@@ -14,8 +14,8 @@
 //! assert_eq!(robot.cables.len(), 8);
 //! let span = robot.span(&Pose::at(0.0, 0.0, 1.75), 0); // from B_1 to A_1, Eq. (1) of the paper
 //! assert!((span.norm() - 4.4444).abs() < 1e-4);
-//! assert_eq!(Parameter::all(robot.cables.len()).len(), 62);
-//! let heavier = deviations(8, &[("mass", 18.0), ("b1.z", 0.03)])?;
+//! assert_eq!(Parameter::of(&robot).len(), 62);
+//! let heavier = deviations(&robot, &[("mass", 18.0), ("b1.z", 0.03)])?;
 //! assert_eq!(robot.perturbed(&heavier)?.robot.platform.mass, 198.0);
 //! # Ok::<(), cdpr_robot::RobotError>(())
 //! ```
@@ -25,6 +25,7 @@
 mod axis;
 mod error;
 mod format;
+mod gravity;
 mod json;
 mod law;
 mod limits;
@@ -40,12 +41,13 @@ pub use axis::Axis;
 pub use cdpr_cable::{PiecewiseLaw, Segment};
 pub use error::RobotError;
 pub use format::{FORMAT, json_schema};
+pub use gravity::Gravity;
 pub use json::{JsonError, from_json, place_of};
 pub use law::LawSegment;
 pub use limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionReference};
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
 pub use number::{decimal, rounded};
-pub use parameter::{Parameter, ParameterLayout, Perturbed, deviations};
+pub use parameter::{Parameter, ParameterLayout, Perturbed, TiltAxis, deviations};
 pub use pose::{Pose, orthonormalized};
 pub use quaternion::{QuaternionError, rotation_by_angles, rotation_in_order, rotation_of};
 pub use robot::{CableProperties, Platform, Pulley, Robot, RobotCable};

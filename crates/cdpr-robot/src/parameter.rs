@@ -3,10 +3,21 @@
 //! For n cables there are `6 + 7n` parameters (62 for 8 cables): the platform's mass, the cables' linear
 //! density and modulus, the coordinates of every anchor and exit point, the centre of mass, and an offset of
 //! every tension set-point. A *deviation* is added to the nominal value.
+//!
+//! After these come, only where the robot has them: the radius of every pulley, the length of every lead, the
+//! tilt of the swivel axis of every pulley, and the components of a gravity that is a vector. The axis k of a
+//! pulley is tilted about the unit vectors
+//!
+//! ```text
+//! u = (e_z x k)/|e_z x k|,  the x axis for a k along the z axis;   v = k x u
+//! ```
+//!
+//! of the nominal robot, first by the angle about u and then by the one about v: nominally both are zero.
 
 use crate::axis::Axis;
 use crate::error::RobotError;
-use crate::robot::Robot;
+use crate::robot::{Pulley, Robot, RobotCable, VERTICAL};
+use nalgebra::{Rotation3, Unit, Vector3};
 use std::fmt;
 use std::str::FromStr;
 
@@ -27,24 +38,92 @@ pub enum Parameter {
     CenterOfMass(Axis),
     /// Offset of a cable's tension set-point [N]: `dt1`.
     TensionOffset(usize),
+    /// Radius of a cable's pulley [m]: `r1`.
+    PulleyRadius(usize),
+    /// Length of a cable's lead [m]: `lead1`.
+    Lead(usize),
+    /// Tilt of the swivel axis of a cable's pulley [rad]: `tilt1.u`.
+    Tilt(usize, TiltAxis),
+    /// Component of gravity in the base frame [m/s²]: `gravity.x`.
+    Gravity(Axis),
 }
 
-/// The order of the parameters in the vector of a robot with a given number of cables.
+/// An axis about which the swivel axis k of a pulley is tilted, normal to k and to the other one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum TiltAxis {
+    /// The horizontal one.
+    U,
+    /// The other one, `k x u`.
+    V,
+}
+
+impl TiltAxis {
+    /// Both axes in their order.
+    pub const ALL: [Self; 2] = [Self::U, Self::V];
+
+    /// Letter of the axis: `u` or `v`.
+    pub const fn letter(self) -> &'static str {
+        match self {
+            Self::U => "u",
+            Self::V => "v",
+        }
+    }
+
+    /// The axis with this letter.
+    pub fn from_letter(letter: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|axis| axis.letter() == letter)
+    }
+
+    /// The unit vector of this axis for a pulley, in the base frame.
+    pub fn of(self, pulley: &Pulley) -> Vector3<f64> {
+        let k = pulley.axis.normalize();
+        let u = Vector3::z().cross(&k).try_normalize(VERTICAL).unwrap_or_else(Vector3::x);
+        match self {
+            Self::U => u,
+            Self::V => k.cross(&u),
+        }
+    }
+}
+
+/// The order of the parameters in the vector of a robot.
 ///
 /// A point stands as three coordinates one after the other: its methods give the index of the first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParameterLayout {
     cables: usize,
+    /// The parameters after those that every robot has.
+    further: Vec<Parameter>,
 }
 
 impl ParameterLayout {
-    /// The layout of a robot with `cables` cables.
-    pub const fn new(cables: usize) -> Self {
-        Self { cables }
+    /// The layout of a robot.
+    pub fn of(robot: &Robot) -> Self {
+        let cables = &robot.cables;
+        let with = |has: fn(&RobotCable) -> bool| (0..cables.len()).filter(move |i| has(&cables[*i]));
+        let pulleys = || with(|cable| cable.pulley.is_some());
+        // A vector of zeros has no direction that could deviate.
+        let directed = robot.gravity.is_vector() && robot.gravity.magnitude() > 0.0;
+        let gravity = Axis::ALL.into_iter().filter(|_| directed);
+        let further = pulleys()
+            .map(Parameter::PulleyRadius)
+            .chain(with(|cable| cable.lead != 0.0).map(Parameter::Lead))
+            .chain(pulleys().flat_map(|i| TiltAxis::ALL.map(|axis| Parameter::Tilt(i, axis))))
+            .chain(gravity.map(Parameter::Gravity))
+            .collect();
+        Self { cables: cables.len(), further }
     }
 
-    /// Number of parameters, `6 + 7n`.
+    /// Number of parameters: `6 + 7n`, and those that not every robot has.
     pub const fn count(&self) -> usize {
+        self.first_further() + self.further.len()
+    }
+
+    /// The names of the parameters, as messages list them.
+    fn names(&self) -> String {
+        format!("those of a robot with {} cables ({})", self.cables, Parameter::NAMES)
+    }
+
+    const fn first_further(&self) -> usize {
         self.tension_offset(self.cables)
     }
 
@@ -83,7 +162,7 @@ impl ParameterLayout {
         self.center_of_mass() + 3 + i
     }
 
-    /// Index of a parameter; `None` for a cable that the robot does not have.
+    /// Index of a parameter; `None` for one that the robot does not have.
     pub fn index(&self, parameter: Parameter) -> Option<usize> {
         let (i, index) = match parameter {
             Parameter::Mass => (0, self.mass()),
@@ -93,6 +172,10 @@ impl ParameterLayout {
             Parameter::ExitPoint(i, axis) => (i, self.exit_point(i) + axis.index()),
             Parameter::CenterOfMass(axis) => (0, self.center_of_mass() + axis.index()),
             Parameter::TensionOffset(i) => (i, self.tension_offset(i)),
+            further => {
+                let position = self.further.iter().position(|own| *own == further)?;
+                (0, self.first_further() + position)
+            }
         };
         (i < self.cables).then_some(index)
     }
@@ -100,12 +183,15 @@ impl ParameterLayout {
 
 impl Parameter {
     /// The names of all parameters, as messages list them.
-    pub const NAMES: &str = "mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...";
+    pub const NAMES: &str = "mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...; \
+         with pulleys r1 ..., tilt1.u ...; with leads lead1 ...; with gravity as a vector gravity.x ...";
     /// The names of all groups, [`Parameter::group`], as messages list them.
-    pub const GROUPS: &str = "mass, linear_density, youngs_modulus, a, b, cog, dt";
+    pub const GROUPS: &str = "mass, linear_density, youngs_modulus, a, b, cog, dt; with pulleys r, tilt; \
+         with leads lead; with gravity as a vector gravity";
 
-    /// All parameters of a robot with `cables` cables, in the order of [`ParameterLayout`].
-    pub fn all(cables: usize) -> Vec<Self> {
+    /// All parameters of a robot, in the order of [`ParameterLayout`].
+    pub fn of(robot: &Robot) -> Vec<Self> {
+        let ParameterLayout { cables, further } = ParameterLayout::of(robot);
         let points = |parameter: fn(usize, Axis) -> Self| {
             (0..cables).flat_map(move |i| Axis::ALL.map(move |axis| parameter(i, axis)))
         };
@@ -115,10 +201,12 @@ impl Parameter {
             .chain(points(Self::ExitPoint))
             .chain(Axis::ALL.map(Self::CenterOfMass))
             .chain((0..cables).map(Self::TensionOffset))
+            .chain(further)
             .collect()
     }
 
-    /// Name of the group that a study can give one law: `a`, `b`, `cog` or `dt`.
+    /// Name of the group that a study can give one law: `a`, `b`, `cog`, `dt`, `r`, `lead`, `tilt` or
+    /// `gravity`.
     ///
     /// A scalar is a group of its own and has its own name.
     pub fn group(&self) -> &'static str {
@@ -130,6 +218,10 @@ impl Parameter {
             Self::ExitPoint(..) => "b",
             Self::CenterOfMass(_) => "cog",
             Self::TensionOffset(_) => "dt",
+            Self::PulleyRadius(_) => "r",
+            Self::Lead(_) => "lead",
+            Self::Tilt(..) => "tilt",
+            Self::Gravity(_) => "gravity",
         }
     }
 
@@ -140,13 +232,17 @@ impl Parameter {
             Self::LinearDensity => "kg/m",
             Self::YoungsModulus => "Pa",
             Self::AnchorPoint(..) | Self::ExitPoint(..) | Self::CenterOfMass(_) => "m",
+            Self::PulleyRadius(_) | Self::Lead(_) => "m",
             Self::TensionOffset(_) => "N",
+            Self::Tilt(..) => "rad",
+            Self::Gravity(_) => "m/s\u{b2}",
         }
     }
 
     /// Nominal value in `robot`, in [`Parameter::unit`].
     ///
-    /// It is that of the first cable for what all cables share, and zero for an offset.
+    /// It is that of the first cable for what all cables share, and zero for an offset, for a tilt and for
+    /// what the robot does not have.
     pub fn nominal(&self, robot: &Robot) -> f64 {
         match *self {
             Self::Mass => robot.platform.mass,
@@ -155,12 +251,15 @@ impl Parameter {
             Self::AnchorPoint(i, axis) => robot.cables[i].anchor_point[axis.index()],
             Self::ExitPoint(i, axis) => robot.cables[i].exit_point[axis.index()],
             Self::CenterOfMass(axis) => robot.platform.center_of_mass[axis.index()],
-            Self::TensionOffset(_) => 0.0,
+            Self::TensionOffset(_) | Self::Tilt(..) => 0.0,
+            Self::PulleyRadius(i) => robot.cables[i].pulley.map_or(0.0, |pulley| pulley.radius),
+            Self::Lead(i) => robot.cables[i].lead,
+            Self::Gravity(axis) => robot.gravity.vector()[axis.index()],
         }
     }
 
-    /// Changes the value of this parameter, for all cables if they share it.
-    fn change(&self, perturbed: &mut Perturbed, change: impl Fn(&mut f64)) {
+    /// Changes the value of this parameter of the `nominal` robot, for all cables if they share it.
+    fn change(&self, nominal: &Robot, perturbed: &mut Perturbed, change: impl Fn(&mut f64)) {
         let Perturbed { robot, tension_offsets } = perturbed;
         match *self {
             Self::Mass => change(&mut robot.platform.mass),
@@ -174,6 +273,24 @@ impl Parameter {
             Self::ExitPoint(i, axis) => change(&mut robot.cables[i].exit_point[axis.index()]),
             Self::CenterOfMass(axis) => change(&mut robot.platform.center_of_mass[axis.index()]),
             Self::TensionOffset(i) => change(&mut tension_offsets[i]),
+            Self::PulleyRadius(i) => {
+                robot.cables[i].pulley.iter_mut().for_each(|pulley| change(&mut pulley.radius));
+            }
+            Self::Lead(i) => change(&mut robot.cables[i].lead),
+            Self::Tilt(i, axis) => {
+                let mut angle = 0.0;
+                change(&mut angle);
+                let pulleys = robot.cables[i].pulley.iter_mut().zip(&nominal.cables[i].pulley);
+                for (pulley, nominal) in pulleys.filter(|_| angle != 0.0) {
+                    let about = Unit::new_unchecked(axis.of(nominal));
+                    pulley.axis = Rotation3::from_axis_angle(&about, angle) * pulley.axis;
+                }
+            }
+            Self::Gravity(axis) => {
+                let mut vector = robot.gravity.vector();
+                change(&mut vector[axis.index()]);
+                robot.gravity = vector.into();
+            }
         }
     }
 }
@@ -185,6 +302,10 @@ impl fmt::Display for Parameter {
             Self::ExitPoint(i, axis) => write!(f, "b{}.{}", i + 1, axis),
             Self::CenterOfMass(axis) => write!(f, "cog.{axis}"),
             Self::TensionOffset(i) => write!(f, "dt{}", i + 1),
+            Self::PulleyRadius(i) => write!(f, "r{}", i + 1),
+            Self::Lead(i) => write!(f, "lead{}", i + 1),
+            Self::Tilt(i, axis) => write!(f, "tilt{}.{}", i + 1, axis.letter()),
+            Self::Gravity(axis) => write!(f, "gravity.{axis}"),
             scalar => f.write_str(scalar.group()),
         }
     }
@@ -208,20 +329,20 @@ fn parse(name: &str) -> Option<Parameter> {
         "youngs_modulus" => return Some(Parameter::YoungsModulus),
         _ => {}
     }
-    let cable = |number: &str| number.parse::<usize>().ok()?.checked_sub(1);
-    if let Some(number) = name.strip_prefix("dt") {
-        return cable(number).map(Parameter::TensionOffset);
-    }
-    let (point, axis) = name.split_once('.')?;
-    let axis = Axis::from_letter(axis)?;
-    match point {
-        "cog" => Some(Parameter::CenterOfMass(axis)),
-        _ => match point.split_at_checked(1)? {
-            ("a", number) => Some(Parameter::AnchorPoint(cable(number)?, axis)),
-            ("b", number) => Some(Parameter::ExitPoint(cable(number)?, axis)),
-            _ => None,
-        },
-    }
+    let (stem, axis) = name.split_once('.').map_or((name, None), |(stem, axis)| (stem, Some(axis)));
+    let (word, number) = stem.split_at(stem.find(|c: char| c.is_ascii_digit()).unwrap_or(stem.len()));
+    let cable = || number.parse::<usize>().ok()?.checked_sub(1);
+    Some(match (word, axis, number) {
+        ("dt", None, _) => Parameter::TensionOffset(cable()?),
+        ("r", None, _) => Parameter::PulleyRadius(cable()?),
+        ("lead", None, _) => Parameter::Lead(cable()?),
+        ("tilt", Some(axis), _) => Parameter::Tilt(cable()?, TiltAxis::from_letter(axis)?),
+        ("a", Some(axis), _) => Parameter::AnchorPoint(cable()?, Axis::from_letter(axis)?),
+        ("b", Some(axis), _) => Parameter::ExitPoint(cable()?, Axis::from_letter(axis)?),
+        ("cog", Some(axis), "") => Parameter::CenterOfMass(Axis::from_letter(axis)?),
+        ("gravity", Some(axis), "") => Parameter::Gravity(Axis::from_letter(axis)?),
+        _ => return None,
+    })
 }
 
 /// A robot with deviations added to its parameters.
@@ -234,13 +355,13 @@ pub struct Perturbed {
 }
 
 impl Robot {
-    /// The robot with one deviation added to each of its parameters, in the order of [`Parameter::all`].
+    /// The robot with one deviation added to each of its parameters, in the order of [`Parameter::of`].
     ///
     /// # Errors
     /// [`RobotError::DeviationCount`]; [`RobotError::Invalid`] if the perturbed robot is invalid, for example
     /// with a negative mass.
     pub fn perturbed(&self, deviations: &[f64]) -> Result<Perturbed, RobotError> {
-        let parameters = Parameter::all(self.cables.len());
+        let parameters = Parameter::of(self);
         if deviations.len() != parameters.len() {
             return Err(RobotError::DeviationCount { given: deviations.len(), parameters: parameters.len() });
         }
@@ -249,7 +370,7 @@ impl Robot {
             if !deviation.is_finite() {
                 return Err(RobotError::invalid(parameter.to_string(), deviation, "a finite deviation"));
             }
-            parameter.change(&mut perturbed, |value| *value += deviation);
+            parameter.change(self, &mut perturbed, |value| *value += deviation);
         }
         perturbed.robot.validate()?;
         Ok(perturbed)
@@ -261,38 +382,36 @@ impl Robot {
     /// [`RobotError::UnknownParameter`] for a name that the robot does not have, and for an offset of a
     /// tension, which is no property of a robot; [`RobotError::Invalid`] for an invalid value.
     pub fn with_values(&self, named: &[(&str, f64)]) -> Result<Self, RobotError> {
-        let cables = self.cables.len();
+        let layout = ParameterLayout::of(self);
         let mut changed = Perturbed { robot: self.clone(), tension_offsets: Vec::new() };
         for (name, value) in named {
             let parameter: Parameter = name.parse()?;
-            let exists = ParameterLayout::new(cables).index(parameter).is_some();
+            let exists = layout.index(parameter).is_some();
             if matches!(parameter, Parameter::TensionOffset(_)) || !exists {
                 return Err(RobotError::UnknownParameter {
                     name: (*name).to_owned(),
-                    expected: format!(
-                        "those of a robot with {cables} cables, except the offsets dt of its tensions"
-                    ),
+                    expected: format!("{}; no offset dt of a tension", layout.names()),
                 });
             }
-            parameter.change(&mut changed, |old| *old = *value);
+            parameter.change(self, &mut changed, |old| *old = *value);
         }
         changed.robot.validate()?;
         Ok(changed.robot)
     }
 }
 
-/// The deviation vector of a robot with `cables` cables that is zero except for the named parameters.
+/// The deviation vector of a robot that is zero except for the named parameters.
 ///
 /// # Errors
-/// [`RobotError::UnknownParameter`] for a name that such a robot does not have.
-pub fn deviations(cables: usize, named: &[(&str, f64)]) -> Result<Vec<f64>, RobotError> {
-    let layout = ParameterLayout::new(cables);
+/// [`RobotError::UnknownParameter`] for a name that the robot does not have.
+pub fn deviations(robot: &Robot, named: &[(&str, f64)]) -> Result<Vec<f64>, RobotError> {
+    let layout = ParameterLayout::of(robot);
     let mut deviations = vec![0.0; layout.count()];
     for (name, deviation) in named {
         let parameter: Parameter = name.parse()?;
         let index = layout.index(parameter).ok_or_else(|| RobotError::UnknownParameter {
             name: (*name).to_owned(),
-            expected: format!("those of a robot with {cables} cables"),
+            expected: layout.names(),
         })?;
         deviations[index] += deviation;
     }
@@ -303,56 +422,144 @@ pub fn deviations(cables: usize, named: &[(&str, f64)]) -> Result<Vec<f64>, Robo
 mod tests {
     use super::*;
 
+    const CAROCA: &str = include_str!("../../../data/robots/caroca.json");
+
+    fn caroca() -> Robot {
+        Robot::from_json(CAROCA).unwrap()
+    }
+
+    /// CAROCA with so many cables, the first three on pulleys, the second with a lead, its gravity a vector.
+    fn guided(cables: usize) -> Robot {
+        let mut robot = caroca();
+        robot.cables = robot.cables.iter().cycle().take(cables).cloned().collect();
+        for (i, axis) in [Vector3::z(), -Vector3::z(), Vector3::new(0.0, 0.6, 0.8)].into_iter().enumerate() {
+            robot.cables[i].pulley = Some(Pulley { radius: 0.045, axis });
+        }
+        robot.cables[1].lead = 3.0;
+        robot.gravity = Vector3::new(0.3, -0.2, -9.8).into();
+        robot
+    }
+
     #[test]
     fn eight_cables_have_the_62_parameters_of_the_paper() {
-        let names: Vec<String> = Parameter::all(8).iter().map(ToString::to_string).collect();
+        let parameters = Parameter::of(&caroca());
+        let names: Vec<String> = parameters.iter().map(ToString::to_string).collect();
         assert_eq!(names.len(), 62);
         assert_eq!(names[..4], ["mass", "linear_density", "youngs_modulus", "a1.x"]);
         assert_eq!(names[26..28], ["a8.z", "b1.x"]);
         assert_eq!(names[50..55], ["b8.z", "cog.x", "cog.y", "cog.z", "dt1"]);
         assert_eq!(names[61], "dt8");
-        let geometric = Parameter::all(8).iter().filter(|p| p.unit() == "m").count();
+        let geometric = parameters.iter().filter(|p| p.unit() == "m").count();
         assert_eq!((geometric, 62 - geometric), (51, 11));
     }
 
     #[test]
+    fn pulleys_leads_and_a_vector_of_gravity_come_after_the_parameters_of_every_robot() {
+        let names: Vec<String> = Parameter::of(&guided(8)).iter().map(ToString::to_string).collect();
+        let tilts = ["tilt1.u", "tilt1.v", "tilt2.u", "tilt2.v", "tilt3.u", "tilt3.v"];
+        assert_eq!(names[61..66], ["dt8", "r1", "r2", "r3", "lead2"]);
+        assert_eq!(names[66..72], tilts);
+        assert_eq!(names[72..], ["gravity.x", "gravity.y", "gravity.z"]);
+    }
+
+    #[test]
     fn the_layout_gives_the_index_of_every_parameter() {
-        for cables in 6..=16 {
-            let (layout, all) = (ParameterLayout::new(cables), Parameter::all(cables));
+        for robot in (6..=16).flat_map(|cables| {
+            let mut plain = caroca();
+            plain.cables = plain.cables.iter().cycle().take(cables).cloned().collect();
+            [plain, guided(cables)]
+        }) {
+            let (layout, all) = (ParameterLayout::of(&robot), Parameter::of(&robot));
             assert_eq!(all.len(), layout.count());
             let indices: Vec<_> = all.iter().map(|parameter| layout.index(*parameter)).collect();
             assert_eq!(indices, (0..layout.count()).map(Some).collect::<Vec<_>>());
-            assert_eq!(layout.index(Parameter::AnchorPoint(cables, Axis::X)), None);
+            for absent in [Parameter::AnchorPoint(robot.cables.len(), Axis::X), Parameter::PulleyRadius(3)] {
+                assert_eq!(layout.index(absent), None);
+            }
         }
     }
 
     #[test]
     fn names_are_read_back() {
         for cables in 6..=16 {
-            for parameter in Parameter::all(cables) {
+            for parameter in Parameter::of(&guided(cables)) {
                 assert_eq!(parameter.to_string().parse(), Ok(parameter));
             }
         }
-        for name in ["", "a", "a0.x", "a1.w", "a1", "b.x", "dt", "dt0", "c1.x", "Mass", "ä1.x"] {
+        for name in [
+            "",
+            "a",
+            "a0.x",
+            "a1.w",
+            "a1",
+            "b.x",
+            "dt",
+            "dt0",
+            "c1.x",
+            "Mass",
+            "ä1.x",
+            "r",
+            "r0",
+            "r1.x",
+            "lead",
+            "lead0",
+            "tilt1",
+            "tilt1.x",
+            "tilt0.u",
+            "a1.u",
+            "gravity",
+            "gravity.u",
+        ] {
             assert!(name.parse::<Parameter>().is_err(), "{name}");
         }
     }
 
     #[test]
     fn a_robot_with_another_value_has_that_very_value() {
-        let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
-        for (parameter, value) in Parameter::all(8)[..54].iter().zip(1..) {
-            let value = f64::from(value) / 3.0;
-            let changed = robot.with_values(&[(&parameter.to_string(), value)]).unwrap();
-            assert_eq!(parameter.nominal(&changed), value, "{parameter}");
+        for robot in [caroca(), guided(8)] {
+            let parameters = Parameter::of(&robot);
+            let own = |p: &&Parameter| !matches!(p, Parameter::TensionOffset(_) | Parameter::Tilt(..));
+            for (parameter, value) in parameters.iter().filter(own).zip(1..) {
+                let value = f64::from(value) / 3.0;
+                let mut changed = Perturbed { robot: robot.clone(), tension_offsets: Vec::new() };
+                parameter.change(&robot, &mut changed, |old| *old = value);
+                assert_eq!(parameter.nominal(&changed.robot), value, "{parameter}");
+            }
         }
-        for (name, value) in [("dt1", 1.0), ("a9.x", 1.0), ("mass", -1.0), ("b1.x", f64::NAN)] {
+        let robot = caroca();
+        assert_eq!(robot.with_values(&[("mass", 185.0)]).unwrap().platform.mass, 185.0);
+        let refused = [("dt1", 1.0), ("a9.x", 1.0), ("mass", -1.0), ("b1.x", f64::NAN), ("r1", 0.1)];
+        for (name, value) in refused.into_iter().chain([("lead1", 0.1), ("tilt1.u", 0.1), ("gravity.x", 0.1)])
+        {
             assert!(robot.with_values(&[(name, value)]).is_err(), "{name}");
         }
     }
 
     #[test]
-    fn a_parameter_of_a_cable_that_does_not_exist_is_refused() {
-        assert!(matches!(deviations(8, &[("b9.x", 0.1)]), Err(RobotError::UnknownParameter { .. })));
+    fn a_tilt_turns_the_axis_of_the_pulley_about_u_and_v() {
+        let robot = guided(8);
+        // Axes u and v of (0, 0, 1), (0, 0, -1) and (0, 3, 4)/5.
+        let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let expected = [(x, y), (x, -y), (-x, 0.6 * z - 0.8 * y)];
+        for (i, (u, v)) in expected.into_iter().enumerate() {
+            let pulley = robot.cables[i].pulley.unwrap();
+            let axes = TiltAxis::ALL.map(|axis| axis.of(&pulley));
+            assert!((axes[0] - u).norm() + (axes[1] - v).norm() < 1e-15, "{i}: {axes:?}");
+            for (axis, about) in TiltAxis::ALL.into_iter().zip(axes) {
+                let mut changed = Perturbed { robot: robot.clone(), tension_offsets: Vec::new() };
+                Parameter::Tilt(i, axis).change(&robot, &mut changed, |angle| *angle = 0.1);
+                let turned = changed.robot.cables[i].pulley.unwrap().axis;
+                let expected = 0.1_f64.cos() * pulley.axis + 0.1_f64.sin() * about.cross(&pulley.axis);
+                assert!((turned - expected).norm() < 1e-15, "{i} {axis:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_parameter_that_the_robot_does_not_have_is_refused() {
+        for name in ["b9.x", "r1", "lead1", "tilt1.u", "gravity.x"] {
+            let found = deviations(&caroca(), &[(name, 0.1)]);
+            assert!(matches!(found, Err(RobotError::UnknownParameter { .. })), "{name}");
+        }
     }
 }

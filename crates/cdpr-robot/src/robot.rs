@@ -9,6 +9,7 @@
 //! Both equations are those of Baklouti, Caro, Courteille (CableCon 2017).
 
 use crate::error::RobotError;
+use crate::gravity::Gravity;
 use crate::limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionReference};
 use crate::pose::Pose;
 use crate::wrench::Wrench;
@@ -22,8 +23,8 @@ pub struct Robot {
     pub name: String,
     /// Where the values come from, if known.
     pub source: Option<String>,
-    /// Acceleration due to gravity, along -z of the base frame [m/s²].
-    pub gravity: f64,
+    /// Acceleration due to gravity.
+    pub gravity: Gravity,
     /// The platform.
     pub platform: Platform,
     /// Limits of the tension of every cable that has none of its own; [`Robot::limits`] has both.
@@ -109,7 +110,7 @@ pub struct Pulley {
     pub radius: f64,
     /// Swivel axis in the base frame: the direction in which the cable travels where it enters the pulley.
     ///
-    /// It is vertical, (0, 0, 1) or (0, 0, -1) up to its length.
+    /// A robot with another axis than a vertical one, (0, 0, 1) or (0, 0, -1) up to its length, is invalid.
     pub axis: Vector3<f64>,
 }
 
@@ -179,7 +180,7 @@ impl Robot {
     pub fn cable(&self, i: usize) -> Cable<'_> {
         let properties = &self.cables[i].properties;
         Cable {
-            weight_per_length: properties.linear_density * self.gravity,
+            weight_per_length: properties.linear_density * self.gravity.magnitude(),
             axial_stiffness: properties.axial_stiffness(),
             law: properties.law.as_ref().map_or(ElasticLaw::Linear, ElasticLaw::Piecewise),
             guide: self.cables[i].guide(),
@@ -192,10 +193,13 @@ impl Robot {
         self.cables.iter().all(|cable| cable.properties.law.is_none())
     }
 
-    /// Whether all cables are linear and begin at their exit points, without pulley and lead.
+    /// Whether the base is level and all cables are linear and begin at their exit points, without pulley and
+    /// lead.
     #[inline]
     pub fn is_plain(&self) -> bool {
-        self.is_linear() && self.cables.iter().all(|cable| cable.guide().is_none())
+        self.is_linear()
+            && self.gravity.level().is_none()
+            && self.cables.iter().all(|cable| cable.guide().is_none())
     }
 
     /// Young's modulus of cable `i` at a tension [N]: the slope of its law there [Pa].
@@ -248,7 +252,7 @@ impl Robot {
     /// Weight of the platform and of a `payload` [kg] at its centre of mass, as a wrench about P.
     #[inline]
     pub fn weight(&self, pose: &Pose, payload: f64) -> Wrench {
-        let force = Vector3::new(0.0, 0.0, -(self.platform.mass + payload) * self.gravity);
+        let force = (self.platform.mass + payload) * self.gravity.vector();
         Wrench::of_force_at(&(pose.rotation * self.platform.center_of_mass), force)
     }
 
@@ -279,7 +283,7 @@ impl Robot {
     /// [`RobotError::Invalid`] names the field as in the robot file, its value and what would be right.
     pub fn validate(&self) -> Result<(), RobotError> {
         let named = |name: &'static str| move || name.to_owned();
-        require(named("gravity"), self.gravity, self.gravity >= 0.0, "a finite number, zero or more [m/s²]")?;
+        self.gravity.validate()?;
         self.platform.validate()?;
         let TensionLimits { min, max } = self.tension_limits;
         require(named("tension_limits.min"), min, min > 0.0, "a finite, positive tension [N]")?;
@@ -433,7 +437,7 @@ impl RobotCable {
 }
 
 /// Horizontal part of a vertical axis at most, relative to its length.
-const VERTICAL: f64 = 1e-9;
+pub(crate) const VERTICAL: f64 = 1e-9;
 
 /// Cables of a robot at most: the inverse model of more takes seconds where they hold no pose.
 const MOST_CABLES: usize = 200;

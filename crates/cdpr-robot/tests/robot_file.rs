@@ -18,6 +18,47 @@ fn the_robot_files_are_read_and_written_back() {
 }
 
 #[test]
+fn gravity_is_a_number_or_a_vector_and_is_written_back_as_it_was() {
+    let with = |gravity: &str| CAROCA.replace("\"gravity\": 9.81", &format!("\"gravity\": {gravity}"));
+    for (given, vector) in [
+        ("9.81", [0.0, 0.0, -9.81]),
+        ("0", [0.0; 3]),
+        ("[0.3, 0, -9.8]", [0.3, 0.0, -9.8]),
+        ("[0, 0, -9.81]", [0.0, 0.0, -9.81]),
+    ] {
+        let robot = Robot::from_json(&with(given)).unwrap();
+        assert_eq!(robot.gravity.vector(), Vector3::from(vector), "{given}");
+        let written: serde_json::Value = serde_json::from_str(&robot.to_json()).unwrap();
+        assert_eq!(written["gravity"].is_array(), given.starts_with('['), "{given}");
+        assert_eq!(Robot::from_json(&robot.to_json()).unwrap(), robot);
+        assert_eq!(robot.is_plain(), vector[0] == 0.0, "{given}");
+    }
+    for (wrong, message) in [
+        ("-1", "gravity is -1: expected a finite number, zero or more [m/s²]"),
+        ("[0, 1]", "gravity: expected a number [m/s²] or a vector of three in the base frame"),
+        ("\"down\"", "gravity: expected a number [m/s²] or a vector of three in the base frame"),
+        ("null", "gravity: expected a number [m/s²] or a vector of three in the base frame"),
+    ] {
+        let error = Robot::from_json(&with(wrong)).unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+    }
+    let mut robot = Robot::from_json(CAROCA).unwrap();
+    robot.gravity = Vector3::new(0.0, f64::NAN, -9.81).into();
+    let error = robot.validate().unwrap_err().to_string();
+    assert_eq!(error, "gravity[1] is NaN: expected a finite component [m/s²]");
+}
+
+#[test]
+fn a_tilted_robot_has_its_weight_along_gravity_and_its_cables_their_weight() {
+    let mut robot = Robot::from_json(CAROCA).unwrap();
+    let vector = Vector3::new(3.0, -4.0, -12.0);
+    robot.gravity = vector.into();
+    let wrench = robot.weight(&Pose::at(0.0, 0.0, 1.75), 20.0);
+    assert_eq!(wrench.force, (robot.platform.mass + 20.0) * vector);
+    assert_eq!(robot.cable(0).weight_per_length, 13.0 * robot.cables[0].properties.linear_density);
+}
+
+#[test]
 fn values_in_another_unit_are_questioned_with_what_they_would_be() {
     let modulus = |text: &str| refusal("1.022e11", text);
     assert_eq!(
@@ -136,7 +177,7 @@ fn every_double_is_written_and_read_back_to_the_last_bit() {
     {
         let mut robot = Robot::from_json(CAROCA).unwrap();
         robot.platform.mass = mass;
-        robot.gravity = 1.1 * mass;
+        robot.gravity = (1.1 * mass).into();
         robot.platform.center_of_mass.x = -mass / 3.0;
         assert_eq!(Robot::from_json(&robot.to_json()).unwrap(), robot);
     }
@@ -254,7 +295,8 @@ fn points_that_cannot_hold_a_platform_are_refused() {
 fn a_perturbation_moves_exactly_the_named_parameters() {
     let robot = Robot::from_json(CAROCA).unwrap();
     let values =
-        deviations(8, &[("a2.y", 0.01), ("cog.z", -0.02), ("dt3", 5.0), ("youngs_modulus", -1e9)]).unwrap();
+        deviations(&robot, &[("a2.y", 0.01), ("cog.z", -0.02), ("dt3", 5.0), ("youngs_modulus", -1e9)])
+            .unwrap();
     let perturbed = robot.perturbed(&values).unwrap();
     let mut expected = robot.clone();
     expected.cables[1].anchor_point.y += 0.01;
@@ -267,7 +309,7 @@ fn a_perturbation_moves_exactly_the_named_parameters() {
 #[test]
 fn a_perturbation_that_makes_the_robot_invalid_is_refused() {
     let robot = Robot::from_json(CAROCA).unwrap();
-    let result = robot.perturbed(&deviations(8, &[("mass", -200.0)]).unwrap());
+    let result = robot.perturbed(&deviations(&robot, &[("mass", -200.0)]).unwrap());
     assert!(matches!(result, Err(RobotError::Invalid { field, .. }) if field == "platform.mass"));
     assert_eq!(robot.perturbed(&[0.0; 61]), Err(RobotError::DeviationCount { given: 61, parameters: 62 }));
 }

@@ -5,7 +5,7 @@
 
 mod problems;
 
-use cdpr_robot::{Parameter, Pose};
+use cdpr_robot::{Parameter, Pose, Robot};
 use cdpr_statics::{Load, Observer};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use problems::{caroca, counted, ring, settings};
@@ -13,8 +13,8 @@ use std::hint::black_box;
 
 /// Rows of deviations: sawtooths through the ranges of Table 3 of Baklouti, Caro, Courteille (CableCon 2017),
 /// one a parameter.
-fn deviations(cables: usize, robots: usize) -> Vec<f64> {
-    let parameters = Parameter::all(cables);
+fn deviations(robot: &Robot, robots: usize) -> Vec<f64> {
+    let parameters = Parameter::of(robot);
     let half_range = |parameter: &Parameter| match parameter {
         Parameter::Mass => 18.0,
         Parameter::LinearDensity => 0.01015,
@@ -22,6 +22,7 @@ fn deviations(cables: usize, robots: usize) -> Vec<f64> {
         Parameter::AnchorPoint(..) | Parameter::CenterOfMass(_) => 0.015,
         Parameter::ExitPoint(..) => 0.03,
         Parameter::TensionOffset(_) => 15.0,
+        _ => 0.0,
     };
     let entries = 0..parameters.len() * robots;
     entries
@@ -36,11 +37,11 @@ fn observation(criterion: &mut Criterion) {
     let nominal = observer.observe(&[0.0; 62]).unwrap();
     assert!((1e3 * nominal.rms() - 1.33125).abs() < 1e-4);
 
-    let one = deviations(8, 1);
+    let one = deviations(&robot, 1);
     group.throughput(Throughput::Elements(1));
     group.bench_function("scalar", |b| b.iter(|| counted(|| observer.observe(black_box(&one)))));
     for batch in [1, 8, 64, 256, 4096] {
-        let rows = deviations(8, batch);
+        let rows = deviations(&robot, batch);
         for (found, row) in observer.observe_all(&rows).iter().zip(rows.chunks(62)) {
             let (found, scalar) = (found.as_ref().unwrap(), observer.observe(row).unwrap());
             assert!((found.displacement - scalar.displacement).norm() < 1e-12);
@@ -56,7 +57,7 @@ fn observation(criterion: &mut Criterion) {
     for cables in [6, 8, 10, 12, 14, 16] {
         let robot = ring(cables);
         let observer = Observer::new(&robot, &Pose::at(0.1, 0.2, 1.5), &load).unwrap();
-        let rows = deviations(cables, BATCH);
+        let rows = deviations(&robot, BATCH);
         let found = observer.observe_all(&rows);
         assert!(found.iter().all(|found| found.as_ref().is_ok_and(|found| found.loaded.force < 1e-8)));
         group.bench_function(BenchmarkId::new("cables", cables), |b| {

@@ -18,13 +18,13 @@ fn main() -> Result<(), std::num::ParseIntError> {
             json!({
                 "exit": cable.exit_point.as_slice(),
                 "anchor": cable.anchor_point.as_slice(),
-                "weight": robot.gravity * properties.linear_density,
+                "weight": robot.gravity.magnitude() * properties.linear_density,
                 "stiffness": properties.youngs_modulus * properties.section,
             })
         });
         let line = json!({
             "seed": seed,
-            "gravity": robot.gravity,
+            "gravity": robot.gravity.magnitude(),
             "mass": robot.platform.mass,
             "center_of_mass": robot.platform.center_of_mass.as_slice(),
             "limits": [robot.tension_limits.min, robot.tension_limits.max],

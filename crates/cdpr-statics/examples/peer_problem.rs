@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! gravity, section     shared numbers [m/s²], [m²]
-//! parameters           nominal value of every uncertain parameter, in the order of `Parameter::all`
+//! parameters           nominal value of every uncertain parameter, in the order of `Parameter::of`
 //! position             wanted position of P [m]; the wanted rotation is the identity
 //! payload              mass added at the centre of mass [kg]
 //! lengths, forces      direct problem: unstrained lengths [m]; (fx, fz) of every cable [N] at the start, where the
@@ -39,7 +39,7 @@ fn main() -> Result<(), Error> {
     let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
     let pose = Pose::at(0.0, 0.0, 1.75);
     let load = Load::payload(PAYLOAD);
-    let parameters = Parameter::all(robot.cables.len());
+    let parameters = Parameter::of(&robot);
 
     let wanted = inverse(&robot, &pose, &Load::none(), None)?;
     let start = &wanted.equilibrium;
@@ -95,7 +95,7 @@ fn main() -> Result<(), Error> {
         })
     };
     let problem = json!({
-        "gravity": robot.gravity,
+        "gravity": robot.gravity.magnitude(),
         "section": robot.cables[0].properties.section,
         "parameters": parameters.iter().map(|parameter| parameter.nominal(&robot)).collect::<Vec<_>>(),
         "position": pose.position.as_slice(),
@@ -129,6 +129,7 @@ fn half_range(parameter: &Parameter) -> f64 {
         Parameter::AnchorPoint(..) | Parameter::CenterOfMass(_) => 0.015,
         Parameter::ExitPoint(..) => 0.03,
         Parameter::TensionOffset(_) => 15.0,
+        _ => 0.0,
     }
 }
 

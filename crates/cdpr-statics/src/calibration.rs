@@ -110,12 +110,12 @@ const ROUNDING: f64 = 1e-10;
 impl Calibration {
     /// A calibration of a robot whose parameters have the standard deviations `uncertainties`.
     ///
-    /// They are in SI units and in the order of [`Parameter::all`]; a parameter with zero is known.
+    /// They are in SI units and in the order of [`Parameter::of`]; a parameter with zero is known.
     ///
     /// # Errors
     /// [`StaticsError::Invalid`] unless there is one finite value, not negative, for each parameter.
     pub fn new(robot: &Robot, uncertainties: &[f64]) -> Result<Self, StaticsError> {
-        Inputs::new(robot.cables.len()).check("uncertainties", uncertainties)?;
+        Inputs::of(robot).check("uncertainties", uncertainties)?;
         let indices = (0..uncertainties.len()).filter(|j| uncertainties[*j] > 0.0).collect();
         Ok(Self { robot: robot.clone(), uncertainties: uncertainties.to_vec(), indices, poses: Vec::new() })
     }
@@ -164,7 +164,7 @@ impl Calibration {
 
     /// The uncertain parameters.
     pub fn parameters(&self) -> Vec<Parameter> {
-        let all = Parameter::all(self.robot.cables.len());
+        let all = Parameter::of(&self.robot);
         self.indices.iter().map(|index| all[*index]).collect()
     }
 

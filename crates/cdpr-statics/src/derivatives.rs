@@ -147,7 +147,7 @@ pub fn derivatives(
 ) -> Result<Derivatives, StaticsError> {
     let wound = wind(robot, pose, tension_offsets)?;
     let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.held)?;
-    let winding = Winding { robot, pose, inputs: Inputs::new(robot.cables.len()), wound: &wound };
+    let winding = Winding { robot, pose, inputs: Inputs::of(robot), wound: &wound };
     let SetPoints { rows: mut set_points, one_sided } = winding.set_points(tension_offsets)?;
     let mut lengths = winding.lengths(&set_points)?;
     let at = |load: &Load, equilibrium| {
@@ -246,7 +246,7 @@ impl DirectProblem<'_> {
     /// [`StaticsError::NoDerivative`] at the border of stability.
     pub fn derivatives(&self, equilibrium: &Equilibrium) -> Result<EquilibriumDerivatives, StaticsError> {
         self.check("equilibrium", equilibrium)?;
-        EquilibriumDerivatives::new(self, &Inputs::new(self.cables()), equilibrium, None)
+        EquilibriumDerivatives::new(self, &Inputs::of(self.robot), equilibrium, None)
     }
 }
 

@@ -66,7 +66,7 @@ fn case(seed: u64) -> Case {
     let robot = Robot {
         name: format!("random robot {seed}"),
         source: None,
-        gravity: 9.81,
+        gravity: 9.81.into(),
         platform: Platform::new(mass, center_of_mass),
         tension_limits: TensionLimits { min: 1.0, max: 1e9 },
         max_at: CableEnd::Anchor,
@@ -96,7 +96,7 @@ fn case(seed: u64) -> Case {
 /// What became of a case; the certificate of an equilibrium beside it.
 fn outcome(case: &Case, certified: bool) -> (String, Option<String>) {
     let Case { robot, lengths, load, start } = case;
-    let weight = (robot.platform.mass + load.payload) * robot.gravity;
+    let weight = (robot.platform.mass + load.payload) * robot.gravity.magnitude();
     let size = lengths.iter().copied().fold(0.0, f64::max);
     match direct(robot, lengths, load, Start::Pose(start)) {
         Ok(found) => {

@@ -17,7 +17,7 @@ fn uncertainties() -> Vec<f64> {
         "dt" => 5.0,
         _ => 2e-3,
     };
-    Parameter::all(8).iter().map(one).collect()
+    Parameter::of(&caroca()).iter().map(one).collect()
 }
 
 /// Turned platforms among them: unturned ones do not tell anchor points from exit points.
@@ -64,7 +64,7 @@ fn print(title: &str, found: &Identifiability) {
 fn poses_identify_neither_offsets_of_tensions_nor_with_one_payload_the_scale_of_all_forces() {
     let robot = caroca();
     let uncertainties = uncertainties();
-    let all = Parameter::all(8);
+    let all = Parameter::of(&caroca());
     for payloads in [&[0.0][..], &[50.0], &[0.0, 50.0]] {
         let found = calibration(payloads, &[NOISE]).identify(0..54);
         print(&format!("poses under {payloads:?} kg"), &found);
@@ -99,7 +99,7 @@ fn a_change_along_a_combination_shows_as_its_signal_says() {
     let calibration = calibration(&[50.0], &[NOISE]);
     let found = calibration.identify(0..27);
     let uncertainties = uncertainties();
-    let all = Parameter::all(8);
+    let all = Parameter::of(&caroca());
     for combination in [&found.identifiable[0], &found.identifiable[30], &found.identifiable[45]] {
         let change = 1e-3;
         let mut squares = 0.0;

@@ -49,7 +49,7 @@ impl Case {
     /// The case with one input moved.
     pub(crate) fn moved(&self, column: usize, step: f64) -> Self {
         let mut case = self.clone();
-        let parameters = Parameter::all(self.robot.cables.len()).len();
+        let parameters = Parameter::of(&self.robot).len();
         if column < parameters {
             let mut deviations = vec![0.0; parameters];
             deviations[column] = step;
@@ -68,7 +68,7 @@ impl Case {
 
     /// A step of an input that changes lengths and tensions little, but far above rounding.
     pub(crate) fn step(&self, column: usize) -> f64 {
-        let parameters = Parameter::all(self.robot.cables.len());
+        let parameters = Parameter::of(&self.robot);
         let length = 1e-3 * self.robot.platform_size();
         match parameters.get(column) {
             Some(parameter @ (Parameter::Mass | Parameter::LinearDensity | Parameter::YoungsModulus)) => {
@@ -507,7 +507,7 @@ fn a_payload_moves_the_platform_as_the_tangent_says() {
         .linearize(&loaded.equilibrium)
         .unwrap();
     let arm = loaded.equilibrium.pose.rotation * robot.platform.center_of_mass;
-    let force = Vector3::new(0.0, 0.0, -robot.gravity);
+    let force = robot.gravity.vector();
     let expected = linearization.displacement(&Wrench { force, moment: arm.cross(&force) });
     let payload = exact.inputs.payload();
     assert!((exact.loaded.pose.column(payload) - expected).norm() < 1e-9 * expected.norm());

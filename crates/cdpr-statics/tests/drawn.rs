@@ -58,7 +58,7 @@ pub(crate) fn drawn(seed: u64) -> Option<Drawn> {
     let robot = Robot {
         name: "drawn".to_owned(),
         source: None,
-        gravity,
+        gravity: gravity.into(),
         platform: Platform::new(mass, in_cube(rng) * platform),
         tension_limits: limits,
         max_at: CableEnd::Anchor,

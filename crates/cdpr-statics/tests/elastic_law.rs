@@ -86,7 +86,7 @@ fn derivatives_are_those_of_differences() {
             ("b5.z", 1e-6),
         ] {
             let at = |h: f64| {
-                let perturbed = robot.perturbed(&deviations(8, &[(name, h)]).unwrap()).unwrap();
+                let perturbed = robot.perturbed(&deviations(&robot, &[(name, h)]).unwrap()).unwrap();
                 deflection(&perturbed.robot, &pose, &perturbed.tension_offsets, &load).unwrap().displacement()
             };
             let slope = (at(step) - at(-step)) / (2.0 * step);
@@ -103,7 +103,7 @@ fn derivatives_are_those_of_differences() {
 fn a_deviation_of_the_modulus_scales_the_whole_law() {
     let robot = kinked();
     let softer =
-        robot.perturbed(&deviations(8, &[("youngs_modulus", -0.1 * 1.022e11)]).unwrap()).unwrap().robot;
+        robot.perturbed(&deviations(&robot, &[("youngs_modulus", -0.1 * 1.022e11)]).unwrap()).unwrap().robot;
     for tension in [100.0, 550.0, 1000.0] {
         assert!((softer.modulus_at(0, tension) / robot.modulus_at(0, tension) - 0.9).abs() < 1e-12);
     }

@@ -27,7 +27,7 @@ pub(crate) fn robot(case: &Value) -> Robot {
     Robot {
         name: case["kind"].as_str().unwrap().to_owned(),
         source: None,
-        gravity,
+        gravity: gravity.into(),
         platform: Platform::new(number(&case["mass"]), vector(&case["center_of_mass"])),
         tension_limits: TensionLimits { min: 1.0, max: 1e6 },
         max_at: CableEnd::Anchor,

@@ -190,7 +190,7 @@ fn a_light_platform_between_prestressed_cables_is_held() {
 #[test]
 fn a_robot_without_gravity_is_held_by_its_prestress_alone() {
     let mut robot = ipanema();
-    robot.gravity = 0.0;
+    robot.gravity = (0.0).into();
     let held = inverse(&robot, &Pose::at(0.1, -0.2, 1.2), &Load::none(), None).unwrap();
     assert!(held.residual.force < 1e-11 && held.active.contains(&Some(Bound::Min)), "{held:?}");
 }

@@ -1,7 +1,7 @@
 //! Observer robots in lanes: the answers of the scalar models, whoever else is in the batch.
 
 use crate::common::{caroca, cogiro, ipanema};
-use cdpr_robot::{CableEnd, Pose, Robot, RobotError, TensionReference, Vector3};
+use cdpr_robot::{CableEnd, Parameter, Pose, Robot, RobotError, TensionReference, Vector3};
 use cdpr_statics::{Load, Observer, StaticsError};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -29,7 +29,7 @@ fn compare(robot: &Robot, pose: &Pose, load: &Load, rows: &[f64]) -> (usize, usi
     let observer = Observer::new(robot, pose, load).unwrap();
     let together = observer.observe_all(rows);
     let (mut left, mut failed) = (0, 0);
-    for (row, found) in rows.chunks(6 + 7 * robot.cables.len()).zip(&together) {
+    for (row, found) in rows.chunks(Parameter::of(robot).len()).zip(&together) {
         match (found, observer.observe(row)) {
             (Ok(found), Ok(alone)) => {
                 let error = (found.displacement - alone.displacement).norm();

@@ -120,7 +120,7 @@ fn an_offset_of_a_cable_on_its_least_tension_acts_when_it_grows() {
 
         let exact = derivatives(&case.robot, &case.pose, &case.offsets, &case.load).unwrap();
         let cable = active.iter().position(Option::is_some).unwrap();
-        let dt = ParameterLayout::new(tensions.len()).tension_offset(cable);
+        let dt = ParameterLayout::of(&case.robot).tension_offset(cable);
         assert_eq!(exact.lengths.column(dt).amax(), 0.0);
         assert!(exact.right().lengths[(cable, dt)] < 0.0);
         assert!(exact.right().one_sided.is_empty());

@@ -35,7 +35,7 @@ pub(crate) fn robot(case: &Value) -> Option<Robot> {
     Some(Robot {
         name: case["kind"].as_str().unwrap().to_owned(),
         source: None,
-        gravity: gravity.norm(),
+        gravity: gravity.norm().into(),
         platform: Platform::new(number(&case["mass"]), vector(&case["center_of_mass"])),
         tension_limits: TensionLimits { min: 1e-3, max: 1e7 },
         max_at: CableEnd::Anchor,

@@ -188,7 +188,7 @@ fn a_moment_that_no_equilibrium_can_bear_is_said_so() {
 #[test]
 fn a_platform_that_nothing_holds_stands_anywhere() {
     let mut robot = tripod(0.3, 0.0, 50.0);
-    robot.gravity = 0.0;
+    robot.gravity = (0.0).into();
     let lengths = tightened(&robot, -0.05);
     let error = direct(&robot, &lengths, &Load::none(), Start::Pose(&Pose::at(0.0, 0.0, 0.0))).unwrap_err();
     assert_eq!(error.kind(), "indifferent");

@@ -24,7 +24,7 @@ fn unbalanced(robot: &Robot, lengths: &[f64], load: &Load, pose: &Pose) -> Vecto
 fn the_stiffness_is_the_derivative_of_the_balance_under_a_moment() {
     for (robot, pose) in robots() {
         let size = robot.platform_size();
-        let force = robot.platform.mass * robot.gravity;
+        let force = robot.platform.mass * robot.gravity.magnitude();
         let pose = pose.moved(Vector3::zeros(), Vector3::new(0.02, -0.01, 0.05));
         for share in [0.0, 0.02] {
             let moment = share * force * size * Vector3::new(1.0, -0.6, 0.8);

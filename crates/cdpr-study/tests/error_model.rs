@@ -37,16 +37,18 @@ fn two_points_of_a_block() -> Value {
 #[test]
 fn a_cause_moves_all_its_parameters_beside_their_own_deviations() {
     let study = study(two_points_of_a_block()).unwrap();
-    let errors = study.sampling("blocks").unwrap().errors;
+    let sampling = study.sampling("blocks").unwrap();
+    let (robot, errors) = (sampling.robot, sampling.errors);
     let names: Vec<&str> = errors.inputs.iter().map(|input| input.name.as_str()).collect();
     assert_eq!(names, ["b1.z", "b2.z", "block", "tilt"]);
     let expected = [("b1.z", 0.001 + 0.01 + 0.0005), ("b2.z", 0.002 + 0.01 - 0.0005)];
     let moved = errors.deviations(&[0.001, 0.002, 0.01, 0.0001]);
-    for (one, other) in moved.iter().zip(deviations(8, &expected).unwrap()) {
+    for (one, other) in moved.iter().zip(deviations(robot, &expected).unwrap()) {
         assert!((one - other).abs() < 1e-17);
     }
     let mut slopes = vec![0.0; errors.parameters()];
-    for (slope, deviation) in slopes.iter_mut().zip(deviations(8, &[("b1.z", 3.0), ("b2.z", 1.0)]).unwrap()) {
+    let given = deviations(robot, &[("b1.z", 3.0), ("b2.z", 1.0)]).unwrap();
+    for (slope, deviation) in slopes.iter_mut().zip(given) {
         *slope = deviation;
     }
     assert_eq!(errors.gradient(&slopes), [3.0, 1.0, 4.0, 10.0]);

@@ -108,7 +108,7 @@ fn six_cables_have_one_distribution() {
     let wide = &[TensionLimits { min: -1e6, max: 1e6 }; 6];
     let problem = Problem { wrench_matrix: &wrench_matrix, wrench, reference: &[50.0; 6], limits: wide };
     let solution = distribute(&problem).unwrap();
-    assert!(solution.residual.norm() < 1e-9 * robot.platform.mass * robot.gravity);
+    assert!(solution.residual.norm() < 1e-9 * robot.platform.mass * robot.gravity.magnitude());
 }
 
 #[test]

@@ -20,7 +20,7 @@ impl Findings<'_> {
         let cables = 0..robot.cables.len();
         let weight: f64 =
             cables.clone().map(|i| robot.cable(i).weight_per_length * solution.lengths[i]).sum();
-        let share = weight / (robot.platform.mass * robot.gravity);
+        let share = weight / (robot.platform.mass * robot.gravity.magnitude());
         if share > CABLE_WEIGHT {
             self.add(
                 Severity::Note,

@@ -169,7 +169,7 @@ impl Slopes {
 
 impl Row for Slopes {
     fn columns(robot: &Robot) -> Vec<String> {
-        let parameters = Parameter::all(robot.cables.len());
+        let parameters = Parameter::of(robot);
         let lengths = (1..=robot.cables.len()).map(|i| format!("length_{i}_m"));
         let outputs: Vec<_> =
             ["rms_mm", "dx_mm", "dy_mm", "dz_mm"].map(str::to_owned).into_iter().chain(lengths).collect();
@@ -198,6 +198,7 @@ fn handy_unit(parameter: &Parameter) -> (&'static str, f64) {
         "kg/m" => ("g/m", 1e-3),
         "Pa" => ("GPa", 1e9),
         "m" => ("mm", 1e-3),
+        "rad" => ("mrad", 1e-3),
         unit => (unit, 1.0),
     }
 }

@@ -123,7 +123,7 @@ impl Settings {
         }
         let named = self.uncertainty.as_ref();
         let deviations = named.map(|named| arguments::uncertainties(robot, named)).transpose()?;
-        Ok(deviations.map(|deviations| ErrorModel::normal(&deviations)))
+        Ok(deviations.map(|deviations| ErrorModel::normal(robot, &deviations)))
     }
 }
 

@@ -119,7 +119,7 @@ impl Robot {
             })
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
-        let parameters = Parameter::all(cables);
+        let parameters = Parameter::of(robot);
         let others = ["payload"].into_iter().chain(Pose::COORDINATES).map(str::to_owned);
         let inputs: Vec<String> = parameters.iter().map(ToString::to_string).chain(others).collect();
         let count = inputs.len();

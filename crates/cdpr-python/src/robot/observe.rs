@@ -56,7 +56,7 @@ impl Robot {
                 "pose or load has a row for each case: expected one of each for all robots".to_owned(),
             ));
         }
-        let parameters = Parameter::all(self.robot.cables.len()).len();
+        let parameters = Parameter::of(&self.robot).len();
         let rows = Rows::vectors("deviations", &deviations)?;
         if rows.width() != parameters {
             let width = rows.width();

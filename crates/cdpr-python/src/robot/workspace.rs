@@ -157,5 +157,5 @@ fn normal(axis: &str) -> Answer<Axis> {
 fn tolerances(robot: &cdpr_robot::Robot, named: &Bound<PyDict>) -> Answer<ErrorModel> {
     let named: Vec<(String, f64)> =
         named.iter().map(|(name, std)| Ok((name.extract()?, std.extract()?))).collect::<PyResult<_>>()?;
-    Ok(ErrorModel::normal(&uncertainties(robot, &named)?))
+    Ok(ErrorModel::normal(robot, &uncertainties(robot, &named)?))
 }

@@ -138,7 +138,7 @@ fn parts(results: &Results) -> Markup {
 }
 
 fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec>) -> Markup {
-    let parameters = Parameter::all(results.study.robot.cables.len());
+    let parameters = Parameter::of(&results.study.robot);
     // The entry of a parameter takes precedence over that of its group.
     let of_entry = |key: &str| -> Vec<&Parameter> {
         let is_of = |parameter: &&Parameter| {

@@ -191,7 +191,7 @@ impl Winding<'_> {
         let bounds = Bounds { values, rows };
         let (tensions, undecided) = self.tensions(&bounds)?;
 
-        let layout = ParameterLayout::new(n);
+        let layout = ParameterLayout::of(self.robot);
         let side = |mut rows: DMatrix<f64>, [at_least, at_greatest]: [fn(f64, f64) -> f64; 2]| {
             for (i, set_point) in set_points.iter().enumerate() {
                 rows[(i, layout.tension_offset(i))] += 1.0;

@@ -78,7 +78,7 @@ pub(crate) const NEAR_VERTICAL: f64 = 1e-9;
 fn weight<T: Number>(problem: &DirectProblem, state: &State<T>) -> (Vector3<T>, Vector3<T>) {
     let platform = &problem.robot.platform;
     let mass = T::of(platform.mass) + T::of(problem.load.payload);
-    let weight = Vector3::new(T::zero(), T::zero(), -(mass * T::of(problem.robot.gravity)));
+    let weight = problem.robot.gravity.vector().map(T::of) * mass;
     (weight, state.rotation * platform.center_of_mass.map(T::of))
 }
 

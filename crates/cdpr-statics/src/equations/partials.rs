@@ -18,12 +18,21 @@
 //! dF_i = Q_i (-K3_i dr_i + k_ρ dρ + k_E dE) + v_i dt_i,   v_i = k_L/(u_i·k_L),   Q_i = 1 - v_i u_iᵀ  (D3)
 //! ```
 //!
-//! which is (D1) with other coefficients. The left-hand side of the paper's Eq. (3),
+//! which is (D1) with other coefficients. So are the derivatives by lead and radius of a guide,
+//! `K ∂(x, z)/∂d` and `K ∂(x, z)/∂r`. Gravity γ = -g u acts on cable i by its magnitude, `dg = -u·dγ`, and by
+//! the direction u of "up", which turns by `δ = -(u x dγ)/g`. If span, pulley and up turn together, the force
+//! turns with them; the span does not, and hence
+//!
+//! ```text
+//! dF_i = δ x F_i + K3_i (δ x r_i) + k_ρ (ρ/g) dg                                                (D10)
+//! ```
+//!
+//! without a pulley, whose axis does not turn either. The left-hand side of the paper's Eq. (3),
 //! `G = sum [F_i; s_i x F_i] + w_ex`, changes by
 //!
 //! ```text
 //! dG = sum [ dF_i; ds_i x F_i + s_i x dF_i ] + dw_ex                                              (D4)
-//! w_ex = [ F_w; R c x F_w ] + load,   F_w = -(m + payload) g e_z
+//! w_ex = [ F_w; R c x F_w ] + load,   F_w = (m + payload) γ
 //! ```
 
 use crate::equations::cable::Span;
@@ -40,17 +49,16 @@ use std::ops::Range;
 /// The inputs that the columns of all derivatives stand for: the parameters, the payload, the wanted pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {
-    /// The `6 + 7n` parameters of the robot in the order of [`Parameter::all`], per SI unit of each: the
-    /// first columns.
+    /// The parameters of the robot in the order of [`Parameter::of`], per SI unit of each: the first columns.
     pub parameters: Vec<Parameter>,
 }
 
 impl Inputs {
-    pub(crate) fn new(cables: usize) -> Self {
-        Self { parameters: Parameter::all(cables) }
+    pub(crate) fn of(robot: &Robot) -> Self {
+        Self { parameters: Parameter::of(robot) }
     }
 
-    /// Column of a parameter, per SI unit; `None` for a cable that the robot does not have.
+    /// Column of a parameter, per SI unit; `None` for one that the robot does not have.
     pub fn column(&self, parameter: Parameter) -> Option<usize> {
         self.parameters.iter().position(|column| *column == parameter)
     }
@@ -65,7 +73,7 @@ impl Inputs {
         self.payload() + 1..self.payload() + 7
     }
 
-    /// Number of columns, `13 + 7n`.
+    /// Number of columns: those of the parameters, and seven.
     pub fn count(&self) -> usize {
         self.payload() + 7
     }
@@ -115,6 +123,10 @@ pub(crate) struct CableDerivatives {
     per_density: Vector3<f64>,
     /// Per modulus [N/Pa].
     per_modulus: Vector3<f64>,
+    /// By lead and radius of the guide [N/m]; zero without a guide.
+    per_guide: [Vector3<f64>; 2],
+    /// By the components of gravity [N s²/m], equation (D10); zero where they are not parameters.
+    per_gravity: Matrix3<f64>,
     /// k_L [N/m] per length, or v_i per tension where the tension is given.
     pub(crate) per_actuation: Vector3<f64>,
 }
@@ -134,6 +146,8 @@ impl CableDerivatives {
                 stiffness,
                 per_density: o,
                 per_modulus: o,
+                per_guide: [o; 2],
+                per_gravity: stiffness,
                 per_actuation: o,
             };
         };
@@ -148,10 +162,29 @@ impl CableDerivatives {
             force,
             direction: force / tension,
             stiffness,
-            per_density: held(catenary.end_per_weight()) * robot.gravity,
+            per_density: held(catenary.end_per_weight()) * robot.gravity.magnitude(),
             per_modulus: held(catenary.end_per_stiffness()) * robot.cables[i].properties.section,
+            per_guide: catenary.end_per_guide().map_or([o; 2], |ends| ends.map(held)),
+            per_gravity: Matrix3::zeros(),
             per_actuation: held(response.end_per_length.into()),
         }
+        .with_gravity(robot, pose, i)
+    }
+
+    /// The same cable with its derivatives by gravity, equation (D10), where they are parameters.
+    fn with_gravity(mut self, robot: &Robot, pose: &Pose, i: usize) -> Self {
+        let g = robot.gravity.magnitude();
+        if robot.gravity.is_vector() && g > 0.0 {
+            let (up, span) = (robot.gravity.vector() / -g, robot.span(pose, i));
+            let density = robot.cables[i].properties.linear_density;
+            for (axis, unit) in Matrix3::identity().column_iter().enumerate() {
+                let turn = unit.cross(&up) / g;
+                let by_direction = turn.cross(&self.force) + self.stiffness * turn.cross(&span);
+                let column = by_direction - self.per_density * (density / g * up[axis]);
+                self.per_gravity.set_column(axis, &column);
+            }
+        }
+        self
     }
 
     /// All cables of a model at a pose.
@@ -169,6 +202,8 @@ impl CableDerivatives {
             stiffness: self.stiffness - v * (self.direction.transpose() * self.stiffness),
             per_density: keep(self.per_density),
             per_modulus: keep(self.per_modulus),
+            per_guide: self.per_guide.map(keep),
+            per_gravity: self.per_gravity - v * (self.direction.transpose() * self.per_gravity),
             per_actuation: v,
             ..*self
         }
@@ -193,10 +228,13 @@ impl CableDerivatives {
             stiffness: per_h * lift(Vector2::x()).transpose()
                 + per_z * Vector3::z().transpose()
                 + across * across.transpose() * lateral,
-            per_density: -lift(slopes.per_weight) * robot.gravity,
+            per_density: -lift(slopes.per_weight) * robot.gravity.magnitude(),
             per_modulus: -lift(slopes.per_stiffness) * robot.cables[i].properties.section,
+            per_guide: slopes.per_guide.map(|slope| -lift(slope)),
+            per_gravity: Matrix3::zeros(),
             per_actuation: -lift(slopes.per_tension),
         }
+        .with_gravity(robot, pose, i)
     }
 
     /// The derivatives of the tension `t` [N] that the greatest tension of cable i at its exit point leaves
@@ -210,11 +248,14 @@ impl CableDerivatives {
             force: t * Vector3::z(),
             direction: Vector3::z(),
             stiffness: -cable.weight_per_length * up * Vector3::z().transpose(),
-            per_density: up * (robot.span(pose, i).z * robot.gravity),
+            per_density: up * (robot.span(pose, i).z * robot.gravity.magnitude()),
             // The energy falls in proportion to 1/E.
             per_modulus: up * (energy / robot.cables[i].properties.youngs_modulus),
+            per_guide: [Vector3::zeros(); 2],
+            per_gravity: Matrix3::zeros(),
             per_actuation: Vector3::zeros(),
         }
+        .with_gravity(robot, pose, i)
     }
 
     /// Wrench about P per length, or per tension where the tension is given.
@@ -275,8 +316,8 @@ impl Partials {
     fn add_weight(&mut self, robot: &Robot, inputs: &Inputs, pose: &Pose, load: &Load) {
         let weight = robot.weight(pose, load.payload).force;
         let center = pose.rotation * robot.platform.center_of_mass;
-        // dF_w = -g e_z dm
-        let per_mass = wrench(&center, &Vector3::new(0.0, 0.0, -robot.gravity));
+        // dF_w = γ dm
+        let per_mass = wrench(&center, &robot.gravity.vector());
         for (column, parameter) in inputs.parameters.iter().enumerate() {
             match *parameter {
                 Parameter::Mass => self.balance.set_column(column, &per_mass),
@@ -284,6 +325,13 @@ impl Partials {
                 Parameter::CenterOfMass(axis) => {
                     let arm = pose.rotation.matrix().column(axis as usize).into();
                     self.balance.set_column(column, &moment(&arm, &weight));
+                }
+                // dF_w = (m + payload) dγ
+                Parameter::Gravity(axis) => {
+                    let mut force = Vector3::zeros();
+                    force[axis as usize] = robot.platform.mass + load.payload;
+                    let mut column = self.balance.column_mut(column);
+                    column += wrench(&center, &force);
                 }
                 _ => {}
             }
@@ -354,6 +402,15 @@ fn each_effect(
             Parameter::ExitPoint(i, axis) => {
                 add(column, i, cables[i].stiffness.column(axis as usize).into(), o);
             }
+            Parameter::Lead(i) => add(column, i, cables[i].per_guide[0], o),
+            Parameter::PulleyRadius(i) => add(column, i, cables[i].per_guide[1], o),
+            Parameter::Gravity(axis) => {
+                for (i, cable) in cables.iter().enumerate() {
+                    add(column, i, cable.per_gravity.column(axis as usize).into(), o);
+                }
+            }
+            // Its derivatives are not known yet.
+            Parameter::Tilt(i, _) => add(column, i, o.add_scalar(f64::NAN), o),
             // These act on the weight or on the set-points.
             Parameter::Mass | Parameter::CenterOfMass(_) | Parameter::TensionOffset(_) => {}
         }

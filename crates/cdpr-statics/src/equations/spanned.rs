@@ -65,7 +65,7 @@ impl<T: Real> SpannedCable<T> {
         let catenary = problem.catenary(i, Vector2::from(force.map(T::value)));
         let answer = || match (&p.law, catenary.cable.guide) {
             (None, None) => {
-                let weight = T::of(p.linear_density) * T::of(problem.robot.gravity);
+                let weight = T::of(p.linear_density) * T::of(problem.robot.gravity.magnitude());
                 let stiffness = T::of(p.youngs_modulus) * T::of(p.section);
                 response(weight, stiffness.recip(), T::of(problem.lengths[i]), force)
             }

@@ -65,11 +65,11 @@ impl<'a> Observer<'a> {
     pub fn new(robot: &'a Robot, pose: &Pose, load: &Load) -> Result<Self, StaticsError> {
         robot.validate()?;
         load.validate()?;
-        let parameters = ParameterLayout::new(robot.cables.len()).count();
+        let parameters = ParameterLayout::of(robot).count();
         Ok(Self { robot, pose: *pose, load: *load, parameters, nominal: Nominal::new(robot, pose, load) })
     }
 
-    /// Deflection of the robot with `deviations` added to its parameters, in the order of [`Parameter::all`].
+    /// Deflection of the robot with `deviations` added to its parameters, in the order of [`Parameter::of`].
     ///
     /// # Errors
     /// [`StaticsError`] says why this robot has no deflection.
@@ -117,7 +117,7 @@ impl Nominal {
         };
         let shared = Shared {
             choices: reference.iter().enumerate().map(choice).collect(),
-            payload: load.payload * robot.gravity,
+            payload: load.payload * robot.gravity.magnitude(),
             force: load.wrench.force.into(),
             tension: solution.tensions.iter().sum(),
             scale: Scale {
@@ -183,7 +183,7 @@ impl<S: Simd> Rows<'_, S> {
         Lanes::splat(self.simd, value)
     }
 
-    /// One parameter, in the order of [`Parameter::all`]: its nominal value and deviations.
+    /// One parameter, in the order of [`Parameter::of`]: its nominal value and deviations.
     #[inline(always)]
     fn parameter(&self, index: usize, nominal: f64) -> Lanes<S> {
         let last = self.rows.len() - self.parameters;
@@ -207,7 +207,7 @@ impl<S: Simd> Rows<'_, S> {
     #[inline(always)]
     fn robots(&self, robot: &Robot, pose: &Pose, nominal: &Nominal) -> (ChainStart<S>, Mask<S>) {
         let n = robot.cables.len();
-        let layout = ParameterLayout::new(n);
+        let layout = ParameterLayout::of(robot);
         let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
         let mass = self.parameter(layout.mass(), robot.platform.mass);
         let mut sound = tiny.less_or_equal(mass);
@@ -218,7 +218,7 @@ impl<S: Simd> Rows<'_, S> {
                 position: three(|k| self.all(pose.position[k])),
                 center: rotate(pose, &self.point(layout.center_of_mass(), &robot.platform.center_of_mass)),
                 frame: SmallVec::new(),
-                weight: mass * robot.gravity,
+                weight: mass * robot.gravity.magnitude(),
             },
             offsets: Vec::with_capacity(n),
             multipliers: six(|k| self.all(nominal.multipliers[k])),
@@ -235,7 +235,7 @@ impl<S: Simd> Rows<'_, S> {
             let force = nominal.equilibrium.cable_forces[i];
             start.offsets.push(offset);
             start.robots.cables.push(TautCable {
-                weight_per_length: density * robot.gravity,
+                weight_per_length: density * robot.gravity.magnitude(),
                 axial_flexibility: (modulus * cable.properties.section).recip(),
                 exit_point: self.point(layout.exit_point(i), &cable.exit_point),
                 anchor_arm: rotate(pose, &self.point(layout.anchor_point(i), &cable.anchor_point)),

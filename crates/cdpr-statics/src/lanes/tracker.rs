@@ -107,7 +107,7 @@ impl WithSimd for Update<'_, '_> {
             position: vector(simd, &pose.position),
             center: vector(simd, &(pose.rotation * robot.platform.center_of_mass)),
             frame: SmallVec::new(),
-            weight: zero.all(robot.platform.mass * robot.gravity),
+            weight: zero.all(robot.platform.mass * robot.gravity.magnitude()),
         };
         for k in 0..3 {
             robots.frame.push(vector(simd, &pose.rotation.matrix().column(k).into()));
@@ -148,7 +148,7 @@ impl WithSimd for Update<'_, '_> {
             });
         }
         let load = PlatformLoad {
-            weight: robots.weight + problem.load.payload * robot.gravity,
+            weight: robots.weight + problem.load.payload * robot.gravity.magnitude(),
             force: vector(simd, &problem.load.wrench.force),
         };
         let size = problem.size();

@@ -196,16 +196,17 @@ pub fn load_cycle(
         around * lengths[i] / robot.cables[i].properties.axial_stiffness()
     });
     let dissipated = dissipated.collect();
-    let height = |solution: &DirectSolution| {
+    let center = |solution: &DirectSolution| {
         let pose = &solution.equilibrium.pose;
-        pose.position.z + (pose.rotation * robot.platform.center_of_mass).z
+        pose.position + pose.rotation * robot.platform.center_of_mass
     };
     let payload_work = ways
         .iter()
         .flat_map(|way| way.windows(2))
         .map(|pair| {
             let [a, b] = [&pair[0], &pair[1]];
-            0.5 * (a.payload + b.payload) * robot.gravity * (height(&a.solution) - height(&b.solution))
+            let weight = 0.5 * (a.payload + b.payload) * robot.gravity.vector();
+            weight.dot(&(center(&b.solution) - center(&a.solution)))
         })
         .sum();
     let tensions = (0..n).map(|i| [middles[0][i], middles[1][i], middles[2][i]]).collect();

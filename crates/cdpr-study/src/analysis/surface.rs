@@ -56,7 +56,7 @@ pub struct SurfaceRms {
 
 /// Runs a surface in parallel; `tick` is called with the number of further points that are done.
 pub fn compute_surface(surface: &Surface, tick: &(dyn Fn(usize) + Sync)) -> SurfaceResult {
-    let parameters = Parameter::all(surface.robot.cables.len()).len();
+    let parameters = Parameter::of(surface.robot).len();
     let Surface { x, y, .. } = surface;
     let columns = y.deviations.len();
     let rms_mm = (0..x.deviations.len() * columns)

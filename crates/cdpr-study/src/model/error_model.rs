@@ -18,7 +18,7 @@ use cdpr_robot::{Parameter, Robot};
 use cdpr_sensitivity::{Input, Law, SensitivityError};
 use indexmap::IndexMap;
 
-/// The causes of an error model, for robots with a given number of cables.
+/// The causes of an error model, for robots with the same parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorModel {
     /// One input for each cause: parameters in the order of the parameter vector, then causes of several
@@ -28,8 +28,8 @@ pub struct ErrorModel {
     pub entries: Vec<String>,
     /// The parameters to which the inputs are added.
     pub terms: Vec<Term>,
-    /// Length of the parameter vector.
-    parameters: usize,
+    /// The parameter vector.
+    parameters: Vec<Parameter>,
 }
 
 /// A term of equation (M1).
@@ -37,7 +37,7 @@ pub struct ErrorModel {
 pub struct Term {
     /// Number of the input.
     pub input: usize,
-    /// Index in [`Parameter::all`] of the parameter that it is added to.
+    /// Index in [`Parameter::of`] of the parameter that it is added to.
     pub parameter: usize,
     /// Its factor.
     pub factor: f64,
@@ -67,14 +67,14 @@ fn a_parameter() -> String {
     format!("a parameter ({})", Parameter::NAMES)
 }
 
-/// The standard deviation of each parameter of a robot [SI units], in the order of [`Parameter::all`], from
+/// The standard deviation of each parameter of a robot [SI units], in the order of [`Parameter::of`], from
 /// those that have names: its own, else that of its group, else none.
 ///
 /// # Errors
 /// [`StudyError::Setting`] for a name that is neither a parameter nor a group, and a number that is not
 /// positive and finite.
 pub fn uncertainties(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<f64>, StudyError> {
-    let parameters = Parameter::all(robot.cables.len());
+    let parameters = Parameter::of(robot);
     let known = |name: &str| parameters.iter().any(|p| p.group() == name || p.to_string() == name);
     let wrong = |(name, std): &&(String, f64)| !(known(name) && *std > 0.0 && std.is_finite());
     if let Some((name, std)) = named.iter().find(wrong) {
@@ -89,12 +89,16 @@ pub fn uncertainties(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<f64>,
 }
 
 impl ErrorModel {
-    pub(crate) fn new(model: &IndexMap<String, InputSpec>, cables: usize) -> Result<Self, Wrong> {
-        let parameters = Parameter::all(cables);
+    pub(crate) fn new(model: &IndexMap<String, InputSpec>, robot: &Robot) -> Result<Self, Wrong> {
+        let parameters = Parameter::of(robot);
         let names: Vec<String> = parameters.iter().map(ToString::to_string).collect();
         let known = |key: &String| names.contains(key) || parameters.iter().any(|p| p.group() == key);
-        let mut found =
-            Self { inputs: Vec::new(), entries: Vec::new(), terms: Vec::new(), parameters: names.len() };
+        let mut found = Self {
+            inputs: Vec::new(),
+            entries: Vec::new(),
+            terms: Vec::new(),
+            parameters: parameters.clone(),
+        };
         if let Some((key, _)) = model.iter().find(|(key, spec)| spec.parameters.is_none() && !known(key)) {
             let expected = format!(
                 "{}, a group of parameters ({}), or an entry with `parameters`",
@@ -139,13 +143,12 @@ impl ErrorModel {
     }
 
     /// Independent normal deviations with these standard deviations (SI units, in the order of
-    /// [`Parameter::all`]); a parameter with zero is known.
-    pub fn normal(deviations: &[f64]) -> Self {
-        let names: Vec<String> =
-            Parameter::all(deviations.len().saturating_sub(6) / 7).iter().map(ToString::to_string).collect();
-        let uncertain = || names.iter().zip(deviations).enumerate().filter(|(_, (_, std))| **std > 0.0);
+    /// [`Parameter::of`]); a parameter with zero is known.
+    pub fn normal(robot: &Robot, deviations: &[f64]) -> Self {
+        let parameters = Parameter::of(robot);
+        let uncertain = || parameters.iter().zip(deviations).enumerate().filter(|(_, (_, std))| **std > 0.0);
         let inputs: Vec<_> = uncertain()
-            .map(|(_, (name, std))| Input::continuous(name, Law::Normal { mean: 0.0, std: *std }))
+            .map(|(_, (name, std))| Input::continuous(name.to_string(), Law::Normal { mean: 0.0, std: *std }))
             .collect();
         Self {
             entries: inputs.iter().map(|input| input.name.clone()).collect(),
@@ -154,7 +157,7 @@ impl ErrorModel {
                 .enumerate()
                 .map(|(input, (parameter, _))| Term { input, parameter, factor: 1.0 })
                 .collect(),
-            parameters: deviations.len(),
+            parameters,
         }
     }
 
@@ -180,14 +183,15 @@ impl ErrorModel {
 
     /// Length of the parameter vector.
     pub fn parameters(&self) -> usize {
-        self.parameters
+        self.parameters.len()
     }
 
     /// Equation (M1): the deviation of each parameter for each of `rows`, vectors one after the other.
     pub fn deviations(&self, rows: &[f64]) -> Vec<f64> {
         let inputs = self.inputs.len();
-        let mut deviations = vec![0.0; rows.len() / inputs * self.parameters];
-        for (deviations, row) in deviations.chunks_exact_mut(self.parameters).zip(rows.chunks_exact(inputs)) {
+        let mut deviations = vec![0.0; rows.len() / inputs * self.parameters()];
+        let all = deviations.chunks_exact_mut(self.parameters()).zip(rows.chunks_exact(inputs));
+        for (deviations, row) in all {
             for Term { input, parameter, factor } in &self.terms {
                 deviations[*parameter] += factor * row[*input];
             }
@@ -206,9 +210,8 @@ impl ErrorModel {
 
     /// The group of parameters that an input acts on; `shared` where there are several.
     pub fn group(&self, input: usize) -> &'static str {
-        let parameters = Parameter::all((self.parameters - 6) / 7);
         let of_input = self.terms.iter().filter(|term| term.input == input);
-        let mut groups = of_input.map(|term| parameters[term.parameter].group());
+        let mut groups = of_input.map(|term| self.parameters[term.parameter].group());
         let first = groups.next().unwrap_or("shared");
         if groups.all(|group| group == first) { first } else { "shared" }
     }

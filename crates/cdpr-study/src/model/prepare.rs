@@ -137,7 +137,7 @@ impl Study {
             Wrong::Law(source) => self.statistics(field.clone(), source),
         };
         let (model, moduli) = resolved(model, &self.robot, at).map_err(wrong)?;
-        let found = ErrorModel::new(&model, self.robot.cables.len()).map_err(wrong)?;
+        let found = ErrorModel::new(&model, &self.robot).map_err(wrong)?;
         if found.inputs.is_empty() {
             return Err(self.invalid(&field, "empty", "at least one uncertain parameter"));
         }
@@ -160,7 +160,7 @@ impl Study {
     }
 
     fn axis(&self, field: &str, spec: &AxisSpec) -> Result<SurfaceAxis, StudyError> {
-        let parameters = Parameter::all(self.robot.cables.len());
+        let parameters = Parameter::of(&self.robot);
         let known =
             spec.parameter.parse().ok().and_then(|p| Some((p, parameters.iter().position(|q| *q == p)?)));
         let Some((parameter, index)) = known else {

@@ -64,7 +64,7 @@ pub struct Sampling<'a> {
 pub struct SurfaceAxis {
     /// The parameter that deviates.
     pub parameter: Parameter,
-    /// Its index in [`Parameter::all`].
+    /// Its index in [`Parameter::of`].
     pub index: usize,
     /// Its deviations from the nominal value, in its SI unit.
     pub deviations: Vec<f64>,
