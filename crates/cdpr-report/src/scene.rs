@@ -2,7 +2,7 @@
 
 use crate::text;
 use cdpr_cable::Catenary;
-use cdpr_robot::{Axis, Matrix3, Pose, Robot, Vector3};
+use cdpr_robot::{Axis, Matrix3, Pose, Robot, Vector2, Vector3};
 use cdpr_statics::{Deflection, Equilibrium};
 use cdpr_study::{Study, StudyError};
 use serde::Serialize;
@@ -131,19 +131,24 @@ impl State {
     fn new(robot: &Robot, lengths: &[f64], equilibrium: &Equilibrium) -> Self {
         let Equilibrium { pose, cable_forces } = equilibrium;
         let anchor = |i: usize| pose.position + robot.anchor_arm(pose, i);
+        let to_level = robot.gravity.level().copied().unwrap_or_else(Matrix3::identity);
         let cables = lengths.iter().zip(cable_forces).enumerate().map(|(i, (length, force))| {
             let catenary = Catenary { cable: robot.cable(i), unstrained_length: *length, force: *force };
-            let (exit, span) = (robot.cables[i].exit_point, robot.span(pose, i));
+            let (exit, span) = (robot.cables[i].exit_point, to_level * robot.span(pose, i));
             // A vertical cable has no direction in the plan and needs none.
             let along = span.xy().try_normalize(0.0).unwrap_or_default();
-            let in_space = |point: cdpr_robot::Vector2<f64>| {
-                (exit + Vector3::new(along.x * point.x, along.y * point.x, point.y)).into()
+            // From forwards, across and upwards.
+            let in_space = |point: Vector3<f64>| {
+                let x = along.x * point.x - along.y * point.y;
+                let y = along.y * point.x + along.x * point.y;
+                (exit + to_level.tr_mul(&Vector3::new(x, y, point.z))).into()
             };
+            let in_plane = |point: Vector2<f64>| Vector3::new(point.x, 0.0, point.y);
             SceneCable {
                 points: catenary
                     .on_the_pulley(POINTS_ON_PULLEY)
                     .into_iter()
-                    .chain(catenary.profile(POINTS))
+                    .chain(catenary.profile(POINTS).into_iter().map(in_plane))
                     .map(in_space)
                     .collect(),
                 tension: force.norm(),
