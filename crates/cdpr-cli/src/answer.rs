@@ -5,7 +5,7 @@
 use crate::output::{Ending, table};
 pub(crate) use cdpr_robot::decimal;
 use cdpr_robot::{CableEnd, Pose, Robot};
-use cdpr_statics::{Bound, DirectSolution, Equilibrium, Limit};
+use cdpr_statics::{Bound, DirectSolution, Equilibrium, Limit, Mode, Stability};
 use serde::Serialize;
 
 /// Residuals of the equations at a solution.
@@ -80,6 +80,30 @@ impl OutOfLimits {
     }
 }
 
+/// A motion that nothing resists, with `|translation|² + ℓ² |rotation|² = 1`.
+#[derive(Serialize)]
+pub(crate) struct Neutral {
+    /// Translation of P [m/m].
+    translation: [f64; 3],
+    /// Rotation vector [rad/m].
+    rotation: [f64; 3],
+}
+
+impl Neutral {
+    /// Those of an equilibrium.
+    pub(crate) fn all(stability: &Stability) -> Vec<Self> {
+        let one = |mode: &Mode| Self { translation: mode.translation.into(), rotation: mode.rotation.into() };
+        stability.neutral().iter().map(one).collect()
+    }
+
+    pub(crate) fn print(list: &[Self]) {
+        for Self { translation, rotation } in list {
+            let (translation, rotation) = (vector(translation, 4), vector(rotation, 4));
+            println!("nothing resists the motion {translation} m/m with the rotation {rotation} rad/m");
+        }
+    }
+}
+
 /// A stable equilibrium of the direct model.
 #[derive(Serialize)]
 pub(crate) struct Found {
@@ -94,6 +118,8 @@ pub(crate) struct Found {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) out_of_limits: Vec<OutOfLimits>,
     stable: bool,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    neutral: Vec<Neutral>,
     residual: Residual,
     report: Report,
 }
@@ -119,6 +145,7 @@ impl Found {
             exit_tensions: equilibrium.exit_tensions(robot, lengths),
             out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
             stable: stability.is_stable(),
+            neutral: Neutral::all(stability),
             residual: Residual::new(&report.residual),
             report: Report {
                 method: report.method.to_string(),
@@ -144,6 +171,7 @@ impl Found {
         let Report { method, iterations, least_stiffness, slack_cables } = &self.report;
         let stable = if self.stable { "stable" } else { "unstable" };
         println!("{stable}, softest motion {least_stiffness:.1} N/m; {method}, {iterations} iterations");
+        Neutral::print(&self.neutral);
         if !slack_cables.is_empty() {
             println!("slack cables: {}", numbers(slack_cables));
         }

@@ -23,7 +23,7 @@ use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 
-/// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables.
+/// A cable-driven parallel robot with n cables.
 ///
 /// A robot does not change: `with_parameters` makes another one. Units are SI, and z points up in the base
 /// frame. A pose is x, y, z [m], or x, y, z, qw, qx, qy, qz.
@@ -101,6 +101,7 @@ impl Robot {
             source: None,
             gravity: gravity.as_ref().map_or(Ok(EARTH.into()), self::gravity)?,
             platform: Platform::new(mass, center_of_mass),
+            plane: None,
             tension_limits,
             max_at: match max_at {
                 "anchor" => CableEnd::Anchor,

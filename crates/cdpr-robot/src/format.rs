@@ -1,6 +1,7 @@
 //! The robot file, `cdpr-robot/1`: JSON, SI units, base frame with z up. Described by [`json_schema`].
 
 use crate::error::RobotError;
+use crate::freedoms::Plane;
 use crate::gravity::Gravity;
 use crate::json::from_json;
 use crate::law::LawSegment;
@@ -31,6 +32,11 @@ struct RobotFile {
     gravity: Gravity,
     /// The moving platform.
     platform: PlatformEntry,
+    /// Plane of the base frame in which the platform of a planar robot moves: "xy", "xz" or "yz". Motions out
+    /// of it are held; in "xz" x, z and the rotation about y are free. Without this field the robot moves in
+    /// space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    plane: Option<Plane>,
     /// Properties of every cable that has none of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cable: Option<PropertiesEntry>,
@@ -48,7 +54,8 @@ struct RobotFile {
     /// norm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tension_reference: Option<TensionReference>,
-    /// The cables, 6 at least.
+    /// The cables, one at least. With fewer than the platform has free motions, six in space and three for a
+    /// point mass or in a plane, the pose is not free to choose in all coordinates.
     cables: Vec<CableEntry>,
 }
 
@@ -63,6 +70,9 @@ struct PlatformEntry {
     /// frequencies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     inertia: Option<[[f64; 3]; 3]>,
+    /// Whether it is a point mass: its rotation is held, and all anchor points are [0, 0, 0].
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    point: bool,
 }
 
 #[derive(Serialize, Deserialize, JsonSchema, Clone)]
@@ -182,7 +192,9 @@ impl Robot {
                 mass: self.platform.mass,
                 center_of_mass: self.platform.center_of_mass.into(),
                 inertia: self.platform.inertia.map(|inertia| inertia.transpose().into()),
+                point: self.platform.point,
             },
+            plane: self.plane,
             cable: entries.first().filter(|_| shared).cloned(),
             pulley: None,
             lead: None,
@@ -219,6 +231,15 @@ impl RobotFile {
         }
         let robot = self.into_robot()?;
         robot.validate()?;
+        // Only a file says more than its robot: deviations of the anchor points are no error.
+        let beside = |cable: &RobotCable| cable.anchor_point != Vector3::zeros();
+        if let Some(i) = robot.cables.iter().position(|cable| robot.platform.point && beside(cable)) {
+            return Err(RobotError::invalid(
+                format!("cables[{i}].anchor_point"),
+                format!("{:?}", robot.cables[i].anchor_point.as_slice()),
+                "[0, 0, 0], as platform.point says that all cables end at a point",
+            ));
+        }
         Ok(robot)
     }
 
@@ -259,7 +280,9 @@ impl RobotFile {
                 mass: self.platform.mass,
                 center_of_mass: Vector3::from(self.platform.center_of_mass),
                 inertia: self.platform.inertia.map(|rows| Matrix3::from(rows).transpose()),
+                point: self.platform.point,
             },
+            plane: self.plane,
             tension_limits: TensionLimits { min: self.tension_limits.min, max: self.tension_limits.max },
             max_at: self.tension_limits.max_at,
             tension_reference: self.tension_reference,

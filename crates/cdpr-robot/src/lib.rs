@@ -25,6 +25,7 @@
 mod axis;
 mod error;
 mod format;
+mod freedoms;
 mod gravity;
 mod json;
 mod law;
@@ -41,6 +42,7 @@ pub use axis::Axis;
 pub use cdpr_cable::{PiecewiseLaw, Segment};
 pub use error::RobotError;
 pub use format::{FORMAT, json_schema};
+pub use freedoms::{Coordinate, Freedoms, Plane};
 pub use gravity::Gravity;
 pub use json::{JsonError, from_json, place_of};
 pub use law::LawSegment;

@@ -9,6 +9,7 @@
 //! Both equations are those of Baklouti, Caro, Courteille (CableCon 2017).
 
 use crate::error::RobotError;
+use crate::freedoms::{Freedoms, Plane};
 use crate::gravity::Gravity;
 use crate::limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionReference};
 use crate::pose::Pose;
@@ -16,7 +17,7 @@ use crate::wrench::Wrench;
 use cdpr_cable::{Cable, ElasticLaw, Entry, Guide, PiecewiseLaw};
 use nalgebra::{Matrix3, Matrix6xX, Vector3};
 
-/// A cable-driven parallel robot with six degrees of freedom and n >= 6 cables.
+/// A cable-driven parallel robot with n cables for the m free motions of its platform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// Name.
@@ -27,6 +28,8 @@ pub struct Robot {
     pub gravity: Gravity,
     /// The platform.
     pub platform: Platform,
+    /// The plane of the base frame in which the platform of a planar robot moves; `None` in space.
+    pub plane: Option<Plane>,
     /// Limits of the tension of every cable that has none of its own; [`Robot::limits`] has both.
     pub tension_limits: TensionLimits,
     /// Where the greatest tension of every cable is limited that does not say so itself.
@@ -47,16 +50,18 @@ pub struct Platform {
     /// Inertia about the centre of mass in the platform frame [kg m²], if known: symmetric, positive
     /// definite. Only natural frequencies depend on it.
     pub inertia: Option<Matrix3<f64>>,
+    /// Whether it is a point mass, whose rotation is held.
+    pub point: bool,
 }
 
 impl Platform {
     /// A platform of this mass [kg] and centre of mass [m], whose inertia is not known.
     pub fn new(mass: f64, center_of_mass: Vector3<f64>) -> Self {
-        Self { mass, center_of_mass, inertia: None }
+        Self { mass, center_of_mass, inertia: None, point: false }
     }
 
     fn validate(&self) -> Result<(), RobotError> {
-        let Self { mass, center_of_mass, inertia } = self;
+        let Self { mass, center_of_mass, inertia, point: _ } = self;
         require(|| "platform.mass".to_owned(), *mass, *mass > 0.0, "a finite, positive mass [kg]")?;
         finite(|| "platform.center_of_mass".to_owned(), center_of_mass)?;
         let Some(inertia) = inertia else { return Ok(()) };
@@ -187,6 +192,19 @@ impl Robot {
         }
     }
 
+    /// The free motions of the platform.
+    #[inline]
+    pub fn freedoms(&self) -> Freedoms {
+        Freedoms::new(self.platform.point, self.plane)
+    }
+
+    /// Whether there is a cable for every free motion, n >= m: whether all coordinates of a pose can be
+    /// chosen.
+    #[inline]
+    pub fn is_fully_actuated(&self) -> bool {
+        self.cables.len() >= self.freedoms().count()
+    }
+
     /// Whether all cables are linear.
     #[inline]
     pub fn is_linear(&self) -> bool {
@@ -288,12 +306,8 @@ impl Robot {
         let TensionLimits { min, max } = self.tension_limits;
         require(named("tension_limits.min"), min, min > 0.0, "a finite, positive tension [N]")?;
         require(named("tension_limits.max"), max, max > min, "a finite tension above tension_limits.min")?;
-        if self.cables.len() < 6 {
-            return Err(RobotError::invalid(
-                "cables",
-                format!("a list of {}", self.cables.len()),
-                "at least 6 cables: fewer cannot hold six degrees of freedom",
-            ));
+        if self.cables.is_empty() {
+            return Err(RobotError::invalid("cables", "an empty list", "at least one cable"));
         }
         if self.cables.len() > MOST_CABLES {
             return Err(RobotError::invalid(
@@ -385,7 +399,8 @@ impl Robot {
         require(field("breaking_force"), force, force > 0.0, "a finite, positive force [N]")
     }
 
-    /// Refuses points that cannot hold any pose: two cables with the same points, or all points on one line.
+    /// Refuses cables that cannot do what their number promises: two with the same points, or six and more
+    /// for a platform in space with all points on one line.
     fn validate_points(&self) -> Result<(), RobotError> {
         let same = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).norm() < 1e-9;
         for (j, second) in self.cables.iter().enumerate() {
@@ -400,6 +415,9 @@ impl Robot {
                     ));
                 }
             }
+        }
+        if !(self.freedoms().are_all() && self.is_fully_actuated()) {
+            return Ok(());
         }
         let exits: Vec<_> = self.cables.iter().map(|cable| cable.exit_point).collect();
         let anchors: Vec<_> = self.cables.iter().map(|cable| cable.anchor_point).collect();

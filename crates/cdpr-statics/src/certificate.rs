@@ -74,6 +74,10 @@ impl DirectProblem<'_> {
             let reason = "a cable has an elastic law with pieces, a pulley or a lead; certificates are for plain cables";
             return Err(StaticsError::NotCertified { reason, growth: f64::INFINITY });
         }
+        if !self.robot.freedoms().are_all() {
+            let reason = "the robot is a point mass or planar; certificates are for six free motions";
+            return Err(StaticsError::NotCertified { reason, growth: f64::INFINITY });
+        }
         prove(self, &solution.equilibrium)
     }
 }

@@ -55,7 +55,7 @@
 mod optimum;
 mod winding;
 
-use crate::equations::{CableDerivatives, Inputs, Partials, Reading, solve};
+use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, solve};
 use crate::error::StaticsError;
 #[cfg(doc)]
 use crate::inverse::ABOVE_LEAST;
@@ -239,7 +239,8 @@ impl Derivatives {
 
 impl DirectProblem<'_> {
     /// Derivatives of an equilibrium for *given* lengths, which do not change with the parameters: neither
-    /// tension offsets nor the wanted pose matter.
+    /// tension offsets nor the wanted pose matter. Along held motions and those that nothing resists they are
+    /// zero.
     ///
     /// # Errors
     /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable;
@@ -263,6 +264,7 @@ impl EquilibriumDerivatives {
         let mut partials =
             Partials::new(problem.robot, inputs, pose, &problem.load, &cables, Reading::tension);
         let (hessian, tensions_per_motion) = partials.take_pose(inputs);
+        let pins = Pins::new(problem, equilibrium, &(-0.5 * (hessian + hessian.transpose())));
         let Partials { mut balance, readings: mut tensions } = partials;
         if let Some(winding) = winding {
             if winding.ncols() > inputs.count() {
@@ -277,7 +279,8 @@ impl EquilibriumDerivatives {
             }
         }
         balance.neg_mut();
-        solve(hessian, &mut balance, "the equilibrium")?;
+        pins.take(&mut balance);
+        solve(pins.pinned(&hessian, -1.0), &mut balance, "the equilibrium")?;
         tensions.gemm(1.0, &tensions_per_motion, &balance, 1.0);
         Ok(Self { pose: balance, tensions })
     }

@@ -17,5 +17,3 @@ pub use search::{Start, direct, rough_pose};
 pub(crate) use solution::MAX_STRAIN;
 pub use solution::{DirectMethod, DirectSolution, Report};
 pub use stability::{Mode, Stability};
-#[cfg(test)]
-pub(crate) use trust_region::cables_at;

@@ -4,6 +4,7 @@ mod assembled;
 mod balance;
 mod cable;
 mod linearization;
+mod motions;
 mod partials;
 mod rounding;
 mod spanned;
@@ -13,7 +14,8 @@ pub(crate) use assembled::{FactoredJacobian, NEAR_VERTICAL, State, closure_row, 
 pub(crate) use balance::Balance;
 pub(crate) use cable::{CablePlane, LinearizedCable, Span, between};
 pub use linearization::Linearization;
+pub(crate) use motions::{Motions, Pins, cables_at, is_definite, per_length};
 pub use partials::Inputs;
 pub(crate) use partials::{CableDerivatives, Partials, Reading, read, solve, tensions, wrench};
-pub(crate) use rounding::FORCES;
+pub(crate) use rounding::{FORCES, forces};
 pub(crate) use spanned::SpannedCable;

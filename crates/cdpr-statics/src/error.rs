@@ -70,6 +70,20 @@ pub enum StaticsError {
         /// The limits that they rest on.
         blocked: Vec<Blocked>,
     },
+    /// Fewer cables than free motions: not all coordinates of a pose can be chosen.
+    #[error(
+        "{cables} cables for {freedoms} free motions leave {} coordinates of the pose that cannot be chosen: \
+         expected as many names in `free` (of x, y, z, roll, pitch, yaw), not {named}",
+        freedoms.saturating_sub(*cables)
+    )]
+    FreeCoordinates {
+        /// Number n of cables.
+        cables: usize,
+        /// Number m of free motions.
+        freedoms: usize,
+        /// Number of coordinates that were named.
+        named: usize,
+    },
     /// A cable's weight leaves no tension at the platform between the least one there and the greatest one at
     /// the exit point.
     #[error(
@@ -216,6 +230,7 @@ impl StaticsError {
             Self::Cable { .. } => "cable",
             Self::Invalid { .. } => "invalid_input",
             Self::NoTensions { .. } | Self::ExitLimit { .. } => "infeasible_tension",
+            Self::FreeCoordinates { .. } => "free_coordinates",
             Self::InverseNotConverged { .. } => "inverse_not_converged",
             Self::Overstrained { .. } => "cable_overstrained",
             Self::Indifferent { .. } => "indifferent",

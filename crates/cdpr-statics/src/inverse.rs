@@ -76,6 +76,7 @@ pub struct InverseSolution {
 /// - [`StaticsError::Cable`] where a cable's own weight demands more than the greatest tension.
 /// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, or a reference of another
 ///   number of cables.
+/// - [`StaticsError::FreeCoordinates`] for a robot with fewer cables than free motions.
 /// - [`StaticsError::InverseNotConverged`] where tensions hold the pose but their optimum was not found.
 pub fn inverse(
     robot: &Robot,
@@ -83,7 +84,7 @@ pub fn inverse(
     load: &Load,
     reference: Option<&[f64]>,
 ) -> Result<InverseSolution, StaticsError> {
-    let question = Question::new(robot, pose, load, reference)?;
+    let question = Question::of_whole_pose(robot, pose, load, reference)?;
     InverseSolution::new(&question, search(&question)?)
 }
 
@@ -138,7 +139,7 @@ impl<'a> InversePath<'a> {
         load: &Load,
         reference: Option<&[f64]>,
     ) -> Result<PathSolution, StaticsError> {
-        let question = Question::new(self.robot, pose, load, reference)?;
+        let question = Question::of_whole_pose(self.robot, pose, load, reference)?;
         let followed = self.last.as_ref().and_then(|last| last.followed(&question));
         let jump = self.last.is_some() && followed.is_none();
         let optimum = followed.map_or_else(|| search(&question), Ok)?;

@@ -9,6 +9,7 @@ mod derivatives;
 mod drawn;
 mod elastic_law;
 mod equilibria;
+mod few_cables;
 mod hysteresis;
 mod inverse;
 mod models;

@@ -72,8 +72,8 @@ struct Mode {
 }
 
 impl Row for Answer {
-    fn columns(_: &Robot) -> Vec<String> {
-        numbered("frequency", "hz", 6).collect()
+    fn columns(robot: &Robot) -> Vec<String> {
+        numbered("frequency", "hz", robot.freedoms().count()).collect()
     }
 
     fn cells(&self) -> Vec<String> {

@@ -1,6 +1,6 @@
 //! `cdpr stiffness`: the Cartesian stiffness at a pose, with its eigenvalues and their motions.
 
-use crate::answer::{self, OutOfLimits, decimal};
+use crate::answer::{self, Neutral, OutOfLimits, decimal};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtPose, Row, cells};
@@ -28,6 +28,9 @@ struct Answer {
     eigenvalues: Vec<Eigenvalue>,
     least_stiffness: f64,
     stable: bool,
+    /// Motions that nothing resists.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    neutral: Vec<Neutral>,
     /// Characteristic length ℓ, which makes rotations comparable with translations [m].
     characteristic_length: f64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -46,15 +49,17 @@ struct Eigenvalue {
 }
 
 impl Row for Answer {
-    fn columns(_: &Robot) -> Vec<String> {
+    fn columns(robot: &Robot) -> Vec<String> {
         let names = ["least_stiffness", "characteristic_length_m"].into_iter().map(str::to_owned);
-        let eigenvalues = (1..=6).map(|i| format!("eigenvalue_{i}"));
+        let eigenvalues = (1..=robot.freedoms().count()).map(|i| format!("eigenvalue_{i}"));
         let entries = (1..=6).flat_map(|row| (1..=6).map(move |column| format!("k_{row}{column}")));
         names.chain(eigenvalues).chain(entries).collect()
     }
 
     fn cells(&self) -> Vec<String> {
-        let eigenvalues = self.eigenvalues.iter().map(|eigenvalue| &eigenvalue.stiffness);
+        // Neutral motions are the softest.
+        let neutral = self.neutral.iter().map(|_| &0.0);
+        let eigenvalues = neutral.chain(self.eigenvalues.iter().map(|eigenvalue| &eigenvalue.stiffness));
         let first = [&self.least_stiffness, &self.characteristic_length].into_iter();
         cells(first.chain(eigenvalues).chain(self.stiffness.as_flattened()))
     }
@@ -84,6 +89,7 @@ impl Answer {
                 .collect(),
             least_stiffness: stability.least_stiffness(),
             stable: stability.is_stable(),
+            neutral: Neutral::all(stability),
             characteristic_length: stability.characteristic_length(),
             out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
         }
@@ -112,6 +118,7 @@ impl Answer {
             "{stable}; least stiffness {:.1} N/m, with rotations times \u{2113} = {:.4} m",
             self.least_stiffness, self.characteristic_length
         );
+        Neutral::print(&self.neutral);
         OutOfLimits::print(&self.out_of_limits);
     }
 }

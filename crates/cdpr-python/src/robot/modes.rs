@@ -13,7 +13,7 @@ answer! {
     /// answer, and `reasons` says why.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Modes {
-        /// Natural frequencies, ascending [Hz], (6,).
+        /// Natural frequencies, ascending [Hz], (6,); of a point mass or a planar robot (3,), here and below.
         frequencies_hz: Py<PyAny>,
         /// Translation of P in each motion [1/sqrt(kg)], (6, 3).
         translations: Py<PyAny>,
@@ -57,24 +57,30 @@ impl Robot {
             modes_at(&self.robot, &poses.pose(case)?, &loads.load(case)?).map(|found| found.modes)
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
+        let count = self.robot.freedoms().count();
         let vectors = |vector: fn(&NaturalMode) -> Vector3<f64>| {
-            all.numbers(&[6, 3], |modes: &[NaturalMode; 6], out| {
+            all.numbers(&[count, 3], |modes: &Vec<NaturalMode>, out| {
                 for (out, mode) in out.chunks_exact_mut(3).zip(modes) {
                     out.copy_from_slice(vector(mode).as_slice());
                 }
             })
         };
         let cables = self.robot.cables.len();
+        let each = |value: fn(&NaturalMode) -> f64| {
+            all.numbers(&[count], |modes: &Vec<NaturalMode>, out| {
+                out.iter_mut().zip(modes).for_each(|(out, mode)| *out = value(mode));
+            })
+        };
         Ok(Modes {
-            frequencies_hz: all.vector(|modes| modes.each_ref().map(|mode| mode.frequency))?,
+            frequencies_hz: each(|mode| mode.frequency)?,
             translations: vectors(|mode| mode.translation)?,
             rotations: vectors(|mode| mode.rotation)?,
-            cable_shares: all.numbers(&[6, cables], |modes, out| {
+            cable_shares: all.numbers(&[count, cables], |modes, out| {
                 for (out, mode) in out.chunks_exact_mut(cables).zip(modes) {
                     out.copy_from_slice(&mode.cables);
                 }
             })?,
-            weight_shares: all.vector(|modes| modes.each_ref().map(|mode| mode.weight))?,
+            weight_shares: each(|mode| mode.weight)?,
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

@@ -21,7 +21,8 @@ answer! {
         /// Symmetric part of K, (6, 6).
         symmetric_part: Py<PyAny>,
         /// Eigenvalues of the symmetric part of the stiffness in (dp, characteristic_length dphi), from the
-        /// softest motion [N/m], (6,).
+        /// softest motion [N/m], (6,); of a point mass or a planar robot (3,), here and below. Motions that
+        /// nothing resists are left out, and the last numbers are NaN.
         eigenvalues: Py<PyAny>,
         /// Translation of P in each of these motions [m/m], (6, 3).
         translations: Py<PyAny>,
@@ -43,7 +44,7 @@ answer! {
 /// A stiffness with its motions.
 struct Found {
     stiffness: PoseStiffness,
-    modes: [Mode; 6],
+    modes: Vec<Mode>,
     least_stiffness: f64,
 }
 
@@ -77,8 +78,9 @@ impl Robot {
             Ok::<_, StaticsError>(Found { stiffness, modes, least_stiffness })
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
+        let count = self.robot.freedoms().count();
         let vectors = |vector: fn(&Mode) -> Vector3<f64>| {
-            all.numbers(&[6, 3], |found: &Found, out| {
+            all.numbers(&[count, 3], |found: &Found, out| {
                 for (out, mode) in out.chunks_exact_mut(3).zip(&found.modes) {
                     out.copy_from_slice(vector(mode).as_slice());
                 }
@@ -92,7 +94,9 @@ impl Robot {
             symmetric_part: all.numbers(&[6, 6], |found, out| {
                 out.copy_from_slice(found.stiffness.symmetric_part.as_slice());
             })?,
-            eigenvalues: all.vector(|found| found.modes.map(|mode| mode.stiffness))?,
+            eigenvalues: all.numbers(&[count], |found, out| {
+                out.iter_mut().zip(&found.modes).for_each(|(out, mode)| *out = mode.stiffness);
+            })?,
             translations: vectors(|mode| mode.translation)?,
             rotations: vectors(|mode| mode.rotation)?,
             least_stiffness: all.number(|found| found.least_stiffness)?,

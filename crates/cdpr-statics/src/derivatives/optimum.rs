@@ -14,7 +14,7 @@
 
 use crate::equations::solve;
 use crate::error::StaticsError;
-use cdpr_robot::Matrix6xX;
+use cdpr_robot::{Freedoms, Matrix6xX};
 use cdpr_tension::Bound;
 use nalgebra::{DMatrix, Matrix6};
 
@@ -39,6 +39,8 @@ pub(super) struct Optimum {
     pub(super) curvatures: Vec<f64>,
     /// b_i, n x count.
     pub(super) bounds: DMatrix<f64>,
+    /// Rows of held motions are zero in `balance` and `per_tension`.
+    pub(super) freedoms: Freedoms,
 }
 
 /// Derivatives of the tensions, n x count.
@@ -121,6 +123,11 @@ impl Optimum {
         let mut multipliers = self.balance.clone();
         multipliers.gemm(1.0, &self.per_tension, &tensions, 1.0);
         multipliers.neg_mut();
+        // Held motions have no equation and no multiplier.
+        let matrix = Matrix6::from_fn(|i, j| match self.freedoms.contains(i) {
+            false if i == j => 1.0,
+            _ => matrix[(i, j)],
+        });
         solve(matrix, &mut multipliers, DISTRIBUTION)?;
         tensions.gemm(1.0, &answers, &multipliers, 1.0);
         Ok((tensions, multipliers))

@@ -127,7 +127,15 @@ impl Winding<'_> {
             per_force: motion(rate),
             per_arm: rate.force.cross(&rotation),
         });
-        let per_tension: Vec<_> = cables.iter().map(CableDerivatives::wrench_per_actuation).collect();
+        let freedoms = self.robot.freedoms();
+        let per_tension: Vec<_> =
+            cables.iter().map(|cable| freedoms.of_vector(&cable.wrench_per_actuation())).collect();
+        if !freedoms.are_all() {
+            balance.column_iter_mut().for_each(|mut column| {
+                let free = freedoms.of_vector(&column.clone_owned());
+                column.copy_from(&free);
+            });
+        }
         // The bound that each cable is on, or could come to be on.
         let bound = |i: usize| match active[i] {
             Some(bound) => Some(bound),
@@ -145,6 +153,7 @@ impl Winding<'_> {
             per_tension: Matrix6xX::from_columns(&per_tension),
             curvatures: rates.iter().map(|rate| 1.0 + motion(rate).dot(&rate.per_actuation)).collect(),
             bounds: rows,
+            freedoms,
         };
         let reference = self.robot.reference();
         let largest = tensions.iter().copied().fold(0.0, f64::max);

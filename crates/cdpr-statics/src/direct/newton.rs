@@ -9,9 +9,13 @@
 //! Put into the balance of the platform this leaves six equations for (dp, dφ), whose matrix is the stiffness
 //! (S5) of the platform with every f_i replaced by its prediction `f_i + K_i c_i`. An iteration evaluates
 //! each catenary once and solves one 6 x 6 system.
+//!
+//! Fewer cables than free motions may leave motions that nothing resists, and held motions have no equation.
+//! Such a robot takes steps by the singular values of the matrix: motions without resistance and force are
+//! left out, so that they stay where they started.
 
 use crate::direct::stability::Stability;
-use crate::equations::{Balance, LinearizedCable, SpannedCable};
+use crate::equations::{Balance, LinearizedCable, SpannedCable, forces, per_length};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
 use cdpr_cable::end_force;
@@ -32,6 +36,10 @@ const MAX_ITERATIONS: usize = 15;
 /// A step below this, relative to the robot's size, is followed by one below rounding, because Newton's
 /// method squares it.
 const LAST_STEP: f64 = 1e-7;
+
+/// Resistance below this share of the greatest one, and force below this share of all forces, are rounding.
+const NEARLY_ZERO: f64 = 1e-10;
+const ROUNDED_FORCE: f64 = 1e-13;
 
 /// The linearised model at a state: the platform's balance with predicted forces, the cables, and the
 /// residual of the state itself.
@@ -67,6 +75,11 @@ impl Linearised {
             balance.add_cable(&arm, &predicted, linearized.stiffness_in_space());
             cables.push((arm, linearized));
         }
+        let freedoms = problem.robot.freedoms();
+        if !freedoms.are_all() {
+            balance.hold(freedoms);
+            unbalanced = freedoms.of_vector(&unbalanced);
+        }
         let (force, moment) = (unbalanced.fixed_rows::<3>(0).norm(), unbalanced.fixed_rows::<3>(3).norm());
         Self { balance, cables, residual: Residual { closure, force, moment } }
     }
@@ -75,27 +88,76 @@ impl Linearised {
     fn step(&self) -> Option<Vector6<f64>> {
         Some(-self.balance.hessian.lu().solve(&self.balance.gradient)?)
     }
+
+    /// The motion that balances the linearised platform without that along which neither stiffness nor force
+    /// is more than rounding; `None` where this is the whole motion.
+    fn pinned_step(&self, problem: &DirectProblem, state: &Equilibrium) -> Option<Vector6<f64>> {
+        let scale = per_length(problem.characteristic_length());
+        let stiffness = self.balance.hessian.component_mul(&(scale * scale.transpose()));
+        let gradient = self.balance.gradient.component_mul(&scale);
+        if !stiffness.iter().chain(gradient.iter()).all(|entry| entry.is_finite()) {
+            return None;
+        }
+        let svd = stiffness.svd(true, true);
+        let (left, right) = (svd.u?, svd.v_t?);
+        let greatest = svd.singular_values.max();
+        if greatest == 0.0 {
+            return None;
+        }
+        let rounding = ROUNDED_FORCE * forces(problem, state);
+        // Far from the equilibrium the slope hides a resistance below this.
+        let hidden = gradient.norm() / problem.size();
+        let mut step = Vector6::zeros();
+        for (k, stiffness) in svd.singular_values.iter().enumerate() {
+            let force = left.column(k).dot(&gradient);
+            let neutral = *stiffness <= NEARLY_ZERO * greatest && force.abs() <= rounding;
+            if !neutral && *stiffness > hidden {
+                step -= right.row(k).transpose() * (force / stiffness);
+            }
+        }
+        Some(problem.robot.freedoms().of_vector(&step.component_mul(&scale)))
+    }
 }
 
 /// Newton's method from `start`. `None` if it does not converge.
 pub(crate) fn newton(problem: &DirectProblem, start: Equilibrium) -> Option<Converged> {
+    let robot = problem.robot;
+    if robot.freedoms().are_all() && robot.is_fully_actuated() {
+        return iterate(problem, start, MAX_ITERATIONS, |linearised, _| linearised.step());
+    }
+    pinned_newton(problem, start)
+}
+
+/// Newton's method for a robot with motions that nothing resists, or that are held.
+pub(crate) fn pinned_newton(problem: &DirectProblem, start: Equilibrium) -> Option<Converged> {
+    iterate(problem, start, 2 * MAX_ITERATIONS, |linearised, now| linearised.pinned_step(problem, now))
+}
+
+#[inline(always)]
+fn iterate(
+    problem: &DirectProblem,
+    start: Equilibrium,
+    most: usize,
+    step: impl Fn(&Linearised, &Equilibrium) -> Option<Vector6<f64>>,
+) -> Option<Converged> {
     let (size, arm) = (problem.size(), problem.characteristic_length());
     let mut now = start;
     let mut first_step = None;
     let mut last = false;
-    for iteration in 0..=MAX_ITERATIONS {
+    for iteration in 0..=most {
         tighten(problem, &mut now)?;
         let linearised = Linearised::new(problem, &now);
         if last && linearised.residual.is_rounding(problem, &now) {
+            let stability = Stability::new(problem, &now, &linearised.balance.symmetric_hessian());
             return Some(Converged {
                 equilibrium: now,
                 iterations: iteration,
                 residual: linearised.residual,
-                stability: Stability::new(&linearised.balance.symmetric_hessian(), arm),
+                stability,
                 first_step: first_step.unwrap_or_else(Vector6::zeros),
             });
         }
-        let step = linearised.step()?;
+        let step = step(&linearised, &now)?;
         let (dp, dphi): (Vector3<f64>, Vector3<f64>) =
             (step.fixed_rows::<3>(0).into(), step.fixed_rows::<3>(3).into());
         let moved = dp.norm() + arm * dphi.norm();

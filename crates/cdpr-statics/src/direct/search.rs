@@ -4,7 +4,7 @@ use crate::direct::continuation::{Loss, LossKind, Path, Setting, follow_from};
 use crate::direct::newton::newton;
 use crate::direct::solution::{DirectMethod, DirectSolution, Report, descend, solution};
 use crate::direct::stability::Stability;
-use crate::direct::trust_region::cables_at;
+use crate::equations::cables_at;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};

@@ -1,18 +1,31 @@
 //! Stability of an equilibrium, and the stiffness of its motions.
 
+use crate::equations::{Motions, is_definite, per_length};
+use crate::problem::DirectProblem;
+use crate::state::Equilibrium;
 use cdpr_robot::Vector3;
 use nalgebra::{Matrix6, Vector6};
-use std::array::from_fn;
 
-/// Stability of an equilibrium: stable where all eigenvalues of the potential's Hessian are positive.
+/// Stability of an equilibrium: stable where all eigenvalues of the potential's Hessian are positive, except
+/// those of neutral motions, which nothing resists.
 ///
 /// The Hessian is that in (dp, ℓ dφ), where the characteristic length ℓ makes rotations comparable with
-/// translations.
+/// translations. Held motions have no eigenvalues.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability {
     hessian: Matrix6<f64>,
+    /// The motions, unless all six are free and resisted.
+    some: Option<Box<Sorted>>,
     characteristic_length: f64,
     stable: bool,
+}
+
+/// Free motions.
+#[derive(Clone, Debug, PartialEq)]
+struct Sorted {
+    /// From the softest.
+    resisted: Vec<Mode>,
+    neutral: Vec<Mode>,
 }
 
 /// A motion of the platform along an eigenvector of its stiffness, `|translation|² + ℓ² |rotation|² = 1`.
@@ -26,50 +39,95 @@ pub struct Mode {
     pub rotation: Vector3<f64>,
 }
 
+impl Mode {
+    /// Along a unit vector of (dp, ℓ dφ).
+    fn new(stiffness: f64, direction: &Vector6<f64>, characteristic_length: f64) -> Self {
+        // Of the two signs, the one that makes the largest component positive.
+        let direction = direction * direction[direction.iamax()].signum();
+        let [translation, rotation] = [0, 3].map(|row| direction.fixed_rows::<3>(row).into_owned());
+        Self { stiffness, translation, rotation: rotation / characteristic_length }
+    }
+}
+
 impl Stability {
-    /// From the symmetric Hessian in (dp, dφ).
-    pub(crate) fn new(hessian: &Matrix6<f64>, characteristic_length: f64) -> Self {
-        let per_length = 1.0 / characteristic_length;
-        let scale = Vector6::new(1.0, 1.0, 1.0, per_length, per_length, per_length);
+    /// Of an equilibrium with a symmetric Hessian in (dp, dφ).
+    pub(crate) fn new(problem: &DirectProblem, equilibrium: &Equilibrium, hessian: &Matrix6<f64>) -> Self {
+        let characteristic_length = problem.characteristic_length();
+        let scale = per_length(characteristic_length);
         let hessian = hessian.component_mul(&(scale * scale.transpose()));
-        Self { stable: hessian.cholesky().is_some(), hessian, characteristic_length }
+        let all = |stable| Self { stable, hessian, some: None, characteristic_length };
+        if is_definite(&hessian) {
+            return all(true);
+        }
+        if !hessian.iter().all(|entry| entry.is_finite()) {
+            return all(false);
+        }
+        let Motions { pairs, neutral } = Motions::new(problem, equilibrium, &hessian);
+        if neutral == 0 && pairs.len() == 6 {
+            return all(hessian.cholesky().is_some());
+        }
+        let mode = |(stiffness, v): &(f64, Vector6<f64>)| Mode::new(*stiffness, v, characteristic_length);
+        let resisted: Vec<_> = pairs[neutral..].iter().map(mode).collect();
+        let neutral = pairs[..neutral].iter().map(|(_, v)| mode(&(0.0, *v))).collect();
+        Self {
+            stable: resisted.iter().all(|mode| mode.stiffness > 0.0),
+            hessian,
+            some: Some(Box::new(Sorted { resisted, neutral })),
+            characteristic_length,
+        }
     }
 
-    /// Whether the potential has a minimum here: every small displacement is pulled back.
+    /// Whether the potential has a minimum here: every small displacement that is resisted at all is pulled
+    /// back.
     pub fn is_stable(&self) -> bool {
         self.stable
     }
 
-    /// Eigenvalues of the stiffness, ascending [N/m].
-    pub fn eigenvalues(&self) -> [f64; 6] {
-        let mut values: [f64; 6] = self.hessian.symmetric_eigenvalues().into();
-        values.sort_by(f64::total_cmp);
-        values
+    /// Eigenvalues of the stiffness, ascending, of all motions that are neither held nor neutral [N/m].
+    pub fn eigenvalues(&self) -> Vec<f64> {
+        match &self.some {
+            None => {
+                let mut values: [f64; 6] = self.hessian.symmetric_eigenvalues().into();
+                values.sort_by(f64::total_cmp);
+                values.to_vec()
+            }
+            Some(sorted) => sorted.resisted.iter().map(|mode| mode.stiffness).collect(),
+        }
     }
 
     /// The motions along the eigenvectors of the stiffness, each resisted along itself only, from the
-    /// softest.
-    pub fn modes(&self) -> [Mode; 6] {
-        let eigen = self.hessian.symmetric_eigen();
-        let mut modes = from_fn(|k| {
-            let direction = eigen.eigenvectors.column(k);
-            // Of the two signs, the one that makes the largest component positive.
-            let direction = direction * direction[direction.iamax()].signum();
-            let [translation, rotation] = [0, 3].map(|row| direction.fixed_rows::<3>(row).into_owned());
-            Mode {
-                stiffness: eigen.eigenvalues[k],
-                translation,
-                rotation: rotation / self.characteristic_length,
+    /// softest; without those that are held or neutral.
+    pub fn modes(&self) -> Vec<Mode> {
+        match &self.some {
+            None => {
+                let eigen = self.hessian.symmetric_eigen();
+                let pairs = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
+                let mut modes: Vec<_> = pairs
+                    .map(|(value, vector)| Mode::new(*value, &vector.into(), self.characteristic_length))
+                    .collect();
+                modes.sort_by(|a, b| a.stiffness.total_cmp(&b.stiffness));
+                modes
             }
-        });
-        modes.sort_by(|a, b| a.stiffness.total_cmp(&b.stiffness));
-        modes
+            Some(sorted) => sorted.resisted.clone(),
+        }
     }
 
-    /// The smallest eigenvalue [N/m]: the stiffness of the softest motion. An equilibrium disappears where it
-    /// reaches zero.
+    /// Motions that nothing resists, such as the rotation of a platform that hangs on one cable: every pose
+    /// along them is an equilibrium.
+    pub fn neutral(&self) -> &[Mode] {
+        self.some.as_ref().map_or(&[], |sorted| &sorted.neutral)
+    }
+
+    /// The smallest eigenvalue [N/m]: the stiffness of the softest motion that is resisted at all. An
+    /// equilibrium disappears where it reaches zero.
     pub fn least_stiffness(&self) -> f64 {
-        self.eigenvalues()[0]
+        match &self.some {
+            None => {
+                let values: [f64; 6] = self.hessian.symmetric_eigenvalues().into();
+                values.into_iter().min_by(f64::total_cmp).unwrap_or_default()
+            }
+            Some(sorted) => sorted.resisted.first().map_or(0.0, |mode| mode.stiffness),
+        }
     }
 
     /// Number of independent directions in which the platform would move away: of negative eigenvalues.
@@ -96,7 +154,14 @@ mod tests {
     fn the_modes_make_up_the_stiffness() {
         let half = Matrix6::from_fn(|i, j| ((3 * i + 5 * j) as f64).sin() + if i == j { 4.0 } else { 0.0 });
         let hessian = half * half.transpose();
-        let stability = Stability::new(&hessian, 0.5);
+        let length = 0.5;
+        let scale = per_length(length);
+        let stability = Stability {
+            hessian: hessian.component_mul(&(scale * scale.transpose())),
+            some: None,
+            characteristic_length: length,
+            stable: true,
+        };
         let modes = stability.modes();
         let sum: Matrix6<f64> = modes
             .iter()

@@ -21,12 +21,12 @@
 //! A moment of constant components has no potential; the work that it does over each step takes the place of
 //! one.
 
-use crate::direct::newton::{Converged, newton};
-use crate::equations::{Balance, SpannedCable};
+use crate::direct::newton::{Converged, newton, pinned_newton};
+use crate::equations::{Balance, SpannedCable, cables_at};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
-use cdpr_cable::{end_force, end_force_near};
+use cdpr_cable::end_force_near;
 use cdpr_robot::{Pose, Vector2, Vector6};
 use nalgebra::{Matrix6, SymmetricEigen};
 
@@ -37,6 +37,9 @@ const FIRST_RADIUS: f64 = 0.05;
 
 /// Number of steps that may follow an uphill one before it is taken back.
 const SECOND_LOOKS: usize = 2;
+
+/// Resistance below this share of the greatest one may be none at all.
+const NEARLY_NEUTRAL: f64 = 1e-9;
 
 /// A pose with its cables in equilibrium.
 struct Point {
@@ -49,17 +52,6 @@ struct Point {
     gradient: Vector6<f64>,
     /// Hessian in (dp, l dφ) [N/m].
     hessian: Matrix6<f64>,
-}
-
-/// The forces of all cables at a pose, each in its own equilibrium.
-pub(crate) fn cables_at(problem: &DirectProblem, pose: &Pose) -> Result<Equilibrium, StaticsError> {
-    let cable_forces = (0..problem.cables())
-        .map(|i| {
-            let solution = end_force(&problem.cable(i), problem.lengths[i], problem.span(pose, i).end.into());
-            solution.map(|s| s.catenary.force).map_err(StaticsError::cable(i))
-        })
-        .collect::<Result<_, _>>()?;
-    Ok(Equilibrium { pose: *pose, cable_forces })
 }
 
 impl Point {
@@ -80,6 +72,7 @@ impl Point {
             let stiffness = linearized.stiffness_in_space();
             balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), stiffness);
         }
+        balance.hold(problem.robot.freedoms());
         let scale = scale(problem);
         Self {
             gradient: balance.gradient.component_mul(&scale),
@@ -92,7 +85,7 @@ impl Point {
 
     /// The point a step (dp, l dφ) away; `None` where a cable has no equilibrium.
     fn moved(&self, problem: &DirectProblem, step: &Vector6<f64>) -> Option<Self> {
-        let motion = step.component_mul(&scale(problem));
+        let motion = problem.robot.freedoms().of_vector(&step.component_mul(&scale(problem)));
         let pose =
             self.equilibrium.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
         let solve = |(i, force): (usize, &Vector2<f64>)| {
@@ -181,7 +174,12 @@ pub(crate) fn minimise(problem: &DirectProblem, start: &Pose) -> Result<Converge
 
 /// The minimum that Newton's method finds from a point, if what it finds is a minimum and near.
 fn polish(problem: &DirectProblem, point: &Point, radius: f64) -> Option<Converged> {
-    let minimum = newton(problem, point.equilibrium.clone())?;
+    let nearly_neutral = || {
+        let eigenvalues = point.hessian.symmetric_eigenvalues();
+        eigenvalues.min() <= NEARLY_NEUTRAL * eigenvalues.amax()
+    };
+    let minimum = newton(problem, point.equilibrium.clone())
+        .or_else(|| nearly_neutral().then(|| pinned_newton(problem, point.equilibrium.clone())).flatten())?;
     let motion = point.equilibrium.pose.motion_to(&minimum.equilibrium.pose);
     let away = motion.component_div(&scale(problem)).norm();
     (minimum.stability.is_stable() && away <= radius.max(1e-3 * problem.size())).then_some(minimum)
@@ -204,6 +202,11 @@ fn subproblem(gradient: &Vector6<f64>, hessian: &Matrix6<f64>, radius: f64) -> (
     let at = |shift: f64| g.zip_map(&values, |g, value| -g / (value + shift));
     let least = values.min();
     let largest = values.amax();
+    if largest == 0.0 {
+        // Nothing resists yet, as where all cables are slack: straight downhill to the edge.
+        let step = -gradient * (radius / gradient.norm());
+        return (step, -gradient.dot(&step));
+    }
     let floor = (-least).max(0.0) + 1e-12 * largest;
     let mut x = at(if least > 1e-12 * largest { 0.0 } else { floor });
     if x.norm() > radius {

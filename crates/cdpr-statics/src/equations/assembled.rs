@@ -174,7 +174,8 @@ impl FactoredJacobian {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::direct::{cables_at, newton_step};
+    use crate::direct::newton_step;
+    use crate::equations::cables_at;
     use crate::state::Load;
     use cdpr_robot::{Pose, Robot, Vector2, Wrench};
     use proptest::prelude::*;

@@ -6,6 +6,7 @@
 
 use crate::equations::assembled::{FactoredJacobian, State, closure_row, jacobian};
 use crate::equations::balance::{Balance, symmetric_part};
+use crate::equations::motions::Pins;
 use crate::equations::spanned::SpannedCable;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
@@ -17,6 +18,7 @@ use nalgebra::{DMatrix, Matrix6};
 pub struct Linearization {
     factored: FactoredJacobian,
     stiffness: Matrix6<f64>,
+    pins: Pins,
     /// d(x, z)/dL of every cable at constant force [m/m].
     end_per_length: Vec<Vector2<f64>>,
 }
@@ -50,9 +52,22 @@ impl DirectProblem<'_> {
             // Paying out a slack cable without weight moves nothing.
             end_per_length.push(cable.response.map_or([0.0; 2], |response| response.end_per_length).into());
         }
+        balance.hold(self.robot.freedoms());
+        let pins = Pins::new(self, equilibrium, &balance.symmetric_hessian());
+        let mut jacobian = jacobian(self, &State::from(equilibrium));
+        if !pins.are_none() {
+            let size = jacobian.nrows();
+            for k in (0..6).filter(|k| !self.robot.freedoms().contains(*k)) {
+                jacobian.view_mut((k, 6), (1, size - 6)).fill(0.0);
+                jacobian.view_mut((6, k), (size - 6, 1)).fill(0.0);
+            }
+            let platform = pins.pinned(&jacobian.fixed_view::<6, 6>(0, 0).into_owned(), 1.0);
+            jacobian.fixed_view_mut::<6, 6>(0, 0).copy_from(&platform);
+        }
         Ok(Linearization {
-            factored: FactoredJacobian::new(&jacobian(self, &State::from(equilibrium))),
+            factored: FactoredJacobian::new(&jacobian),
             stiffness: balance.hessian,
+            pins,
             end_per_length,
         })
     }
@@ -64,7 +79,8 @@ impl Linearization {
     /// It is the true tangent `-dG/d(p, φ)` of the balance, with sag and weight of the cables and rotations
     /// `R <- exp(dφ) R`: a small additional wrench is H times the displacement. It is symmetric to rounding
     /// unless a moment M acts, or cables with weight run over pulleys. A moment of constant components has no
-    /// potential, and the lower right block of H has the skew part `-[M]/2`.
+    /// potential, and the lower right block of H has the skew part `-[M]/2`. Rows and columns of held motions
+    /// are zero.
     pub fn stiffness(&self) -> &Matrix6<f64> {
         &self.stiffness
     }
@@ -76,10 +92,11 @@ impl Linearization {
         symmetric_part(&self.stiffness)
     }
 
-    /// Displacement (dp, dφ) [m, rad] under a small additional wrench.
+    /// Displacement (dp, dφ) [m, rad] under a small additional wrench. What holds a motion takes its part of
+    /// the wrench, and a motion that nothing resists is left out.
     pub fn displacement(&self, wrench: &Wrench) -> Vector6<f64> {
         let mut right = DMatrix::zeros(6 + 2 * self.end_per_length.len(), 1);
-        right.fixed_view_mut::<6, 1>(0, 0).copy_from(&wrench.to_vector());
+        right.fixed_view_mut::<6, 1>(0, 0).copy_from(&self.pins.rest(&wrench.to_vector()));
         self.factored.solve(&right).fixed_view::<6, 1>(0, 0).into()
     }
 

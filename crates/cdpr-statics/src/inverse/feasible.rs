@@ -65,12 +65,13 @@ fn straight(question: &Question) -> Vec<f64> {
     let pulls: Vec<Vector3<f64>> = (0..question.cables()).map(|i| -robot.span(pose, i).normalize()).collect();
     let mut matrix = robot.wrench_matrix(pose, &pulls);
     matrix.fixed_rows_mut::<3>(3).unscale_mut(question.arm());
+    let freedoms = robot.freedoms();
     let each = matrix.column_iter().zip(&question.reference).zip(&question.limits);
     let unknowns: Vec<BoxUnknown> = each
         .map(|((column, reference), limits)| BoxUnknown {
             gradient: -reference,
             curvature: 1.0,
-            column: column.into(),
+            column: freedoms.of_vector(&column.into()),
             bounds: [limits.min, limits.max],
         })
         .collect();
@@ -185,7 +186,7 @@ impl Point<'_> {
         });
         let rank_deficient = {
             let matrix = Matrix6xX::from_columns(&self.rows.iter().map(|row| row.slope).collect::<Vec<_>>());
-            let values = matrix.singular_values();
+            let values = matrix.select_rows(&question.robot.freedoms().components()).singular_values();
             values.min() < 1e-9 * values.max()
         };
         StaticsError::NoTensions {

@@ -4,7 +4,7 @@ use super::question::Question;
 use crate::equations::{CablePlane, Span, wrench};
 use crate::error::StaticsError;
 use cdpr_cable::{Cable, CableError, HeldCable};
-use cdpr_robot::{TensionLimits, Vector2, Vector3, Vector6};
+use cdpr_robot::{Freedoms, TensionLimits, Vector2, Vector3, Vector6};
 
 /// Factor on the least tension that a span demands: at the least tension itself a cable's length does not
 /// follow from its tension.
@@ -26,6 +26,7 @@ pub(super) struct Strand<'a> {
     /// Chord force at either limit [N], where it has been asked for.
     chord_forces: [Option<f64>; 2],
     pub(super) reference: f64,
+    freedoms: Freedoms,
 }
 
 impl<'a> Strand<'a> {
@@ -80,14 +81,15 @@ impl<'a> Strand<'a> {
             floor,
             chord_forces: [None; 2],
             reference: question.reference[i],
+            freedoms: question.robot.freedoms(),
         })
     }
 
-    /// Wrench about P of a force on the cable, its moment divided by `arm` [m].
+    /// Wrench about P of a force on the cable, its moment divided by `arm` [m]; zero along held motions.
     fn wrench(&self, force: Vector2<f64>, arm: f64) -> Vector6<f64> {
         let mut wrench = wrench(&self.arm, &self.plane.force_on_platform(force.into()).into());
         wrench.fixed_rows_mut::<3>(3).unscale_mut(arm);
-        wrench
+        self.freedoms.of_vector(&wrench)
     }
 
     /// What the optimum asks of the cable at a chord force.

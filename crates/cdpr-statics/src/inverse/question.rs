@@ -17,6 +17,20 @@ pub(super) struct Question<'a> {
 }
 
 impl<'a> Question<'a> {
+    /// A question with valid inputs to a robot that has a cable for every free motion.
+    pub(super) fn of_whole_pose(
+        robot: &'a Robot,
+        pose: &'a Pose,
+        load: &'a Load,
+        reference: Option<&[f64]>,
+    ) -> Result<Self, StaticsError> {
+        let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
+        if cables < freedoms {
+            return Err(StaticsError::FreeCoordinates { cables, freedoms, named: 0 });
+        }
+        Self::new(robot, pose, load, reference)
+    }
+
     /// A question with valid inputs.
     pub(super) fn new(
         robot: &'a Robot,
@@ -56,10 +70,10 @@ impl<'a> Question<'a> {
         self.robot.platform_size().max(1e-3 * longest)
     }
 
-    /// w_ex, moments divided by the arm [N].
+    /// w_ex, moments divided by the arm [N]; zero along held motions.
     pub(super) fn external(&self) -> Vector6<f64> {
         let mut wrench = self.load.total(self.robot, self.pose).to_vector();
         wrench.fixed_rows_mut::<3>(3).unscale_mut(self.arm());
-        wrench
+        self.robot.freedoms().of_vector(&wrench)
     }
 }

@@ -11,7 +11,13 @@ use crate::lanes::algebra::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, hal
 use crate::lanes::cable::TautCable;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_cable::kernel::{Field, TAUT, TautEnd};
+use cdpr_robot::Robot;
 use smallvec::{SmallVec, smallvec};
+
+/// Whether a robot is one for the lanes: plain cables, six free motions, and cables for all of them.
+pub(crate) fn in_lanes(robot: &Robot) -> bool {
+    robot.is_plain() && robot.freedoms().are_all() && robot.is_fully_actuated()
+}
 
 /// What the lanes hold.
 pub(crate) enum Layout<S: Simd> {

@@ -9,7 +9,7 @@ use crate::inverse::inverse;
 use crate::lanes::algebra::{six, three};
 use crate::lanes::cable::TautCable;
 use crate::lanes::chain::{ChainStart, Choice, Shared, observe};
-use crate::lanes::newton::{LaneResidual, Layout, Robots, Scale};
+use crate::lanes::newton::{LaneResidual, Layout, Robots, Scale, in_lanes};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::deflection;
 use crate::problem::DirectProblem;
@@ -101,9 +101,8 @@ impl<'a> Observer<'a> {
 
 impl Nominal {
     fn new(robot: &Robot, pose: &Pose, load: &Load) -> Option<Self> {
-        // A moment has no potential: pivots do not show whether its equilibria are stable. The lanes hold
-        // plain cables.
-        if load.wrench.moment != Vector3::zeros() || !robot.is_plain() {
+        // A moment has no potential: pivots do not show whether its equilibria are stable.
+        if load.wrench.moment != Vector3::zeros() || !in_lanes(robot) {
             return None;
         }
         let solution = inverse(robot, pose, &Load::none(), None).ok()?;

@@ -3,7 +3,7 @@
 use crate::direct::{Start, direct};
 use crate::error::StaticsError;
 use crate::lanes::cable::TautCable;
-use crate::lanes::newton::{Layout, LinearizedPlatform, PlatformLoad, Robots, Scale};
+use crate::lanes::newton::{Layout, LinearizedPlatform, PlatformLoad, Robots, Scale, in_lanes};
 use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
@@ -70,10 +70,9 @@ impl<'a> Tracker<'a> {
     /// Those of [`direct`]; the equilibrium is then the one before.
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let problem = DirectProblem::new(self.robot, lengths, load)?;
-        // A moment has no potential: pivots do not show whether its equilibria are stable. The lanes hold
-        // plain cables.
+        // A moment has no potential: pivots do not show whether its equilibria are stable.
         let taut = load.wrench.moment == Vector3::zeros()
-            && self.robot.is_plain()
+            && in_lanes(self.robot)
             && dispatch(Update { tracker: self, problem: &problem });
         if !taut {
             let solution = direct(self.robot, lengths, load, Start::Near(&self.equilibrium))?;

@@ -17,13 +17,13 @@
 //!
 //! K is the symmetric part of the stiffness, [`crate::Linearization::symmetric_stiffness`].
 
-use crate::direct::Start;
+use crate::direct::{Stability, Start};
 use crate::equations::{Balance, SpannedCable};
 use crate::error::StaticsError;
 use crate::inverse::inverse;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Matrix3, Pose, Robot, Vector3};
+use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 
@@ -45,8 +45,8 @@ pub struct NaturalMode {
 /// Natural motions of a robot at a pose that the inverse model holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoseModes {
-    /// The six motions, the slowest first.
-    pub modes: [NaturalMode; 6],
+    /// The free motions, the slowest first.
+    pub modes: Vec<NaturalMode>,
     /// Unstrained lengths [m].
     pub lengths: Vec<f64>,
     /// The equilibrium.
@@ -54,15 +54,16 @@ pub struct PoseModes {
 }
 
 impl DirectProblem<'_> {
-    /// The six natural motions of the platform about a stable equilibrium of its own, the slowest first.
+    /// The natural motions of the platform about a stable equilibrium of its own, the slowest first: six, or
+    /// as many as are not held.
     ///
-    /// A payload moves as a point at the centre of mass. A motion that nothing resists has the frequency zero
+    /// A payload moves as a point at the centre of mass. Motions that nothing resists have the frequency zero
     /// and no shares.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for a robot without `platform.inertia`, an equilibrium that is not finite or
+    /// [`StaticsError::Invalid`] for a robot that rotates without `platform.inertia`, an equilibrium that is not finite or
     /// has not one force for each cable, and one that is not stable.
-    pub fn modes(&self, equilibrium: &Equilibrium) -> Result<[NaturalMode; 6], StaticsError> {
+    pub fn modes(&self, equilibrium: &Equilibrium) -> Result<Vec<NaturalMode>, StaticsError> {
         self.check("equilibrium", equilibrium)?;
         let mass = self.mass_matrix(&equilibrium.pose)?;
         let weight = Balance::of_load(self, &equilibrium.pose).symmetric_hessian();
@@ -80,25 +81,33 @@ impl DirectProblem<'_> {
                 own.symmetric_hessian()
             })
             .collect();
-        let stiffness = cables.iter().fold(weight, |sum, cable| sum + cable);
+        let freedoms = self.robot.freedoms();
+        let stiffness = freedoms.of_matrix(&cables.iter().fold(weight, |sum, cable| sum + cable));
+        let neutral = Stability::new(self, equilibrium, &stiffness).neutral().len();
         let not_positive = || {
             let expected = "an inertia that is positive definite [kg m²]";
             StaticsError::invalid("platform.inertia".to_owned(), "not positive definite", expected)
         };
         let factor = mass.cholesky().ok_or_else(not_positive)?.l();
         let inverse = factor.try_inverse().ok_or_else(not_positive)?;
-        let eigen = (inverse * stiffness * inverse.transpose()).symmetric_eigen();
-        let mut order = [0, 1, 2, 3, 4, 5];
-        order.sort_by(|one, other| eigen.eigenvalues[*one].total_cmp(&eigen.eigenvalues[*other]));
+        let eigen = freedoms.block(&(inverse * stiffness * inverse.transpose())).symmetric_eigen();
+        let free = freedoms.components();
+        let mut order: Vec<_> = (0..free.len()).collect();
         let rounding = ROUNDING * eigen.eigenvalues.amax();
-        if eigen.eigenvalues.min() < -rounding {
-            let value = format!("unstable ({:.3e} 1/s²)", eigen.eigenvalues.min());
+        // The squares of neutral motions are rounding, of either sign.
+        order.sort_by(|one, other| eigen.eigenvalues[*one].abs().total_cmp(&eigen.eigenvalues[*other].abs()));
+        order[neutral..].sort_by(|one, other| eigen.eigenvalues[*one].total_cmp(&eigen.eigenvalues[*other]));
+        let resisted = order[neutral..].first().map_or(0.0, |k| eigen.eigenvalues[*k]);
+        if resisted < -rounding {
+            let value = format!("unstable ({resisted:.3e} 1/s²)");
             let expected = "a stable equilibrium: others have no natural frequencies";
             return Err(StaticsError::invalid("equilibrium".to_owned(), value, expected));
         }
-        Ok(order.map(|k| {
-            let square = eigen.eigenvalues[k].max(0.0);
-            let shape = inverse.transpose() * eigen.eigenvectors.column(k);
+        let mode = |(rank, k): (usize, &usize)| {
+            let square = if rank < neutral { 0.0 } else { eigen.eigenvalues[*k].max(0.0) };
+            let mut vector = Vector6::zeros();
+            free.iter().zip(eigen.eigenvectors.column(*k).iter()).for_each(|(i, v)| vector[*i] = *v);
+            let shape = inverse.transpose() * vector;
             // Of the two signs, the one that makes the largest component positive.
             let shape = shape * shape[shape.iamax()].signum();
             let share = |part: &Matrix6<f64>| {
@@ -111,16 +120,23 @@ impl DirectProblem<'_> {
                 cables: cables.iter().map(share).collect(),
                 weight: share(&weight),
             }
-        }))
+        };
+        Ok(order.iter().enumerate().map(mode).collect())
     }
 
     /// M of (V1) [kg, kg m, kg m²].
     fn mass_matrix(&self, pose: &Pose) -> Result<Matrix6<f64>, StaticsError> {
         let platform = &self.robot.platform;
-        let inertia = platform.inertia.ok_or_else(|| {
-            let expected = "the inertia about the centre of mass, 3 x 3 in the platform frame [kg m²]";
-            StaticsError::invalid("platform.inertia".to_owned(), "missing", expected)
-        })?;
+        let freedoms = self.robot.freedoms();
+        let inertia = match platform.inertia {
+            Some(inertia) => inertia,
+            // A platform that does not rotate needs none.
+            None if (3..6).all(|k| !freedoms.contains(k)) => Matrix3::zeros(),
+            None => {
+                let expected = "the inertia about the centre of mass, 3 x 3 in the platform frame [kg m²]";
+                return Err(StaticsError::invalid("platform.inertia".to_owned(), "missing", expected));
+            }
+        };
         let mass = platform.mass + self.load.payload;
         let lever = (pose.rotation * platform.center_of_mass).cross_matrix();
         let rotation = pose.rotation.matrix();
@@ -130,6 +146,8 @@ impl DirectProblem<'_> {
         matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-mass * lever));
         matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&(mass * lever));
         matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&about_p);
+        let mut matrix = freedoms.of_matrix(&matrix);
+        (0..6).filter(|k| !freedoms.contains(*k)).for_each(|k| matrix[(k, k)] = mass);
         Ok(matrix)
     }
 }
