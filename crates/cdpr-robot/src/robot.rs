@@ -211,13 +211,17 @@ impl Robot {
         self.cables.iter().all(|cable| cable.properties.law.is_none())
     }
 
+    /// Whether all cables are linear and begin at their exit points, without pulley and lead.
+    #[inline]
+    pub fn has_plain_cables(&self) -> bool {
+        self.is_linear() && self.cables.iter().all(|cable| cable.guide().is_none())
+    }
+
     /// Whether the base is level and all cables are linear and begin at their exit points, without pulley and
     /// lead.
     #[inline]
     pub fn is_plain(&self) -> bool {
-        self.is_linear()
-            && self.gravity.level().is_none()
-            && self.cables.iter().all(|cable| cable.guide().is_none())
+        self.has_plain_cables() && self.gravity.level().is_none()
     }
 
     /// Young's modulus of cable `i` at a tension [N]: the slope of its law there [Pa].

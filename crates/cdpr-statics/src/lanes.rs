@@ -3,6 +3,7 @@
 mod algebra;
 mod cable;
 mod chain;
+mod level;
 mod newton;
 mod observer;
 mod simd;

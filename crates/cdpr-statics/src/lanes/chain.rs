@@ -39,6 +39,8 @@ pub(crate) struct ChainStart<S: Simd> {
     pub(crate) offsets: Vec<Lanes<S>>,
     /// λ to start from.
     pub(crate) multipliers: Lanes6<S>,
+    /// Weight of the payload, and the force of the load at P.
+    pub(crate) payload: PlatformLoad<S>,
 }
 
 /// The tensions that a cable may have, and the one that is preferred.
@@ -57,10 +59,6 @@ pub(crate) struct Choice {
 pub(crate) struct Shared {
     /// For each cable.
     pub(crate) choices: Vec<Choice>,
-    /// Weight of the payload [N].
-    pub(crate) payload: f64,
-    /// Force of the load at P [N].
-    pub(crate) force: [f64; 3],
     /// Sum of the tensions that changes are compared with [N].
     pub(crate) tension: f64,
     /// Lengths that positions are compared with.
@@ -90,7 +88,7 @@ const LAST_DISTRIBUTION: f64 = 1e-9;
 /// the wanted pose.
 #[inline(always)]
 pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome<S> {
-    let ChainStart { mut robots, offsets, multipliers } = begin;
+    let ChainStart { mut robots, offsets, multipliers, payload } = begin;
     let robots = &mut robots;
     let zero = robots.weight.all(0.0);
     let mut spans = Vec::with_capacity(robots.cables.len());
@@ -107,8 +105,6 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome
     let (standing, unloaded) = robots.settle(&own, &mut platform, &shared.scale, within & held);
     let stood = robots.position;
 
-    let payload =
-        PlatformLoad { weight: zero.all(shared.payload), force: three(|k| zero.all(shared.force[k])) };
     let load = PlatformLoad { weight: own.weight + payload.weight, force: payload.force };
     // The first step follows the linearisation at hand.
     let added = payload.wrench(&robots.center);

@@ -16,7 +16,7 @@ use smallvec::{SmallVec, smallvec};
 
 /// Whether a robot is one for the lanes: plain cables, six free motions, and cables for all of them.
 pub(crate) fn in_lanes(robot: &Robot) -> bool {
-    robot.is_plain() && robot.freedoms().are_all() && robot.is_fully_actuated()
+    robot.has_plain_cables() && robot.freedoms().are_all() && robot.is_fully_actuated()
 }
 
 /// What the lanes hold.

@@ -9,13 +9,14 @@ use crate::inverse::inverse;
 use crate::lanes::algebra::{six, three};
 use crate::lanes::cable::TautCable;
 use crate::lanes::chain::{ChainStart, Choice, Shared, observe};
-use crate::lanes::newton::{LaneResidual, Layout, Robots, Scale, in_lanes};
+use crate::lanes::level::LevelFrame;
+use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale, in_lanes};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::deflection;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
 use cdpr_cable::kernel::Field;
-use cdpr_robot::{ParameterLayout, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Axis, Parameter, ParameterLayout, Pose, Robot, Vector3, Vector6};
 use smallvec::SmallVec;
 use std::array::from_fn;
 
@@ -116,8 +117,6 @@ impl Nominal {
         };
         let shared = Shared {
             choices: reference.iter().enumerate().map(choice).collect(),
-            payload: load.payload * robot.gravity.magnitude(),
-            force: load.wrench.force.into(),
             tension: solution.tensions.iter().sum(),
             scale: Scale {
                 size: problem.size(),
@@ -145,17 +144,21 @@ impl WithSimd for Batch<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Observer { robot, pose, parameters, nominal, .. } = self.observer;
+        let Observer { robot, pose, load, parameters, nominal } = self.observer;
         let rows = self.deviations.len() / parameters;
         let Some(nominal) = nominal else { return vec![None; rows] };
         let mut found = Vec::with_capacity(rows);
         for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows { simd, rows, parameters: *parameters };
-            let (start, sound) = rows.robots(robot, pose, nominal);
+            let (start, level, sound) = rows.robots(robot, pose, load, nominal);
             let outcome = observe(start, &nominal.shared);
             let valid = (outcome.valid & sound).to_array();
-            let displacement = outcome.displacement.map(Lanes::to_array);
+            let displacement = match &level {
+                None => outcome.displacement,
+                Some(level) => level.to_base(&outcome.displacement),
+            };
+            let displacement = displacement.map(Lanes::to_array);
             let (unloaded, loaded) = (norms(&outcome.unloaded), norms(&outcome.loaded));
             found.extend((0..count).map(|lane| {
                 valid[lane].then(|| Observation {
@@ -202,14 +205,30 @@ impl<S: Simd> Rows<'_, S> {
         ]
     }
 
-    /// The perturbed robots, and the lanes whose robot is valid.
+    /// The perturbed robots in their level frames, these frames where they are not the base frame, and the
+    /// lanes whose robot is valid.
     #[inline(always)]
-    fn robots(&self, robot: &Robot, pose: &Pose, nominal: &Nominal) -> (ChainStart<S>, Mask<S>) {
+    fn robots(
+        &self,
+        robot: &Robot,
+        pose: &Pose,
+        load: &Load,
+        nominal: &Nominal,
+    ) -> (ChainStart<S>, Option<LevelFrame<S>>, Mask<S>) {
         let n = robot.cables.len();
         let layout = ParameterLayout::of(robot);
         let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
         let mass = self.parameter(layout.mass(), robot.platform.mass);
         let mut sound = tiny.less_or_equal(mass);
+        let (level, gravity) = match layout.index(Parameter::Gravity(Axis::X)) {
+            None => (None, self.all(robot.gravity.magnitude())),
+            Some(first) => {
+                let vector = self.point(first, &robot.gravity.vector());
+                let (level, magnitude, directed) = LevelFrame::of_gravity(&vector);
+                sound = sound & directed;
+                (Some(level), magnitude)
+            }
+        };
         let mut start = ChainStart {
             robots: Robots {
                 layout: Layout::Robots,
@@ -217,10 +236,14 @@ impl<S: Simd> Rows<'_, S> {
                 position: three(|k| self.all(pose.position[k])),
                 center: rotate(pose, &self.point(layout.center_of_mass(), &robot.platform.center_of_mass)),
                 frame: SmallVec::new(),
-                weight: mass * robot.gravity.magnitude(),
+                weight: mass * gravity,
             },
             offsets: Vec::with_capacity(n),
             multipliers: six(|k| self.all(nominal.multipliers[k])),
+            payload: PlatformLoad {
+                weight: gravity * load.payload,
+                force: three(|k| self.all(load.wrench.force[k])),
+            },
         };
         for (i, cable) in robot.cables.iter().enumerate() {
             let density = self.parameter(layout.linear_density(), cable.properties.linear_density);
@@ -234,7 +257,7 @@ impl<S: Simd> Rows<'_, S> {
             let force = nominal.equilibrium.cable_forces[i];
             start.offsets.push(offset);
             start.robots.cables.push(TautCable {
-                weight_per_length: density * robot.gravity.magnitude(),
+                weight_per_length: density * gravity,
                 axial_flexibility: (modulus * cable.properties.section).recip(),
                 exit_point: self.point(layout.exit_point(i), &cable.exit_point),
                 anchor_arm: rotate(pose, &self.point(layout.anchor_point(i), &cable.anchor_point)),
@@ -242,7 +265,26 @@ impl<S: Simd> Rows<'_, S> {
                 force: [self.all(force.x), self.all(force.y)],
             });
         }
-        (start, sound)
+        if let Some(level) = &level {
+            start.rotate(level);
+        }
+        (start, level, sound)
+    }
+}
+
+impl<S: Simd> ChainStart<S> {
+    /// Rotates the robots from the base frame into their level frames.
+    #[inline(always)]
+    fn rotate(&mut self, level: &LevelFrame<S>) {
+        let Self { robots, multipliers, payload, .. } = self;
+        for cable in &mut robots.cables {
+            cable.exit_point = level.to_level(&cable.exit_point);
+            cable.anchor_arm = level.to_level(&cable.anchor_arm);
+        }
+        robots.position = level.to_level(&robots.position);
+        robots.center = level.to_level(&robots.center);
+        *multipliers = level.both_to_level(multipliers);
+        payload.force = level.to_level(&payload.force);
     }
 }
 

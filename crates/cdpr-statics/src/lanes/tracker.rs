@@ -100,16 +100,20 @@ impl WithSimd for Update<'_, '_> {
         let (count, zero) = (Lanes::<S>::COUNT, Lanes::splat(simd, 0.0));
         let in_last = n - (n - 1) / count * count;
         let last = Lanes::from_fn(simd, |lane| lane as f64).less_or_equal(zero.all(in_last as f64 - 0.5));
+        // The lanes hold the level frame.
+        let level = robot.gravity.level();
+        let to_level = |v: Vector3<f64>| level.map_or(v, |level| level * v);
+        let to_base = |v: Vector3<f64>| level.map_or(v, |level| level.tr_mul(&v));
         let mut robots = Robots {
             layout: Layout::Cables(last),
             cables: SmallVec::new(),
-            position: vector(simd, &pose.position),
-            center: vector(simd, &(pose.rotation * robot.platform.center_of_mass)),
+            position: vector(simd, &to_level(pose.position)),
+            center: vector(simd, &to_level(pose.rotation * robot.platform.center_of_mass)),
             frame: SmallVec::new(),
             weight: zero.all(robot.platform.mass * robot.gravity.magnitude()),
         };
         for k in 0..3 {
-            robots.frame.push(vector(simd, &pose.rotation.matrix().column(k).into()));
+            robots.frame.push(vector(simd, &to_level(pose.rotation.matrix().column(k).into())));
         }
         for first in (0..n).step_by(count) {
             let mut values = [[0.0; MAX_LANES]; 11];
@@ -117,7 +121,8 @@ impl WithSimd for Update<'_, '_> {
                 // Lanes beyond the last cable repeat it and do not count.
                 let i = (first + lane).min(n - 1);
                 let (cable, force) = (problem.cable(i), equilibrium.cable_forces[i]);
-                let (exit, arm) = (robot.cables[i].exit_point, robot.anchor_arm(pose, i));
+                let exit = to_level(robot.cables[i].exit_point);
+                let arm = to_level(robot.anchor_arm(pose, i));
                 let (weight, flexibility) = (cable.weight_per_length, 1.0 / cable.axial_stiffness);
                 let cable = [
                     weight,
@@ -148,7 +153,7 @@ impl WithSimd for Update<'_, '_> {
         }
         let load = PlatformLoad {
             weight: robots.weight + problem.load.payload * robot.gravity.magnitude(),
-            force: vector(simd, &problem.load.wrench.force),
+            force: vector(simd, &to_level(problem.load.wrench.force)),
         };
         let size = problem.size();
         let rounding = rounding_of_closure(size, pose.position.norm() + *farthest);
@@ -160,8 +165,12 @@ impl WithSimd for Update<'_, '_> {
         if !found.any() {
             return false;
         }
-        pose.position = back(&robots.position);
-        let columns = [back(&robots.frame[0]), back(&robots.frame[1]), back(&robots.frame[2])];
+        pose.position = to_base(back(&robots.position));
+        let columns = [
+            to_base(back(&robots.frame[0])),
+            to_base(back(&robots.frame[1])),
+            to_base(back(&robots.frame[2])),
+        ];
         pose.rotation = orthonormalized(&Matrix3::from_columns(&columns));
         for (forces, cable) in equilibrium.cable_forces.chunks_mut(count).zip(&robots.cables) {
             let [x, z] = [cable.force[0].to_array(), cable.force[1].to_array()];
