@@ -1,5 +1,5 @@
-//! Where a robot can work, and how well: tensions, deflection, stiffness and the tolerance that matters most,
-//! pose by pose.
+//! Where a robot can work, and how well: tensions, deflection, stiffness, the lowest natural frequency and the
+//! tolerance that matters most, pose by pose.
 //!
 //! A load can come onto the platform in two ways. Where the lengths are kept, as in the paper, the platform
 //! yields, and its tensions are what the direct model says. Where the winches hold the pose, the tensions are
@@ -7,8 +7,8 @@
 
 use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{
-    Deflection, Derivatives, Limit, Load, OutOfLimits, StaticsError, deflection, derivatives, inverse,
-    out_of_limits,
+    Deflection, Derivatives, DirectProblem, Limit, Load, OutOfLimits, StaticsError, deflection, derivatives,
+    inverse, out_of_limits,
 };
 use cdpr_study::{ErrorModel, Extremes, Grid, StudyError};
 use indexmap::IndexMap;
@@ -65,6 +65,8 @@ pub struct Held {
     pub displacement: Vector3<f64>,
     /// Stiffness of the softest motion with the load [N/m], see [`cdpr_statics::Stability`].
     pub least_stiffness: f64,
+    /// Lowest natural frequency with the load [Hz]; `None` for a robot that lacks `platform.inertia`.
+    pub lowest_frequency: Option<f64>,
     /// Cables (from 0) that are slack with the load.
     pub slack: Vec<usize>,
     /// The tolerance that matters most; `None` if no tolerance is wanted, nothing is uncertain, or |dp| has
@@ -154,13 +156,13 @@ fn held(
 ) -> Result<Held, StaticsError> {
     let offsets = vec![0.0; robot.cables.len()];
     let Some(model) = tolerances else {
-        return Ok(Held::new(robot, &deflection(robot, pose, &offsets, load)?, None));
+        return Ok(Held::new(robot, load, &deflection(robot, pose, &offsets, load)?, None));
     };
     match derivatives(robot, pose, &offsets, load) {
-        Ok(found) => Ok(Held::new(robot, &found.deflection, Dominant::of(&found, model))),
+        Ok(found) => Ok(Held::new(robot, load, &found.deflection, Dominant::of(&found, model))),
         // A pose without a derivative is held nevertheless.
         Err(StaticsError::NoDerivative { .. }) => {
-            Ok(Held::new(robot, &deflection(robot, pose, &offsets, load)?, None))
+            Ok(Held::new(robot, load, &deflection(robot, pose, &offsets, load)?, None))
         }
         Err(error) => Err(error),
     }
@@ -172,16 +174,18 @@ fn range(tensions: &[f64]) -> [f64; 2] {
 }
 
 impl Held {
-    fn new(robot: &Robot, deflection: &Deflection, dominant: Option<Dominant>) -> Self {
+    fn new(robot: &Robot, load: &Load, deflection: &Deflection, dominant: Option<Dominant>) -> Self {
         let Deflection { lengths, unloaded, loaded } = deflection;
         let [least_before, greatest_before] = range(&unloaded.equilibrium.tensions());
         let [least, greatest] = range(&loaded.equilibrium.tensions());
+        let modes = || DirectProblem::new(robot, lengths, load)?.modes(&loaded.equilibrium);
         Self {
             least_tension: least.min(least_before),
             greatest_tension: greatest.max(greatest_before),
             out_of_limits: out_of_limits(robot, lengths, &[&unloaded.equilibrium, &loaded.equilibrium]),
             displacement: deflection.displacement(),
             least_stiffness: loaded.stability.least_stiffness(),
+            lowest_frequency: modes().ok().and_then(|modes| Some(modes.first()?.frequency)),
             slack: loaded.report.slack.clone(),
             dominant,
         }
@@ -205,7 +209,7 @@ impl Dominant {
 }
 
 /// A row of `workspace.csv` and `workspace.json`: positions [m], deflection [mm], tensions [N], stiffness
-/// [N/m]. Values that do not exist are empty.
+/// [N/m], frequencies [Hz]. Values that do not exist are empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[allow(missing_docs)]
 pub struct WorkspaceRow {
@@ -223,6 +227,8 @@ pub struct WorkspaceRow {
     /// |dp|.
     pub rms_mm: Option<f64>,
     pub least_stiffness: Option<f64>,
+    /// Lowest natural frequency with the load.
+    pub lowest_frequency_hz: Option<f64>,
     /// Their numbers, from 1, with spaces between.
     pub slack_cables: Option<String>,
     /// Tensions out of limits, in words.
@@ -269,6 +275,7 @@ impl WorkspaceRow {
             dz_mm: displacement.map(|dp| dp.z),
             rms_mm: displacement.map(|dp| dp.norm()),
             least_stiffness: held.map(|held| held.least_stiffness),
+            lowest_frequency_hz: held.and_then(|held| held.lowest_frequency),
             slack_cables: held
                 .map(|held| held.slack.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")),
             out_of_limits: held.filter(|held| !held.out_of_limits.is_empty()).map(|held| {
@@ -319,6 +326,8 @@ pub struct WorkspaceSummary {
     pub rms_mm: Option<Extremes>,
     /// Stiffness of the softest motion [N/m].
     pub least_stiffness: Option<Extremes>,
+    /// Lowest natural frequency with the load [Hz]; absent without `platform.inertia`.
+    pub lowest_frequency_hz: Option<Extremes>,
     /// Greatest tension [N].
     pub greatest_tension: Option<Extremes>,
     /// Least tension [N].
@@ -380,6 +389,7 @@ impl WorkspaceSummary {
             dominant,
             rms_mm: held_extremes(&rows, |row| row.rms_mm),
             least_stiffness: held_extremes(&rows, |row| row.least_stiffness),
+            lowest_frequency_hz: held_extremes(&rows, |row| row.lowest_frequency_hz),
             greatest_tension: held_extremes(&rows, |row| row.greatest_tension),
             least_tension: held_extremes(&rows, |row| row.least_tension),
             anew_greatest_tension: extremes(rows.iter(), |row| row.anew_greatest_tension),

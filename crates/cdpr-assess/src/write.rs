@@ -17,7 +17,9 @@ const ROBUSTNESS: &str = "robustness.json";
 pub fn begin_workspace(folder: &Path) -> Result<ResultsFolder, StudyError> {
     let is_map = |name: &str| {
         let tensions = ["greatest_tension", "greatest_tension_anew"];
-        let maps = [&["deflection", "least_stiffness", "dominant_tolerance"][..], &tensions].concat();
+        let maps =
+            [&["deflection", "least_stiffness", "lowest_frequency", "dominant_tolerance"][..], &tensions]
+                .concat();
         let name = name.strip_suffix(".svg");
         name.is_some_and(|name| maps.contains(&name.split_once("_z").map_or(name, |(map, _)| map)))
     };

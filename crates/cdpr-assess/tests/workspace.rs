@@ -1,8 +1,8 @@
 //! Workspaces: every position is what the models say of it alone.
 
 use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace};
-use cdpr_robot::{Parameter, Robot, Rotation3};
-use cdpr_statics::{Load, derivatives, inverse};
+use cdpr_robot::{Matrix3, Parameter, Robot, Rotation3, Vector3};
+use cdpr_statics::{DirectProblem, Load, deflection, derivatives, inverse};
 use cdpr_study::{ErrorModel, Grid, GridAxis, StudyError, uncertainties};
 use serde_json::Value;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -50,6 +50,7 @@ fn every_position_is_what_the_models_say_of_it() {
         assert!(tensions.iter().all(|t| (held.least_tension..=held.greatest_tension).contains(t)));
         assert!(tensions.contains(&held.least_tension) && tensions.contains(&held.greatest_tension));
         assert_eq!(held.least_stiffness, exact.deflection.loaded.stability.least_stiffness());
+        assert_eq!(held.lowest_frequency, None);
         assert!(held.is_within_limits());
         let anew = inverse(&robot, &pose, &Load::payload(50.0), None).unwrap().tensions;
         let found = found.anew.clone().unwrap().unwrap();
@@ -130,6 +131,38 @@ fn the_stadium_robot_is_held_wherever_an_independent_program_finds_tensions() {
             distributed anew, at {independent} by the independent program"
         );
         assert!(anew >= independent && independent > 0);
+    }
+}
+
+#[test]
+fn a_platform_with_an_inertia_has_its_lowest_frequency_under_the_load() {
+    let mut robot = caroca();
+    robot.platform.inertia = Some(Matrix3::from_diagonal(&Vector3::new(4.0, 5.0, 6.0)));
+    for load in [Load::none(), Load::payload(50.0)] {
+        let workspace = Workspace {
+            robot: &robot,
+            grid: grid(),
+            rotation: Rotation3::identity(),
+            load,
+            tolerances: None,
+        };
+        let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
+        let summary = WorkspaceSummary::new(&workspace, &poses);
+        let mut lowest = f64::INFINITY;
+        for (found, row) in poses.iter().zip(&summary.rows) {
+            let Ok(held) = &found.outcome else { continue };
+            let frequency = held.lowest_frequency.unwrap();
+            assert_eq!(row.lowest_frequency_hz, Some(frequency));
+            // The lengths are those without the load.
+            let exact = deflection(&robot, &found.pose, &[0.0; 8], &load).unwrap();
+            let problem = DirectProblem::new(&robot, &exact.lengths, &load).unwrap();
+            let modes = problem.modes(&exact.loaded.equilibrium).unwrap();
+            assert!(modes.iter().all(|mode| mode.frequency >= frequency));
+            assert!((modes[0].frequency / frequency - 1.0).abs() < 1e-9);
+            lowest = lowest.min(frequency);
+        }
+        println!("{} kg: {lowest} Hz", load.payload);
+        assert_eq!(summary.lowest_frequency_hz.unwrap().min, lowest);
     }
 }
 

@@ -174,6 +174,12 @@ def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
         same(getattr(found, name), [numpy.nan if row[name] is None else row[name] for row in printed["rows"]])
     bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
     assert numpy.isnan(bare.rms).all() and not numpy.isnan(bare.least_stiffness).any()
+    assert numpy.isnan(bare.lowest_frequency).all()
+    content = caroca.to_dict()
+    content["platform"]["inertia"] = numpy.diag([4.0, 5.0, 6.0]).tolist()
+    massive = cdpr.Robot.from_dict(content)
+    found = massive.workspace(x=0, y=0, z=1.75, payload=0)
+    assert abs(found.lowest_frequency[0] / massive.modes([0, 0, 1.75]).frequencies_hz[0] - 1) < 1e-9
     plane = caroca.workspace(plane=("z", 1.75), grid=(3, 2), payload=50)
     assert plane.shape == (3, 2, 1)
     same(plane.positions[0], [-3.5, -2.0, 1.75])

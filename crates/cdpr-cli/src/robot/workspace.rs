@@ -153,6 +153,7 @@ fn print(summary: &WorkspaceSummary) {
     for (name, extremes) in [
         ("|dp| [mm]", summary.rms_mm),
         ("least stiffness [N/m]", summary.least_stiffness),
+        ("lowest natural frequency [Hz]", summary.lowest_frequency_hz),
         ("greatest tension [N]", summary.greatest_tension),
         ("least tension [N]", summary.least_tension),
         ("greatest tension, distributed anew [N]", summary.anew_greatest_tension),

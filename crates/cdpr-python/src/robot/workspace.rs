@@ -36,6 +36,8 @@ answer! {
         rms: Py<PyAny>,
         /// Stiffness of the softest motion with the load [N/m], (m,).
         least_stiffness: Py<PyAny>,
+        /// Lowest natural frequency with the load [Hz], (m,); NaN for a robot without inertia.
+        lowest_frequency: Py<PyAny>,
         /// Uncertain parameter with the largest share of the variance of |dp|, or None; m of them.
         dominant: Vec<Option<String>>,
         /// Share of that parameter, 0 to 1, (m,).
@@ -122,6 +124,7 @@ impl Robot {
             displacement: vectors(&|row| Some(loaded(row)?.displacement.into()))?,
             rms: column(&|row| Some(loaded(row)?.displacement.norm())),
             least_stiffness: column(&|row| Some(held(row)?.least_stiffness)),
+            lowest_frequency: column(&|row| held(row)?.lowest_frequency),
             dominant: rows.iter().map(|row| row.dominant.clone()).collect(),
             dominant_share: column(&|row| Some(held(row)?.dominant?.share)),
             std: column(&|row| Some(held(row)?.dominant?.std)),

@@ -17,6 +17,8 @@ pub enum MapQuantity {
     Deflection,
     /// Stiffness of the softest motion.
     LeastStiffness,
+    /// Lowest natural frequency with the load, of a robot with `platform.inertia`.
+    LowestFrequency,
     /// Greatest tension of any cable, without and with the load.
     GreatestTension,
     /// Greatest tension of any cable where tensions are distributed anew under the load.
@@ -25,22 +27,32 @@ pub enum MapQuantity {
 
 impl MapQuantity {
     /// All quantities.
-    pub const ALL: [Self; 4] =
-        [Self::Deflection, Self::LeastStiffness, Self::GreatestTension, Self::GreatestTensionAnew];
+    pub const ALL: [Self; 5] = [
+        Self::Deflection,
+        Self::LeastStiffness,
+        Self::LowestFrequency,
+        Self::GreatestTension,
+        Self::GreatestTensionAnew,
+    ];
 
     /// Name of its figure file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Deflection => "deflection",
             Self::LeastStiffness => "least_stiffness",
+            Self::LowestFrequency => "lowest_frequency",
             Self::GreatestTension => "greatest_tension",
             Self::GreatestTensionAnew => "greatest_tension_anew",
         }
     }
 
-    /// Whether it exists without a load.
-    fn needs_no_load(self) -> bool {
-        matches!(self, Self::LeastStiffness | Self::GreatestTension)
+    /// Whether it exists in this workspace.
+    fn exists(self, summary: &WorkspaceSummary) -> bool {
+        match self {
+            Self::Deflection | Self::GreatestTensionAnew => summary.is_loaded(),
+            Self::LeastStiffness | Self::GreatestTension => true,
+            Self::LowestFrequency => summary.rows.iter().any(|row| row.lowest_frequency_hz.is_some()),
+        }
     }
 
     /// How the load is borne, for the title.
@@ -58,6 +70,7 @@ impl MapQuantity {
         match self {
             Self::Deflection => ("static deflection", "|dp|", "mm"),
             Self::LeastStiffness => ("stiffness of the softest motion", "least stiffness", "kN/m"),
+            Self::LowestFrequency => ("lowest natural frequency", "frequency", "Hz"),
             Self::GreatestTension | Self::GreatestTensionAnew => {
                 ("greatest tension", "greatest tension", "N")
             }
@@ -69,6 +82,7 @@ impl MapQuantity {
         match self {
             Self::Deflection => row.rms_mm,
             Self::LeastStiffness => row.least_stiffness.map(|stiffness| 1e-3 * stiffness),
+            Self::LowestFrequency => row.lowest_frequency_hz,
             Self::GreatestTension => row.greatest_tension,
             Self::GreatestTensionAnew => row.anew_greatest_tension,
         }
@@ -149,7 +163,7 @@ pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary) -> Vec<NamedMap
     let mut maps = Vec::new();
     for plane in Plane::of(&summary.grid) {
         let name = |quantity: &str| format!("{quantity}{}", plane.suffix());
-        let shown = MapQuantity::ALL.into_iter().filter(|of| summary.is_loaded() || of.needs_no_load());
+        let shown = MapQuantity::ALL.into_iter().filter(|of| of.exists(summary));
         maps.extend(
             shown.map(|of| NamedMap { name: name(of.name()), svg: values(&plane, robot, summary, of) }),
         );
