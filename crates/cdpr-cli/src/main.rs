@@ -45,10 +45,10 @@ enum Command {
     Direct(pose::direct::Settings),
     /// Compute how far a load displaces and rotates the platform.
     #[command(after_help = "Example: cdpr deflection data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
-    Deflection(RobotAtPose),
+    Deflection(pose::deflection::Settings),
     /// Compute the Cartesian stiffness at a pose and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
-    Stiffness(RobotAtPose),
+    Stiffness(pose::stiffness::Settings),
     /// Map where the cables hold the platform, and how far it gives there, over a plane or a box.
     #[command(after_help = "Examples:
   cdpr workspace data/robots/caroca.json --plane z=1.75 --grid 41x41 --payload 50 --out workspace

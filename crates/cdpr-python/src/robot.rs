@@ -13,7 +13,7 @@ pub(crate) mod workspace;
 
 use crate::convert::{Answer, Array, Numbers, Raised, components, json_text};
 use cdpr_robot::{
-    CableEnd, CableProperties, Gravity, OwnLimits, Parameter, Platform, RobotCable, TensionLimits,
+    CableEnd, CableProperties, Gravity, OwnLimits, Parameter, Plane, Platform, RobotCable, TensionLimits,
     TensionReference, Vector3,
 };
 use cdpr_study::open_robot;
@@ -42,6 +42,8 @@ use std::path::PathBuf;
 /// center_of_mass: centre of mass in the platform frame [m]; P if left out.
 /// gravity: acceleration due to gravity [m/s²], a number along -z of the base frame or a vector in it, (3,);
 ///     9.81 if left out.
+/// point: whether the platform is a point mass: its rotation is held.
+/// plane: "xy", "xz" or "yz" for a planar robot, whose platform moves in this plane of the base frame.
 ///
 /// Raises InputError naming the field, its value and what would be right.
 #[pyclass(frozen, module = "cdpr")]
@@ -49,12 +51,22 @@ pub(crate) struct Robot {
     pub(crate) robot: cdpr_robot::Robot,
 }
 
+/// The plane of this name.
+fn plane_of(name: &str) -> Answer<Plane> {
+    match name {
+        "xy" => Ok(Plane::Xy),
+        "xz" => Ok(Plane::Xz),
+        "yz" => Ok(Plane::Yz),
+        _ => Err(Raised::Input(format!("plane is {name:?}: expected \"xy\", \"xz\" or \"yz\""))),
+    }
+}
+
 #[pymethods]
 impl Robot {
     #[new]
     #[pyo3(signature = (anchor_points, exit_points, *, mass, section, linear_density, youngs_modulus,
         tension_limits, center_of_mass = None, gravity = None, name = "robot".to_owned(), max_at = "anchor",
-        tension_reference = None))]
+        tension_reference = None, point = false, plane = None))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         anchor_points: Numbers,
@@ -69,6 +81,8 @@ impl Robot {
         name: String,
         max_at: &str,
         tension_reference: Option<Numbers>,
+        point: bool,
+        plane: Option<&str>,
     ) -> Answer<Self> {
         let (anchors, exits) =
             (points("anchor_points", &anchor_points)?, points("exit_points", &exit_points)?);
@@ -100,8 +114,8 @@ impl Robot {
             name,
             source: None,
             gravity: gravity.as_ref().map_or(Ok(EARTH.into()), self::gravity)?,
-            platform: Platform::new(mass, center_of_mass),
-            plane: None,
+            platform: Platform { point, ..Platform::new(mass, center_of_mass) },
+            plane: plane.map(plane_of).transpose()?,
             tension_limits,
             max_at: match max_at {
                 "anchor" => CableEnd::Anchor,

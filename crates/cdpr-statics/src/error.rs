@@ -84,6 +84,20 @@ pub enum StaticsError {
         /// Number of coordinates that were named.
         named: usize,
     },
+    /// No lengths and free coordinates were found with which the platform rests at the others.
+    #[error(
+        "inverse model: no lengths and free coordinates were found that hold the other coordinates: the best \
+         from {starts} starts leave a residual of {force:.3} N and {moment:.3} N m; change the pose or name \
+         other coordinates as free"
+    )]
+    NoRest {
+        /// Starts that were tried.
+        starts: usize,
+        /// Norm of the residual force in the best attempt [N].
+        force: f64,
+        /// Norm of the residual moment in the best attempt [N m].
+        moment: f64,
+    },
     /// A cable's weight leaves no tension at the platform between the least one there and the greatest one at
     /// the exit point.
     #[error(
@@ -229,7 +243,7 @@ impl StaticsError {
             Self::Cable { source: CableError::TensionTooSmall { .. }, .. } => "tension_too_small",
             Self::Cable { .. } => "cable",
             Self::Invalid { .. } => "invalid_input",
-            Self::NoTensions { .. } | Self::ExitLimit { .. } => "infeasible_tension",
+            Self::NoTensions { .. } | Self::ExitLimit { .. } | Self::NoRest { .. } => "infeasible_tension",
             Self::FreeCoordinates { .. } => "free_coordinates",
             Self::InverseNotConverged { .. } => "inverse_not_converged",
             Self::Overstrained { .. } => "cable_overstrained",

@@ -25,6 +25,7 @@
 
 mod branch;
 mod feasible;
+mod free;
 mod held;
 mod limits;
 mod optimum;
@@ -39,6 +40,7 @@ use cdpr_cable::{CableError, Catenary, length_for_tension};
 use cdpr_robot::{Pose, Robot, Vector2, Vector6};
 use cdpr_tension::Bound;
 use feasible::search;
+pub use free::{FreeSolution, FreeSolutions, held_at, inverse_free};
 pub(crate) use held::{ABOVE_LEAST, least_allowed};
 pub use limits::limits_at;
 use optimum::Optimum;

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | which unstrained lengths hold a pose (IEGM)? | [`inverse`] |
 //! | and those of a path, without jumps where there need be none? | [`InversePath`] |
+//! | and with fewer cables than free motions (n < m)? | [`inverse_free`] |
 //! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
 //! | and for the next lengths and load, in a microsecond or two? | [`Tracker`] |
 //! | is it stable, and how far is it from becoming unstable? | [`DirectSolution::stability`] |
@@ -62,13 +63,14 @@ pub use direct::{
 pub use equations::{Inputs, Linearization};
 pub use error::{Blocked, StaticsError};
 pub use inverse::{
-    HeldPose, InversePath, InverseSolution, PathSolution, inverse, lengths_for_tensions, limits_at,
+    FreeSolution, FreeSolutions, HeldPose, InversePath, InverseSolution, PathSolution, held_at, inverse,
+    inverse_free, lengths_for_tensions, limits_at,
 };
 pub use lanes::{Observation, Observer, Tracker};
 pub use loading::{
     CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes, PoseStiffness,
-    Unloading, deflection, deflection_from, deflections, follow, load_cycle, modes_at, stiffness_at,
-    wound_lengths,
+    Unloading, deflection, deflection_free, deflection_from, deflections, follow, load_cycle, modes_at,
+    stiffness_at, wound_lengths,
 };
 pub use problem::{DirectProblem, check_lengths};
 pub use state::{Equilibrium, Limit, Load, OutOfLimits, Residual, out_of_limits};

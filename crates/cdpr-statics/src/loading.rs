@@ -6,7 +6,9 @@ mod hysteresis;
 mod modes;
 mod stiffness;
 
-pub use deflection::{Deflection, PoseDeflections, deflection, deflection_from, deflections, wound_lengths};
+pub use deflection::{
+    Deflection, PoseDeflections, deflection, deflection_free, deflection_from, deflections, wound_lengths,
+};
 pub(crate) use deflection::{Wound, wind};
 pub use follow::follow;
 pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};

@@ -59,7 +59,7 @@ fn a_heavier_platform_moves_more_slowly_and_a_payload_is_mass_at_its_centre() {
     for robot in [caroca(), cogiro(), led(caroca(), 0.045, 3.0)] {
         let robot = with_inertia(robot, inertia);
         let pose = Pose::at(0.5, -0.3, 2.0);
-        let modes = |robot: &Robot, load: &Load| modes_at(robot, &pose, load).unwrap().modes;
+        let modes = |robot: &Robot, load: &Load| modes_at(robot, &pose, load, &[]).unwrap().modes;
         let light = modes(&robot, &Load::none());
         assert!(light.windows(2).all(|pair| pair[0].frequency <= pair[1].frequency));
         let loaded = modes(&robot, &Load::payload(20.0));
@@ -76,6 +76,6 @@ fn a_heavier_platform_moves_more_slowly_and_a_payload_is_mass_at_its_centre() {
 
 #[test]
 fn a_robot_without_inertia_and_an_unstable_equilibrium_have_no_frequencies() {
-    let error = modes_at(&caroca(), &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap_err().to_string();
+    let error = modes_at(&caroca(), &Pose::at(0.0, 0.0, 1.75), &Load::none(), &[]).unwrap_err().to_string();
     assert!(error.contains("platform.inertia is missing"), "{error}");
 }

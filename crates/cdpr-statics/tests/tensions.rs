@@ -83,7 +83,7 @@ fn all_models_start_from_the_tensions_that_the_robot_prefers() {
             &deflection(&robot, &pose, &vec![0.0; n], &load).unwrap().unloaded.equilibrium.tensions(),
             "deflection",
         );
-        same(&stiffness_at(&robot, &pose, &Load::none()).unwrap().equilibrium.tensions(), "stiffness");
+        same(&stiffness_at(&robot, &pose, &Load::none(), &[]).unwrap().equilibrium.tensions(), "stiffness");
         let lengths = wound_lengths(&robot, &pose, &vec![0.0; n]).unwrap();
         assert!(distance(&lengths, &found.lengths) < 1e-9 * found.lengths[0], "{}", robot.name);
         if let Some(law) = robot.cables[0].properties.law.clone() {

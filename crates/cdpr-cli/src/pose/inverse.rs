@@ -1,11 +1,12 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
-use crate::answer::{self, OutOfLimits, Residual, bound_name};
+use crate::answer::{self, Neutral, OutOfLimits, Residual, bound_name};
 use crate::error::ProgramError;
 use crate::output::Ending;
-use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
+use crate::pose::at_pose::{FreeArguments, RobotAtPose, Row, cells, numbered};
+use crate::poses::{COLUMNS, pose_numbers};
 use cdpr_robot::Robot;
-use cdpr_statics::{InversePath, InverseSolution, inverse};
+use cdpr_statics::{FreeSolution, FreeSolutions, InversePath, InverseSolution, inverse, inverse_free};
 use serde::Serialize;
 
 /// The robot, its poses and the load.
@@ -13,15 +14,17 @@ use serde::Serialize;
 pub(crate) struct Settings {
     #[command(flatten)]
     at: RobotAtPose,
+    #[command(flatten)]
+    free: FreeArguments,
     /// The poses of the file are a path: lengths change steadily along it, and `jump` says where they cannot.
     ///
     /// Several sets of tensions may be the best of all near them. Each pose then keeps to the one of the pose
     /// before, as long as it exists between them, even where another becomes better.
-    #[arg(long, requires = "poses")]
+    #[arg(long, requires = "poses", conflicts_with = "free")]
     path: bool,
 }
 
-pub(crate) fn run(Settings { at, path }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(Settings { at, free, path }: &Settings) -> Result<Ending, ProgramError> {
     let load = at.load.load();
     if *path {
         let robot = at.robot()?;
@@ -30,6 +33,11 @@ pub(crate) fn run(Settings { at, path }: &Settings) -> Result<Ending, ProgramErr
             let found = path.solve(pose, &load, None)?;
             Ok(OnPath { jump: found.jump, answer: Answer::new(&robot, &found.solution) })
         });
+    }
+    if !free.free.is_empty() {
+        let solve =
+            |robot: &Robot, pose: &_| Ok(Rest::new(robot, &inverse_free(robot, pose, &load, &free.free)?));
+        return at.answer(solve, Rest::print);
     }
     let solve =
         |robot: &Robot, pose: &_| inverse(robot, pose, &load, None).map(|found| Answer::new(robot, &found));
@@ -56,6 +64,112 @@ impl Row for OnPath {
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         self.answer.out_of_limits()
+    }
+}
+
+/// The solutions with free coordinates.
+#[derive(Serialize)]
+struct Rest {
+    #[serde(flatten)]
+    first: Resting,
+    /// Further solutions, stable ones first.
+    others: Vec<Resting>,
+}
+
+/// A pose at which the platform rests, in SI units.
+#[derive(Serialize)]
+struct Resting {
+    /// Position and unit quaternion (w, x, y, z).
+    found_pose: [f64; 7],
+    /// Angles of R = Rz(yaw) Ry(pitch) Rx(roll).
+    roll_pitch_yaw_deg: [f64; 3],
+    lengths: Vec<f64>,
+    tensions: Vec<f64>,
+    exit_tensions: Vec<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
+    cable_forces: Vec<[f64; 2]>,
+    stable: bool,
+    /// Stiffness of the softest motion with the lengths held.
+    least_stiffness: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    neutral: Vec<Neutral>,
+    iterations: usize,
+    residual: Residual,
+}
+
+impl Resting {
+    fn new(robot: &Robot, found: &FreeSolution) -> Self {
+        let FreeSolution { lengths, tensions, equilibrium, stability, residual, iterations } = found;
+        let (roll, pitch, yaw) = equilibrium.pose.rotation.euler_angles();
+        Self {
+            found_pose: pose_numbers(&equilibrium.pose),
+            roll_pitch_yaw_deg: [roll, pitch, yaw].map(f64::to_degrees),
+            lengths: lengths.clone(),
+            tensions: tensions.clone(),
+            exit_tensions: equilibrium.exit_tensions(robot, lengths),
+            out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
+            cable_forces: answer::forces(equilibrium),
+            stable: stability.is_stable(),
+            least_stiffness: stability.least_stiffness(),
+            neutral: Neutral::all(stability),
+            iterations: *iterations,
+            residual: Residual::new(residual),
+        }
+    }
+
+    fn stable(&self) -> &'static str {
+        if self.stable { "stable" } else { "unstable" }
+    }
+
+    /// Position and angles in one line.
+    fn place(&self) -> String {
+        let (position, angles) =
+            (answer::vector(&self.found_pose[..3], 6), answer::vector(&self.roll_pitch_yaw_deg, 4));
+        format!("{position} m, (roll, pitch, yaw) = {angles} degrees")
+    }
+}
+
+impl Row for Rest {
+    fn columns(robot: &Robot) -> Vec<String> {
+        let cables = robot.cables.len();
+        let found = COLUMNS.iter().map(|name| format!("found_{name}"));
+        let tensions = ["tension", "exit_tension"].into_iter().flat_map(|name| numbered(name, "n", cables));
+        let more = ["stable", "others"].into_iter().map(str::to_owned);
+        found.chain(numbered("length", "m", cables)).chain(tensions).chain(more).collect()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let Resting { found_pose, lengths, tensions, exit_tensions, stable, .. } = &self.first;
+        let numbers = found_pose.iter().chain(lengths).chain(tensions).chain(exit_tensions);
+        cells(numbers).into_iter().chain([stable.to_string(), self.others.len().to_string()]).collect()
+    }
+
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        vec![&self.first.out_of_limits]
+    }
+}
+
+impl Rest {
+    fn new(robot: &Robot, FreeSolutions { first, others }: &FreeSolutions) -> Self {
+        Self {
+            first: Resting::new(robot, first),
+            others: others.iter().map(|other| Resting::new(robot, other)).collect(),
+        }
+    }
+
+    fn print(&self, heading: &str) {
+        let Resting { lengths, cable_forces, tensions, exit_tensions, .. } = &self.first;
+        println!("{heading}");
+        println!("rests at {}", self.first.place());
+        answer::print_cables(lengths, cable_forces, tensions, exit_tensions);
+        println!("{}, softest motion {:.1} N/m", self.first.stable(), self.first.least_stiffness);
+        Neutral::print(&self.first.neutral);
+        OutOfLimits::print(&self.first.out_of_limits);
+        self.first.residual.print();
+        for other in &self.others {
+            println!("also {} at {}", other.stable(), other.place());
+        }
     }
 }
 

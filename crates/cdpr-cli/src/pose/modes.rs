@@ -4,7 +4,7 @@ use crate::answer::{self, OutOfLimits, decimal};
 use crate::arguments;
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
-use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
+use crate::pose::at_pose::{FreeArguments, RobotAtPose, Row, cells, numbered};
 use crate::poses;
 use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::{DirectProblem, PoseModes, Start, StaticsError, modes_at, rough_pose};
@@ -15,6 +15,8 @@ use serde::Serialize;
 pub(crate) struct Settings {
     #[command(flatten)]
     at: RobotAtPose,
+    #[command(flatten)]
+    free: FreeArguments,
     /// Unstrained lengths of the cables in place of a pose, in the order of the file: l1,..,ln [m].
     #[arg(long, group = "where", value_parser = arguments::list, allow_hyphen_values = true)]
     lengths: Option<arguments::List>,
@@ -26,11 +28,11 @@ pub(crate) struct Settings {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
-    let Settings { at, lengths, start } = settings;
+    let Settings { at, free, lengths, start } = settings;
     let load = at.load.load();
     let Some(arguments::List(lengths)) = lengths else {
         let solve =
-            |robot: &Robot, pose: &Pose| modes_at(robot, pose, &load).map(|found| Answer::new(robot, &found));
+            |robot: &Robot, pose: &Pose| Ok(Answer::new(robot, &modes_at(robot, pose, &load, &free.free)?));
         return at.answer(solve, Answer::print);
     };
     let robot = at.robot()?;

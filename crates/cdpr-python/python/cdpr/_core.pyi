@@ -66,6 +66,8 @@ class Robot:
         name: str = ...,
         max_at: str = "anchor",
         tension_reference: ArrayLike | str | None = None,
+        point: bool = False,
+        plane: str | None = None,
     ) -> Robot: ...
     @staticmethod
     def from_file(path: _Path) -> Robot: ...
@@ -118,6 +120,7 @@ class Robot:
         payload: ArrayLike | None = None,
         reference: ArrayLike | None = None,
         path: bool = False,
+        free: list[str] | None = None,
     ) -> InverseSolution: ...
     def direct(
         self,
@@ -136,6 +139,7 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         tension_offsets: ArrayLike | None = None,
+        free: list[str] | None = None,
     ) -> Deflection: ...
     def stiffness(
         self,
@@ -144,6 +148,7 @@ class Robot:
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
+        free: list[str] | None = None,
     ) -> Stiffness: ...
     def modes(
         self,
@@ -152,6 +157,7 @@ class Robot:
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
+        free: list[str] | None = None,
     ) -> Modes: ...
     def derivatives(
         self,
@@ -230,6 +236,12 @@ class InverseSolution:
     @property
     def jump(self) -> NDArray[np.bool_] | bool | None: ...
     @property
+    def pose(self) -> _Floats: ...
+    @property
+    def stable(self) -> NDArray[np.bool_] | bool | None: ...
+    @property
+    def others(self) -> list[Any] | None: ...
+    @property
     def reasons(self) -> _Words: ...
     @property
     def kinds(self) -> _Words: ...
@@ -255,6 +267,8 @@ class DirectSolution:
     def out_of_limits(self) -> NDArray[np.int8]: ...
     @property
     def stable(self) -> _Bool: ...
+    @property
+    def neutral(self) -> _Floats: ...
     @property
     def least_stiffness(self) -> _Float: ...
     @property

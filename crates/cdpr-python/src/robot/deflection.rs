@@ -3,8 +3,9 @@
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use crate::robot::direct::{DirectSolution, Found};
+use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector6;
-use cdpr_statics::{StaticsError, deflection};
+use cdpr_statics::{StaticsError, deflection_free};
 use pyo3::prelude::*;
 
 answer! {
@@ -67,9 +68,12 @@ impl Robot {
     /// payload: mass added at the platform's centre of mass [kg].
     /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
     /// tension_offsets: offsets added to the tension set-points [N], (n,).
+    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    ///     motions, as `Robot.inverse` takes them.
     ///
     /// Raises InputError; for one case NoSolutionError.
-    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, tension_offsets=None))]
+    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, tension_offsets=None, free=None))]
+    #[allow(clippy::too_many_arguments)]
     fn deflection(
         &self,
         py: Python,
@@ -78,8 +82,10 @@ impl Robot {
         force: Option<Numbers>,
         moment: Option<Numbers>,
         tension_offsets: Option<Numbers>,
+        free: Option<Vec<String>>,
     ) -> Answer<Deflection> {
         let cables = self.robot.cables.len();
+        let free = coordinates(free)?;
         let poses = Rows::poses("pose", &pose)?;
         let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         let offsets = tension_offsets
@@ -90,7 +96,7 @@ impl Robot {
         let none = vec![0.0; cables];
         let outcomes: Vec<Result<Given, StaticsError>> = each(py, cases.count, |case| {
             let offsets = offsets.as_ref().map_or(none.as_slice(), |offsets| offsets.row(case));
-            let found = deflection(robot, &poses.pose(case)?, offsets, &loads.load(case)?)?;
+            let found = deflection_free(robot, &poses.pose(case)?, offsets, &loads.load(case)?, &free)?;
             Ok(Given::new(robot, found))
         })?;
         let all = Columns::new(py, cases, &outcomes)?;

@@ -33,7 +33,10 @@ answer! {
         out_of_limits: Py<PyAny>,
         /// Whether the equilibrium is stable.
         stable: Py<PyAny>,
-        /// Stiffness of the softest motion [N/m].
+        /// Motions that nothing resists, a row for each, (6, 6): translation of P and rotation vector; NaN in
+        /// the rows beyond.
+        neutral: Py<PyAny>,
+        /// Stiffness of the softest motion that is resisted [N/m].
         least_stiffness: Py<PyAny>,
         /// Whether each cable is longer than the distance of its points, (n,).
         slack: Py<PyAny>,
@@ -152,6 +155,12 @@ impl DirectSolution {
                 numbers_of_limits(&found.out_of_limits, out);
             })?,
             stable: all.array(false, &[], |found, out| out[0] = found.solution.stability.is_stable())?,
+            neutral: all.numbers(&[6, 6], |found, out| {
+                for (row, mode) in out.chunks_exact_mut(6).zip(found.solution.stability.neutral()) {
+                    row[..3].copy_from_slice(mode.translation.as_slice());
+                    row[3..].copy_from_slice(mode.rotation.as_slice());
+                }
+            })?,
             least_stiffness: all.number(|found| found.least_stiffness)?,
             slack: all.array(false, &[cables], |found, out| {
                 found.solution.report.slack.iter().for_each(|cable| out[*cable] = true);

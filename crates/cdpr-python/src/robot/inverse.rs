@@ -3,10 +3,13 @@
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, run};
 use crate::robot::Robot;
 use crate::robot::direct::numbers_of_limits;
+use cdpr_robot::{Coordinate, Pose, RobotError};
 use cdpr_statics::{
-    Bound, InversePath, InverseSolution as InverseModel, PathSolution, StaticsError, inverse, out_of_limits,
+    Bound, Equilibrium, FreeSolution, FreeSolutions, InversePath, InverseSolution as InverseModel,
+    PathSolution, Residual, StaticsError, inverse, inverse_free, out_of_limits,
 };
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
 use std::sync::atomic::Ordering::Relaxed;
 
 answer! {
@@ -35,10 +38,87 @@ answer! {
         iterations: Py<PyAny>,
         /// Where the lengths may jump, because the branch of the pose before ends; only along a path, ().
         jump: Py<PyAny>,
+        /// Pose at which the platform rests, (7,): the given one but for `free` coordinates.
+        pose: Py<PyAny>,
+        /// Whether the platform stays there with these lengths; only with `free` coordinates.
+        stable: Py<PyAny>,
+        /// Further solutions with `free` coordinates, stable ones first: a list of dicts of pose, lengths,
+        /// tensions and stable, or for m poses a list of m such lists.
+        others: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
+    }
+}
+
+/// A pose that is held, or at which the platform rests.
+struct Solved {
+    lengths: Vec<f64>,
+    tensions: Vec<f64>,
+    active: Vec<Option<Bound>>,
+    equilibrium: Equilibrium,
+    residual: Residual,
+    iterations: usize,
+    jump: bool,
+    stable: bool,
+    others: Vec<FreeSolution>,
+}
+
+impl From<PathSolution> for Solved {
+    fn from(PathSolution { solution, jump }: PathSolution) -> Self {
+        let InverseModel { lengths, tensions, active, equilibrium, iterations, residual, .. } = solution;
+        let (stable, others) = (false, Vec::new());
+        Self { lengths, tensions, active, equilibrium, residual, iterations, jump, stable, others }
+    }
+}
+
+impl From<FreeSolutions> for Solved {
+    fn from(FreeSolutions { first, others }: FreeSolutions) -> Self {
+        let FreeSolution { lengths, tensions, equilibrium, stability, residual, iterations } = first;
+        let (active, stable) = (vec![None; lengths.len()], stability.is_stable());
+        Self { lengths, tensions, active, equilibrium, residual, iterations, jump: false, stable, others }
+    }
+}
+
+/// The coordinates of these names.
+pub(crate) fn coordinates(names: Option<Vec<String>>) -> Answer<Vec<Coordinate>> {
+    let names = names.unwrap_or_default();
+    Ok(names.iter().map(|name| name.parse()).collect::<Result<_, RobotError>>()?)
+}
+
+/// Further solutions: a list of dicts, or one for each case; None where no coordinate is free.
+fn others_of(
+    py: Python,
+    outcomes: &[Result<Solved, StaticsError>],
+    single: bool,
+    free: bool,
+) -> Answer<Py<PyAny>> {
+    if !free {
+        return Ok(py.None());
+    }
+    let dict = |other: &FreeSolution| -> PyResult<_> {
+        let Pose { position, .. } = other.equilibrium.pose;
+        let quaternion = other.equilibrium.pose.quaternion();
+        let dict = PyDict::new(py);
+        dict.set_item("pose", [position.as_slice(), &quaternion].concat())?;
+        dict.set_item("lengths", &other.lengths)?;
+        dict.set_item("tensions", &other.tensions)?;
+        dict.set_item("stable", other.stability.is_stable())?;
+        Ok(dict)
+    };
+    let lists = outcomes.iter().map(|outcome| -> PyResult<_> {
+        let others = outcome.as_ref().map_or(&[][..], |solved| &solved.others);
+        PyList::new(py, others.iter().map(dict).collect::<PyResult<Vec<_>>>()?)
+    });
+    let mut lists = lists.collect::<PyResult<Vec<_>>>()?;
+    match lists.pop() {
+        Some(list) if single => Ok(list.into_any().unbind()),
+        Some(list) => {
+            lists.push(list);
+            Ok(PyList::new(py, lists)?.into_any().unbind())
+        }
+        None => Ok(PyList::empty(py).into_any().unbind()),
     }
 }
 
@@ -56,9 +136,12 @@ impl Robot {
     ///     `tension_reference`; zeros for the least norm.
     /// path: whether the cases are a path, so that each keeps to the branch of tensions of the one before as
     ///     long as it exists on the straight way between them.
+    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    ///     motions: as many of x, y, z, roll, pitch, yaw as cables are missing, R = Rz(yaw) Ry(pitch) Rx(roll).
+    ///     They start from the pose and end where the platform rests; limits and reference do not matter.
     ///
     /// Raises InputError; for one case NoSolutionError.
-    #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None, path=false))]
+    #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None, path=false, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn inverse(
         &self,
@@ -69,8 +152,10 @@ impl Robot {
         payload: Option<Numbers>,
         reference: Option<Numbers>,
         path: bool,
+        free: Option<Vec<String>>,
     ) -> Answer<InverseSolution> {
         let cables = self.robot.cables.len();
+        let free = coordinates(free)?;
         let poses = Rows::poses("pose", &pose)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         let reference =
@@ -81,35 +166,39 @@ impl Robot {
             let reference = reference.as_ref().map(|reference| reference.row(case));
             Ok((poses.pose(case)?, loads.load(case)?, reference))
         };
-        let outcomes: Vec<Result<PathSolution, StaticsError>> = if path {
+        let outcomes: Vec<Result<Solved, StaticsError>> = if path {
             let mut path = InversePath::new(robot);
             let mut one = |case| {
                 let (pose, load, reference) = of_case(case)?;
-                path.solve(&pose, &load, reference)
+                path.solve(&pose, &load, reference).map(Solved::from)
             };
             run(py, |stop| (0..cases.count).take_while(|_| !stop.load(Relaxed)).map(&mut one).collect())?
         } else {
             each(py, cases.count, |case| {
                 let (pose, load, reference) = of_case(case)?;
-                Ok(PathSolution { solution: inverse(robot, &pose, &load, reference)?, jump: false })
+                if !free.is_empty() {
+                    return inverse_free(robot, &pose, &load, &free).map(Solved::from);
+                }
+                let solution = inverse(robot, &pose, &load, reference)?;
+                Ok(Solved::from(PathSolution { solution, jump: false }))
             })?
         };
+        let others = others_of(py, &outcomes, cases.single, !free.is_empty())?;
         let all = Columns::new(py, cases, &outcomes)?;
         let jump = path.then(|| all.array(false, &[], |found, out: &mut [bool]| out[0] = found.jump));
         Ok(InverseSolution {
-            lengths: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.solution.lengths))?,
-            tensions: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.solution.tensions))?,
+            lengths: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.lengths))?,
+            tensions: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.tensions))?,
             exit_tensions: all.numbers(&[cables], |found, out| {
-                let InverseModel { equilibrium, lengths, .. } = &found.solution;
+                let Solved { equilibrium, lengths, .. } = found;
                 out.copy_from_slice(&equilibrium.exit_tensions(robot, lengths));
             })?,
             out_of_limits: all.array(0, &[cables], |found, out: &mut [i8]| {
-                let InverseModel { equilibrium, lengths, .. } = &found.solution;
+                let Solved { equilibrium, lengths, .. } = found;
                 numbers_of_limits(&out_of_limits(robot, lengths, &[equilibrium]), out);
             })?,
-            cable_forces: all.pairs(cables, |found| &found.solution.equilibrium.cable_forces)?,
+            cable_forces: all.pairs(cables, |found| &found.equilibrium.cable_forces)?,
             active: all.array(0, &[cables], |found, out: &mut [i8]| {
-                let found = &found.solution;
                 for (out, bound) in out.iter_mut().zip(&found.active) {
                     *out = match bound {
                         Some(Bound::Min) => -1,
@@ -118,12 +207,20 @@ impl Robot {
                     };
                 }
             })?,
-            residual: all.vector(|PathSolution { solution: InverseModel { residual, .. }, .. }| {
-                [residual.closure, residual.force, residual.moment]
-            })?,
-            iterations: all
-                .array(0, &[], |found, out: &mut [i64]| out[0] = found.solution.iterations as i64)?,
+            residual: all
+                .vector(|Solved { residual, .. }| [residual.closure, residual.force, residual.moment])?,
+            iterations: all.array(0, &[], |found, out: &mut [i64]| out[0] = found.iterations as i64)?,
             jump: jump.transpose()?.unwrap_or_else(|| py.None()),
+            pose: all.numbers(&[7], |found, out| {
+                let Pose { position, .. } = found.equilibrium.pose;
+                out[..3].copy_from_slice(position.as_slice());
+                out[3..].copy_from_slice(&found.equilibrium.pose.quaternion());
+            })?,
+            stable: match free.is_empty() {
+                true => py.None(),
+                false => all.array(false, &[], |found, out: &mut [bool]| out[0] = found.stable)?,
+            },
+            others,
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

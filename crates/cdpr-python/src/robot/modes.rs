@@ -2,6 +2,7 @@
 
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
+use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
 use cdpr_statics::{NaturalMode, modes_at};
 use pyo3::prelude::*;
@@ -39,9 +40,11 @@ impl Robot {
     /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
     /// payload: mass that the platform carries there, at its centre of mass [kg].
     /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
+    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    ///     motions, as `Robot.inverse` takes them.
     ///
     /// Raises InputError, also where the robot has no inertia; for one case NoSolutionError.
-    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None))]
+    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, free=None))]
     fn modes(
         &self,
         py: Python,
@@ -49,12 +52,14 @@ impl Robot {
         payload: Option<Numbers>,
         force: Option<Numbers>,
         moment: Option<Numbers>,
+        free: Option<Vec<String>>,
     ) -> Answer<Modes> {
+        let free = coordinates(free)?;
         let poses = Rows::poses("pose", &pose)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         let cases = loads.cases([&poses])?;
         let outcomes = each(py, cases.count, |case| {
-            modes_at(&self.robot, &poses.pose(case)?, &loads.load(case)?).map(|found| found.modes)
+            modes_at(&self.robot, &poses.pose(case)?, &loads.load(case)?, &free).map(|found| found.modes)
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
         let count = self.robot.freedoms().count();

@@ -2,6 +2,7 @@
 
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
+use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
 use cdpr_statics::{Mode, PoseStiffness, StaticsError, stiffness_at};
 use pyo3::prelude::*;
@@ -57,9 +58,11 @@ impl Robot {
     /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
     /// payload: mass that the platform carries there, at its centre of mass [kg].
     /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
+    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    ///     motions, as `Robot.inverse` takes them.
     ///
     /// Raises InputError; for one case NoSolutionError.
-    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None))]
+    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, free=None))]
     fn stiffness(
         &self,
         py: Python,
@@ -67,12 +70,14 @@ impl Robot {
         payload: Option<Numbers>,
         force: Option<Numbers>,
         moment: Option<Numbers>,
+        free: Option<Vec<String>>,
     ) -> Answer<Stiffness> {
+        let free = coordinates(free)?;
         let poses = Rows::poses("pose", &pose)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         let cases = loads.cases([&poses])?;
         let outcomes = each(py, cases.count, |case| {
-            let stiffness = stiffness_at(&self.robot, &poses.pose(case)?, &loads.load(case)?)?;
+            let stiffness = stiffness_at(&self.robot, &poses.pose(case)?, &loads.load(case)?, &free)?;
             let (modes, least_stiffness) =
                 (stiffness.stability.modes(), stiffness.stability.least_stiffness());
             Ok::<_, StaticsError>(Found { stiffness, modes, least_stiffness })

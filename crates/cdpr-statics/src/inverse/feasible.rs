@@ -60,7 +60,7 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
 }
 
 /// Tensions of the optimum for cables along their chords, or the nearest to a balance.
-fn straight(question: &Question) -> Vec<f64> {
+pub(super) fn straight(question: &Question) -> Vec<f64> {
     let (robot, pose) = (question.robot, question.pose);
     let pulls: Vec<Vector3<f64>> = (0..question.cables()).map(|i| -robot.span(pose, i).normalize()).collect();
     let mut matrix = robot.wrench_matrix(pose, &pulls);

@@ -7,10 +7,10 @@
 use crate::direct::{DirectSolution, Start, direct};
 use crate::equations::FORCES;
 use crate::error::StaticsError;
-use crate::inverse::{HeldPose, InverseSolution, inverse, lengths_for_tensions, limits_at};
+use crate::inverse::{HeldPose, InverseSolution, held_at, inverse, lengths_for_tensions, limits_at};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, rounding_of_closure};
-use cdpr_robot::{Pose, Robot, TensionLimits, Vector3, Wrench};
+use cdpr_robot::{Coordinate, Pose, Robot, TensionLimits, Vector3, Wrench};
 use cdpr_tension::offset;
 
 /// The platform without and with a load, on the same cable lengths.
@@ -92,6 +92,32 @@ pub fn deflection(
     deflection_from(robot, lengths, load, &held)
 }
 
+/// As [`deflection`], for a robot with fewer cables than free motions: the `free` coordinates of the pose are
+/// found. Set-points that are not offset are not kept within the limits.
+///
+/// # Errors
+/// Those of [`held_at`] and of the direct model.
+pub fn deflection_free(
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+    load: &Load,
+    free: &[Coordinate],
+) -> Result<Deflection, StaticsError> {
+    if free.is_empty() {
+        return deflection(robot, pose, tension_offsets, load);
+    }
+    check_offsets(robot, tension_offsets)?;
+    let mut held = held_at(robot, pose, &Load::none(), free)?;
+    if tension_offsets.iter().any(|offset| *offset != 0.0) {
+        let rest = held.equilibrium.pose;
+        let limits = limits_at(robot, &rest)?;
+        let set_points = offset(&held.equilibrium.tensions(), tension_offsets, &limits);
+        held = lengths_for_tensions(robot, &rest, &set_points)?;
+    }
+    deflection_from(robot, held.lengths, load, &held.equilibrium)
+}
+
 /// Unstrained lengths [m] that give offset tension set-points while the platform is held at `pose`.
 ///
 /// The set-points are the tensions of the inverse model under the platform's own weight plus
@@ -105,15 +131,22 @@ pub fn wound_lengths(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Res
 
 /// Winds the cables for `pose`.
 pub(crate) fn wind(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Result<Wound, StaticsError> {
-    StaticsError::one_per_cable("tension_offsets", tension_offsets, robot.cables.len())?;
-    if let Some((i, offset)) = tension_offsets.iter().enumerate().find(|(_, offset)| !offset.is_finite()) {
-        return Err(StaticsError::invalid(format!("tension_offsets[{i}]"), offset, "a finite offset [N]"));
-    }
+    check_offsets(robot, tension_offsets)?;
     let wanted = inverse(robot, pose, &Load::none(), None)?;
     let limits = limits_at(robot, pose)?;
     let set_points = offset(&wanted.tensions, tension_offsets, &limits);
     let HeldPose { lengths, equilibrium: held } = lengths_for_tensions(robot, pose, &set_points)?;
     Ok(Wound { wanted, limits, set_points, lengths, held })
+}
+
+fn check_offsets(robot: &Robot, tension_offsets: &[f64]) -> Result<(), StaticsError> {
+    StaticsError::one_per_cable("tension_offsets", tension_offsets, robot.cables.len())?;
+    match tension_offsets.iter().enumerate().find(|(_, offset)| !offset.is_finite()) {
+        None => Ok(()),
+        Some((i, offset)) => {
+            Err(StaticsError::invalid(format!("tension_offsets[{i}]"), offset, "a finite offset [N]"))
+        }
+    }
 }
 
 /// Deflection under `load` for given unstrained lengths [m], searched from `start`.

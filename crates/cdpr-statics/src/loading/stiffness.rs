@@ -2,10 +2,10 @@
 
 use crate::direct::{Stability, Start};
 use crate::error::StaticsError;
-use crate::inverse::inverse;
+use crate::inverse::held_at;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::{Coordinate, Pose, Robot};
 use nalgebra::Matrix6;
 
 /// Stiffness of a robot at a pose that the inverse model holds.
@@ -25,12 +25,17 @@ pub struct PoseStiffness {
 }
 
 /// The Cartesian stiffness at a wanted pose under the platform's weight and `load`, be the equilibrium there
-/// stable or not.
+/// stable or not. With fewer cables than free motions the `free` coordinates of the pose are found.
 ///
 /// # Errors
-/// Those of [`inverse`] and of [`DirectProblem::direct_any`].
-pub fn stiffness_at(robot: &Robot, pose: &Pose, load: &Load) -> Result<PoseStiffness, StaticsError> {
-    let wanted = inverse(robot, pose, load, None)?;
+/// Those of [`held_at`] and of [`DirectProblem::direct_any`].
+pub fn stiffness_at(
+    robot: &Robot,
+    pose: &Pose,
+    load: &Load,
+    free: &[Coordinate],
+) -> Result<PoseStiffness, StaticsError> {
+    let wanted = held_at(robot, pose, load, free)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
     let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
     let linearization = problem.linearize(&held.equilibrium)?;
