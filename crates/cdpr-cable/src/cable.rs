@@ -13,7 +13,7 @@ use crate::error::{CableError, SMALLEST, check};
 use crate::guide::{Guide, in_plane};
 use crate::kernel::closure_of_limp;
 use crate::law::ElasticLaw;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
 /// What a cable is made of, per metre of unstrained length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,13 +104,27 @@ impl Cable<'_> {
     /// Length of a straight cable to `end = (x, z)` [m], lead and arc included [m]; that of the chord where
     /// the end lies too near to the pulley for one.
     pub fn straight_length(&self, end: Vector2<f64>) -> f64 {
-        let straight = self.guide.and_then(|guide| guide.straight(in_plane(end.into())));
+        self.straight_length_in_space(in_plane(end.into()))
+    }
+
+    /// The same for an end in space, z upwards.
+    pub fn straight_length_in_space(&self, end: Vector3<f64>) -> f64 {
+        let straight = self.guide.and_then(|guide| guide.straight(end));
         straight.map_or_else(|| end.norm(), |straight| straight.free + straight.guided)
+    }
+
+    /// Whether it runs over a pulley with a tilted axis: then it is a [`crate::SpatialCable`], whose plane
+    /// depends on its force.
+    #[inline]
+    pub fn leaves_its_plane(&self) -> bool {
+        self.guide.is_some_and(|guide| guide.radius > 0.0 && guide.entry.is_tilted())
     }
 
     /// Closure residual of a slack cable without weight: see [`crate::kernel::closure_of_limp`].
     pub(crate) fn closure_of_limp(&self, end: [f64; 2], rest: f64) -> [f64; 2] {
-        self.guide.map_or_else(|| closure_of_limp(end, rest), |guide| guide.closure_of_limp(end, rest))
+        let Some(guide) = &self.guide else { return closure_of_limp(end, rest) };
+        let open = guide.closure_of_limp(in_plane(end), rest);
+        [open.x, open.z]
     }
 
     /// Tangent stiffness dT/dε [N] at a tension [N].

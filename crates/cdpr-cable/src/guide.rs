@@ -1,7 +1,6 @@
 //! What leads a cable from its winch to the point where it leaves for the platform.
 
 use crate::error::{CableError, check};
-use crate::kernel::closure_of_limp;
 use nalgebra::Vector3;
 
 /// A lead and a swivelling pulley.
@@ -68,14 +67,13 @@ impl Guide {
         check("pulley.radius", self.radius, self.radius >= 0.0, "a radius, zero or more [m]")
     }
 
-    /// Closure residual [m] of a slack cable without weight in its plane, as
-    /// [`crate::kernel::closure_of_limp`] has it, along a straight cable.
-    pub fn closure_of_limp(&self, end: [f64; 2], rest: f64) -> [f64; 2] {
-        let Some(Straight { leave, free, guided }) = self.straight(in_plane(end)) else {
-            return closure_of_limp(end, rest);
+    /// Closure residual [m] of a slack cable without weight, as [`crate::kernel::closure_of_limp`] has it,
+    /// along a straight cable to `end` [m]: forwards, across and upwards, or in space.
+    pub fn closure_of_limp(&self, end: Vector3<f64>, rest: f64) -> Vector3<f64> {
+        let Some(Straight { leave, free, guided }) = self.straight(end) else {
+            return end * (1.0 - rest / end.norm()).max(0.0);
         };
-        let missing = (free + guided - rest).max(0.0) / free;
-        [(end[0] - leave.x) * missing, (end[1] - leave.z) * missing]
+        (end - leave) * ((free + guided - rest).max(0.0) / free)
     }
 
     /// Where a straight cable to `end` [m] from D leaves the wheel; `None` where `end` lies within the wheel,

@@ -115,7 +115,7 @@ pub struct Pulley {
     pub radius: f64,
     /// Swivel axis in the base frame: the direction in which the cable travels where it enters the pulley.
     ///
-    /// A robot with another axis than a vertical one, (0, 0, 1) or (0, 0, -1) up to its length, is invalid.
+    /// Its length means nothing.
     pub axis: Vector3<f64>,
 }
 
@@ -136,16 +136,30 @@ impl RobotCable {
         }
     }
 
-    /// What leads the cable to its exit point; `None` for one that begins there.
+    /// What leads the cable to its exit point, in the level frame to which `level` rotates; `None` for one
+    /// that begins there.
     #[inline]
-    pub fn guide(&self) -> Option<Guide> {
+    pub fn guide(&self, level: Option<&Matrix3<f64>>) -> Option<Guide> {
         let radius = self.pulley.map_or(0.0, |pulley| pulley.radius);
         if radius == 0.0 && self.lead == 0.0 {
             return None;
         }
-        let downwards = self.pulley.is_some_and(|pulley| pulley.axis.z < 0.0);
-        let entry = if downwards { Entry::Downwards } else { Entry::Upwards };
+        let entry = self.pulley.map_or(Entry::Upwards, |pulley| pulley.entry(level));
         Some(Guide { lead: self.lead, radius, entry })
+    }
+}
+
+impl Pulley {
+    /// How the cable enters, in the level frame to which `level` rotates.
+    fn entry(&self, level: Option<&Matrix3<f64>>) -> Entry {
+        let axis = level.map_or(self.axis, |level| level * self.axis);
+        match axis.z {
+            // Without a radius the axis means nothing.
+            _ if self.radius == 0.0 => Entry::Upwards,
+            z if axis.xy().norm() > VERTICAL * z.abs() => Entry::Along(axis.normalize().into()),
+            z if z < 0.0 => Entry::Downwards,
+            _ => Entry::Upwards,
+        }
     }
 }
 
@@ -180,7 +194,8 @@ impl CableProperties {
 }
 
 impl Robot {
-    /// Cable `i` as `cdpr-cable` has it: weight per length w = rho g, axial stiffness E S, and elastic law.
+    /// Cable `i` as `cdpr-cable` has it: weight per length w = rho g, axial stiffness E S, elastic law, and
+    /// what leads it to its exit point, in the level frame of [`crate::Gravity::level`].
     #[inline]
     pub fn cable(&self, i: usize) -> Cable<'_> {
         let properties = &self.cables[i].properties;
@@ -188,7 +203,7 @@ impl Robot {
             weight_per_length: properties.linear_density * self.gravity.magnitude(),
             axial_stiffness: properties.axial_stiffness(),
             law: properties.law.as_ref().map_or(ElasticLaw::Linear, ElasticLaw::Piecewise),
-            guide: self.cables[i].guide(),
+            guide: self.cables[i].guide(self.gravity.level()),
         }
     }
 
@@ -214,7 +229,7 @@ impl Robot {
     /// Whether all cables are linear and begin at their exit points, without pulley and lead.
     #[inline]
     pub fn has_plain_cables(&self) -> bool {
-        self.is_linear() && self.cables.iter().all(|cable| cable.guide().is_none())
+        self.is_linear() && self.cables.iter().all(|cable| cable.guide(None).is_none())
     }
 
     /// Whether the base is level and all cables are linear and begin at their exit points, without pulley and
@@ -445,15 +460,14 @@ impl RobotCable {
         require(field("lead"), self.lead, self.lead >= 0.0, expected)?;
         let Some(Pulley { radius, axis }) = self.pulley else { return Ok(()) };
         require(field("pulley.radius"), radius, radius >= 0.0, "a finite radius, zero or more [m]")?;
-        if axis.z != 0.0 && axis.iter().all(|c| c.is_finite()) && axis.xy().norm() <= VERTICAL * axis.z.abs()
-        {
+        let length = axis.norm();
+        if length > 0.0 && length.is_finite() {
             return Ok(());
         }
         Err(RobotError::invalid(
             format!("cables[{i}].pulley.axis"),
             format!("{:?}", axis.as_slice()),
-            "a vertical swivel axis, [0, 0, 1] where the cable comes from below and [0, 0, -1] from above: \
-             others are not modelled",
+            "the direction in which the cable enters the pulley, finite and not zero; [0, 0, 1] from below",
         ))
     }
 }

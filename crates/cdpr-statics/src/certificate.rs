@@ -250,7 +250,7 @@ fn least_stiffness(problem: &DirectProblem, state: &State<Interval>, jacobian: &
     for i in 0..problem.cables() {
         let at = closure_row(i);
         // A slack cable without weight resists nothing.
-        let Some(cable) = state.cable(problem, i).linearized() else { continue };
+        let Some(cable) = state.cable(problem, i).planar() else { continue };
         let [xx, xz, zz] = cable.stiffness;
         let stiffness = [[xx, xz], [xz, zz]];
         for row in 0..6 {

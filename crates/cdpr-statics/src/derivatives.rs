@@ -55,10 +55,10 @@
 mod optimum;
 mod winding;
 
+#[cfg(doc)]
+use crate::equations::ABOVE_LEAST;
 use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, solve};
 use crate::error::StaticsError;
-#[cfg(doc)]
-use crate::inverse::ABOVE_LEAST;
 use crate::loading::{Deflection, deflection_from, wind};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};

@@ -31,17 +31,18 @@ mod limits;
 mod optimum;
 mod question;
 
-use crate::equations::Span;
+#[cfg(doc)]
+use crate::equations::ABOVE_LEAST;
+use crate::equations::Ends;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
 use branch::Answered;
-use cdpr_cable::{CableError, Catenary, length_for_tension};
-use cdpr_robot::{Pose, Robot, Vector2, Vector6};
+use cdpr_cable::Catenary;
+use cdpr_robot::{Pose, Robot, Vector6};
 use cdpr_tension::Bound;
 use feasible::search;
 pub use free::{FreeSolution, FreeSolutions, held_at, inverse_free};
-pub(crate) use held::{ABOVE_LEAST, least_allowed};
 pub use limits::limits_at;
 use optimum::Optimum;
 use question::Question;
@@ -190,12 +191,8 @@ impl HeldPose {
 pub fn lengths_for_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Result<HeldPose, StaticsError> {
     StaticsError::one_per_cable("tensions", tensions, robot.cables.len())?;
     let catenaries = tensions.iter().enumerate().map(|(i, tension)| {
-        let cable = robot.cable(i);
-        let end = Vector2::from(Span::new(robot.span(pose, i).into()).end);
-        let held = || -> Result<Catenary, CableError> {
-            let least = least_allowed(&cable, end, *tension)?;
-            Ok(length_for_tension(&cable, end, least)?.catenary)
-        };
+        let ends = Ends::of(robot, pose, i);
+        let held = || ends.at_tension(ends.least_allowed(*tension)?);
         held().map_err(StaticsError::cable(i))
     });
     Ok(HeldPose::new(pose, &catenaries.collect::<Result<Vec<_>, _>>()?))

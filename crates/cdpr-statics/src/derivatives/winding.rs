@@ -5,13 +5,12 @@
 //! bound it is the other way round.
 
 use super::optimum::{AtBound, Optimum, ROUNDING, Sides};
-use crate::equations::{CableDerivatives, Inputs, Partials, Reading, Span, read, tensions};
+use crate::equations::{ABOVE_LEAST, CableDerivatives, Ends, Inputs, Partials, Reading, read, tensions};
 use crate::error::StaticsError;
-use crate::inverse::{ABOVE_LEAST, InverseSolution, least_allowed};
+use crate::inverse::InverseSolution;
 use crate::loading::Wound;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
-use cdpr_cable::least_tension;
 use cdpr_robot::{CableEnd, ParameterLayout, Pose, Robot, TensionLimits, Vector3};
 use cdpr_tension::Bound;
 use nalgebra::{DMatrix, Matrix6xX, RowDVector};
@@ -80,10 +79,6 @@ fn same(one: f64, other: f64) -> bool {
 }
 
 impl Winding<'_> {
-    fn end(&self, i: usize) -> Span<f64> {
-        Span::new(self.robot.span(self.pose, i).into())
-    }
-
     fn cables(
         &self,
         lengths: &[f64],
@@ -96,8 +91,8 @@ impl Winding<'_> {
     /// Bounds of all tensions [N]: the limits, or what the weight of the cable demands.
     fn bound_values(&self) -> Result<Vec<[f64; 2]>, StaticsError> {
         let of = |(i, limits): (usize, &TensionLimits)| {
-            let (cable, end) = (self.robot.cable(i), self.end(i).end.into());
-            let least = least_allowed(&cable, end, limits.min).map_err(StaticsError::cable(i))?;
+            let ends = Ends::of(self.robot, self.pose, i);
+            let least = ends.least_allowed(limits.min).map_err(StaticsError::cable(i))?;
             Ok([least, limits.max])
         };
         self.wound.limits.iter().enumerate().map(of).collect()
@@ -111,7 +106,7 @@ impl Winding<'_> {
         let rates: Vec<_> = forces
             .map(|(i, force)| {
                 let catenary = problem.catenary(i, *force);
-                CableDerivatives::of_tension_slope(self.robot, self.pose, i, catenary)
+                CableDerivatives::of_tension_slope(self.robot, self.pose, i, &catenary)
             })
             .collect();
         let cables = CableDerivatives::all(&problem, self.pose, &equilibrium.cable_forces);
@@ -262,8 +257,8 @@ impl Winding<'_> {
         }
         let mut cables = self.cables(&self.wound.lengths, &self.wound.held)?;
         for &i in which {
-            let catenary = least_tension(&self.robot.cable(i), self.end(i).end.into())
-                .map_err(StaticsError::cable(i))?;
+            let ends = Ends::of(self.robot, self.pose, i);
+            let catenary = ends.at_least_tension().map_err(StaticsError::cable(i))?.catenary();
             cables[i] = CableDerivatives::new(self.robot, self.pose, i, &catenary);
         }
         let least = tensions(&self.inputs, self.pose, &cables);

@@ -15,10 +15,9 @@
 //! left out, so that they stay where they started.
 
 use crate::direct::stability::Stability;
-use crate::equations::{Balance, LinearizedCable, SpannedCable, forces, per_length};
+use crate::equations::{Balance, SpannedCable, SpannedStiffness, forces, per_length};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
-use cdpr_cable::end_force;
 use cdpr_robot::{Vector2, Vector3, Vector6};
 
 /// An equilibrium to which the iteration converged, stable or not.
@@ -43,15 +42,15 @@ const ROUNDED_FORCE: f64 = 1e-13;
 
 /// The linearised model at a state: the platform's balance with predicted forces, the cables, and the
 /// residual of the state itself.
-struct Linearised {
+struct Linearised<'a> {
     balance: Balance,
-    /// s_i [m] and the linearised cable.
-    cables: Vec<([f64; 3], LinearizedCable<f64>)>,
+    /// s_i [m] and the linearised cable; `None` for a slack one without weight.
+    cables: Vec<([f64; 3], Option<SpannedStiffness<'a>>)>,
     residual: Residual,
 }
 
-impl Linearised {
-    fn new(problem: &DirectProblem, state: &Equilibrium) -> Self {
+impl<'a> Linearised<'a> {
+    fn new(problem: &DirectProblem<'a>, state: &Equilibrium) -> Self {
         let mut balance = Balance::of_load(problem, &state.pose);
         let mut unbalanced = balance.gradient;
         let mut closure: f64 = 0.0;
@@ -59,20 +58,11 @@ impl Linearised {
         for (i, force) in state.cable_forces.iter().enumerate() {
             let cable = SpannedCable::of(problem.robot, &state.pose, i, &problem.catenary(i, *force));
             closure = closure.max(Vector2::from(cable.misclosure()).norm());
-            let (plane, arm) = (cable.span.plane, cable.anchor_arm);
-            let Some(linearized) = cable.linearized() else {
-                let limp = LinearizedCable {
-                    plane,
-                    predicted: [0.0; 2],
-                    stiffness: [0.0; 3],
-                    lateral_stiffness: 0.0,
-                };
-                cables.push((arm, limp));
-                continue;
-            };
-            unbalanced -= Vector6::from(cable.wrench());
-            let predicted = plane.force_on_platform(linearized.predicted);
-            balance.add_cable(&arm, &predicted, linearized.stiffness_in_space());
+            let (arm, linearized) = (cable.anchor_arm, cable.linearized());
+            if let Some(linearized) = &linearized {
+                unbalanced -= Vector6::from(cable.wrench());
+                balance.add_cable(&arm, &linearized.predicted(), linearized.stiffness());
+            }
             cables.push((arm, linearized));
         }
         let freedoms = problem.robot.freedoms();
@@ -167,10 +157,14 @@ fn iterate(
         }
         let pose = now.pose.moved(dp, dphi);
         for (i, (force, (arm, cable))) in now.cable_forces.iter_mut().zip(&linearised.cables).enumerate() {
+            let Some(cable) = cable else {
+                *force = Vector2::zeros();
+                continue;
+            };
             *force = cable.force_after((dp + dphi.cross(&Vector3::from(*arm))).into()).into();
             if force.x < 0.0 {
                 // The cable passed the vertical: in its new plane the same force points forwards.
-                let in_space = cable.plane.lift((*force).into());
+                let in_space = cable.lift((*force).into());
                 [force.x, _] = problem.span(&pose, i).plane.project(in_space);
                 if force.x < -1e-12 * force.y.abs() {
                     return None;
@@ -190,8 +184,7 @@ fn iterate(
 fn tighten(problem: &DirectProblem, state: &mut Equilibrium) -> Option<()> {
     for (i, force) in state.cable_forces.iter_mut().enumerate() {
         if problem.catenary(i, *force).is_limp() {
-            let end = problem.span(&state.pose, i).end.into();
-            *force = end_force(&problem.cable(i), problem.lengths[i], end).ok()?.catenary.force;
+            *force = problem.force_at(&state.pose, i, None).ok()?;
         }
     }
     Some(())

@@ -4,7 +4,7 @@ use crate::direct::continuation::{Loss, LossKind, Path, Setting, follow_from};
 use crate::direct::newton::newton;
 use crate::direct::solution::{DirectMethod, DirectSolution, Report, descend, solution};
 use crate::direct::stability::Stability;
-use crate::equations::cables_at;
+use crate::equations::{cables_at, to_base};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
@@ -86,7 +86,8 @@ pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
     let inverse = scatter.pseudo_inverse(0.01 * scatter.trace()).unwrap_or_else(|_| Matrix3::zeros());
     let q = -0.5 * inverse * moment;
     let depth = (mean - q.norm_squared()).max(0.0).sqrt();
-    Pose { position: middle + q - Vector3::z() * depth, rotation: Rotation3::identity() }
+    let up = to_base(robot.gravity.level(), [0.0, 0.0, 1.0]);
+    Pose { position: middle + q - Vector3::from(up) * depth, rotation: Rotation3::identity() }
 }
 
 fn search(

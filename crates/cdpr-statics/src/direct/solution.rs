@@ -3,6 +3,7 @@
 use crate::direct::newton::Converged;
 use crate::direct::stability::Stability;
 use crate::direct::trust_region::minimise;
+use crate::equations::end;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
@@ -85,9 +86,9 @@ pub(crate) fn solution(
     let mut slack = Vec::new();
     for (i, force) in equilibrium.cable_forces.iter().enumerate() {
         let cable = problem.cable(i);
-        let span = problem.span(&equilibrium.pose, i);
-        let (length, straight) = (problem.lengths[i], cable.straight_length(span.end.into()));
-        let catenary = problem.catenary(i, *force);
+        let span = end(problem.robot, &equilibrium.pose, i);
+        let (length, straight) = (problem.lengths[i], cable.straight_length_in_space(span));
+        let catenary = problem.catenary_at(&equilibrium.pose, i, *force);
         let tension = catenary.anchor_tension().max(catenary.exit_tension());
         let strain = cable.strain(tension);
         if strain > MAX_STRAIN {

@@ -26,7 +26,6 @@ use crate::equations::{Balance, SpannedCable, cables_at};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
-use cdpr_cable::end_force_near;
 use cdpr_robot::{Pose, Vector2, Vector6};
 use nalgebra::{Matrix6, SymmetricEigen};
 
@@ -66,11 +65,10 @@ impl Point {
             let catenary = problem.catenary(i, *force);
             let cable = SpannedCable::of(problem.robot, pose, i, &catenary);
             let Some(linearized) = cable.linearized() else { continue };
-            potential += catenary.potential_energy();
+            potential += problem.catenary_at(pose, i, *force).potential_energy();
             // The span itself is rounded, and the force is the slope of the energy over it.
             noise += f64::EPSILON * force.norm() * (cable.span.chord() + pose.position.norm());
-            let stiffness = linearized.stiffness_in_space();
-            balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), stiffness);
+            balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), linearized.stiffness());
         }
         balance.hold(problem.robot.freedoms());
         let scale = scale(problem);
@@ -89,14 +87,7 @@ impl Point {
         let pose =
             self.equilibrium.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
         let solve = |(i, force): (usize, &Vector2<f64>)| {
-            let mut near = problem.catenary(i, *force);
-            let [before, end] =
-                [&self.equilibrium.pose, &pose].map(|pose| Vector2::from(problem.span(pose, i).end));
-            let predicted = force + near.in_plane_stiffness() * (end - before);
-            if (0.3 * force.x..3.0 * force.x).contains(&predicted.x) {
-                near.force = predicted;
-            }
-            end_force_near(&near, end).ok().map(|solution| solution.catenary.force)
+            problem.force_at(&pose, i, Some((&self.equilibrium.pose, force))).ok()
         };
         let cable_forces =
             self.equilibrium.cable_forces.iter().enumerate().map(solve).collect::<Option<_>>()?;

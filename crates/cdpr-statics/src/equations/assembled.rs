@@ -58,7 +58,7 @@ impl From<&Equilibrium> for State<f64> {
 
 impl<T: Number> State<T> {
     /// Cable i at this state.
-    pub(crate) fn cable(&self, problem: &DirectProblem, i: usize) -> SpannedCable<T> {
+    pub(crate) fn cable<'a>(&self, problem: &DirectProblem<'a>, i: usize) -> SpannedCable<'a, T> {
         let arm = self.rotation * problem.robot.cables[i].anchor_point.map(T::of);
         SpannedCable::new(problem, self.position.into(), arm.into(), self.forces[i].into(), i)
     }

@@ -1,26 +1,34 @@
 //! Small displacements about an equilibrium.
 //!
-//! The assembled equations `g(x, θ) = 0` give `dx = -(dg/dx)⁻¹ (dg/dθ) dθ`: one factorisation answers for
-//! wrenches, lengths and whatever else moves the platform. Section 3.3 of the paper says why such a
-//! displacement is not the static deflection of a robot with sagging cables; both are here to be compared.
+//! With the stiffness H of the platform, (S5) and what a moment and cables over guides add to it, a small
+//! additional wrench and small changes of the lengths move it by
+//!
+//! ```text
+//! H (dp, dφ) = dw + sum [k_L; s_i x k_L] dL_i,      k_L = K ∂A/∂L                                  (S6)
+//! ```
+//!
+//! with K the stiffness of cable i in space and ∂A/∂L the way of its free end per length. Section 3.3 of the
+//! paper says why such a displacement is not the static deflection of a robot with sagging cables; both are
+//! here to be compared.
 
-use crate::equations::assembled::{FactoredJacobian, State, closure_row, jacobian};
 use crate::equations::balance::{Balance, symmetric_part};
 use crate::equations::motions::Pins;
+use crate::equations::partials::wrench;
 use crate::equations::spanned::SpannedCable;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
-use cdpr_robot::{Matrix3, Matrix6xX, Vector2, Vector3, Vector6, Wrench};
-use nalgebra::{DMatrix, Matrix6};
+use cdpr_robot::{Matrix3, Matrix6xX, Vector3, Vector6, Wrench};
+use nalgebra::Matrix6;
 
 /// The direct problem linearised at an equilibrium.
 pub struct Linearization {
-    factored: FactoredJacobian,
     stiffness: Matrix6<f64>,
     pins: Pins,
-    /// d(x, z)/dL of every cable at constant force [m/m].
-    end_per_length: Vec<Vector2<f64>>,
+    /// The inverse of the stiffness with its pins; `None` at the border of stability.
+    flexibility: Option<Matrix6<f64>>,
+    /// [k_L; s_i x k_L] of every cable [N/m, N].
+    wrench_per_length: Vec<Vector6<f64>>,
 }
 
 impl DirectProblem<'_> {
@@ -31,15 +39,19 @@ impl DirectProblem<'_> {
     pub fn linearize(&self, equilibrium: &Equilibrium) -> Result<Linearization, StaticsError> {
         self.check("equilibrium", equilibrium)?;
         let mut balance = Balance::of_load(self, &equilibrium.pose);
-        let mut end_per_length = Vec::with_capacity(self.cables());
+        let mut wrench_per_length = Vec::with_capacity(self.cables());
         for (i, force) in equilibrium.cable_forces.iter().enumerate() {
             let catenary = self.catenary(i, *force);
             let cable = SpannedCable::of(self.robot, &equilibrium.pose, i, &catenary);
-            if let Some(linearized) = cable.linearized() {
-                let stiffness = linearized.stiffness_in_space();
-                balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), stiffness);
-            }
+            let Some(linearized) = cable.linearized() else {
+                // Paying out a slack cable without weight moves nothing.
+                wrench_per_length.push(Vector6::zeros());
+                continue;
+            };
+            balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), linearized.stiffness());
+            let mut stiffness = Matrix3::from(linearized.stiffness());
             if let Some(skew) = cable.skew_stiffness(&catenary) {
+                stiffness += skew;
                 // dr_i = dp - [s_i] dφ
                 let arm = Vector3::from(cable.anchor_arm).cross_matrix();
                 for (row, left) in [(0, Matrix3::identity()), (3, arm)] {
@@ -49,27 +61,12 @@ impl DirectProblem<'_> {
                     }
                 }
             }
-            // Paying out a slack cable without weight moves nothing.
-            end_per_length.push(cable.response.map_or([0.0; 2], |response| response.end_per_length).into());
+            wrench_per_length.push(wrench(&cable.anchor_arm.into(), &(stiffness * cable.end_per_length())));
         }
         balance.hold(self.robot.freedoms());
         let pins = Pins::new(self, equilibrium, &balance.symmetric_hessian());
-        let mut jacobian = jacobian(self, &State::from(equilibrium));
-        if !pins.are_none() {
-            let size = jacobian.nrows();
-            for k in (0..6).filter(|k| !self.robot.freedoms().contains(*k)) {
-                jacobian.view_mut((k, 6), (1, size - 6)).fill(0.0);
-                jacobian.view_mut((6, k), (size - 6, 1)).fill(0.0);
-            }
-            let platform = pins.pinned(&jacobian.fixed_view::<6, 6>(0, 0).into_owned(), 1.0);
-            jacobian.fixed_view_mut::<6, 6>(0, 0).copy_from(&platform);
-        }
-        Ok(Linearization {
-            factored: FactoredJacobian::new(&jacobian),
-            stiffness: balance.hessian,
-            pins,
-            end_per_length,
-        })
+        let flexibility = pins.pinned(&balance.hessian, 1.0).try_inverse();
+        Ok(Linearization { stiffness: balance.hessian, pins, flexibility, wrench_per_length })
     }
 }
 
@@ -92,22 +89,21 @@ impl Linearization {
         symmetric_part(&self.stiffness)
     }
 
-    /// Displacement (dp, dφ) [m, rad] under a small additional wrench. What holds a motion takes its part of
-    /// the wrench, and a motion that nothing resists is left out.
+    /// Displacement (dp, dφ) [m, rad] under a small additional wrench; not a number at the border of
+    /// stability. What holds a motion takes its part of the wrench, and a motion that nothing resists is left
+    /// out.
     pub fn displacement(&self, wrench: &Wrench) -> Vector6<f64> {
-        let mut right = DMatrix::zeros(6 + 2 * self.end_per_length.len(), 1);
-        right.fixed_view_mut::<6, 1>(0, 0).copy_from(&self.pins.rest(&wrench.to_vector()));
-        self.factored.solve(&right).fixed_view::<6, 1>(0, 0).into()
+        self.moved(wrench.to_vector())
     }
 
     /// d(p, φ)/dL: displacement of the platform per unstrained length of each cable, 6 x n [m/m, rad/m].
     pub fn pose_per_length(&self) -> Matrix6xX<f64> {
-        let n = self.end_per_length.len();
-        let mut right = DMatrix::zeros(6 + 2 * n, n);
-        for (i, end) in self.end_per_length.iter().enumerate() {
-            right.fixed_view_mut::<2, 1>(closure_row(i), i).copy_from(end);
-        }
-        let solution = self.factored.solve(&right);
-        Matrix6xX::from_fn(n, |row, column| solution[(row, column)])
+        let columns: Vec<_> = self.wrench_per_length.iter().map(|wrench| self.moved(*wrench)).collect();
+        Matrix6xX::from_columns(&columns)
+    }
+
+    fn moved(&self, wrench: Vector6<f64>) -> Vector6<f64> {
+        self.flexibility
+            .map_or_else(|| Vector6::repeat(f64::NAN), |flexibility| flexibility * self.pins.rest(&wrench))
     }
 }

@@ -12,7 +12,6 @@ use crate::equations::rounding::forces;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
-use cdpr_cable::end_force;
 use cdpr_robot::{Freedoms, Matrix3, Matrix6xX, Pose, Vector3, Vector6};
 use nalgebra::{Matrix6, SymmetricEigen};
 
@@ -28,10 +27,7 @@ const BALANCED: f64 = 1e-9;
 /// The forces of all cables at a pose, each in its own equilibrium.
 pub(crate) fn cables_at(problem: &DirectProblem, pose: &Pose) -> Result<Equilibrium, StaticsError> {
     let cable_forces = (0..problem.cables())
-        .map(|i| {
-            let solution = end_force(&problem.cable(i), problem.lengths[i], problem.span(pose, i).end.into());
-            solution.map(|s| s.catenary.force).map_err(StaticsError::cable(i))
-        })
+        .map(|i| problem.force_at(pose, i, None).map_err(StaticsError::cable(i)))
         .collect::<Result<_, _>>()?;
     Ok(Equilibrium { pose: *pose, cable_forces })
 }

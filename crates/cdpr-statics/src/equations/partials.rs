@@ -18,16 +18,16 @@
 //! dF_i = Q_i (-K3_i dr_i + k_ρ dρ + k_E dE) + v_i dt_i,   v_i = k_L/(u_i·k_L),   Q_i = 1 - v_i u_iᵀ  (D3)
 //! ```
 //!
-//! which is (D1) with other coefficients. So are the derivatives by lead and radius of a guide,
-//! `K ∂(x, z)/∂d` and `K ∂(x, z)/∂r`. Gravity γ = -g u acts on cable i by its magnitude, `dg = -u·dγ`, and by
+//! which is (D1) with other coefficients. So are the derivatives by lead and radius of a guide, `K ∂A/∂d` and
+//! `K ∂A/∂r`, and by its axis k, which a tilt by an angle τ about e turns by `dk = e x k dτ`. Gravity γ = -g u acts on cable i by its magnitude, `dg = -u·dγ`, and by
 //! the direction u of "up", which turns by `δ = -(u x dγ)/g`. If span, pulley and up turn together, the force
 //! turns with them; the span does not, and hence
 //!
 //! ```text
-//! dF_i = δ x F_i + K3_i (δ x r_i) + k_ρ (ρ/g) dg                                                (D10)
+//! dF_i = δ x F_i + K3_i (δ x r_i) - K3_i ∂A/∂k (δ x k) + k_ρ (ρ/g) dg                             (D10)
 //! ```
 //!
-//! without a pulley, whose axis does not turn either. The left-hand side of the paper's Eq. (3),
+//! because the axis of a pulley does not turn either. The left-hand side of the paper's Eq. (3),
 //! `G = sum [F_i; s_i x F_i] + w_ex`, changes by
 //!
 //! ```text
@@ -35,14 +35,13 @@
 //! w_ex = [ F_w; R c x F_w ] + load,   F_w = (m + payload) γ
 //! ```
 
-use crate::equations::cable::Span;
-use crate::equations::spanned::SpannedCable;
+use crate::equations::spanned::{SpannedCable, end, to_base};
 use crate::equations::vector;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Load;
-use cdpr_cable::{Catenary, HeldCable};
-use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, Vector2, Vector3, Vector6};
+use cdpr_cable::Catenary;
+use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, TiltAxis, Vector2, Vector3, Vector6};
 use nalgebra::{DMatrix, Matrix6};
 use std::ops::Range;
 
@@ -125,6 +124,8 @@ pub(crate) struct CableDerivatives {
     per_modulus: Vector3<f64>,
     /// By lead and radius of the guide [N/m]; zero without a guide.
     per_guide: [Vector3<f64>; 2],
+    /// By the tilts of the swivel axis of the pulley [N/rad]; zero without a pulley.
+    per_tilt: [Vector3<f64>; 2],
     /// By the components of gravity [N s²/m], equation (D10); zero where they are not parameters.
     per_gravity: Matrix3<f64>,
     /// k_L [N/m] per length, or v_i per tension where the tension is given.
@@ -137,51 +138,55 @@ impl CableDerivatives {
         let cable = SpannedCable::of(robot, pose, i, catenary);
         let (arm, o) = (cable.anchor_arm.into(), Vector3::zeros());
         let (force, tension) = (cable.force_on_platform().into(), catenary.anchor_tension());
-        let (Some(response), Some(linearized)) = (cable.response, cable.linearized()) else {
-            let stiffness = Matrix3::zeros();
-            return Self {
-                arm,
-                force,
-                direction: o,
-                stiffness,
-                per_density: o,
-                per_modulus: o,
-                per_guide: [o; 2],
-                per_gravity: stiffness,
-                per_actuation: o,
-            };
+        let none = Self {
+            arm,
+            force,
+            direction: o,
+            stiffness: Matrix3::zeros(),
+            per_density: o,
+            per_modulus: o,
+            per_guide: [o; 2],
+            per_tilt: [o; 2],
+            per_gravity: Matrix3::zeros(),
+            per_actuation: o,
         };
-        let mut stiffness = Matrix3::from(linearized.stiffness_in_space());
+        let Some(linearized) = cable.linearized() else { return none };
+        let mut stiffness = Matrix3::from(linearized.stiffness());
         if let Some(skew) = cable.skew_stiffness(catenary) {
             stiffness += skew;
         }
         // The force by which the cable gives way to a motion of its free end.
-        let held = |end: Vector2<f64>| stiffness * Vector3::from(cable.span.plane.lift(end.into()));
+        let ends = cable.end_slopes(catenary);
         Self {
-            arm,
-            force,
             direction: force / tension,
             stiffness,
-            per_density: held(catenary.end_per_weight()) * robot.gravity.magnitude(),
-            per_modulus: held(catenary.end_per_stiffness()) * robot.cables[i].properties.section,
-            per_guide: catenary.end_per_guide().map_or([o; 2], |ends| ends.map(held)),
-            per_gravity: Matrix3::zeros(),
-            per_actuation: held(response.end_per_length.into()),
+            per_density: stiffness * ends.per_weight * robot.gravity.magnitude(),
+            per_modulus: stiffness * ends.per_stiffness * robot.cables[i].properties.section,
+            per_guide: [ends.per_lead, ends.per_radius].map(|end| stiffness * end),
+            per_actuation: stiffness * cable.end_per_length(),
+            ..none
         }
-        .with_gravity(robot, pose, i)
+        .with_directions(robot, pose, i, &(stiffness * ends.per_axis))
     }
 
-    /// The same cable with its derivatives by gravity, equation (D10), where they are parameters.
-    fn with_gravity(mut self, robot: &Robot, pose: &Pose, i: usize) -> Self {
+    /// The same cable with its derivatives by the tilts of its swivel axis and by gravity, equation (D10),
+    /// where they are parameters; from those by the components of the axis.
+    fn with_directions(mut self, robot: &Robot, pose: &Pose, i: usize, per_axis: &Matrix3<f64>) -> Self {
+        let pulley = robot.cables[i].pulley.as_ref();
+        let axis = pulley.map_or_else(Vector3::zeros, |pulley| pulley.axis.normalize());
+        if let Some(pulley) = pulley {
+            self.per_tilt = TiltAxis::ALL.map(|tilt| per_axis * tilt.of(pulley).cross(&axis));
+        }
         let g = robot.gravity.magnitude();
         if robot.gravity.is_vector() && g > 0.0 {
             let (up, span) = (robot.gravity.vector() / -g, robot.span(pose, i));
             let density = robot.cables[i].properties.linear_density;
-            for (axis, unit) in Matrix3::identity().column_iter().enumerate() {
+            for (component, unit) in Matrix3::identity().column_iter().enumerate() {
                 let turn = unit.cross(&up) / g;
-                let by_direction = turn.cross(&self.force) + self.stiffness * turn.cross(&span);
-                let column = by_direction - self.per_density * (density / g * up[axis]);
-                self.per_gravity.set_column(axis, &column);
+                let by_direction = turn.cross(&self.force) + self.stiffness * turn.cross(&span)
+                    - per_axis * turn.cross(&axis);
+                let column = by_direction - self.per_density * (density / g * up[component]);
+                self.per_gravity.set_column(component, &column);
             }
         }
         self
@@ -203,6 +208,7 @@ impl CableDerivatives {
             per_density: keep(self.per_density),
             per_modulus: keep(self.per_modulus),
             per_guide: self.per_guide.map(keep),
+            per_tilt: self.per_tilt.map(keep),
             per_gravity: self.per_gravity - v * (self.direction.transpose() * self.per_gravity),
             per_actuation: v,
             ..*self
@@ -211,51 +217,44 @@ impl CableDerivatives {
 
     /// The derivatives of `v_i = dF_i/dt_i`, in the place of those of F_i: with the tension given it is a
     /// function of the same inputs.
-    pub(crate) fn of_tension_slope(robot: &Robot, pose: &Pose, i: usize, catenary: Catenary) -> Self {
-        let arm = robot.anchor_arm(pose, i);
-        let span = Span::new(robot.span(pose, i).into());
-        let held = HeldCable::of(catenary, span.end.into());
-        let slopes = held.tension_slopes();
-        let lift = |v: Vector2<f64>| Vector3::from(span.plane.lift(v.into()));
-        let across = Vector3::z().cross(&lift(Vector2::x()));
-        // v_x/h
-        let lateral = 1.0 / (span.chord() * held.tension_slope());
-        let [per_h, per_z] = slopes.per_end.map(lift);
+    pub(crate) fn of_tension_slope(robot: &Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Self {
+        let slopes = SpannedCable::of(robot, pose, i, catenary).tension_slopes(catenary, end(robot, pose, i));
         Self {
-            arm,
-            force: -lift(slopes.force_per_tension),
+            arm: robot.anchor_arm(pose, i),
+            force: -slopes.force_per_tension,
             direction: Vector3::zeros(),
-            stiffness: per_h * lift(Vector2::x()).transpose()
-                + per_z * Vector3::z().transpose()
-                + across * across.transpose() * lateral,
-            per_density: -lift(slopes.per_weight) * robot.gravity.magnitude(),
-            per_modulus: -lift(slopes.per_stiffness) * robot.cables[i].properties.section,
-            per_guide: slopes.per_guide.map(|slope| -lift(slope)),
+            stiffness: slopes.per_end,
+            per_density: -slopes.per_weight * robot.gravity.magnitude(),
+            per_modulus: -slopes.per_stiffness * robot.cables[i].properties.section,
+            per_guide: [-slopes.per_lead, -slopes.per_radius],
+            per_tilt: [Vector3::zeros(); 2],
             per_gravity: Matrix3::zeros(),
-            per_actuation: -lift(slopes.per_tension),
+            per_actuation: -slopes.per_tension,
         }
-        .with_gravity(robot, pose, i)
+        .with_directions(robot, pose, i, &-slopes.per_axis)
     }
 
     /// The derivatives of the tension `t` [N] that the greatest tension of cable i at its exit point leaves
     /// at the platform, in the place of those of F_i: equation (C26) of `cdpr_cable` differentiated.
     pub(crate) fn of_exit_limit(robot: &Robot, pose: &Pose, i: usize, t: f64) -> Self {
-        let (cable, exit) = (robot.cable(i), robot.limits(i).max);
-        let up = Vector3::z() / (1.0 + cable.strain(t));
+        let (cable, exit, o) = (robot.cable(i), robot.limits(i).max, Vector3::zeros());
+        let up = Vector3::from(to_base(robot.gravity.level(), [0.0, 0.0, 1.0]));
+        let per_work = up / (1.0 + cable.strain(t));
         let energy = cable.energy_per_length(t) - cable.energy_per_length(exit);
         Self {
             arm: robot.anchor_arm(pose, i),
-            force: t * Vector3::z(),
-            direction: Vector3::z(),
-            stiffness: -cable.weight_per_length * up * Vector3::z().transpose(),
-            per_density: up * (robot.span(pose, i).z * robot.gravity.magnitude()),
+            force: t * up,
+            direction: up,
+            stiffness: -cable.weight_per_length * per_work * up.transpose(),
+            per_density: per_work * (end(robot, pose, i).z * robot.gravity.magnitude()),
             // The energy falls in proportion to 1/E.
-            per_modulus: up * (energy / robot.cables[i].properties.youngs_modulus),
-            per_guide: [Vector3::zeros(); 2],
+            per_modulus: per_work * (energy / robot.cables[i].properties.youngs_modulus),
+            per_guide: [o; 2],
+            per_tilt: [o; 2],
             per_gravity: Matrix3::zeros(),
-            per_actuation: Vector3::zeros(),
+            per_actuation: o,
         }
-        .with_gravity(robot, pose, i)
+        .with_directions(robot, pose, i, &Matrix3::zeros())
     }
 
     /// Wrench about P per length, or per tension where the tension is given.
@@ -409,8 +408,7 @@ fn each_effect(
                     add(column, i, cable.per_gravity.column(axis as usize).into(), o);
                 }
             }
-            // Its derivatives are not known yet.
-            Parameter::Tilt(i, _) => add(column, i, o.add_scalar(f64::NAN), o),
+            Parameter::Tilt(i, axis) => add(column, i, cables[i].per_tilt[axis as usize], o),
             // These act on the weight or on the set-points.
             Parameter::Mass | Parameter::CenterOfMass(_) | Parameter::TensionOffset(_) => {}
         }

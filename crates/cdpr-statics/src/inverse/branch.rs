@@ -121,7 +121,7 @@ impl Answered {
             *iterations += 1;
             let (step, multipliers) = point.newton()?;
             let relative =
-                point.strands.iter().zip(&step).map(|(strand, d)| d.abs() / strand.held.chord_force);
+                point.strands.iter().zip(&step).map(|(strand, d)| d.abs() / strand.held.chord_force());
             let change = relative.fold(0.0, f64::max);
             if change > greatest {
                 return (nearly && !point.learns_violated()?).then_some(point);

@@ -116,7 +116,7 @@ impl Point<'_> {
             let curvature: Vec<f64> = self
                 .strands
                 .iter()
-                .map(|strand| damping * (1.0 + largest / strand.held.chord_force).powi(2))
+                .map(|strand| damping * (1.0 + largest / strand.held.chord_force()).powi(2))
                 .collect();
             let Some((step, _)) = self.step(&curvature, false, 1.0) else { return false };
             let moved = self.moved(&step);
@@ -152,7 +152,7 @@ impl Point<'_> {
 
     /// Whether a cable sags so much, by about a tenth of its chord, that another optimum may be better.
     fn may_have_others(&self) -> bool {
-        self.strands.iter().any(|strand| strand.slackness() > 0.4)
+        self.strands.iter().any(|strand| strand.held.slackness() > 0.4)
     }
 
     /// Whether no tensions within the limits balance the wrench in the direction of the residual.

@@ -1,23 +1,16 @@
 //! The cables of a robot whose platform is held at a pose, each with its chord force as its only unknown.
 
 use super::question::Question;
-use crate::equations::{CablePlane, Span, wrench};
+use crate::equations::{ABOVE_LEAST, Ends, Held, wrench};
 use crate::error::StaticsError;
-use cdpr_cable::{Cable, CableError, HeldCable};
-use cdpr_robot::{Freedoms, TensionLimits, Vector2, Vector3, Vector6};
-
-/// Factor on the least tension that a span demands: at the least tension itself a cable's length does not
-/// follow from its tension.
-pub(crate) const ABOVE_LEAST: f64 = 1.001;
-
-/// No span demands a tension above this, relative to the weight of a cable as long as the chord.
-const ABOVE_ANY_LEAST: f64 = 1.3;
+use cdpr_cable::CableError;
+use cdpr_robot::{Freedoms, TensionLimits, Vector3, Vector6};
 
 /// One cable between its two points, at one chord force.
 #[derive(Clone)]
 pub(super) struct Strand<'a> {
-    pub(super) held: HeldCable<'a>,
-    plane: CablePlane<f64>,
+    pub(super) held: Held<'a>,
+    ends: Ends<'a>,
     arm: Vector3<f64>,
     /// Limits of the tension [N]; the least includes what the span demands, once it has been asked for.
     pub(super) limits: TensionLimits,
@@ -67,15 +60,12 @@ impl<'a> Strand<'a> {
         i: usize,
         chord_force: impl FnOnce(f64) -> f64,
     ) -> Result<Self, CableError> {
-        let cable = question.robot.cable(i);
-        let span = Span::new(question.robot.span(question.pose, i).into());
+        let ends = Ends::of(question.robot, question.pose, i);
         let limits = question.limits[i];
-        let end = Vector2::from(span.end);
-        let longest = cable.straight_length(end);
-        let floor = (ABOVE_ANY_LEAST * ABOVE_LEAST * cable.weight_per_length * longest).max(limits.min);
+        let floor = ends.floor().max(limits.min);
         Ok(Self {
-            held: HeldCable::at_chord_force(&cable, end, chord_force(floor))?,
-            plane: span.plane,
+            held: ends.at_chord_force(chord_force(floor))?,
+            ends,
             arm: question.robot.anchor_arm(question.pose, i),
             limits,
             floor,
@@ -85,30 +75,30 @@ impl<'a> Strand<'a> {
         })
     }
 
-    /// Wrench about P of a force on the cable, its moment divided by `arm` [m]; zero along held motions.
-    fn wrench(&self, force: Vector2<f64>, arm: f64) -> Vector6<f64> {
-        let mut wrench = wrench(&self.arm, &self.plane.force_on_platform(force.into()).into());
+    /// Wrench about P of a force on the platform, its moment divided by `arm` [m]; zero along held motions.
+    fn wrench(&self, force: [f64; 3], arm: f64) -> Vector6<f64> {
+        let mut wrench = wrench(&self.arm, &force.into());
         wrench.fixed_rows_mut::<3>(3).unscale_mut(arm);
         self.freedoms.of_vector(&wrench)
     }
 
     /// What the optimum asks of the cable at a chord force.
-    pub(super) fn row(&self, held: &HeldCable, arm: f64) -> Row {
+    pub(super) fn row(&self, held: &Held, arm: f64) -> Row {
         Row {
             tension: held.tension(),
             tension_slope: held.tension_slope(),
-            wrench: self.wrench(held.catenary.force, arm),
-            slope: self.wrench(held.force_slope, arm),
+            wrench: self.wrench(held.force(), arm),
+            slope: self.wrench(held.force_slope(), arm),
             reference: self.reference,
         }
     }
 
     /// Second derivative of the Lagrangian, h_i of (I3).
     pub(super) fn hessian(&self, row: &Row, multipliers: &Vector6<f64>, arm: f64) -> f64 {
-        let curvature = self.held.force_curvature();
+        let (force, tension) = self.held.curvatures();
         row.tension_slope * row.tension_slope
-            + (row.tension - row.reference) * self.held.tension_curvature(&curvature)
-            + multipliers.dot(&self.wrench(curvature, arm))
+            + (row.tension - row.reference) * tension
+            + multipliers.dot(&self.wrench(force, arm))
     }
 
     /// Changes of the chord force [N] that lead to the limits; where a limit's chord force has not been asked
@@ -116,15 +106,10 @@ impl<'a> Strand<'a> {
     pub(super) fn room(&self) -> [f64; 2] {
         let t = self.held.tension();
         let room = |side: usize, estimate: f64| {
-            self.chord_forces[side].map_or(estimate, |at| at - self.held.chord_force)
+            self.chord_forces[side].map_or(estimate, |at| at - self.held.chord_force())
         };
         let low = room(0, (self.floor - t) / self.held.tension_slope());
         [low, room(1, self.limits.max - t).max(low)]
-    }
-
-    /// w c/2σ: half the angle, as a hyperbolic one, that the cable's direction turns through.
-    pub(super) fn slackness(&self) -> f64 {
-        0.5 * self.held.catenary.cable.weight_per_length * self.held.end.norm() / self.held.chord_force
     }
 
     /// Whether the chord force at a limit, 0 the least and 1 the greatest, is known.
@@ -138,19 +123,19 @@ impl<'a> Strand<'a> {
     /// [`CableError::TensionTooSmall`] where the span demands more than the greatest tension.
     pub(super) fn learn(&mut self, side: usize) -> Result<(), CableError> {
         if side == 1 {
-            self.chord_forces[1] = Some(self.held.with_tension(self.limits.max)?.chord_force);
+            self.chord_forces[1] = Some(self.held.with_tension(self.limits.max)?.chord_force());
             return Ok(());
         }
         let mut nearby = self.held;
         if self.limits.min < self.floor {
-            nearby = HeldCable::at_least_tension(&self.held.catenary.cable, self.held.end)?;
+            nearby = self.ends.at_least_tension()?;
             let least = nearby.tension();
             if ABOVE_LEAST * least > self.limits.max {
                 return Err(CableError::TensionTooSmall { tension: self.limits.max, least });
             }
             self.limits.min = self.limits.min.max(ABOVE_LEAST * least);
         }
-        self.chord_forces[0] = Some(nearby.with_tension(self.limits.min)?.chord_force);
+        self.chord_forces[0] = Some(nearby.with_tension(self.limits.min)?.chord_force());
         Ok(())
     }
 
@@ -164,7 +149,7 @@ impl<'a> Strand<'a> {
 
     /// The limit that the chord force is at.
     pub(super) fn at_limit(&self) -> Option<usize> {
-        (0..2).find(|side| self.chord_forces[*side] == Some(self.held.chord_force))
+        (0..2).find(|side| self.chord_forces[*side] == Some(self.held.chord_force()))
     }
 
     /// The least of y·w over the tensions within the limits, on a grid of chord forces; `None` where a cable
@@ -182,17 +167,17 @@ impl<'a> Strand<'a> {
         for k in 0..=INTERVALS {
             held =
                 held.with_chord_force(low * (high / low).powf(f64::from(k) / f64::from(INTERVALS))).ok()?;
-            least = least.min(y.dot(&self.wrench(held.catenary.force, arm)));
+            least = least.min(y.dot(&self.wrench(held.force(), arm)));
         }
         Some(least)
     }
 
     /// The cable at another chord force [N].
-    pub(super) fn at(&self, chord_force: f64) -> Result<HeldCable<'a>, CableError> {
+    pub(super) fn at(&self, chord_force: f64) -> Result<Held<'a>, CableError> {
         // A step to a limit ends exactly there.
         let reached = self.chord_forces.iter().flatten().find(|at| (*at - chord_force).abs() <= 1e-14 * *at);
         let chord_force = reached.copied().unwrap_or(chord_force);
-        if chord_force == self.held.chord_force {
+        if chord_force == self.held.chord_force() {
             Ok(self.held)
         } else {
             self.held.with_chord_force(chord_force)
@@ -216,12 +201,4 @@ impl Row {
     pub(super) fn gradient(&self) -> f64 {
         (self.tension - self.reference) * self.tension_slope
     }
-}
-
-/// `tension` [N], or [`ABOVE_LEAST`] times the least tension that the span to `end` demands, if that is more.
-pub(crate) fn least_allowed(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<f64, CableError> {
-    if cable.weight_per_length * cable.straight_length(end) * ABOVE_ANY_LEAST * ABOVE_LEAST <= tension {
-        return Ok(tension);
-    }
-    Ok(tension.max(ABOVE_LEAST * HeldCable::at_least_tension(cable, end)?.tension()))
 }

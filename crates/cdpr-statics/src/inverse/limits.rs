@@ -4,10 +4,9 @@
 //! difference in height adds to it, (C26) of `cdpr_cable`: it depends on the pose and not on the sag. With a
 //! pulley the height is that above the leave point, which moves a little with the tension.
 
-use crate::equations::Span;
+use crate::equations::Ends;
 use crate::error::StaticsError;
-use cdpr_cable::{CableError, length_for_tension};
-use cdpr_robot::{CableEnd, Pose, Robot, TensionLimits, Vector2};
+use cdpr_robot::{CableEnd, Pose, Robot, TensionLimits};
 
 /// The limits of every cable's tension at the platform, which stands at `pose`.
 ///
@@ -32,19 +31,16 @@ fn below_exit(
     TensionLimits { min, max: exit }: TensionLimits,
 ) -> Result<TensionLimits, StaticsError> {
     const MAX_ITERATIONS: usize = 50;
-    let cable = robot.cable(index);
-    let end = Vector2::from(Span::new(robot.span(pose, index).into()).end);
-    let allowed = |height: f64| cable.tension_above(exit, height).unwrap_or(0.0);
-    let leave_point =
-        |t: f64| -> Result<_, CableError> { Ok(length_for_tension(&cable, end, t)?.catenary.leave_point()) };
-    let mut height = end.y;
+    let ends = Ends::of(robot, pose, index);
+    let allowed = |height: f64| ends.cable.tension_above(exit, height).unwrap_or(0.0);
+    let mut height = ends.end.z;
     let mut max = allowed(height);
-    if cable.guide.is_some_and(|guide| guide.radius > 0.0) {
+    if ends.cable.guide.is_some_and(|guide| guide.radius > 0.0) {
         for _ in 0..MAX_ITERATIONS {
             if max < min {
                 break;
             }
-            height = end.y - leave_point(max).map_err(StaticsError::cable(index))?.y;
+            height = ends.end.z - ends.leave_height(max).map_err(StaticsError::cable(index))?;
             let before = std::mem::replace(&mut max, allowed(height));
             if (max - before).abs() <= 1e-14 * max {
                 break;

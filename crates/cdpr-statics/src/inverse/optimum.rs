@@ -15,8 +15,9 @@
 
 use super::held::{Row, Strand};
 use super::question::Question;
+use crate::equations::Held;
 use crate::error::StaticsError;
-use cdpr_cable::{Catenary, HeldCable};
+use cdpr_cable::Catenary;
 use cdpr_robot::Vector6;
 use cdpr_tension::{Bound, BoxProblem, BoxUnknown};
 use nalgebra::{DMatrix, DVector};
@@ -105,21 +106,21 @@ impl<'a> Point<'a> {
 
     /// Moves every cable by a change of its chord force, within its limits. `None` where a cable cannot be
     /// closed.
-    pub(super) fn moved(&self, step: &[f64]) -> Option<Vec<HeldCable<'a>>> {
+    pub(super) fn moved(&self, step: &[f64]) -> Option<Vec<Held<'a>>> {
         let moved = self.strands.iter().zip(step).map(|(strand, d)| {
-            let to = strand.held.chord_force + d;
+            let to = strand.held.chord_force() + d;
             // A step to first order towards a limit does not leave the taut branch.
-            strand.at(to.max(0.1 * strand.held.chord_force)).ok()
+            strand.at(to.max(0.1 * strand.held.chord_force())).ok()
         });
         moved.collect()
     }
 
     /// The rows of the cables as they would be.
-    pub(super) fn rows_of(&self, moved: &[HeldCable<'a>]) -> Vec<Row> {
+    pub(super) fn rows_of(&self, moved: &[Held<'a>]) -> Vec<Row> {
         self.strands.iter().zip(moved).map(|(strand, held)| strand.row(held, self.arm)).collect()
     }
 
-    pub(super) fn set(&mut self, moved: Vec<HeldCable<'a>>) {
+    pub(super) fn set(&mut self, moved: Vec<Held<'a>>) {
         for ((strand, row), held) in self.strands.iter_mut().zip(&mut self.rows).zip(moved) {
             strand.held = held;
             *row = strand.row(&strand.held, self.arm);
@@ -364,8 +365,8 @@ impl<'a> Point<'a> {
             strand.at_limit().map_or_else(|| strand.held.tension(), |side| limits[side])
         };
         Optimum {
-            catenaries: self.strands.iter().map(|strand| strand.held.catenary).collect(),
-            chord_forces: self.strands.iter().map(|strand| strand.held.chord_force).collect(),
+            catenaries: self.strands.iter().map(|strand| strand.held.catenary()).collect(),
+            chord_forces: self.strands.iter().map(|strand| strand.held.chord_force()).collect(),
             tensions: self.strands.iter().map(tension).collect(),
             active: self.strands.iter().map(bound).collect(),
             multipliers,

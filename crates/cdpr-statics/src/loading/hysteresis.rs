@@ -234,5 +234,7 @@ fn middle_tensions(
 ) -> Result<Vec<f64>, StaticsError> {
     let problem = DirectProblem::new(robot, lengths, &Load::none())?;
     let forces = equilibrium.cable_forces.iter().enumerate();
-    Ok(forces.map(|(i, force)| problem.catenary(i, *force).tension(0.5 * lengths[i])).collect())
+    Ok(forces
+        .map(|(i, force)| problem.catenary_at(&equilibrium.pose, i, *force).tension(0.5 * lengths[i]))
+        .collect())
 }

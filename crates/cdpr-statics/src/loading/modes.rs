@@ -75,8 +75,7 @@ impl DirectProblem<'_> {
                 let cable = SpannedCable::of(self.robot, &equilibrium.pose, i, &self.catenary(i, *force));
                 let mut own = Balance::nothing();
                 if let Some(linearized) = cable.linearized() {
-                    let stiffness = linearized.stiffness_in_space();
-                    own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), stiffness);
+                    own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), linearized.stiffness());
                 }
                 own.symmetric_hessian()
             })
