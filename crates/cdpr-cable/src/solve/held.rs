@@ -364,11 +364,14 @@ pub(crate) fn least_tension_from<Held: ByChordForce>(
         if next <= low || next >= high {
             next = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * sigma };
         }
-        // At a minimum the tension is exact when the chord force is known to half the digits.
-        if (next - sigma).abs() <= 1e-10 * sigma || next <= 1.001 * folded {
+        if next <= 1.001 * folded {
             return Ok(now);
         }
         now = now.to(next)?;
+        // The step squares this one.
+        if (next - sigma).abs() <= 1e-8 * sigma {
+            return Ok(now);
+        }
     }
     Ok(now)
 }
