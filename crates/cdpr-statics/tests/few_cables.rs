@@ -10,14 +10,11 @@ use cdpr_robot::{
     TensionLimits, Vector3, Vector6, Wrench,
 };
 use cdpr_statics::{
-    DirectProblem, DirectSolution, FreeSolutions, Load, Start, StaticsError, deflection_free, direct,
+    DirectProblem, DirectSolution, FreeSolutions, Load, Mode, Start, StaticsError, deflection_free, direct,
     inverse, inverse_free, modes_at, rough_pose, stiffness_at,
 };
 use nalgebra::Matrix6;
 use serde_json::Value;
-
-/// Cases whose axes are tilted, which are not modelled.
-const TILTED: usize = 3;
 
 fn cases() -> Vec<Value> {
     let text = include_str!("../../../data/reference/few_cables.json");
@@ -35,12 +32,8 @@ fn pose(case: &Value) -> Pose {
 
 #[test]
 fn equilibria_on_few_cables_match_arithmetic_of_20_digits() {
-    let mut skipped = 0;
     for case in cases() {
-        let Some(robot) = robot(&case) else {
-            skipped += 1;
-            continue;
-        };
+        let robot = robot(&case);
         robot.validate().unwrap();
         let kind = case["kind"].as_str().unwrap();
         let lengths = match &case["unstrained_lengths"] {
@@ -52,11 +45,19 @@ fn equilibria_on_few_cables_match_arithmetic_of_20_digits() {
         let expected = pose(&case);
         let start = match &case["start_rotation"] {
             Value::Null => expected.moved(Vector3::new(0.02, -0.03, 0.05), Vector3::new(0.05, -0.02, 0.01)),
+            // Nothing determines the yaw: from where the cable is taut, Newton's method keeps it.
+            _ if kind == "one" => expected.moved(Vector3::new(0.0, 0.0, -1e-3), Vector3::zeros()),
             rows => Pose { position: vector(&case["start_position"]), rotation: rotation(rows) },
         };
         let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
         let found = problem.direct_any(Start::Pose(&start)).unwrap();
-        let motion = expected.motion_to(&found.equilibrium.pose);
+        let mut motion = expected.motion_to(&found.equilibrium.pose);
+        // A neutral motion may be any.
+        for Mode { translation, rotation, .. } in found.stability.neutral() {
+            let share = rotation.dot(&motion.fixed_rows::<3>(3)) / rotation.norm_squared();
+            let [t, r] = [translation, rotation].map(|part| part * share);
+            motion -= Vector6::new(t.x, t.y, t.z, r.x, r.y, r.z);
+        }
         let (position, angle) = (motion.fixed_rows::<3>(0).norm(), motion.fixed_rows::<3>(3).norm());
         let tensions = case["cables"].as_array().unwrap();
         let tensions = tensions.iter().map(|cable| number(&cable["tension_at_anchor"]));
@@ -77,7 +78,6 @@ fn equilibria_on_few_cables_match_arithmetic_of_20_digits() {
         // A search by descent ends at a stable equilibrium, wherever that is.
         assert!(problem.direct(Start::Pose(&start)).unwrap().stability.is_stable(), "{line}");
     }
-    assert_eq!(skipped, TILTED);
 }
 
 /// Cables that stretch by 1e-3 under the load of a kilogram and weigh nothing.

@@ -25,6 +25,8 @@ pub struct SpatialCable<'a> {
 /// How the end of a cable answers in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpatialResponse {
+    /// Where the cable leaves the wheel, from D [m].
+    pub leave: Vector3<f64>,
     /// Position of A from D [m].
     pub end: Vector3<f64>,
     /// Flexibility dA/dF at constant length [m/N], (C22); not quite symmetric for a cable with weight.
@@ -51,12 +53,17 @@ pub struct SpatialSlopes {
 /// Horizontal forces below this share of the whole have no direction.
 const VERTICAL: f64 = 1e-20;
 
-/// The cable over any kind of number: position of A, flexibility and dA/dL.
-pub(crate) fn response<T: Real>(
-    cable: &Cable,
-    numbers: &Numbers<T>,
-    force: &[T; 3],
-) -> ([T; 3], [[T; 3]; 3], [T; 3]) {
+/// The response over any kind of number.
+pub(crate) struct InSpace<T> {
+    leave: [T; 3],
+    pub(crate) end: [T; 3],
+    /// Rows of dA/dF.
+    pub(crate) flexibility: [[T; 3]; 3],
+    pub(crate) per_length: [T; 3],
+}
+
+/// The response of the cable to the force `force` [N] at A.
+pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> InSpace<T> {
     let z = force[2];
     let (fx, [c, s]) = horizontal(force);
     let [kx, ky, kz] = numbers.axis;
@@ -67,7 +74,12 @@ pub(crate) fn response<T: Real>(
     let turn = |[h, l, z]: [T; 3]| [c * h - s * l, s * h + c * l, z];
     let rows = flexibility.map(turn);
     let columns = [0, 1, 2].map(|j| turn(rows.map(|row| row[j])));
-    (turn(end), [0, 1, 2].map(|i| columns.map(|column| column[i])), turn(per_length))
+    InSpace {
+        leave: turn(guided.leave),
+        end: turn(end),
+        flexibility: [0, 1, 2].map(|i| columns.map(|column| column[i])),
+        per_length: turn(per_length),
+    }
 }
 
 /// The guide of a cable; its axis is one that may be tilted.
@@ -113,10 +125,11 @@ impl<'a> SpatialCable<'a> {
     /// Position of A, flexibility and dA/dL.
     pub fn response(&self) -> SpatialResponse {
         let force = self.force.into();
-        let (end, rows, per_length) = response(&self.cable, &self.numbers(), &force);
+        let InSpace { leave, end, flexibility, per_length } = response(&self.cable, &self.numbers(), &force);
         SpatialResponse {
+            leave: leave.into(),
             end: end.into(),
-            flexibility: Matrix3::from_fn(|i, j| rows[i][j]),
+            flexibility: Matrix3::from_fn(|i, j| flexibility[i][j]),
             end_per_length: per_length.into(),
         }
     }
@@ -126,7 +139,7 @@ impl<'a> SpatialCable<'a> {
         let plain = self.numbers();
         let numbers = plain.with_inputs::<7, 0>();
         let force = <[f64; 3]>::from(self.force).map(Dual::of);
-        let (end, ..) = response(&self.cable, &numbers, &force);
+        let end = response(&self.cable, &numbers, &force).end;
         let slopes = Matrix3xX::from_fn(7, |i, k| end[i].slopes[k]);
         let column = |k: usize| Vector3::from(slopes.fixed_columns::<1>(k));
         SpatialSlopes {

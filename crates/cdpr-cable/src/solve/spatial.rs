@@ -320,7 +320,7 @@ impl<'a> HeldSpatialCable<'a> {
         let mut numbers = plain.with_inputs::<INPUTS, 3>();
         let mut force = <[f64; 3]>::from(self.cable.force).map(Dual::<INPUTS>::of);
         // What the inputs open at constant force and length, closed by force and length at constant tension.
-        let (end, ..) = response(&self.cable.cable, &numbers, &force);
+        let end = response(&self.cable.cable, &numbers, &force).end;
         for k in 0..INPUTS {
             let open = Vector3::from_fn(|i, _| f64::from(i == k) - end[i].slopes[k]);
             let closing = inverse * open;
@@ -350,8 +350,8 @@ impl<'a> HeldSpatialCable<'a> {
 
     /// F_L between held ends.
     fn force_per_length<T: Real>(&self, numbers: &Numbers<T>, force: &[T; 3]) -> [T; 3] {
-        let (_, flexibility, per_length) = response(&self.cable.cable, numbers, force);
-        solve(&flexibility, &per_length).map(|slope| -slope)
+        let found = response(&self.cable.cable, numbers, force);
+        solve(&found.flexibility, &found.per_length).map(|slope| -slope)
     }
 
     fn at(cable: SpatialCable<'a>, end: Vector3<f64>, chord_force: f64) -> Self {

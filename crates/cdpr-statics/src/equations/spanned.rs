@@ -89,20 +89,25 @@ impl<'a> SpannedCable<'a, f64> {
                 force: plane.lift(self.force).into(),
             };
             let response = cable.response();
-            let forwards = Vector3::from(plane.lift([1.0, 0.0]));
-            let across = Vector3::z().cross(&forwards);
-            let open = end - response.end;
-            let beside = across.dot(&open);
-            if best.is_none_or(|(least, ..)| beside.abs() < least) {
-                best = Some((beside.abs(), plane, response));
-            } else {
+            let way = (end - response.leave).xy();
+            let forwards = Vector2::from(plane.azimuth);
+            let across = Vector2::new(-forwards.y, forwards.x);
+            let beside = across.dot(&way);
+            if best.is_some_and(|(least, ..)| beside.abs() >= least) {
                 break;
             }
+            best = Some((beside.abs(), plane, response));
             // What a turn of the plane by an angle moves across it: nearly the distance from the leave point.
-            let swing = self.force[0] * (response.flexibility * across).dot(&across);
-            let reach = (forwards.dot(&open) + swing).max(0.1 * forwards.dot(&end).abs());
-            let azimuth = Vector2::from(plane.azimuth) + Vector2::new(across.x, across.y) * (beside / reach);
-            plane = CablePlane { azimuth: azimuth.normalize().into() };
+            let sideways = Vector3::new(across.x, across.y, 0.0);
+            let swing = self.force[0] * (response.flexibility * sideways).dot(&sideways);
+            let reach = forwards.dot(&(end - response.end).xy()) + swing;
+            let towards = if forwards.dot(&way) > 0.0 && reach > 0.0 {
+                forwards + across * (beside / reach)
+            } else {
+                way
+            };
+            let Some(azimuth) = towards.try_normalize(0.0) else { break };
+            plane = CablePlane { azimuth: azimuth.into() };
         }
         let Some((_, plane, response)) = best else { return self };
         let span = Span { end: plane.project(end.into()), plane };
@@ -291,8 +296,9 @@ impl SpannedStiffness<'_> {
         let displacement = to_level(self.level, displacement);
         match &self.shape {
             Shape::Planar(cable) => cable.force_after(displacement),
-            Shape::Spatial { plane, predicted, stiffness } => {
-                plane.project((predicted + stiffness * Vector3::from(displacement)).into())
+            Shape::Spatial { predicted, stiffness, .. } => {
+                let force = predicted + stiffness * Vector3::from(displacement);
+                [force.xy().norm(), force.z]
             }
         }
     }
