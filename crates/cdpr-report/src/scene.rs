@@ -1,9 +1,8 @@
 //! The robot at the poses of a study, as points in space. The page draws it with plotly.js.
 
 use crate::text;
-use cdpr_cable::Catenary;
-use cdpr_robot::{Axis, Matrix3, Pose, Robot, Vector2, Vector3};
-use cdpr_statics::{Deflection, Equilibrium};
+use cdpr_robot::{Axis, Matrix3, Pose, Robot, Vector3};
+use cdpr_statics::{Deflection, DirectProblem, Equilibrium, Load, StaticsError};
 use cdpr_study::{Study, StudyError};
 use serde::Serialize;
 
@@ -61,6 +60,8 @@ pub(crate) struct State {
 pub(crate) struct SceneCable {
     /// Points from the exit point, over the pulley, to the anchor point [m].
     pub(crate) points: Vec<[f64; 3]>,
+    /// Points around the wheel of its pulley [m]; empty without one.
+    pub(crate) wheel: Vec<[f64; 3]>,
     /// Tension at the platform [N].
     pub tension: f64,
     /// Greatest distance from the chord [mm].
@@ -76,27 +77,36 @@ impl Scene {
     /// As [`Study::sampling`].
     pub(crate) fn new(study: &Study) -> Result<Self, StudyError> {
         let mut poses: Vec<ScenePose> = Vec::new();
-        let mut add =
-            |name: &str, pose: Pose, nominal: &Deflection| match poses.iter_mut().find(|p| p.pose == pose) {
-                Some(known) => known.parts.push(name.to_owned()),
-                None => poses.push(ScenePose::new(&study.robot, name, pose, nominal)),
-            };
+        let mut add = |name: &str, pose: Pose, nominal: &Deflection| -> Result<(), StudyError> {
+            if let Some(known) = poses.iter_mut().find(|known| known.pose == pose) {
+                known.parts.push(name.to_owned());
+                return Ok(());
+            }
+            let drawn = ScenePose::new(&study.robot, name, pose, nominal);
+            poses.push(drawn.map_err(|error| StudyError::Nominal {
+                path: study.path.clone(),
+                field: name.to_owned(),
+                value: text::point(pose.position.as_slice()),
+                source: Box::new(error),
+            })?);
+            Ok(())
+        };
         for (name, spec) in &study.file.samplings {
             if spec.pose.is_some() {
                 let found = study.nominal(name)?;
-                add(name, found.pose, &found.deflection);
+                add(name, found.pose, &found.deflection)?;
                 continue;
             }
             // The first pose that is held stands for all poses of the sampling.
             let prefix = format!("{name}/");
             let mut names = study.sampling_names().filter(|name| name.starts_with(&prefix));
             if let Some((found, name)) = names.find_map(|name| Some((study.nominal(&name).ok()?, name))) {
-                add(&name, found.pose, &found.deflection);
+                add(&name, found.pose, &found.deflection)?;
             }
         }
         for name in study.file.surfaces.keys() {
             let found = study.nominal(name)?;
-            add(name, found.pose, &found.deflection);
+            add(name, found.pose, &found.deflection)?;
         }
         if let (true, Some(name)) = (poses.is_empty(), study.sampling_names().next()) {
             // This returns the reason why there is nothing to draw.
@@ -111,56 +121,43 @@ impl Scene {
 }
 
 impl ScenePose {
-    fn new(robot: &Robot, part: &str, pose: Pose, nominal: &Deflection) -> Self {
+    fn new(robot: &Robot, part: &str, pose: Pose, nominal: &Deflection) -> Result<Self, StaticsError> {
         let rotated = if pose.quaternion() == [1.0, 0.0, 0.0, 0.0] { "" } else { ", rotated" };
-        let unloaded = State::new(robot, &nominal.lengths, &nominal.unloaded.equilibrium);
-        Self {
+        let unloaded = State::new(robot, &nominal.lengths, &nominal.unloaded.equilibrium)?;
+        Ok(Self {
             flat: flat(&unloaded.anchors),
             name: format!("{} m{rotated}", text::point(pose.position.as_slice())),
             parts: vec![part.to_owned()],
-            loaded: State::new(robot, &nominal.lengths, &nominal.loaded.equilibrium),
+            loaded: State::new(robot, &nominal.lengths, &nominal.loaded.equilibrium)?,
             unloaded,
             lengths: nominal.lengths.clone(),
             deflection_mm: 1e3 * nominal.rms(),
             pose,
-        }
+        })
     }
 }
 
 impl State {
-    fn new(robot: &Robot, lengths: &[f64], equilibrium: &Equilibrium) -> Self {
+    fn new(robot: &Robot, lengths: &[f64], equilibrium: &Equilibrium) -> Result<Self, StaticsError> {
         let Equilibrium { pose, cable_forces } = equilibrium;
         let anchor = |i: usize| pose.position + robot.anchor_arm(pose, i);
-        let to_level = robot.gravity.level().copied().unwrap_or_else(Matrix3::identity);
-        let cables = lengths.iter().zip(cable_forces).enumerate().map(|(i, (length, force))| {
-            let catenary = Catenary { cable: robot.cable(i), unstrained_length: *length, force: *force };
-            let (exit, span) = (robot.cables[i].exit_point, to_level * robot.span(pose, i));
-            // A vertical cable has no direction in the plan and needs none.
-            let along = span.xy().try_normalize(0.0).unwrap_or_default();
-            // From forwards, across and upwards.
-            let in_space = |point: Vector3<f64>| {
-                let x = along.x * point.x - along.y * point.y;
-                let y = along.y * point.x + along.x * point.y;
-                (exit + to_level.tr_mul(&Vector3::new(x, y, point.z))).into()
-            };
-            let in_plane = |point: Vector2<f64>| Vector3::new(point.x, 0.0, point.y);
-            SceneCable {
-                points: catenary
-                    .on_the_pulley(POINTS_ON_PULLEY)
-                    .into_iter()
-                    .chain(catenary.profile(POINTS).into_iter().map(in_plane))
-                    .map(in_space)
-                    .collect(),
+        let load = Load::none();
+        let problem = DirectProblem::new(robot, lengths, &load)?;
+        let cables = cable_forces.iter().enumerate().map(|(i, force)| {
+            let shape = problem.shape(equilibrium, i, POINTS_ON_PULLEY, POINTS)?;
+            Ok(SceneCable {
+                points: shape.points.into_iter().map(Into::into).collect(),
+                wheel: shape.wheel.into_iter().map(Into::into).collect(),
                 tension: force.norm(),
-                sag_mm: 1e3 * catenary.sag(),
-            }
+                sag_mm: 1e3 * shape.sag,
+            })
         });
-        Self {
+        Ok(Self {
             position: pose.position.into(),
             center_of_mass: (pose.position + pose.rotation * robot.platform.center_of_mass).into(),
             anchors: (0..lengths.len()).map(|i| anchor(i).into()).collect(),
-            cables: cables.collect(),
-        }
+            cables: cables.collect::<Result<_, StaticsError>>()?,
+        })
     }
 
     /// Greatest sag of the cables [mm].

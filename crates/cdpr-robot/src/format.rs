@@ -112,7 +112,7 @@ struct PulleyEntry {
     /// Radius to the middle of the cable [m].
     radius: f64,
     /// Swivel axis in the base frame, the direction in which the cable enters at the exit point: [0, 0, 1]
-    /// from below or [0, 0, -1] from above.
+    /// from below, [0, 0, -1] from above, or any other. Its length means nothing.
     axis: [f64; 3],
 }
 

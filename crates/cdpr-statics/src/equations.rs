@@ -8,6 +8,7 @@ mod linearization;
 mod motions;
 mod partials;
 mod rounding;
+mod shape;
 mod spanned;
 pub(crate) mod vector;
 
@@ -20,4 +21,5 @@ pub(crate) use motions::{Motions, Pins, cables_at, is_definite, per_length};
 pub use partials::Inputs;
 pub(crate) use partials::{CableDerivatives, Partials, Reading, read, solve, tensions, wrench};
 pub(crate) use rounding::{FORCES, forces};
+pub use shape::CableShape;
 pub(crate) use spanned::{SpannedCable, SpannedStiffness, end, to_base};

@@ -60,7 +60,7 @@ pub use direct::{
     DirectMethod, DirectSolution, Equilibria, Found, Loss, LossKind, Mode, Path, PathStep, Report, Setting,
     Stability, Start, Starts, direct, rough_pose,
 };
-pub use equations::{Inputs, Linearization};
+pub use equations::{CableShape, Inputs, Linearization};
 pub use error::{Blocked, StaticsError};
 pub use inverse::{
     FreeSolution, FreeSolutions, HeldPose, InversePath, InverseSolution, PathSolution, held_at, inverse,

@@ -1,7 +1,7 @@
 //! Every derivative against central differences of the models themselves, and against what mechanics demands.
 
 use crate::common::{caroca, cogiro, ipanema, ring, stadium};
-use crate::pulleys::led;
+use crate::pulleys::{led, tilted};
 use cdpr_robot::{
     CableEnd, Parameter, Platform, Pose, Robot, Rotation3, TensionLimits, TensionReference, Vector3, Vector6,
     Wrench,
@@ -303,6 +303,23 @@ fn derivatives_over_pulleys_are_those_of_differences() {
                 &[found],
             );
         }
+    }
+}
+
+#[test]
+fn derivatives_over_tilted_axes_on_a_base_that_is_not_level_are_those_of_differences() {
+    for (robot, position) in
+        [(caroca(), [0.0, 0.0, 1.75]), (caroca(), [3.2, 1.7, 3.0]), (cogiro(), [1.0, -2.0, 2.0])]
+    {
+        let load = Load {
+            payload: 20.0,
+            wrench: Wrench { force: Vector3::new(40.0, -30.0, 10.0), moment: Vector3::zeros() },
+        };
+        let pose = Pose { position: position.into(), rotation: Rotation3::identity() };
+        let case = Case { robot: tilted(led(robot, 0.1, 3.0)), pose, offsets: vec![0.0; 8], load };
+        assert_eq!(Parameter::of(&case.robot).len(), 62 + 8 + 8 + 16 + 3);
+        let found = check(&case).unwrap();
+        report(&format!("{} over tilted axes, tilted, at {position:?}", case.robot.name), &[found]);
     }
 }
 

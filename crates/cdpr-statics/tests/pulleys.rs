@@ -1,13 +1,14 @@
 //! Robots whose cables run over swivelling pulleys with a lead, against arithmetic of 20 digits
 //! (`data/reference/README.md`) and against the same robots without.
 
-use crate::common::{caroca, cogiro};
+use crate::common::{caroca, cogiro, fast, stadium};
 use crate::equilibria::{number, vector};
 use crate::reference::rotation;
 use cdpr_robot::{
-    CableEnd, CableProperties, Platform, Pose, Pulley, Robot, RobotCable, TensionLimits, Vector3, Wrench,
+    CableEnd, CableProperties, Platform, Pose, Pulley, Robot, RobotCable, Rotation3, TensionLimits, Vector3,
+    Wrench,
 };
-use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse};
+use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse, stiffness_at};
 use nalgebra::Matrix6;
 use serde_json::Value;
 
@@ -95,6 +96,74 @@ pub(crate) fn led(robot: Robot, radius: f64, lead: f64) -> Robot {
         ..cable
     });
     Robot { cables: cables.collect(), ..robot }
+}
+
+/// The robot with the axis of every pulley tilted in a direction of its own, on a base that is not level.
+pub(crate) fn tilted(mut robot: Robot) -> Robot {
+    for (i, cable) in robot.cables.iter_mut().enumerate() {
+        let angle = i as f64;
+        let pulley = cable.pulley.as_mut().unwrap();
+        pulley.axis = Vector3::new(0.4 * angle.cos(), 0.4 * angle.sin(), 1.0).normalize();
+    }
+    Robot { gravity: Vector3::new(0.4, -0.3, -9.79).into(), ..robot }
+}
+
+/// The robot in another base frame: everything in space turned by a rotation.
+fn turned(robot: &Robot, rotation: &Rotation3<f64>) -> Robot {
+    let cables = robot.cables.iter().map(|cable| RobotCable {
+        exit_point: rotation * cable.exit_point,
+        pulley: cable.pulley.map(|pulley| Pulley { axis: rotation * pulley.axis, ..pulley }),
+        ..cable.clone()
+    });
+    let cables = cables.collect();
+    Robot { gravity: (rotation * robot.gravity.vector()).into(), cables, ..robot.clone() }
+}
+
+#[test]
+fn nothing_depends_on_the_base_frame() {
+    let cases = [
+        (caroca(), Pose::at(1.2, -0.7, 2.0)),
+        (cogiro(), Pose::at(-1.0, 2.0, 2.0)),
+        (led(caroca(), 0.045, 3.0), Pose::at(1.2, -0.7, 2.0)),
+        (tilted(led(cogiro(), 0.1, 1.0)), Pose::at(-1.0, 2.0, 2.0)),
+        (stadium(), Pose::at(-8.0, -4.667, 10.0)),
+        (fast(), Pose::at(0.0, 0.0, 140.0)),
+    ];
+    for (robot, pose) in cases {
+        let moment = Vector3::new(3.0, -2.0, 1.0);
+        let wrench = Wrench { force: Vector3::new(20.0, 10.0, -5.0), moment };
+        let load = Load { payload: 10.0, wrench };
+        let expected = deflection(&robot, &pose, &vec![0.0; robot.cables.len()], &load).unwrap();
+        let stiffness = stiffness_at(&robot, &pose, &load).unwrap();
+        for rotation in [
+            Rotation3::from_euler_angles(0.02, -0.03, 0.5),
+            Rotation3::from_euler_angles(1.2, 0.3, -2.0),
+            Rotation3::from_euler_angles(std::f64::consts::PI, 0.0, 0.0),
+        ] {
+            let other = turned(&robot, &rotation);
+            let at =
+                |pose: &Pose| Pose { position: rotation * pose.position, rotation: rotation * pose.rotation };
+            let wrench = Wrench { force: rotation * wrench.force, moment: rotation * wrench.moment };
+            let load = Load { wrench, ..load };
+            let found = deflection(&other, &at(&pose), &vec![0.0; robot.cables.len()], &load).unwrap();
+            for (one, two) in expected.lengths.iter().zip(&found.lengths) {
+                assert!((one - two).abs() < 1e-11 * one, "{}: {one} {two}", robot.name);
+            }
+            for (one, two) in [(&expected.unloaded, &found.unloaded), (&expected.loaded, &found.loaded)] {
+                let off = at(&one.equilibrium.pose).motion_to(&two.equilibrium.pose).norm();
+                assert!(off < 1e-10 * robot.platform_size(), "{}: {off:e}", robot.name);
+            }
+            // The stiffness turns with the base.
+            let two = stiffness_at(&other, &at(&pose), &load).unwrap();
+            let mut turn = Matrix6::zeros();
+            for block in [0, 3] {
+                turn.fixed_view_mut::<3, 3>(block, block).copy_from(rotation.matrix());
+            }
+            let off = turn.transpose() * two.matrix * turn - stiffness.matrix;
+            let off = off.norm() / stiffness.matrix.norm();
+            assert!(off < 1e-8, "{}: stiffness {off:e}", robot.name);
+        }
+    }
 }
 
 #[test]

@@ -311,8 +311,13 @@ impl<'a> Catenary<'a> {
         Vector2::new(x, z)
     }
 
-    /// Where the cable leaves its pulley, from the entry point, with its distance across the plane [m].
-    pub(crate) fn leave(&self) -> [f64; 3] {
+    /// Distance of the leave point across the plane, to the left, from the entry point [m]: other than zero
+    /// for a tilted axis.
+    pub fn leave_beside(&self) -> f64 {
+        self.leave()[1]
+    }
+
+    fn leave(&self) -> [f64; 3] {
         self.cable.guide.map_or([0.0; 3], |guide| self.guided(&guide).leave)
     }
 
@@ -323,6 +328,15 @@ impl<'a> Catenary<'a> {
         let (at, count) = (self.guided(&guide), points.max(2));
         let (u, axis) = (Vector3::from(at.u), Vector3::from(guide.entry.axis()));
         let angles = (0..count).map(|k| PI - self.wrap() * k as f64 / count as f64);
+        angles.map(|angle| guide.radius * ((1.0 + angle.cos()) * u + angle.sin() * axis)).collect()
+    }
+
+    /// Positions [m] of `points` points around the wheel of the pulley and the first one again: forwards,
+    /// across and upwards. None without a pulley.
+    pub fn wheel(&self, points: usize) -> Vec<Vector3<f64>> {
+        let Some(guide) = self.cable.guide.filter(|guide| guide.radius > 0.0) else { return Vec::new() };
+        let (u, axis) = (Vector3::from(self.guided(&guide).u), Vector3::from(guide.entry.axis()));
+        let angles = (0..=points).map(|k| 2.0 * PI * k as f64 / points as f64);
         angles.map(|angle| guide.radius * ((1.0 + angle.cos()) * u + angle.sin() * axis)).collect()
     }
 

@@ -155,6 +155,7 @@
         return { type: "mesh3d", x, y, z, color: tone, opacity, flatshading: true, hoverinfo: "skip",
           alphahull: pose.flat ? -1 : 0, delaunayaxis: pose.flat ?? "z" };
       };
+      const wheels = state.cables.flatMap(({ wheel }) => [...wheel, gap]);
       const place = (field) => (loaded ? moved(pose.unloaded[field], pose.loaded[field]) : state[field]);
       return [
         line([...posts, ...top, gap, ...ground], { line: { color: color("post"), width: 3 } }),
@@ -171,6 +172,7 @@
             },
           },
         },
+        line(wheels, { line: { color: color("post"), width: 3 } }),
         ...(loaded ? [platform(pose.unloaded.anchors, color("post"), 0.15)] : []),
         platform(anchors, ORANGE, 0.6),
         dots(exits, exits.map((exit, i) => `exit point B${i + 1}<br>${metres(exit)}`),
