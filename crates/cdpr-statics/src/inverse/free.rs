@@ -200,7 +200,7 @@ impl<'a> Search<'a> {
         let external = self.question.robot.freedoms().of_vector(&external);
         let residual = rows.iter().fold(external, |sum, row| sum + row.wrench);
         let forces = external.norm() + rows.iter().map(|row| row.wrench.norm()).sum::<f64>();
-        let catenaries: Vec<_> = strands.iter().map(|strand| strand.held.catenary).collect();
+        let catenaries: Vec<_> = strands.iter().map(|strand| strand.held.catenary()).collect();
         let held = HeldPose::new(&pose, &catenaries);
         residual.iter().all(|entry| entry.is_finite()).then_some(Point { held, rows, residual, forces })
     }
