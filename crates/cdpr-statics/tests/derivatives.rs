@@ -1,10 +1,10 @@
 //! Every derivative against central differences of the models themselves, and against what mechanics demands.
 
 use crate::common::{caroca, cogiro, ipanema, ring, stadium};
-use crate::pulleys::{led, tilted};
+use crate::pulleys::{led, tilted, turned};
 use cdpr_robot::{
-    CableEnd, Parameter, Platform, Pose, Robot, Rotation3, TensionLimits, TensionReference, Vector3, Vector6,
-    Wrench,
+    CableEnd, Parameter, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, TensionReference,
+    Vector3, Vector6, Wrench,
 };
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, EquilibriumDerivatives, HeldPose, Load, StaticsError,
@@ -199,8 +199,7 @@ fn check(case: &Case) -> Result<Found, StaticsError> {
         "lengths" => 3e-14 * size,
         _ => 3e-14 * size + soft,
     };
-    let tilt = |input: usize| matches!(exact.inputs.parameters.get(input), Some(Parameter::Tilt(..)));
-    for input in (0..exact.inputs.count()).filter(|input| !tilt(*input)) {
+    for input in 0..exact.inputs.count() {
         found.columns += 1;
         let expected = column(&exact, input);
         let mut best: Vec<Option<(DVector<f64>, f64)>> = vec![None; expected.len()];
@@ -323,6 +322,39 @@ fn derivatives_over_tilted_axes_on_a_base_that_is_not_level_are_those_of_differe
     }
 }
 
+/// The robot with this lead of every cable [m].
+fn with_lead(robot: Robot, lead: f64) -> Robot {
+    Robot { cables: robot.cables.into_iter().map(|cable| RobotCable { lead, ..cable }).collect(), ..robot }
+}
+
+#[test]
+fn derivatives_by_tilts_and_gravity_are_those_of_differences() {
+    let slanted = Rotation3::new(Vector3::new(0.06, -0.1, 0.4));
+    let (level, on_its_side) = (Rotation3::identity(), Rotation3::new(Vector3::new(0.0, 1.4, 0.3)));
+    let load = Load {
+        payload: 20.0,
+        wrench: Wrench { force: Vector3::new(40.0, -30.0, 10.0), moment: Vector3::zeros() },
+    };
+    for (robot, position) in [(caroca(), [0.6, -0.4, 1.6]), (cogiro(), [1.0, -2.0, 2.0])] {
+        for (radius, lead) in [(0.0, 0.0), (0.0, 3.0), (0.045, 3.0)] {
+            for rotation in [level, slanted, on_its_side] {
+                let robot = if radius > 0.0 {
+                    led(robot.clone(), radius, lead)
+                } else {
+                    with_lead(robot.clone(), lead)
+                };
+                let robot = turned(&robot, &rotation);
+                let pose = Pose { position: rotation * Vector3::from(position), rotation };
+                let found = check(&Case { robot: robot.clone(), pose, offsets: vec![0.0; 8], load }).unwrap();
+                let turn = rotation.angle().to_degrees();
+                let title = format!("{}, {radius} m, lead {lead} m, turned by {turn:.0} degrees", robot.name);
+                assert_eq!(found.crossed, 0, "{title}");
+                report(&title, &[found]);
+            }
+        }
+    }
+}
+
 /// Suspended robots with 6 to 12 cables, steel to rope, light to heavy; centred to near the border of the
 /// workspace.
 fn random_case(seed: u64) -> Case {
@@ -389,8 +421,14 @@ fn derivatives_follow_the_limits_of_single_cables_and_exit_points_and_the_prefer
         (ipanema(), Pose::at(0.3, 0.2, 1.5), 600.0),
         (stadium(), Pose::at(-8.0, -4.0, 10.0), 1500.0),
     ];
+    // A base out of level, with leads and without.
+    let slanted = Rotation3::new(Vector3::new(0.06, -0.1, 0.4));
+    let tilted = [0.0, 3.0].map(|lead| {
+        let position = slanted * Vector3::new(0.6, -0.4, 1.4);
+        (turned(&with_lead(caroca(), lead), &slanted), Pose { position, rotation: slanted }, 900.0)
+    });
     let mut all = Vec::new();
-    for (mut robot, pose, reference) in robots {
+    for (mut robot, pose, reference) in robots.into_iter().chain(tilted) {
         robot.tension_reference = Some(TensionReference::All(reference));
         let free = inverse(&robot, &pose, &Load::none(), None).unwrap();
         let exits = free.equilibrium.exit_tensions(&robot, &free.lengths);
@@ -512,6 +550,43 @@ fn turning_robot_and_pose_about_the_vertical_turns_the_answer() {
         let expected = Vector6::new(swept.x, swept.y, swept.z, 0.0, 0.0, 1.0);
         assert!((&at.pose * &all - expected).amax() < 1e-10);
         assert!((&at.tensions * &all).amax() < 1e-7);
+    }
+}
+
+/// With gravity and the swivel axes of the pulleys the base can turn about any axis.
+#[test]
+fn turning_robot_pose_and_gravity_about_any_axis_turns_the_answer() {
+    let slanted = Rotation3::new(Vector3::new(0.3, -0.5, 0.4));
+    for (radius, rotation) in [(0.0, Rotation3::identity()), (0.045, Rotation3::identity()), (0.045, slanted)]
+    {
+        let case = some_case();
+        let robot = turned(&led(case.robot, radius, 2.0), &rotation);
+        let pose = Pose { position: rotation * case.pose.position, rotation: rotation * case.pose.rotation };
+        let exact = derivatives(&robot, &pose, &case.offsets, &case.load).unwrap();
+        for about in [Vector3::x(), Vector3::y(), Vector3::z(), Vector3::new(0.6, -0.3, 0.5)] {
+            let base = |parameter| match parameter {
+                Parameter::ExitPoint(i, axis) => component(about.cross(&robot.cables[i].exit_point), axis),
+                Parameter::Gravity(axis) => component(about.cross(&robot.gravity.vector()), axis),
+                Parameter::Tilt(i, axis) => about.dot(&axis.of(&robot.cables[i].pulley.unwrap())),
+                _ => 0.0,
+            };
+            let turning = |position: &Vector3<f64>| {
+                let swept = about.cross(position);
+                Vector6::new(swept.x, swept.y, swept.z, about.x, about.y, about.z)
+            };
+            let all = direction(&exact, base, 0.0, turning(&pose.position));
+            assert!((&exact.lengths * &all).amax() < 1e-11);
+            assert!((&exact.set_points * &all).amax() < 1e-7);
+            let swung = about.cross(&exact.deflection.displacement());
+            assert!((exact.displacement() * &all - swung).amax() < 1e-11);
+            for (at, found) in
+                [(&exact.unloaded, &exact.deflection.unloaded), (&exact.loaded, &exact.deflection.loaded)]
+            {
+                let expected = turning(&found.equilibrium.pose.position);
+                assert!((&at.pose * &all - expected).amax() < 1e-10);
+                assert!((&at.tensions * &all).amax() < 1e-7);
+            }
+        }
     }
 }
 

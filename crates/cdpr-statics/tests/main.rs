@@ -10,6 +10,7 @@ mod drawn;
 mod elastic_law;
 mod equilibria;
 mod few_cables;
+mod gravity;
 mod hysteresis;
 mod inverse;
 mod models;

@@ -109,7 +109,7 @@ pub(crate) fn tilted(mut robot: Robot) -> Robot {
 }
 
 /// The robot in another base frame: everything in space turned by a rotation.
-fn turned(robot: &Robot, rotation: &Rotation3<f64>) -> Robot {
+pub(crate) fn turned(robot: &Robot, rotation: &Rotation3<f64>) -> Robot {
     let cables = robot.cables.iter().map(|cable| RobotCable {
         exit_point: rotation * cable.exit_point,
         pulley: cable.pulley.map(|pulley| Pulley { axis: rotation * pulley.axis, ..pulley }),

@@ -310,23 +310,28 @@ mod tests {
     #[test]
     fn the_vector_unit_changes_no_bit() {
         let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap();
-        for pose in [Pose::at(0.0, 0.0, 1.75), Pose::at(3.2, 1.7, 3.0)] {
-            let observer = &Observer::new(&robot, &pose, &Load::payload(50.0)).unwrap();
-            // A sawtooth through the ranges of the paper's Table 3.
-            let half = |parameter: usize| match parameter {
-                0 => 18.0,
-                1 => 0.01,
-                2 => 1.8e10,
-                3..27 | 51..54 => 0.015,
-                27..51 => 0.03,
-                _ => 15.0,
-            };
-            let deviations: Vec<f64> =
-                (0..62 * 100).map(|i| half(i % 62) * ((i * 37 % 101) as f64 / 50.0 - 1.0)).collect();
-            let scalar = Batch { observer, deviations: &deviations }.with_simd(Scalar);
-            let widest = dispatch(Batch { observer, deviations: &deviations });
-            assert_eq!(scalar, widest);
-            assert!(scalar.iter().filter(|found| found.is_some()).count() > 90);
+        let tilted = Robot { gravity: Vector3::new(0.6, -0.3, -9.7).into(), ..robot.clone() };
+        for (robot, parameters) in [(&robot, 62), (&tilted, 65)] {
+            for pose in [Pose::at(0.0, 0.0, 1.75), Pose::at(3.2, 1.7, 3.0)] {
+                let observer = &Observer::new(robot, &pose, &Load::payload(50.0)).unwrap();
+                // A sawtooth through the ranges of the paper's Table 3; for gravity 0.1 m/s².
+                let half = |parameter: usize| match parameter {
+                    0 => 18.0,
+                    1 => 0.01,
+                    2 => 1.8e10,
+                    3..27 | 51..54 => 0.015,
+                    27..51 => 0.03,
+                    54..62 => 15.0,
+                    _ => 0.1,
+                };
+                let deviations: Vec<f64> = (0..parameters * 100)
+                    .map(|i| half(i % parameters) * ((i * 37 % 101) as f64 / 50.0 - 1.0))
+                    .collect();
+                let scalar = Batch { observer, deviations: &deviations }.with_simd(Scalar);
+                let widest = dispatch(Batch { observer, deviations: &deviations });
+                assert_eq!(scalar, widest);
+                assert!(scalar.iter().filter(|found| found.is_some()).count() > 90);
+            }
         }
     }
 }
