@@ -316,6 +316,33 @@ def test_a_robot_tells_what_it_was_made_of(caroca):
     same(made.section, caroca.section)
 
 
+def test_gravity_is_a_number_or_a_vector(caroca):
+    content = caroca.to_dict()
+    content["gravity"] = [0.3, 0.0, -9.805]
+    tilted = cdpr.Robot.from_dict(content)
+    same(tilted.gravity, content["gravity"])
+    assert tilted.to_dict()["gravity"] == content["gravity"] and tilted.parameters["gravity.x"] == 0.3
+    arguments = dict(mass=caroca.mass, section=caroca.section, linear_density=caroca.linear_density,
+                     youngs_modulus=caroca.youngs_modulus, tension_limits=caroca.tension_limits,
+                     center_of_mass=caroca.center_of_mass)
+    made = cdpr.Robot(caroca.anchor_points, caroca.exit_points, gravity=tilted.gravity, **arguments)
+    pose = [0.1, 0.2, 1.75]
+    same(made.inverse(pose).lengths, tilted.inverse(pose).lengths)
+    # The same robot with its base level.
+    g, tilt = numpy.hypot(0.3, 9.805), numpy.arctan2(0.3, 9.805)
+    turn = numpy.array([[numpy.cos(tilt), 0, numpy.sin(tilt)], [0, 1, 0], [-numpy.sin(tilt), 0, numpy.cos(tilt)]])
+    level = cdpr.Robot(caroca.anchor_points, caroca.exit_points @ turn.T, gravity=g, **arguments)
+    quaternion = [numpy.cos(tilt / 2), 0, numpy.sin(tilt / 2), 0]
+    found = level.inverse([*(turn @ pose), *quaternion])
+    assert numpy.allclose(found.lengths, made.inverse(pose).lengths, rtol=0, atol=1e-10)
+    assert made.with_parameters({"gravity.x": 0.0}).inverse(pose).lengths[0] != found.lengths[0]
+    for wrong, message in [([1, 2], "gravity has the shape [2]"), (-1, "gravity is -1"),
+                           ([0, numpy.nan, -9.81], "gravity")]:
+        with pytest.raises(cdpr.InputError) as raised:
+            cdpr.Robot(caroca.anchor_points, caroca.exit_points, gravity=wrong, **arguments)
+        assert message in str(raised.value)
+
+
 def answers(robot):
     """One of every class of answers, of one case and of two."""
     yield cdpr.catenary(1.0, 1e6, length=5.0, end=[4.0, 1.0])

@@ -1,8 +1,8 @@
 //! Causes that act on several parameters at once.
 
-use cdpr_robot::deviations;
+use cdpr_robot::{Parameter, Pulley, Robot, Vector3, deviations};
 use cdpr_sensitivity::SampleDesign;
-use cdpr_study::{SensitivitySpec, Session, Study, StudyError, Truncation, measure, observe};
+use cdpr_study::{SensitivitySpec, Session, Study, StudyError, Truncation, measure, observe, template};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -122,4 +122,32 @@ fn an_invalid_cause_is_named() {
     }
     let unknown = study(json!({ "block": { "law": uniform(0.01) } })).unwrap_err().to_string();
     assert!(unknown.contains("or an entry with `parameters`"), "{unknown}");
+}
+
+#[test]
+fn a_template_has_a_law_for_every_parameter_of_the_robot() {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots/caroca.json"));
+    let mut robot = Robot::from_json(&std::fs::read_to_string(path).unwrap()).unwrap();
+    for guided in [false, true] {
+        if guided {
+            robot.gravity = Vector3::new(0.3, 0.0, -9.8).into();
+            for cable in &mut robot.cables {
+                cable.pulley = Some(Pulley { radius: 0.045, axis: Vector3::z() });
+                cable.lead = 3.0;
+            }
+        }
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("robot.json"), robot.to_json()).unwrap();
+        let text = template(&robot, "robot.json", None, None).unwrap();
+        let study = Study::from_json(&text, &folder.path().join("study.json")).unwrap();
+        let sampling = study.sampling("all").unwrap();
+        assert_eq!(sampling.errors.inputs.len(), Parameter::of(&robot).len());
+        let names: Vec<_> = sampling.errors.inputs.iter().map(|input| input.name.clone()).collect();
+        assert_eq!(names.contains(&"tilt8.v".to_owned()), guided);
+        let mut rows = vec![0.0; 8 * sampling.errors.inputs.len()];
+        sampling.design.rows(0, &mut rows).unwrap();
+        for found in sampling.observer.observe_all(&sampling.errors.deviations(&rows)) {
+            found.unwrap();
+        }
+    }
 }

@@ -43,7 +43,8 @@ pub struct StudyFile {
     /// Samples of the parametric bootstrap behind the p-value of each fitted law.
     pub bootstrap_resamples: usize,
     /// Error models by name: the deviation of each uncertain parameter. A key is a parameter (`mass`,
-    /// `b3.z`), a group of parameters (`a`, `b`, `cog`, `dt`), or the name of a cause that acts on several
+    /// `b3.z`), a group of parameters (`a`, `b`, `cog`, `dt`; of robots that have them `r`, `lead`, `tilt`,
+    /// `gravity`), or the name of a cause that acts on several
     /// parameters. The entry of a parameter takes precedence over that of its group.
     pub error_models: IndexMap<String, IndexMap<String, InputSpec>>,
     /// Samplings by name: all uncertain parameters at once, at points of Sobol's sequence.

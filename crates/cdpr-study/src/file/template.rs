@@ -2,7 +2,7 @@
 
 use crate::error::StudyError;
 use crate::fs::atomic::write_new;
-use cdpr_robot::{Pose, Robot, Vector3, rounded};
+use cdpr_robot::{Parameter, Pose, Robot, Vector3, rounded};
 use cdpr_statics::{Load, deflection};
 use std::path::Path;
 
@@ -12,7 +12,9 @@ The study runs as it is. Replace by what you know of your robot:
   payload                mass added to the platform, whose effect is the deflection [kg]
   error_models           law of each parameter's deviation from the robot file, in SI units
     mass, linear_density, youngs_modulus     platform [kg], all cables [kg/m], [Pa]
-    a, b, cog, dt        anchor points, exit points, centre of mass [m], tension set-points [N];
+    a, b, cog, dt        anchor points, exit points, centre of mass [m], tension set-points [N]
+    r, lead, tilt        of cables over pulleys: radii, leads [m], tilts of swivel axes [rad]
+    gravity              components of a vector of gravity [m/s\u{b2}];
                          the entry of a parameter, such as a3.x, takes precedence over that of its group
     law                  uniform {min, max}, normal {mean, std}, truncated_normal,
                          triangular {min, mode, max}, beta
@@ -62,6 +64,13 @@ pub fn template(
     let modulus = two_digits(0.1 * cable.youngs_modulus);
     let uniform =
         |half: f64| format!(r#"{{ "law": {{ "uniform": {{ "min": -{half:?}, "max": {half:?} }} }} }}"#);
+    let parameters = Parameter::of(robot);
+    let has = |group: &str| parameters.iter().any(|parameter| parameter.group() == group);
+    let further: String = [("r", 0.0005), ("lead", 0.05), ("tilt", 0.01), ("gravity", 0.05)]
+        .into_iter()
+        .filter(|(group, _)| has(group))
+        .map(|(group, half)| format!(",\n      \"{group}\": {}", uniform(half)))
+        .collect();
     let quoted = |text: &str| serde_json::Value::from(text).to_string();
     let [name, robot_path] =
         [format!("Static deflection of {}", robot.name), robot_path.to_owned()].map(|text| quoted(&text));
@@ -84,7 +93,7 @@ pub fn template(
       "a": {anchors},
       "b": {exits},
       "cog": {center},
-      "dt": {offsets}
+      "dt": {offsets}{further}
     }}
   }},
   "samplings": {{
