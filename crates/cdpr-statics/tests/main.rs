@@ -11,6 +11,7 @@ mod elastic_law;
 mod equilibria;
 mod few_cables;
 mod gravity;
+mod grab;
 mod hysteresis;
 mod inverse;
 mod models;

@@ -1,0 +1,131 @@
+//! GRAB, a prototype with four cables over horizontal swivel axes: equilibria and natural frequencies beside
+//! what motion capture recorded (`data/reference/grab.json`, docs/grab.md).
+
+use crate::equilibria::{number, vector};
+use cdpr_robot::{Pose, Robot, Rotation3, Vector3};
+use cdpr_statics::{DirectProblem, Load, Start};
+use serde_json::Value;
+
+fn grab() -> Robot {
+    Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap()
+}
+
+/// R = Rx Ry Rz.
+fn pose(record: &Value) -> Pose {
+    let angles = vector(&record["angles"]);
+    let about = |axis, angle| Rotation3::from_axis_angle(&axis, angle);
+    Pose {
+        position: vector(&record["position"]),
+        rotation: about(Vector3::x_axis(), angles.x)
+            * about(Vector3::y_axis(), angles.y)
+            * about(Vector3::z_axis(), angles.z),
+    }
+}
+
+/// Lengths of straight cables at a pose: cables that are rigid and have no weight.
+fn lengths(robot: &Robot, pose: &Pose) -> Vec<f64> {
+    let level = *robot.gravity.level().unwrap();
+    (0..4).map(|i| robot.cable(i).straight_length_in_space(level * robot.span(pose, i))).collect()
+}
+
+/// Pose of the equilibrium near a pose, and the two lowest frequencies [Hz].
+fn found(robot: &Robot, lengths: &[f64], start: &Pose) -> (Pose, [f64; 2]) {
+    let load = Load::none();
+    let problem = DirectProblem::new(robot, lengths, &load).unwrap();
+    let held = problem.direct(Start::Pose(start)).unwrap();
+    let modes = problem.modes(&held.equilibrium).unwrap();
+    (held.equilibrium.pose, [modes[0].frequency, modes[1].frequency])
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    if values.len() % 2 == 1 { values[middle] } else { 0.5 * (values[middle - 1] + values[middle]) }
+}
+
+#[test]
+fn the_frequencies_of_a_prototype_are_those_that_motion_capture_recorded() {
+    let robot = grab();
+    let records: Value = serde_json::from_str(include_str!("../../../data/reference/grab.json")).unwrap();
+    let mut errors: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
+    let mut off: f64 = 0.0;
+    println!(
+        "| record | from the mean pose [mm, °] | f1 [Hz] | measured | | f2 [Hz] | measured | | power ratio |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|");
+    for record in records["records"].as_array().unwrap() {
+        let mean = pose(record);
+        let (rest, frequencies) = found(&robot, &lengths(&robot, &mean), &mean);
+        let motion = mean.motion_to(&rest);
+        let (away, turned) = (motion.fixed_rows::<3>(0).norm(), motion.fixed_rows::<3>(3).norm());
+        let ratio = number(&record["power_ratio"]);
+        let excited = ratio > 0.02;
+        let [first, second] = [0, 1].map(|k| {
+            let measured = number(&record["measured_hz"][k]);
+            let error = 100.0 * (frequencies[k] / measured - 1.0);
+            if excited {
+                errors[k].push(error);
+            }
+            off = off.max((frequencies[k] - number(&record["model_hz"][k])).abs());
+            format!("{:.3} | {measured:.3} | {error:+.1} %", frequencies[k])
+        });
+        let (away, turned) = (1e3 * away, turned.to_degrees());
+        println!("| {} | {away:.1}, {turned:.2} | {first} | {second} | {ratio:.3} |", record["record"]);
+        assert!(away < 30.0 && turned < 3.0, "{}: {away} mm {turned}°", record["record"]);
+    }
+    let [first, second] = errors;
+    assert_eq!(first.len(), 24);
+    let size = |errors: &[f64]| -> Vec<f64> { errors.iter().map(|error| error.abs()).collect() };
+    for (name, errors) in [("f1", &first), ("f2", &second)] {
+        let worst = size(errors).into_iter().fold(0.0, f64::max);
+        println!(
+            "{name} of the 24 records with a power ratio above 0.02: |error| {:.2} % in the median, {worst:.1} % at \
+             worst; signed {:+.2} %",
+            median(size(errors)),
+            median(errors.clone())
+        );
+        assert!(median(size(errors)) < 1.0 && worst < 5.0);
+    }
+    println!("at most {off:.1e} Hz from the independent program, which averages lengths instead of poses");
+    assert!(off < 1e-2);
+    // Without pulleys the error is larger by half and more.
+    let mut plain = robot.clone();
+    plain.cables.iter_mut().for_each(|cable| cable.pulley = None);
+    let worse: Vec<f64> = records["records"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|record| number(&record["power_ratio"]) > 0.02)
+        .map(|record| {
+            let (_, frequencies) = found(&plain, &lengths(&plain, &pose(record)), &pose(record));
+            100.0 * (frequencies[0] / number(&record["measured_hz"][0]) - 1.0).abs()
+        })
+        .collect();
+    println!("f1 without pulleys: |error| {:.2} % in the median", median(worse.clone()));
+    assert!(median(worse) > 1.5 * median(size(&first)));
+}
+
+#[test]
+fn lengths_averaged_over_a_record_give_the_frequencies_of_20_digits() {
+    let robot = grab();
+    let cases: Value = serde_json::from_str(include_str!("../../../data/reference/modes.json")).unwrap();
+    let grab = cases["cases"].as_array().unwrap().iter().filter(|case| case["kind"] == "grab");
+    let mut compared = 0;
+    for case in grab {
+        let expected = &case["record_mean"];
+        let lengths: Vec<f64> =
+            expected["unstrained_lengths"].as_array().unwrap().iter().map(number).collect();
+        let start = Pose {
+            position: vector(&case["position"]),
+            rotation: crate::reference::rotation(&case["rotation"]),
+        };
+        let (pose, frequencies) = found(&robot, &lengths, &start);
+        assert!((pose.position - vector(&expected["position"])).norm() < 1e-9);
+        for (k, frequency) in frequencies.iter().enumerate() {
+            let exact = number(&expected["frequencies_hz"][k]);
+            assert!((frequency / exact - 1.0).abs() < 1e-8, "{}: {frequency} {exact}", case["record"]);
+        }
+        compared += 1;
+    }
+    assert_eq!(compared, 6);
+}
