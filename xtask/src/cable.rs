@@ -70,19 +70,11 @@ fn moved(out: &Path) -> Result<String, String> {
     let mut first: Vec<f64> = Vec::new();
     for (file, words) in ROWS {
         let path = out.join(file);
-        let read = std::fs::read_to_string(&path).map_err(|error| error.to_string());
-        let summary: Result<Value, _> =
-            read.and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
-        let summary = summary.map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        let summary = read(&path)?;
         let mut cells = Vec::new();
         for sampling in ["geometrical", "geometrical_asymmetric"] {
-            let number = |name: &str| {
-                summary.pointer(&format!("/studies/{sampling}/rms_mm/{name}")).and_then(Value::as_f64)
-            };
-            // A sampling of too few observations has no standard deviation.
             cells.push(
-                number("mean")
-                    .zip(number("std"))
+                deflections(&summary, sampling)
                     .ok_or_else(|| format!("{}: no deflection of {sampling}", path.display()))?,
             );
         }
@@ -96,6 +88,20 @@ fn moved(out: &Path) -> Result<String, String> {
         writeln!(text, "{words:<50} {:>22} {:>22}", cells[0], cells[1]).map_err(|error| error.to_string())?;
     }
     Ok(text + "mean ± standard deviation, and how far the mean moves\n")
+}
+
+/// A file as JSON.
+pub(crate) fn read(path: &Path) -> Result<Value, String> {
+    let text = std::fs::read_to_string(path).map_err(|error| error.to_string());
+    let value = text.and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
+    value.map_err(|error| format!("cannot read {}: {error}", path.display()))
+}
+
+/// Mean and standard deviation of a sampling in a summary [mm]; `None` for too few observations.
+pub(crate) fn deflections(summary: &Value, sampling: &str) -> Option<(f64, f64)> {
+    let number =
+        |name: &str| summary.pointer(&format!("/studies/{sampling}/rms_mm/{name}")).and_then(Value::as_f64);
+    number("mean").zip(number("std"))
 }
 
 /// Standard output of the program.

@@ -9,6 +9,7 @@ mod bench;
 mod cable;
 mod cargo;
 mod fuzz;
+mod led;
 mod peers;
 mod scaling;
 
@@ -23,7 +24,8 @@ tasks:
   caroca-study [--out DIR] [--observations N] [--threads N] [--resume]
                  runs the study of Baklouti, Caro, Courteille (CableCon 2017) and prints it beside their
                  figures. All measures of its sensitivity go to DIR/sensitivity, the hysteresis of its cables
-                 to DIR/cable; DIR is target/caroca-study. With --resume it goes on with an interrupted run;
+                 to DIR/cable, the robot with pulleys and the cable behind them to DIR/led; DIR is
+                 target/caroca-study. With --resume it goes on with an interrupted run;
                  otherwise it begins anew
   robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
                  counts how often the direct model finds CoGiRo's true pose from a wrong start, by the
@@ -101,7 +103,7 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
         return code;
     }
     let (out, settings) = without(&rest, "--out");
-    match cable::run(Path::new(out), &settings) {
+    match cable::run(Path::new(out), &settings).and_then(|()| led::run(Path::new(out), &settings)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
