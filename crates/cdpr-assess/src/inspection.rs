@@ -51,8 +51,16 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
     findings.all_properties();
     findings.limits();
     findings.points();
+    let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
     match pose::held(robot) {
         Some((pose, solution)) => findings.at_pose(&pose, &solution),
+        None if cables < freedoms => findings.add(
+            Severity::Note,
+            "cables",
+            format!("{cables} for {freedoms} free motions"),
+            &format!("{} of the coordinates of a pose follow from the others", freedoms - cables),
+            "nothing, for a suspended platform; name them as free where a pose is given",
+        ),
         None => findings.add(
             Severity::Warning,
             "cables",
@@ -132,7 +140,7 @@ impl Findings<'_> {
         }
         let reach = self.robot.cables.iter().map(|cable| cable.anchor_point.norm()).fold(0.0, f64::max);
         let center = platform.center_of_mass.norm();
-        if center > 2.0 * reach {
+        if reach > 0.0 && center > 2.0 * reach {
             self.add(
                 Severity::Warning,
                 "platform.center_of_mass",
@@ -278,6 +286,10 @@ impl Findings<'_> {
             cables.iter().map(|cable| cable.anchor_point).collect(),
         ];
         for (name, points) in [("exit_point", &exits), ("anchor_point", &anchors)] {
+            // All cables of a point mass end at one place.
+            if self.robot.platform.point && name == "anchor_point" {
+                continue;
+            }
             for (j, point) in points.iter().enumerate() {
                 if let Some(i) = points[..j].iter().position(|other| (other - point).norm() < 1e-9) {
                     self.add(
@@ -289,6 +301,9 @@ impl Findings<'_> {
                     );
                 }
             }
+        }
+        if cables.len() == 1 {
+            return;
         }
         let size = frame(self.robot).iter().map(|[low, high]| high - low).fold(0.0, f64::max);
         let platform = self.robot.platform_size();
@@ -318,6 +333,26 @@ mod tests {
 
     fn robot() -> Robot {
         Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap()
+    }
+
+    #[test]
+    fn fewer_cables_and_a_point_mass_are_no_reason_to_warn() {
+        let some = |which: &[usize]| {
+            let whole = robot();
+            Robot { cables: which.iter().map(|i| whole.cables[*i].clone()).collect(), ..whole }
+        };
+        for which in [&[1][..], &[1, 3, 5, 7]] {
+            let (mut few, count) = (some(which), which.len());
+            few.cables.iter_mut().for_each(|cable| cable.anchor_point.z = 1.0);
+            few.validate().unwrap();
+            let [note] = &inspect(&few)[..] else { panic!("{:?}", inspect(&few)) };
+            assert_eq!((note.severity, note.field.as_str()), (Severity::Note, "cables"));
+            assert_eq!(note.value, format!("{count} for 6 free motions"));
+        }
+        let mut point = some(&[1, 3, 5, 7]);
+        point.cables.iter_mut().for_each(|cable| cable.anchor_point = Vector3::zeros());
+        point.platform.point = true;
+        assert_eq!(inspect(&point), []);
     }
 
     fn warned(change: impl Fn(&mut Robot)) -> Vec<String> {

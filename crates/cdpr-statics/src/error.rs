@@ -73,7 +73,8 @@ pub enum StaticsError {
     /// Fewer cables than free motions: not all coordinates of a pose can be chosen.
     #[error(
         "{cables} cables for {freedoms} free motions leave {} coordinates of the pose that cannot be chosen: \
-         expected as many names in `free` (of x, y, z, roll, pitch, yaw), not {named}",
+         expected as many names in `free` (of x, y, z, roll, pitch, yaw), not {named}; the inverse model, \
+         deflection, stiffness and modes take them",
         freedoms.saturating_sub(*cables)
     )]
     FreeCoordinates {

@@ -34,8 +34,10 @@ impl Findings<'_> {
         let arm = robot.platform_size();
         let mut matrix =
             robot.wrench_matrix(pose, &spans.iter().map(|span| -span.normalize()).collect::<Vec<_>>());
-        matrix.rows_mut(3, 3).unscale_mut(arm);
-        let values = matrix.singular_values();
+        if arm > 0.0 {
+            matrix.rows_mut(3, 3).unscale_mut(arm);
+        }
+        let values = matrix.select_rows(&robot.freedoms().components()).singular_values();
         let condition = values.max() / values.min();
         if condition.is_nan() || condition > CONDITION {
             self.add(

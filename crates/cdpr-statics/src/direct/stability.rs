@@ -56,7 +56,7 @@ impl Stability {
         let scale = per_length(characteristic_length);
         let hessian = hessian.component_mul(&(scale * scale.transpose()));
         let all = |stable| Self { stable, hessian, some: None, characteristic_length };
-        if is_definite(&hessian) {
+        if is_definite(problem, &hessian) {
             return all(true);
         }
         if !hessian.iter().all(|entry| entry.is_finite()) {

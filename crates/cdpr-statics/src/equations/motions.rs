@@ -18,8 +18,9 @@ use nalgebra::{Matrix6, SymmetricEigen};
 /// Eigenvalues below this share of the greatest may be those of neutral motions.
 const NEARLY_ZERO: f64 = 1e-10;
 
-/// A neutral motion is tried over this share of the characteristic length, and over as many radians at most.
-const TRIED: f64 = 0.1;
+/// A neutral motion is tried over this share of the characteristic length, and over as many radians at most:
+/// so little that hardly a slack cable becomes taut on the way.
+const TRIED: f64 = 1e-3;
 
 /// Residual after a neutral motion, relative to all forces.
 const BALANCED: f64 = 1e-9;
@@ -106,7 +107,7 @@ fn stays_balanced(
     let Residual { force, moment, .. } = Residual::of(problem, &moved);
     // Rounding of the points, too, is a force in stiff cables.
     let points = f64::EPSILON * (problem.size() + problem.coordinates(&moved.pose));
-    force + moment / length <= BALANCED * forces(problem, &moved) + 100.0 * stiffness * points
+    force + moment / length <= BALANCED * forces(problem, &moved) + 10.0 * stiffness * points
 }
 
 /// What takes the place of resistance where nothing resists: held and neutral motions stay at rest.
@@ -124,7 +125,7 @@ impl Pins {
         let scale = per_length(problem.characteristic_length());
         let scaled = hessian.component_mul(&(scale * scale.transpose()));
         let stiffness = scaled.amax();
-        if !scaled.iter().all(|entry| entry.is_finite()) || is_definite(&scaled) {
+        if !scaled.iter().all(|entry| entry.is_finite()) || is_definite(problem, &scaled) {
             return Self { freedoms, neutral: Vec::new(), stiffness };
         }
         let Motions { pairs, neutral } = Motions::new(problem, equilibrium, &scaled);
@@ -167,11 +168,11 @@ impl Pins {
     }
 }
 
-/// Whether a stiffness in (dp, ℓ dφ) is clearly positive definite: then no motion is neutral.
-pub(crate) fn is_definite(scaled: &Matrix6<f64>) -> bool {
+/// Whether a stiffness in (dp, ℓ dφ) is positive definite, so that no motion is neutral: clearly so where
+/// there are fewer cables than free motions.
+pub(crate) fn is_definite(problem: &DirectProblem, scaled: &Matrix6<f64>) -> bool {
     const CLEARLY: f64 = 1e-8;
-    scaled.cholesky().is_some_and(|factor| {
-        let pivots = factor.l_dirty().diagonal();
-        pivots.min().powi(2) > CLEARLY * pivots.max().powi(2)
-    })
+    let Some(factor) = scaled.cholesky() else { return false };
+    let pivots = factor.l_dirty().diagonal();
+    problem.robot.is_fully_actuated() || pivots.min().powi(2) > CLEARLY * pivots.max().powi(2)
 }

@@ -13,7 +13,7 @@
 //! not the solution.
 //!
 //! (I6) may have several solutions, stable and unstable ones. They are looked for from the given coordinates
-//! and from others that fill a box around them evenly. Each is an equilibrium for its lengths, and the
+//! and from others that fill two boxes around them evenly. Each is an equilibrium for its lengths, and the
 //! stiffness with these lengths held says whether it is stable.
 
 use super::feasible::straight;
@@ -111,7 +111,13 @@ const STARTS: usize = 32;
 /// How far starts are from the given angles [rad], and from its position relative to the longest span.
 const REACH: [f64; 2] = [1.3, 0.4];
 
+/// Every other start is within this share of the reach.
+const NEAR: f64 = 0.2;
+
 const MAX_ITERATIONS: usize = 80;
+
+/// A residual below this, relative to wrench and tensions, is rounding.
+const ROUNDING: f64 = 1e-15;
 
 /// A residual below this, relative to wrench and tensions, is a solution as far as rounding lets it be.
 const SOLVED: f64 = 1e-11;
@@ -235,6 +241,9 @@ impl<'a> Search<'a> {
         let mut damping = 1e-3;
         for iteration in 0..MAX_ITERATIONS {
             let norm = point.residual.norm();
+            if norm <= ROUNDING * point.forces {
+                return Outcome::Found(point, iteration);
+            }
             let Some(slopes) = self.slopes(&changes, &chord_forces, &point) else { return Outcome::Lost };
             let normal = slopes.transpose() * &slopes;
             let right = -(slopes.transpose() * point.residual);
@@ -315,9 +324,18 @@ impl<'a> Search<'a> {
             let known = |found: &FreeSolution| {
                 self.distance(&found.equilibrium.pose, &point.held.equilibrium.pose) <= SAME
             };
-            if !found.iter().any(known) {
-                let HeldPose { lengths, equilibrium } = point.held;
-                found.push(FreeSolution::new(robot, load, lengths, equilibrium, iterations)?);
+            if found.iter().any(known) {
+                continue;
+            }
+            let HeldPose { lengths, equilibrium } = point.held;
+            let new = FreeSolution::new(robot, load, lengths, equilibrium, iterations)?;
+            // Along its neutral motions a solution is the same.
+            let same = |found: &FreeSolution| {
+                let same = |(one, other): (&f64, &f64)| (one - other).abs() <= SAME * self.size;
+                !found.stability.neutral().is_empty() && found.lengths.iter().zip(&new.lengths).all(same)
+            };
+            if !found.iter().any(same) {
+                found.push(new);
             }
         }
         found.sort_by(|one, other| {
@@ -340,7 +358,7 @@ impl<'a> Search<'a> {
         Ok(FreeSolutions { first, others: found })
     }
 
-    /// Changes of the free coordinates at start number `index`: none, then points that fill a box evenly
+    /// Changes of the free coordinates at start number `index`: none, then points that fill two boxes evenly
     /// (additive recurrence of the generalised golden ratio).
     fn start(&self, index: usize) -> Vec<f64> {
         let dimension = self.free.len() as i32;
@@ -354,7 +372,8 @@ impl<'a> Search<'a> {
             }
             2.0 * (0.5 + index as f64 * golden.powi(-(axis as i32) - 1)).fract() - 1.0
         };
-        let reach = |coordinate: &Coordinate| REACH[usize::from(!coordinate.is_angle())];
+        let near = if index.is_multiple_of(2) { NEAR } else { 1.0 };
+        let reach = |coordinate: &Coordinate| near * REACH[usize::from(!coordinate.is_angle())];
         self.free.iter().enumerate().map(|(axis, coordinate)| reach(coordinate) * share(axis)).collect()
     }
 
