@@ -185,9 +185,6 @@ impl Parameter {
     /// The names of all parameters, as messages list them.
     pub const NAMES: &str = "mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...; \
          with pulleys r1 ..., tilt1.u ...; with leads lead1 ...; with gravity as a vector gravity.x ...";
-    /// The names of all groups, [`Parameter::group`], as messages list them.
-    pub const GROUPS: &str = "mass, linear_density, youngs_modulus, a, b, cog, dt; with pulleys r, tilt; \
-         with leads lead; with gravity as a vector gravity";
 
     /// All parameters of a robot, in the order of [`ParameterLayout`].
     pub fn of(robot: &Robot) -> Vec<Self> {

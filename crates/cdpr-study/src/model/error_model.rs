@@ -67,6 +67,13 @@ fn a_parameter() -> String {
     format!("a parameter ({})", Parameter::NAMES)
 }
 
+/// The names of the groups of these parameters, as messages list them.
+fn groups(parameters: &[Parameter]) -> String {
+    let mut groups: Vec<_> = parameters.iter().map(Parameter::group).collect();
+    groups.dedup();
+    groups.join(", ")
+}
+
 /// The standard deviation of each parameter of a robot [SI units], in the order of [`Parameter::of`], from
 /// those that have names: its own, else that of its group, else none.
 ///
@@ -80,7 +87,7 @@ pub fn uncertainties(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<f64>,
     if let Some((name, std)) = named.iter().find(wrong) {
         let expected = format!(
             "a positive standard deviation of {} or one of their parameters, such as a1.x",
-            Parameter::GROUPS
+            groups(&parameters)
         );
         return Err(StudyError::setting(format!("uncertainty of {name}"), std, expected));
     }
@@ -103,7 +110,7 @@ impl ErrorModel {
             let expected = format!(
                 "{}, a group of parameters ({}), or an entry with `parameters`",
                 a_parameter(),
-                Parameter::GROUPS
+                groups(&parameters)
             );
             return Err(Wrong::field(key, key, expected));
         }

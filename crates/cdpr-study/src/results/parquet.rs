@@ -107,7 +107,7 @@ fn schema(sampling: &Sampling) -> Result<TypePtr> {
 
 /// The study of the table, and the unit of each column that has one.
 fn provenance(sampling: &Sampling, hash: String) -> Vec<KeyValue> {
-    let parameters = Parameter::of(&sampling.robot);
+    let parameters = Parameter::of(sampling.robot);
     let inputs = sampling.design.inputs().iter().enumerate().filter_map(|(number, input)| {
         // A cause of parameters in different units has no unit.
         let mut terms = sampling.errors.terms.iter().filter(|term| term.input == number);
