@@ -69,7 +69,8 @@ fn equilibria_on_few_cables_match_arithmetic_of_20_digits() {
         let stiffness = *problem.linearize(&found.equilibrium).unwrap().stiffness();
         let off = (stiffness - exact).norm() / exact.norm();
         let line = format!(
-            "{kind:22} {position:8.1e} m {angle:8.1e} rad, tensions {worst:8.1e}, stiffness {off:8.1e}, {} {}",
+            "{kind:22} {position:8.1e} m {angle:8.1e} rad, tensions {worst:8.1e}, stiffness {off:8.1e}, \
+             {} {}",
             found.report.method, found.report.iterations
         );
         println!("{line}");

@@ -137,11 +137,12 @@ impl Robot {
     /// path: whether the cases are a path, so that each keeps to the branch of tensions of the one before as
     ///     long as it exists on the straight way between them.
     /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
-    ///     motions: as many of x, y, z, roll, pitch, yaw as cables are missing, R = Rz(yaw) Ry(pitch) Rx(roll).
-    ///     They start from the pose and end where the platform rests; limits and reference do not matter.
+    ///     motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with
+    ///     R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests; limits and reference do not matter.
     ///
     /// Raises InputError; for one case NoSolutionError.
-    #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None, path=false, free=None))]
+    #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None, path=false,
+        free=None))]
     #[allow(clippy::too_many_arguments)]
     fn inverse(
         &self,

@@ -47,8 +47,8 @@ pub struct FreeSolution {
 /// The solutions that were found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeSolutions {
-    /// The nearest to the given pose of the stable ones within the limits of tension; if none was found, of the
-    /// stable ones, then of the unstable ones.
+    /// The nearest to the given pose of the stable ones within the limits of tension; if none was found, of
+    /// the stable ones, then of the unstable ones.
     pub first: FreeSolution,
     /// The others, in the same order.
     pub others: Vec<FreeSolution>,
