@@ -2,6 +2,7 @@
 //! points, poses without feasible tensions. The robot is valid all the same.
 
 mod pose;
+mod pulley;
 
 use cdpr_robot::{CableProperties, Robot, RobotCable, Vector3};
 use cdpr_study::frame;

@@ -1,7 +1,7 @@
 //! Inspection of robots: what is odd in a file, and what is only worth knowing.
 
 use cdpr_assess::{Severity, inspect};
-use cdpr_robot::{Gravity, Robot, Vector3};
+use cdpr_robot::{Gravity, Pulley, Robot, Vector3};
 
 fn about_gravity(gravity: impl Into<Gravity>) -> Vec<(Severity, String)> {
     let mut robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
@@ -22,4 +22,35 @@ fn a_tilted_base_is_noted_with_its_angle_and_gravity_is_compared_by_its_magnitud
         about_gravity(moon),
         [note("the base is tilted by 36.87\u{b0}"), note("not that of the Earth's surface")]
     );
+}
+
+#[test]
+fn wheels_that_cables_hardly_touch_or_come_back_over_and_wheels_in_one_place_are_named() {
+    let cogiro = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
+    let about_pulleys = |axis: &dyn Fn(Vector3<f64>) -> Vector3<f64>| -> Vec<(Severity, String)> {
+        let mut robot = cogiro.clone();
+        // Two cables that enter at one place.
+        robot.cables[1].exit_point = robot.cables[0].exit_point + Vector3::new(0.01, 0.0, 0.0);
+        for cable in &mut robot.cables {
+            cable.pulley = Some(Pulley { radius: 0.05, axis: axis(cable.exit_point) });
+        }
+        let found = inspect(&robot).into_iter().filter(|finding| finding.field.contains("pulley"));
+        found.map(|finding| (finding.severity, finding.field)).collect()
+    };
+    let note = (Severity::Note, "cables[1].pulley".to_owned());
+    // From below, over the top, and down to the platform: as such robots are built.
+    assert_eq!(about_pulleys(&|_| Vector3::z()), [note.clone()]);
+    // Straight on from outside the frame to the platform, and back from it.
+    let towards = |exit: Vector3<f64>| Vector3::new(0.0, 0.0, -1.6) - exit;
+    let warned = |found: &[(Severity, String)]| {
+        found
+            .iter()
+            .filter(|(severity, field)| *severity == Severity::Warning && field.ends_with("axis"))
+            .count()
+    };
+    let straight_on = about_pulleys(&towards);
+    assert!(warned(&straight_on) >= 4 && straight_on.contains(&note), "{straight_on:?}");
+    let sideways = |exit: Vector3<f64>| 0.2 * exit.norm() * Vector3::new(-exit.y, exit.x, 0.0).normalize();
+    let back = about_pulleys(&|exit| sideways(exit) - towards(exit));
+    assert!(warned(&back) >= 4 && back.contains(&note), "{back:?}");
 }

@@ -60,6 +60,7 @@ impl Findings<'_> {
                 "check the centre of mass and the heights of the anchor points",
             );
         }
+        self.pulleys(solution, &at);
         for j in cables {
             self.crossings(pose, j, &spans, &at);
         }

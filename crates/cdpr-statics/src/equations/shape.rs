@@ -14,6 +14,8 @@ pub struct CableShape {
     pub points: Vec<Vector3<f64>>,
     /// The wheel: points around it, of which the last is the first [m]; empty without a pulley.
     pub wheel: Vec<Vector3<f64>>,
+    /// Angle over which the cable lies on its pulley [rad]; zero without one.
+    pub wrap: f64,
     /// Greatest distance of the free cable across its chord [m].
     pub sag: f64,
 }
@@ -53,6 +55,7 @@ impl DirectProblem<'_> {
         let beyond = catenary.profile(free).into_iter().map(in_plane);
         Ok(CableShape {
             points: catenary.on_the_pulley(on_pulley).into_iter().chain(beyond).map(in_space).collect(),
+            wrap: catenary.wrap(),
             wheel: catenary.wheel(4 * on_pulley).into_iter().map(in_space).collect(),
             sag: catenary.sag(),
         })
