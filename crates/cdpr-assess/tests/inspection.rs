@@ -39,7 +39,7 @@ fn wheels_that_cables_hardly_touch_or_come_back_over_and_wheels_in_one_place_are
     };
     let note = (Severity::Note, "cables[1].pulley".to_owned());
     // From below, over the top, and down to the platform: as such robots are built.
-    assert_eq!(about_pulleys(&|_| Vector3::z()), [note.clone()]);
+    assert_eq!(about_pulleys(&|_| Vector3::z()), std::slice::from_ref(&note));
     // Straight on from outside the frame to the platform, and back from it.
     let towards = |exit: Vector3<f64>| Vector3::new(0.0, 0.0, -1.6) - exit;
     let warned = |found: &[(Severity, String)]| {
