@@ -138,8 +138,13 @@ impl RobotCable {
 
     /// What leads the cable to its exit point, in the level frame to which `level` rotates; `None` for one
     /// that begins there.
-    #[inline]
+    #[inline(always)]
     pub fn guide(&self, level: Option<&Matrix3<f64>>) -> Option<Guide> {
+        if self.lead == 0.0 && self.pulley.is_none() { None } else { self.led(level) }
+    }
+
+    #[cold]
+    fn led(&self, level: Option<&Matrix3<f64>>) -> Option<Guide> {
         let radius = self.pulley.map_or(0.0, |pulley| pulley.radius);
         if radius == 0.0 && self.lead == 0.0 {
             return None;

@@ -50,11 +50,13 @@ impl<'a> DirectProblem<'a> {
         self.lengths.len()
     }
 
+    #[inline]
     pub(crate) fn cable(&self, i: usize) -> Cable<'a> {
         self.robot.cable(i)
     }
 
     /// Cable i in the shape that the force (fx, fz) [N] gives it.
+    #[inline]
     pub(crate) fn catenary(&self, i: usize, force: Vector2<f64>) -> Catenary<'a> {
         Catenary { cable: self.cable(i), unstrained_length: self.lengths[i], force }
     }

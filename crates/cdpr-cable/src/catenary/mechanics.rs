@@ -60,7 +60,10 @@ impl Catenary<'_> {
     /// End position, flexibility and tension, as [`crate::kernel::response`] gives them for a linear cable.
     #[inline]
     pub fn response(&self) -> Response<f64> {
-        self.cable.response(&self.cable.numbers(self.unstrained_length), self.force.into())
+        match (&self.cable.guide, self.cable.law) {
+            (None, ElasticLaw::Linear) => self.terms().response(),
+            _ => self.cable.response(&self.cable.numbers(self.unstrained_length), self.force.into()),
+        }
     }
 
     /// End position, in-plane flexibility and lateral stiffness.

@@ -131,7 +131,9 @@ impl Projection {
     /// Draws the cables, and the platform as the outline of its anchor points.
     fn state(&self, area: &Area, state: &State, color: RGBColor) -> Result<(), DrawingError> {
         for cable in &state.cables {
-            self.line(area, FRAME, cable.wheel.iter().copied())?;
+            if !cable.wheel.is_empty() {
+                self.line(area, FRAME, cable.wheel.iter().copied())?;
+            }
             self.line(area, Pen::solid(color, 1.1), cable.points.iter().copied())?;
         }
         let outline = outline(state.anchors.iter().map(|anchor| self.projected(*anchor)).collect());

@@ -22,16 +22,16 @@ pub(crate) struct Ends<'a> {
 }
 
 /// A cable between its two points with the derivatives by its chord force.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(crate) struct Held<'a> {
     shape: Shape<'a>,
     level: Option<&'a Matrix3<f64>>,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 enum Shape<'a> {
     Planar(HeldCable<'a>, CablePlane<f64>),
-    Spatial(HeldSpatialCable<'a>),
+    Spatial(Box<HeldSpatialCable<'a>>),
 }
 
 impl<'a> Ends<'a> {
@@ -50,7 +50,7 @@ impl<'a> Ends<'a> {
     /// The cable with the chord force `chord_force` [N].
     pub(crate) fn at_chord_force(&self, chord_force: f64) -> Result<Held<'a>, CableError> {
         Ok(self.held(if self.cable.leaves_its_plane() {
-            Shape::Spatial(HeldSpatialCable::at_chord_force(&self.cable, self.end, chord_force)?)
+            Shape::Spatial(Box::new(HeldSpatialCable::at_chord_force(&self.cable, self.end, chord_force)?))
         } else {
             let Span { plane, end } = self.span();
             Shape::Planar(HeldCable::at_chord_force(&self.cable, end.into(), chord_force)?, plane)
@@ -60,7 +60,7 @@ impl<'a> Ends<'a> {
     /// The cable of least tension at A.
     pub(crate) fn at_least_tension(&self) -> Result<Held<'a>, CableError> {
         Ok(self.held(if self.cable.leaves_its_plane() {
-            Shape::Spatial(HeldSpatialCable::at_least_tension(&self.cable, self.end)?)
+            Shape::Spatial(Box::new(HeldSpatialCable::at_least_tension(&self.cable, self.end)?))
         } else {
             let Span { plane, end } = self.span();
             Shape::Planar(HeldCable::at_least_tension(&self.cable, end.into())?, plane)
@@ -107,9 +107,9 @@ impl<'a> Held<'a> {
         Ok(Self {
             shape: match &self.shape {
                 Shape::Planar(held, plane) => Shape::Planar(held.with_chord_force(chord_force)?, *plane),
-                Shape::Spatial(held) => Shape::Spatial(held.with_chord_force(chord_force)?),
+                Shape::Spatial(held) => Shape::Spatial(Box::new(held.with_chord_force(chord_force)?)),
             },
-            ..*self
+            level: self.level,
         })
     }
 
@@ -118,9 +118,9 @@ impl<'a> Held<'a> {
         Ok(Self {
             shape: match &self.shape {
                 Shape::Planar(held, plane) => Shape::Planar(held.with_tension(tension)?, *plane),
-                Shape::Spatial(held) => Shape::Spatial(held.with_tension(tension)?),
+                Shape::Spatial(held) => Shape::Spatial(Box::new(held.with_tension(tension)?)),
             },
-            ..*self
+            level: self.level,
         })
     }
 

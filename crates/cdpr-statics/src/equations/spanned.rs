@@ -16,7 +16,6 @@ use cdpr_cable::{
 use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
 
 /// A cable with a force that need not fit its two points.
-#[derive(Clone, Copy)]
 pub(crate) struct SpannedCable<'a, T> {
     /// s_i = R a_i [m].
     pub(crate) anchor_arm: [T; 3],
@@ -28,7 +27,7 @@ pub(crate) struct SpannedCable<'a, T> {
     /// shape, and for one over a tilted axis.
     pub(crate) response: Option<Response<T>>,
     /// How the end of a cable over a tilted axis answers, in the level frame.
-    spatial: Option<SpatialResponse>,
+    spatial: Option<Box<SpatialResponse>>,
     /// Length without tension and weight [m].
     length_at_rest: f64,
     guide: Option<Guide>,
@@ -38,13 +37,19 @@ pub(crate) struct SpannedCable<'a, T> {
 /// A vector of the level frame in the base frame.
 #[inline(always)]
 pub(crate) fn to_base<T: Real>(level: Option<&Matrix3<f64>>, v: [T; 3]) -> [T; 3] {
-    level.map_or(v, |level| turned(&level.transpose(), v))
+    match level {
+        None => v,
+        Some(level) => turned(&level.transpose(), v),
+    }
 }
 
 /// A vector of the base frame in the level frame.
 #[inline(always)]
 pub(crate) fn to_level<T: Real>(level: Option<&Matrix3<f64>>, v: [T; 3]) -> [T; 3] {
-    level.map_or(v, |level| turned(level, v))
+    match level {
+        None => v,
+        Some(level) => turned(level, v),
+    }
 }
 
 #[cold]
@@ -57,23 +62,20 @@ impl<'a> SpannedCable<'a, f64> {
     #[inline(always)]
     pub(crate) fn of(robot: &'a Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Self {
         let (limp, anchor_arm) = (catenary.is_limp(), robot.anchor_arm(pose, i).into());
+        let leaves = catenary.cable.leaves_its_plane();
         let level = robot.gravity.level();
         let r = between(&pose.position.into(), &anchor_arm, &robot.cables[i].exit_point.into());
         let cable = Self {
             anchor_arm,
             span: Span::new(to_level(level, r)),
             force: catenary.force.into(),
-            response: None,
+            response: (!limp && !leaves).then(|| catenary.response()),
             spatial: None,
             length_at_rest: if limp { catenary.length_at_rest() } else { catenary.unstrained_length },
             guide: catenary.cable.guide,
             level,
         };
-        match (limp, catenary.cable.leaves_its_plane()) {
-            (true, _) => cable,
-            (false, false) => Self { response: Some(catenary.response()), ..cable },
-            (false, true) => cable.in_space(catenary, to_level(level, r).into()),
-        }
+        if limp || !leaves { cable } else { cable.in_space(catenary, to_level(level, r).into()) }
     }
 
     /// The cable over a tilted axis to `end` [m] in the level frame, in the plane in which it hangs.
@@ -111,7 +113,7 @@ impl<'a> SpannedCable<'a, f64> {
         }
         let Some((_, plane, response)) = best else { return self };
         let span = Span { end: plane.project(end.into()), plane };
-        Self { span, spatial: Some(response), ..self }
+        Self { span, spatial: Some(Box::new(response)), ..self }
     }
 
     /// The misclosure in space of a cable over a tilted axis [m], in the level frame.
@@ -122,20 +124,26 @@ impl<'a> SpannedCable<'a, f64> {
     /// The cable linearised about its force; `None` for a slack cable without weight, which resists nothing.
     #[inline(always)]
     pub(crate) fn linearized(&self) -> Option<SpannedStiffness<'a>> {
-        let shape = match (self.planar(), &self.spatial) {
-            (Some(planar), _) => Shape::Planar(planar),
-            (None, Some(spatial)) => self.linearized_in_space(spatial),
-            (None, None) => return None,
-        };
-        Some(SpannedStiffness { shape, level: self.level })
+        if self.level.is_some() || self.response.is_none() {
+            return self.turned();
+        }
+        self.planar().map(SpannedStiffness::Level)
     }
 
     #[cold]
-    fn linearized_in_space(&self, spatial: &SpatialResponse) -> Shape {
-        let stiffness = spatial.flexibility.try_inverse().unwrap_or_else(Matrix3::zeros);
-        let symmetric = 0.5 * (stiffness + stiffness.transpose());
-        let predicted = Vector3::from(self.span.plane.lift(self.force)) + stiffness * self.open();
-        Shape::Spatial { plane: self.span.plane, predicted, stiffness: symmetric }
+    fn turned(&self) -> Option<SpannedStiffness<'a>> {
+        let (plane, level) = (self.span.plane, self.level);
+        let (predicted, stiffness) = match (self.planar(), &self.spatial) {
+            (Some(planar), _) => (plane.lift(planar.predicted).into(), planar.stiffness_in_space().into()),
+            (None, Some(spatial)) => {
+                let stiffness = spatial.flexibility.try_inverse().unwrap_or_else(Matrix3::zeros);
+                let predicted = Vector3::from(plane.lift(self.force)) + stiffness * self.open();
+                (predicted, 0.5 * (stiffness + stiffness.transpose()))
+            }
+            (None, None) => return None,
+        };
+        let leaves = self.spatial.is_some();
+        Some(SpannedStiffness::Turned(Box::new(Turned { plane, predicted, stiffness, leaves, level })))
     }
 
     /// Skew part of the stiffness in space [N/m], in the base frame, besides the symmetric one of
@@ -252,63 +260,72 @@ impl<'a> SpannedCable<'a, f64> {
 }
 
 /// The stiffness of a cable in space, with the force on which it bears.
-#[derive(Clone, Copy)]
-pub(crate) struct SpannedStiffness<'a> {
-    shape: Shape,
-    level: Option<&'a Matrix3<f64>>,
+pub(crate) enum SpannedStiffness<'a> {
+    /// In the vertical plane of its span, on a level base.
+    Level(LinearizedCable<f64>),
+    /// Any other.
+    Turned(Box<Turned<'a>>),
 }
 
-#[derive(Clone, Copy)]
-enum Shape {
-    Planar(LinearizedCable<f64>),
-    /// In the level frame: the force on the cable at A [N] and the symmetric part of the stiffness [N/m].
-    Spatial {
-        plane: CablePlane<f64>,
-        predicted: Vector3<f64>,
-        stiffness: Matrix3<f64>,
-    },
+/// A cable in the level frame, and the way to the base frame.
+pub(crate) struct Turned<'a> {
+    plane: CablePlane<f64>,
+    /// Force on the cable at A [N].
+    predicted: Vector3<f64>,
+    /// Symmetric part of the stiffness [N/m].
+    stiffness: Matrix3<f64>,
+    /// Whether the plane depends on the force.
+    leaves: bool,
+    level: Option<&'a Matrix3<f64>>,
 }
 
 impl SpannedStiffness<'_> {
     /// Stiffness K3 [N/m] in the base frame, equation (S3): a symmetric matrix.
     #[inline(always)]
     pub(crate) fn stiffness(&self) -> [[f64; 3]; 3] {
-        let own = match &self.shape {
-            Shape::Planar(cable) => cable.stiffness_in_space(),
-            Shape::Spatial { stiffness, .. } => (*stiffness).into(),
-        };
-        self.level.map_or(own, |level| (level.transpose() * Matrix3::from(own) * level).into())
+        match self {
+            Self::Level(cable) => cable.stiffness_in_space(),
+            Self::Turned(cable) => cable.stiffness(),
+        }
     }
 
     /// The force on the platform that the cable would have if it fitted its points [N].
     #[inline(always)]
     pub(crate) fn predicted(&self) -> [f64; 3] {
-        let own = match &self.shape {
-            Shape::Planar(cable) => cable.plane.force_on_platform(cable.predicted),
-            Shape::Spatial { predicted, .. } => (-predicted).into(),
-        };
-        to_base(self.level, own)
+        match self {
+            Self::Level(cable) => cable.plane.force_on_platform(cable.predicted),
+            Self::Turned(cable) => to_base(cable.level, (-cable.predicted).into()),
+        }
     }
 
     /// The force (fx, fz) on the cable [N] after a displacement of A in space [m], in its plane before.
     #[inline(always)]
     pub(crate) fn force_after(&self, displacement: [f64; 3]) -> [f64; 2] {
-        let displacement = to_level(self.level, displacement);
-        match &self.shape {
-            Shape::Planar(cable) => cable.force_after(displacement),
-            Shape::Spatial { predicted, stiffness, .. } => {
-                let force = predicted + stiffness * Vector3::from(displacement);
-                [force.xy().norm(), force.z]
-            }
+        match self {
+            Self::Level(cable) => cable.force_after(displacement),
+            Self::Turned(cable) => cable.force_after(displacement),
         }
     }
 
     /// A force (fx, fz) on the cable [N], in the level frame.
     pub(crate) fn lift(&self, force: [f64; 2]) -> [f64; 3] {
-        match &self.shape {
-            Shape::Planar(cable) => cable.plane.lift(force),
-            Shape::Spatial { plane, .. } => plane.lift(force),
+        match self {
+            Self::Level(cable) => cable.plane.lift(force),
+            Self::Turned(cable) => cable.plane.lift(force),
         }
+    }
+}
+
+impl Turned<'_> {
+    #[cold]
+    fn stiffness(&self) -> [[f64; 3]; 3] {
+        self.level.map_or(self.stiffness, |level| level.transpose() * self.stiffness * level).into()
+    }
+
+    #[cold]
+    fn force_after(&self, displacement: [f64; 3]) -> [f64; 2] {
+        let force = self.predicted + self.stiffness * Vector3::from(to_level(self.level, displacement));
+        if self.leaves { [force.xy().norm(), force.z] } else { self.plane.project(force.into()) }
     }
 }
 
@@ -336,25 +353,23 @@ impl<'a, T: Real> SpannedCable<'a, T> {
         };
         let r =
             to_level(level, between(&position, &anchor_arm, &<[f64; 3]>::from(cable.exit_point).map(T::of)));
+        let (limp, leaves) = (catenary.is_limp(), catenary.cable.leaves_its_plane());
         let shaped = Self {
             anchor_arm,
             span: Span::new(r),
             force,
-            response: None,
+            response: (!limp && !leaves).then(answer),
             spatial: None,
             length_at_rest: catenary.length_at_rest(),
             guide: catenary.cable.guide,
             level,
         };
-        if catenary.is_limp() {
-            return shaped;
-        }
-        if catenary.cable.leaves_its_plane() {
+        if leaves && !limp {
             let found = shaped.plain().in_space(&catenary, r.map(T::value).into());
             let plane = CablePlane { azimuth: found.span.plane.azimuth.map(T::of) };
             return Self { span: Span { end: plane.project(r), plane }, spatial: found.spatial, ..shaped };
         }
-        Self { response: Some(answer()), ..shaped }
+        shaped
     }
 
     /// The same cable in doubles, without how it answers.

@@ -126,7 +126,7 @@ impl<'a> Strand<'a> {
             self.chord_forces[1] = Some(self.held.with_tension(self.limits.max)?.chord_force());
             return Ok(());
         }
-        let mut nearby = self.held;
+        let mut nearby = self.held.clone();
         if self.limits.min < self.floor {
             nearby = self.ends.at_least_tension()?;
             let least = nearby.tension();
@@ -178,7 +178,7 @@ impl<'a> Strand<'a> {
         let reached = self.chord_forces.iter().flatten().find(|at| (*at - chord_force).abs() <= 1e-14 * *at);
         let chord_force = reached.copied().unwrap_or(chord_force);
         if chord_force == self.held.chord_force() {
-            Ok(self.held)
+            Ok(self.held.clone())
         } else {
             self.held.with_chord_force(chord_force)
         }
