@@ -22,4 +22,4 @@ pub use partials::Inputs;
 pub(crate) use partials::{CableDerivatives, Partials, Reading, read, solve, tensions, wrench};
 pub(crate) use rounding::{FORCES, forces};
 pub use shape::CableShape;
-pub(crate) use spanned::{SpannedCable, SpannedStiffness, end, to_base};
+pub(crate) use spanned::{SpannedCable, SpannedStiffness, Turned, end, to_base};

@@ -15,7 +15,9 @@
 //! left out, so that they stay where they started.
 
 use crate::direct::stability::Stability;
-use crate::equations::{Balance, SpannedCable, SpannedStiffness, forces, per_length};
+use crate::equations::{
+    Balance, LinearizedCable, SpannedCable, SpannedStiffness, Turned, forces, per_length,
+};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
 use cdpr_robot::{Vector2, Vector3, Vector6};
@@ -44,8 +46,10 @@ const ROUNDED_FORCE: f64 = 1e-13;
 /// residual of the state itself.
 struct Linearised<'a> {
     balance: Balance,
-    /// s_i [m] and the linearised cable; `None` for a slack one without weight.
-    cables: Vec<([f64; 3], Option<SpannedStiffness<'a>>)>,
+    /// s_i [m] and the linearised cable in the plane of its span; one that resists nothing is slack.
+    cables: Vec<([f64; 3], LinearizedCable<f64>)>,
+    /// Those of a tilted base or over tilted axes, which take the place of the others.
+    turned: Vec<Option<Box<Turned<'a>>>>,
     residual: Residual,
 }
 
@@ -55,15 +59,27 @@ impl<'a> Linearised<'a> {
         let mut unbalanced = balance.gradient;
         let mut closure: f64 = 0.0;
         let mut cables = Vec::with_capacity(problem.cables());
+        let mut turned = Vec::new();
         for (i, force) in state.cable_forces.iter().enumerate() {
             let cable = SpannedCable::of(problem.robot, &state.pose, i, &problem.catenary(i, *force));
             closure = closure.max(Vector2::from(cable.misclosure()).norm());
-            let (arm, linearized) = (cable.anchor_arm, cable.linearized());
-            if let Some(linearized) = &linearized {
-                unbalanced -= Vector6::from(cable.wrench());
-                balance.add_cable(&arm, &linearized.predicted(), linearized.stiffness());
+            let (plane, arm) = (cable.span.plane, cable.anchor_arm);
+            let limp =
+                LinearizedCable { plane, predicted: [0.0; 2], stiffness: [0.0; 3], lateral_stiffness: 0.0 };
+            let Some(linearized) = cable.linearized() else {
+                cables.push((arm, limp));
+                continue;
+            };
+            unbalanced -= Vector6::from(cable.wrench());
+            balance.add_cable(&arm, &linearized.predicted(), linearized.stiffness());
+            match linearized {
+                SpannedStiffness::Level(linearized) => cables.push((arm, linearized)),
+                SpannedStiffness::Turned(other) => {
+                    cables.push((arm, limp));
+                    turned.resize_with(i, || None);
+                    turned.push(Some(other));
+                }
             }
-            cables.push((arm, linearized));
         }
         let freedoms = problem.robot.freedoms();
         if !freedoms.are_all() {
@@ -71,7 +87,7 @@ impl<'a> Linearised<'a> {
             unbalanced = freedoms.of_vector(&unbalanced);
         }
         let (force, moment) = (unbalanced.fixed_rows::<3>(0).norm(), unbalanced.fixed_rows::<3>(3).norm());
-        Self { balance, cables, residual: Residual { closure, force, moment } }
+        Self { balance, cables, turned, residual: Residual { closure, force, moment } }
     }
 
     /// The motion (dp, dφ) that balances the linearised platform. `None` if its stiffness is singular.
@@ -157,14 +173,16 @@ fn iterate(
         }
         let pose = now.pose.moved(dp, dphi);
         for (i, (force, (arm, cable))) in now.cable_forces.iter_mut().zip(&linearised.cables).enumerate() {
-            let Some(cable) = cable else {
-                *force = Vector2::zeros();
-                continue;
+            let displacement = (dp + dphi.cross(&Vector3::from(*arm))).into();
+            let turned = linearised.turned.get(i).and_then(Option::as_ref);
+            *force = match turned {
+                None => cable.force_after(displacement).into(),
+                Some(cable) => cable.force_after(displacement).into(),
             };
-            *force = cable.force_after((dp + dphi.cross(&Vector3::from(*arm))).into()).into();
             if force.x < 0.0 {
                 // The cable passed the vertical: in its new plane the same force points forwards.
-                let in_space = cable.lift((*force).into());
+                let plane = turned.map_or(&cable.plane, |cable| &cable.plane);
+                let in_space = plane.lift((*force).into());
                 [force.x, _] = problem.span(&pose, i).plane.project(in_space);
                 if force.x < -1e-12 * force.y.abs() {
                     return None;

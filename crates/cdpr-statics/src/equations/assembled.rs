@@ -116,7 +116,7 @@ pub(crate) fn jacobian<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
     for i in 0..problem.cables() {
         let cable = state.cable(problem, i);
         let at = closure_row(i);
-        let Some(Response { flexibility: [xx, xz, zz], lateral_flexibility, .. }) = cable.response else {
+        let Some(&Response { flexibility: [xx, xz, zz], lateral_flexibility, .. }) = cable.response() else {
             // Its force stays zero.
             jacobian.fixed_view_mut::<2, 2>(at, at).fill_with_identity();
             continue;

@@ -23,15 +23,18 @@ pub(crate) struct SpannedCable<'a, T> {
     pub(crate) span: Span<T>,
     /// (fx, fz) on the cable at A [N].
     pub(crate) force: [T; 2],
-    /// How its end answers to forces in its plane; `None` for a slack cable without weight, which has no
-    /// shape, and for one over a tilted axis.
-    pub(crate) response: Option<Response<T>>,
-    /// How the end of a cable over a tilted axis answers, in the level frame.
-    spatial: Option<Box<SpatialResponse>>,
-    /// Length without tension and weight [m].
-    length_at_rest: f64,
-    guide: Option<Guide>,
+    answer: Answer<T>,
     level: Option<&'a Matrix3<f64>>,
+}
+
+/// How the end of a cable answers to forces.
+enum Answer<T> {
+    /// In its plane.
+    Planar(Response<T>),
+    /// Over a tilted axis, in the level frame.
+    Spatial(Box<SpatialResponse>),
+    /// A slack cable without weight has no shape: its length without tension [m], and its guide.
+    Limp(Box<(f64, Option<Guide>)>),
 }
 
 /// A vector of the level frame in the base frame.
@@ -57,63 +60,76 @@ fn turned<T: Real>(rotation: &Matrix3<f64>, v: [T; 3]) -> [T; 3] {
     [0, 1, 2].map(|row| dot(&[0, 1, 2].map(|column| T::of(rotation[(row, column)])), &v))
 }
 
+/// How a cable answers over the vector r [m] in the level frame; its span is that of the plane it hangs in.
+#[inline(always)]
+fn answer<T: Real>(
+    catenary: &Catenary,
+    span: Span<T>,
+    r: [T; 3],
+    response: impl FnOnce() -> Response<T>,
+) -> (Span<T>, Answer<T>) {
+    if catenary.is_limp() {
+        return (span, Answer::Limp(Box::new((catenary.length_at_rest(), catenary.cable.guide))));
+    }
+    if catenary.cable.leaves_its_plane() {
+        let azimuth = span.plane.azimuth.map(T::value);
+        let (azimuth, response) = hanging(catenary, azimuth.into(), r.map(T::value).into());
+        let plane = CablePlane { azimuth: <[f64; 2]>::from(azimuth).map(T::of) };
+        return (Span { end: plane.project(r), plane }, Answer::Spatial(Box::new(response)));
+    }
+    (span, Answer::Planar(response()))
+}
+
+/// Azimuth of the plane in which a cable over a tilted axis hangs to `end` [m] with its force, and how it
+/// answers there.
+#[cold]
+fn hanging(
+    catenary: &Catenary,
+    mut forwards: Vector2<f64>,
+    end: Vector3<f64>,
+) -> (Vector2<f64>, SpatialResponse) {
+    const MAX_ITERATIONS: usize = 30;
+    let [fx, fz] = catenary.force.into();
+    let at = |forwards: Vector2<f64>| {
+        let force = Vector3::new(fx * forwards.x, fx * forwards.y, fz);
+        let Catenary { cable, unstrained_length, .. } = *catenary;
+        let response = SpatialCable { cable, unstrained_length, force }.response();
+        let way = (end - response.leave).xy();
+        // From forwards, to the left.
+        (response, way, forwards.perp(&way))
+    };
+    let (mut response, mut way, mut beside) = at(forwards);
+    for _ in 0..MAX_ITERATIONS {
+        // What a turn of the plane by an angle moves across it: nearly the distance from the leave point.
+        let across = Vector3::new(-forwards.y, forwards.x, 0.0);
+        let swing = fx * (response.flexibility * across).dot(&across);
+        let reach = forwards.dot(&(end - response.end).xy()) + swing;
+        let towards = if forwards.dot(&way) > 0.0 && reach > 0.0 {
+            forwards + across.xy() * (beside / reach)
+        } else {
+            way
+        };
+        let Some(next) = towards.try_normalize(0.0) else { break };
+        let turned = at(next);
+        if turned.2.abs() >= beside.abs() {
+            break;
+        }
+        forwards = next;
+        (response, way, beside) = turned;
+    }
+    (forwards, response)
+}
+
 impl<'a> SpannedCable<'a, f64> {
     /// Cable i of a robot at a pose, in the shape of `catenary`.
     #[inline(always)]
     pub(crate) fn of(robot: &'a Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Self {
-        let (limp, anchor_arm) = (catenary.is_limp(), robot.anchor_arm(pose, i).into());
-        let leaves = catenary.cable.leaves_its_plane();
+        let anchor_arm = robot.anchor_arm(pose, i).into();
         let level = robot.gravity.level();
-        let r = between(&pose.position.into(), &anchor_arm, &robot.cables[i].exit_point.into());
-        let cable = Self {
-            anchor_arm,
-            span: Span::new(to_level(level, r)),
-            force: catenary.force.into(),
-            response: (!limp && !leaves).then(|| catenary.response()),
-            spatial: None,
-            length_at_rest: if limp { catenary.length_at_rest() } else { catenary.unstrained_length },
-            guide: catenary.cable.guide,
-            level,
-        };
-        if limp || !leaves { cable } else { cable.in_space(catenary, to_level(level, r).into()) }
-    }
-
-    /// The cable over a tilted axis to `end` [m] in the level frame, in the plane in which it hangs.
-    #[cold]
-    fn in_space(self, catenary: &Catenary, end: Vector3<f64>) -> Self {
-        const MAX_ITERATIONS: usize = 30;
-        let mut plane = self.span.plane;
-        let mut best: Option<(f64, CablePlane<f64>, SpatialResponse)> = None;
-        for _ in 0..MAX_ITERATIONS {
-            let cable = SpatialCable {
-                cable: catenary.cable,
-                unstrained_length: catenary.unstrained_length,
-                force: plane.lift(self.force).into(),
-            };
-            let response = cable.response();
-            let way = (end - response.leave).xy();
-            let forwards = Vector2::from(plane.azimuth);
-            let across = Vector2::new(-forwards.y, forwards.x);
-            let beside = across.dot(&way);
-            if best.is_some_and(|(least, ..)| beside.abs() >= least) {
-                break;
-            }
-            best = Some((beside.abs(), plane, response));
-            // What a turn of the plane by an angle moves across it: nearly the distance from the leave point.
-            let sideways = Vector3::new(across.x, across.y, 0.0);
-            let swing = self.force[0] * (response.flexibility * sideways).dot(&sideways);
-            let reach = forwards.dot(&(end - response.end).xy()) + swing;
-            let towards = if forwards.dot(&way) > 0.0 && reach > 0.0 {
-                forwards + across * (beside / reach)
-            } else {
-                way
-            };
-            let Some(azimuth) = towards.try_normalize(0.0) else { break };
-            plane = CablePlane { azimuth: azimuth.into() };
-        }
-        let Some((_, plane, response)) = best else { return self };
-        let span = Span { end: plane.project(end.into()), plane };
-        Self { span, spatial: Some(Box::new(response)), ..self }
+        let r =
+            to_level(level, between(&pose.position.into(), &anchor_arm, &robot.cables[i].exit_point.into()));
+        let (span, answer) = answer(catenary, Span::new(r), r, || catenary.response());
+        Self { anchor_arm, span, force: catenary.force.into(), answer, level }
     }
 
     /// The misclosure in space of a cable over a tilted axis [m], in the level frame.
@@ -124,25 +140,30 @@ impl<'a> SpannedCable<'a, f64> {
     /// The cable linearised about its force; `None` for a slack cable without weight, which resists nothing.
     #[inline(always)]
     pub(crate) fn linearized(&self) -> Option<SpannedStiffness<'a>> {
-        if self.level.is_some() || self.response.is_none() {
-            return self.turned();
+        match &self.answer {
+            Answer::Planar(response) if self.level.is_none() => {
+                Some(SpannedStiffness::Level(LinearizedCable::new(&self.span, self.force, response)))
+            }
+            _ => self.turned(),
         }
-        self.planar().map(SpannedStiffness::Level)
     }
 
     #[cold]
     fn turned(&self) -> Option<SpannedStiffness<'a>> {
         let (plane, level) = (self.span.plane, self.level);
-        let (predicted, stiffness) = match (self.planar(), &self.spatial) {
-            (Some(planar), _) => (plane.lift(planar.predicted).into(), planar.stiffness_in_space().into()),
-            (None, Some(spatial)) => {
+        let (predicted, stiffness) = match &self.answer {
+            Answer::Planar(response) => {
+                let planar = LinearizedCable::new(&self.span, self.force, response);
+                (plane.lift(planar.predicted).into(), planar.stiffness_in_space().into())
+            }
+            Answer::Spatial(spatial) => {
                 let stiffness = spatial.flexibility.try_inverse().unwrap_or_else(Matrix3::zeros);
                 let predicted = Vector3::from(plane.lift(self.force)) + stiffness * self.open();
                 (predicted, 0.5 * (stiffness + stiffness.transpose()))
             }
-            (None, None) => return None,
+            Answer::Limp(_) => return None,
         };
-        let leaves = self.spatial.is_some();
+        let leaves = matches!(self.answer, Answer::Spatial(_));
         Some(SpannedStiffness::Turned(Box::new(Turned { plane, predicted, stiffness, leaves, level })))
     }
 
@@ -151,19 +172,19 @@ impl<'a> SpannedCable<'a, f64> {
     /// (C22).
     pub(crate) fn skew_stiffness(&self, catenary: &Catenary) -> Option<Matrix3<f64>> {
         catenary.cable.guide?;
-        let skew = match (&self.response, &self.spatial) {
-            (Some(response), _) => {
+        let skew = match &self.answer {
+            Answer::Planar(response) => {
                 let asymmetry = catenary.asymmetry();
                 let determinant = response.determinant + asymmetry * asymmetry;
                 let forwards = Vector3::from(self.span.plane.lift([1.0, 0.0]));
                 let up = Vector3::z();
                 (up * forwards.transpose() - forwards * up.transpose()) * (asymmetry / determinant)
             }
-            (None, Some(spatial)) => {
+            Answer::Spatial(spatial) => {
                 let stiffness = spatial.flexibility.try_inverse()?;
                 0.5 * (stiffness - stiffness.transpose())
             }
-            (None, None) => return None,
+            Answer::Limp(_) => return None,
         };
         Some(self.based_matrix(&skew))
     }
@@ -171,10 +192,10 @@ impl<'a> SpannedCable<'a, f64> {
     /// The position of the free end of the cable per unstrained length at constant force [m/m], in the base
     /// frame; zero for a slack cable without weight.
     pub(crate) fn end_per_length(&self) -> Vector3<f64> {
-        let slope = match (&self.response, &self.spatial) {
-            (Some(response), _) => self.span.plane.lift(response.end_per_length),
-            (None, Some(spatial)) => spatial.end_per_length.into(),
-            (None, None) => [0.0; 3],
+        let slope = match &self.answer {
+            Answer::Planar(response) => self.span.plane.lift(response.end_per_length),
+            Answer::Spatial(spatial) => spatial.end_per_length.into(),
+            Answer::Limp(_) => [0.0; 3],
         };
         self.based(slope.into())
     }
@@ -269,7 +290,7 @@ pub(crate) enum SpannedStiffness<'a> {
 
 /// A cable in the level frame, and the way to the base frame.
 pub(crate) struct Turned<'a> {
-    plane: CablePlane<f64>,
+    pub(crate) plane: CablePlane<f64>,
     /// Force on the cable at A [N].
     predicted: Vector3<f64>,
     /// Symmetric part of the stiffness [N/m].
@@ -297,23 +318,6 @@ impl SpannedStiffness<'_> {
             Self::Turned(cable) => to_base(cable.level, (-cable.predicted).into()),
         }
     }
-
-    /// The force (fx, fz) on the cable [N] after a displacement of A in space [m], in its plane before.
-    #[inline(always)]
-    pub(crate) fn force_after(&self, displacement: [f64; 3]) -> [f64; 2] {
-        match self {
-            Self::Level(cable) => cable.force_after(displacement),
-            Self::Turned(cable) => cable.force_after(displacement),
-        }
-    }
-
-    /// A force (fx, fz) on the cable [N], in the level frame.
-    pub(crate) fn lift(&self, force: [f64; 2]) -> [f64; 3] {
-        match self {
-            Self::Level(cable) => cable.plane.lift(force),
-            Self::Turned(cable) => cable.plane.lift(force),
-        }
-    }
 }
 
 impl Turned<'_> {
@@ -322,8 +326,9 @@ impl Turned<'_> {
         self.level.map_or(self.stiffness, |level| level.transpose() * self.stiffness * level).into()
     }
 
+    /// The force (fx, fz) on the cable [N] after a displacement of A in space [m].
     #[cold]
-    fn force_after(&self, displacement: [f64; 3]) -> [f64; 2] {
+    pub(crate) fn force_after(&self, displacement: [f64; 3]) -> [f64; 2] {
         let force = self.predicted + self.stiffness * Vector3::from(to_level(self.level, displacement));
         if self.leaves { [force.xy().norm(), force.z] } else { self.plane.project(force.into()) }
     }
@@ -342,7 +347,7 @@ impl<'a, T: Real> SpannedCable<'a, T> {
         let p = &cable.properties;
         let catenary = problem.catenary(i, Vector2::from(force.map(T::value)));
         let level = problem.robot.gravity.level();
-        let answer = || match (&p.law, catenary.cable.guide) {
+        let response = || match (&p.law, catenary.cable.guide) {
             (None, None) => {
                 let weight = T::of(p.linear_density) * T::of(problem.robot.gravity.magnitude());
                 let stiffness = T::of(p.youngs_modulus) * T::of(p.section);
@@ -351,41 +356,10 @@ impl<'a, T: Real> SpannedCable<'a, T> {
             // Only doubles come here: certificates refuse such a cable.
             _ => catenary.response().map(T::of),
         };
-        let r =
-            to_level(level, between(&position, &anchor_arm, &<[f64; 3]>::from(cable.exit_point).map(T::of)));
-        let (limp, leaves) = (catenary.is_limp(), catenary.cable.leaves_its_plane());
-        let shaped = Self {
-            anchor_arm,
-            span: Span::new(r),
-            force,
-            response: (!limp && !leaves).then(answer),
-            spatial: None,
-            length_at_rest: catenary.length_at_rest(),
-            guide: catenary.cable.guide,
-            level,
-        };
-        if leaves && !limp {
-            let found = shaped.plain().in_space(&catenary, r.map(T::value).into());
-            let plane = CablePlane { azimuth: found.span.plane.azimuth.map(T::of) };
-            return Self { span: Span { end: plane.project(r), plane }, spatial: found.spatial, ..shaped };
-        }
-        shaped
-    }
-
-    /// The same cable in doubles, without how it answers.
-    fn plain(&self) -> SpannedCable<'a, f64> {
-        let Self { length_at_rest, guide, level, .. } = *self;
-        let plane = CablePlane { azimuth: self.span.plane.azimuth.map(T::value) };
-        SpannedCable {
-            anchor_arm: self.anchor_arm.map(T::value),
-            span: Span { plane, end: self.span.end.map(T::value) },
-            force: self.force.map(T::value),
-            response: None,
-            spatial: None,
-            length_at_rest,
-            guide,
-            level,
-        }
+        let exit_point = <[f64; 3]>::from(cable.exit_point).map(T::of);
+        let r = to_level(level, between(&position, &anchor_arm, &exit_point));
+        let (span, answer) = answer(&catenary, Span::new(r), r, response);
+        Self { anchor_arm, span, force, answer, level }
     }
 
     /// F_i [N], the force on the platform.
@@ -400,26 +374,33 @@ impl<'a, T: Real> SpannedCable<'a, T> {
         wrench(&self.anchor_arm, &self.force_on_platform())
     }
 
+    /// How its end answers to forces in the plane of its span; `None` for a slack cable without weight, and
+    /// for one over a tilted axis.
+    #[inline(always)]
+    pub(crate) fn response(&self) -> Option<&Response<T>> {
+        if let Answer::Planar(response) = &self.answer { Some(response) } else { None }
+    }
+
     /// The cable linearised about its force, of a cable that stays in the plane of its span.
     #[inline(always)]
     pub(crate) fn planar(&self) -> Option<LinearizedCable<T>> {
-        self.response.as_ref().map(|response| LinearizedCable::new(&self.span, self.force, response))
+        self.response().map(|response| LinearizedCable::new(&self.span, self.force, response))
     }
 
     /// Misclosure [m]: from the end of the cable to its anchor point.
     #[inline(always)]
     pub(crate) fn misclosure(&self) -> [T; 2] {
-        match (&self.response, &self.spatial) {
-            (Some(response), _) => self.span.misclosure(response.end),
-            (None, Some(spatial)) => {
+        match &self.answer {
+            Answer::Planar(response) => self.span.misclosure(response.end),
+            Answer::Spatial(spatial) => {
                 let end = <[f64; 3]>::from(spatial.end).map(T::of);
                 self.span.misclosure(self.span.plane.project(end))
             }
-            (None, None) => match &self.guide {
-                None => closure_of_limp(self.span.end, T::of(self.length_at_rest)),
-                Some(guide) => {
+            Answer::Limp(limp) => match &**limp {
+                (rest, None) => closure_of_limp(self.span.end, T::of(*rest)),
+                (rest, Some(guide)) => {
                     let end = self.span.plane.lift(self.span.end).map(T::value);
-                    let open = guide.closure_of_limp(end.into(), self.length_at_rest);
+                    let open = guide.closure_of_limp(end.into(), *rest);
                     self.span.plane.project(<[f64; 3]>::from(open).map(T::of))
                 }
             },
