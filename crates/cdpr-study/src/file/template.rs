@@ -32,7 +32,8 @@ All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE --o
 /// tenth of the platform's mass [kg].
 ///
 /// # Errors
-/// [`StudyError::Setting`] for a position without feasible tensions under the payload, or if no position was
+/// [`StudyError::Setting`] for a robot with fewer cables than free motions, for a position without feasible
+/// tensions under the payload, or if no position was
 /// found.
 pub fn template(
     robot: &Robot,
@@ -40,6 +41,11 @@ pub fn template(
     position: Option<[f64; 3]>,
     payload: Option<f64>,
 ) -> Result<String, StudyError> {
+    let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
+    if cables < freedoms {
+        let expected = format!("a cable for each of the {freedoms} free motions, or a study holds no pose");
+        return Err(StudyError::setting("cables", format!("a list of {cables}"), expected));
+    }
     let payload = payload.unwrap_or_else(|| two_digits(0.1 * robot.platform.mass));
     let held = |position: &[f64; 3]| tension(robot, *position, payload);
     let (position, tension) = match position {
@@ -195,7 +201,13 @@ mod tests {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             let robot = open_robot(&path).unwrap();
-            let text = template(&robot, path.to_str().unwrap(), None, None).unwrap();
+            let text = template(&robot, path.to_str().unwrap(), None, None);
+            if !robot.is_fully_actuated() {
+                let refused = text.unwrap_err().to_string();
+                assert!(refused.contains("a list of 4") && refused.contains("6 free motions"), "{refused}");
+                continue;
+            }
+            let text = text.unwrap();
             let study = Study::from_json(&text, &folder.join("my-study.json")).unwrap();
             assert_eq!(study.robot, robot);
             assert!(study.file.sensitivity.is_some());
