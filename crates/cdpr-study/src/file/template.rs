@@ -33,8 +33,7 @@ All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE --o
 ///
 /// # Errors
 /// [`StudyError::Setting`] for a robot with fewer cables than free motions, for a position without feasible
-/// tensions under the payload, or if no position was
-/// found.
+/// tensions under the payload, or if no position was found.
 pub fn template(
     robot: &Robot,
     robot_path: &str,
