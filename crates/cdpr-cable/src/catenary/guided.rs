@@ -70,6 +70,8 @@ pub(crate) struct Guided<T> {
     u: [T; 3],
     m: [T; 3],
     n: [T; 3],
+    /// T0 [N].
+    tension: T,
     /// Direction τ of the cable at the leave point, in its plane.
     tangent: [T; 2],
     /// Leave point B from D [m].
@@ -142,6 +144,7 @@ impl<T: Real> Guided<T> {
             u,
             m,
             n,
+            tension: t0,
             tangent: [tx, tz],
             leave: [0, 1, 2].map(|i| radius * (one_plus_cos * u[i] + sin * k[i])),
             mu,
@@ -164,7 +167,8 @@ impl<T: Real> Guided<T> {
             let now = at(free);
             let step = -now.excess / now.beta;
             free += step;
-            if step.abs() <= 1e-9 * plain.length {
+            // The tangent turns by this angle, and the excess that is left goes with its square.
+            if (plain.weight_per_length * step).abs() <= 1e-5 * now.tension {
                 break;
             }
         }
@@ -250,25 +254,19 @@ impl<T: Real> Guided<T> {
 
 const MAX_ITERATIONS: usize = 20;
 
-/// The response to the force `force` [N] at A of a cable on a guide.
+/// The response to the force `force` [N] at A of a cable on a guide, and half the difference `dx/dfz -
+/// dz/dfx` of the flexibility (C22) [m/N].
 #[cold]
 pub(crate) fn response<T: Real>(
     cable: &Cable,
     guide: &Guide,
     numbers: &Numbers<T>,
     force: [T; 2],
-) -> Response<T> {
+) -> (Response<T>, T) {
     let guided = Guided::new(cable, guide, numbers, force);
     let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, force);
-    guided.response(numbers.weight_per_length, &free)
-}
-
-impl Cable<'_> {
-    /// Half the difference `dx/dfz - dz/dfx` of the flexibility (C22) [m/N]; `None` without a guide.
-    pub(crate) fn asymmetry<T: Real>(&self, numbers: &Numbers<T>, force: [T; 2]) -> Option<T> {
-        let guided = Guided::new(self, self.guide.as_ref()?, numbers, force);
-        Some(guided.asymmetry(numbers.weight_per_length))
-    }
+    let w = numbers.weight_per_length;
+    (guided.response(w, &free), guided.asymmetry(w))
 }
 
 /// Derivatives of the end position at constant force and length, (C24).
@@ -301,8 +299,7 @@ impl<'a> Catenary<'a> {
     ///
     /// [`crate::kernel::Response::flexibility`] is the symmetric part alone.
     pub fn asymmetry(&self) -> f64 {
-        let numbers = self.cable.numbers(self.unstrained_length);
-        self.cable.asymmetry(&numbers, self.force.into()).unwrap_or(0.0)
+        self.cable.guide.map_or(0.0, |guide| self.guided(&guide).asymmetry(self.cable.weight_per_length))
     }
 
     /// Where the cable leaves its pulley, from the entry point [m]; zero without a pulley.

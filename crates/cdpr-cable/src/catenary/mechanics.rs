@@ -18,7 +18,23 @@ impl Cable<'_> {
     pub(crate) fn response<T: Real>(&self, numbers: &Numbers<T>, force: [T; 2]) -> Response<T> {
         match &self.guide {
             None => self.free_response(numbers, force),
-            Some(guide) => guided::response(self, guide, numbers, force),
+            Some(guide) => guided::response(self, guide, numbers, force).0,
+        }
+    }
+
+    /// The same, with half the difference `dx/dfz - dz/dfx` of the flexibility [m/N] of a cable on a guide.
+    #[inline]
+    pub(crate) fn whole_response<T: Real>(
+        &self,
+        numbers: &Numbers<T>,
+        force: [T; 2],
+    ) -> (Response<T>, Option<T>) {
+        match &self.guide {
+            None => (self.free_response(numbers, force), None),
+            Some(guide) => {
+                let (response, asymmetry) = guided::response(self, guide, numbers, force);
+                (response, Some(asymmetry))
+            }
         }
     }
 

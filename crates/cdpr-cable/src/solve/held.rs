@@ -167,7 +167,7 @@ impl<'a> HeldCable<'a> {
             chord_force: along(cable.chord_force, 1.0),
             fz: along(cable.fz, self.force_slope.y),
         };
-        let [_, fz_slope, _] = cable.slopes(&self.catenary, &cable.response(&self.catenary));
+        let [_, fz_slope, _] = cable.slopes(&cable.response(&self.catenary));
         Vector2::new(0.0, fz_slope.slopes[0])
     }
 
@@ -223,7 +223,7 @@ impl<'a> HeldCable<'a> {
         // What closes the cable for every change of an input.
         let matrix = ClosureMatrix::of(&plain, &self.catenary.response());
         for _ in 0..passes {
-            let [across, height] = cable.misclosure(&cable.response(&self.catenary));
+            let [across, height] = cable.misclosure(&cable.response(&self.catenary).0);
             for k in 0..N {
                 let [fz, length] = matrix.solve([across.slopes[k], height.slopes[k]]);
                 cable.fz.slopes[k] += fz;
@@ -249,7 +249,7 @@ impl<'a> HeldCable<'a> {
         along(&mut cable.fz);
         along(&mut cable.numbers.length);
         let response = cable.response(&self.catenary);
-        let [fx, fz, _] = cable.slopes(&self.catenary, &response);
+        let [fx, fz, _] = cable.slopes(&response);
         let t_slope = (cable.fx() * fx + cable.fz * fz) / tension(&cable);
         let v = [fx / t_slope, fz / t_slope];
         let slope = |k: usize| Vector2::new(v[0].slopes[k], v[1].slopes[k]);
@@ -269,7 +269,12 @@ impl<'a> HeldCable<'a> {
     fn at(catenary: Catenary<'a>, end: Vector2<f64>, chord_force: f64) -> Self {
         let force_slope = Vector2::zeros();
         let held = Self { catenary, end, chord_force, force_slope, length_slope: 0.0 };
-        let [fx, fz, length_slope] = held.in_plane().slopes(&catenary, &catenary.response());
+        let in_plane = held.in_plane();
+        let response = match catenary.cable.guide {
+            None => (catenary.response(), None),
+            Some(_) => in_plane.response(&catenary),
+        };
+        let [fx, fz, length_slope] = in_plane.slopes(&response);
         Self { force_slope: Vector2::new(fx, fz), length_slope, ..held }
     }
 
@@ -400,8 +405,9 @@ impl<T: Real> InPlane<T> {
         self.chord_force * self.horizontal() / self.chord()
     }
 
-    fn response(&self, catenary: &Catenary) -> Response<T> {
-        catenary.cable.response(&self.numbers, [self.fx(), self.fz])
+    /// The response, and the asymmetry of its flexibility on a guide.
+    fn response(&self, catenary: &Catenary) -> (Response<T>, Option<T>) {
+        catenary.cable.whole_response(&self.numbers, [self.fx(), self.fz])
     }
 
     /// c/σ - x/fx and the height that is missing, (C17).
@@ -410,11 +416,11 @@ impl<T: Real> InPlane<T> {
     }
 
     /// (fx', fz', L'), (C18).
-    fn slopes(&self, catenary: &Catenary, response: &Response<T>) -> [T; 3] {
+    fn slopes(&self, (response, asymmetry): &(Response<T>, Option<T>)) -> [T; 3] {
         let (fx, fx_slope) = (self.fx(), self.horizontal() / self.chord());
         let ([xx, shear, zz], mut determinant) = (response.flexibility, response.determinant);
         let (mut xz, mut zx) = (shear, shear);
-        if let Some(asymmetry) = catenary.cable.asymmetry(&self.numbers, [fx, self.fz]) {
+        if let Some(asymmetry) = *asymmetry {
             (xz, zx) = (shear + asymmetry, shear - asymmetry);
             determinant = determinant + asymmetry * asymmetry;
         }
