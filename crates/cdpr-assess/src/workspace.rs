@@ -1,5 +1,5 @@
-//! Where a robot can work, and how well: tensions, deflection, stiffness, the lowest natural frequency and the
-//! tolerance that matters most, pose by pose.
+//! Where a robot can work, and how well: tensions, deflection, stiffness, the lowest natural frequency and
+//! the tolerance that matters most, pose by pose.
 //!
 //! A load can come onto the platform in two ways. Where the lengths are kept, as in the paper, the platform
 //! yields, and its tensions are what the direct model says. Where the winches hold the pose, the tensions are

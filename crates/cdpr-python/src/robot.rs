@@ -267,8 +267,8 @@ impl Robot {
         Ok(Self { robot })
     }
 
-    /// Acceleration due to gravity [m/s²] as it was given: a number along -z of the base frame, or a vector in
-    /// it, (3,).
+    /// Acceleration due to gravity [m/s²] as it was given: a number along -z of the base frame, or a vector
+    /// in it, (3,).
     #[getter]
     fn gravity<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
         let gravity = self.robot.gravity;

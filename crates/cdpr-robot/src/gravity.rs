@@ -10,8 +10,8 @@
 //!     [ u_x        u_y         u_z ]
 //! ```
 //!
-//! Where gravity points straight upwards, every half turn about a horizontal axis is least; T is the one about
-//! the y axis.
+//! Where gravity points straight upwards, every half turn about a horizontal axis is least; T is the one
+//! about the y axis.
 
 use crate::error::RobotError;
 use nalgebra::{Matrix3, Vector3};

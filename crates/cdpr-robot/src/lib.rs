@@ -3,9 +3,9 @@
 //! The robot has exit points, anchor points, a platform, cables and limits of tension. With a pose come its
 //! spans, the wrench on it and its wrench matrix. Its uncertain parameters form one vector.
 //!
-//! Frames: gravity acts along `-z` of the base frame `F_b`, unless it is a vector; the platform frame `F_p` sits at the
-//! platform's reference point P. Units are SI throughout. Signs and symbols: `docs/NOTATION.md` of the
-//! repository.
+//! Frames: gravity acts along `-z` of the base frame `F_b`, unless it is a vector; the platform frame `F_p`
+//! sits at the platform's reference point P. Units are SI throughout. Signs and symbols: `docs/NOTATION.md`
+//! of the repository.
 //!
 //! ```
 //! use cdpr_robot::{Parameter, Pose, Robot, deviations};

@@ -71,7 +71,8 @@ impl DirectProblem<'_> {
     pub fn certify(&self, solution: &DirectSolution) -> Result<Certificate, StaticsError> {
         self.check("solution.equilibrium", &solution.equilibrium)?;
         if !self.robot.is_plain() {
-            let reason = "a cable has an elastic law with pieces, a pulley or a lead; certificates are for plain cables";
+            let reason = "a cable has an elastic law with pieces, a pulley or a lead, or the base is not level; \
+                          certificates are for plain cables on a level base";
             return Err(StaticsError::NotCertified { reason, growth: f64::INFINITY });
         }
         if !self.robot.freedoms().are_all() {

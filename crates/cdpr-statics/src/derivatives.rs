@@ -22,8 +22,8 @@
 //!
 //! The derivatives of v_i are second derivatives of the catenary (`cdpr_cable::TensionSlope`).
 //!
-//! **Active bounds stay active** while their multipliers are not zero. On limits at the platform `dt_i = 0`. A
-//! cable whose weight demands more rests on the constant [`ABOVE_LEAST`] times the least tension over its
+//! **Active bounds stay active** while their multipliers are not zero. On limits at the platform `dt_i = 0`.
+//! A cable whose weight demands more rests on the constant [`ABOVE_LEAST`] times the least tension over its
 //! span. That least tension, a minimum over the length, changes as if the length at which it is taken were
 //! held: `dt_i = ABOVE_LEAST u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary. A greatest tension T0 at the
 //! exit point leaves t at the platform, which (C26) of `cdpr_cable` relates: `(1 + ε(t)) dt = w dz + z dw +
@@ -32,8 +32,8 @@
 //! **Set-points** are `t_i + dt_i`, or the bounds above where it is beyond them: then the offset changes
 //! nothing.
 //!
-//! **Two sides.** Where a bound is left when an input grows and kept when it falls, or the other way round, the
-//! right and the left derivative differ: `derivatives/optimum.rs` and `winding.rs`. An offset of a cable on
+//! **Two sides.** Where a bound is left when an input grows and kept when it falls, or the other way round,
+//! the right and the left derivative differ: `derivatives/optimum.rs` and `winding.rs`. An offset of a cable on
 //! its bound is such an input.
 //!
 //! **Lengths** follow from (D1) at the set-points:

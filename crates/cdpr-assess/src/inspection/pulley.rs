@@ -1,9 +1,11 @@
-//! Inspection of the pulleys of a robot at a pose: how far cables lie on their wheels, and wheels in one place.
+//! Inspection of the pulleys of a robot at a pose: how far cables lie on their wheels, and wheels in one
+//! place.
 
 use super::{Findings, Severity};
 use cdpr_statics::{DirectProblem, InverseSolution, Load};
 
-/// A cable that turns by less than this [degrees] hardly needs its pulley: its axis may be the wrong way round.
+/// A cable that turns by less than this [degrees] hardly needs its pulley: its axis may be the wrong way
+/// round.
 const LEAST_WRAP: f64 = 5.0;
 
 /// A cable that turns by more than this [degrees] comes back beside itself.
@@ -33,8 +35,8 @@ impl Findings<'_> {
                     format!("cables[{i}].pulley.axis"),
                     format!("{:?}", pulley.axis.as_slice()),
                     &format!(
-                        "the cable lies on its wheel over {wrap:.1} degrees {at}: it comes back beside itself, and \
-                         nearer to the axis it would cut its wheel"
+                        "the cable lies on its wheel over {wrap:.1} degrees {at}: it comes back beside itself, \
+                         and nearer to the axis it would cut its wheel"
                     ),
                     "the direction in which the cable enters, or an exit point farther away",
                 );

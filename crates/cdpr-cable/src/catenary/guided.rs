@@ -225,8 +225,8 @@ impl<T: Real> Guided<T> {
         }
     }
 
-    /// The response of the whole cable in space: end position, flexibility dA/dF, rows first, and dA/dL, (C22)
-    /// and (C23).
+    /// The response of the whole cable in space: end position, flexibility dA/dF, rows first, and dA/dL,
+    /// (C22) and (C23).
     pub(crate) fn in_space(&self, w: T, free: &Response<T>) -> ([T; 3], [[T; 3]; 3], [T; 3]) {
         let Self { leave, n, mu, stretch, .. } = *self;
         let (kappa, along) = (self.kappa(), self.along());

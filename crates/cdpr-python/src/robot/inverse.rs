@@ -138,7 +138,8 @@ impl Robot {
     ///     long as it exists on the straight way between them.
     /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with
-    ///     R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests; limits and reference do not matter.
+    ///     R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests;
+    ///     limits and reference do not matter.
     ///
     /// Raises InputError; for one case NoSolutionError.
     #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None, path=false,

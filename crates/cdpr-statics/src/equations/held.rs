@@ -149,8 +149,8 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// Unstrained length and force (fx, fz) on the cable at A. The guide of a cable over a tilted axis is that
-    /// in the level frame.
+    /// Unstrained length and force (fx, fz) on the cable at A. The guide of a cable over a tilted axis is
+    /// that in the level frame.
     pub(crate) fn catenary(&self) -> Catenary<'a> {
         match &self.shape {
             Shape::Planar(held, _) => held.catenary,

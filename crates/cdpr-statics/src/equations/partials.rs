@@ -19,9 +19,11 @@
 //! ```
 //!
 //! which is (D1) with other coefficients. So are the derivatives by lead and radius of a guide, `K ∂A/∂d` and
-//! `K ∂A/∂r`, and by its axis k, which a tilt by an angle τ about e turns by `dk = e x k dτ`. Gravity γ = -g u acts on cable i by its magnitude, `dg = -u·dγ`, and by
-//! the direction u of "up", which turns by `δ = -(u x dγ)/g`. If span, pulley and up turn together, the force
-//! turns with them; the span does not, and hence
+//! `K ∂A/∂r`, and by its axis k, which a tilt by an angle τ about e turns by `dk = e x k dτ`.
+//!
+//! Gravity γ = -g u acts on cable i by its magnitude, `dg = -u·dγ`, and by the direction u of "up", which
+//! turns by `δ = -(u x dγ)/g`. If span, pulley and up turn together, the force turns with them; the span does
+//! not, and hence
 //!
 //! ```text
 //! dF_i = δ x F_i + K3_i (δ x r_i) - K3_i ∂A/∂k (δ x k) + k_ρ (ρ/g) dg                             (D10)

@@ -61,8 +61,8 @@ impl DirectProblem<'_> {
     /// and no shares.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for a robot that rotates without `platform.inertia`, an equilibrium that is not finite or
-    /// has not one force for each cable, and one that is not stable.
+    /// [`StaticsError::Invalid`] for a robot that rotates without `platform.inertia`, an equilibrium that is
+    /// not finite or has not one force for each cable, and one that is not stable.
     pub fn modes(&self, equilibrium: &Equilibrium) -> Result<Vec<NaturalMode>, StaticsError> {
         self.check("equilibrium", equilibrium)?;
         let mass = self.mass_matrix(&equilibrium.pose)?;
