@@ -18,7 +18,7 @@ mod study;
 use clap::{CommandFactory, Parser, Subcommand};
 use error::ProgramError;
 use output::Ending;
-use pose::at_pose::RobotAtPose;
+use pose::at_pose::{RobotAtFreePose, RobotAtPose};
 use std::process::ExitCode;
 
 /// Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
@@ -45,10 +45,10 @@ enum Command {
     Direct(pose::direct::Settings),
     /// Compute how far a load displaces and rotates the platform.
     #[command(after_help = "Example: cdpr deflection data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
-    Deflection(pose::deflection::Settings),
+    Deflection(RobotAtFreePose),
     /// Compute the Cartesian stiffness at a pose and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
-    Stiffness(pose::stiffness::Settings),
+    Stiffness(RobotAtFreePose),
     /// Map where the cables hold the platform, and how far it gives there, over a plane or a box.
     #[command(after_help = "Examples:
   cdpr workspace data/robots/caroca.json --plane z=1.75 --grid 41x41 --payload 50 --out workspace

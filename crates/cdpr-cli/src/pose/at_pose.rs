@@ -52,6 +52,15 @@ pub(crate) struct FreeArguments {
     pub(crate) free: Vec<Coordinate>,
 }
 
+/// A robot at a pose, and the coordinates that are found.
+#[derive(clap::Args)]
+pub(crate) struct RobotAtFreePose {
+    #[command(flatten)]
+    pub(super) at: RobotAtPose,
+    #[command(flatten)]
+    pub(super) free: FreeArguments,
+}
+
 /// An answer that is a row of a table.
 pub(crate) trait Row: Serialize + Send {
     /// Names of the columns for a robot.

@@ -3,21 +3,12 @@
 use crate::answer::{Found, OutOfLimits, vector};
 use crate::error::ProgramError;
 use crate::output::Ending;
-use crate::pose::at_pose::{FreeArguments, RobotAtPose, Row, cells, numbered};
+use crate::pose::at_pose::{RobotAtFreePose, Row, cells, numbered};
 use cdpr_robot::{Robot, Vector3};
 use cdpr_statics::{Deflection, deflection_free};
 use serde::Serialize;
 
-/// A robot at a pose, and the coordinates that are found.
-#[derive(clap::Args)]
-pub(crate) struct Settings {
-    #[command(flatten)]
-    at: RobotAtPose,
-    #[command(flatten)]
-    free: FreeArguments,
-}
-
-pub(crate) fn run(Settings { at, free }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
     let solve = |robot: &Robot, pose: &_| {
         let found = deflection_free(robot, pose, &vec![0.0; robot.cables.len()], &load, &free.free)?;

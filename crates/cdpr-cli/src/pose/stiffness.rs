@@ -3,21 +3,12 @@
 use crate::answer::{self, Neutral, OutOfLimits, decimal};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
-use crate::pose::at_pose::{FreeArguments, RobotAtPose, Row, cells};
+use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
 use cdpr_robot::Robot;
 use cdpr_statics::{PoseStiffness, stiffness_at};
 use serde::Serialize;
 
-/// A robot at a pose, and the coordinates that are found.
-#[derive(clap::Args)]
-pub(crate) struct Settings {
-    #[command(flatten)]
-    at: RobotAtPose,
-    #[command(flatten)]
-    free: FreeArguments,
-}
-
-pub(crate) fn run(Settings { at, free }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {
     let load = at.load.load();
     let solve =
         |robot: &Robot, pose: &_| Ok(Answer::new(robot, &stiffness_at(robot, pose, &load, &free.free)?));
