@@ -1,7 +1,9 @@
 //! Data files are valid, have a source, and match the paper; schemas in the docs are those of the code.
 
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::library::{CABLES, LibraryFile, ROBOTS, named, near};
+use cdpr_robot::{CatalogueCable, Pose, Robot};
 use cdpr_study::Study;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -16,14 +18,59 @@ fn files(folder: &str) -> Vec<PathBuf> {
         .collect()
 }
 
+/// Names of the JSON files of a folder of data that state a format.
+fn stems(folder: &str, format: &str) -> BTreeSet<String> {
+    files(folder)
+        .into_iter()
+        .filter(|path| std::fs::read_to_string(path).unwrap().contains(format))
+        .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+        .collect()
+}
+
 #[test]
-fn every_robot_file_is_a_robot_with_a_source() {
-    let files = files("data/robots");
-    assert!(files.len() >= 2);
-    for path in files {
-        let robot = Robot::from_json(&std::fs::read_to_string(&path).unwrap()).unwrap();
-        assert!(robot.source.is_some(), "{}", path.display());
+fn the_library_has_every_robot_and_cable_file_by_its_name() {
+    let names = |library: &[LibraryFile]| library.iter().map(|file| file.name.to_owned()).collect();
+    assert_eq!(stems("data/robots", "cdpr-robot/1"), names(ROBOTS));
+    assert_eq!(stems("data/cables", "cdpr-cable/1"), names(CABLES));
+}
+
+#[test]
+fn every_robot_of_the_library_has_source_and_grade_and_every_cable_its_source() {
+    for file in ROBOTS {
+        let robot = Robot::from_json(file.text).unwrap_or_else(|error| panic!("{}: {error}", file.name));
+        let provenance = &robot.provenance;
+        assert!(provenance.source.is_some() && provenance.grade.is_some(), "{}", file.name);
     }
+    for file in CABLES {
+        let cable = CatalogueCable::from_json(file.text);
+        let cable = cable.unwrap_or_else(|error| panic!("{}: {error}", file.name));
+        assert!(cable.source.is_some(), "{}", file.name);
+    }
+}
+
+#[test]
+fn a_cable_that_is_assumed_is_the_one_of_the_catalogue() {
+    let mut assumed = 0;
+    for file in ROBOTS {
+        let robot = Robot::from_json(file.text).unwrap();
+        for text in &robot.provenance.assumed {
+            let Some(rest) = text.split("catalogue cable ").nth(1) else { continue };
+            let name = rest.split([' ', ':', ';', ',']).next().unwrap().trim_end_matches('.');
+            let cable = named(CABLES, name).unwrap_or_else(|| panic!("{}: no cable {name}", file.name));
+            let properties = CatalogueCable::from_json(cable.text).unwrap().properties;
+            assert!(robot.cables.iter().all(|cable| cable.properties == properties), "{}", file.name);
+            assumed += 1;
+        }
+    }
+    assert!(assumed >= 10, "{assumed}");
+}
+
+#[test]
+fn a_slip_in_a_name_finds_the_name() {
+    assert_eq!(near(ROBOTS, "cogir0")[0], "cogiro");
+    assert_eq!(near(ROBOTS, "CoGiRo")[0], "cogiro");
+    assert_eq!(near(ROBOTS, "expo2015"), ["expo2015-lucia", "expo2015-roberto"]);
+    assert!(near(ROBOTS, "zzz").is_empty());
 }
 
 #[test]
@@ -39,6 +86,7 @@ fn every_study_file_is_a_study_with_a_source() {
 fn the_schemas_in_the_docs_are_those_of_the_code() {
     for (file, schema) in [
         ("cdpr-robot-1", cdpr_robot::json_schema()),
+        ("cdpr-cable-1", cdpr_robot::cable_schema()),
         ("cdpr-study-1", cdpr_study::json_schema()),
         ("cdpr-law-1", cdpr_study::law_schema()),
     ] {

@@ -2,6 +2,7 @@
 
 use cdpr_assess::AssessError;
 use cdpr_cable::{CableError, RecordError};
+use cdpr_exchange::{ExchangeError, Lacking};
 use cdpr_report::ReportError;
 use cdpr_robot::{JsonError, QuaternionError};
 use cdpr_statics::StaticsError;
@@ -18,6 +19,8 @@ pub(crate) enum ProgramError {
     Cable(#[from] CableError),
     #[error(transparent)]
     Record(#[from] RecordError),
+    #[error("{}", asked_for(.0))]
+    Exchange(#[from] ExchangeError),
     #[error(transparent)]
     Statics(#[from] StaticsError),
     #[error("{}", with_options(.0))]
@@ -85,9 +88,21 @@ impl ProgramError {
         match self {
             Self::Usage(_) => 2,
             Self::Study(error) if error.is_argument() => 2,
+            Self::Exchange(ExchangeError::Lacking(_)) => 2,
             _ => 1,
         }
     }
+}
+
+/// The sentence of the library with the options that give what files of another program lack.
+fn asked_for(error: &ExchangeError) -> String {
+    let ExchangeError::Lacking(lacking) = error else { return error.to_string() };
+    let options = lacking.iter().map(|lacking| match lacking {
+        Lacking::Cable => "--cable NAME or FILE (`cdpr robots --cables` lists the names)",
+        Lacking::Mass => "--mass KG",
+        Lacking::TensionLimits => "--tension-limits MIN,MAX",
+    });
+    format!("{error}: expected {}", options.collect::<Vec<_>>().join(", "))
 }
 
 /// The sentence of the library with the options of the program that it is about, or that help.
@@ -102,6 +117,9 @@ fn with_options(error: &StudyError) -> String {
             ": `cdpr study run` takes it, and the robot file is the one that its field `robot` names"
         }
         StudyError::OtherKind { found: InputKind::Law, .. } => ": `cdpr hysteresis --law` takes it",
+        StudyError::OtherKind { found: InputKind::Cable, .. } => ": `cdpr import --cable` takes it",
+        StudyError::NoSuchName { kind: InputKind::Cable, .. } => "; `cdpr robots --cables` lists them all",
+        StudyError::NoSuchName { .. } => "; `cdpr robots` lists them all",
         StudyError::ForeignFolder { .. } => ", or --overwrite what is there",
         StudyError::FolderInUse { .. } => ": --resume goes on with them, --overwrite begins anew",
         StudyError::MissingBlocks { .. } => ": run the rest with --resume or --shard",

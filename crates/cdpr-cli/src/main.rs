@@ -115,6 +115,23 @@ enum Command {
                       --limit 0.9 --costs b=3"
     )]
     Tolerances(study::tolerances::Settings),
+    /// Make a robot file of the files of another program.
+    ///
+    /// What the files lack is asked for by name. What is assumed, what looks like a value of a template
+    /// (exit code 3) and what a robot file has no place for is listed.
+    #[command(after_help = "Examples:
+  cdpr import CASPR/ACROBOT --cable steel-2mm --out acrobot.json
+  cdpr import EXPO2015_Lucia.wcrfx --tension-limits 10,4000 --out lucia.json
+  cdpr import caroca.yaml --cable steel-4mm --out caroca.json")]
+    Import(robot::import::Settings),
+    /// List the robots and cables that come with the program.
+    ///
+    /// Every command takes the name of such a robot in place of a robot file; a file of that name goes first.
+    #[command(after_help = "Examples:
+  cdpr robots
+  cdpr robots cogiro
+  cdpr robots --cables")]
+    Robots(robot::library::Settings),
     /// Measure how often the direct model finds the true pose from a wrong start.
     #[command(
         after_help = "Example: cdpr robustness --robot data/robots/cogiro.json --poses 1000 --out robustness"
@@ -152,6 +169,8 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Modulus(settings) => cable::modulus::run(&settings)?,
         Command::Tolerances(settings) => study::tolerances::run(&settings)?,
         Command::Report(settings) => study::report::run(&settings)?,
+        Command::Import(settings) => return robot::import::run(&settings),
+        Command::Robots(settings) => robot::library::run(&settings)?,
         Command::Robustness(settings) => robot::robustness::run(&settings)?,
     }
     Ok(Ending::Well)

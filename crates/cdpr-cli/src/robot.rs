@@ -2,5 +2,7 @@
 
 pub(crate) mod calibration;
 pub(crate) mod check;
+pub(crate) mod import;
+pub(crate) mod library;
 pub(crate) mod robustness;
 pub(crate) mod workspace;

@@ -14,6 +14,7 @@ mod equilibria;
 mod faults;
 mod folder;
 mod hysteresis;
+mod library;
 mod models;
 mod modulus;
 mod poses;

@@ -13,8 +13,8 @@ pub(crate) mod workspace;
 
 use crate::convert::{Answer, Array, Numbers, Raised, components, json_text};
 use cdpr_robot::{
-    CableEnd, CableProperties, Gravity, OwnLimits, Parameter, Plane, Platform, RobotCable, TensionLimits,
-    TensionReference, Vector3,
+    CableEnd, CableProperties, Gravity, OwnLimits, Parameter, Plane, Platform, Provenance, RobotCable,
+    TensionLimits, TensionReference, Vector3,
 };
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};
@@ -112,7 +112,7 @@ impl Robot {
         };
         let robot = cdpr_robot::Robot {
             name,
-            source: None,
+            provenance: Provenance::default(),
             gravity: gravity.as_ref().map_or(Ok(EARTH.into()), self::gravity)?,
             platform: Platform { point, ..Platform::new(mass, center_of_mass) },
             plane: plane.map(plane_of).transpose()?,

@@ -1,11 +1,15 @@
 //! The robot file, `cdpr-robot/1`: JSON, SI units, base frame with z up. Described by [`json_schema`].
 
+pub(crate) mod cable_file;
+pub mod library;
+
 use crate::error::RobotError;
 use crate::freedoms::Plane;
 use crate::gravity::Gravity;
 use crate::json::from_json;
 use crate::law::LawSegment;
 use crate::limits::{CableEnd, OwnLimits, TensionLimits, TensionReference};
+use crate::robot::provenance::{Grade, Provenance};
 use crate::robot::{CableProperties, Platform, Pulley, Robot, RobotCable};
 use cdpr_cable::{CableError, PiecewiseLaw};
 use nalgebra::{Matrix3, Vector3};
@@ -27,6 +31,13 @@ struct RobotFile {
     /// Where the values come from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     source: Option<String>,
+    /// How far the values can be trusted: "surveyed" on the robot itself, from a "paper" or a file of its
+    /// makers, or "nominal", with values that somebody has chosen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    grade: Option<Grade>,
+    /// Values that the source does not give and that were chosen, a sentence each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    assumed: Vec<String>,
     /// Acceleration due to gravity [m/s²]: a number, along -z of the base frame, or a vector in it, [x, y, z],
     /// for a base that is not level.
     gravity: Gravity,
@@ -77,7 +88,7 @@ struct PlatformEntry {
 
 #[derive(Serialize, Deserialize, JsonSchema, Clone)]
 #[serde(deny_unknown_fields)]
-struct PropertiesEntry {
+pub(crate) struct PropertiesEntry {
     /// Diameter [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     diameter: Option<f64>,
@@ -186,7 +197,9 @@ impl Robot {
         let file = RobotFile {
             format: FORMAT.to_owned(),
             name: self.name.clone(),
-            source: self.source.clone(),
+            source: self.provenance.source.clone(),
+            grade: self.provenance.grade,
+            assumed: self.provenance.assumed.clone(),
             gravity: self.gravity,
             platform: PlatformEntry {
                 mass: self.platform.mass,
@@ -274,7 +287,7 @@ impl RobotFile {
             .collect::<Result<_, RobotError>>()?;
         Ok(Robot {
             name: self.name,
-            source: self.source,
+            provenance: Provenance { source: self.source, grade: self.grade, assumed: self.assumed },
             gravity: self.gravity,
             platform: Platform {
                 mass: self.platform.mass,
@@ -291,7 +304,7 @@ impl RobotFile {
     }
 }
 
-fn properties(entry: &PropertiesEntry, field: &str) -> Result<CableProperties, RobotError> {
+pub(crate) fn properties(entry: &PropertiesEntry, field: &str) -> Result<CableProperties, RobotError> {
     let full_circle = entry.diameter.map(|d| 0.25 * std::f64::consts::PI * d * d);
     let section = entry.section.or(full_circle).ok_or_else(|| {
         RobotError::invalid(

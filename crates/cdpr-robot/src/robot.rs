@@ -8,11 +8,14 @@
 //!
 //! Both equations are those of Baklouti, Caro, Courteille (CableCon 2017).
 
+pub(crate) mod provenance;
+
 use crate::error::RobotError;
 use crate::freedoms::{Freedoms, Plane};
 use crate::gravity::Gravity;
 use crate::limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionReference};
 use crate::pose::Pose;
+use crate::robot::provenance::Provenance;
 use crate::wrench::Wrench;
 use cdpr_cable::{Cable, ElasticLaw, Entry, Guide, PiecewiseLaw};
 use nalgebra::{Matrix3, Matrix6xX, Vector3};
@@ -22,8 +25,8 @@ use nalgebra::{Matrix3, Matrix6xX, Vector3};
 pub struct Robot {
     /// Name.
     pub name: String,
-    /// Where the values come from, if known.
-    pub source: Option<String>,
+    /// Where the values come from.
+    pub provenance: Provenance,
     /// Acceleration due to gravity.
     pub gravity: Gravity,
     /// The platform.
@@ -196,6 +199,20 @@ impl CableProperties {
     pub fn axial_stiffness(&self) -> f64 {
         self.youngs_modulus * self.section
     }
+
+    /// Checks every value; `path` makes the path in the file of a name.
+    pub(crate) fn validate(&self, path: impl Fn(&str) -> String) -> Result<(), RobotError> {
+        let path = &path;
+        let field = |name: &'static str| move || path(name);
+        let (rho, e) = (self.linear_density, self.youngs_modulus);
+        require(field("section"), self.section, self.section > 0.0, "a finite, positive section [m²]")?;
+        require(field("linear_density"), rho, rho >= 0.0, "a finite mass per length, zero or more [kg/m]")?;
+        require(field("youngs_modulus"), e, e > 0.0, "a finite, positive modulus [Pa]")?;
+        let diameter = self.diameter.unwrap_or(f64::MIN_POSITIVE);
+        require(field("diameter"), diameter, diameter > 0.0, "a finite, positive diameter [m]")?;
+        let force = self.breaking_force.unwrap_or(f64::MIN_POSITIVE);
+        require(field("breaking_force"), force, force > 0.0, "a finite, positive force [N]")
+    }
 }
 
 impl Robot {
@@ -344,7 +361,7 @@ impl Robot {
             finite(|| format!("cables[{i}].exit_point"), &cable.exit_point)?;
             finite(|| format!("cables[{i}].anchor_point"), &cable.anchor_point)?;
             cable.validate_guide(i)?;
-            self.validate_properties(i)?;
+            cable.properties.validate(|name| self.field(i, name))?;
             self.validate_limits(i)?;
         }
         if let Some(reference) = &self.tension_reference {
@@ -408,19 +425,6 @@ impl Robot {
         let properties = &self.cables[i].properties;
         let shared = self.cables.iter().all(|cable| cable.properties == *properties);
         if shared { format!("cable.{name}") } else { format!("cables[{i}].cable.{name}") }
-    }
-
-    fn validate_properties(&self, i: usize) -> Result<(), RobotError> {
-        let p = &self.cables[i].properties;
-        let field = |name: &'static str| move || self.field(i, name);
-        let (rho, e) = (p.linear_density, p.youngs_modulus);
-        require(field("section"), p.section, p.section > 0.0, "a finite, positive section [m²]")?;
-        require(field("linear_density"), rho, rho >= 0.0, "a finite mass per length, zero or more [kg/m]")?;
-        require(field("youngs_modulus"), e, e > 0.0, "a finite, positive modulus [Pa]")?;
-        let diameter = p.diameter.unwrap_or(f64::MIN_POSITIVE);
-        require(field("diameter"), diameter, diameter > 0.0, "a finite, positive diameter [m]")?;
-        let force = p.breaking_force.unwrap_or(f64::MIN_POSITIVE);
-        require(field("breaking_force"), force, force > 0.0, "a finite, positive force [N]")
     }
 
     /// Refuses cables that cannot do what their number promises: two with the same points, or six and more

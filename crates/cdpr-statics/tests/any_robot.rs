@@ -65,7 +65,7 @@ fn case(seed: u64) -> Case {
     let center_of_mass = Vector3::from_fn(|_, _| rng.random_range(-0.2..0.2) * platform);
     let robot = Robot {
         name: format!("random robot {seed}"),
-        source: None,
+        provenance: Default::default(),
         gravity: 9.81.into(),
         platform: Platform::new(mass, center_of_mass),
         tension_limits: TensionLimits { min: 1.0, max: 1e9 },

@@ -57,7 +57,7 @@ pub(crate) fn drawn(seed: u64) -> Option<Drawn> {
     let limits = TensionLimits { min: 0.2 * level, max: 5.0 * level };
     let robot = Robot {
         name: "drawn".to_owned(),
-        source: None,
+        provenance: Default::default(),
         gravity: gravity.into(),
         platform: Platform::new(mass, in_cube(rng) * platform),
         tension_limits: limits,

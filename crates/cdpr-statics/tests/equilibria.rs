@@ -26,7 +26,7 @@ pub(crate) fn robot(case: &Value) -> Robot {
     let [exits, anchors] = ["exit_points", "anchor_points"].map(|points| case[points].as_array().unwrap());
     Robot {
         name: case["kind"].as_str().unwrap().to_owned(),
-        source: None,
+        provenance: Default::default(),
         gravity: gravity.into(),
         platform: Platform::new(number(&case["mass"]), vector(&case["center_of_mass"])),
         tension_limits: TensionLimits { min: 1.0, max: 1e6 },

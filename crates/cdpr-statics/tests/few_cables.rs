@@ -94,7 +94,7 @@ fn suspended(points: &[[[f64; 3]; 2]], properties: &CableProperties, platform: P
     };
     let robot = Robot {
         name: "suspended".to_owned(),
-        source: None,
+        provenance: Default::default(),
         gravity: 9.81.into(),
         platform,
         tension_limits: TensionLimits { min: 1e-3, max: 1e6 },

@@ -29,7 +29,7 @@ pub(crate) fn robot(case: &Value) -> Robot {
     });
     Robot {
         name: case["kind"].as_str().unwrap().to_owned(),
-        source: None,
+        provenance: Default::default(),
         gravity: if gravity.xy().norm() > 0.0 { gravity.into() } else { gravity.norm().into() },
         platform: Platform::new(number(&case["mass"]), vector(&case["center_of_mass"])),
         tension_limits: TensionLimits { min: 1e-3, max: 1e7 },

@@ -49,6 +49,20 @@ pub enum StudyError {
         /// What it is to be.
         kind: InputKind,
     },
+    /// A name that neither a file nor the library has.
+    #[error(
+        "no file and no {} of the library is called `{name}`: {}",
+        if *kind == InputKind::Cable { "cable" } else { "robot" },
+        if near.is_empty() { "expected the path of a file, or a name".to_owned() } else { format!("near are {near}") }
+    )]
+    NoSuchName {
+        /// The name.
+        name: String,
+        /// What is called by it.
+        kind: InputKind,
+        /// Names in the library that are similar to it.
+        near: String,
+    },
     /// A file could not be written, or a folder could not be made.
     #[error("cannot write {path}: {source}: expected a place where files can be made")]
     Write {

@@ -7,6 +7,10 @@ use std::fmt;
 pub enum InputKind {
     /// A robot file.
     Robot,
+    /// A cable file.
+    Cable,
+    /// A file of another program, to be imported.
+    Foreign,
     /// A study file, in which poses may be listed one by one.
     Study,
     /// An elastic law of cables.
@@ -32,7 +36,7 @@ impl InputKind {
     pub fn most_bytes(self) -> u64 {
         MEGABYTE
             * match self {
-                Self::Robot | Self::Law | Self::Moduli => 4,
+                Self::Robot | Self::Cable | Self::Foreign | Self::Law | Self::Moduli => 4,
                 Self::Study | Self::Poses | Self::Cases | Self::Block => 32,
                 Self::Record => 64,
                 Self::Results => 256,
@@ -45,6 +49,7 @@ impl InputKind {
     pub(crate) fn format(self) -> Option<&'static str> {
         match self {
             Self::Robot => Some("cdpr-robot"),
+            Self::Cable => Some("cdpr-cable"),
             Self::Study => Some("cdpr-study"),
             Self::Law => Some("cdpr-law"),
             _ => None,
@@ -56,6 +61,8 @@ impl fmt::Display for InputKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Robot => "a robot file",
+            Self::Cable => "a cable file",
+            Self::Foreign => "a file to import",
             Self::Study => "a study file",
             Self::Law => "a law file",
             Self::Record => "a record",

@@ -70,7 +70,7 @@ pub use file::study_file::{
 };
 pub use file::template::{TEMPLATE_NOTES, template, write_template};
 pub use file::value::Value;
-pub use fs::files::{open_robot, open_robot_in_any_unit};
+pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::input::read_text;
 pub use fs::manifest::ResultsOf;
 pub use fs::owned::{Access, ResultsFolder, write_text};

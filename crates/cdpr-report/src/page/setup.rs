@@ -25,7 +25,7 @@ fn settings(results: &Results) -> Markup {
             dt { "Robot" }
             dd { (robot.name) ", " (robot.cables.len()) " cables, platform of "
                 (text::digits(robot.platform.mass, 5)) " kg"
-                @if let Some(source) = &robot.source { span.detail { (source) } } }
+                @if let Some(source) = &robot.provenance.source { span.detail { (source) } } }
             dt { "Cable 1" }
             dd { "E = " (text::digits(1e-9 * cable.youngs_modulus, 4)) " GPa, section "
                 (text::digits(1e6 * cable.section, 4))

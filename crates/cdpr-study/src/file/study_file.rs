@@ -25,7 +25,7 @@ pub struct StudyFile {
     /// Where its values come from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<String>,
-    /// Robot file, relative to this file.
+    /// Robot file, relative to this file, or the name of a robot of the library.
     pub robot: String,
     /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
     pub payload: f64,

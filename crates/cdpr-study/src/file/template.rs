@@ -2,6 +2,8 @@
 
 use crate::error::StudyError;
 use crate::fs::atomic::write_new;
+use crate::fs::files::named_file;
+use cdpr_robot::library::ROBOTS;
 use cdpr_robot::{Parameter, Pose, Robot, Vector3, rounded};
 use cdpr_statics::{Load, deflection};
 use std::path::Path;
@@ -146,6 +148,9 @@ pub fn write_template(
     let whole = |path: &Path| {
         std::fs::canonicalize(path).map_err(|source| StudyError::Read { path: path.to_owned(), source })
     };
+    if let Some(file) = named_file(ROBOTS, robot) {
+        return write_new(path.to_owned(), text(file.name)?.as_bytes()).map(|_| ());
+    }
     let robot = whole(robot)?;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let from_here = robot.strip_prefix(whole(folder)?).unwrap_or(&robot);

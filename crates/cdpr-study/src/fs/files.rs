@@ -4,7 +4,8 @@ use crate::error::StudyError;
 use crate::fs::disk;
 use crate::fs::input::{other_kind, read_text};
 use crate::kind::InputKind;
-use cdpr_robot::{Robot, RobotError};
+use cdpr_robot::library::{CABLES, LibraryFile, ROBOTS, named, near};
+use cdpr_robot::{CatalogueCable, Robot, RobotError};
 use std::path::Path;
 
 /// Makes the folder for results and checks that files can be written in it: before anything is computed.
@@ -18,27 +19,103 @@ pub(crate) fn check_folder(folder: &Path) -> Result<(), StudyError> {
     disk::probe(folder).map_err(write)
 }
 
-/// Reads and checks a robot file.
+/// Reads and checks a robot file, or the robot of the library that has this name where no file has it.
 ///
 /// # Errors
-/// As [`read_text`]; [`StudyError::OtherKind`] for a study or a law; [`StudyError::Robot`] naming file,
-/// field, value and what is expected.
+/// As [`read_text`]; [`StudyError::NoSuchName`] for a name that neither a file nor the library has;
+/// [`StudyError::OtherKind`] for a study or a law; [`StudyError::Robot`] naming file, field, value and what
+/// is expected.
 pub fn open_robot(path: &Path) -> Result<Robot, StudyError> {
-    opened(path, Robot::from_json)
+    read_robot(path, Robot::from_json)
 }
 
-/// Reads and checks a robot file without questioning its units, for an inspection.
+/// Reads and checks a robot without questioning its units, for an inspection.
 ///
 /// # Errors
 /// As [`open_robot`].
 pub fn open_robot_in_any_unit(path: &Path) -> Result<Robot, StudyError> {
-    opened(path, Robot::from_json_in_any_unit)
+    read_robot(path, Robot::from_json_in_any_unit)
 }
 
-fn opened(path: &Path, read: fn(&str) -> Result<Robot, RobotError>) -> Result<Robot, StudyError> {
-    let text = read_text(path, InputKind::Robot)?;
+/// The robot that a file in `folder` names by a path from there, or by its name in the library.
+///
+/// # Errors
+/// As [`open_robot`].
+pub(crate) fn open_robot_from(folder: &Path, name: &str) -> Result<Robot, StudyError> {
+    let path = folder.join(name);
+    let in_library = !path.exists() && named_file(ROBOTS, Path::new(name)).is_some();
+    open_robot(if in_library { Path::new(name) } else { &path })
+}
+
+/// Reads a cable file, or the cable of the catalogue that has this name where no file has it.
+///
+/// # Errors
+/// As [`open_robot`].
+pub fn open_cable(path: &Path) -> Result<CatalogueCable, StudyError> {
+    read_named(path, InputKind::Cable, CatalogueCable::from_json)
+}
+
+/// The file of a library that is called by a path: one without folders, where no file has that path.
+pub(crate) fn named_file(library: &[LibraryFile], path: &Path) -> Option<LibraryFile> {
+    named(library, plain_name(path)?).filter(|_| !path.exists())
+}
+
+/// A path that could be a name in a library: without folders and extension.
+fn plain_name(path: &Path) -> Option<&str> {
+    path.to_str().filter(|name| !name.contains(['/', '\\']) && !name.ends_with(".json"))
+}
+
+fn read_robot(path: &Path, read: fn(&str) -> Result<Robot, RobotError>) -> Result<Robot, StudyError> {
+    read_named(path, InputKind::Robot, read)
+}
+
+fn read_named<T>(
+    path: &Path,
+    kind: InputKind,
+    read: fn(&str) -> Result<T, RobotError>,
+) -> Result<T, StudyError> {
+    let library = if kind == InputKind::Cable { CABLES } else { ROBOTS };
+    let text = match (named_file(library, path), plain_name(path)) {
+        (Some(file), _) => file.text.to_owned(),
+        (None, Some(name)) if !path.exists() => {
+            let near = near(library, name).join(", ");
+            return Err(StudyError::NoSuchName { name: name.to_owned(), kind, near });
+        }
+        _ => read_text(path, kind)?,
+    };
     read(&text).map_err(|source| {
-        let other = other_kind(path, &text, InputKind::Robot);
+        let other = other_kind(path, &text, kind);
         other.unwrap_or_else(|| StudyError::Robot { path: path.to_owned(), source })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_robot_is_called_by_its_name_and_a_file_of_that_name_goes_first() {
+        assert_eq!(open_robot(Path::new("cogiro")).unwrap().name, "CoGiRo");
+        assert_eq!(open_cable(Path::new("steel-4mm")).unwrap().properties.diameter, Some(0.004));
+        let folder = tempfile::tempdir().unwrap();
+        let named = |name: &str| open_robot_from(folder.path(), name).unwrap().name;
+        assert_eq!(named("cogiro"), "CoGiRo");
+        let grab = named_file(ROBOTS, Path::new("grab")).unwrap().text;
+        std::fs::write(folder.path().join("cogiro"), grab).unwrap();
+        assert_eq!(named("cogiro"), "GRAB, 4 cables");
+    }
+
+    #[test]
+    fn a_name_that_nothing_has_comes_back_with_those_that_are_near() {
+        let message = |name: &str| open_robot(Path::new(name)).unwrap_err().to_string();
+        assert_eq!(
+            message("expo2015"),
+            "no file and no robot of the library is called `expo2015`: near are expo2015-lucia, \
+             expo2015-roberto"
+        );
+        assert!(message("cogiro.json").starts_with("cannot read cogiro.json"));
+        assert!(message("robots/cogiro").starts_with("cannot read robots/cogiro"));
+        let error = open_cable(Path::new("steel")).unwrap_err().to_string();
+        assert!(error.contains("no cable of the library is called `steel`: near are steel-"), "{error}");
+    }
 }

@@ -55,7 +55,8 @@ pub(crate) fn other_kind(path: &Path, text: &str, kind: InputKind) -> Option<Stu
     }
     let format = serde_json::from_str::<Formatted>(text).ok()?.format;
     let is_of = |kind: &InputKind| kind.format().is_some_and(|name| format.split('/').next() == Some(name));
-    let found = [InputKind::Robot, InputKind::Study, InputKind::Law].into_iter().find(is_of)?;
+    let found =
+        [InputKind::Robot, InputKind::Cable, InputKind::Study, InputKind::Law].into_iter().find(is_of)?;
     (found != kind).then(|| StudyError::OtherKind { path: path.to_owned(), found, kind })
 }
 

@@ -3,7 +3,7 @@
 use crate::error::StudyError;
 use crate::file::study_file::SamplingSpec;
 use crate::model::study::Study;
-use cdpr_robot::Robot;
+use cdpr_robot::{Provenance, Robot};
 use serde::Serialize;
 
 impl Study {
@@ -42,7 +42,7 @@ impl Study {
     }
 
     fn hash_of(&self, content: &impl Serialize) -> Result<String, StudyError> {
-        let robot = Robot { name: String::new(), source: None, ..self.robot.clone() };
+        let robot = Robot { name: String::new(), provenance: Provenance::default(), ..self.robot.clone() };
         let mut hasher = blake3::Hasher::new();
         let whole = (env!("CARGO_PKG_VERSION"), content, robot.to_json());
         serde_json::to_writer(&mut hasher, &whole)

@@ -3,7 +3,7 @@
 use crate::error::StudyError;
 use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic, StudyFile};
 use crate::file::value::Value;
-use crate::fs::files::open_robot;
+use crate::fs::files::open_robot_from;
 use crate::fs::input::{other_kind, read_text};
 use crate::kind::InputKind;
 use crate::model::nominal::Nominals;
@@ -58,8 +58,7 @@ impl Study {
             let other = other_kind(path, text, InputKind::Study);
             other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
         })?;
-        let robot_path = path.parent().unwrap_or(Path::new(".")).join(&file.robot);
-        let mut robot = open_robot(&robot_path)?;
+        let mut robot = open_robot_from(path.parent().unwrap_or(Path::new(".")), &file.robot)?;
         if let Some(reference) = &file.tension_reference {
             robot.tension_reference = Some(reference.clone());
         }

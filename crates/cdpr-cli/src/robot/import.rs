@@ -1,0 +1,100 @@
+//! `cdpr import`: a robot file made of the files of another program.
+
+use crate::arguments::{self, components};
+use crate::error::ProgramError;
+use crate::output::Ending;
+use cdpr_exchange::{ForeignFile, ImportOptions, Imported, NoteKind, import};
+use cdpr_robot::{FORMAT, TensionLimits, shown};
+use cdpr_study::{InputKind, StudyError, open_cable, read_text, write_text};
+use std::path::{Path, PathBuf};
+
+/// Files of another program, and what they lack.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Files: bodies and cables of CASPR or the folder that has them, a .wcrfx file of WireX, YAML of
+    /// oKermorgant's cdpr, JSON of IRMA, or a table of points (CSV).
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Robot file to write, over nothing but another robot file; if left out, it is printed.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Cable of all cables: a cable file (JSON, `cdpr-cable/1`) or a name in the catalogue, `steel-4mm`.
+    #[arg(long)]
+    cable: Option<PathBuf>,
+    /// Mass of the platform [kg], in place of that in the files.
+    #[arg(long, value_parser = arguments::payload, allow_hyphen_values = true)]
+    mass: Option<f64>,
+    /// Centre of mass in the platform frame: x,y,z [m], in place of that in the files.
+    #[arg(long, value_parser = components::<3>, allow_hyphen_values = true)]
+    center_of_mass: Option<[f64; 3]>,
+    /// Least and greatest tension of every cable: min,max [N], in place of those in the files.
+    #[arg(long, value_parser = components::<2>, allow_hyphen_values = true)]
+    tension_limits: Option<[f64; 2]>,
+    /// Cable set of CASPR; the default one if left out.
+    #[arg(long)]
+    cable_set: Option<String>,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let mut files = Vec::new();
+    for path in &settings.files {
+        for path in of_folder(path)? {
+            let text = read_text(&path, InputKind::Foreign)?;
+            files.push(ForeignFile { name: path.display().to_string(), text });
+        }
+    }
+    let options = ImportOptions {
+        cable: settings.cable.as_deref().map(open_cable).transpose()?,
+        mass: settings.mass,
+        center_of_mass: settings.center_of_mass.map(Into::into),
+        tension_limits: settings.tension_limits.map(|[min, max]| TensionLimits { min, max }),
+        cable_set: settings.cable_set.clone(),
+    };
+    let Imported { robot, notes } = import(&files, &options)?;
+    let text = format!("{}\n", robot.to_json());
+    let mut lines = Vec::new();
+    for note in &notes {
+        let kind = match note.kind {
+            NoteKind::Assumed => "assumed",
+            NoteKind::Questioned => "questioned",
+            NoteKind::NoPlace => "no place for",
+        };
+        let place =
+            note.place.as_ref().map(|(file, line)| format!("{file}, line {line}: ")).unwrap_or_default();
+        lines.push(format!("{kind}: {place}{}", note.text));
+    }
+    match &settings.out {
+        Some(out) => {
+            write_text(out, &text, FORMAT)?;
+            lines.iter().for_each(|line| println!("{line}"));
+            println!("{}: {}, {} cables", out.display(), shown(&robot.name), robot.cables.len());
+        }
+        None => {
+            println!("{}", text.trim_end());
+            lines.iter().for_each(|line| eprintln!("{line}"));
+        }
+    }
+    let questioned = notes.iter().any(|note| note.kind == NoteKind::Questioned);
+    Ok(if questioned { Ending::SomethingWrong } else { Ending::Well })
+}
+
+/// The files of CASPR in a folder; any other path itself.
+fn of_folder(path: &Path) -> Result<Vec<PathBuf>, StudyError> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let unread = |source| StudyError::Read { path: path.to_owned(), source };
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(path).map_err(unread)? {
+        let path = entry.map_err(unread)?.path();
+        if path.extension().is_some_and(|extension| extension == "xml") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    if files.is_empty() {
+        let expected = "a folder with the XML files of CASPR";
+        return Err(StudyError::setting("FILE", path.display(), expected));
+    }
+    Ok(files)
+}

@@ -1,0 +1,118 @@
+//! The library of robots: every one is listed, checked, studied and mapped.
+
+use crate::common::{answered, cdpr, cdpr_in, json_file, text};
+use cdpr_robot::Robot;
+use cdpr_robot::library::{CABLES, ROBOTS};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// Robots of which `check` warns, with the place of the warning and what is behind it.
+const EXPLAINED: [(&str, &str, &str); 1] = [(
+    "copacabana-handling",
+    "cables[6]",
+    "its upper exit points lead to the lower anchor points, so that cables pass each other closely",
+)];
+
+#[test]
+fn robots_and_cables_are_listed_with_a_line_each() {
+    let listed = answered(cdpr(&["robots"]));
+    for file in ROBOTS {
+        assert!(listed.lines().any(|line| line.contains(&format!(" {} ", file.name))), "{}", file.name);
+    }
+    let cables = answered(cdpr(&["robots", "--cables"]));
+    for file in CABLES {
+        assert!(cables.lines().any(|line| line.contains(&format!(" {} ", file.name))), "{}", file.name);
+    }
+    let one = answered(cdpr(&["robots", "cogiro"]));
+    assert!(one.contains("CoGiRo: 8 cables, surveyed") && one.contains("assumed: The modulus of 100 GPa"));
+    let entry: Value =
+        serde_json::from_str(&answered(cdpr(&["robots", "irma4u", "--format", "json"]))).unwrap();
+    assert_eq!((&entry["grade"], &entry["mass_kg"]), (&json!("surveyed"), &json!(12.992)));
+}
+
+#[test]
+fn a_name_takes_the_place_of_a_robot_file_and_a_wrong_one_finds_those_near_it() {
+    let by_name = answered(cdpr(&["inverse", "caroca", "--pose", "0,0,1.75"]));
+    let file = crate::common::data_path("robots/caroca.json");
+    assert_eq!(by_name, answered(cdpr(&["inverse", &file, "--pose", "0,0,1.75"])));
+    let refused = cdpr(&["check", "cogira"]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert_eq!(
+        text(refused.stderr),
+        "error: no file and no robot of the library is called `cogira`: near are cogiro; `cdpr robots` \
+         lists them all\n"
+    );
+}
+
+#[test]
+fn check_is_clean_or_explained_for_every_robot() {
+    for file in ROBOTS {
+        let output = cdpr(&["check", file.name, "--format", "json"]);
+        let findings: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+        let warnings = findings.iter().filter(|finding| finding["severity"] == "warning");
+        let warned: Vec<_> = warnings.map(|finding| finding["field"].as_str().unwrap()).collect();
+        let explained: Vec<_> =
+            EXPLAINED.iter().filter(|entry| entry.0 == file.name).map(|entry| entry.1).collect();
+        assert_eq!(warned, explained, "{}", file.name);
+    }
+}
+
+#[test]
+fn a_study_and_a_map_run_for_every_robot_with_enough_cables() {
+    let folder = TempDir::new().unwrap();
+    let run = |arguments: &[&str]| {
+        let output = cdpr_in(folder.path(), arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", text(output.stderr));
+    };
+    let mut studied = 0;
+    for name in ROBOTS.iter().map(|file| file.name) {
+        let file = format!("{name}.json");
+        let template = cdpr_in(folder.path(), &["study", "new", "--robot", name, "--out", &file]);
+        if !robot(name).is_fully_actuated() {
+            assert!(text(template.stderr).contains("a study holds no pose"), "{name}");
+            continue;
+        }
+        assert!(template.status.success(), "{name}: {}", text(template.stderr));
+        let mut study = json_file(folder.path().join(&file));
+        assert_eq!(study["robot"], name);
+        study.as_object_mut().unwrap().remove("sensitivity");
+        study["replicates"] = json!(0);
+        study["samplings"]["all"]["observations"] = json!(32);
+        for axis in ["x", "y"] {
+            study["surfaces"]["modulus_mass"][axis]["points"] = json!(3);
+        }
+        std::fs::write(folder.path().join(&file), study.to_string()).unwrap();
+        let out = format!("{name}-study");
+        run(&["study", "run", &file, "--out", &out]);
+        let summary = json_file(folder.path().join(out).join("summary.json"));
+        let sampling = &summary["studies"]["all"];
+        assert!(sampling["rms_mm"]["std"].as_f64().unwrap() > 0.0, "{name}: {sampling}");
+
+        let position = &study["samplings"]["all"]["pose"]["position"];
+        let [x, y, z] = [0, 1, 2].map(|axis| position[axis].as_f64().unwrap());
+        let size = robot(name).platform_size();
+        let part = format!("--box={}:{}:3,{}:{}:3,{z}:{z}:1", x - size, x + size, y - size, y + size);
+        let map = format!("{name}-map");
+        run(&["workspace", name, &part, "--out", &map]);
+        let rows = &json_file(folder.path().join(map).join("workspace.json"))["rows"];
+        assert_eq!(rows[4]["status"], "held", "{name}: {rows}");
+        studied += 1;
+    }
+    assert!(studied >= 12, "{studied}");
+}
+
+#[test]
+fn robots_with_four_cables_hang_where_their_free_coordinates_are_found() {
+    for (name, pose) in
+        [("four-cables", "0.5,0.3,2"), ("grab", "1.28,-0.19,-0.92"), ("irma4u", "0.2,0.1,0.8")]
+    {
+        let pose = ["--pose", pose, "--free", "roll,pitch", "--format", "json"];
+        let answer = answered(cdpr(&[&["inverse", name], &pose[..]].concat()));
+        assert!(answer.contains("\"tensions\""), "{name}: {answer}");
+    }
+}
+
+/// The robot of that name.
+fn robot(name: &str) -> Robot {
+    Robot::from_json(cdpr_robot::library::named(ROBOTS, name).unwrap().text).unwrap()
+}

@@ -1,0 +1,100 @@
+//! Why a file of another program was not imported, or a robot not exported.
+
+use cdpr_robot::RobotError;
+use cdpr_statics::StaticsError;
+use std::fmt;
+
+/// Why a file of another program was not imported, or a robot not exported.
+#[derive(Debug, thiserror::Error)]
+pub enum ExchangeError {
+    /// The text is not of its language.
+    #[error("{file}, line {line}, column {column}: {message}")]
+    Syntax {
+        /// The file.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column in that line, from 1.
+        column: usize,
+        /// What the reader of XML, YAML or CSV says.
+        message: String,
+    },
+    /// A value is missing or invalid, or has no counterpart in a robot file.
+    #[error("{file}, line {line}, column {column}: {element} is {value}: expected {expected}")]
+    Value {
+        /// The file.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column in that line, from 1.
+        column: usize,
+        /// Path of the element, such as `cables/cable_set/cable_ideal[2]/@name`.
+        element: String,
+        /// What stands there.
+        value: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// The format of a file is not known.
+    #[error("{file}: {found}: expected {FORMATS}")]
+    Unknown {
+        /// The file.
+        file: String,
+        /// What it begins with.
+        found: String,
+    },
+    /// Files do not make a robot together.
+    #[error("{given}: expected {expected}")]
+    Together {
+        /// The files.
+        given: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// The files lack what a robot needs.
+    #[error("the files do not have {}", list(.0))]
+    Lacking(Vec<Lacking>),
+    /// What was read is no robot.
+    #[error("the files make no robot: {0}")]
+    Robot(RobotError),
+    /// A robot with something for which the other format has no place.
+    #[error("{field} is {value}: the format has no place for it")]
+    NoPlace {
+        /// Path of the field in the robot file.
+        field: String,
+        /// Its value.
+        value: String,
+    },
+    /// The pose of the exported file is not held.
+    #[error(transparent)]
+    Pose(#[from] StaticsError),
+}
+
+/// The formats that are read.
+pub const FORMATS: &str = "the bodies and cables of CASPR (XML), a .wcrfx file of WireX (XML), a robot of \
+                           oKermorgant's cdpr (YAML), a robot of IRMA (JSON), or a table of points (CSV)";
+
+/// What a robot needs and files of other programs may lack.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lacking {
+    /// Section, density and modulus of the cables.
+    Cable,
+    /// Mass of the platform.
+    Mass,
+    /// Limits of tension.
+    TensionLimits,
+}
+
+impl fmt::Display for Lacking {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Cable => "section, density and modulus of the cables",
+            Self::Mass => "the mass of the platform",
+            Self::TensionLimits => "limits of tension",
+        })
+    }
+}
+
+fn list(lacking: &[Lacking]) -> String {
+    lacking.iter().map(ToString::to_string).collect::<Vec<_>>().join(", nor ")
+}

@@ -1,0 +1,16 @@
+//! Robots from and for other programs.
+//!
+//! [`import`] makes a robot of the files of another program. What they lack is asked for by name
+//! ([`ExchangeError::Lacking`]); what was assumed, what looks like a value of a template and what a robot file
+//! has no place for are listed ([`Note`]). Nothing is dropped in silence.
+//!
+//! The crate does no input or output: it reads and writes text in memory.
+
+mod document;
+mod draft;
+mod error;
+mod read;
+
+pub use draft::{ImportOptions, Imported, Note, NoteKind};
+pub use error::{ExchangeError, FORMATS, Lacking};
+pub use read::{ForeignFile, import};

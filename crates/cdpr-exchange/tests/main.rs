@@ -1,0 +1,7 @@
+//! Robots of other programs, imported and exported.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod broken;
+mod fixtures;
+mod import;
