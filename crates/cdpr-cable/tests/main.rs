@@ -8,4 +8,5 @@ mod held;
 mod piecewise;
 mod properties;
 mod reference;
+mod sap2000;
 mod spatial;
