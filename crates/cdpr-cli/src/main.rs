@@ -115,6 +115,11 @@ enum Command {
                       --limit 0.9 --costs b=3"
     )]
     Tolerances(study::tolerances::Settings),
+    /// Write a robot at rest at a pose for MuJoCo, CASPR or MoorPy.
+    #[command(after_help = "Examples:
+  cdpr export cogiro --to mjcf --pose 0,0,2 --out cogiro.xml
+  cdpr export ipanema-3 --to caspr --pose 0,0,1.3 --out IPAnema3")]
+    Export(pose::export::Settings),
     /// Make a robot file of the files of another program.
     ///
     /// What the files lack is asked for by name. What is assumed, what looks like a value of a template
@@ -169,6 +174,7 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Modulus(settings) => cable::modulus::run(&settings)?,
         Command::Tolerances(settings) => study::tolerances::run(&settings)?,
         Command::Report(settings) => study::report::run(&settings)?,
+        Command::Export(settings) => pose::export::run(&settings)?,
         Command::Import(settings) => return robot::import::run(&settings),
         Command::Robots(settings) => robot::library::run(&settings)?,
         Command::Robustness(settings) => robot::robustness::run(&settings)?,

@@ -4,6 +4,7 @@ pub(crate) mod at_pose;
 pub(crate) mod deflection;
 pub(crate) mod derivatives;
 pub(crate) mod direct;
+pub(crate) mod export;
 pub(crate) mod hysteresis;
 pub(crate) mod inverse;
 pub(crate) mod modes;

@@ -4,13 +4,18 @@
 //! ([`ExchangeError::Lacking`]); what was assumed, what looks like a value of a template and what a robot file
 //! has no place for are listed ([`Note`]). Nothing is dropped in silence.
 //!
+//! [`export`] writes a robot for MuJoCo, CASPR or MoorPy, with the lengths with which it rests at a pose.
+//!
 //! The crate does no input or output: it reads and writes text in memory.
 
 mod document;
 mod draft;
 mod error;
 mod read;
+mod write;
 
 pub use draft::{ImportOptions, Imported, Note, NoteKind};
 pub use error::{ExchangeError, FORMATS, Lacking};
 pub use read::{ForeignFile, import};
+pub use write::scene::Exported;
+pub use write::{Target, export};

@@ -3,5 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 mod broken;
+mod export;
 mod fixtures;
 mod import;

@@ -133,7 +133,7 @@ impl Robot {
         Ok(Self { robot })
     }
 
-    /// Reads a robot file (`cdpr-robot/1`).
+    /// Reads a robot file (`cdpr-robot/1`), or a robot of the library by its name, `cogiro`.
     ///
     /// Raises FileError, and InputError with line, column, field and what would be right.
     #[staticmethod]

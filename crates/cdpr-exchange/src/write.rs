@@ -1,0 +1,37 @@
+//! Robots for other programs.
+
+mod caspr;
+mod mjcf;
+mod moorpy;
+pub(crate) mod scene;
+
+use crate::error::ExchangeError;
+use crate::write::scene::Exported;
+use cdpr_robot::{Pose, Robot};
+
+/// Formats that are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// MuJoCo: sites, and a spring a cable, straight and without weight.
+    Mjcf,
+    /// CASPR: bodies and cables, pulleys included.
+    Caspr,
+    /// MoorPy and MoorDyn: elastic catenaries.
+    Moorpy,
+}
+
+/// The robot in the format of another program, at rest at a pose.
+///
+/// Lengths and stiffnesses are those with which the other program's model rests at the pose: straight cables
+/// without weight in MuJoCo, elastic catenaries in MoorPy. CASPR has the geometry and EA alone.
+///
+/// # Errors
+/// [`ExchangeError::NoPlace`] for pulleys, leads, laws and held motions in formats that have none;
+/// [`ExchangeError::Pose`] for a pose that is not held.
+pub fn export(robot: &Robot, pose: &Pose, target: Target) -> Result<Exported, ExchangeError> {
+    match target {
+        Target::Mjcf => mjcf::write(robot, pose),
+        Target::Caspr => caspr::write(robot, pose),
+        Target::Moorpy => moorpy::write(robot, pose),
+    }
+}

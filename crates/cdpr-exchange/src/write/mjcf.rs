@@ -1,0 +1,84 @@
+//! MuJoCo's MJCF: a platform with a free joint, and a tendon a cable between two sites.
+//!
+//! A tendon is a spring without weight: f = k (l - L) for l > L, and no force below, which `springlength="0 L"`
+//! says. With k = EA / L it is the straight cable of unstrained length L. The lengths are those with which
+//! straight cables hold the pose.
+
+use crate::error::ExchangeError;
+use crate::write::scene::{Exported, check_plain, escaped, inertia, words};
+use cdpr_robot::{Pose, Robot, UnitQuaternion};
+use cdpr_statics::{Load, inverse};
+use std::fmt::Write;
+
+pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeError> {
+    check_plain(robot)?;
+    let mut straight = robot.clone();
+    straight.cables.iter_mut().for_each(|cable| cable.properties.linear_density = 0.0);
+    let lengths = inverse(&straight, pose, &Load::none(), None)?.lengths;
+    let mut notes = Vec::new();
+    let weight: f64 =
+        robot.cables.iter().zip(&lengths).map(|(cable, l)| cable.properties.linear_density * l).sum();
+    if weight > 0.0 {
+        notes.push(format!(
+            "MuJoCo's tendons are straight and have no weight: {weight:.3} kg of cables are left out"
+        ));
+    }
+    let (about_center, assumed) = inertia(robot);
+    if assumed {
+        notes.push(
+            "the inertia is that of a ball as large as the platform: the robot file has none".to_owned(),
+        );
+    }
+
+    let platform = &robot.platform;
+    let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
+    let quaternion = format!("{:?} {:?} {:?} {:?}", q.w, q.i, q.j, q.k);
+    let [xx, yy, zz] = [0, 1, 2].map(|i| about_center[(i, i)]);
+    let [xy, xz, yz] = [(0, 1), (0, 2), (1, 2)].map(|place| about_center[place]);
+    let size = robot.platform_size().max(0.01);
+    let mut text = format!(
+        r#"<mujoco model="{name}">
+  <!-- {said} -->
+  <compiler angle="radian"/>
+  <option gravity="{gravity}" timestep="0.0005" integrator="implicitfast"/>
+  <worldbody>
+"#,
+        name = escaped(&robot.name),
+        said = escaped(robot.provenance.source.as_deref().unwrap_or("source not known")),
+        gravity = words(&robot.gravity.vector()),
+    );
+    // Writing to a string cannot fail.
+    for (i, cable) in robot.cables.iter().enumerate() {
+        let _ = writeln!(text, "    <site name=\"exit_{}\" pos=\"{}\"/>", i + 1, words(&cable.exit_point));
+    }
+    let _ = writeln!(
+        text,
+        "    <body name=\"platform\" pos=\"{}\" quat=\"{quaternion}\">
+      <freejoint name=\"platform\"/>
+      <inertial pos=\"{}\" mass=\"{:?}\" fullinertia=\"{xx:?} {yy:?} {zz:?} {xy:?} {xz:?} {yz:?}\"/>
+      <geom type=\"sphere\" pos=\"{}\" size=\"{:?}\" contype=\"0\" conaffinity=\"0\" mass=\"0\"/>",
+        words(&pose.position),
+        words(&platform.center_of_mass),
+        platform.mass,
+        words(&platform.center_of_mass),
+        0.2 * size,
+    );
+    for (i, cable) in robot.cables.iter().enumerate() {
+        let _ =
+            writeln!(text, "      <site name=\"anchor_{}\" pos=\"{}\"/>", i + 1, words(&cable.anchor_point));
+    }
+    text += "    </body>\n  </worldbody>\n  <tendon>\n";
+    for (i, (cable, length)) in robot.cables.iter().zip(&lengths).enumerate() {
+        let number = i + 1;
+        let stiffness = cable.properties.axial_stiffness() / length;
+        let _ = writeln!(
+            text,
+            "    <spatial name=\"cable_{number}\" stiffness=\"{stiffness:?}\" springlength=\"0 {length:?}\" \
+             width=\"0.005\">
+      <site site=\"exit_{number}\"/> <site site=\"anchor_{number}\"/>
+    </spatial>"
+        );
+    }
+    text += "  </tendon>\n</mujoco>\n";
+    Ok(Exported { files: vec![(".xml", text)], notes })
+}
