@@ -25,8 +25,8 @@ fn run(name: &str) -> (Vec<Part>, SamplingSummary) {
     (parts, summary)
 }
 
-fn rms(summary: &SamplingSummary) -> &cdpr_study::RmsSummary {
-    summary.rms_mm.as_ref().unwrap()
+fn rms(summary: &SamplingSummary) -> &cdpr_study::ValueSummary {
+    summary.values.as_ref().unwrap()
 }
 
 fn within(value: f64, expected: f64, tolerance: f64) {
@@ -98,8 +98,8 @@ fn surfaces_around_the_symmetric_pose() {
     let extremes = |name: &str| {
         let surface = study.surface(name).unwrap();
         let result = compute_surface(&surface, &|_| ());
-        assert!(result.rms_mm.iter().all(Result::is_ok));
-        let rms = SurfaceSummary::new(&surface, &result).rms_mm;
+        assert!(result.values.iter().all(Result::is_ok));
+        let rms = SurfaceSummary::new(&surface, &result).values;
         (rms.min.unwrap(), rms.max.unwrap())
     };
     let (min, max) = extremes("surface_E_rho");

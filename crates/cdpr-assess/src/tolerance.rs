@@ -15,16 +15,14 @@
 //! rounds suffice. Independent draws then verify what the budget reaches.
 
 use crate::error::AssessError;
-use cdpr_robot::Perturbed;
 use cdpr_sensitivity::{
     Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate, derived_seed,
 };
-use cdpr_statics::{DirectProblem, Load, Start, StaticsError, derivatives, direct, wound_lengths};
+use cdpr_statics::{StaticsError, derivatives};
 use cdpr_study::{Sampling, StudyError, observe_rows};
 use indexmap::IndexMap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
 
 /// The error that is limited [mm].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -180,8 +178,6 @@ fn left(variances: &[f64], factors: &[f64]) -> f64 {
 struct Model<'a> {
     sampling: &'a Sampling<'a>,
     limit: &'a Limit,
-    /// Whether tension set-points deviate.
-    offsets: bool,
     names: Vec<String>,
     costs: Vec<f64>,
     /// Largest standard deviation of the inputs of a tolerance.
@@ -213,7 +209,6 @@ impl<'a> Model<'a> {
         let mut model = Self {
             sampling,
             limit,
-            offsets: (0..errors.inputs.len()).any(|input| errors.group(input) == "dt"),
             costs: names.iter().map(|name| limit.costs.get(name).copied().unwrap_or(1.0)).collect(),
             stds: vec![0.0; names.len()],
             variances: vec![0.0; names.len()],
@@ -240,7 +235,7 @@ impl<'a> Model<'a> {
 
     /// The error of the mean robot [mm], and |J|² of each input [mm² per squared unit].
     fn linear(&self) -> Result<(f64, Vec<f64>), StaticsError> {
-        let Sampling { robot, pose, load, errors, .. } = self.sampling;
+        let Sampling { robot, pose, load, errors, observer, .. } = self.sampling;
         let means: Vec<f64> = self.inputs.iter().map(|(_, mean)| *mean).collect();
         let perturbed = robot.perturbed(&errors.deviations(&means))?;
         let squares = |rows: &[Vec<f64>]| -> Vec<f64> {
@@ -256,21 +251,9 @@ impl<'a> Model<'a> {
                 Ok((1e3 * found.deflection.rms(), squares(&[found.rms()?])))
             }
             Limited::Position => {
-                let (none, lengths) = (Load::none(), self.lengths(&perturbed)?);
-                let found = direct(&perturbed.robot, &lengths, &none, Start::Pose(pose))?.equilibrium;
-                let problem = DirectProblem::new(&perturbed.robot, &lengths, &none)?;
-                let mut slopes = problem.derivatives(&found)?.pose;
-                if self.offsets {
-                    // Offsets act through the lengths alone, which are those of the nominal robot.
-                    let wound = derivatives(robot, pose, &perturbed.tension_offsets, load)?.lengths;
-                    let moved = problem.linearize(&found)?.pose_per_length() * wound;
-                    let n = robot.cables.len();
-                    let first = errors.parameters() - n;
-                    slopes.columns_mut(first, n).copy_from(&moved.columns(first, n));
-                }
+                let (displaced, slopes) = observer.displaced_slopes(&perturbed, errors)?;
                 let row = |axis| slopes.row(axis).iter().copied().collect();
-                let away = (found.pose.position - pose.position).norm();
-                Ok((1e3 * away, squares(&[0, 1, 2].map(row))))
+                Ok((1e3 * displaced.norm(), squares(&[0, 1, 2].map(row))))
             }
         }
     }
@@ -288,7 +271,7 @@ impl<'a> Model<'a> {
             let deviations = self.sampling.errors.deviations(rows);
             let errors: Vec<Option<f64>> = match self.limit.of {
                 Limited::Deflection => {
-                    let outcomes = self.sampling.observer.observe_all(&deviations).into_iter();
+                    let outcomes = self.sampling.observer.deflections.observe_all(&deviations).into_iter();
                     outcomes.map(|outcome| outcome.ok().map(|found| found.rms())).collect()
                 }
                 Limited::Position => deviations
@@ -305,21 +288,8 @@ impl<'a> Model<'a> {
 
     /// Distance of P from the wanted pose [m].
     fn away(&self, deviations: &[f64]) -> Option<f64> {
-        let Sampling { robot, pose, .. } = self.sampling;
-        let perturbed = robot.perturbed(deviations).ok()?;
-        let lengths = self.lengths(&perturbed).ok()?;
-        let found = direct(&perturbed.robot, &lengths, &Load::none(), Start::Pose(pose)).ok()?;
-        Some((found.equilibrium.pose.position - pose.position).norm())
-    }
-
-    /// Lengths of the nominal robot for the wanted pose, with the offsets of a deviating one.
-    fn lengths(&self, deviating: &Perturbed) -> Result<Cow<'_, [f64]>, StaticsError> {
-        let Sampling { robot, pose, nominal, .. } = self.sampling;
-        if self.offsets {
-            wound_lengths(robot, pose, &deviating.tension_offsets).map(Cow::Owned)
-        } else {
-            Ok(Cow::Borrowed(&nominal.lengths))
-        }
+        let Sampling { robot, observer, .. } = self.sampling;
+        Some(observer.displaced(&robot.perturbed(deviations).ok()?).ok()?.norm())
     }
 
     /// The quantile [mm] of a round. It uses the same points for all factors, so that it changes with the

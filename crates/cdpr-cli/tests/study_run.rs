@@ -108,6 +108,66 @@ fn a_study_writes_tables_figures_and_a_summary() {
 }
 
 #[test]
+fn a_study_of_frequencies_names_them_in_every_file_and_can_be_read_again() {
+    let bench = bench();
+    measure(&bench);
+    bench.change("robot.json", |robot| {
+        robot["platform"]["inertia"] = json!([[30.0, 1.0, 0.0], [1.0, 40.0, 0.0], [0.0, 0.0, 50.0]]);
+    });
+    bench.change("study.json", |study| {
+        study["output"] = json!("frequency");
+        study["comparison"] = json!([]);
+        let plane = json!({
+            "title": "Plane", "error_model": "table_4", "observations": 8,
+            "poses": { "grid": {
+                "x": { "min": -1.0, "max": 1.0, "points": 2 }, "y": { "min": -1.0, "max": 1.0, "points": 2 },
+                "z": { "min": 1.75, "max": 1.75, "points": 1 }
+            } }
+        });
+        let error_model = study["samplings"]["mechanical"]["error_model"].clone();
+        study["samplings"]["plane"] = plane;
+        study["samplings"]["plane"]["error_model"] = error_model;
+    });
+    let text = printed(&bench, &[]);
+    assert!(text.contains("[Hz]  best fit") && text.contains("[mHz]; t-Student"), "{text}");
+    let summary = bench.json("out/summary.json");
+    let mechanical = &summary["studies"]["mechanical"];
+    let frequency = &mechanical["frequency_hz"];
+    let mean = frequency["mean"].as_f64().unwrap();
+    assert!((mean / frequency["nominal"].as_f64().unwrap() - 1.0).abs() < 0.05, "{frequency}");
+    assert_eq!(mechanical["output"], "frequency");
+    assert!(mechanical["signed_effects_hz"]["youngs_modulus"]["effect"].as_f64().unwrap() > 0.0);
+    assert!(mechanical["sensitivity"]["inputs"][0]["morris_std_hz"].is_number());
+    assert!(summary["studies"]["plane"]["mean_hz"]["min"].is_number());
+    assert!(summary["studies"]["surface_E_rho"]["frequency_hz"]["nominal"].is_number());
+
+    let header = |file: &str| read(&bench, file).lines().next().unwrap().to_owned();
+    let table = read(&bench, "out/mechanical.csv");
+    assert!(header("out/mechanical.csv").ends_with(",d_dt8,frequency_hz,status,reason"));
+    let values = table.lines().skip(1).map(|line| line.split(',').nth(63).unwrap().parse::<f64>().unwrap());
+    assert!((values.sum::<f64>() / 64.0 - mean).abs() < 1e-9);
+    assert!(header("out/plane.csv").contains(",nominal_hz,mean_hz,std_hz,min_hz,max_hz,dominant,"));
+    assert!(header("out/mechanical_sensitivity.csv").contains(",signed_effect_hz,"));
+    assert!(header("out/surface_E_rho.csv").ends_with(",frequency_hz,status"));
+    let drawn = ["mechanical", "mechanical_effects", "plane_mean", "surface_E_rho", "anchor_points"];
+    for svg in drawn.map(|name| read(&bench, &format!("out/{name}.svg"))) {
+        assert!(svg.contains("frequency") && !svg.contains("RMS"), "{svg}");
+    }
+    let report = read(&bench, "out/report.html");
+    assert!(report.contains("Lowest natural frequency [Hz]"));
+    assert!(["the RMS", "mean RMS", "RMS ["].iter().all(|words| !report.contains(words)));
+
+    // What was written is read back, and printed, under the same names.
+    let drawn = cdpr_in(&bench.path("."), &["report", "out"]);
+    assert!(drawn.status.success(), "{}", crate::common::text(drawn.stderr));
+    assert_eq!(read(&bench, "out/report.html"), report);
+    let status: Value = serde_json::from_str(&bench.done(&["status", "out", "--format", "json"])).unwrap();
+    assert_eq!(status["samplings"]["mechanical"]["provisional_frequency_hz"]["mean"].as_f64(), Some(mean));
+    let again = run(&bench, &["--resume", "--format", "json"]).stdout;
+    assert_eq!(serde_json::from_slice::<Value>(&again).unwrap(), summary);
+}
+
+#[test]
 fn the_files_are_the_same_on_any_number_of_threads() {
     let bench = bench();
     measure(&bench);

@@ -2,7 +2,6 @@
 
 use crate::convert::{Answer, Raised, run, to_json, watched, whole};
 use cdpr_report::{draw, report_with};
-use cdpr_robot::Vector3;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
     Access, Existing, Part, Plan, REPORT_NAME, Run, Session, Shard, StoredStudy, Study, StudyError,
@@ -153,17 +152,17 @@ pub(crate) fn status(py: Python, out: PathBuf) -> Answer<String> {
 
 /// Reads the observations of a sampling in a folder.
 ///
-/// Returns the names of the inputs, their deviations (m, k), dx, dy, dz and |dp| [mm] (m, 4), and the kinds
-/// of failure.
+/// Returns the names of the inputs, their deviations (m, k), the names of the output's columns, their values
+/// (m, columns), and the kinds of failure.
 #[pyfunction]
 #[allow(clippy::type_complexity)]
 pub(crate) fn observations(
     py: Python,
     out: PathBuf,
     sampling: &str,
-) -> Answer<(Vec<String>, Py<PyAny>, Py<PyAny>, Vec<Option<String>>)> {
-    let (mut rows, mut deflections, mut failures) = (Vec::new(), Vec::new(), Vec::new());
-    let names: Vec<String> = run(py, |stop| -> Result<_, StudyError> {
+) -> Answer<(Vec<String>, Py<PyAny>, Vec<&'static str>, Py<PyAny>, Vec<Option<String>>)> {
+    let (mut rows, mut cells, mut failures) = (Vec::new(), Vec::new(), Vec::new());
+    let (names, output) = run(py, |stop| -> Result<_, StudyError> {
         let StoredStudy { study, blocks } = cdpr_study::open_results(&out)?;
         let sampling = study.sampling(sampling)?;
         check_observed(&out, &study, &blocks, &sampling.name)?;
@@ -176,21 +175,21 @@ pub(crate) fn observations(
         observe_into(&sampling, &session, Part::clone, |part| {
             rows.extend(part.rows);
             for outcome in part.outcomes {
-                let displacement = outcome.as_ref().copied().unwrap_or_else(|_| Vector3::repeat(f64::NAN));
-                let [dx, dy, dz] = displacement.into();
-                deflections.extend([dx, dy, dz, displacement.norm()].map(|metres| 1e3 * metres));
+                cells.extend(outcome.as_ref().unwrap_or(&part.output.nothing()).cells());
                 failures.push(outcome.err().map(|failure| failure.kind));
             }
             Ok(())
         })?;
-        Ok(sampling.design.inputs().iter().map(|input| input.name.clone()).collect())
+        let names: Vec<String> = sampling.design.inputs().iter().map(|input| input.name.clone()).collect();
+        Ok((names, sampling.output()))
     })??;
     let array = |values: Vec<f64>, width: usize| -> PyResult<Py<PyAny>> {
         let array = PyArray1::from_vec(py, values).reshape(IxDyn(&[failures.len(), width]))?;
         Ok(array.into_any().unbind())
     };
-    let (rows, deflections) = (array(rows, names.len())?, array(deflections, 4)?);
-    Ok((names, rows, deflections, failures))
+    let columns = output.columns();
+    let (rows, cells) = (array(rows, names.len())?, array(cells, columns.len())?);
+    Ok((names, rows, columns.to_vec(), cells, failures))
 }
 
 /// The format of the tables of observations; `None` for the default.

@@ -82,6 +82,24 @@ def test_a_run_writes_what_the_command_line_writes(study, expected, tmp_path):
     assert isinstance(frame, pandas.DataFrame) and len(frame) == OBSERVATIONS
 
 
+def test_a_study_of_frequencies_has_their_names_and_unit(data, tmp_path):
+    file = json.loads((data / "studies" / "caroca.json").read_text())
+    file.update(robot=str(data / "robots" / "cogiro.json"), output="frequency", replicates=0, bootstrap_resamples=5)
+    sampling = {**file["samplings"]["mechanical"], "pose": {"position": [1.0, 0.5, 2.0]}, "observations": 40}
+    error_model = {"mass": {"law": {"uniform": {"min": -4.0, "max": 4.0}}}}
+    file.update(samplings={"one": {**sampling, "error_model": "mass"}}, error_models={"mass": error_model})
+    file.update(surfaces={}, comparison=[])
+    path = tmp_path / "study.json"
+    path.write_text(json.dumps(file))
+    results = cdpr.study.run(str(path), tmp_path / "out")
+    table = results.observations("one")
+    assert table.dtype.names == ("index", "d_mass", "frequency_hz", "status")
+    assert abs(table["frequency_hz"].mean() - results.summary["studies"]["one"]["frequency_hz"]["mean"]) < 1e-12
+    robot = cdpr.Robot.from_file(str(data / "robots" / "cogiro.json"))
+    nominal = results.summary["studies"]["one"]["frequency_hz"]["nominal"]
+    assert 0.5 * nominal < robot.modes([1.0, 0.5, 2.0]).frequencies_hz[0] < 2.0 * nominal
+
+
 def test_a_process_pool_writes_the_same(study, expected, tmp_path):
     calls = []
     # Forked on purpose, after this process has used its own threads.

@@ -15,7 +15,7 @@ pub fn draw(study: &Study, of: Drawable) -> Vec<Figure> {
     match of {
         Drawable::Sampling { name, summary } => {
             let mut drawn = vec![figure(name.to_owned(), histogram(summary))];
-            if !summary.signed_effects_mm.is_empty() {
+            if !summary.signed_effects.is_empty() {
                 drawn.push(figure(format!("{name}_effects"), signed_effects(summary, EFFECTS)));
             }
             if summary.sensitivity.is_some() {

@@ -32,6 +32,12 @@ pub(crate) fn figures(value: f64, digits: usize) -> String {
     number(value, usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0))
 }
 
+/// A text with a capital at its start.
+pub(crate) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// Number with this many decimals. It has a minus sign instead of a hyphen, and no negative zero.
 pub(crate) fn number(value: f64, decimals: usize) -> String {
     decimal(value, decimals).replacen('-', "\u{2212}", 1)

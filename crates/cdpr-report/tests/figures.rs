@@ -9,8 +9,8 @@ use cdpr_robot::{Pose, Robot};
 use cdpr_sensitivity::{Family, Histogram, Law};
 use cdpr_statics::{DirectMethod, Residual, StaticsError};
 use cdpr_study::{
-    Agreement, FitSummary, IndexMap, InputMeasures, NominalSummary, RmsSummary, SamplingSummary,
-    SensitivitySummary, SignedEffect, Study, SurfaceResult, SurfaceSummary,
+    Agreement, FitSummary, IndexMap, InputMeasures, NominalSummary, Output, SamplingSummary,
+    SensitivitySummary, SignedEffect, Study, SurfaceResult, SurfaceSummary, ValueSummary,
 };
 
 fn robot() -> Robot {
@@ -31,7 +31,7 @@ fn sampling() -> SamplingSummary {
         ks: 0.01,
         p_value: 0.5,
     };
-    let rms = RmsSummary {
+    let rms = ValueSummary {
         mean: 1.35,
         std: 0.1375,
         min: 1.1,
@@ -47,11 +47,12 @@ fn sampling() -> SamplingSummary {
     let t_student = (1..=8).flat_map(|i| ["x", "y", "z"].map(|axis| (format!("b{i}.{axis}"), i as f64)));
     SamplingSummary {
         title: "Everything, E < 104 & \"rest\"".to_owned(),
+        output: Output::Deflection,
         pose: [0.0, 0.0, 1.75],
         quaternion: [1.0, 0.0, 0.0, 0.0],
         observations: 101,
         failed: [("infeasible_tension".to_owned(), 1)].into(),
-        rms_mm: Some(rms),
+        values: Some(rms),
         nominal: NominalSummary {
             displacement_mm: [0.0, 0.0, -1.33],
             small_displacement_rms_mm: Some(1.3),
@@ -71,7 +72,7 @@ fn sampling() -> SamplingSummary {
         }),
         notes: Vec::new(),
         t_student: t_student.chain([("mass".to_owned(), 3.0)]).collect(),
-        signed_effects_mm: [
+        signed_effects: [
             ("mass".to_owned(), effect(-0.02, 0.004)),
             ("b2.x".to_owned(), effect(0.03, 0.005)),
             ("dt1".to_owned(), effect(0.001, 0.002)),
@@ -115,8 +116,8 @@ fn measured() -> SamplingSummary {
 fn grid() -> (SurfaceSummary, SurfaceResult) {
     let (x, y) = (vec![84.2e9, 102.2e9, 120.2e9], vec![162.0, 198.0]);
     let failure = || StaticsError::Invalid { field: "x".into(), value: "y".into(), expected: "z".into() };
-    let rms_mm = vec![Ok(1.6), Ok(1.61), Err(failure()), Ok(1.35), Ok(1.1), Ok(1.12)];
-    let result = SurfaceResult { x, y, rms_mm };
+    let values = vec![Ok(1.6), Ok(1.61), Err(failure()), Ok(1.35), Ok(1.1), Ok(1.12)];
+    let result = SurfaceResult { x, y, values };
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json");
     let study = Study::open(file.as_ref()).unwrap();
     let mut summary = SurfaceSummary::new(&study.surface("surface_E_rho").unwrap(), &result);
@@ -246,7 +247,7 @@ fn a_surface_has_a_cell_for_each_point_and_shows_the_failed_ones() {
         assert!(failed.contains(text), "{text}: {failed}");
     }
     assert!(texts(&svg).contains(&"100"), "GPa, not Pa");
-    result.rms_mm[2] = Ok(1.3);
+    result.values[2] = Ok(1.3);
     let whole = surface(&summary, &result).unwrap();
     assert_eq!(rectangles(&svg), rectangles(&whole));
     assert_eq!(rectangles(&whole), 6 + 128);
@@ -334,7 +335,7 @@ fn without_solves_or_with_invalid_distances_robustness_has_no_figure() {
 fn without_data_there_is_no_figure() {
     let mut empty = sampling();
     empty.histogram.as_mut().unwrap().counts = vec![0; 5];
-    empty.signed_effects_mm.clear();
+    empty.signed_effects.clear();
     assert!(matches!(histogram(&empty), Err(ReportError::Empty { .. })));
     assert!(matches!(signed_effects(&empty, 20), Err(ReportError::Empty { .. })));
     assert!(matches!(signed_effects(&sampling(), 0), Err(ReportError::Empty { .. })));
@@ -344,8 +345,8 @@ fn without_data_there_is_no_figure() {
         Err(ReportError::Empty { .. })
     ));
     let (summary, mut result) = grid();
-    let failure = result.rms_mm[2].clone();
-    result.rms_mm.fill(failure);
+    let failure = result.values[2].clone();
+    result.values.fill(failure);
     assert!(matches!(surface(&summary, &result), Err(ReportError::Empty { .. })));
 }
 
@@ -357,7 +358,7 @@ fn a_value_that_cannot_be_drawn_is_refused() {
         change(&mut summary);
         summary
     };
-    assert!(invalid(histogram(&change(|s| s.rms_mm.as_mut().unwrap().nominal = f64::NAN))));
+    assert!(invalid(histogram(&change(|s| s.values.as_mut().unwrap().nominal = f64::NAN))));
     assert!(invalid(histogram(&change(|s| {
         let edges = &mut s.histogram.as_mut().unwrap().edges;
         edges[2] = edges[1];
@@ -367,13 +368,13 @@ fn a_value_that_cannot_be_drawn_is_refused() {
     assert!(invalid(point_effects(&robot(), &[named("a", &nan)], Points::Exit)));
     let wide = SignedEffect { effect: 0.0, low: f64::NEG_INFINITY, high: f64::INFINITY };
     let mut summary = sampling();
-    summary.signed_effects_mm.insert("mass".to_owned(), wide);
+    summary.signed_effects.insert("mass".to_owned(), wide);
     assert!(invalid(signed_effects(&summary, 1)));
 
     let (mut summary, mut result) = grid();
-    result.rms_mm[0] = Ok(f64::INFINITY);
+    result.values[0] = Ok(f64::INFINITY);
     assert!(invalid(surface(&summary, &result)));
-    result.rms_mm.pop();
+    result.values.pop();
     assert!(invalid(surface(&summary, &result)));
     summary.parameters[0] = "modulus".to_owned();
     assert!(invalid(surface(&summary, &result)));
@@ -383,8 +384,8 @@ fn a_value_that_cannot_be_drawn_is_refused() {
 fn a_surface_on_which_nothing_varies_has_a_figure() {
     let (summary, mut result) = grid();
     for noise in [0.0, 2.3e-16] {
-        result.rms_mm.fill(Ok(1.5));
-        result.rms_mm[0] = Ok(1.5 + noise);
+        result.values.fill(Ok(1.5));
+        result.values[0] = Ok(1.5 + noise);
         assert_eq!(rectangles(&surface(&summary, &result).unwrap()), 6 + 128);
     }
 }

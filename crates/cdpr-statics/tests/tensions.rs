@@ -84,7 +84,7 @@ fn all_models_start_from_the_tensions_that_the_robot_prefers() {
             "deflection",
         );
         same(&stiffness_at(&robot, &pose, &Load::none(), &[]).unwrap().equilibrium.tensions(), "stiffness");
-        let lengths = wound_lengths(&robot, &pose, &vec![0.0; n]).unwrap();
+        let lengths = wound_lengths(&robot, &pose, &vec![0.0; n], &[]).unwrap();
         assert!(distance(&lengths, &found.lengths) < 1e-9 * found.lengths[0], "{}", robot.name);
         if let Some(law) = robot.cables[0].properties.law.clone() {
             let laws = vec![HysteresisLaw::elastic(law); n];
@@ -117,8 +117,8 @@ fn a_cable_keeps_its_own_limits_and_the_others_keep_the_robots() {
         // Set-points are kept within them, too.
         let mut offsets = vec![0.0; robot.cables.len()];
         (offsets[high], offsets[low]) = (0.5 * max, -0.5 * min);
-        let unmoved = wound_lengths(&robot, &pose, &vec![0.0; offsets.len()]).unwrap();
-        let wound = wound_lengths(&robot, &pose, &offsets).unwrap();
+        let unmoved = wound_lengths(&robot, &pose, &vec![0.0; offsets.len()], &[]).unwrap();
+        let wound = wound_lengths(&robot, &pose, &offsets, &[]).unwrap();
         assert!(distance(&wound, &unmoved) < 1e-12 * wound[0], "{}", robot.name);
         // No pose is held by limits that leave no choice.
         robot.cables[high].tension_limits.max = Some(robot.tension_limits.min * 1.01);

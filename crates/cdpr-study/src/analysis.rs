@@ -2,6 +2,7 @@
 
 pub(crate) mod comparison;
 pub(crate) mod extremes;
+pub(crate) mod keys;
 pub(crate) mod measures;
 pub(crate) mod part;
 pub(crate) mod poses;

@@ -3,6 +3,7 @@
 pub(crate) mod cable_law;
 pub(crate) mod grid;
 pub(crate) mod names;
+pub(crate) mod output;
 pub(crate) mod record;
 pub(crate) mod study_file;
 pub(crate) mod template;

@@ -30,7 +30,7 @@
 //! let session = Session::in_memory();
 //! let tally = observe(&sampling, &session)?;
 //! let summary = analyse(&sampling, &tally, &session)?;
-//! if let Some(rms) = summary.rms_mm {
+//! if let Some(rms) = summary.values {
 //!     println!("{:.3} mm +- {:.3} mm", rms.mean, rms.std);
 //! }
 //! # Ok::<(), cdpr_study::StudyError>(())
@@ -54,15 +54,16 @@ pub use analysis::measures::{InputMeasures, MEASURES, Measure, Quantity};
 pub use analysis::part::{Overview, StudySummary};
 pub use analysis::poses::{HELD, PoseRow, PosesResult, PosesSummary, observe_poses};
 pub use analysis::sampling::{
-    FitSummary, NominalSummary, RmsSummary, SamplingSummary, SignedEffect, analyse,
+    FitSummary, NominalSummary, SamplingSummary, SignedEffect, ValueSummary, analyse,
 };
 pub use analysis::sensitivity::{Agreement, MethodSummary, SensitivitySummary, measure};
 pub use analysis::summary::Summary;
-pub use analysis::surface::{SurfaceResult, SurfaceRms, SurfaceSummary, compute_surface};
+pub use analysis::surface::{SurfaceResult, SurfaceSummary, SurfaceValues, compute_surface};
 pub use cdpr_sensitivity::{Estimate, Family, Truncation};
 pub use error::StudyError;
 pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema};
 pub use file::grid::{GridAxis, GridSpec};
+pub use file::output::Output;
 pub use file::record::{open_record, read_record};
 pub use file::study_file::{
     AxisSpec, ComparisonSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec,
@@ -79,14 +80,15 @@ pub use kind::InputKind;
 pub use model::cable_law::open_law;
 pub use model::error_model::{ErrorModel, Term, uncertainties};
 pub use model::grid::{Grid, frame};
-pub use model::observed::{Failure, Observed};
+pub use model::observed::{Failure, Measured, Observed};
+pub use model::observer::OutputObserver;
 pub use model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis};
 pub use names::{REPORT_MARK, REPORT_NAME, ROBOT_NAME, STUDY_NAME};
 pub use observe::observation::{FITTED, KEPT, Part, Session, Tally, observe, observe_into, observe_rows};
 pub use observe::plan::{BlockMaker, Plan, observe_shard};
 pub use observe::shard::Shard;
 pub use observe::status::{
-    DesignStatus, Provisional, SamplingStatus, Status, check_complete, check_observed, status,
+    DesignStatus, Provisional, SamplingStatus, SoFar, Status, check_complete, check_observed, status,
 };
 pub use results::read::Results;
 pub use results::table::{ObservationTable, Rows, TableFormat};

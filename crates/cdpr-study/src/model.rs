@@ -7,6 +7,7 @@ pub(crate) mod grid;
 pub(crate) mod hash;
 pub(crate) mod nominal;
 pub(crate) mod observed;
+pub(crate) mod observer;
 pub(crate) mod open;
 pub(crate) mod operating_point;
 pub(crate) mod pose_set;

@@ -175,7 +175,7 @@ impl<'a> Running<'a> {
         if let Some(measures) = &summary.sensitivity {
             let seconds = measures.methods.iter().map(|(name, method)| (name.clone(), method.seconds));
             self.timings.sensitivity.insert(name.to_owned(), seconds.collect());
-            write_sensitivity(self.out, name, measures)?;
+            write_sensitivity(self.out, name, summary.output, measures)?;
         }
         self.figures((self.draw)(self.study, Drawable::Sampling { name, summary: &summary }))?;
         self.finish(name, StudySummary::Sampling(Box::new(summary)), clock);
@@ -194,7 +194,7 @@ impl<'a> Running<'a> {
         }
         let observe = |sampling: &Sampling| self.observed(sampling, &session, format);
         let PosesResult { summary, rows } = observe_poses(self.study, name, &session, observe)?;
-        write_poses(self.out, name, &rows)?;
+        write_poses(self.out, name, summary.output, &rows)?;
         let maps = (self.draw)(self.study, Drawable::Poses { name, summary: &summary, rows: &rows });
         if maps.is_empty() {
             (self.watcher.note)(&format!("no map of {name}: its poses are on no plane or box"));

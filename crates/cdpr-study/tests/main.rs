@@ -4,6 +4,7 @@
 
 mod error_model;
 mod operating_point;
+mod output;
 mod parquet;
 mod record;
 mod sensitivity;

@@ -96,7 +96,7 @@ fn what_acts_only_together_with_others_has_a_total_index_and_no_share_of_its_own
     assert!(center.regression_share.unwrap() < 0.02);
     assert!(center.sobol_total_low.unwrap() > 0.08, "{center:?}");
     assert!(center.expansion_total.unwrap() > center.expansion_first.unwrap());
-    assert!(center.morris_std_mm > center.morris_mean_absolute_mm);
+    assert!(center.morris_std > center.morris_mean_absolute);
 }
 
 #[test]

@@ -4,7 +4,7 @@ mod sensitivity;
 
 use crate::output::table;
 use cdpr_robot::shown;
-use cdpr_study::{Extremes, Overview, PosesSummary, StudySummary, Summary, Timings};
+use cdpr_study::{Extremes, Output, Overview, PosesSummary, StudySummary, Summary, Timings};
 
 /// Prints all results of a study, and how long each took.
 pub(super) fn print(summary: &Summary, timings: &Timings) {
@@ -13,7 +13,7 @@ pub(super) fn print(summary: &Summary, timings: &Timings) {
         if let StudySummary::Sampling(sampling) = study
             && let Some(found) = &sampling.sensitivity
         {
-            sensitivity::print(&format!("{name}: {}", shown(&sampling.title)), found);
+            sensitivity::print(&format!("{name}: {}", shown(&sampling.title)), sampling.output, found);
         }
     }
     print_comparison(summary);
@@ -25,17 +25,20 @@ pub(super) fn print(summary: &Summary, timings: &Timings) {
 
 fn print_results(summary: &Summary) {
     println!("{}: {}\n", shown(&summary.robot), shown(&summary.study));
-    let mut rows = table(&["study", "n", "failed", "nominal", "mean", "std", "min", "max", "[mm]  best fit"]);
+    // One output is that of all parts of a study.
+    let output = summary.studies.values().next().map_or_else(Output::default, StudySummary::output);
+    let last = format!("[{}]  best fit", output.unit());
+    let mut rows = table(&["study", "n", "failed", "nominal", "mean", "std", "min", "max", &last]);
     for (name, study) in &summary.studies {
         let counts = [study.observations(), study.failed().values().sum()].map(|count| count.to_string());
         let Overview { nominal, mean, std, min, max, best_fit } = study.overview();
-        let rms = [nominal, mean, std, min, max].map(|value| value.map(|value| format!("{value:.4}")));
+        let numbers = [nominal, mean, std, min, max].map(|value| value.map(|value| format!("{value:.4}")));
         let last = match (study, best_fit) {
             (StudySummary::Poses(_), _) => "means at the poses".to_owned(),
             (_, Some(fit)) => format!("{}, p = {:.3}", fit.law, fit.p_value),
             (_, None) => String::new(),
         };
-        let cells = rms.map(Option::unwrap_or_default).into_iter().chain([last]);
+        let cells = numbers.map(Option::unwrap_or_default).into_iter().chain([last]);
         rows.add_row([name.clone()].into_iter().chain(counts).chain(cells));
     }
     println!("{rows}\n");
@@ -62,8 +65,11 @@ fn print_poses(name: &str, summary: &PosesSummary) {
     for (status, count) in &summary.status {
         println!("{name}: {count} of {} poses {}", summary.poses, status.replace('_', " "));
     }
-    if let Some(Extremes { min, min_at, max, max_at }) = summary.mean_mm {
-        println!("{name}: mean RMS from {min:.4} mm at {min_at:?} m to {max:.4} mm at {max_at:?} m");
+    if let Some(Extremes { min, min_at, max, max_at }) = summary.mean {
+        let (short, unit) = (summary.output.short(), summary.output.unit());
+        println!(
+            "{name}: mean {short} from {min:.4} {unit} at {min_at:?} m to {max:.4} {unit} at {max_at:?} m"
+        );
     }
     let mut dominant: Vec<_> = summary.dominant.iter().collect();
     dominant.sort_by_key(|(_, count)| std::cmp::Reverse(**count));

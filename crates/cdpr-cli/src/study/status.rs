@@ -4,7 +4,7 @@ use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
 use cdpr_robot::shown;
-use cdpr_study::{Provisional, Status, StoredStudy, open_results, status};
+use cdpr_study::{Provisional, SoFar, Status, StoredStudy, open_results, status};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -52,8 +52,9 @@ fn print(status: &Status) {
         if let Some(count) = sampling.poses_not_held.filter(|count| *count > 0) {
             println!("{name}: {count} poses have no blocks: the nominal robot does not hold them");
         }
-        if let Some(Provisional { mean, std }) = sampling.provisional_rms_mm {
-            println!("{name}: so far {mean:.4} mm, standard deviation {std:.4} mm");
+        let SoFar { output, moments } = sampling.provisional;
+        if let (Some(Provisional { mean, std }), unit) = (moments, output.unit()) {
+            println!("{name}: so far {mean:.4} {unit}, standard deviation {std:.4} {unit}");
         }
     }
     for path in &status.changed {

@@ -31,7 +31,7 @@ pub(crate) fn run(
     let wall = clock.elapsed().as_secs_f64();
     bar.finish_and_clear();
     let threads = rayon::current_num_threads();
-    let rms = summary.rms_mm.map(|rms| json!({ "mean": rms.mean, "std": rms.std }));
+    let values = summary.values.map(|values| json!({ "mean": values.mean, "std": values.std }));
     let line = json!({
         "observations": observations,
         "failed": summary.failed.values().sum::<usize>(),
@@ -39,7 +39,7 @@ pub(crate) fn run(
         "wall_s": wall,
         "us_per_observation_core": 1e6 * wall * threads as f64 / observations as f64,
         "peak_memory_mib": peak_memory_mib(),
-        "rms_mm": rms,
+        (summary.output.name()): values,
     });
     println!("{line}");
     Ok(())

@@ -81,16 +81,17 @@ class Results:
     def observations(self, sampling: str) -> "numpy.ndarray[Any, Any]":
         """Returns the observations of a sampling as a structured array.
 
-        Columns are those of its table without `reason`: `index`, `d_mass`, ... [SI units], `dx_mm`, `dy_mm`,
-        `dz_mm`, `rms_mm` (NaN where it failed), `status` (`ok` or the kind of failure). A sampling at several
-        poses has one for each of them, named `plane/0003`.
+        Columns are those of its table without `reason`: `index`, `d_mass`, ... [SI units], those of the
+        output (NaN where it failed), `status` (`ok` or the kind of failure). Deflections have `dx_mm`, `dy_mm`,
+        `dz_mm`, `rms_mm`, and frequencies `frequency_hz`. A sampling at several poses has one for each of
+        them, named `plane/0003`.
         """
         import numpy
 
-        names, rows, deflections, failures = _core.observations(self.folder, sampling)
+        names, rows, output, cells, failures = _core.observations(self.folder, sampling)
         columns = {"index": numpy.arange(len(rows), dtype="i8")}
         columns.update((f"d_{name}", column) for name, column in zip(names, rows.T))
-        columns.update(zip(("dx_mm", "dy_mm", "dz_mm", "rms_mm"), deflections.T))
+        columns.update(zip(output, cells.T))
         columns["status"] = numpy.array([failure or "ok" for failure in failures])
         return _records(columns)
 

@@ -1,4 +1,4 @@
-//! Distribution of the RMS and the laws fitted to it: Fig. 4a and 5a of the paper.
+//! Distribution of the output and the laws fitted to it: Fig. 4a and 5a of the paper.
 
 use crate::drawing::axis::{Axis, Grid, chart};
 use crate::drawing::heading::Heading;
@@ -21,19 +21,19 @@ const LAWS: [Pen; 3] = [
 /// Number of points of a curve, about one per pixel.
 const POINTS: usize = 600;
 
-/// Draws the histogram of the RMS as a density, with the densities of fitted laws.
+/// Draws the histogram of the output as a density, with the densities of fitted laws.
 ///
-/// The laws are the preferred one and the two others with the least AIC. A vertical line shows the RMS of the
-/// nominal robot.
+/// The laws are the preferred one and the two others with the least AIC. A vertical line shows the output of
+/// the nominal robot.
 ///
 /// # Errors
 /// [`ReportError::Empty`] without counts, [`ReportError::Invalid`] for bins without width, unless there is
 /// one edge more than bins, or for a value that is not finite.
 pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
     let empty = ReportError::Empty { what: "histogram" };
-    let (Some(histogram), Some(rms)) = (&summary.histogram, &summary.rms_mm) else { return Err(empty) };
-    let bars = densities(histogram)?;
-    let nominal = ReportError::finite("rms_mm.nominal", rms.nominal)?;
+    let (Some(histogram), Some(values)) = (&summary.histogram, &summary.values) else { return Err(empty) };
+    let (bars, output) = (densities(histogram)?, summary.output);
+    let nominal = ReportError::finite(&format!("{}.nominal", output.name()), values.nominal)?;
     let mut fits: Vec<&FitSummary> = summary.fits.iter().collect();
     // The preferred law comes first, then the others by AIC.
     fits.sort_by(|one, other| {
@@ -63,8 +63,12 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
     let top =
         bars.iter().map(|bar| bar.2).chain(curves.iter().flatten().map(|point| point.1)).fold(0.0, f64::max);
 
-    let x = Axis::numbers(low..high, 9, "RMS of the static deflection [mm]");
-    let y = Axis::numbers(0.0..1.06 * top, 7, "density [1/mm]");
+    let density = match output.unit() {
+        "N/m" => "density [m/N]".to_owned(),
+        unit => format!("density [1/{unit}]"),
+    };
+    let x = Axis::numbers(low..high, 9, output.axis());
+    let y = Axis::numbers(0.0..1.06 * top, 7, &density);
     let failed: usize = summary.failed.values().sum();
     let key: Vec<(String, Pen)> = [("observed".to_owned(), Pen::bar(BARS))]
         .into_iter()
@@ -74,12 +78,13 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
     let heading = Heading {
         title: &summary.title,
         lines: &[format!(
-            "mean {}, standard deviation {}, min {}, max {}, nominal {} mm; {} observations, {failed} failed",
-            number(rms.mean, 3),
-            number(rms.std, 3),
-            number(rms.min, 3),
-            number(rms.max, 3),
+            "mean {}, standard deviation {}, min {}, max {}, nominal {} {}; {} observations, {failed} failed",
+            number(values.mean, 3),
+            number(values.std, 3),
+            number(values.min, 3),
+            number(values.max, 3),
             number(nominal, 3),
+            output.unit(),
             summary.observations,
         )],
         key: &key,
@@ -101,7 +106,7 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
     })
 }
 
-/// Lower edge, upper edge [mm] and density [1/mm] of each bin.
+/// Lower edge, upper edge and density of each bin.
 fn densities(histogram: &Histogram) -> Result<Vec<(f64, f64, f64)>, ReportError> {
     let Histogram { edges, counts } = histogram;
     let total: usize = counts.iter().sum();

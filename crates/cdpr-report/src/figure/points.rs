@@ -7,6 +7,7 @@ use crate::drawing::style::{self, Area, BLUE, DrawingError, GREEN, GREY, MARGIN,
 use crate::error::ReportError;
 use crate::text::number;
 use cdpr_robot::{Axis as Coordinate, Parameter, Pose, Robot, Vector3};
+use cdpr_study::Output;
 use cdpr_study::SamplingSummary;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -96,9 +97,10 @@ pub fn point_effects(
     }
     let greatest = panels.iter().flat_map(|panel| &panel.effects).map(|effect| effect.t).fold(0.0, f64::max);
     let scale = Axis::numbers(0.0..if greatest > 0.0 { greatest } else { 1.0 }, 5, "");
+    let output = samplings.first().map_or(Output::Deflection, |sampling| sampling.summary.output);
     let kind = format!("{} {}\u{1d62}", points.kind(), points.letter());
     let heading = Heading {
-        title: &format!("Effect of the coordinates of the {kind} on the RMS of the static deflection"),
+        title: &format!("Effect of the coordinates of the {kind} on the {}", output.label()),
         lines: &[
             "t-Student index [-] of each coordinate, at the point's position in the plan; figures: the \
             largest of a point"

@@ -1,4 +1,4 @@
-//! Maps of a sampling over a plane or the layers of a box: mean and standard deviation of the RMS, and the
+//! Maps of a sampling over a plane or the layers of a box: mean and standard deviation of the output, and the
 //! parameter that matters most.
 
 use crate::drawing::color_map::ColorMap;
@@ -19,6 +19,9 @@ pub struct NamedMap {
     pub svg: Result<String, ReportError>,
 }
 
+/// A map as SVG.
+type Drawn = Result<String, ReportError>;
+
 /// Draws all maps of a sampling at the poses of a grid. They are named `mean`, `std` and `dominant`, with
 /// `_z00`, ... for the layers of a box.
 ///
@@ -29,9 +32,9 @@ pub fn pose_maps(robot: &Robot, summary: &PosesSummary, rows: &[PoseRow]) -> Vec
     let maps = planes.iter().flat_map(|plane| {
         let layer = plane.suffix();
         let rows: Option<Vec<&PoseRow>> = plane.positions.iter().map(|index| rows.get(*index)).collect();
-        let named = |name, draw: fn(&Plane, &Robot, &str, &[&PoseRow]) -> Result<String, ReportError>| {
+        let named = |name, draw: fn(&Plane, &Robot, &PosesSummary, &[&PoseRow]) -> Drawn| {
             let rows = rows.as_ref().ok_or(ReportError::Empty { what: "a pose of the grid has no row" });
-            let svg = rows.and_then(|rows| draw(plane, robot, &summary.title, rows));
+            let svg = rows.and_then(|rows| draw(plane, robot, summary, rows));
             NamedMap { name: format!("{name}{layer}"), svg }
         };
         [named("mean", mean), named("std", deviation), named("dominant", dominant)]
@@ -39,30 +42,31 @@ pub fn pose_maps(robot: &Robot, summary: &PosesSummary, rows: &[PoseRow]) -> Vec
     maps.collect()
 }
 
-fn mean(plane: &Plane, robot: &Robot, title: &str, rows: &[&PoseRow]) -> Result<String, ReportError> {
-    numbers(plane, robot, title, ("mean RMS", "mean"), rows, |row| row.mean_mm)
+fn mean(plane: &Plane, robot: &Robot, summary: &PosesSummary, rows: &[&PoseRow]) -> Drawn {
+    let words = format!("mean {}", summary.output.short());
+    numbers(plane, robot, summary, (&words, "mean"), rows, |row| row.mean)
 }
 
-fn deviation(plane: &Plane, robot: &Robot, title: &str, rows: &[&PoseRow]) -> Result<String, ReportError> {
-    numbers(plane, robot, title, ("standard deviation of the RMS", "standard deviation"), rows, |row| {
-        row.std_mm
-    })
+fn deviation(plane: &Plane, robot: &Robot, summary: &PosesSummary, rows: &[&PoseRow]) -> Drawn {
+    let words = format!("standard deviation of the {}", summary.output.short());
+    numbers(plane, robot, summary, (&words, "standard deviation"), rows, |row| row.std)
 }
 
 fn numbers(
     plane: &Plane,
     robot: &Robot,
-    title: &str,
+    PosesSummary { title, output, .. }: &PosesSummary,
     (words, label): (&str, &str),
     rows: &[&PoseRow],
     value: fn(&PoseRow) -> Option<f64>,
-) -> Result<String, ReportError> {
+) -> Drawn {
+    let unit = output.unit();
     let values = rows.iter().map(|row| value(row)).collect();
-    let map = ColorMap::new(plane.cells()?, values, label, &format!("{label} [mm]"))?;
+    let map = ColorMap::new(plane.cells()?, values, label, &format!("{label} [{unit}]"))?;
     let heading = Heading {
         title: &format!("{title}: {words} at {}", plane.words()),
         lines: &[format!(
-            "{} mm to {} mm; {}",
+            "{} {unit} to {} {unit}; {}",
             number(map.least, 3),
             number(map.greatest, 3),
             counted(rows, |row| value(row).is_some())
@@ -72,8 +76,9 @@ fn numbers(
     plane.figure(robot, &heading, &Paint::Values(map), |index| value(rows[index]).is_none())
 }
 
-fn dominant(plane: &Plane, robot: &Robot, title: &str, rows: &[&PoseRow]) -> Result<String, ReportError> {
-    let title = format!("{title}: parameter with the largest t-Student index at {}", plane.words());
+fn dominant(plane: &Plane, robot: &Robot, summary: &PosesSummary, rows: &[&PoseRow]) -> Drawn {
+    let what = "parameter with the largest t-Student index";
+    let title = format!("{}: {what} at {}", summary.title, plane.words());
     let names: Vec<_> = rows.iter().map(|row| row.dominant.as_deref()).collect();
     name_map(plane, robot, &title, counted(rows, |row| row.dominant.is_some()), &names)
 }

@@ -1,4 +1,4 @@
-//! Shares of the variance of the RMS by all measures of sensitivity that estimate them.
+//! Shares of the variance of the output by all measures of sensitivity that estimate them.
 
 use crate::drawing::axis::{Axis, Grid, chart};
 use crate::drawing::heading::Heading;
@@ -64,7 +64,7 @@ pub fn shares(summary: &SamplingSummary, most: usize) -> Result<String, ReportEr
         }
     }
     let ticks = [0.0001, 0.001, 0.01, 0.1, 1.0].map(|share: f64| (share.log10(), percent(share))).to_vec();
-    let label = "share of the variance of the RMS of the static deflection [%]".to_owned();
+    let label = format!("share of the variance of the {} [%]", summary.output.label());
     let rightmost = dots.iter().map(|(.., share)| share[2]).fold(0.0, f64::max);
     let x = Axis { range: LEAST.log10()..rightmost + 0.1, ticks, label };
     let y = Axis::names(inputs.iter().map(|input| input.input.clone()), "");

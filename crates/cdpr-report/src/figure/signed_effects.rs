@@ -21,10 +21,12 @@ const CAP: f64 = 0.3;
 /// [`ReportError::Empty`] for a study without replicates or if `most` is zero, [`ReportError::Invalid`] for a
 /// value that is not finite.
 pub fn signed_effects(summary: &SamplingSummary, most: usize) -> Result<String, ReportError> {
-    let mut effects: Vec<(&String, &SignedEffect)> = summary.signed_effects_mm.iter().collect();
+    let mut effects: Vec<(&String, &SignedEffect)> = summary.signed_effects.iter().collect();
+    let output = summary.output;
+    let field = output.named("signed_effects_mm");
     for (name, effect) in &effects {
         for value in [effect.effect, effect.low, effect.high] {
-            ReportError::finite(&format!("signed_effects_mm.{name}"), value)?;
+            ReportError::finite(&format!("{field}.{name}"), value)?;
         }
     }
     effects.sort_by(|one, other| other.1.effect.abs().total_cmp(&one.1.effect.abs()));
@@ -38,24 +40,22 @@ pub fn signed_effects(summary: &SamplingSummary, most: usize) -> Result<String, 
     let ends = || effects.iter().flat_map(|(_, effect)| [effect.effect, effect.low, effect.high]);
     let (low, high) = (ends().fold(0.0, f64::min), ends().fold(0.0, f64::max));
     let margin = 0.05 * (high - low);
-    let x = Axis::numbers(
-        low - margin..high + margin,
-        9,
-        "signed effect on the RMS of the static deflection [mm]",
-    );
+    let x = Axis::numbers(low - margin..high + margin, 9, format!("signed effect on the {}", output.axis()));
     let y = Axis::names(effects.iter().map(|(name, _)| (*name).clone()), "");
     let unclear = effects.iter().any(|(_, effect)| contains_zero(effect));
     let key = [("effect".to_owned(), Pen::bar(BLUE)), ("interval contains zero".to_owned(), Pen::bar(GREY))];
     let heading = Heading {
         title: &summary.title,
         lines: &[
-            "signed effect: mean of the RMS over the upper half of a parameter's range minus that over the \
-                lower half"
-                .to_owned(),
+            format!(
+                "signed effect: mean of the {} over the upper half of a parameter's range minus that over \
+                    the lower half",
+                output.short()
+            ),
             format!(
                 "{} of {} parameters; intervals of {} % confidence from {} replicates",
                 effects.len(),
-                summary.signed_effects_mm.len(),
+                summary.signed_effects.len(),
                 (1e3 * summary.confidence).round() / 10.0,
                 summary.replicates
             ),

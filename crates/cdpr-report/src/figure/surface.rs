@@ -1,4 +1,4 @@
-//! RMS over two parameters: Fig. 4b and 4c of the paper.
+//! Output over two parameters: Fig. 4b and 4c of the paper.
 
 use crate::drawing::axis::{Grid, chart};
 use crate::drawing::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
@@ -9,7 +9,7 @@ use crate::parameters::axis_of;
 use crate::text::number;
 use cdpr_study::{SurfaceResult, SurfaceSummary};
 
-/// Draws the RMS over two parameters in colour, with contour lines at the ticks of the colour bar.
+/// Draws the output over two parameters in colour, with contour lines at the ticks of the colour bar.
 ///
 /// A failed cell is grey and struck through.
 ///
@@ -19,18 +19,19 @@ use cdpr_study::{SurfaceResult, SurfaceSummary};
 pub fn surface<E>(summary: &SurfaceSummary, result: &SurfaceResult<E>) -> Result<String, ReportError> {
     let [x, y] = &summary.parameters;
     let cells = Cells { x: nodes("x", x, &result.x)?, y: nodes("y", y, &result.y)? };
-    let rms = result.rms_mm.iter().map(|rms| rms.as_ref().ok().copied()).collect();
-    let map = ColorMap::new(cells, rms, "rms_mm", "RMS [mm]")?;
-    let failed = map.values.iter().filter(|rms| rms.is_none()).count();
+    let (output, unit) = (summary.output, summary.output.unit());
+    let values = result.values.iter().map(|value| value.as_ref().ok().copied()).collect();
+    let map = ColorMap::new(cells, values, output.name(), &format!("{} [{unit}]", output.short()))?;
+    let failed = map.values.iter().filter(|value| value.is_none()).count();
     let key = [("failed".to_owned(), Pen::bar(GREY))];
     let heading = Heading {
         title: &summary.title,
         lines: &[format!(
-            "RMS of the static deflection: min {} mm, max {} mm, nominal {} mm; {} grid points, {failed} \
-                failed",
+            "{}: min {} {unit}, max {} {unit}, nominal {} {unit}; {} grid points, {failed} failed",
+            output.label(),
             number(map.least, 4),
             number(map.greatest, 4),
-            number(ReportError::finite("rms_mm.nominal", summary.rms_mm.nominal)?, 4),
+            number(ReportError::finite(&format!("{}.nominal", output.name()), summary.values.nominal)?, 4),
             map.values.len(),
         )],
         key: if failed == 0 { &[] } else { &key },

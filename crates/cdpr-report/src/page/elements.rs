@@ -8,13 +8,13 @@ use maud::{Markup, PreEscaped, html};
 pub(crate) struct Section {
     /// Anchor in the page.
     pub(crate) id: &'static str,
-    pub(crate) title: &'static str,
+    pub(crate) title: String,
     pub(crate) body: Markup,
 }
 
 impl Section {
-    pub(crate) fn new(id: &'static str, title: &'static str, body: Markup) -> Self {
-        Self { id, title, body }
+    pub(crate) fn new(id: &'static str, title: impl Into<String>, body: Markup) -> Self {
+        Self { id, title: title.into(), body }
     }
 }
 

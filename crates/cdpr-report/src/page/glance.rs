@@ -4,7 +4,7 @@ use crate::page::elements::{cell, numeric, table};
 use crate::parameters;
 use crate::text;
 use cdpr_study::{
-    Overview, PosesSummary, Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict,
+    Output, Overview, PosesSummary, Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict,
 };
 use maud::{Markup, html};
 
@@ -13,24 +13,50 @@ const DOMINANT: usize = 3;
 const LEAST: f64 = 0.25;
 
 pub(crate) fn header(results: &Results) -> Markup {
-    let summary = &results.summary;
+    let (summary, output) = (&results.summary, results.study.file.output);
     let at_one: usize = samplings(summary).map(|(_, sampling)| sampling.observations).sum();
     let observations = at_one + poses(summary).map(|(_, poses)| poses.observations).sum::<usize>();
     html! {
         header {
-            p.kicker { "Static deflection of a cable-driven parallel robot" }
+            p.kicker { (kicker(output)) " of a cable-driven parallel robot" }
             h1 { (summary.study) }
             p.lead {
-                "How far the platform of " (summary.robot) " moves when " (text::digits(summary.payload, 4))
-                    " kg are added to it"
+                (question(summary, output))
                 @if observations > 0 {
                     ", and how the uncertain parameters change that: " (observations) " observations at "
                     (summary.studies.len()) " setting" @if summary.studies.len() != 1 { "s" }
                 }
                 "."
             }
-            (cards(summary))
-            (overview(summary))
+            (cards(summary, output))
+            (overview(summary, output))
+        }
+    }
+}
+
+fn kicker(output: Output) -> &'static str {
+    match output {
+        Output::Deflection => "Static deflection",
+        Output::Position => "Position error",
+        Output::Frequency => "Natural frequency",
+        Output::Stiffness => "Stiffness",
+    }
+}
+
+/// What the study asks.
+fn question(summary: &Summary, output: Output) -> String {
+    let (robot, payload) = (&summary.robot, text::digits(summary.payload, 4));
+    match output {
+        Output::Deflection => {
+            format!("How far the platform of {robot} moves when {payload} kg are added to it")
+        }
+        Output::Position => {
+            format!(
+                "How far from its place the platform of {robot} stands with the lengths of the nominal robot"
+            )
+        }
+        Output::Frequency | Output::Stiffness => {
+            format!("The {} of the platform of {robot} with {payload} kg added to it", output.label())
         }
     }
 }
@@ -69,22 +95,24 @@ fn dominant(sampling: &SamplingSummary) -> Vec<(&str, f64)> {
     effects
 }
 
-fn cards(summary: &Summary) -> Markup {
+fn cards(summary: &Summary, output: Output) -> Markup {
     let first = samplings(summary).next();
     let surface = surfaces(summary).next();
     let reproduced = summary.comparison.iter().filter(|row| row.verdict == Verdict::Reproduced).count();
     let all = summary.comparison.len();
+    let (nominal, unit) = (format!("Nominal {}", output.noun()), output.unit());
     let failed: usize = summary.studies.values().flat_map(|study| study.failed().values()).sum();
     html! {
         dl.cards {
-            @if let Some(rms) = first.and_then(|(_, sampling)| sampling.rms_mm) {
-                (card("Nominal deflection", &text::figures(rms.nominal, 4), "mm",
+            @if let Some(values) = first.and_then(|(_, sampling)| sampling.values) {
+                (card(&nominal, &text::figures(values.nominal, 4), unit,
                     &first.map_or_else(String::new, |(name, _)| name.to_owned())))
                 (card("Mean \u{b1} std. deviation",
-                    &format!("{} \u{b1} {}", text::figures(rms.mean, 4), text::figures(rms.std, 2)), "mm",
-                    &format!("{} to {} mm", text::figures(rms.min, 4), text::figures(rms.max, 4))))
+                    &format!("{} \u{b1} {}", text::figures(values.mean, 4), text::figures(values.std, 2)),
+                    unit,
+                    &format!("{} to {} {unit}", text::figures(values.min, 4), text::figures(values.max, 4))))
             } @else if let Some((name, surface)) = surface {
-                (card("Nominal deflection", &text::figures(surface.rms_mm.nominal, 4), "mm", name))
+                (card(&nominal, &text::figures(surface.values.nominal, 4), unit, name))
             }
             @if let Some((_, sampling)) = first {
                 @let effects = dominant(sampling);
@@ -115,7 +143,7 @@ fn card(name: &str, value: &str, unit: &str, note: &str) -> Markup {
 }
 
 /// Overview with one row per sampling and surface.
-fn overview(summary: &Summary) -> Markup {
+fn overview(summary: &Summary, output: Output) -> Markup {
     let rows: Vec<Vec<Markup>> = summary
         .studies
         .iter()
@@ -148,5 +176,9 @@ fn overview(summary: &Summary) -> Markup {
         })
         .collect();
     let head = ["Setting", "Nominal", "Mean", "Std. dev.", "Least", "Greatest", "Law", "Dominant"];
-    table("RMS of the static deflection [mm]: the length of the displacement of the platform", &head, &rows)
+    let more = match output {
+        Output::Deflection => ": the length of the displacement of the platform",
+        _ => "",
+    };
+    table(&text::capital(&format!("{}{more}", output.axis())), &head, &rows)
 }

@@ -223,16 +223,17 @@
     controls.addEventListener("submit", (event) => event.preventDefault());
   }
 
-  for (const { name, x, y, z, labels } of data.surfaces) {
+  for (const { name, x, y, z, labels, output } of data.surfaces) {
     const figure = document.querySelector(`[data-surface="${CSS.escape(name)}"]`);
     if (!figure) continue;
     const [space, map] = [figure.querySelector(".space"), figure.querySelector(".map")];
     const buttons = figure.querySelectorAll("button");
     const traces = () => [{
       type: "surface", x, y, z, colorscale: "Viridis", showscale: !isNarrow(space),
-      colorbar: { title: { text: "RMS [mm]", side: "right" }, thickness: 14, len: 0.7, outlinewidth: 0 },
+      colorbar: { title: { text: output, side: "right" }, thickness: 14, len: 0.7, outlinewidth: 0 },
       contours: { z: { show: true, usecolormap: false, color: "#ffffff", width: 1, highlight: false } },
-      hovertemplate: `${labels[0]}: %{x:.5~g}<br>${labels[1]}: %{y:.5~g}<br>RMS: %{z:.5~g} mm<extra></extra>`,
+      hovertemplate:
+        `${labels[0]}: %{x:.5~g}<br>${labels[1]}: %{y:.5~g}<br>${output}: %{z:.5~g}<extra></extra>`,
     }];
     // Seen from where the surface is low, so that it faces the reader.
     const mean = (values) =>
@@ -243,7 +244,7 @@
       aspectmode: "manual", aspectratio: { x: 1.2, y: 1.2, z: 0.8 },
       xaxis: { title: { text: labels[0] }, nticks: 6 },
       yaxis: { title: { text: labels[1] }, nticks: 6 },
-      zaxis: { title: { text: "RMS [mm]" }, nticks: 6 },
+      zaxis: { title: { text: output }, nticks: 6 },
       camera: from(space, { x: falls[0] ? 1.2 : -1.2, y: falls[1] ? 1.6 : -1.6, z: 1 }, -0.15),
     });
     const show = (what) => {

@@ -6,7 +6,7 @@ use crate::page::elements::{Section, cell, figure, numeric, table};
 use crate::page::glance;
 use crate::parameters;
 use crate::text;
-use cdpr_study::{Extremes, Figure, HELD, PosesSummary, Results};
+use cdpr_study::{Extremes, Figure, HELD, Output, PosesSummary, Results};
 use maud::{Markup, html};
 
 /// Number of dominant parameters that are listed.
@@ -24,7 +24,7 @@ pub(crate) fn section(results: &Results, figures: &[Figure]) -> Option<Section> 
             @for map in maps {
                 @let file = format!("{name}_{map}");
                 @let alt = format!("Map of the workspace, {}, of {name}", map.replace('_', " "));
-                @let drawn = figure(&file, &alt, figures, &caption(map));
+                @let drawn = figure(&file, &alt, figures, &caption(map, summary.output));
                 // A box has many layers, which are folded away.
                 @if map.contains("_z") { details { summary { (file) } (drawn) } } @else { (drawn) }
             }
@@ -51,13 +51,13 @@ pub(crate) fn held(summary: &PosesSummary) -> String {
     format!("The nominal robot holds {} of {} poses{why}.", summary.held(), summary.poses)
 }
 
-fn caption(map: &str) -> Markup {
+fn caption(map: &str, output: Output) -> Markup {
+    let of_output =
+        |statistic| format!("{statistic} of the {} over the observations at each pose.", output.label());
     let words = match map.split('_').next() {
-        Some("mean") => "Mean of the RMS of the static deflection over the observations at each pose.",
-        Some("std") => {
-            "Standard deviation of the RMS of the static deflection over the observations at each pose."
-        }
-        _ => "The parameter with the largest t-Student index at each pose.",
+        Some("mean") => of_output("Mean"),
+        Some("std") => of_output("Standard deviation"),
+        _ => "The parameter with the largest t-Student index at each pose.".to_owned(),
     };
     html! { (words) " Grey, hatched positions: the nominal robot does not hold the pose." }
 }
@@ -73,12 +73,12 @@ fn extremes(summary: &PosesSummary) -> Markup {
             cell(text::point(&max_at)),
         ])
     };
-    let rows: Vec<_> = [row("Mean", &summary.mean_mm), row("Standard deviation", &summary.std_mm)]
-        .into_iter()
-        .flatten()
-        .collect();
-    let head = ["Over the poses held", "Least [mm]", "at [m]", "Greatest [mm]", "at [m]"];
-    html! { @if !rows.is_empty() { (table("Extremes of the RMS over the poses", &head, &rows)) } }
+    let rows: Vec<_> =
+        [row("Mean", &summary.mean), row("Standard deviation", &summary.std)].into_iter().flatten().collect();
+    let [least, greatest] = ["Least", "Greatest"].map(|name| format!("{name} [{}]", summary.output.unit()));
+    let head = ["Over the poses held", &least, "at [m]", &greatest, "at [m]"];
+    let caption = format!("Extremes of the {} over the poses", summary.output.short());
+    html! { @if !rows.is_empty() { (table(&caption, &head, &rows)) } }
 }
 
 fn dominant(summary: &PosesSummary) -> Markup {

@@ -7,7 +7,7 @@ use crate::page::glance::{samplings, surfaces as all_surfaces};
 use crate::parameters::{self, axis_of};
 use crate::text;
 use cdpr_study::{
-    Figure, FitSummary, InputMeasures, MEASURES, Measure, Quantity, Results, SamplingSummary,
+    Figure, FitSummary, InputMeasures, MEASURES, Measure, Output, Quantity, Results, SamplingSummary,
     SensitivitySummary, Statistic, SurfaceSummary,
 };
 use maud::{Markup, PreEscaped, html};
@@ -19,9 +19,11 @@ pub(crate) struct SpaceSurface {
     name: String,
     x: Vec<f64>,
     y: Vec<f64>,
-    /// RMS [mm], one row for each value of y; `None` where the observation failed.
+    /// Output in its unit, one row for each value of y; `None` where the observation failed.
     z: Vec<Vec<Option<f64>>>,
     labels: [String; 2],
+    /// Name and unit of the output.
+    output: String,
 }
 
 /// All surfaces of the results whose two axes have a label and a unit.
@@ -32,7 +34,7 @@ pub(crate) fn in_space(results: &Results) -> Vec<SpaceSurface> {
         let (y_label, y_scale) = axis_of(&summary.parameters[1]).ok()?;
         let rows = result.y.len();
         let row = |j: usize| {
-            result.rms_mm.iter().skip(j).step_by(rows).map(|rms| rms.as_ref().ok().copied()).collect()
+            result.values.iter().skip(j).step_by(rows).map(|value| value.as_ref().ok().copied()).collect()
         };
         Some(SpaceSurface {
             name: name.to_owned(),
@@ -40,9 +42,15 @@ pub(crate) fn in_space(results: &Results) -> Vec<SpaceSurface> {
             y: result.y.iter().map(|value| y_scale * value).collect(),
             z: (0..rows).map(row).collect(),
             labels: [x_label, y_label],
+            output: short_axis(summary.output),
         })
     });
     drawn.collect()
+}
+
+/// Name of the output in short and its unit.
+fn short_axis(output: Output) -> String {
+    format!("{} [{}]", output.short(), output.unit())
 }
 
 /// The published counterpart of a distribution or a surface, as the end of its caption.
@@ -60,16 +68,20 @@ pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Sec
     let body = html! {
         @for (name, sampling) in &all {
             h3 { (sampling.title) }
-            @let alt = format!("Histogram of the RMS of the static deflection of {name} with fitted laws");
+            @let (label, short) = (sampling.output.label(), sampling.output.short());
+            @let alt = format!("Histogram of the {label} of {name} with fitted laws");
             (figure(name, &alt, figures, &html! {
-                "Density of the RMS of the static deflection over " (sampling.observations)
+                "Density of the " (label) " over " (sampling.observations)
                 " observations, with the laws that fit best by Akaike's criterion. The dashed line is the "
-                "RMS of the nominal robot." (published(results, name))
+                (short) " of the nominal robot." (published(results, name))
             }))
             (fits(sampling))
         }
     };
-    (!all.is_empty()).then(|| Section::new("distributions", "Distribution of the deflection", body))
+    (!all.is_empty()).then(|| {
+        let title = format!("Distribution of the {}", results.study.file.output.noun());
+        Section::new("distributions", title, body)
+    })
 }
 
 /// Table of the laws that were fitted to a sampling.
@@ -90,11 +102,12 @@ fn fits(sampling: &SamplingSummary) -> Markup {
     let rows: Vec<_> = sampling.fits.iter().map(row).collect();
     let caption = "Fitted laws. p comes from a parametric bootstrap; it is only an indication, because \
                    Sobol' points are not independent.";
-    let head = ["Law", "Parameters [mm]", "AIC above the least", "Kolmogorov-Smirnov distance", "p"];
+    let parameters = format!("Parameters [{}]", sampling.output.unit());
+    let head = ["Law", &parameters, "AIC above the least", "Kolmogorov-Smirnov distance", "p"];
     html! { @if !rows.is_empty() { (table(caption, &head, &rows)) } }
 }
 
-/// The RMS over two parameters, as surface and heat map.
+/// The output over two parameters, as surface and heat map.
 pub(crate) fn surfaces(results: &Results, figures: &[Figure]) -> Option<Section> {
     let all: Vec<_> =
         all_surfaces(&results.summary).filter(|(name, _)| results.surfaces.contains_key(*name)).collect();
@@ -114,7 +127,7 @@ pub(crate) fn surfaces(results: &Results, figures: &[Figure]) -> Option<Section>
 fn surface(results: &Results, name: &str, summary: &SurfaceSummary, svg: &str) -> Markup {
     let [x, y] = &summary.parameters;
     let symbols = (parameters::symbol(x), parameters::symbol(y));
-    let view = |kind: &str| format!("{kind} of the RMS over {x} and {y}");
+    let view = |kind: &str| format!("{kind} of the {} over {x} and {y}", summary.output.short());
     html! {
         figure id={ "figure-" (name) } data-surface=(name) {
             div.switch role="group" aria-label="Show as" {
@@ -125,7 +138,7 @@ fn surface(results: &Results, name: &str, summary: &SurfaceSummary, svg: &str) -
                 aria-label=(view("Surface")) hidden {}
             div.drawing.map role="img" tabindex="0" aria-label=(view("Heat map")) { (PreEscaped(svg)) }
             figcaption {
-                "RMS of the static deflection [mm] over " (symbols.0) " and " (symbols.1)
+                (text::capital(&summary.output.axis())) " over " (symbols.0) " and " (symbols.1)
                 "; all other parameters are nominal." (published(results, name)) " "
                 span.file { "File: " (name) ".svg" }
             }
@@ -150,8 +163,9 @@ pub(crate) fn points(results: &Results, figures: &[Figure]) -> Option<Section> {
             });
             let alt = format!("t-Student index of each coordinate of the {kind} points, in the plan view");
             let caption = html! {
-                "Effect of the coordinates of the " (kind) " points on the RMS, as t-Student index of x, y "
-                "and z. The bars stand at the position of the point in the plan view. \u{d7} marks the "
+                "Effect of the coordinates of the " (kind) " points on the "
+                (results.study.file.output.short()) ", as t-Student index of x, y and z. The bars stand at "
+                "the position of the point in the plan view. \u{d7} marks the "
                 "platform's reference point P. The larger the index, the more the coordinate matters."
                 (published)
             };
@@ -164,12 +178,13 @@ pub(crate) fn points(results: &Results, figures: &[Figure]) -> Option<Section> {
 
 /// Signed effects of all samplings that have them.
 pub(crate) fn effects(results: &Results, figures: &[Figure]) -> Option<Section> {
-    let with: Vec<_> = samplings(&results.summary).filter(|(_, s)| !s.signed_effects_mm.is_empty()).collect();
+    let with: Vec<_> = samplings(&results.summary).filter(|(_, s)| !s.signed_effects.is_empty()).collect();
     let body = html! {
         @for (name, sampling) in &with {
             @let alt = format!("Bars of the largest signed effects of {name} with their intervals");
             (figure(&format!("{name}_effects"), &alt, figures, &html! {
-                "Signed effects [mm]: change of the mean RMS from the lower to the upper half of a "
+                "Signed effects [" (sampling.output.unit()) "]: change of the mean " (sampling.output.short())
+                " from the lower to the upper half of a "
                 "parameter's range. Lines are intervals of " (text::digits(100.0 * sampling.confidence, 4))
                 " % confidence. Bars are grey where the interval contains zero."
             }))
@@ -186,23 +201,25 @@ pub(crate) fn measures(results: &Results, figures: &[Figure]) -> Option<Section>
     let body = html! {
         @for (name, sampling, found) in &with {
             h3 { (sampling.title) }
-            @let alt = format!("Shares of the variance of the RMS of {name} by each measure of sensitivity");
+            @let short = sampling.output.short();
+            @let shares = format!("Shares of the variance of the {short}");
+            @let alt = format!("{shares} of {name} by each measure of sensitivity");
             (figure(&format!("{name}_sensitivity"), &alt, figures, &html! {
-                "Shares of the leading parameters in the variance of the RMS [%] by each measure. Lines are "
-                "confidence intervals."
+                "Shares of the leading parameters in the variance of the " (short) " [%] by each measure. "
+                "Lines are confidence intervals."
             }))
-            (side_by_side(found))
+            (side_by_side(found, sampling.output))
         }
     };
     (!with.is_empty()).then(|| Section::new("measures", "Measures of sensitivity", body))
 }
 
 /// Table of the leading parameters with a column for each measure that ranks them.
-fn side_by_side(found: &SensitivitySummary) -> Markup {
+fn side_by_side(found: &SensitivitySummary, output: Output) -> Markup {
     let measured = |measure: &&Measure| found.inputs.iter().any(|input| (measure.value)(input).is_some());
     let measures: Vec<&Measure> = MEASURES.iter().filter(|measure| measure.ranks).filter(measured).collect();
     let label = |measure: &&Measure| match measure.quantity {
-        Quantity::Change => format!("{} [mm]", measure.label),
+        Quantity::Change => format!("{} [{}]", measure.label, output.unit()),
         _ => measure.label.to_owned(),
     };
     let labels: Vec<String> = measures.iter().map(label).collect();

@@ -104,29 +104,46 @@ pub fn deflection_free(
     load: &Load,
     free: &[Coordinate],
 ) -> Result<Deflection, StaticsError> {
-    if free.is_empty() {
-        return deflection(robot, pose, tension_offsets, load);
-    }
-    check_offsets(robot, tension_offsets)?;
-    let mut held = held_at(robot, pose, &Load::none(), free)?;
-    if tension_offsets.iter().any(|offset| *offset != 0.0) {
-        let rest = held.equilibrium.pose;
-        let limits = limits_at(robot, &rest)?;
-        let set_points = offset(&held.equilibrium.tensions(), tension_offsets, &limits);
-        held = lengths_for_tensions(robot, &rest, &set_points)?;
-    }
-    deflection_from(robot, held.lengths, load, &held.equilibrium)
+    let HeldPose { lengths, equilibrium } = wound(robot, pose, tension_offsets, free)?;
+    deflection_from(robot, lengths, load, &equilibrium)
 }
 
-/// Unstrained lengths [m] that give offset tension set-points while the platform is held at `pose`.
+/// The wanted pose with offset tension set-points.
+fn wound(
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+    free: &[Coordinate],
+) -> Result<HeldPose, StaticsError> {
+    if free.is_empty() {
+        let Wound { lengths, held, .. } = wind(robot, pose, tension_offsets)?;
+        return Ok(HeldPose { lengths, equilibrium: held });
+    }
+    check_offsets(robot, tension_offsets)?;
+    let held = held_at(robot, pose, &Load::none(), free)?;
+    if tension_offsets.iter().all(|offset| *offset == 0.0) {
+        return Ok(held);
+    }
+    let rest = held.equilibrium.pose;
+    let limits = limits_at(robot, &rest)?;
+    lengths_for_tensions(robot, &rest, &offset(&held.equilibrium.tensions(), tension_offsets, &limits))
+}
+
+/// Unstrained lengths [m] that give offset tension set-points while the platform is held at `pose`, or, with
+/// fewer cables than free motions, where it rests with the `free` coordinates found.
 ///
 /// The set-points are the tensions of the inverse model under the platform's own weight plus
 /// `tension_offsets` [N], kept within the limits. Once released, the platform stands elsewhere.
 ///
 /// # Errors
 /// Those of the inverse model.
-pub fn wound_lengths(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Result<Vec<f64>, StaticsError> {
-    Ok(wind(robot, pose, tension_offsets)?.lengths)
+pub fn wound_lengths(
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+    free: &[Coordinate],
+) -> Result<Vec<f64>, StaticsError> {
+    Ok(wound(robot, pose, tension_offsets, free)?.lengths)
 }
 
 /// Winds the cables for `pose`.

@@ -101,7 +101,7 @@ fn computed(statistic: Statistic, study: &StudySummary) -> Option<Value> {
 }
 
 fn of_sampling(statistic: Statistic, sampling: &SamplingSummary) -> Option<Value> {
-    let rms = sampling.rms_mm.as_ref()?;
+    let rms = sampling.values.as_ref()?;
     let largest = |tensions: &[f64]| tensions.iter().copied().reduce(f64::max);
     let number = match statistic {
         Statistic::Mean => rms.mean,
@@ -125,7 +125,7 @@ fn of_sampling(statistic: Statistic, sampling: &SamplingSummary) -> Option<Value
 }
 
 fn of_surface(statistic: Statistic, surface: &SurfaceSummary) -> Option<Value> {
-    let (min, max) = (surface.rms_mm.min?, surface.rms_mm.max?);
+    let (min, max) = (surface.values.min?, surface.values.max?);
     match statistic {
         Statistic::Min => Some(Value::Number(min)),
         Statistic::Max => Some(Value::Number(max)),

@@ -9,18 +9,21 @@ pub struct InputMeasures {
     pub input: String,
     /// The paper's t-Student index (section 5.2).
     pub t_student: Option<f64>,
-    /// Mean RMS in the upper half of its range minus that in the lower half [mm].
-    pub signed_effect_mm: Option<f64>,
+    /// Mean output in the upper half of its range minus that in the lower half, in the unit of the output.
+    #[serde(rename = "signed_effect_mm")]
+    pub signed_effect: Option<f64>,
     /// Share of the variance to first order, from exact derivatives at the nominal robot.
     pub derivative_share: Option<f64>,
     /// Squared standardised regression coefficient.
     pub regression_share: Option<f64>,
     /// The same of ranks.
     pub rank_regression_share: Option<f64>,
-    /// Morris's mean absolute elementary effect, between probabilities 0 and 1 [mm].
-    pub morris_mean_absolute_mm: Option<f64>,
-    /// Deviation of its elementary effects [mm].
-    pub morris_std_mm: Option<f64>,
+    /// Morris's mean absolute elementary effect, between probabilities 0 and 1, in the same unit.
+    #[serde(rename = "morris_mean_absolute_mm")]
+    pub morris_mean_absolute: Option<f64>,
+    /// Deviation of its elementary effects, in the same unit.
+    #[serde(rename = "morris_std_mm")]
+    pub morris_std: Option<f64>,
     /// Bound on its total index from derivatives; `None` for a law without a known constant.
     pub dgsm_total_bound: Option<f64>,
     /// Index of the first order of the chaos expansion.
@@ -44,7 +47,8 @@ pub struct InputMeasures {
 /// A measure of sensitivity.
 #[derive(Clone, Copy, Debug)]
 pub struct Measure {
-    /// Its column in `NAME_sensitivity.csv`, its key in `summary.json` and its field of [`InputMeasures`].
+    /// Its column in `NAME_sensitivity.csv` and its key in `summary.json`, as those of deflections have it
+    /// ([`crate::Output::named`]).
     pub name: &'static str,
     /// Its name in tables and figures.
     pub label: &'static str,
@@ -63,7 +67,7 @@ pub struct Measure {
 pub enum Quantity {
     /// An index without a unit whose size only ranks.
     Index,
-    /// A change of the RMS [mm].
+    /// A change of the output, in its unit.
     Change,
     /// A share of the variance.
     ///
@@ -76,7 +80,7 @@ pub enum Quantity {
 /// All measures, in the order of tables.
 pub const MEASURES: [Measure; 12] = [
     Measure::new("t_student", "t-Student", Quantity::Index, |input| input.t_student).ranking(),
-    Measure::new("signed_effect_mm", "signed effect", Quantity::Change, |input| input.signed_effect_mm),
+    Measure::new("signed_effect_mm", "signed effect", Quantity::Change, |input| input.signed_effect),
     Measure::new("derivative_share", "derivatives", Quantity::Share, |input| input.derivative_share)
         .ranking(),
     Measure::new("regression_share", "SRC\u{b2}", Quantity::Share, |input| input.regression_share).ranking(),
@@ -85,10 +89,10 @@ pub const MEASURES: [Measure; 12] = [
     })
     .ranking(),
     Measure::new("morris_mean_absolute_mm", "Morris \u{b5}*", Quantity::Change, |input| {
-        input.morris_mean_absolute_mm
+        input.morris_mean_absolute
     })
     .ranking(),
-    Measure::new("morris_std_mm", "Morris \u{3c3}", Quantity::Change, |input| input.morris_std_mm),
+    Measure::new("morris_std_mm", "Morris \u{3c3}", Quantity::Change, |input| input.morris_std),
     Measure::new("dgsm_total_bound", "DGSM bound", Quantity::Bound, |input| input.dgsm_total_bound).ranking(),
     Measure::new("expansion_first", "expansion", Quantity::Share, |input| input.expansion_first),
     Measure::new("sobol_first", "Sobol' first", Quantity::Share, |input| input.sobol_first)

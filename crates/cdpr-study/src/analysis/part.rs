@@ -3,6 +3,7 @@
 use crate::analysis::poses::PosesSummary;
 use crate::analysis::sampling::{FitSummary, SamplingSummary};
 use crate::analysis::surface::SurfaceSummary;
+use crate::file::output::Output;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -25,6 +26,15 @@ impl StudySummary {
             Self::Sampling(sampling) => &sampling.title,
             Self::Surface(surface) => &surface.title,
             Self::Poses(poses) => &poses.title,
+        }
+    }
+
+    /// What is observed.
+    pub fn output(&self) -> Output {
+        match self {
+            Self::Sampling(sampling) => sampling.output,
+            Self::Surface(surface) => surface.output,
+            Self::Poses(poses) => poses.output,
         }
     }
 
@@ -62,33 +72,33 @@ impl StudySummary {
     pub fn overview(&self) -> Overview<'_> {
         match self {
             Self::Sampling(sampling) => {
-                let rms = sampling.rms_mm.as_ref();
+                let values = sampling.values.as_ref();
                 Overview {
-                    nominal: rms.map(|rms| rms.nominal),
-                    mean: rms.map(|rms| rms.mean),
-                    std: rms.map(|rms| rms.std),
-                    min: rms.map(|rms| rms.min),
-                    max: rms.map(|rms| rms.max),
+                    nominal: values.map(|values| values.nominal),
+                    mean: values.map(|values| values.mean),
+                    std: values.map(|values| values.std),
+                    min: values.map(|values| values.min),
+                    max: values.map(|values| values.max),
                     best_fit: sampling.fits.iter().find(|fit| Some(fit.law) == sampling.best_fit),
                 }
             }
-            Self::Surface(SurfaceSummary { rms_mm, .. }) => Overview {
-                nominal: Some(rms_mm.nominal),
-                min: rms_mm.min,
-                max: rms_mm.max,
+            Self::Surface(SurfaceSummary { values, .. }) => Overview {
+                nominal: Some(values.nominal),
+                min: values.min,
+                max: values.max,
                 ..Overview::default()
             },
             // Means over the observations, at the poses where they are least and greatest.
-            Self::Poses(PosesSummary { mean_mm, .. }) => Overview {
-                min: mean_mm.map(|mean| mean.min),
-                max: mean_mm.map(|mean| mean.max),
+            Self::Poses(PosesSummary { mean, .. }) => Overview {
+                min: mean.map(|mean| mean.min),
+                max: mean.map(|mean| mean.max),
                 ..Overview::default()
             },
         }
     }
 }
 
-/// The RMS of the static deflection [mm] of one part of a study; what the part does not have is absent.
+/// The output of one part of a study, in its unit; what the part does not have is absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Overview<'a> {
     /// Value of the nominal robot.

@@ -4,9 +4,9 @@
 
 use crate::analysis::extremes::Extremes;
 use crate::error::StudyError;
+use crate::file::output::Output;
 use crate::model::grid::Grid;
 use crate::model::nominal::too_much;
-use crate::model::observed::rms_mm;
 use crate::model::pose_set::PoseSet;
 use crate::model::study::{Sampling, Study};
 use crate::observe::observation::{Session, Tally};
@@ -19,8 +19,8 @@ use std::collections::BTreeMap;
 /// [`PoseRow::status`] of a pose at which the nominal robot has feasible tensions.
 pub const HELD: &str = "held";
 
-/// A row of `NAME.csv`: position [m], rotation as a unit quaternion, RMS [mm]. Values that do not exist are
-/// empty.
+/// A row of `NAME.csv`: position [m], rotation as a unit quaternion, statistics of the output in its unit.
+/// Values that do not exist are empty.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs)]
 pub struct PoseRow {
@@ -39,19 +39,25 @@ pub struct PoseRow {
     pub observations: usize,
     pub failed: usize,
     /// Value of the nominal robot.
-    pub nominal_mm: Option<f64>,
+    #[serde(rename = "nominal_mm")]
+    pub nominal: Option<f64>,
     /// Over the observations; this and the following are empty where fewer than two have succeeded.
-    pub mean_mm: Option<f64>,
+    #[serde(rename = "mean_mm")]
+    pub mean: Option<f64>,
     /// Standard deviation, with n - 1.
-    pub std_mm: Option<f64>,
-    pub min_mm: Option<f64>,
-    pub max_mm: Option<f64>,
+    #[serde(rename = "std_mm")]
+    pub std: Option<f64>,
+    #[serde(rename = "min_mm")]
+    pub min: Option<f64>,
+    #[serde(rename = "max_mm")]
+    pub max: Option<f64>,
     /// The parameter with the largest t-Student index.
     pub dominant: Option<String>,
     /// That index.
     pub dominant_t: Option<f64>,
-    /// Mean RMS in the upper half of its range minus that in the lower half [mm].
-    pub dominant_effect_mm: Option<f64>,
+    /// Mean output in the upper half of its range minus that in the lower half.
+    #[serde(rename = "dominant_effect_mm")]
+    pub dominant_effect: Option<f64>,
     /// Why the nominal robot has no feasible tensions there, or which of its tensions are above their limits
     /// or breaking forces, without or with the payload.
     pub reason: Option<String>,
@@ -64,6 +70,9 @@ pub struct PoseRow {
 pub struct PosesSummary {
     /// Title.
     pub title: String,
+    /// What is observed.
+    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    pub output: Output,
     /// Number of poses.
     pub poses: usize,
     /// The grid of the poses, if they are on one.
@@ -74,10 +83,12 @@ pub struct PosesSummary {
     pub observations: usize,
     /// Failed observations by kind.
     pub failed: BTreeMap<String, usize>,
-    /// Mean of the RMS [mm]; this and the next are absent if no pose has one.
-    pub mean_mm: Option<Extremes>,
-    /// Its standard deviation [mm].
-    pub std_mm: Option<Extremes>,
+    /// Mean of the output in its unit; this and the next are absent if no pose has one.
+    #[serde(rename = "mean_mm")]
+    pub mean: Option<Extremes>,
+    /// Its standard deviation.
+    #[serde(rename = "std_mm")]
+    pub std: Option<Extremes>,
     /// Number of poses at which tensions of the nominal robot are above their limits or breaking forces.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub out_of_limits: usize,
@@ -118,6 +129,7 @@ pub fn observe_poses(
     };
     let mut summary = PosesSummary {
         title: spec.title.clone(),
+        output: study.file.output,
         poses: count,
         grid: match poses {
             PoseSet::Grid(grid) => Some(grid),
@@ -126,8 +138,8 @@ pub fn observe_poses(
         status: BTreeMap::new(),
         observations: 0,
         failed: BTreeMap::new(),
-        mean_mm: None,
-        std_mm: None,
+        mean: None,
+        std: None,
         out_of_limits: 0,
         dominant: BTreeMap::new(),
     };
@@ -165,7 +177,7 @@ pub fn observe_poses(
     let over = |value: fn(&PoseRow) -> Option<f64>| {
         Extremes::of(rows.iter().filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
     };
-    (summary.mean_mm, summary.std_mm) = (over(|row| row.mean_mm), over(|row| row.std_mm));
+    (summary.mean, summary.std) = (over(|row| row.mean), over(|row| row.std));
     Ok(PosesResult { summary, rows })
 }
 
@@ -209,20 +221,20 @@ impl PoseRow {
             status: String::new(),
             observations: 0,
             failed: 0,
-            nominal_mm: None,
-            mean_mm: None,
-            std_mm: None,
-            min_mm: None,
-            max_mm: None,
+            nominal: None,
+            mean: None,
+            std: None,
+            min: None,
+            max: None,
             dominant: None,
             dominant_t: None,
-            dominant_effect_mm: None,
+            dominant_effect: None,
             reason: None,
         }
     }
 
     fn held(sampling: &Sampling, tally: &Tally) -> Self {
-        let rms = tally.sums.outputs().summary().ok();
+        let found = tally.sums.outputs().summary().ok();
         // An index needs observations in both halves of every range.
         let effects = tally.sums.effects(sampling.design.inputs()).ok();
         let effects = effects.into_iter().flat_map(|effects| effects.effects);
@@ -233,14 +245,14 @@ impl PoseRow {
             status: HELD.to_owned(),
             observations: sampling.design.points(),
             failed: tally.failed.values().sum(),
-            nominal_mm: Some(rms_mm(sampling.nominal.rms())),
-            mean_mm: rms.map(|rms| rms.mean),
-            std_mm: rms.map(|rms| rms.std),
-            min_mm: rms.map(|rms| rms.min),
-            max_mm: rms.map(|rms| rms.max),
+            nominal: Some(sampling.nominal_value),
+            mean: found.map(|found| found.mean),
+            std: found.map(|found| found.std),
+            min: found.map(|found| found.min),
+            max: found.map(|found| found.max),
             dominant: dominant.as_ref().map(|effect| effect.input.clone()),
             dominant_t: dominant.as_ref().map(|effect| effect.student),
-            dominant_effect_mm: dominant.as_ref().map(|effect| effect.effect),
+            dominant_effect: dominant.as_ref().map(|effect| effect.effect),
             reason: Some(too_much(sampling.robot, &sampling.nominal).join("; "))
                 .filter(|text| !text.is_empty()),
             ..Self::at(sampling.name.clone(), &sampling.pose)

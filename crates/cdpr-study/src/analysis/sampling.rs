@@ -2,6 +2,7 @@
 
 use crate::analysis::sensitivity::{SensitivitySummary, measure};
 use crate::error::StudyError;
+use crate::file::output::Output;
 use crate::model::designs::replicate_name;
 use crate::model::nominal::too_much;
 use crate::model::study::Sampling;
@@ -21,6 +22,9 @@ use std::collections::BTreeMap;
 pub struct SamplingSummary {
     /// Title.
     pub title: String,
+    /// What is observed.
+    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    pub output: Output,
     /// Position of the wanted pose [m].
     pub pose: [f64; 3],
     /// Its rotation as a unit quaternion (w, x, y, z), w >= 0.
@@ -29,8 +33,9 @@ pub struct SamplingSummary {
     pub observations: usize,
     /// Failed observations by kind.
     pub failed: BTreeMap<String, usize>,
-    /// Summary of the RMS; absent if fewer than two observations succeeded.
-    pub rms_mm: Option<RmsSummary>,
+    /// Summary of the output; absent if fewer than two observations succeeded.
+    #[serde(rename = "rms_mm")]
+    pub values: Option<ValueSummary>,
     /// The nominal robot at this pose.
     pub nominal: NominalSummary,
     /// Least and greatest modulus of the cables' law at the tensions of pose and load [GPa], where the error
@@ -42,14 +47,15 @@ pub struct SamplingSummary {
     /// Family preferred by AIC: the one of least AIC, or the most common one of those whose AIC is within 2
     /// of it.
     pub best_fit: Option<Family>,
-    /// Histogram of the RMS [mm].
+    /// Histogram of the output in its unit.
     pub histogram: Option<Histogram>,
     /// The paper's t-Student index by parameter (section 5.2). On Sobol points its significance levels do not
     /// hold.
     pub t_student: IndexMap<String, f64>,
-    /// Signed effect by parameter: mean RMS in the upper half of its range minus that in the lower half, with
-    /// an interval from scrambled replicates.
-    pub signed_effects_mm: IndexMap<String, SignedEffect>,
+    /// Signed effect by parameter: mean output in the upper half of its range minus that in the lower half,
+    /// with an interval from scrambled replicates.
+    #[serde(rename = "signed_effects_mm")]
+    pub signed_effects: IndexMap<String, SignedEffect>,
     /// Scrambled replicates behind those intervals.
     pub replicates: usize,
     /// Their confidence.
@@ -61,9 +67,9 @@ pub struct SamplingSummary {
     pub notes: Vec<String>,
 }
 
-/// Summary of the RMS of the static deflection [mm].
+/// Summary of the output in its unit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RmsSummary {
+pub struct ValueSummary {
     /// Mean.
     pub mean: f64,
     /// Standard deviation, with n - 1.
@@ -103,12 +109,12 @@ pub struct NominalSummary {
     pub out_of_limits: Vec<String>,
 }
 
-/// A law fitted to the RMS [mm].
+/// A law fitted to the output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FitSummary {
     /// Family.
     pub law: Family,
-    /// The law of largest likelihood, in mm.
+    /// The law of largest likelihood, in the unit of the output.
     pub parameters: Law,
     /// Natural logarithm of its likelihood.
     pub log_likelihood: f64,
@@ -123,7 +129,7 @@ pub struct FitSummary {
     pub p_value: f64,
 }
 
-/// Signed effect of a parameter [mm] and its confidence interval.
+/// Signed effect of a parameter, in the unit of the output, and its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SignedEffect {
     /// Mean over the replicates.
@@ -162,7 +168,7 @@ impl From<Fit> for FitSummary {
 /// # Errors
 /// Those of the session's blocks; a session in memory has no errors.
 pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<SamplingSummary, StudyError> {
-    let settings = &sampling.study.file;
+    let (settings, output) = (&sampling.study.file, sampling.output());
     let mut notes = Vec::new();
     for (what, used) in [("quantiles, histogram", KEPT), ("fitted laws", FITTED)] {
         if sampling.design.points() > used {
@@ -170,16 +176,17 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
         }
     }
     let mut note = |what: &str, error: SensitivityError| notes.push(format!("{what}: {error}"));
-    let moments = tally.sums.outputs().summary().map_err(|error| note("rms_mm", error)).ok();
-    let rounding_mm = 1e3 * sampling.nominal.rounding(sampling.robot);
+    let moments = tally.sums.outputs().summary().map_err(|error| note(output.name(), error)).ok();
+    // An output that is no length has this value for every robot, if at all, where nothing resists.
+    let rounding = if output.is_length() { 1e3 * sampling.nominal.rounding(sampling.robot) } else { 0.0 };
     if let Some(moments) = &moments
-        && moments.max <= rounding_mm
+        && moments.max <= rounding
     {
-        return Ok(unmoved(sampling, tally, rounding_mm));
+        return Ok(unmoved(sampling, tally, rounding));
     }
-    let sample = moments.and_then(|_| Sample::new(&tally.first_rms_mm).ok());
+    let sample = moments.and_then(|_| Sample::new(&tally.first_values).ok());
     let bootstrap = Bootstrap { resamples: settings.bootstrap_resamples, seed: settings.seed };
-    let fitted = &tally.first_rms_mm[..tally.first_rms_mm.len().min(FITTED)];
+    let fitted = &tally.first_values[..tally.first_values.len().min(FITTED)];
     let fits = match moments.and_then(|_| Sample::new(fitted).ok()).map(|sample| fit_all(&sample, bootstrap))
     {
         Some(Ok(fits)) => fits,
@@ -198,13 +205,14 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
     let sensitivity = settings.sensitivity.as_ref().map(|spec| measure(sampling, spec, tally, session));
     Ok(SamplingSummary {
         title: sampling.title.to_owned(),
+        output,
         pose: sampling.pose.position.into(),
         quaternion: sampling.pose.quaternion(),
         observations: sampling.design.points(),
         failed: tally.failed.clone(),
-        rms_mm: moments
+        values: moments
             .zip(sample.as_ref())
-            .and_then(|(all, sample)| RmsSummary::new(&all, sample, 1e3 * sampling.nominal.rms()).ok()),
+            .and_then(|(all, sample)| ValueSummary::new(&all, sample, sampling.nominal_value).ok()),
         nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
         operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
         fits: fits.into_iter().map(FitSummary::from).collect(),
@@ -214,8 +222,8 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
             note("t_student", error);
             IndexMap::new()
         }),
-        signed_effects_mm: signed.unwrap_or_else(|error| {
-            note("signed_effects_mm", error);
+        signed_effects: signed.unwrap_or_else(|error| {
+            note(&output.named("signed_effects_mm"), error);
             IndexMap::new()
         }),
         replicates: settings.replicates,
@@ -225,33 +233,38 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
     })
 }
 
-/// The summary of a sampling whose deflections are below rounding: zero, without laws and effects.
-fn unmoved(sampling: &Sampling, tally: &Tally, rounding_mm: f64) -> SamplingSummary {
+/// The summary of a sampling whose outputs are below rounding: zero, without laws and effects.
+fn unmoved(sampling: &Sampling, tally: &Tally, rounding: f64) -> SamplingSummary {
+    let output = sampling.output();
+    let all = if output == Output::Deflection { "deflections" } else { "values" };
     SamplingSummary {
         title: sampling.title.to_owned(),
+        output,
         pose: sampling.pose.position.into(),
         quaternion: sampling.pose.quaternion(),
         observations: sampling.design.points(),
         failed: tally.failed.clone(),
-        rms_mm: Some(RmsSummary::ZERO),
+        values: Some(ValueSummary::ZERO),
         nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
         operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
         fits: Vec::new(),
         best_fit: None,
         histogram: None,
         t_student: IndexMap::new(),
-        signed_effects_mm: IndexMap::new(),
+        signed_effects: IndexMap::new(),
         replicates: 0,
         confidence: sampling.study.file.confidence,
         sensitivity: None,
         notes: vec![format!(
-            "rms_mm: all deflections are below {rounding_mm:.1e} mm, which rounding may cause: zero within this bound"
+            "{}: all {all} are below {rounding:.1e} {}, which rounding may cause: zero within this bound",
+            output.name(),
+            output.unit()
         )],
     }
 }
 
-impl RmsSummary {
-    /// Of a robot that does not move.
+impl ValueSummary {
+    /// Of a robot without any change.
     const ZERO: Self = Self {
         mean: 0.0,
         std: 0.0,

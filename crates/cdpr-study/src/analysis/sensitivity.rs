@@ -1,5 +1,6 @@
 //! Measures of sensitivity beside each other: the value of each for every input of a sampling, the
-//! observations on which it rests, and where they agree. The output is the RMS of the static deflection [mm].
+//! observations on which it rests, and where they agree. The output is that of the
+//! study, in its unit.
 //!
 //! | method | result | input |
 //! |---|---|---|
@@ -18,14 +19,13 @@ use crate::analysis::measures::{InputMeasures, MEASURES, Measure, Quantity};
 use crate::error::StudyError;
 use crate::file::study_file::{SensitivitySpec, StudyFile};
 use crate::model::designs::{MORRIS, Points, SALTELLI};
-use crate::model::observed::rms_mm;
 use crate::model::study::Sampling;
-use crate::observe::observation::{Session, Tally, observe_rms};
+use crate::observe::observation::{Session, Tally, observe_values};
 use cdpr_sensitivity::{
     Bootstrap, Input, Regression, SampleDesign, SensitivityError, Slopes, SobolDesign, dgsm, expansion,
     morris_effects, rank_correlation, rank_regression, regression, sobol_indices, student_effects,
 };
-use cdpr_statics::{StaticsError, derivatives};
+use cdpr_statics::StaticsError;
 use indexmap::IndexMap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -171,7 +171,7 @@ impl Run<'_> {
     }
 
     fn observe(&self, name: &str, design: &dyn Points) -> Result<Vec<Option<f64>>, StudyError> {
-        observe_rms(self.sampling, (name, design), self.session)
+        observe_values(self.sampling, (name, design), self.session)
     }
 
     /// The sampling's first observations.
@@ -179,21 +179,14 @@ impl Run<'_> {
         let whole = &self.sampling.design;
         let points = whole.points().min(self.spec.observations);
         let design = SobolDesign::new(whole.inputs().to_vec(), whole.first_index(), points)?;
-        Ok((design, self.tally.first_rms_mm.iter().copied().take(points).collect()))
+        Ok((design, self.tally.first_values.iter().copied().take(points).collect()))
     }
 
-    /// RMS [mm] of the robot with these deviations of the inputs, and its derivatives [mm per unit of the
-    /// input].
+    /// Output of the robot with these deviations of the inputs, and its derivatives per unit of the input.
     fn slopes(&self, row: &[f64]) -> Result<Slopes, StaticsError> {
-        let Sampling { robot, pose, load, errors, .. } = self.sampling;
-        let deviations = errors.deviations(row);
-        let perturbed = robot.perturbed(&deviations)?;
-        let found = derivatives(&perturbed.robot, pose, &perturbed.tension_offsets, load)?;
-        let slopes = found.rms()?;
-        Ok(Slopes {
-            output: rms_mm(found.deflection.rms()),
-            gradient: errors.gradient(&slopes).into_iter().map(rms_mm).collect(),
-        })
+        let Sampling { errors, observer, .. } = self.sampling;
+        let (output, gradient) = observer.slopes(&errors.deviations(row), errors)?;
+        Ok(Slopes { output, gradient })
     }
 }
 
@@ -202,7 +195,7 @@ fn t_student(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, B
     let found = student_effects(&design, &outputs)?;
     for (input, effect) in inputs.iter_mut().zip(found.effects) {
         input.t_student = Some(effect.student);
-        input.signed_effect_mm = Some(effect.effect);
+        input.signed_effect = Some(effect.effect);
     }
     Ok(MethodSummary::of(&outputs))
 }
@@ -240,14 +233,18 @@ fn morris(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<
     let outputs = run.observe(MORRIS, &design)?;
     for (input, effect) in inputs.iter_mut().zip(morris_effects(&design, &outputs, run.settings.confidence)?)
     {
-        input.morris_mean_absolute_mm = Some(effect.mean_absolute.value);
-        input.morris_std_mm = Some(effect.std);
+        input.morris_mean_absolute = Some(effect.mean_absolute.value);
+        input.morris_std = Some(effect.std);
     }
     Ok(MethodSummary::of(&outputs))
 }
 
 fn derivative_bounds(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
     let points = run.spec.derivative_points;
+    if let Some(refused) = run.sampling.observer.no_slopes() {
+        (run.session.tick)(points);
+        return Err(refused.into());
+    }
     let design = SobolDesign::scrambled(run.inputs().to_vec(), points, run.settings.seed)?;
     let slopes_at = |row: &mut Vec<f64>, index| {
         design.row(index, row)?;

@@ -1,6 +1,7 @@
 //! All results of a study.
 
 use crate::analysis::comparison::{ComparisonRow, compare};
+use crate::analysis::keys::in_file;
 use crate::analysis::part::StudySummary;
 use crate::error::StudyError;
 use crate::model::study::Study;
@@ -24,6 +25,7 @@ pub struct Summary {
     /// Seed.
     pub seed: u64,
     /// Results by name.
+    #[serde(serialize_with = "in_file")]
     pub studies: IndexMap<String, StudySummary>,
     /// Published figures beside the computed ones.
     pub comparison: Vec<ComparisonRow>,

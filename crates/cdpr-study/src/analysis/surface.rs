@@ -1,7 +1,8 @@
-//! Surfaces: the deflection over a grid of two parameters.
+//! Surfaces: the output over a grid of two parameters.
 
+use crate::file::output::Output;
 use crate::model::nominal::too_much;
-use crate::model::observed::{count_failed, rms_mm};
+use crate::model::observed::count_failed;
 use crate::model::study::{Surface, SurfaceAxis};
 use cdpr_robot::Parameter;
 use cdpr_statics::StaticsError;
@@ -9,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The deflection over a grid. `E` says why a point has none: the error itself, or its kind as read back from
+/// The output over a grid. `E` says why a point has none: the error itself, or its kind as read back from
 /// a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceResult<E = StaticsError> {
@@ -17,8 +18,8 @@ pub struct SurfaceResult<E = StaticsError> {
     pub x: Vec<f64>,
     /// Values of the second parameter.
     pub y: Vec<f64>,
-    /// RMS [mm] at `x[i], y[j]`, with index `i * y.len() + j`, or the reason of a failure.
-    pub rms_mm: Vec<Result<f64, E>>,
+    /// Output in its unit at `x[i], y[j]`, with index `i * y.len() + j`, or the reason of a failure.
+    pub values: Vec<Result<f64, E>>,
 }
 
 /// Results of one surface; serialised into `summary.json`.
@@ -26,6 +27,9 @@ pub struct SurfaceResult<E = StaticsError> {
 pub struct SurfaceSummary {
     /// Title.
     pub title: String,
+    /// What is observed.
+    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    pub output: Output,
     /// Position of the wanted pose [m].
     pub pose: [f64; 3],
     /// Its rotation as a unit quaternion (w, x, y, z), w >= 0.
@@ -36,16 +40,17 @@ pub struct SurfaceSummary {
     pub failed: BTreeMap<String, usize>,
     /// Parameters of the two axes.
     pub parameters: [String; 2],
-    /// Extremes of the RMS and its nominal value [mm].
-    pub rms_mm: SurfaceRms,
+    /// Extremes of the output and its nominal value.
+    #[serde(rename = "rms_mm")]
+    pub values: SurfaceValues,
     /// Tensions of the nominal robot above their limits or breaking forces, without or with the payload.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub out_of_limits: Vec<String>,
 }
 
-/// Extremes of the RMS over a surface [mm]; absent where no point succeeded.
+/// Extremes of the output over a surface; absent where no point succeeded.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SurfaceRms {
+pub struct SurfaceValues {
     /// Least value.
     pub min: Option<f64>,
     /// Greatest value.
@@ -59,7 +64,7 @@ pub fn compute_surface(surface: &Surface, tick: &(dyn Fn(usize) + Sync)) -> Surf
     let parameters = Parameter::of(surface.robot).len();
     let Surface { x, y, .. } = surface;
     let columns = y.deviations.len();
-    let rms_mm = (0..x.deviations.len() * columns)
+    let values = (0..x.deviations.len() * columns)
         .into_par_iter()
         .fold_chunks(columns, Vec::new, |mut rows, k| {
             let first = rows.len();
@@ -71,41 +76,43 @@ pub fn compute_surface(surface: &Surface, tick: &(dyn Fn(usize) + Sync)) -> Surf
         .flat_map_iter(|rows| {
             tick(columns);
             let outcomes = surface.observer.observe_all(&rows).into_iter();
-            outcomes.map(|outcome| outcome.map(|observation| rms_mm(observation.rms())))
+            outcomes.map(|outcome| outcome.map(|measured| measured.value()))
         })
         .collect();
-    let values = |axis: &SurfaceAxis| {
+    let of_axis = |axis: &SurfaceAxis| {
         axis.deviations.iter().map(|deviation| axis.parameter.nominal(surface.robot) + deviation).collect()
     };
-    SurfaceResult { x: values(x), y: values(y), rms_mm }
+    SurfaceResult { x: of_axis(x), y: of_axis(y), values }
 }
 
 impl SurfaceResult {
     /// The result with the kind of each failure, as a table has it.
     pub fn by_kind(self) -> SurfaceResult<String> {
-        let Self { x, y, rms_mm } = self;
-        let rms_mm = rms_mm.into_iter().map(|rms| rms.map_err(|error| error.kind().to_owned())).collect();
-        SurfaceResult { x, y, rms_mm }
+        let Self { x, y, values } = self;
+        let values = values.into_iter().map(|value| value.map_err(|error| error.kind().to_owned())).collect();
+        SurfaceResult { x, y, values }
     }
 }
 
 impl SurfaceSummary {
     /// Summarises a surface.
     pub fn new(surface: &Surface, result: &SurfaceResult) -> Self {
-        let succeeded = || result.rms_mm.iter().filter_map(|rms| rms.as_ref().ok().copied());
-        let failed =
-            count_failed(result.rms_mm.iter().filter_map(|rms| rms.as_ref().err()).map(StaticsError::kind));
+        let succeeded = || result.values.iter().filter_map(|value| value.as_ref().ok().copied());
+        let failed = count_failed(
+            result.values.iter().filter_map(|value| value.as_ref().err()).map(StaticsError::kind),
+        );
         Self {
             title: surface.title.to_owned(),
+            output: surface.output,
             pose: surface.pose.position.into(),
             quaternion: surface.pose.quaternion(),
-            observations: result.rms_mm.len(),
+            observations: result.values.len(),
             failed,
             parameters: [&surface.x, &surface.y].map(|axis| axis.parameter.to_string()),
-            rms_mm: SurfaceRms {
+            values: SurfaceValues {
                 min: succeeded().reduce(f64::min),
                 max: succeeded().reduce(f64::max),
-                nominal: 1e3 * surface.nominal.rms(),
+                nominal: surface.nominal_value,
             },
             out_of_limits: too_much(surface.robot, &surface.nominal),
         }

@@ -3,6 +3,7 @@
 
 use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
+use crate::file::output::Output;
 use crate::file::value::Value;
 use cdpr_robot::TensionReference;
 use cdpr_sensitivity::{Expansion, Law, SobolIndices, Steps, Truncation};
@@ -13,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// Name and version of the format.
 pub const STUDY_FORMAT: &str = "cdpr-study/1";
 
-/// A set of samplings and surfaces of one robot's static deflection. SI units.
+/// A set of samplings and surfaces of one robot. SI units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "cdpr-study/1")]
@@ -29,6 +30,9 @@ pub struct StudyFile {
     pub robot: String,
     /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
     pub payload: f64,
+    /// What is observed of every robot: "deflection" unless another output is named.
+    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    pub output: Output,
     /// Tensions that those of the inverse model come as near to as they can, in place of the robot's: one for
     /// all cables [N], a list with one for each cable, or "mid", the middle of the limits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -57,7 +61,7 @@ pub struct StudyFile {
     /// Surfaces by name: two parameters vary over a grid, and all others are nominal.
     #[serde(default)]
     pub surfaces: IndexMap<String, SurfaceSpec>,
-    /// Published figures, which are listed beside the computed ones.
+    /// Published figures of the deflection, which are listed beside the computed ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub comparison: Vec<ComparisonSpec>,
 }
@@ -124,7 +128,7 @@ pub struct SamplingSpec {
     /// Wanted pose; leave it out where there are `poses`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<PoseSpec>,
-    /// Several wanted poses instead of one, each with all observations. They show the deflection over the
+    /// Several wanted poses instead of one, each with all observations. They show the output over the
     /// workspace, without replicates and measures of sensitivity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poses: Option<PosesSpec>,
@@ -193,7 +197,7 @@ impl SensitivitySpec {
     }
 }
 
-/// A surface of the deflection over two parameters.
+/// A surface of the output over two parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSpec {

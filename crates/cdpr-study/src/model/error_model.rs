@@ -215,6 +215,11 @@ impl ErrorModel {
         gradient
     }
 
+    /// Whether tension set-points deviate.
+    pub fn has_offsets(&self) -> bool {
+        self.terms.iter().any(|term| self.parameters[term.parameter].group() == "dt")
+    }
+
     /// The group of parameters that an input acts on; `shared` where there are several.
     pub fn group(&self, input: usize) -> &'static str {
         let of_input = self.terms.iter().filter(|term| term.input == input);

@@ -1,14 +1,15 @@
 //! The hashes by which a study and its blocks are recognised.
 
 use crate::error::StudyError;
+use crate::file::output::Output;
 use crate::file::study_file::SamplingSpec;
 use crate::model::study::Study;
 use cdpr_robot::{Provenance, Robot};
 use serde::Serialize;
 
 impl Study {
-    /// Hash of everything that determines the observations: robot, error models, poses, payload, seed,
-    /// version of the program. Names, titles, numbers of observations and statistics do not enter.
+    /// Hash of everything that determines the observations: robot, error models, poses, payload, output,
+    /// seed, version of the program. Names, titles, numbers of observations and statistics do not enter.
     ///
     /// # Errors
     /// A study that was read successfully has no errors here.
@@ -38,7 +39,11 @@ impl Study {
             error_model: String::new(),
             ..spec.clone()
         };
-        self.hash_of(&(spec, model, self.file.payload, self.file.seed))
+        let content = (spec, model, self.file.payload, self.file.seed);
+        match self.file.output {
+            Output::Deflection => self.hash_of(&content),
+            output => self.hash_of(&(content, output)),
+        }
     }
 
     fn hash_of(&self, content: &impl Serialize) -> Result<String, StudyError> {

@@ -1,11 +1,59 @@
-//! The result of an observation: a displacement, or the reason of its failure.
+//! The result of an observation, or the reason of its failure.
 
+use crate::file::output::Output;
 use cdpr_robot::Vector3;
 use cdpr_statics::StaticsError;
 use std::collections::BTreeMap;
 
-/// The displacement dp [m] of an observation, or the reason of its failure.
-pub type Observed = Result<Vector3<f64>, Failure>;
+/// What was observed of a robot, or the reason of its failure.
+pub type Observed = Result<Measured, Failure>;
+
+/// What was observed of a robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measured {
+    /// A displacement [m], whose length is the output.
+    Displacement(Vector3<f64>),
+    /// The output in its unit.
+    Number(f64),
+}
+
+impl Measured {
+    /// The output in its unit.
+    pub fn value(&self) -> f64 {
+        match self {
+            Self::Displacement(displacement) => 1e3 * displacement.norm(),
+            Self::Number(number) => *number,
+        }
+    }
+
+    /// Its cells in tables, under [`Output::columns`].
+    pub fn cells(&self) -> impl Iterator<Item = f64> {
+        let displacement = match self {
+            Self::Displacement(displacement) => Some(1e3 * displacement),
+            Self::Number(_) => None,
+        };
+        displacement.into_iter().flat_map(<[f64; 3]>::from).chain([self.value()])
+    }
+
+    /// Its numbers in blocks.
+    pub(crate) fn numbers(&self) -> &[f64] {
+        match self {
+            Self::Displacement(displacement) => displacement.as_slice(),
+            Self::Number(number) => std::slice::from_ref(number),
+        }
+    }
+}
+
+impl Output {
+    /// What stands for a failed observation where there has to be a number.
+    pub fn nothing(self) -> Measured {
+        if self.is_length() {
+            Measured::Displacement(Vector3::repeat(f64::NAN))
+        } else {
+            Measured::Number(f64::NAN)
+        }
+    }
+}
 
 /// Why an observation failed.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,19 +70,9 @@ impl From<StaticsError> for Failure {
     }
 }
 
-/// RMS in the unit of tables and figures.
-pub(crate) fn rms_mm(rms: f64) -> f64 {
-    1e3 * rms
-}
-
-/// RMS [mm] of an observation that has not failed.
-pub(crate) fn outcome_rms_mm(outcome: &Observed) -> Option<f64> {
-    outcome.as_ref().ok().map(|displacement| rms_mm(displacement.norm()))
-}
-
-/// dp and RMS [mm].
-pub(crate) fn observed_mm(outcome: &Observed) -> [Option<f64>; 4] {
-    outcome.as_ref().map_or([None; 4], |dp| [1e3 * dp.x, 1e3 * dp.y, 1e3 * dp.z, rms_mm(dp.norm())].map(Some))
+/// Output of an observation that has not failed, in its unit.
+pub(crate) fn value_of(outcome: &Observed) -> Option<f64> {
+    outcome.as_ref().ok().map(Measured::value)
 }
 
 /// `ok`, or the kind of the failure and its reason.

@@ -1,6 +1,7 @@
 //! A study read from its file and checked.
 
 use crate::error::StudyError;
+use crate::file::output::Output;
 use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic, StudyFile};
 use crate::file::value::Value;
 use crate::fs::files::open_robot_from;
@@ -153,6 +154,7 @@ impl Study {
         if let Some(name) = file.surfaces.keys().find(|name| file.samplings.contains_key(*name)) {
             return Err(self.invalid(&format!("surfaces.{name}"), name, "a name that no sampling has"));
         }
+        self.check_output()?;
         self.check_names()?;
         for (name, model) in &file.error_models {
             self.error_model(name, model, &[])?;
@@ -189,6 +191,23 @@ impl Study {
                     "the last printed digit of the number, such as 0.01",
                 ));
             }
+        }
+        Ok(())
+    }
+
+    /// The robot has what the output needs, and what is compared is the output of published figures.
+    fn check_output(&self) -> Result<(), StudyError> {
+        let (output, rows) = (self.file.output, self.file.comparison.len());
+        let rotates = (3..6).any(|k| self.robot.freedoms().contains(k));
+        if output == Output::Frequency && rotates && self.robot.platform.inertia.is_none() {
+            let expected = "a robot with `platform.inertia`, the inertia about the centre of mass, 3 x 3 in \
+                            the platform frame [kg m²]: frequencies depend on it";
+            return Err(self.invalid("output", output, expected));
+        }
+        if output != Output::Deflection && rows > 0 {
+            let expected =
+                format!("no published figures: they are of the deflection, and the output is the {output}");
+            return Err(self.invalid("comparison", format!("{rows} rows"), &expected));
         }
         Ok(())
     }

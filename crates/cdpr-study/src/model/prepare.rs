@@ -3,12 +3,13 @@
 use crate::error::StudyError;
 use crate::file::study_file::{AxisSpec, InputSpec, SamplingSpec, SurfaceSpec};
 use crate::model::error_model::{ErrorModel, Wrong};
+use crate::model::observer::{Observing, OutputObserver};
 use crate::model::operating_point::{Moduli, resolved};
 use crate::model::pose_set::Located;
 use crate::model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis, keys};
 use cdpr_robot::{Parameter, Pose};
 use cdpr_sensitivity::SobolDesign;
-use cdpr_statics::{Deflection, Load, Observer, StaticsError};
+use cdpr_statics::{Deflection, Load, StaticsError};
 use indexmap::IndexMap;
 
 /// Points of one axis of a surface.
@@ -31,8 +32,7 @@ impl Study {
         let Located { name, entry, spec, pose, field } = self.located(name)?;
         let load = Load::payload(self.file.payload);
         let nominal = self.deflection(&field, &pose)?;
-        let observer = Observer::new(&self.robot, &pose, &load);
-        let observer = observer.map_err(|source| self.not_held(&field, &pose, source))?;
+        let (nominal_value, observer) = self.observer(&field, &pose, &nominal)?;
         let (errors, operating_moduli, design) = self.design(entry, spec, &[&nominal])?;
         Ok(Sampling {
             name,
@@ -44,6 +44,7 @@ impl Study {
             errors,
             operating_moduli,
             nominal,
+            nominal_value,
             observer,
             study: self,
         })
@@ -97,9 +98,9 @@ impl Study {
         let [x, y] = self.surface_axes(name, spec)?;
         let field = format!("{field}.pose.position");
         let nominal = self.deflection(&field, &pose)?;
-        let observer = Observer::new(&self.robot, &pose, &load);
-        let observer = observer.map_err(|source| self.not_held(&field, &pose, source))?;
-        Ok(Surface { name, title: &spec.title, robot: &self.robot, pose, load, x, y, nominal, observer })
+        let (nominal_value, observer) = self.observer(&field, &pose, &nominal)?;
+        let (title, robot, output) = (&spec.title, &self.robot, self.file.output);
+        Ok(Surface { name, title, robot, pose, load, x, y, output, nominal, nominal_value, observer })
     }
 
     /// The error model called `name`, of deviations from the robot file.
@@ -203,6 +204,20 @@ impl Study {
 
     fn deflection(&self, field: &str, pose: &Pose) -> Result<Deflection, StudyError> {
         let found = self.nominals.deflection(&self.robot, pose, &Load::payload(self.file.payload));
+        found.map_err(|source| self.not_held(field, pose, source))
+    }
+
+    /// What observes the output at a pose, and the output of the nominal robot.
+    fn observer(
+        &self,
+        field: &str,
+        pose: &Pose,
+        nominal: &Deflection,
+    ) -> Result<(f64, OutputObserver<'_>), StudyError> {
+        let load = Load::payload(self.file.payload);
+        let (robot, output) = (&self.robot, self.file.output);
+        let of = Observing { robot, pose: *pose, load, output, free: &[] };
+        let found = OutputObserver::new(of, nominal).and_then(|found| Ok((found.nominal_value()?, found)));
         found.map_err(|source| self.not_held(field, pose, source))
     }
 

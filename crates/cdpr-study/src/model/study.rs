@@ -1,12 +1,14 @@
 //! A study with its robot, and its parts ready to run.
 
 use crate::error::StudyError;
+use crate::file::output::Output;
 use crate::file::study_file::StudyFile;
 use crate::model::error_model::ErrorModel;
 use crate::model::nominal::Nominals;
+use crate::model::observer::OutputObserver;
 use cdpr_robot::{Parameter, Pose, Robot};
 use cdpr_sensitivity::{SensitivityError, SobolDesign};
-use cdpr_statics::{Deflection, Load, Observer};
+use cdpr_statics::{Deflection, Load};
 use indexmap::IndexMap;
 use std::path::PathBuf;
 
@@ -53,10 +55,19 @@ pub struct Sampling<'a> {
     pub operating_moduli: Option<[f64; 2]>,
     /// The nominal robot's deflection.
     pub nominal: Deflection,
+    /// The nominal robot's output in its unit.
+    pub nominal_value: f64,
     /// Observes the robot with deviations of its parameters.
-    pub observer: Observer<'a>,
+    pub observer: OutputObserver<'a>,
     /// The rest of the study's settings.
     pub study: &'a Study,
+}
+
+impl Sampling<'_> {
+    /// What is observed.
+    pub fn output(&self) -> Output {
+        self.study.file.output
+    }
 }
 
 /// One axis of a surface.
@@ -87,10 +98,14 @@ pub struct Surface<'a> {
     pub x: SurfaceAxis,
     /// Second axis.
     pub y: SurfaceAxis,
+    /// What is observed.
+    pub output: Output,
     /// The nominal robot's deflection.
     pub nominal: Deflection,
+    /// The nominal robot's output in its unit.
+    pub nominal_value: f64,
     /// Observes the robot with deviations of its parameters.
-    pub observer: Observer<'a>,
+    pub observer: OutputObserver<'a>,
 }
 
 impl Study {

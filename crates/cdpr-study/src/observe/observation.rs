@@ -1,9 +1,10 @@
-//! Observations: the deflection of perturbed robots.
+//! Observations: the output of perturbed robots.
 //!
 //! One observation perturbs all parameters of the robot; the inverse model runs on the *perturbed* robot at
 //! the wanted pose; its tensions are offset by dt_i and the unstrained lengths computed for the offset
 //! tensions; the direct model runs on the perturbed robot with those lengths, under its own weight and with
-//! the payload added; dp is the difference (Eq. (4)).
+//! the payload added; dp is the difference (Eq. (4)). Other outputs are of the same chain, except the
+//! position ([`crate::Output`]).
 //!
 //! Observations are made in blocks of consecutive indices, which a [`Session`] may keep on disk, and blocks
 //! in parts, one for each thread. Only the sums of a part stay in memory; they are merged in the order of the
@@ -11,8 +12,9 @@
 //! the blocks that existed before.
 
 use crate::error::StudyError;
+use crate::file::output::Output;
 use crate::model::designs::{OWN, Points};
-use crate::model::observed::{Failure, Observed, count_failed, failures, outcome_rms_mm, rms_mm};
+use crate::model::observed::{Failure, Observed, count_failed, failures, value_of};
 use crate::model::study::Sampling;
 use crate::store::block::{BLOCK, blocks};
 use crate::store::blocks::{BlockId, Blocks};
@@ -40,6 +42,8 @@ pub struct Part {
     pub rows: Vec<f64>,
     /// Result of each observation.
     pub outcomes: Vec<Observed>,
+    /// What is observed.
+    pub output: Output,
 }
 
 /// Where observations are kept, and who is notified of them.
@@ -65,20 +69,20 @@ impl Session<'static> {
 /// The sums over all observations of a sampling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tally {
-    /// Sums behind moments and effects of the RMS [mm].
+    /// Sums behind moments and effects of the output in its unit.
     pub sums: EffectSums,
     /// Number of failed observations by kind of failure; the usual kinds are always listed.
     pub failed: BTreeMap<String, usize>,
-    /// RMS [mm] of the first [`KEPT`] observations, `None` where one failed.
-    pub first_rms_mm: Vec<Option<f64>>,
+    /// Output of the first [`KEPT`] observations, `None` where one failed.
+    pub first_values: Vec<Option<f64>>,
 }
 
 impl Tally {
     fn new(sampling: &Sampling) -> Self {
         Self {
-            sums: EffectSums::new(sampling.design.inputs(), rms_mm(sampling.nominal.rms())),
+            sums: EffectSums::new(sampling.design.inputs(), sampling.nominal_value),
             failed: count_failed(std::iter::empty()),
-            first_rms_mm: Vec::new(),
+            first_values: Vec::new(),
         }
     }
 
@@ -86,9 +90,9 @@ impl Tally {
         let mut tally = Self::new(sampling);
         let inputs = sampling.design.inputs().len();
         for (outcome, row) in part.outcomes.iter().zip(part.rows.chunks_exact(inputs)) {
-            let rms = outcome_rms_mm(outcome);
-            tally.sums.add(row, rms);
-            tally.first_rms_mm.push(rms);
+            let value = value_of(outcome);
+            tally.sums.add(row, value);
+            tally.first_values.push(value);
         }
         tally.failed = count_failed(failures(&part.outcomes));
         tally
@@ -100,8 +104,8 @@ impl Tally {
         for (kind, count) in &next.failed {
             *self.failed.entry(kind.clone()).or_default() += count;
         }
-        let room = KEPT.saturating_sub(self.first_rms_mm.len()).min(next.first_rms_mm.len());
-        self.first_rms_mm.extend_from_slice(&next.first_rms_mm[..room]);
+        let room = KEPT.saturating_sub(self.first_values.len()).min(next.first_values.len());
+        self.first_values.extend_from_slice(&next.first_values[..room]);
     }
 }
 
@@ -153,16 +157,16 @@ pub(crate) fn observe_tally(
     Ok(whole)
 }
 
-/// RMS [mm] of each observation of a design over the inputs of the sampling, `None` where it fails.
-pub(crate) fn observe_rms(
+/// Output of each observation of a design over the inputs of the sampling, `None` where it fails.
+pub(crate) fn observe_values(
     sampling: &Sampling,
     design: (&str, &dyn Points),
     session: &Session,
 ) -> Result<Vec<Option<f64>>, StudyError> {
     let mut all = Vec::with_capacity(design.1.size());
-    let each = |part: &Part| part.outcomes.iter().map(outcome_rms_mm).collect::<Vec<_>>();
-    observe_design(sampling, design, session, each, |rms| {
-        all.extend(rms);
+    let each = |part: &Part| part.outcomes.iter().map(value_of).collect::<Vec<_>>();
+    observe_design(sampling, design, session, each, |values| {
+        all.extend(values);
         Ok(())
     })?;
     Ok(all)
@@ -232,9 +236,9 @@ fn observe_part(sampling: &Sampling, design: &dyn Points, range: Range<usize>, k
     let rows = draw(design, range.clone());
     let unknown = &rows[known.len() * sampling.errors.inputs.len()..];
     let observed = sampling.observer.observe_all(&sampling.errors.deviations(unknown)).into_iter();
-    let observed = observed.map(|outcome| outcome.map(|found| found.displacement).map_err(Failure::from));
+    let observed = observed.map(|outcome| outcome.map_err(Failure::from));
     let outcomes = known.iter().cloned().chain(observed).collect();
-    Part { first: range.start, rows, outcomes }
+    Part { first: range.start, rows, outcomes, output: sampling.output() }
 }
 
 fn draw(design: &dyn Points, range: Range<usize>) -> Vec<f64> {

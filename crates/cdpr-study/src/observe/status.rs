@@ -1,8 +1,9 @@
 //! Progress of a study in a folder of results.
 
 use crate::error::StudyError;
+use crate::file::output::Output;
 use crate::model::designs::Design;
-use crate::model::observed::{Observed, failures, outcome_rms_mm};
+use crate::model::observed::{Observed, failures, value_of};
 use crate::model::study::Study;
 use crate::observe::plan::{Plan, Planned};
 use crate::store::blocks::{BlockId, Blocks};
@@ -37,9 +38,10 @@ pub struct SamplingStatus {
     /// Poses at which the nominal robot has no feasible tensions, and which therefore have no blocks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poses_not_held: Option<usize>,
-    /// Moments of the RMS over the existing observations of its own design; `None` for fewer than two, or for
-    /// several poses.
-    pub provisional_rms_mm: Option<Provisional>,
+    /// Moments of the output over the existing observations of its own design; `None` for fewer than two, or
+    /// for several poses.
+    #[serde(flatten)]
+    pub provisional: SoFar,
 }
 
 /// Progress of a design.
@@ -60,7 +62,22 @@ pub struct DesignStatus {
     pub failed: BTreeMap<String, usize>,
 }
 
-/// Moments of the observations so far [mm].
+/// Moments of the output over the observations so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoFar {
+    /// What is observed.
+    pub output: Output,
+    /// Its moments in its unit.
+    pub moments: Option<Provisional>,
+}
+
+impl Serialize for SoFar {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map([(self.output.named("provisional_rms_mm"), self.moments)])
+    }
+}
+
+/// Moments of the observations so far.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Provisional {
     /// Mean.
@@ -83,8 +100,9 @@ pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
     for (name, spec) in &study.file.samplings {
         let designs = study.designs(name, spec)?.into_iter();
         let designs = designs.map(|(design, _)| (design.name(), DesignStatus::default())).collect();
+        let provisional = SoFar { output: study.file.output, moments: None };
         let poses_not_held = spec.poses.as_ref().map(|_| 0);
-        samplings.insert(name.clone(), SamplingStatus { designs, poses_not_held, provisional_rms_mm: None });
+        samplings.insert(name.clone(), SamplingStatus { designs, poses_not_held, provisional });
     }
     let mut moments: IndexMap<String, Moments> = IndexMap::new();
     visit(
@@ -113,13 +131,13 @@ pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
             }
             if block.design == Design::Own && sampling.poses_not_held.is_none() {
                 let moments = moments.entry(block.entry.to_owned()).or_default();
-                outcomes.iter().for_each(|outcome| moments.add(outcome_rms_mm(outcome)));
+                outcomes.iter().for_each(|outcome| moments.add(value_of(outcome)));
             }
         },
     )?;
     for (name, sampling) in &mut samplings {
-        let rms = moments.get(name).and_then(|moments| moments.summary().ok());
-        sampling.provisional_rms_mm = rms.map(|rms| Provisional { mean: rms.mean, std: rms.std });
+        let found = moments.get(name).and_then(|moments| moments.summary().ok());
+        sampling.provisional.moments = found.map(|found| Provisional { mean: found.mean, std: found.std });
     }
     let mut all = samplings.values().flat_map(|sampling: &SamplingStatus| sampling.designs.values());
     let complete = all.all(|design| design.blocks_missing == 0);

@@ -3,7 +3,7 @@
 
 use crate::error::StudyError;
 use crate::fs::owned::{ResultFile, ResultsFolder};
-use crate::model::observed::{observed_mm, status};
+use crate::model::observed::{Observed, status};
 use crate::model::study::Sampling;
 use crate::observe::observation::Part;
 use cdpr_robot::Parameter;
@@ -20,9 +20,6 @@ use std::sync::Arc;
 
 /// Rows of a row group, which is held in memory: those of four blocks.
 const GROUP: usize = 1 << 16;
-
-/// The observed quantities, beside status and reason.
-const OBSERVED: [&str; 4] = ["dx_mm", "dy_mm", "dz_mm", "rms_mm"];
 
 /// `NAME.parquet`, being written.
 pub(crate) struct ParquetTable {
@@ -97,7 +94,7 @@ fn schema(sampling: &Sampling) -> Result<TypePtr> {
     for input in sampling.design.inputs() {
         columns.push(number(&format!("d_{}", input.name), Repetition::REQUIRED)?);
     }
-    for name in OBSERVED {
+    for name in sampling.output().columns() {
         columns.push(number(name, Repetition::OPTIONAL)?);
     }
     columns.push(text("status", Repetition::REQUIRED)?);
@@ -107,7 +104,7 @@ fn schema(sampling: &Sampling) -> Result<TypePtr> {
 
 /// The study of the table, and the unit of each column that has one.
 fn provenance(sampling: &Sampling, hash: String) -> Vec<KeyValue> {
-    let parameters = Parameter::of(sampling.robot);
+    let (parameters, output) = (Parameter::of(sampling.robot), sampling.output());
     let inputs = sampling.design.inputs().iter().enumerate().filter_map(|(number, input)| {
         // A cause of parameters in different units has no unit.
         let mut terms = sampling.errors.terms.iter().filter(|term| term.input == number);
@@ -116,7 +113,7 @@ fn provenance(sampling: &Sampling, hash: String) -> Vec<KeyValue> {
         same.then(|| (format!("d_{}", input.name), unit))
     });
     let units = inputs
-        .chain(OBSERVED.map(|name| (name.to_owned(), "mm")))
+        .chain(output.columns().iter().map(|name| ((*name).to_owned(), output.unit())))
         .map(|(column, unit)| (column, unit.into()));
     let units: serde_json::Map<String, serde_json::Value> = units.collect();
     let seed = sampling.study.file.seed.to_string();
@@ -153,8 +150,9 @@ fn write_columns(
     }
     // A level of 0 is an absent value: that of an observation that failed.
     let levels: Vec<i16> = outcomes().map(|outcome| outcome.is_ok().into()).collect();
-    for observed in 0..OBSERVED.len() {
-        let values: Vec<f64> = outcomes().filter_map(|outcome| observed_mm(outcome)[observed]).collect();
+    for column in 0..parts.first().map_or(0, |part| part.output.columns().len()) {
+        let cell = |outcome: &Observed| outcome.as_ref().ok()?.cells().nth(column);
+        let values: Vec<f64> = outcomes().filter_map(cell).collect();
         write_column::<DoubleType>(group, &values, Some(&levels))?;
     }
     let kinds: Vec<ByteArray> = outcomes().map(|outcome| status(outcome).0.into()).collect();

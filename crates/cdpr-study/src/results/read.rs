@@ -1,5 +1,6 @@
 //! A folder of results read back, for reports and comparisons.
 
+use crate::analysis::keys::To;
 use crate::analysis::part::StudySummary;
 use crate::analysis::poses::{PoseRow, PosesSummary};
 use crate::analysis::summary::Summary;
@@ -16,6 +17,7 @@ use crate::store::folder::check_hash;
 use cdpr_robot::from_json;
 use indexmap::IndexMap;
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The content of a folder of results, except the observations.
@@ -58,7 +60,7 @@ impl Results {
         if !path.exists() {
             return Err(StudyError::NotAnalysed { folder: folder.to_owned() });
         }
-        let summary: Summary = read_json(&path)?;
+        let summary = read_summary(&path)?;
         if !summary.hash.is_empty() && summary.hash != hash {
             return Err(StudyError::Mixed { path, found: summary.hash, expected: hash });
         }
@@ -99,7 +101,7 @@ impl Results {
         }
         let owned = ResultsFolder::begin(folder, ResultsOf::Study, |name| name == REPORT_NAME)?;
         let path = folder.join(SUMMARY_NAME);
-        if !path.exists() || read_json::<Summary>(&path)? != self.summary {
+        if !path.exists() || read_summary(&path)? != self.summary {
             return Err(StudyError::NotAnalysed { folder: folder.to_owned() });
         }
         owned.remove_unfinished()?;
@@ -112,6 +114,16 @@ fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, StudyError> {
         .map_err(|source| StudyError::Format { path: path.to_owned(), source })
 }
 
+/// Reads `summary.json`, whose names depend on the output.
+fn read_summary(path: &Path) -> Result<Summary, StudyError> {
+    let mut summary: Value = read_json(path)?;
+    if !summary.get_mut("studies").is_some_and(|studies| To::Memory.studies(studies)) {
+        return read_json(path);
+    }
+    // Lines are as in the file.
+    from_json(&format!("{summary:#}")).map_err(|source| StudyError::Format { path: path.to_owned(), source })
+}
+
 /// Reads the table that `write_poses` has written.
 fn read_poses(path: &Path, text: &str, summary: &PosesSummary) -> Result<Vec<PoseRow>, StudyError> {
     let invalid = |field: String, value: String, expected: String| StudyError::Invalid {
@@ -120,6 +132,7 @@ fn read_poses(path: &Path, text: &str, summary: &PosesSummary) -> Result<Vec<Pos
         value,
         expected,
     };
+    let text = To::Memory.table(summary.output, text);
     let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize().enumerate();
     let row = |(k, row): (usize, Result<PoseRow, csv::Error>)| {
         row.map_err(|error| {
@@ -151,11 +164,11 @@ fn read_surface(
     };
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let mut points = Vec::new();
+    let expected = format!("two parameters, {} and status", summary.output.name());
     for (k, record) in reader.deserialize::<(f64, f64, Option<f64>, String)>().enumerate() {
-        let (x, y, rms, status) = record.map_err(|error| {
-            invalid(format!("row {}", k + 1), &error.to_string(), "two parameters, rms_mm and status")
-        })?;
-        points.push((x, y, rms.ok_or(status)));
+        let (x, y, value, status) =
+            record.map_err(|error| invalid(format!("row {}", k + 1), &error.to_string(), &expected))?;
+        points.push((x, y, value.ok_or(status)));
     }
     let columns = points.iter().take_while(|point| point.0 == points[0].0).count();
     let whole = columns > 0 && points.len() % columns == 0 && points.len() == summary.observations;
@@ -168,6 +181,6 @@ fn read_surface(
     Ok(SurfaceResult {
         x: points.iter().step_by(columns).map(|point| point.0).collect(),
         y: points[..columns].iter().map(|point| point.1).collect(),
-        rms_mm: points.into_iter().map(|(.., rms)| rms).collect(),
+        values: points.into_iter().map(|(.., value)| value).collect(),
     })
 }

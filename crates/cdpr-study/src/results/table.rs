@@ -1,9 +1,9 @@
 //! Tables of the observations of a sampling. Each observation is a row with the deviation of every parameter
-//! from its nominal value, dp, RMS, status and reason.
+//! from its nominal value, the columns of the output, status and reason.
 
 use crate::error::StudyError;
 use crate::fs::owned::{ResultFile, ResultsFolder};
-use crate::model::observed::{observed_mm, status};
+use crate::model::observed::status;
 use crate::model::study::Sampling;
 use crate::observe::observation::Part;
 use cdpr_sensitivity::SampleDesign;
@@ -64,8 +64,8 @@ impl TableFormat {
 }
 
 impl ObservationTable {
-    /// Begins the table of a sampling, and removes one of an earlier run: `d_mass`, ... in SI units, `dx_mm`,
-    /// ..., `rms_mm`, `status` and `reason`.
+    /// Begins the table of a sampling, and removes one of an earlier run: `d_mass`, ... in SI units, the
+    /// columns of the output, `status` and `reason`.
     ///
     /// # Errors
     /// [`StudyError::Write`].
@@ -76,7 +76,8 @@ impl ObservationTable {
         let names = sampling.design.inputs().iter().map(|input| format!("d_{}", input.name));
         match format {
             TableFormat::Csv => {
-                let rest = ["dx_mm", "dy_mm", "dz_mm", "rms_mm", "status", "reason"].map(str::to_owned);
+                let rest = sampling.output().columns().iter().chain(&["status", "reason"]);
+                let rest = rest.map(|name| (*name).to_owned());
                 let header: Vec<String> = ["index".to_owned()].into_iter().chain(names).chain(rest).collect();
                 let mut file = folder.create(&format!("{}.csv", sampling.name))?;
                 match file.write_all((header.join(",") + "\n").as_bytes()) {
@@ -132,11 +133,9 @@ fn csv_rows(part: &Part) -> std::io::Result<Vec<u8>> {
     for (index, (row, outcome)) in (part.first..).zip(part.rows.chunks_exact(inputs).zip(&part.outcomes)) {
         write!(text, "{index}")?;
         row.iter().try_for_each(|value| write!(text, ",{value}"))?;
-        for value in observed_mm(outcome) {
-            match value {
-                Some(value) => write!(text, ",{value}")?,
-                None => text.push(b','),
-            }
+        match outcome {
+            Ok(measured) => measured.cells().try_for_each(|value| write!(text, ",{value}"))?,
+            Err(_) => text.extend(part.output.columns().iter().map(|_| b',')),
         }
         text.push(b',');
         match outcome {

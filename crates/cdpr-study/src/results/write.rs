@@ -1,10 +1,12 @@
 //! Result files: observations as CSV, the summary as JSON.
 
+use crate::analysis::keys::To;
 use crate::analysis::poses::PoseRow;
 use crate::analysis::sensitivity::SensitivitySummary;
 use crate::analysis::summary::Summary;
 use crate::analysis::surface::SurfaceResult;
 use crate::error::StudyError;
+use crate::file::output::Output;
 use crate::fs::owned::ResultsFolder;
 use crate::model::study::Surface;
 use crate::names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
@@ -12,7 +14,8 @@ use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Writes `NAME.csv`: one row a grid point, with the values of both parameters (in SI units), RMS and status.
+/// Writes `NAME.csv`: one row a grid point, with the values of both parameters (in SI units), output and
+/// status.
 ///
 /// # Errors
 /// As [`ResultsFolder::claim`].
@@ -24,13 +27,13 @@ pub fn write_surface(
     let header = vec![
         surface.x.parameter.to_string(),
         surface.y.parameter.to_string(),
-        "rms_mm".to_owned(),
+        surface.output.name().to_owned(),
         "status".to_owned(),
     ];
     let columns = result.y.len();
-    let rows = result.rms_mm.iter().enumerate().map(|(k, rms)| {
-        let (value, status) = match rms {
-            Ok(rms) => (rms.to_string(), "ok"),
+    let rows = result.values.iter().enumerate().map(|(k, value)| {
+        let (value, status) = match value {
+            Ok(value) => (value.to_string(), "ok"),
             Err(error) => (String::new(), error.kind()),
         };
         vec![result.x[k / columns].to_string(), result.y[k % columns].to_string(), value, status.to_owned()]
@@ -46,17 +49,38 @@ pub fn write_surface(
 pub fn write_sensitivity(
     folder: &ResultsFolder,
     name: &str,
+    output: Output,
     sensitivity: &SensitivitySummary,
 ) -> Result<PathBuf, StudyError> {
-    folder.write_rows(&format!("{name}_sensitivity.csv"), &sensitivity.inputs)
+    write_named(folder, &format!("{name}_sensitivity.csv"), output, &sensitivity.inputs)
 }
 
 /// Writes `NAME.csv` of a sampling at several poses: one row each.
 ///
 /// # Errors
 /// As [`ResultsFolder::claim`].
-pub fn write_poses(folder: &ResultsFolder, name: &str, rows: &[PoseRow]) -> Result<PathBuf, StudyError> {
-    folder.write_rows(&format!("{name}.csv"), rows)
+pub fn write_poses(
+    folder: &ResultsFolder,
+    name: &str,
+    output: Output,
+    rows: &[PoseRow],
+) -> Result<PathBuf, StudyError> {
+    write_named(folder, &format!("{name}.csv"), output, rows)
+}
+
+/// Writes a table whose header has the names of an output.
+fn write_named<T: Serialize>(
+    folder: &ResultsFolder,
+    name: &str,
+    output: Output,
+    rows: &[T],
+) -> Result<PathBuf, StudyError> {
+    let unwritten = |source| StudyError::Write { path: folder.path().join(name), source };
+    let mut table = csv::Writer::from_writer(Vec::new());
+    rows.iter().try_for_each(|row| table.serialize(row)).map_err(|error| unwritten(error.into()))?;
+    let text = table.into_inner().map_err(|error| unwritten(error.into_error()))?;
+    let text = String::from_utf8(text).map_err(|error| unwritten(std::io::Error::other(error)))?;
+    folder.write(name, To::File.table(output, &text).as_bytes())
 }
 
 /// Writes `summary.json`, after all else that belongs to it ([`ResultsFolder::conclude`]).

@@ -5,11 +5,12 @@
 //! cdpr-block/1 CHECKSUM        BLAKE3, in hexadecimal digits, of all that follows this line
 //! {"version":.., "study":.., "sampling":.., "design":.., "first":.., "observations":.., "failed":{..}}
 //! dx dy dz ...                 displacement [m] of each observation as little-endian 64-bit floats; NaN
-//!                              where it failed
+//!                              where it failed; of an output that is no length one number in its unit
 //! [[index, kind, reason], ...] failed observations, counted from the first of the block
 //! ```
 
-use crate::model::observed::{Failure, Observed};
+use crate::file::output::Output;
+use crate::model::observed::{Failure, Measured, Observed};
 use cdpr_robot::Vector3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -21,8 +22,8 @@ pub(crate) const BLOCK_FORMAT: &str = "cdpr-block/1";
 /// Observations of a block, except the last one of a design: the unit of work, of saving and of summing.
 pub const BLOCK: usize = 16_384;
 
-/// Bytes of a displacement.
-const DISPLACEMENT: usize = 24;
+/// Bytes of a number.
+const NUMBER: usize = 8;
 
 /// The header of a block.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,6 +41,9 @@ pub(crate) struct BlockHeader {
     pub(crate) first: usize,
     /// Number of observations.
     pub(crate) observations: usize,
+    /// What is observed.
+    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    pub(crate) output: Output,
     /// Failed ones by kind.
     pub(crate) failed: BTreeMap<String, usize>,
 }
@@ -66,9 +70,9 @@ pub(crate) fn range(points: usize, number: usize) -> Range<usize> {
 pub(crate) fn encode(header: &BlockHeader, outcomes: &[Observed]) -> Result<Vec<u8>, serde_json::Error> {
     let mut body = serde_json::to_vec(header)?;
     body.push(b'\n');
-    let none = Vector3::repeat(f64::NAN);
-    for displacement in outcomes.iter().map(|outcome| outcome.as_ref().unwrap_or(&none)) {
-        displacement.iter().for_each(|value| body.extend_from_slice(&value.to_le_bytes()));
+    let none = header.output.nothing();
+    for measured in outcomes.iter().map(|outcome| outcome.as_ref().unwrap_or(&none)) {
+        measured.numbers().iter().for_each(|value| body.extend_from_slice(&value.to_le_bytes()));
     }
     let failures: Vec<(usize, &str, &str)> = outcomes
         .iter()
@@ -96,12 +100,15 @@ pub(crate) fn decode(file: &[u8]) -> Result<(BlockHeader, Vec<Observed>), String
     }
     let (header, payload) = line(body).ok_or("no header in it")?;
     let header: BlockHeader = serde_json::from_slice(header).map_err(|error| format!("header: {error}"))?;
-    let bytes = header.observations.checked_mul(DISPLACEMENT).filter(|bytes| *bytes <= payload.len());
-    let (displacements, failures) = payload.split_at(bytes.ok_or("fewer observations than its header says")?);
-    let mut outcomes: Vec<Observed> = displacements
-        .chunks_exact(DISPLACEMENT)
-        .map(|bytes| Ok(Vector3::from_fn(|k, _| float(&bytes[8 * k..8 * (k + 1)]))))
-        .collect();
+    let each = NUMBER * header.output.nothing().numbers().len();
+    let bytes = header.observations.checked_mul(each).filter(|bytes| *bytes <= payload.len());
+    let (measured, failures) = payload.split_at(bytes.ok_or("fewer observations than its header says")?);
+    let number = |bytes: &[u8], k: usize| float(&bytes[NUMBER * k..NUMBER * (k + 1)]);
+    let one = |bytes| match header.output.nothing() {
+        Measured::Displacement(_) => Measured::Displacement(Vector3::from_fn(|k, _| number(bytes, k))),
+        Measured::Number(_) => Measured::Number(number(bytes, 0)),
+    };
+    let mut outcomes: Vec<Observed> = measured.chunks_exact(each).map(|bytes| Ok(one(bytes))).collect();
     let failures: Vec<(usize, String, String)> =
         serde_json::from_slice(failures).map_err(|error| format!("failures: {error}"))?;
     for (k, kind, reason) in failures {
@@ -142,10 +149,17 @@ mod tests {
             design: "replicate-2".to_owned(),
             first: BLOCK,
             observations: 3,
+            output: Output::Deflection,
             failed: [("infeasible_tension".to_owned(), 1)].into(),
         };
         let numbers = [Vector3::new(1.5e-3, -0.0, 5e-324), Vector3::new(-1e300, 0.1, 1.0 / 3.0)];
-        (header, vec![Ok(numbers[0]), Err(failure), Ok(numbers[1])])
+        let [first, last] = numbers.map(|vector| Ok(Measured::Displacement(vector)));
+        (header, vec![first, Err(failure), last])
+    }
+
+    fn bits(outcomes: &[Observed]) -> Vec<Result<Vec<u64>, Failure>> {
+        let bits = |measured: &Measured| measured.numbers().iter().map(|value| value.to_bits()).collect();
+        outcomes.iter().map(|outcome| outcome.as_ref().map(bits).map_err(Clone::clone)).collect()
     }
 
     #[test]
@@ -153,10 +167,11 @@ mod tests {
         let (header, outcomes) = block();
         let (read_header, read) = decode(&encode(&header, &outcomes).unwrap()).unwrap();
         assert_eq!(read_header, header);
-        let bits = |outcome: &Observed| {
-            outcome.as_ref().map(|displacement| displacement.map(f64::to_bits)).map_err(Clone::clone)
-        };
-        assert_eq!(read.iter().map(bits).collect::<Vec<_>>(), outcomes.iter().map(bits).collect::<Vec<_>>());
+        assert_eq!(bits(&read), bits(&outcomes));
+        let header = BlockHeader { output: Output::Frequency, ..header };
+        let numbers = [Ok(Measured::Number(1.0 / 3.0)), outcomes[1].clone(), Ok(Measured::Number(-0.0))];
+        let file = encode(&header, &numbers).unwrap();
+        assert_eq!(bits(&decode(&file).unwrap().1), bits(&numbers));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! are not followed.
 
 use crate::error::StudyError;
+use crate::file::output::Output;
 use crate::fs::atomic::{is_unfinished, remove_unfinished, write_atomic};
 use crate::fs::disk;
 use crate::fs::input::{read_bytes, read_start};
@@ -32,6 +33,8 @@ pub struct Blocks {
     folder: PathBuf,
     /// Hashes of the samplings of the study file, by name.
     hashes: IndexMap<String, String>,
+    /// What the study observes.
+    output: Output,
 }
 
 /// Identity of a block.
@@ -55,6 +58,7 @@ impl Blocks {
             owned: None,
             folder: results.join(BLOCKS_NAME),
             hashes: hashes.collect::<Result<_, StudyError>>()?,
+            output: study.file.output,
         })
     }
 
@@ -235,6 +239,7 @@ impl Blocks {
             design: id.design.to_owned(),
             first: id.number * BLOCK,
             observations: outcomes.len(),
+            output: self.output,
             failed: count_failed(failures(outcomes)),
         }
     }
@@ -317,6 +322,7 @@ mod tests {
     use super::*;
     use crate::fs::atomic::AtomicFile;
     use crate::fs::manifest::ResultsOf;
+    use crate::model::observed::Measured;
     use cdpr_robot::Vector3;
     use std::fs;
     use std::io::Write;
@@ -329,6 +335,7 @@ mod tests {
             owned: Some(Arc::new(owned)),
             folder: results.join(BLOCKS_NAME),
             hashes: [("mechanical".to_owned(), "a hash".to_owned())].into(),
+            output: Output::Deflection,
         }
     }
 
@@ -339,7 +346,7 @@ mod tests {
         let id = BlockId { sampling: "mechanical", design: "sampling", number: 0 };
         for (observations, stays) in [(2, false), (2, true), (1, true), (3, false)] {
             fs::write(&summary, "of all blocks").unwrap();
-            blocks.write(&id, &vec![Ok(Vector3::zeros()); observations]).unwrap();
+            blocks.write(&id, &vec![Ok(Measured::Displacement(Vector3::zeros())); observations]).unwrap();
             assert_eq!(summary.exists(), stays, "{observations} observations");
             assert!(blocks.read(&id).unwrap().len() >= observations);
         }

@@ -1,15 +1,15 @@
 //! The measures of sensitivity of a sampling on the terminal.
 
 use crate::output::table;
-use cdpr_study::{MEASURES, Measure, Quantity, SensitivitySummary};
+use cdpr_study::{MEASURES, Measure, Output, Quantity, SensitivitySummary};
 
 /// Number of leading inputs in the table.
 const MOST: usize = 10;
 
 /// Prints inputs and groups of them, methods, and what the methods agree on.
-pub(crate) fn print(heading: &str, found: &SensitivitySummary) {
+pub(crate) fn print(heading: &str, output: Output, found: &SensitivitySummary) {
     println!("{heading}");
-    print_inputs(found);
+    print_inputs(output, found);
     print_methods(found);
     let agreement = &found.agreement;
     let agreed = if agreement.inputs.is_empty() { "none".to_owned() } else { agreement.inputs.join(", ") };
@@ -20,13 +20,14 @@ pub(crate) fn print(heading: &str, found: &SensitivitySummary) {
     println!();
 }
 
-fn print_inputs(found: &SensitivitySummary) {
+fn print_inputs(output: Output, found: &SensitivitySummary) {
+    let (unit, per_unit) = output.fine_unit();
     let mut rows =
         table(&["input"].into_iter().chain(MEASURES.map(|measure| measure.label)).collect::<Vec<_>>());
     for input in found.leading().into_iter().take(MOST) {
         let cell = |measure: Measure| match (measure.quantity, (measure.interval)(input)) {
             (Quantity::Index, _) => number((measure.value)(input), 1.0, 2),
-            (Quantity::Change, _) => number((measure.value)(input), 1e3, 2),
+            (Quantity::Change, _) => number((measure.value)(input), per_unit, 2),
             (Quantity::Share | Quantity::Bound, None) => percent((measure.value)(input)),
             (Quantity::Share | Quantity::Bound, Some(ends)) => interval((measure.value)(input), ends),
         };
@@ -38,7 +39,7 @@ fn print_inputs(found: &SensitivitySummary) {
     }
     println!("{rows}");
     println!(
-        "signed effect, Morris \u{b5}* and \u{3c3} [\u{b5}m]; t-Student [-]; all others in % of the variance, \
+        "signed effect, Morris \u{b5}* and \u{3c3} [{unit}]; t-Student [-]; all others in % of the variance, \
          first order unless total; DGSM a bound on the total"
     );
 }

@@ -1,0 +1,152 @@
+//! The output of a study: which number is observed of every robot, and what it is called.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// The number that is observed of every robot. All statistics and measures of sensitivity are of this number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Output {
+    /// Length of the displacement of P under the payload [mm], the RMS of the static deflection.
+    #[default]
+    Deflection,
+    /// Distance of P from where the nominal robot stands, if the robot is given the nominal robot's
+    /// unstrained lengths [mm]: the accuracy of the position without payload. Offsets of tension set-points
+    /// are in these lengths.
+    Position,
+    /// Lowest natural frequency [Hz] of the platform with the payload, where it stands after the deflection.
+    /// Motions that nothing resists do not count.
+    Frequency,
+    /// Lowest stiffness [N/m] of the platform with the payload, where it stands after the deflection.
+    /// Rotations are times the characteristic length, and motions that nothing resists do not count.
+    Stiffness,
+}
+
+/// What an output is called.
+struct Words {
+    columns: &'static [&'static str],
+    unit: &'static str,
+    /// Ending of the names of its statistics.
+    ending: &'static str,
+    label: &'static str,
+    short: &'static str,
+    fine: (&'static str, f64),
+}
+
+impl Output {
+    const fn words(self) -> Words {
+        match self {
+            Self::Deflection => Words {
+                columns: &["dx_mm", "dy_mm", "dz_mm", "rms_mm"],
+                unit: "mm",
+                ending: "_mm",
+                label: "RMS of the static deflection",
+                short: "RMS",
+                fine: ("\u{b5}m", 1e3),
+            },
+            Self::Position => Words {
+                columns: &["dx_mm", "dy_mm", "dz_mm", "position_error_mm"],
+                unit: "mm",
+                ending: "_mm",
+                label: "position error without payload",
+                short: "position error",
+                fine: ("\u{b5}m", 1e3),
+            },
+            Self::Frequency => Words {
+                columns: &["frequency_hz"],
+                unit: "Hz",
+                ending: "_hz",
+                label: "lowest natural frequency",
+                short: "frequency",
+                fine: ("mHz", 1e3),
+            },
+            Self::Stiffness => Words {
+                columns: &["least_stiffness"],
+                unit: "N/m",
+                ending: "_n_per_m",
+                label: "lowest stiffness",
+                short: "stiffness",
+                fine: ("N/m", 1.0),
+            },
+        }
+    }
+
+    /// The columns of an observation in tables; the last one is the output.
+    pub const fn columns(self) -> &'static [&'static str] {
+        self.words().columns
+    }
+
+    /// Name of the output in files.
+    pub const fn name(self) -> &'static str {
+        let columns = self.columns();
+        columns[columns.len() - 1]
+    }
+
+    /// Its unit.
+    pub const fn unit(self) -> &'static str {
+        self.words().unit
+    }
+
+    /// What it is, in words.
+    pub const fn label(self) -> &'static str {
+        self.words().label
+    }
+
+    /// The same in one word or two.
+    pub const fn short(self) -> &'static str {
+        self.words().short
+    }
+
+    /// The quantity that is observed, whose size the output is.
+    pub const fn noun(self) -> &'static str {
+        match self {
+            Self::Deflection => "deflection",
+            _ => self.short(),
+        }
+    }
+
+    /// Label and unit, for an axis.
+    pub fn axis(self) -> String {
+        format!("{} [{}]", self.label(), self.unit())
+    }
+
+    /// Unit of small changes of the output, and how many of these its unit has.
+    pub const fn fine_unit(self) -> (&'static str, f64) {
+        self.words().fine
+    }
+
+    /// The name in files of a quantity of this output, from the one that it has for deflections: `rms_mm` and
+    /// `mean_mm` are `frequency_hz` and `mean_hz` of a frequency.
+    pub fn named(self, of_deflection: &str) -> String {
+        if let Some(before) = of_deflection.strip_suffix(Self::Deflection.name()) {
+            return format!("{before}{}", self.name());
+        }
+        match of_deflection.strip_suffix(Self::Deflection.words().ending) {
+            Some(before) => format!("{before}{}", self.words().ending),
+            None => of_deflection.to_owned(),
+        }
+    }
+
+    /// Whether it is the deflection, the only output of earlier versions.
+    #[allow(clippy::trivially_copy_pass_by_ref)]
+    pub(crate) fn is_deflection(&self) -> bool {
+        *self == Self::Deflection
+    }
+
+    /// Whether it is the length of a displacement.
+    pub(crate) fn is_length(self) -> bool {
+        matches!(self, Self::Deflection | Self::Position)
+    }
+}
+
+impl fmt::Display for Output {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Deflection => "deflection",
+            Self::Position => "position",
+            Self::Frequency => "frequency",
+            Self::Stiffness => "stiffness",
+        })
+    }
+}

@@ -1,0 +1,191 @@
+//! The output of a study for one robot whose parameters deviate.
+//!
+//! Deflections of robots with a cable for every free motion are observed in lanes ([`Observer`]); all else by
+//! the scalar models, one robot at a time.
+
+use crate::file::output::Output;
+use crate::model::error_model::ErrorModel;
+use crate::model::observed::Measured;
+use cdpr_robot::{Coordinate, Parameter, Perturbed, Pose, Robot, Vector3};
+use cdpr_statics::{
+    Deflection, DirectProblem, Load, Matrix3xX, Observer, Start, StaticsError, deflection_free, derivatives,
+    direct, wound_lengths,
+};
+use std::borrow::Cow;
+
+/// Observes the output of a study.
+#[derive(Clone, Debug)]
+pub struct OutputObserver<'a> {
+    robot: &'a Robot,
+    pose: Pose,
+    load: Load,
+    output: Output,
+    free: &'a [Coordinate],
+    /// The nominal robot.
+    nominal: Deflection,
+    /// Observes the deflection, whatever the output is.
+    pub deflections: Observer<'a>,
+}
+
+/// What is observed, and of which robot.
+pub(crate) struct Observing<'a> {
+    pub(crate) robot: &'a Robot,
+    pub(crate) pose: Pose,
+    pub(crate) load: Load,
+    pub(crate) output: Output,
+    pub(crate) free: &'a [Coordinate],
+}
+
+impl<'a> OutputObserver<'a> {
+    /// # Errors
+    /// As [`Observer::new`].
+    pub(crate) fn new(of: Observing<'a>, nominal: &Deflection) -> Result<Self, StaticsError> {
+        let Observing { robot, pose, load, output, free } = of;
+        let deflections = Observer::new(robot, &pose, &load)?;
+        Ok(Self { robot, pose, load, output, free, nominal: nominal.clone(), deflections })
+    }
+
+    /// The output of the nominal robot in its unit.
+    ///
+    /// # Errors
+    /// [`StaticsError`] says why it has none.
+    pub(crate) fn nominal_value(&self) -> Result<f64, StaticsError> {
+        let of_nominal = |_: &Robot| Ok(Cow::Borrowed(&self.nominal));
+        match self.output {
+            Output::Position => Ok(0.0),
+            _ => Ok(self.measured(self.robot, of_nominal)?.value()),
+        }
+    }
+
+    /// Observes any number of robots: `deviations` has a row of all parameters for each, one after the other.
+    /// A robot without the output is an error with the reason.
+    pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Measured, StaticsError>> {
+        if self.output == Output::Deflection && self.free.is_empty() {
+            let outcomes = self.deflections.observe_all(deviations).into_iter();
+            return outcomes
+                .map(|found| found.map(|found| Measured::Displacement(found.displacement)))
+                .collect();
+        }
+        deviations.chunks(Parameter::of(self.robot).len()).map(|row| self.observe(row)).collect()
+    }
+
+    fn observe(&self, deviations: &[f64]) -> Result<Measured, StaticsError> {
+        let perturbed = self.robot.perturbed(deviations)?;
+        if self.output == Output::Position {
+            return self.displaced(&perturbed).map(Measured::Displacement);
+        }
+        let deflection = |robot: &Robot| {
+            let found =
+                deflection_free(robot, &self.pose, &perturbed.tension_offsets, &self.load, self.free)?;
+            Ok(Cow::Owned(found))
+        };
+        self.measured(&perturbed.robot, deflection)
+    }
+
+    /// The output of a robot that is deflected by the load; not its position.
+    fn measured<'b>(
+        &self,
+        robot: &Robot,
+        deflection: impl FnOnce(&Robot) -> Result<Cow<'b, Deflection>, StaticsError>,
+    ) -> Result<Measured, StaticsError> {
+        let found = deflection(robot)?;
+        Ok(match self.output {
+            Output::Deflection | Output::Position => Measured::Displacement(found.displacement()),
+            Output::Stiffness => Measured::Number(found.loaded.stability.least_stiffness()),
+            Output::Frequency => {
+                let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
+                let modes = problem.modes(&found.loaded.equilibrium)?;
+                let resisted = modes.iter().map(|mode| mode.frequency).find(|frequency| *frequency > 0.0);
+                Measured::Number(resisted.unwrap_or(0.0))
+            }
+        })
+    }
+
+    /// Displacement of P [m] of a robot without the load that is given the nominal robot's lengths, from
+    /// where the nominal robot stands. Offsets of tension set-points are in these lengths.
+    ///
+    /// # Errors
+    /// Those of the models.
+    pub fn displaced(&self, perturbed: &Perturbed) -> Result<Vector3<f64>, StaticsError> {
+        let rest = &self.nominal.unloaded.equilibrium;
+        let lengths = self.lengths(perturbed)?;
+        let found = direct(&perturbed.robot, &lengths, &Load::none(), Start::Near(rest))?;
+        Ok(found.equilibrium.pose.position - rest.pose.position)
+    }
+
+    /// [`OutputObserver::displaced`] with its derivatives with respect to the parameters [m per unit]; those
+    /// of the tension set-points only where an error model has them.
+    ///
+    /// # Errors
+    /// Those of the models and of their derivatives.
+    pub fn displaced_slopes(
+        &self,
+        perturbed: &Perturbed,
+        errors: &ErrorModel,
+    ) -> Result<(Vector3<f64>, Matrix3xX<f64>), StaticsError> {
+        let rest = &self.nominal.unloaded.equilibrium;
+        let (none, lengths) = (Load::none(), self.lengths(perturbed)?);
+        let problem = DirectProblem::new(&perturbed.robot, &lengths, &none)?;
+        let found = problem.direct(Start::Near(rest))?.equilibrium;
+        let mut slopes: Matrix3xX<f64> = problem.derivatives(&found)?.pose.fixed_rows::<3>(0).into();
+        if errors.has_offsets() {
+            // Offsets act through the lengths alone, which are those of the nominal robot.
+            let wound = derivatives(self.robot, &self.pose, &perturbed.tension_offsets, &self.load)?.lengths;
+            let moved = problem.linearize(&found)?.pose_per_length() * wound;
+            let n = self.robot.cables.len();
+            let first = errors.parameters() - n;
+            slopes.columns_mut(first, n).copy_from(&moved.view((0, first), (3, n)));
+        }
+        Ok((found.pose.position - rest.pose.position, slopes))
+    }
+
+    /// Lengths of the nominal robot for the wanted pose, with the offsets of a deviating one.
+    fn lengths(&self, perturbed: &Perturbed) -> Result<Cow<'_, [f64]>, StaticsError> {
+        let offsets = &perturbed.tension_offsets;
+        if offsets.iter().all(|offset| *offset == 0.0) {
+            return Ok(Cow::Borrowed(&self.nominal.lengths));
+        }
+        wound_lengths(self.robot, &self.pose, offsets, self.free).map(Cow::Owned)
+    }
+
+    /// Why the output has no exact derivatives, unless it has them.
+    pub(crate) fn no_slopes(&self) -> Option<StaticsError> {
+        let reason = "the program has exact derivatives of displacements only";
+        let refused = StaticsError::NoDerivative { quantity: self.output.label(), reason };
+        (!self.output.is_length()).then_some(refused)
+    }
+
+    /// The output of a robot with these deviations in its unit, and its derivatives with respect to the
+    /// inputs of an error model.
+    ///
+    /// # Errors
+    /// [`StaticsError::NoDerivative`] for an output without exact derivatives, and where a length is zero;
+    /// those of the models.
+    pub(crate) fn slopes(
+        &self,
+        deviations: &[f64],
+        errors: &ErrorModel,
+    ) -> Result<(f64, Vec<f64>), StaticsError> {
+        if let Some(refused) = self.no_slopes() {
+            return Err(refused);
+        }
+        let perturbed = self.robot.perturbed(deviations)?;
+        let (length, slopes) = match self.output {
+            Output::Deflection | Output::Frequency | Output::Stiffness => {
+                let found =
+                    derivatives(&perturbed.robot, &self.pose, &perturbed.tension_offsets, &self.load)?;
+                (found.deflection.rms(), found.rms()?)
+            }
+            Output::Position => {
+                let (displaced, slopes) = self.displaced_slopes(&perturbed, errors)?;
+                if displaced.norm() <= self.nominal.rounding(self.robot) {
+                    let reason = "it is the length of a displacement, which is zero here";
+                    return Err(StaticsError::NoDerivative { quantity: self.output.label(), reason });
+                }
+                let slopes = displaced.normalize().transpose() * slopes;
+                (displaced.norm(), slopes.as_slice().to_vec())
+            }
+        };
+        Ok((1e3 * length, errors.gradient(&slopes).into_iter().map(|slope| 1e3 * slope).collect()))
+    }
+}

@@ -1,0 +1,248 @@
+//! Studies of other outputs than the deflection.
+
+use cdpr_robot::{Parameter, Pose};
+use cdpr_sensitivity::SampleDesign;
+use cdpr_statics::{DirectProblem, Load, Start, StaticsError, inverse, stiffness_at, wound_lengths};
+use cdpr_study::{
+    Measured, Output, Sampling, Session, Study, StudyError, analyse, compute_surface, observe_into,
+};
+use serde_json::{Value, json};
+use std::path::Path;
+
+const OBSERVATIONS: usize = 40;
+
+/// A study of a robot at a level pose, whose cables, masses, points and tensions deviate.
+fn study(robot: &str, position: [f64; 3], output: &str) -> Value {
+    json!({
+        "format": "cdpr-study/1", "name": "outputs", "robot": format!("../robots/{robot}.json"),
+        "payload": 30.0, "output": output, "seed": 5, "replicates": 2, "confidence": 0.9,
+        "bootstrap_resamples": 5,
+        "error_models": { "all": {
+            "mass": { "law": { "uniform": { "min": -4.0, "max": 4.0 } } },
+            "youngs_modulus": { "law": { "uniform": { "min": -3e9, "max": 3e9 } } },
+            "b": { "law": { "uniform": { "min": -0.02, "max": 0.02 } } },
+            "dt": { "law": { "uniform": { "min": -20.0, "max": 20.0 } } },
+        } },
+        "samplings": {
+            "point": {
+                "title": "At a point", "pose": { "position": position }, "error_model": "all",
+                "observations": OBSERVATIONS
+            }
+        },
+        "surfaces": {
+            "plane": {
+                "title": "Over two", "pose": { "position": position },
+                "x": { "parameter": "mass", "min": -4.0, "max": 4.0, "points": 3 },
+                "y": { "parameter": "b1.x", "min": -0.02, "max": 0.02, "points": 2 }
+            }
+        }
+    })
+}
+
+fn opened(study: &Value) -> Result<Study, StudyError> {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/output.json"));
+    Study::from_json(&study.to_string(), path)
+}
+
+/// CoGiRo, and CAROCA with an inertia.
+fn of_two_robots(output: &str) -> [Study; 2] {
+    let mut caroca = opened(&study("caroca", [0.3, -0.2, 1.75], "stiffness")).unwrap();
+    let robots = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots/caroca.json"));
+    let mut robot: Value = serde_json::from_str(&std::fs::read_to_string(robots).unwrap()).unwrap();
+    robot["platform"]["inertia"] = json!([[30.0, 1.0, 0.0], [1.0, 40.0, 0.0], [0.0, 0.0, 50.0]]);
+    caroca.robot = cdpr_robot::Robot::from_json(&robot.to_string()).unwrap();
+    caroca.file.output = serde_json::from_value(json!(output)).unwrap();
+    [opened(&study("cogiro", [1.0, 0.5, 2.0], output)).unwrap(), caroca]
+}
+
+/// Deviations of all parameters, and what was observed.
+fn observed(sampling: &Sampling) -> Vec<(Vec<f64>, Measured)> {
+    let mut found = Vec::new();
+    observe_into(sampling, &Session::in_memory(), Clone::clone, |part| {
+        let inputs = sampling.design.inputs().len();
+        for (row, outcome) in part.rows.chunks_exact(inputs).zip(part.outcomes) {
+            found.push((sampling.errors.deviations(row), outcome.unwrap()));
+        }
+        Ok(())
+    })
+    .unwrap();
+    assert_eq!(found.len(), OBSERVATIONS);
+    found
+}
+
+fn same(found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() < tolerance * expected.abs(), "{found} and not {expected}");
+}
+
+#[test]
+fn a_frequency_and_a_stiffness_are_those_of_the_deflected_robot() {
+    for output in ["frequency", "stiffness"] {
+        for study in of_two_robots(output) {
+            let sampling = study.sampling("point").unwrap();
+            for (deviations, measured) in observed(&sampling).iter().step_by(7) {
+                let deviating = study.robot.perturbed(deviations).unwrap();
+                let offsets = &deviating.tension_offsets;
+                assert!(offsets.iter().all(|offset| *offset != 0.0));
+                let lengths = wound_lengths(&deviating.robot, &sampling.pose, offsets, &[]).unwrap();
+                let problem = DirectProblem::new(&deviating.robot, &lengths, &sampling.load).unwrap();
+                let rest = problem.direct(Start::Pose(&sampling.pose)).unwrap();
+                let expected = match output {
+                    "frequency" => problem.modes(&rest.equilibrium).unwrap()[0].frequency,
+                    _ => rest.stability.least_stiffness(),
+                };
+                same(measured.value(), expected, 1e-8);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_nominal_stiffness_without_offsets_is_nearly_that_of_the_wanted_pose() {
+    for study in of_two_robots("stiffness") {
+        let sampling = study.sampling("point").unwrap();
+        let at_pose = stiffness_at(&study.robot, &sampling.pose, &sampling.load, &[]).unwrap();
+        // The payload moves the platform by a millimetre, and the tensions of another distribution hold it.
+        same(sampling.nominal_value, at_pose.stability.least_stiffness(), 0.2);
+        let values: Vec<f64> = observed(&sampling).iter().map(|(_, measured)| measured.value()).collect();
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        same(mean, sampling.nominal_value, 0.1);
+    }
+}
+
+#[test]
+fn a_position_error_is_where_the_direct_model_puts_the_robot_with_nominal_lengths() {
+    for mut study in of_two_robots("position") {
+        study.file.error_models["all"].shift_remove("dt");
+        let sampling = study.sampling("point").unwrap();
+        assert_eq!(sampling.nominal_value, 0.0);
+        let lengths = inverse(&study.robot, &sampling.pose, &Load::none(), None).unwrap().lengths;
+        for (deviations, measured) in observed(&sampling).iter().step_by(7) {
+            let deviating = study.robot.perturbed(deviations).unwrap().robot;
+            let problem = DirectProblem::new(&deviating, &lengths, &Load::none()).unwrap();
+            let rest = problem.direct(Start::Pose(&sampling.pose)).unwrap().equilibrium.pose;
+            let away = 1e3 * (rest.position - sampling.pose.position).norm();
+            assert!((measured.value() - away).abs() < 1e-6, "{} and not {away}", measured.value());
+            assert!(away > 0.1);
+        }
+    }
+}
+
+#[test]
+fn slopes_of_a_position_error_are_its_central_differences() {
+    for study in of_two_robots("position") {
+        let sampling = study.sampling("point").unwrap();
+        let observer = &sampling.observer;
+        let mut deviations = observed(&sampling)[3].0.clone();
+        let at =
+            |deviations: &[f64]| observer.displaced(&study.robot.perturbed(deviations).unwrap()).unwrap();
+        let perturbed = study.robot.perturbed(&deviations).unwrap();
+        let (displaced, slopes) = observer.displaced_slopes(&perturbed, &sampling.errors).unwrap();
+        assert!((displaced - at(&deviations)).norm() < 1e-12);
+        let parameters = Parameter::of(&study.robot);
+        let steps = [("mass", 1e-2), ("youngs_modulus", 1e7), ("b3.y", 1e-5), ("a2.x", 1e-5), ("dt4", 1e-2)];
+        for (name, step) in steps {
+            let column = parameters.iter().position(|one| one.to_string() == name).unwrap();
+            let middle = deviations[column];
+            let [after, before] = [step, -step].map(|step| {
+                deviations[column] = middle + step;
+                at(&deviations)
+            });
+            deviations[column] = middle;
+            let (slope, difference) = (slopes.column(column), (after - before) / (2.0 * step));
+            assert!((slope - difference).norm() < 1e-5 * slope.norm() + 1e-13 / step, "{name}: {slope}");
+        }
+    }
+}
+
+#[test]
+fn every_output_has_the_same_numbers_on_one_and_two_threads() {
+    for output in ["position", "frequency", "stiffness"] {
+        for study in of_two_robots(output) {
+            let on = |threads| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                pool.install(|| {
+                    let surface = study.surface("plane").unwrap();
+                    let values = compute_surface(&surface, &|_| ()).by_kind().values;
+                    (observed(&study.sampling("point").unwrap()), values)
+                })
+            };
+            let (one, two) = (on(1), on(2));
+            assert_eq!(one, two);
+            assert!(one.1.iter().all(Result::is_ok) && one.1[0] != one.1[5], "{:?}", one.1);
+        }
+    }
+}
+
+#[test]
+fn measures_of_a_frequency_do_without_derivatives_and_those_of_a_position_have_them() {
+    for (output, without) in [("frequency", &["derivatives", "dgsm"][..]), ("position", &["derivatives"])] {
+        for mut study in of_two_robots(output) {
+            // Fewer inputs than observations.
+            study.file.error_models["all"].shift_remove("b");
+            study.file.sensitivity = Some(
+                serde_json::from_value(json!({
+                    "observations": 40, "saltelli_blocks": 16, "bootstrap_resamples": 10, "morris_blocks": 4,
+                    "derivative_points": 8,
+                    "expansion": { "max_degree": 2, "norm": 0.75, "interactions": 2 }
+                }))
+                .unwrap(),
+            );
+            let sampling = study.sampling("point").unwrap();
+            let session = Session::in_memory();
+            let tally = cdpr_study::observe(&sampling, &session).unwrap();
+            let summary = analyse(&sampling, &tally, &session).unwrap();
+            assert_eq!((summary.output, summary.notes.len()), (study.file.output, 0), "{:?}", summary.notes);
+            assert_eq!(summary.signed_effects.len(), sampling.design.inputs().len());
+            let sensitivity = summary.sensitivity.unwrap();
+            let left_out: Vec<&str> =
+                sensitivity.notes.iter().filter_map(|note| Some(note.split_once(':')?.0)).collect();
+            assert_eq!(left_out, without, "{:?}", sensitivity.notes);
+            assert!(sensitivity.notes.iter().all(|note| note.contains("has no derivative")));
+            let known = ["t_student", "regression", "rank_regression", "morris", "expansion", "sobol"];
+            assert!(known.iter().all(|method| sensitivity.methods.contains_key(*method)));
+        }
+    }
+}
+
+#[test]
+fn what_an_output_cannot_be_of_is_refused_with_field_and_value() {
+    let refused = |study: &Value| opened(study).unwrap_err().to_string();
+    let error = refused(&study("caroca", [0.0, 0.0, 1.75], "speed"));
+    for word in ["output", "speed", "`deflection`", "`position`", "`frequency`", "`stiffness`"] {
+        assert!(error.contains(word), "{error}");
+    }
+    let error = refused(&study("caroca", [0.0, 0.0, 1.75], "frequency"));
+    assert!(error.contains("output is frequency: expected a robot with `platform.inertia`"), "{error}");
+
+    let mut published = study("cogiro", [1.0, 0.5, 2.0], "frequency");
+    published["comparison"] = json!([{
+        "figure": "1", "quantity": "mean", "study": "point", "statistic": "mean", "paper": 1.0, "unit": "Hz",
+        "last_digit": 0.1
+    }]);
+    let error = refused(&published);
+    assert!(error.contains("comparison is 1 rows: expected no published figures"), "{error}");
+}
+
+#[test]
+fn the_hash_of_a_study_depends_on_its_output_and_not_on_naming_the_deflection() {
+    let hash = |study: &Value| opened(study).unwrap().hash().unwrap();
+    let named = study("cogiro", [1.0, 0.5, 2.0], "deflection");
+    let mut unnamed = named.clone();
+    unnamed.as_object_mut().unwrap().remove("output");
+    assert_eq!(hash(&named), hash(&unnamed));
+    assert_ne!(hash(&named), hash(&study("cogiro", [1.0, 0.5, 2.0], "stiffness")));
+}
+
+#[test]
+fn a_robot_that_fails_has_no_output_and_a_reason() {
+    let study = opened(&study("cogiro", [1.0, 0.5, 2.0], "frequency")).unwrap();
+    let sampling = study.sampling("point").unwrap();
+    let parameters = Parameter::of(&study.robot);
+    let mut deviations = vec![0.0; 2 * parameters.len()];
+    deviations[parameters.iter().position(|one| *one == Parameter::Mass).unwrap()] = 1e6;
+    let [heavy, nominal] = sampling.observer.observe_all(&deviations).try_into().unwrap();
+    assert!(matches!(heavy, Err(StaticsError::NoTensions { .. })), "{heavy:?}");
+    assert_eq!(nominal.unwrap().value(), sampling.nominal_value);
+    assert_eq!(study.file.output, Output::Frequency);
+    assert_eq!(sampling.pose, Pose::at(1.0, 0.5, 2.0));
+}
