@@ -102,7 +102,8 @@ impl Freedoms {
 }
 
 /// A coordinate of a pose: of P [m], or an angle of `R = Rz(yaw) Ry(pitch) Rx(roll)` [rad].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Coordinate {
     /// Position along x of the base frame.
     X,

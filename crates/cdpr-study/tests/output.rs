@@ -2,7 +2,10 @@
 
 use cdpr_robot::{Parameter, Pose};
 use cdpr_sensitivity::SampleDesign;
-use cdpr_statics::{DirectProblem, Load, Start, StaticsError, inverse, stiffness_at, wound_lengths};
+use cdpr_statics::{
+    DirectProblem, Load, Start, StaticsError, deflection_free, inverse, inverse_free, modes_at, stiffness_at,
+    wound_lengths,
+};
 use cdpr_study::{
     Measured, Output, Sampling, Session, Study, StudyError, analyse, compute_surface, observe_into,
 };
@@ -245,4 +248,79 @@ fn a_robot_that_fails_has_no_output_and_a_reason() {
     assert_eq!(nominal.unwrap().value(), sampling.nominal_value);
     assert_eq!(study.file.output, Output::Frequency);
     assert_eq!(sampling.pose, Pose::at(1.0, 0.5, 2.0));
+}
+
+/// Studies of GRAB, and of every second cable of CoGiRo, with free coordinates.
+fn of_four_cables(output: &str) -> [Study; 2] {
+    let mut cogiro = study("cogiro", [1.0, 0.5, 2.0], output);
+    cogiro["samplings"]["point"]["free"] = json!(["roll", "yaw"]);
+    let mut grab = study("grab", [1.2795, -0.1915, -0.9192], output);
+    grab["payload"] = json!(0.1);
+    grab["error_models"]["all"] = json!({
+        "mass": { "law": { "uniform": { "min": -0.1, "max": 0.1 } } },
+        "cog": { "law": { "uniform": { "min": -0.003, "max": 0.003 } } },
+        "a": { "law": { "uniform": { "min": -0.002, "max": 0.002 } } },
+    });
+    grab["samplings"]["point"]["free"] = json!(["roll", "pitch"]);
+    grab["samplings"]["point"]["pose"]["rpy_deg"] = json!([0.0, 0.0, 7.8]);
+    let folder = tempfile::tempdir().unwrap();
+    let robots = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots"));
+    [(cogiro, "cogiro.json", &[1, 3, 5, 7]), (grab, "grab.json", &[0, 1, 2, 3])].map(|(mut study, name, kept)| {
+        let text = std::fs::read_to_string(robots.join(name)).unwrap();
+        let mut robot: Value = serde_json::from_str(&text).unwrap();
+        robot["cables"] = kept.map(|i: usize| robot["cables"][i].clone()).to_vec().into();
+        std::fs::write(folder.path().join(name), robot.to_string()).unwrap();
+        study["robot"] = json!(name);
+        study["surfaces"] = json!({});
+        Study::from_json(&study.to_string(), &folder.path().join("study.json")).unwrap()
+    })
+}
+
+#[test]
+fn a_robot_with_four_cables_keeps_the_held_coordinates_and_finds_the_others() {
+    for study in of_four_cables("deflection") {
+        let sampling = study.sampling("point").unwrap();
+        let free = &study.file.samplings["point"].free;
+        let mut tilted = 0.0_f64;
+        for (deviations, measured) in observed(&sampling).iter().step_by(9) {
+            let deviating = study.robot.perturbed(deviations).unwrap();
+            // A search through all solutions, from the level pose.
+            let rest = inverse_free(&deviating.robot, &sampling.pose, &Load::none(), free).unwrap().first;
+            let held = rest.equilibrium.pose;
+            assert!((held.position - sampling.pose.position).norm() < 1e-12);
+            tilted = tilted.max(held.rotation.angle_to(&sampling.pose.rotation));
+            let offsets = &deviating.tension_offsets;
+            let expected = deflection_free(&deviating.robot, &sampling.pose, offsets, &sampling.load, free);
+            let difference = measured.value() - 1e3 * expected.unwrap().rms();
+            assert!(difference.abs() < 1e-7 * measured.value().max(1.0), "{difference} mm");
+        }
+        assert!(tilted > 1e-3, "{tilted}");
+    }
+}
+
+#[test]
+fn the_frequency_of_a_robot_with_four_cables_is_that_of_its_free_motion() {
+    let [_, study] = of_four_cables("frequency");
+    let sampling = study.sampling("point").unwrap();
+    let free = &study.file.samplings["point"].free;
+    let modes = modes_at(&study.robot, &sampling.pose, &Load::none(), free).unwrap().modes;
+    // A tenth of a kilogram at the centre of mass of one kilogram.
+    same(sampling.nominal_value, modes[0].frequency, 0.1);
+    assert!((0.5..2.0).contains(&sampling.nominal_value), "{}", sampling.nominal_value);
+    assert!(observed(&sampling).iter().all(|(_, found)| (found.value() / modes[0].frequency - 1.0).abs() < 0.2));
+}
+
+#[test]
+fn free_coordinates_that_do_not_fit_the_robot_are_refused() {
+    let refused = |study: &Value| opened(study).unwrap_err().to_string();
+    let mut file = study("grab", [1.2795, -0.1915, -0.9192], "deflection");
+    for free in [json!([]), json!(["roll"]), json!(["roll", "roll"])] {
+        file["samplings"]["point"]["free"] = free;
+        let error = refused(&file);
+        assert!(error.contains("samplings.point.free is [") && error.contains("expected 2 different"), "{error}");
+    }
+    let mut eight = study("cogiro", [1.0, 0.5, 2.0], "deflection");
+    eight["surfaces"]["plane"]["free"] = json!(["z"]);
+    let error = refused(&eight);
+    assert!(error.contains("surfaces.plane.free is [z]: expected 0 different"), "{error}");
 }

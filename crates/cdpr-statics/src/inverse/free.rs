@@ -84,14 +84,20 @@ pub fn inverse_free(
     load: &Load,
     free: &[Coordinate],
 ) -> Result<FreeSolutions, StaticsError> {
-    let (cables, freedoms) = (robot.cables.len(), robot.freedoms());
-    if free.len() != freedoms.count().saturating_sub(cables) {
-        return Err(StaticsError::FreeCoordinates { cables, freedoms: freedoms.count(), named: free.len() });
-    }
+    check_free(robot, free)?;
     if free.is_empty() {
         let found = inverse(robot, pose, load, None)?;
         let first = FreeSolution::new(robot, load, found.lengths, found.equilibrium, found.iterations)?;
         return Ok(FreeSolutions { first, others: Vec::new() });
+    }
+    Search::new(robot, pose, load, free)?.solutions()
+}
+
+/// As many coordinates are free as cables are missing, each of them once and none that is held.
+fn check_free(robot: &Robot, free: &[Coordinate]) -> Result<(), StaticsError> {
+    let (cables, freedoms) = (robot.cables.len(), robot.freedoms());
+    if free.len() != freedoms.count().saturating_sub(cables) {
+        return Err(StaticsError::FreeCoordinates { cables, freedoms: freedoms.count(), named: free.len() });
     }
     for (k, coordinate) in free.iter().enumerate() {
         let refused = |expected: &str| StaticsError::invalid("free".to_owned(), coordinate, expected);
@@ -102,7 +108,7 @@ pub fn inverse_free(
             return Err(refused("a coordinate that is not held"));
         }
     }
-    Search::new(robot, pose, load, free)?.solutions()
+    Ok(())
 }
 
 /// Starts of the search.
@@ -124,6 +130,10 @@ const SOLVED: f64 = 1e-11;
 
 /// Solutions nearer than this, in radians and relative to the longest span, are the same.
 const SAME: f64 = 1e-7;
+
+/// A stable solution nearer to the given pose than this, in radians and relative to the longest span, is
+/// taken for the nearest.
+const BESIDE: f64 = 0.03;
 
 /// Half of a difference of an angle [rad], or of a position relative to the longest span.
 const DIFFERENCE: f64 = 1e-5;
@@ -305,6 +315,20 @@ impl<'a> Search<'a> {
         Some((changes, forces, point))
     }
 
+    /// The solution that the search leads to from the given coordinates, if it is stable, within the limits
+    /// of tension and so close that no other needs to be looked for.
+    fn beside(&self) -> Result<Option<FreeSolution>, StaticsError> {
+        let Question { robot, pose, load, .. } = self.question;
+        let Outcome::Found(point, iterations) = self.descend(self.start(0)) else { return Ok(None) };
+        let HeldPose { lengths, equilibrium } = point.held;
+        if self.distance(pose, &equilibrium.pose) > BESIDE {
+            return Ok(None);
+        }
+        let found = FreeSolution::new(robot, load, lengths, equilibrium, iterations)?;
+        let within = out_of_limits(robot, &found.lengths, &[&found.equilibrium]).is_empty();
+        Ok(Some(found).filter(|found| found.stability.is_stable() && within))
+    }
+
     fn solutions(&self) -> Result<FreeSolutions, StaticsError> {
         let Question { robot, pose, load, .. } = self.question;
         let mut found: Vec<FreeSolution> = Vec::new();
@@ -415,7 +439,8 @@ impl FreeSolution {
 }
 
 /// Unstrained lengths that hold the platform at a pose whose `free` coordinates are found: those of
-/// [`inverse_free`], or of [`inverse`] where there is a cable for every free motion.
+/// [`inverse_free`], or of [`inverse`] where there is a cable for every free motion. A stable solution close
+/// to the given pose is taken without a search for others.
 ///
 /// # Errors
 /// Those of [`inverse_free`].
@@ -429,6 +454,11 @@ pub fn held_at(
         let found = inverse(robot, pose, load, None)?;
         return Ok(HeldPose { lengths: found.lengths, equilibrium: found.equilibrium });
     }
-    let FreeSolution { lengths, equilibrium, .. } = inverse_free(robot, pose, load, free)?.first;
+    check_free(robot, free)?;
+    let search = Search::new(robot, pose, load, free)?;
+    let FreeSolution { lengths, equilibrium, .. } = match search.beside()? {
+        Some(found) => found,
+        None => search.solutions()?.first,
+    };
     Ok(HeldPose { lengths, equilibrium })
 }

@@ -5,7 +5,7 @@ use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
 use crate::file::output::Output;
 use crate::file::value::Value;
-use cdpr_robot::TensionReference;
+use cdpr_robot::{Coordinate, TensionReference};
 use cdpr_sensitivity::{Expansion, Law, SobolIndices, Steps, Truncation};
 use indexmap::IndexMap;
 use schemars::JsonSchema;
@@ -132,6 +132,10 @@ pub struct SamplingSpec {
     /// workspace, without replicates and measures of sensitivity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poses: Option<PosesSpec>,
+    /// Coordinates of the pose that are found where the platform rests, for a robot with fewer cables than
+    /// free motions: as many of x, y, z, roll, pitch, yaw as cables are missing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub free: Vec<Coordinate>,
     /// Name of the error model.
     pub error_model: String,
     /// Number of observations at each pose.
@@ -205,6 +209,10 @@ pub struct SurfaceSpec {
     pub title: String,
     /// Wanted pose.
     pub pose: PoseSpec,
+    /// Coordinates of the pose that are found where the platform rests, for a robot with fewer cables than
+    /// free motions: as many of x, y, z, roll, pitch, yaw as cables are missing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub free: Vec<Coordinate>,
     /// First axis.
     pub x: AxisSpec,
     /// Second axis.

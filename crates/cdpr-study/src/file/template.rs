@@ -44,7 +44,10 @@ pub fn template(
 ) -> Result<String, StudyError> {
     let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
     if cables < freedoms {
-        let expected = format!("a cable for each of the {freedoms} free motions, or a study holds no pose");
+        let expected = format!(
+            "a cable for each of the {freedoms} free motions; a study of this robot has names in `free`, which \
+             are yours to choose"
+        );
         return Err(StudyError::setting("cables", format!("a list of {cables}"), expected));
     }
     let payload = payload.unwrap_or_else(|| two_digits(0.1 * robot.platform.mass));

@@ -1,7 +1,9 @@
 //! The nominal robot at the poses of a study, solved once for each.
 
-use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{Deflection, DirectSolution, Load, OutOfLimits, StaticsError, deflection, out_of_limits};
+use cdpr_robot::{Coordinate, Pose, Robot};
+use cdpr_statics::{
+    Deflection, DirectSolution, Load, OutOfLimits, StaticsError, deflection_free, out_of_limits,
+};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Poses that are kept: those of single samplings and of surfaces, and the first ones of a sampling at
@@ -19,30 +21,33 @@ struct Nominal {
     robot: Robot,
     pose: Pose,
     load: Load,
+    free: Vec<Coordinate>,
     deflection: Deflection,
 }
 
 impl Nominals {
-    /// The deflection of a robot without offsets of its tensions.
+    /// The deflection of a robot without offsets of its tensions, with the `free` coordinates found.
     ///
     /// # Errors
-    /// As [`deflection`].
+    /// As [`deflection_free`].
     pub(crate) fn deflection(
         &self,
         robot: &Robot,
         pose: &Pose,
         load: &Load,
+        free: &[Coordinate],
     ) -> Result<Deflection, StaticsError> {
         let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let same = |of: &&Nominal| of.pose == *pose && of.load == *load && of.robot == *robot;
+        let same =
+            |of: &&Nominal| of.pose == *pose && of.load == *load && of.free == *free && of.robot == *robot;
         if let Some(found) = known().iter().find(same) {
             return Ok(found.deflection.clone());
         }
-        let found = deflection(robot, pose, &vec![0.0; robot.cables.len()], load)?;
+        let found = deflection_free(robot, pose, &vec![0.0; robot.cables.len()], load, free)?;
         let mut known = known();
         if known.len() < MOST {
-            let (robot, deflection) = (robot.clone(), found.clone());
-            known.push(Nominal { robot, pose: *pose, load: *load, deflection });
+            let (robot, free, deflection) = (robot.clone(), free.to_vec(), found.clone());
+            known.push(Nominal { robot, pose: *pose, load: *load, free, deflection });
         }
         Ok(found)
     }

@@ -9,7 +9,7 @@ use crate::model::observed::Measured;
 use cdpr_robot::{Coordinate, Parameter, Perturbed, Pose, Robot, Vector3};
 use cdpr_statics::{
     Deflection, DirectProblem, Load, Matrix3xX, Observer, Start, StaticsError, deflection_free, derivatives,
-    direct, wound_lengths,
+    direct, held_at, wound_lengths,
 };
 use std::borrow::Cow;
 
@@ -17,6 +17,7 @@ use std::borrow::Cow;
 #[derive(Clone, Debug)]
 pub struct OutputObserver<'a> {
     robot: &'a Robot,
+    /// The wanted pose; its free coordinates are those of the nominal robot.
     pose: Pose,
     load: Load,
     output: Output,
@@ -38,10 +39,14 @@ pub(crate) struct Observing<'a> {
 
 impl<'a> OutputObserver<'a> {
     /// # Errors
-    /// As [`Observer::new`].
+    /// Those of [`Observer::new`] and [`held_at`].
     pub(crate) fn new(of: Observing<'a>, nominal: &Deflection) -> Result<Self, StaticsError> {
         let Observing { robot, pose, load, output, free } = of;
         let deflections = Observer::new(robot, &pose, &load)?;
+        let pose = match free {
+            [] => pose,
+            _ => held_at(robot, &pose, &Load::none(), free)?.equilibrium.pose,
+        };
         Ok(Self { robot, pose, load, output, free, nominal: nominal.clone(), deflections })
     }
 

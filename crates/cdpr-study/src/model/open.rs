@@ -11,7 +11,7 @@ use crate::model::nominal::Nominals;
 use crate::model::prepare::FEWEST_OBSERVATIONS;
 use crate::model::study::Study;
 use crate::names::BLOCKS_NAME;
-use cdpr_robot::{RobotError, TensionReference, from_json};
+use cdpr_robot::{Coordinate, RobotError, TensionReference, from_json};
 use std::path::Path;
 
 /// Designs of a sampling besides the first: intervals of a quantile need no more.
@@ -160,9 +160,11 @@ impl Study {
             self.error_model(name, model, &[])?;
         }
         for (name, spec) in &file.samplings {
+            self.check_free(&format!("samplings.{name}"), &spec.free)?;
             self.check_sampling(name, spec)?;
         }
         for (name, spec) in &file.surfaces {
+            self.check_free(&format!("surfaces.{name}"), &spec.free)?;
             self.surface_axes(name, spec)?;
             self.nominal(name)?;
         }
@@ -210,6 +212,24 @@ impl Study {
             return Err(self.invalid("comparison", format!("{rows} rows"), &expected));
         }
         Ok(())
+    }
+
+    /// As many coordinates are free as cables are missing, each of them once and none that is held.
+    fn check_free(&self, field: &str, free: &[Coordinate]) -> Result<(), StudyError> {
+        let (cables, freedoms) = (self.robot.cables.len(), self.robot.freedoms());
+        let missing = freedoms.count().saturating_sub(cables);
+        let wrong =
+            |(k, one): (usize, &Coordinate)| free[..k].contains(one) || !freedoms.contains(one.component());
+        if free.len() == missing && !free.iter().enumerate().any(wrong) {
+            return Ok(());
+        }
+        let names: Vec<_> = free.iter().map(ToString::to_string).collect();
+        let expected = format!(
+            "{missing} different ones of x, y, z, roll, pitch, yaw that are not held, for {cables} cables and \
+             {} free motions",
+            freedoms.count()
+        );
+        Err(self.invalid(&format!("{field}.free"), format!("[{}]", names.join(", ")), &expected))
     }
 
     /// No part of the study is called as tables or figures of another one, or of all.

@@ -7,7 +7,7 @@ use crate::model::observer::{Observing, OutputObserver};
 use crate::model::operating_point::{Moduli, resolved};
 use crate::model::pose_set::Located;
 use crate::model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis, keys};
-use cdpr_robot::{Parameter, Pose};
+use cdpr_robot::{Coordinate, Parameter, Pose};
 use cdpr_sensitivity::SobolDesign;
 use cdpr_statics::{Deflection, Load, StaticsError};
 use indexmap::IndexMap;
@@ -31,8 +31,8 @@ impl Study {
     pub fn sampling(&self, name: &str) -> Result<Sampling<'_>, StudyError> {
         let Located { name, entry, spec, pose, field } = self.located(name)?;
         let load = Load::payload(self.file.payload);
-        let nominal = self.deflection(&field, &pose)?;
-        let (nominal_value, observer) = self.observer(&field, &pose, &nominal)?;
+        let nominal = self.deflection(&field, &pose, &spec.free)?;
+        let (nominal_value, observer) = self.observer(&field, &pose, &spec.free, &nominal)?;
         let (errors, operating_moduli, design) = self.design(entry, spec, &[&nominal])?;
         Ok(Sampling {
             name,
@@ -97,8 +97,8 @@ impl Study {
         let load = Load::payload(self.file.payload);
         let [x, y] = self.surface_axes(name, spec)?;
         let field = format!("{field}.pose.position");
-        let nominal = self.deflection(&field, &pose)?;
-        let (nominal_value, observer) = self.observer(&field, &pose, &nominal)?;
+        let nominal = self.deflection(&field, &pose, &spec.free)?;
+        let (nominal_value, observer) = self.observer(&field, &pose, &spec.free, &nominal)?;
         let (title, robot, output) = (&spec.title, &self.robot, self.file.output);
         Ok(Surface { name, title, robot, pose, load, x, y, output, nominal, nominal_value, observer })
     }
@@ -192,31 +192,33 @@ impl Study {
     /// # Errors
     /// As [`Study::sampling`].
     pub fn nominal(&self, name: &str) -> Result<NominalPose, StudyError> {
-        let (pose, field) = match self.file.surfaces.get(name) {
+        let (pose, field, free) = match self.file.surfaces.get(name) {
             Some(spec) => {
                 let field = format!("surfaces.{name}.pose");
-                (self.pose(&field, &spec.pose)?, format!("{field}.position"))
+                (self.pose(&field, &spec.pose)?, format!("{field}.position"), &spec.free)
             }
-            None => self.located(name).map(|found| (found.pose, found.field))?,
+            None => self.located(name).map(|found| (found.pose, found.field, &found.spec.free))?,
         };
-        Ok(NominalPose { pose, deflection: self.deflection(&field, &pose)? })
+        Ok(NominalPose { pose, deflection: self.deflection(&field, &pose, free)? })
     }
 
-    fn deflection(&self, field: &str, pose: &Pose) -> Result<Deflection, StudyError> {
-        let found = self.nominals.deflection(&self.robot, pose, &Load::payload(self.file.payload));
+    fn deflection(&self, field: &str, pose: &Pose, free: &[Coordinate]) -> Result<Deflection, StudyError> {
+        let load = Load::payload(self.file.payload);
+        let found = self.nominals.deflection(&self.robot, pose, &load, free);
         found.map_err(|source| self.not_held(field, pose, source))
     }
 
     /// What observes the output at a pose, and the output of the nominal robot.
-    fn observer(
-        &self,
+    fn observer<'a>(
+        &'a self,
         field: &str,
         pose: &Pose,
+        free: &'a [Coordinate],
         nominal: &Deflection,
-    ) -> Result<(f64, OutputObserver<'_>), StudyError> {
+    ) -> Result<(f64, OutputObserver<'a>), StudyError> {
         let load = Load::payload(self.file.payload);
         let (robot, output) = (&self.robot, self.file.output);
-        let of = Observing { robot, pose: *pose, load, output, free: &[] };
+        let of = Observing { robot, pose: *pose, load, output, free };
         let found = OutputObserver::new(of, nominal).and_then(|found| Ok((found.nominal_value()?, found)));
         found.map_err(|source| self.not_held(field, pose, source))
     }
