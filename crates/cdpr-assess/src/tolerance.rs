@@ -18,7 +18,7 @@ use crate::error::AssessError;
 use cdpr_sensitivity::{
     Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate, derived_seed,
 };
-use cdpr_statics::{StaticsError, derivatives};
+use cdpr_statics::StaticsError;
 use cdpr_study::{Sampling, StudyError, observe_rows};
 use indexmap::IndexMap;
 use rayon::prelude::*;
@@ -235,7 +235,7 @@ impl<'a> Model<'a> {
 
     /// The error of the mean robot [mm], and |J|² of each input [mm² per squared unit].
     fn linear(&self) -> Result<(f64, Vec<f64>), StaticsError> {
-        let Sampling { robot, pose, load, errors, observer, .. } = self.sampling;
+        let Sampling { robot, errors, observer, .. } = self.sampling;
         let means: Vec<f64> = self.inputs.iter().map(|(_, mean)| *mean).collect();
         let perturbed = robot.perturbed(&errors.deviations(&means))?;
         let squares = |rows: &[Vec<f64>]| -> Vec<f64> {
@@ -247,7 +247,7 @@ impl<'a> Model<'a> {
         };
         match self.limit.of {
             Limited::Deflection => {
-                let found = derivatives(&perturbed.robot, pose, &perturbed.tension_offsets, load)?;
+                let found = observer.derivatives(&perturbed)?;
                 Ok((1e3 * found.deflection.rms(), squares(&[found.rms()?])))
             }
             Limited::Position => {
@@ -271,8 +271,8 @@ impl<'a> Model<'a> {
             let deviations = self.sampling.errors.deviations(rows);
             let errors: Vec<Option<f64>> = match self.limit.of {
                 Limited::Deflection => {
-                    let outcomes = self.sampling.observer.deflections.observe_all(&deviations).into_iter();
-                    outcomes.map(|outcome| outcome.ok().map(|found| found.rms())).collect()
+                    let outcomes = self.sampling.observer.displacements(&deviations).into_iter();
+                    outcomes.map(|outcome| outcome.ok().map(|dp| dp.norm())).collect()
                 }
                 Limited::Position => deviations
                     .chunks_exact(self.sampling.errors.parameters())

@@ -5,10 +5,10 @@
 //! yields, and its tensions are what the direct model says. Where the winches hold the pose, the tensions are
 //! distributed anew, by the inverse model with the load. A pose may be held in one way and not in the other.
 
-use cdpr_robot::{Parameter, Pose, Robot, Rotation3, Vector3};
+use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, Limit, Load, OutOfLimits, StaticsError, deflection, derivatives,
-    inverse, out_of_limits,
+    Deflection, Derivatives, DirectProblem, Limit, Load, OutOfLimits, StaticsError, deflection_free,
+    derivatives_free, held_at, inverse, out_of_limits,
 };
 use cdpr_study::{ErrorModel, Extremes, Grid, StudyError};
 use indexmap::IndexMap;
@@ -29,6 +29,9 @@ pub struct Workspace<'a> {
     pub load: Load,
     /// The uncertain parameters; `None` if no tolerance is wanted.
     pub tolerances: Option<&'a ErrorModel>,
+    /// Coordinates that are found at every position, for a robot with fewer cables than free motions: as many
+    /// as cables are missing.
+    pub free: &'a [Coordinate],
 }
 
 /// A position and its results.
@@ -99,14 +102,15 @@ pub const HELD: &str = "held";
 /// `stop` that returns true ends the run.
 ///
 /// # Errors
-/// [`StudyError::Setting`] for an invalid load or error model, and for an error model without a load;
+/// [`StudyError::Setting`] for an invalid load, error model or number of free coordinates, and for an error
+/// model without a load;
 /// [`StudyError::Stopped`]. A pose without feasible tensions is not an error.
 pub fn compute_workspace(
     workspace: &Workspace,
     tick: &(dyn Fn() + Sync),
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<WorkspacePose>, StudyError> {
-    let Workspace { robot, rotation, load, tolerances, .. } = *workspace;
+    let Workspace { robot, rotation, load, tolerances, free, .. } = *workspace;
     if !(load.payload.is_finite() && load.payload >= 0.0) {
         return Err(StudyError::setting("payload", load.payload, "a finite mass, zero or more [kg]"));
     }
@@ -123,6 +127,15 @@ pub fn compute_workspace(
             "a load that displaces the platform, because tolerances act on its deflection",
         ));
     }
+    let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
+    let missing = freedoms.saturating_sub(cables);
+    if free.len() != missing {
+        let names: Vec<_> = free.iter().map(ToString::to_string).collect();
+        let expected = format!(
+            "{missing} of x, y, z, roll, pitch, yaw, for {cables} cables and {freedoms} free motions"
+        );
+        return Err(StudyError::setting("free", format!("[{}]", names.join(", ")), expected));
+    }
     let parameters = Parameter::of(robot).len();
     if let Some(model) = tolerances.filter(|model| model.parameters() != parameters) {
         let expected = format!("one for the {parameters} parameters of {}", robot.name);
@@ -137,9 +150,13 @@ pub fn compute_workspace(
             return Err(StudyError::Stopped);
         }
         let pose = Pose { rotation, ..level };
-        let outcome = held(robot, &pose, &load, tolerances);
+        let outcome = held(workspace, &pose);
         let anew = (load != Load::none()).then(|| {
-            let [least_tension, greatest_tension] = range(&inverse(robot, &pose, &load, None)?.tensions);
+            let tensions = match free {
+                [] => inverse(robot, &pose, &load, None)?.tensions,
+                _ => held_at(robot, &pose, &load, free)?.equilibrium.tensions(),
+            };
+            let [least_tension, greatest_tension] = range(&tensions);
             Ok(Anew { least_tension, greatest_tension })
         });
         tick();
@@ -148,22 +165,17 @@ pub fn compute_workspace(
     workspace.grid.poses().into_par_iter().map(one).collect()
 }
 
-fn held(
-    robot: &Robot,
-    pose: &Pose,
-    load: &Load,
-    tolerances: Option<&ErrorModel>,
-) -> Result<Held, StaticsError> {
+fn held(workspace: &Workspace, pose: &Pose) -> Result<Held, StaticsError> {
+    let Workspace { robot, ref load, tolerances, free, .. } = *workspace;
     let offsets = vec![0.0; robot.cables.len()];
+    let deflected = || deflection_free(robot, pose, &offsets, load, free);
     let Some(model) = tolerances else {
-        return Ok(Held::new(robot, load, &deflection(robot, pose, &offsets, load)?, None));
+        return Ok(Held::new(robot, load, &deflected()?, None));
     };
-    match derivatives(robot, pose, &offsets, load) {
+    match derivatives_free(robot, pose, &offsets, load, free) {
         Ok(found) => Ok(Held::new(robot, load, &found.deflection, Dominant::of(&found, model))),
         // A pose without a derivative is held nevertheless.
-        Err(StaticsError::NoDerivative { .. }) => {
-            Ok(Held::new(robot, load, &deflection(robot, pose, &offsets, load)?, None))
-        }
+        Err(StaticsError::NoDerivative { .. }) => Ok(Held::new(robot, load, &deflected()?, None)),
         Err(error) => Err(error),
     }
 }

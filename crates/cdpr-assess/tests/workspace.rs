@@ -1,8 +1,8 @@
 //! Workspaces: every position is what the models say of it alone.
 
 use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace};
-use cdpr_robot::{Matrix3, Parameter, Robot, Rotation3, Vector3};
-use cdpr_statics::{DirectProblem, Load, deflection, derivatives, inverse};
+use cdpr_robot::{Coordinate, Matrix3, Parameter, Robot, Rotation3, Vector3};
+use cdpr_statics::{DirectProblem, Load, deflection, deflection_free, derivatives, held_at, inverse};
 use cdpr_study::{ErrorModel, Grid, GridAxis, StudyError, uncertainties};
 use serde_json::Value;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -30,6 +30,7 @@ fn every_position_is_what_the_models_say_of_it() {
         rotation: Rotation3::identity(),
         load: Load::payload(50.0),
         tolerances: Some(&model),
+        free: &[],
     };
     let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
     assert_eq!(poses.len(), 12);
@@ -83,6 +84,7 @@ fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
         rotation: Rotation3::identity(),
         load: Load::payload(50.0),
         tolerances: None,
+        free: &[],
     };
     let summary =
         WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap());
@@ -105,7 +107,7 @@ fn the_stadium_robot_is_held_wherever_an_independent_program_finds_tensions() {
     for payload in [0.0, 40.0] {
         let load = Load::payload(payload);
         let rotation = Rotation3::identity();
-        let workspace = Workspace { robot: &robot, grid, rotation, load, tolerances: None };
+        let workspace = Workspace { robot: &robot, grid, rotation, load, tolerances: None, free: &[] };
         let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
         let rows = file["poses"].as_array().unwrap().iter().filter(|row| row[0] == payload);
         let rows: Vec<_> = rows.collect();
@@ -145,6 +147,7 @@ fn a_platform_with_an_inertia_has_its_lowest_frequency_under_the_load() {
             rotation: Rotation3::identity(),
             load,
             tolerances: None,
+            free: &[],
         };
         let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
         let summary = WorkspaceSummary::new(&workspace, &poses);
@@ -167,6 +170,38 @@ fn a_platform_with_an_inertia_has_its_lowest_frequency_under_the_load() {
 }
 
 #[test]
+fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
+    let mut robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
+    robot.cables = [0, 2, 4, 6].map(|i| robot.cables[i].clone()).to_vec();
+    let model = ErrorModel::normal(&robot, &vec![1e-3; Parameter::of(&robot).len()]);
+    let free = [Coordinate::Roll, Coordinate::Pitch];
+    let axis = |min, max, points| GridAxis { min, max, points };
+    let workspace = Workspace {
+        robot: &robot,
+        grid: Grid::new([axis(0.5, 1.5, 2), axis(0.3, 0.7, 2), axis(1.5, 2.0, 2)]).unwrap(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(20.0),
+        tolerances: Some(&model),
+        free: &free,
+    };
+    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
+    assert_eq!(poses.len(), 8);
+    for found in &poses {
+        let held = found.outcome.as_ref().unwrap();
+        let exact = deflection_free(&robot, &found.pose, &[0.0; 4], &workspace.load, &free).unwrap();
+        assert_eq!(held.displacement, exact.displacement());
+        assert_eq!(held.least_stiffness, exact.loaded.stability.least_stiffness());
+        assert!(held.lowest_frequency.unwrap() > 0.0 && held.dominant.is_some());
+        let anew = held_at(&robot, &found.pose, &workspace.load, &free).unwrap().equilibrium.tensions();
+        let range = found.anew.clone().unwrap().unwrap();
+        assert!(anew.contains(&range.least_tension) && anew.contains(&range.greatest_tension));
+    }
+    let workspace = Workspace { free: &free[..1], ..workspace };
+    let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
+    assert!(message.starts_with("free is [roll]: expected 2 of x, y, z, roll, pitch, yaw"), "{message}");
+}
+
+#[test]
 fn tolerances_of_another_robot_are_refused() {
     let robot = caroca();
     let seven = Robot { cables: robot.cables[..7].to_vec(), ..robot.clone() };
@@ -177,6 +212,7 @@ fn tolerances_of_another_robot_are_refused() {
         rotation: Rotation3::identity(),
         load: Load::payload(50.0),
         tolerances: Some(&model),
+        free: &[],
     };
     let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
     assert_eq!(message, "error model is for 55 parameters: expected one for the 62 parameters of CAROCA");
@@ -194,6 +230,7 @@ fn a_workspace_ends_where_it_is_told_to() {
         rotation: Rotation3::identity(),
         load: Load::payload(50.0),
         tolerances: None,
+        free: &[],
     };
     let done = AtomicUsize::new(0);
     let tick = || {

@@ -3,7 +3,7 @@
 //! A parser says what is wrong with the text; clap adds the argument and the value.
 
 use crate::error::ProgramError;
-use cdpr_robot::{Robot, TensionReference, Wrench};
+use cdpr_robot::{Coordinate, Robot, TensionReference, Wrench};
 use cdpr_statics::Load;
 use cdpr_study::{Grid, GridAxis, Study, open_robot, open_robot_in_any_unit};
 use serde::Serialize;
@@ -83,6 +83,17 @@ pub(crate) fn mass(text: &str) -> Result<f64, String> {
 pub(crate) fn payload(text: &str) -> Result<f64, String> {
     let mass = number(text)?;
     if mass > 0.0 { Ok(mass) } else { Err("expected a mass above zero [kg]".to_owned()) }
+}
+
+/// The coordinates of a pose that are found.
+#[derive(clap::Args)]
+pub(crate) struct FreeArguments {
+    /// Coordinates of the pose that are found, for a robot with fewer cables than free motions: as many of x,
+    /// y, z, roll, pitch, yaw as cables are missing.
+    ///
+    /// They start from the pose and end where the platform rests. R = Rz(yaw) Ry(pitch) Rx(roll).
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) free: Vec<Coordinate>,
 }
 
 /// The load: what acts on the platform besides its own weight.

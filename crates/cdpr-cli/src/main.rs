@@ -18,7 +18,7 @@ mod study;
 use clap::{CommandFactory, Parser, Subcommand};
 use error::ProgramError;
 use output::Ending;
-use pose::at_pose::{RobotAtFreePose, RobotAtPose};
+use pose::at_pose::RobotAtFreePose;
 use std::process::ExitCode;
 
 /// Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
@@ -78,7 +78,7 @@ enum Command {
     /// Compute the exact derivatives of lengths and deflection with respect to every parameter of a robot.
     #[command(after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 \
                       --format json")]
-    Derivatives(RobotAtPose),
+    Derivatives(RobotAtFreePose),
     /// Put a payload on a robot and take it off again, with the hysteresis of its cables.
     ///
     /// The hysteresis is that of a load-elongation record, of a law, or of the laws in the robot file.

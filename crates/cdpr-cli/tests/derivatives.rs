@@ -1,8 +1,8 @@
 //! `cdpr derivatives` as a user meets it: the numbers of the library, and every kind of bad input.
 
-use crate::common::{cdpr, data, text};
-use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{Load, derivatives};
+use crate::common::{cdpr, data, data_path, data_text, text};
+use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
+use cdpr_statics::{Load, derivatives, derivatives_free};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -142,4 +142,25 @@ fn bad_input_is_named_with_what_would_be_right() {
         assert_ne!(output.status.code(), Some(0), "{text}");
         assert!(text.contains(words) && !text.contains("panicked"), "`{words}` is not in: {text}");
     }
+}
+
+#[test]
+fn derivatives_of_a_robot_with_four_cables_need_and_take_free_coordinates() {
+    let robot = data_path("robots/four-cables.json");
+    let arguments = ["derivatives", &robot, "--pose", "0.5,0.3,2", "--payload", "5", "--format", "json"];
+    let found: Value = serde_json::from_str(&{
+        let output = cdpr(&[&arguments[..], &["--free", "roll,pitch"]].concat());
+        assert_eq!(output.status.code(), Some(0));
+        text(output.stdout)
+    })
+    .unwrap();
+    let of = Robot::from_json(&data_text("robots/four-cables.json")).unwrap();
+    let free = [Coordinate::Roll, Coordinate::Pitch];
+    let (pose, load) = (Pose::at(0.5, 0.3, 2.0), Load::payload(5.0));
+    let exact = derivatives_free(&of, &pose, &[0.0; 4], &load, &free).unwrap();
+    for (j, rms) in exact.rms().unwrap().iter().take(exact.inputs.parameters.len()).enumerate() {
+        assert_eq!(found["rms_mm"][j].as_f64(), Some(1e3 * rms));
+    }
+    let refused = text(cdpr(&arguments).stderr);
+    assert!(refused.contains("expected as many names in `free`"), "{refused}");
 }

@@ -481,3 +481,23 @@ def test_limits_of_a_cable_and_at_exit_points_are_kept_and_named(caroca):
     with pytest.raises(cdpr.InputError, match="max_at"):
         cdpr.Robot(caroca.anchor_points, caroca.exit_points, mass=1, section=1, linear_density=1,
                    youngs_modulus=1, tension_limits=(1, 2), max_at="winch")
+
+
+def test_derivatives_and_workspaces_of_four_cables_take_free_coordinates(data):
+    robot = cdpr.Robot.from_file(str(data / "robots" / "four-cables.json"))
+    pose, free = [0.5, 0.3, 2.0], ["roll", "pitch"]
+    found = robot.derivatives(pose, payload=5, free=free)
+    given = robot.deflection(pose, payload=5, free=free)
+    assert found.deflection.rms == given.rms
+    column = list(found.inputs).index("mass")
+    step = 0.01
+    heavier, lighter = (
+        robot.with_parameters({"mass": robot.parameters["mass"] + change}).deflection(pose, payload=5, free=free)
+        for change in (step, -step)
+    )
+    difference = (heavier.rms - lighter.rms) / (2 * step)
+    assert abs(found.rms[column] - difference) < 1e-3 * abs(difference)
+    space = robot.workspace(x=0.5, y=0.3, z=(1.5, 2.0, 2), payload=5, free=free)
+    assert abs(space.rms[1] - given.rms) < 1e-12
+    with pytest.raises(cdpr.InputError, match="free is"):
+        robot.workspace(x=0.5, y=0.3, z=(1.5, 2.0, 2), payload=5)

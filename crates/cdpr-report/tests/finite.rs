@@ -156,7 +156,8 @@ fn workspaces_of_which_nothing_is_held_or_without_load() {
         let owned = begin_workspace(folder.path()).unwrap();
         let grid = Grid::new([x, y, z]).unwrap();
         let tolerances = Some(&tolerances).filter(|_| load != Load::none());
-        let workspace = Workspace { robot: &robot, grid, rotation: Rotation3::identity(), load, tolerances };
+        let workspace =
+            Workspace { robot: &robot, grid, rotation: Rotation3::identity(), load, tolerances, free: &[] };
         let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
         let summary = WorkspaceSummary::new(&workspace, &poses);
         let maps = workspace_maps(&robot, &summary).into_iter();

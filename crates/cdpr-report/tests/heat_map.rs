@@ -17,6 +17,7 @@ fn summary(robot: &Robot, grid: Grid) -> WorkspaceSummary {
         rotation: Rotation3::identity(),
         load: Load::payload(50.0),
         tolerances: None,
+        free: &[],
     };
     WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap())
 }

@@ -33,8 +33,8 @@
 //! nothing.
 //!
 //! **Two sides.** Where a bound is left when an input grows and kept when it falls, or the other way round,
-//! the right and the left derivative differ: `derivatives/optimum.rs` and `winding.rs`. An offset of a cable on
-//! its bound is such an input.
+//! the right and the left derivative differ: `derivatives/optimum.rs` and `winding.rs`. An offset of a cable
+//! on its bound is such an input.
 //!
 //! **Lengths** follow from (D1) at the set-points:
 //!
@@ -53,18 +53,20 @@
 //! model.
 
 mod optimum;
+mod rest;
 mod winding;
 
 #[cfg(doc)]
 use crate::equations::ABOVE_LEAST;
 use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, solve};
 use crate::error::StaticsError;
-use crate::loading::{Deflection, deflection_from, wind};
+use crate::loading::{Deflection, deflection_from, wind, wind_free};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Matrix6xX, Pose, Robot};
+use cdpr_robot::{Coordinate, Matrix6xX, Pose, Robot};
 use nalgebra::{DMatrix, Matrix3xX};
 pub use optimum::AtBound;
+use rest::Rest;
 pub use winding::OneSided;
 use winding::{SetPoints, Winding};
 
@@ -148,15 +150,51 @@ pub fn derivatives(
     let wound = wind(robot, pose, tension_offsets)?;
     let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.held)?;
     let winding = Winding { robot, pose, inputs: Inputs::of(robot), wound: &wound };
-    let SetPoints { rows: mut set_points, one_sided } = winding.set_points(tension_offsets)?;
-    let mut lengths = winding.lengths(&set_points)?;
+    let set_points = winding.set_points(tension_offsets)?;
+    let lengths = winding.lengths(&set_points.rows)?;
+    of_lengths(robot, load, deflection, winding.inputs, set_points, lengths)
+}
+
+/// As [`derivatives`], for a robot with fewer cables than free motions: the `free` coordinates of the pose
+/// are found. Set-points do not come from a distribution of tensions but from the rest of the platform, and
+/// no derivative has two sides.
+///
+/// # Errors
+/// Those of [`crate::deflection_free`]; [`StaticsError::NoDerivative`] as for [`derivatives`], and for an
+/// offset set-point that a limit keeps.
+pub fn derivatives_free(
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+    load: &Load,
+    free: &[Coordinate],
+) -> Result<Derivatives, StaticsError> {
+    if free.is_empty() {
+        return derivatives(robot, pose, tension_offsets, load);
+    }
+    let (unmoved, wound) = wind_free(robot, pose, tension_offsets, free)?;
+    let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.equilibrium)?;
+    let inputs = Inputs::of(robot);
+    let rest = Rest { robot, wanted: pose, free, inputs: &inputs, unmoved: &unmoved, wound: &wound };
+    let (rows, lengths) = rest.slopes(tension_offsets)?;
+    of_lengths(robot, load, deflection, inputs, SetPoints { rows, one_sided: Vec::new() }, lengths)
+}
+
+/// The derivatives of a deflection from those of its set-points and lengths.
+fn of_lengths(
+    robot: &Robot,
+    load: &Load,
+    deflection: Deflection,
+    inputs: Inputs,
+    SetPoints { rows: mut set_points, one_sided }: SetPoints,
+    mut lengths: DMatrix<f64>,
+) -> Result<Derivatives, StaticsError> {
     let at = |load: &Load, equilibrium| {
-        let problem = DirectProblem::new(robot, &wound.lengths, load)?;
-        EquilibriumDerivatives::new(&problem, &winding.inputs, equilibrium, Some(&lengths))
+        let problem = DirectProblem::new(robot, &deflection.lengths, load)?;
+        EquilibriumDerivatives::new(&problem, &inputs, equilibrium, Some(&lengths))
     };
     let mut unloaded = at(&Load::none(), &deflection.unloaded.equilibrium)?;
     let mut loaded = at(load, &deflection.loaded.equilibrium)?;
-    let inputs = winding.inputs;
     unloaded.pose.column_mut(inputs.payload()).fill(0.0);
     unloaded.tensions.column_mut(inputs.payload()).fill(0.0);
     let count = inputs.count();

@@ -74,7 +74,7 @@ pub enum StaticsError {
     #[error(
         "{cables} cables for {freedoms} free motions leave {} coordinates of the pose that cannot be chosen: \
          expected as many names in `free` (of x, y, z, roll, pitch, yaw), not {named}; the inverse model, \
-         deflection, stiffness and modes take them",
+         deflection, derivatives, stiffness, modes, workspaces and studies take them",
         freedoms.saturating_sub(*cables)
     )]
     FreeCoordinates {

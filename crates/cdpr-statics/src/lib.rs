@@ -55,7 +55,9 @@ mod state;
 
 pub use calibration::{Calibration, ChosenPose, Combination, Identifiability, Measurement, ParameterValue};
 pub use certificate::Certificate;
-pub use derivatives::{AtBound, Derivatives, EquilibriumDerivatives, OneSided, VarianceBudget, derivatives};
+pub use derivatives::{
+    AtBound, Derivatives, EquilibriumDerivatives, OneSided, VarianceBudget, derivatives, derivatives_free,
+};
 pub use direct::{
     DirectMethod, DirectSolution, Equilibria, Found, Loss, LossKind, Mode, Path, PathStep, Report, Setting,
     Stability, Start, Starts, direct, rough_pose,

@@ -7,7 +7,8 @@ use cdpr_statics::{
     wound_lengths,
 };
 use cdpr_study::{
-    Measured, Output, Sampling, Session, Study, StudyError, analyse, compute_surface, observe_into,
+    Measured, Output, Sampling, SensitivitySpec, SensitivitySummary, Session, Study, StudyError, analyse,
+    compute_surface, observe_into,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -176,20 +177,26 @@ fn every_output_has_the_same_numbers_on_one_and_two_threads() {
     }
 }
 
+fn small_measures() -> SensitivitySpec {
+    let spec = json!({
+        "observations": 40, "saltelli_blocks": 16, "bootstrap_resamples": 10, "morris_blocks": 4,
+        "derivative_points": 8, "expansion": { "max_degree": 2, "norm": 0.75, "interactions": 2 }
+    });
+    serde_json::from_value(spec).unwrap()
+}
+
+/// The methods that are left out.
+fn left_out(found: &SensitivitySummary) -> Vec<&str> {
+    found.notes.iter().filter_map(|note| Some(note.split_once(':')?.0)).collect()
+}
+
 #[test]
 fn measures_of_a_frequency_do_without_derivatives_and_those_of_a_position_have_them() {
     for (output, without) in [("frequency", &["derivatives", "dgsm"][..]), ("position", &["derivatives"])] {
         for mut study in of_two_robots(output) {
             // Fewer inputs than observations.
             study.file.error_models["all"].shift_remove("b");
-            study.file.sensitivity = Some(
-                serde_json::from_value(json!({
-                    "observations": 40, "saltelli_blocks": 16, "bootstrap_resamples": 10, "morris_blocks": 4,
-                    "derivative_points": 8,
-                    "expansion": { "max_degree": 2, "norm": 0.75, "interactions": 2 }
-                }))
-                .unwrap(),
-            );
+            study.file.sensitivity = Some(small_measures());
             let sampling = study.sampling("point").unwrap();
             let session = Session::in_memory();
             let tally = cdpr_study::observe(&sampling, &session).unwrap();
@@ -197,9 +204,7 @@ fn measures_of_a_frequency_do_without_derivatives_and_those_of_a_position_have_t
             assert_eq!((summary.output, summary.notes.len()), (study.file.output, 0), "{:?}", summary.notes);
             assert_eq!(summary.signed_effects.len(), sampling.design.inputs().len());
             let sensitivity = summary.sensitivity.unwrap();
-            let left_out: Vec<&str> =
-                sensitivity.notes.iter().filter_map(|note| Some(note.split_once(':')?.0)).collect();
-            assert_eq!(left_out, without, "{:?}", sensitivity.notes);
+            assert_eq!(left_out(&sensitivity), without, "{:?}", sensitivity.notes);
             assert!(sensitivity.notes.iter().all(|note| note.contains("has no derivative")));
             let known = ["t_student", "regression", "rank_regression", "morris", "expansion", "sobol"];
             assert!(known.iter().all(|method| sensitivity.methods.contains_key(*method)));
@@ -253,7 +258,7 @@ fn a_robot_that_fails_has_no_output_and_a_reason() {
 /// Studies of GRAB, and of every second cable of CoGiRo, with free coordinates.
 fn of_four_cables(output: &str) -> [Study; 2] {
     let mut cogiro = study("cogiro", [1.0, 0.5, 2.0], output);
-    cogiro["samplings"]["point"]["free"] = json!(["roll", "yaw"]);
+    cogiro["samplings"]["point"]["free"] = json!(["roll", "pitch"]);
     let mut grab = study("grab", [1.2795, -0.1915, -0.9192], output);
     grab["payload"] = json!(0.1);
     grab["error_models"]["all"] = json!({
@@ -265,15 +270,17 @@ fn of_four_cables(output: &str) -> [Study; 2] {
     grab["samplings"]["point"]["pose"]["rpy_deg"] = json!([0.0, 0.0, 7.8]);
     let folder = tempfile::tempdir().unwrap();
     let robots = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots"));
-    [(cogiro, "cogiro.json", &[1, 3, 5, 7]), (grab, "grab.json", &[0, 1, 2, 3])].map(|(mut study, name, kept)| {
-        let text = std::fs::read_to_string(robots.join(name)).unwrap();
-        let mut robot: Value = serde_json::from_str(&text).unwrap();
-        robot["cables"] = kept.map(|i: usize| robot["cables"][i].clone()).to_vec().into();
-        std::fs::write(folder.path().join(name), robot.to_string()).unwrap();
-        study["robot"] = json!(name);
-        study["surfaces"] = json!({});
-        Study::from_json(&study.to_string(), &folder.path().join("study.json")).unwrap()
-    })
+    [(cogiro, "cogiro.json", &[0, 2, 4, 6]), (grab, "grab.json", &[0, 1, 2, 3])].map(
+        |(mut study, name, kept)| {
+            let text = std::fs::read_to_string(robots.join(name)).unwrap();
+            let mut robot: Value = serde_json::from_str(&text).unwrap();
+            robot["cables"] = kept.map(|i: usize| robot["cables"][i].clone()).to_vec().into();
+            std::fs::write(folder.path().join(name), robot.to_string()).unwrap();
+            study["robot"] = json!(name);
+            study["surfaces"] = json!({});
+            Study::from_json(&study.to_string(), &folder.path().join("study.json")).unwrap()
+        },
+    )
 }
 
 #[test]
@@ -307,7 +314,26 @@ fn the_frequency_of_a_robot_with_four_cables_is_that_of_its_free_motion() {
     // A tenth of a kilogram at the centre of mass of one kilogram.
     same(sampling.nominal_value, modes[0].frequency, 0.1);
     assert!((0.5..2.0).contains(&sampling.nominal_value), "{}", sampling.nominal_value);
-    assert!(observed(&sampling).iter().all(|(_, found)| (found.value() / modes[0].frequency - 1.0).abs() < 0.2));
+    assert!(
+        observed(&sampling).iter().all(|(_, found)| (found.value() / modes[0].frequency - 1.0).abs() < 0.2)
+    );
+}
+
+#[test]
+fn measures_with_free_coordinates_have_exact_derivatives() {
+    for (output, without) in [("deflection", &[][..]), ("position", &["derivatives"])] {
+        for mut study in of_four_cables(output) {
+            let model = &mut study.file.error_models["all"];
+            model.retain(|name, _| !["a", "b"].contains(&name.as_str()));
+            study.file.sensitivity = Some(small_measures());
+            let sampling = study.sampling("point").unwrap();
+            let session = Session::in_memory();
+            let tally = cdpr_study::observe(&sampling, &session).unwrap();
+            let found = analyse(&sampling, &tally, &session).unwrap().sensitivity.unwrap();
+            assert_eq!(left_out(&found), without, "{}: {:?}", study.robot.name, found.notes);
+            assert_eq!(found.methods["dgsm"].failed, 0);
+        }
+    }
 }
 
 #[test]
@@ -317,7 +343,10 @@ fn free_coordinates_that_do_not_fit_the_robot_are_refused() {
     for free in [json!([]), json!(["roll"]), json!(["roll", "roll"])] {
         file["samplings"]["point"]["free"] = free;
         let error = refused(&file);
-        assert!(error.contains("samplings.point.free is [") && error.contains("expected 2 different"), "{error}");
+        assert!(
+            error.contains("samplings.point.free is [") && error.contains("expected 2 different"),
+            "{error}"
+        );
     }
     let mut eight = study("cogiro", [1.0, 0.5, 2.0], "deflection");
     eight["surfaces"]["plane"]["free"] = json!(["z"]);

@@ -1,11 +1,11 @@
 //! A robot at a pose, or at each pose of a file: arguments and answers of several commands.
 
 use crate::answer::OutOfLimits;
-use crate::arguments::{Format, LoadArguments, Preference};
+use crate::arguments::{Format, FreeArguments, LoadArguments, Preference};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, progress};
 use crate::poses::{Angles, COLUMNS, place, pose, pose_file, pose_numbers};
-use cdpr_robot::{Coordinate, Pose, Robot, shown};
+use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::StaticsError;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -39,17 +39,6 @@ pub(crate) struct RobotAtPose {
     pub(crate) load: LoadArguments,
     #[command(flatten)]
     preference: Preference,
-}
-
-/// The coordinates of a pose that are found.
-#[derive(clap::Args)]
-pub(crate) struct FreeArguments {
-    /// Coordinates of the pose that are found, for a robot with fewer cables than free motions: as many of x,
-    /// y, z, roll, pitch, yaw as cables are missing.
-    ///
-    /// They start from the pose and end where the platform rests. R = Rz(yaw) Ry(pitch) Rx(roll).
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub(crate) free: Vec<Coordinate>,
 }
 
 /// A robot at a pose, and the coordinates that are found.

@@ -3,15 +3,16 @@
 use crate::answer::{OutOfLimits, bound_name, decimal};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
-use crate::pose::at_pose::{RobotAtPose, Row, cells};
+use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
 use cdpr_robot::{Parameter, Robot};
-use cdpr_statics::{Derivatives, OneSided, StaticsError, derivatives};
+use cdpr_statics::{Derivatives, OneSided, StaticsError, derivatives_free};
 use serde::Serialize;
 
-pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
+pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
     let solve = |robot: &Robot, pose: &_| {
-        Slopes::new(robot, &derivatives(robot, pose, &vec![0.0; robot.cables.len()], &load)?)
+        let offsets = vec![0.0; robot.cables.len()];
+        Slopes::new(robot, &derivatives_free(robot, pose, &offsets, &load, &free.free)?)
     };
     at.answer(solve, Slopes::print)
 }

@@ -1,9 +1,10 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
 use crate::answer::{self, Neutral, OutOfLimits, Residual, bound_name};
+use crate::arguments::FreeArguments;
 use crate::error::ProgramError;
 use crate::output::Ending;
-use crate::pose::at_pose::{FreeArguments, RobotAtPose, Row, cells, numbered};
+use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use crate::poses::{COLUMNS, pose_numbers};
 use cdpr_robot::Robot;
 use cdpr_statics::{FreeSolution, FreeSolutions, InversePath, InverseSolution, inverse, inverse_free};

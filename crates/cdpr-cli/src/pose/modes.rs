@@ -1,10 +1,10 @@
 //! `cdpr modes`: natural frequencies and motions of the platform on its cables.
 
 use crate::answer::{self, OutOfLimits, decimal};
-use crate::arguments;
+use crate::arguments::{self, FreeArguments};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
-use crate::pose::at_pose::{FreeArguments, RobotAtPose, Row, cells, numbered};
+use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use crate::poses;
 use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::{DirectProblem, PoseModes, Start, StaticsError, modes_at, rough_pose};

@@ -1,6 +1,6 @@
 //! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::arguments::{self, Format, LoadArguments, Named, Preference, Threads};
+use crate::arguments::{self, Format, FreeArguments, LoadArguments, Named, Preference, Threads};
 use crate::error::ProgramError;
 use crate::output::{Ending, drawn, progress, table};
 use crate::poses::{self, Angles};
@@ -34,6 +34,8 @@ pub(crate) struct Settings {
     rotation: Rotation3<f64>,
     #[command(flatten)]
     angles: Angles,
+    #[command(flatten)]
+    free: FreeArguments,
     #[command(flatten)]
     load: LoadArguments,
     #[command(flatten)]
@@ -99,6 +101,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         rotation: settings.angles.rotation().unwrap_or(settings.rotation),
         load: settings.load.load(),
         tolerances: tolerances.as_ref(),
+        free: &settings.free.free,
     };
     let progress = progress(grid.poses().len(), "poses");
     let clock = Instant::now();

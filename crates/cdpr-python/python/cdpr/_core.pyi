@@ -166,6 +166,7 @@ class Robot:
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
+        free: list[str] | None = None,
     ) -> Derivatives: ...
     def observe(
         self,
@@ -186,6 +187,7 @@ class Robot:
         grid: tuple[int, int] | None = None,
         payload: float,
         uncertainty: dict[str, float] | None = None,
+        free: list[str] | None = None,
     ) -> Workspace: ...
 
 @final

@@ -3,8 +3,9 @@
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use crate::robot::deflection::{Deflection, Given};
+use crate::robot::inverse::coordinates;
 use cdpr_robot::{Parameter, Pose};
-use cdpr_statics::{StaticsError, derivatives};
+use cdpr_statics::{StaticsError, derivatives_free};
 use pyo3::prelude::*;
 
 answer! {
@@ -92,9 +93,12 @@ impl Robot {
     /// pose: wanted pose under the platform's own weight, (3,) or (7,).
     /// payload: mass added at the platform's centre of mass [kg].
     /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
+    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    ///     motions, as `Robot.inverse` takes them.
     ///
     /// Raises InputError; for one case NoSolutionError, also where a derivative does not exist.
-    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None))]
+    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, free=None))]
+    #[allow(clippy::too_many_arguments)]
     fn derivatives(
         &self,
         py: Python,
@@ -102,7 +106,9 @@ impl Robot {
         payload: Option<Numbers>,
         force: Option<Numbers>,
         moment: Option<Numbers>,
+        free: Option<Vec<String>>,
     ) -> Answer<Derivatives> {
+        let free = coordinates(free)?;
         let poses = Rows::poses("pose", &pose)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         let cases = loads.cases([&poses])?;
@@ -110,7 +116,8 @@ impl Robot {
         let cables = robot.cables.len();
         let no_offsets = vec![0.0; cables];
         let outcomes: Vec<Result<Sides, StaticsError>> = each(py, cases.count, |case| {
-            let found = derivatives(robot, &poses.pose(case)?, &no_offsets, &loads.load(case)?)?;
+            let (pose, load) = (poses.pose(case)?, loads.load(case)?);
+            let found = derivatives_free(robot, &pose, &no_offsets, &load, &free)?;
             Ok(Sides {
                 left: Slopes::new(&found)?,
                 right: Slopes::new(&found.right())?,

@@ -2,6 +2,7 @@
 
 use crate::convert::{Answer, Array, Numbers, Raised, answer, run};
 use crate::robot::Robot;
+use crate::robot::inverse::coordinates;
 use cdpr_assess::{WorkspaceRow, compute_workspace};
 use cdpr_robot::{Axis, Rotation3};
 use cdpr_statics::Load;
@@ -70,9 +71,12 @@ impl Robot {
     /// grid: points of the plane along its two axes; (41, 41) if left out.
     /// payload: mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
     /// uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    ///     motions, as `Robot.inverse` takes them.
     ///
     /// Raises InputError. A position that is not held is no error.
-    #[pyo3(signature = (*, x=None, y=None, z=None, plane=None, grid=None, payload, uncertainty=None))]
+    #[pyo3(signature = (*, x=None, y=None, z=None, plane=None, grid=None, payload, uncertainty=None,
+        free=None))]
     #[allow(clippy::too_many_arguments)]
     fn workspace(
         &self,
@@ -84,7 +88,9 @@ impl Robot {
         grid: Option<(usize, usize)>,
         payload: f64,
         uncertainty: Option<&Bound<PyDict>>,
+        free: Option<Vec<String>>,
     ) -> Answer<Workspace> {
+        let free = coordinates(free)?;
         let grid = match (x, y, z, plane, grid) {
             (Some(x), Some(y), Some(z), None, None) => {
                 Grid::new([places("x", &x)?, places("y", &y)?, places("z", &z)?])?
@@ -101,6 +107,7 @@ impl Robot {
             rotation: Rotation3::identity(),
             load: Load::payload(payload),
             tolerances: tolerances.as_ref(),
+            free: &free,
         };
         let poses = run(py, |stop| compute_workspace(&workspace, &|| (), &|| stop.load(Ordering::Relaxed)))??;
         let rows: Vec<WorkspaceRow> = poses.iter().map(|pose| WorkspaceRow::new(&workspace, pose)).collect();

@@ -104,29 +104,30 @@ pub fn deflection_free(
     load: &Load,
     free: &[Coordinate],
 ) -> Result<Deflection, StaticsError> {
-    let HeldPose { lengths, equilibrium } = wound(robot, pose, tension_offsets, free)?;
+    if free.is_empty() {
+        return deflection(robot, pose, tension_offsets, load);
+    }
+    let (_, HeldPose { lengths, equilibrium }) = wind_free(robot, pose, tension_offsets, free)?;
     deflection_from(robot, lengths, load, &equilibrium)
 }
 
-/// The wanted pose with offset tension set-points.
-fn wound(
+/// The rest of a platform with `free` coordinates, without and with the offsets of tension set-points.
+pub(crate) fn wind_free(
     robot: &Robot,
     pose: &Pose,
     tension_offsets: &[f64],
     free: &[Coordinate],
-) -> Result<HeldPose, StaticsError> {
-    if free.is_empty() {
-        let Wound { lengths, held, .. } = wind(robot, pose, tension_offsets)?;
-        return Ok(HeldPose { lengths, equilibrium: held });
-    }
+) -> Result<(HeldPose, HeldPose), StaticsError> {
     check_offsets(robot, tension_offsets)?;
     let held = held_at(robot, pose, &Load::none(), free)?;
     if tension_offsets.iter().all(|offset| *offset == 0.0) {
-        return Ok(held);
+        return Ok((held.clone(), held));
     }
     let rest = held.equilibrium.pose;
     let limits = limits_at(robot, &rest)?;
-    lengths_for_tensions(robot, &rest, &offset(&held.equilibrium.tensions(), tension_offsets, &limits))
+    let set_points = offset(&held.equilibrium.tensions(), tension_offsets, &limits);
+    let wound = lengths_for_tensions(robot, &rest, &set_points)?;
+    Ok((held, wound))
 }
 
 /// Unstrained lengths [m] that give offset tension set-points while the platform is held at `pose`, or, with
@@ -143,7 +144,10 @@ pub fn wound_lengths(
     tension_offsets: &[f64],
     free: &[Coordinate],
 ) -> Result<Vec<f64>, StaticsError> {
-    Ok(wound(robot, pose, tension_offsets, free)?.lengths)
+    if free.is_empty() {
+        return Ok(wind(robot, pose, tension_offsets)?.lengths);
+    }
+    Ok(wind_free(robot, pose, tension_offsets, free)?.1.lengths)
 }
 
 /// Winds the cables for `pose`.

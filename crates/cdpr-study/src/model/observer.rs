@@ -8,8 +8,8 @@ use crate::model::error_model::ErrorModel;
 use crate::model::observed::Measured;
 use cdpr_robot::{Coordinate, Parameter, Perturbed, Pose, Robot, Vector3};
 use cdpr_statics::{
-    Deflection, DirectProblem, Load, Matrix3xX, Observer, Start, StaticsError, deflection_free, derivatives,
-    direct, held_at, wound_lengths,
+    Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observer, Start, StaticsError, deflection_free,
+    derivatives_free, direct, held_at, wound_lengths,
 };
 use std::borrow::Cow;
 
@@ -24,8 +24,8 @@ pub struct OutputObserver<'a> {
     free: &'a [Coordinate],
     /// The nominal robot.
     nominal: Deflection,
-    /// Observes the deflection, whatever the output is.
-    pub deflections: Observer<'a>,
+    /// Observes deflections of robots with a cable for every free motion.
+    lanes: Observer<'a>,
 }
 
 /// What is observed, and of which robot.
@@ -42,12 +42,12 @@ impl<'a> OutputObserver<'a> {
     /// Those of [`Observer::new`] and [`held_at`].
     pub(crate) fn new(of: Observing<'a>, nominal: &Deflection) -> Result<Self, StaticsError> {
         let Observing { robot, pose, load, output, free } = of;
-        let deflections = Observer::new(robot, &pose, &load)?;
+        let lanes = Observer::new(robot, &pose, &load)?;
         let pose = match free {
             [] => pose,
             _ => held_at(robot, &pose, &Load::none(), free)?.equilibrium.pose,
         };
-        Ok(Self { robot, pose, load, output, free, nominal: nominal.clone(), deflections })
+        Ok(Self { robot, pose, load, output, free, nominal: nominal.clone(), lanes })
     }
 
     /// The output of the nominal robot in its unit.
@@ -55,45 +55,57 @@ impl<'a> OutputObserver<'a> {
     /// # Errors
     /// [`StaticsError`] says why it has none.
     pub(crate) fn nominal_value(&self) -> Result<f64, StaticsError> {
-        let of_nominal = |_: &Robot| Ok(Cow::Borrowed(&self.nominal));
         match self.output {
             Output::Position => Ok(0.0),
-            _ => Ok(self.measured(self.robot, of_nominal)?.value()),
+            _ => Ok(self.of_deflection(self.robot, &self.nominal)?.value()),
         }
     }
 
     /// Observes any number of robots: `deviations` has a row of all parameters for each, one after the other.
     /// A robot without the output is an error with the reason.
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Measured, StaticsError>> {
-        if self.output == Output::Deflection && self.free.is_empty() {
-            let outcomes = self.deflections.observe_all(deviations).into_iter();
-            return outcomes
-                .map(|found| found.map(|found| Measured::Displacement(found.displacement)))
-                .collect();
+        if self.output == Output::Deflection {
+            let displacements = self.displacements(deviations).into_iter();
+            return displacements.map(|found| found.map(Measured::Displacement)).collect();
         }
-        deviations.chunks(Parameter::of(self.robot).len()).map(|row| self.observe(row)).collect()
+        let observed = |row: &[f64]| {
+            let perturbed = self.robot.perturbed(row)?;
+            if self.output == Output::Position {
+                return self.displaced(&perturbed).map(Measured::Displacement);
+            }
+            self.of_deflection(&perturbed.robot, &self.deflection(&perturbed)?)
+        };
+        self.rows(deviations).map(observed).collect()
     }
 
-    fn observe(&self, deviations: &[f64]) -> Result<Measured, StaticsError> {
-        let perturbed = self.robot.perturbed(deviations)?;
-        if self.output == Output::Position {
-            return self.displaced(&perturbed).map(Measured::Displacement);
+    /// Displacements under the load [m] of any number of robots, whatever the output is.
+    pub fn displacements(&self, deviations: &[f64]) -> Vec<Result<Vector3<f64>, StaticsError>> {
+        if self.free.is_empty() {
+            let outcomes = self.lanes.observe_all(deviations).into_iter();
+            return outcomes.map(|found| found.map(|found| found.displacement)).collect();
         }
-        let deflection = |robot: &Robot| {
-            let found =
-                deflection_free(robot, &self.pose, &perturbed.tension_offsets, &self.load, self.free)?;
-            Ok(Cow::Owned(found))
-        };
-        self.measured(&perturbed.robot, deflection)
+        let displacement = |row: &[f64]| Ok(self.deflection(&self.robot.perturbed(row)?)?.displacement());
+        self.rows(deviations).map(displacement).collect()
+    }
+
+    fn rows<'b>(&self, deviations: &'b [f64]) -> impl Iterator<Item = &'b [f64]> {
+        deviations.chunks(Parameter::of(self.robot).len())
+    }
+
+    fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
+        deflection_free(&perturbed.robot, &self.pose, &perturbed.tension_offsets, &self.load, self.free)
+    }
+
+    /// The deflection of a robot with its derivatives.
+    ///
+    /// # Errors
+    /// As [`derivatives_free`].
+    pub fn derivatives(&self, perturbed: &Perturbed) -> Result<Derivatives, StaticsError> {
+        derivatives_free(&perturbed.robot, &self.pose, &perturbed.tension_offsets, &self.load, self.free)
     }
 
     /// The output of a robot that is deflected by the load; not its position.
-    fn measured<'b>(
-        &self,
-        robot: &Robot,
-        deflection: impl FnOnce(&Robot) -> Result<Cow<'b, Deflection>, StaticsError>,
-    ) -> Result<Measured, StaticsError> {
-        let found = deflection(robot)?;
+    fn of_deflection(&self, robot: &Robot, found: &Deflection) -> Result<Measured, StaticsError> {
         Ok(match self.output {
             Output::Deflection | Output::Position => Measured::Displacement(found.displacement()),
             Output::Stiffness => Measured::Number(found.loaded.stability.least_stiffness()),
@@ -135,7 +147,8 @@ impl<'a> OutputObserver<'a> {
         let mut slopes: Matrix3xX<f64> = problem.derivatives(&found)?.pose.fixed_rows::<3>(0).into();
         if errors.has_offsets() {
             // Offsets act through the lengths alone, which are those of the nominal robot.
-            let wound = derivatives(self.robot, &self.pose, &perturbed.tension_offsets, &self.load)?.lengths;
+            let offsets = &perturbed.tension_offsets;
+            let wound = derivatives_free(self.robot, &self.pose, offsets, &self.load, self.free)?.lengths;
             let moved = problem.linearize(&found)?.pose_per_length() * wound;
             let n = self.robot.cables.len();
             let first = errors.parameters() - n;
@@ -177,8 +190,7 @@ impl<'a> OutputObserver<'a> {
         let perturbed = self.robot.perturbed(deviations)?;
         let (length, slopes) = match self.output {
             Output::Deflection | Output::Frequency | Output::Stiffness => {
-                let found =
-                    derivatives(&perturbed.robot, &self.pose, &perturbed.tension_offsets, &self.load)?;
+                let found = self.derivatives(&perturbed)?;
                 (found.deflection.rms(), found.rms()?)
             }
             Output::Position => {
