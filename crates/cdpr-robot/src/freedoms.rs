@@ -44,7 +44,11 @@ impl Freedoms {
     pub const ALL: Self = Self { free: [true; 6] };
 
     /// Those of a point mass, whose rotation is held, or of a platform that moves in a plane.
+    #[inline]
     pub fn new(point: bool, plane: Option<Plane>) -> Self {
+        if !point && plane.is_none() {
+            return Self::ALL;
+        }
         let in_plane = |k: usize| match plane {
             None => true,
             Some(plane) if k < 3 => k != plane.normal(),

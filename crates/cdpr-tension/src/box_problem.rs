@@ -60,9 +60,10 @@ const ROUNDING: f64 = 1e-15;
 const NEARLY_ROUNDING: f64 = 1e-12;
 
 impl BoxUnknown {
-    /// d_i(λ), (T5).
-    fn value(&self, multipliers: &Vector6<f64>) -> f64 {
-        let free = -(self.gradient + self.column.dot(multipliers)) / self.curvature;
+    /// d_i(λ), (T5), with J_i·λ.
+    #[inline]
+    fn value(&self, along: f64) -> f64 {
+        let free = -(self.gradient + along) / self.curvature;
         free.max(self.bounds[0]).min(self.bounds[1])
     }
 }
@@ -71,10 +72,18 @@ impl BoxUnknown {
 struct Dual {
     /// g.
     gradient: Vector6<f64>,
-    /// -dg/dλ.
-    slope: Matrix6<f64>,
     /// The largest term of g.
     size: f64,
+}
+
+/// What is kept of an unknown between the iterations.
+struct Kept {
+    /// The largest component of its column.
+    largest: f64,
+    /// Whether it moves with λ, as far as the factors of the slope know.
+    moving: bool,
+    /// Whether it moves with λ where the dual was last evaluated.
+    moves: bool,
 }
 
 impl BoxProblem<'_> {
@@ -83,17 +92,18 @@ impl BoxProblem<'_> {
         const MAX_ITERATIONS: usize = 100;
         let mut multipliers = self.multipliers;
         // The first step sees no bound.
-        let mut dual = self.dual(&multipliers, true);
+        let each = self.unknowns.iter().map(|unknown| unknown.column.amax());
+        let mut kept: Vec<_> = each.map(|largest| Kept { largest, moving: true, moves: true }).collect();
+        let mut dual = self.dual(&multipliers, &mut kept, true);
+        let mut factors = self.slope(&kept).cholesky();
         for _ in 0..MAX_ITERATIONS {
             let error = dual.gradient.amax();
             if error <= ROUNDING * dual.size {
                 break;
             }
-            let Some(step) = dual.slope.cholesky().map(|factors| factors.solve(&dual.gradient)) else {
-                break;
-            };
+            let Some(step) = factors.as_ref().map(|factors| factors.solve(&dual.gradient)) else { break };
             let full = multipliers + step;
-            let next = self.dual(&full, false);
+            let next = self.dual(&full, &mut kept, false);
             let halved = next.gradient.amax() <= 0.5 * error;
             if !halved && error <= NEARLY_ROUNDING * dual.size {
                 break;
@@ -101,38 +111,51 @@ impl BoxProblem<'_> {
             if halved || next.gradient.dot(&step) >= 0.0 {
                 (multipliers, dual) = (full, next);
             } else {
-                multipliers += step * self.share(&multipliers, &step);
-                dual = self.dual(&multipliers, false);
+                multipliers += step * self.share(&multipliers, &step, &mut kept);
+                dual = self.dual(&multipliers, &mut kept, false);
+            }
+            if kept.iter().any(|kept| kept.moving != kept.moves) {
+                kept.iter_mut().for_each(|kept| kept.moving = kept.moves);
+                factors = self.slope(&kept).cholesky();
             }
         }
-        let values = self.unknowns.iter().map(|unknown| unknown.value(&multipliers)).collect();
+        let value = |unknown: &BoxUnknown| unknown.value(unknown.column.dot(&multipliers));
+        let values = self.unknowns.iter().map(value).collect();
         BoxSolution { values, multipliers, residual: dual.gradient.norm() }
     }
 
-    /// The dual at λ; its slope is that without bounds where they are `ignored`.
-    fn dual(&self, multipliers: &Vector6<f64>, ignored: bool) -> Dual {
-        let mut dual = Dual {
-            gradient: self.residual - (multipliers - self.multipliers) * self.elasticity,
-            slope: Matrix6::from_diagonal_element(self.elasticity),
-            size: self.residual.amax(),
-        };
-        for unknown in self.unknowns {
-            let BoxUnknown { column, bounds: [least, greatest], curvature, gradient } = unknown;
-            let d = unknown.value(multipliers);
-            dual.gradient.axpy(d, column, 1.0);
-            if ignored || (*least < d && d < *greatest) {
-                dual.slope.syger(1.0 / curvature, column, column, 1.0);
+    /// The dual at λ, and which unknowns move there: all where bounds are `ignored`.
+    fn dual(&self, multipliers: &Vector6<f64>, kept: &mut [Kept], ignored: bool) -> Dual {
+        let mut gradient = self.residual - (multipliers - self.multipliers) * self.elasticity;
+        let mut size = self.residual.amax();
+        for (unknown, kept) in self.unknowns.iter().zip(kept) {
+            let BoxUnknown { column, bounds: [least, greatest], curvature, .. } = unknown;
+            let along = column.dot(multipliers);
+            let d = unknown.value(along);
+            gradient += column * d;
+            kept.moves = ignored || (*least < d && d < *greatest);
+            if kept.moves {
                 // d is the difference of two terms as large as this.
-                let terms = gradient.abs() + column.dot(multipliers).abs();
-                dual.size = dual.size.max(terms / curvature * column.amax());
+                let terms = (unknown.gradient.abs() + along.abs()) / curvature * kept.largest;
+                size = if terms > size { terms } else { size };
             }
         }
-        dual
+        Dual { gradient, size }
+    }
+
+    /// -dg/dλ, where the unknowns that are `moving` move with λ.
+    fn slope(&self, kept: &[Kept]) -> Matrix6<f64> {
+        let mut slope = Matrix6::from_diagonal_element(self.elasticity);
+        let moving = self.unknowns.iter().zip(kept).filter(|(_, kept)| kept.moving);
+        for (BoxUnknown { column, curvature, .. }, _) in moving {
+            slope.syger(1.0 / curvature, column, column, 1.0);
+        }
+        slope
     }
 
     /// The share of a step at which the slope g·step becomes zero; it is negative at the whole step.
-    fn share(&self, multipliers: &Vector6<f64>, step: &Vector6<f64>) -> f64 {
-        let slope = |share: f64| self.dual(&(multipliers + step * share), false).gradient.dot(step);
+    fn share(&self, multipliers: &Vector6<f64>, step: &Vector6<f64>, kept: &mut [Kept]) -> f64 {
+        let mut slope = |share: f64| self.dual(&(multipliers + step * share), kept, false).gradient.dot(step);
         // Where an unknown meets a bound.
         let mut kinks: Vec<f64> = Vec::with_capacity(2 * self.unknowns.len());
         for BoxUnknown { gradient, curvature, column, bounds } in self.unknowns {

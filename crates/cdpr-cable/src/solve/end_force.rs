@@ -161,29 +161,29 @@ pub(crate) fn check_end(end: Vector2<f64>) -> Result<(), CableError> {
 }
 
 fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Result<Solution<'a>, CableError> {
-    let mut now = start;
-    let mut compliance = now.compliance();
+    let mut catenary = start;
+    let mut compliance = catenary.compliance();
     let mut residual = end - compliance.end;
     for iteration in 1..=iterations {
-        let rounding = rounding(&now, &compliance, end);
+        let force = catenary.force;
+        let rounding = rounding(&catenary, &compliance, end);
         // A residual below rounding is left alone: for a stiff cable it is worth a visible force.
         let above = residual.zip_map(&rounding, |open, noise| if open.abs() <= noise { 0.0 } else { open });
         let step = compliance.in_plane_stiffness() * above;
         let mut fraction = 1.0;
         let next = loop {
-            let force = now.force + fraction * step;
+            let tried = force + fraction * step;
             // The horizontal force stays positive: a step takes nine tenths of it away at most.
-            let force = Vector2::new(force.x.max(0.1 * now.force.x), force.y);
-            let next = Catenary { force, ..now };
-            let next_compliance = next.compliance();
+            catenary.force = Vector2::new(tried.x.max(0.1 * force.x), tried.y);
+            let next_compliance = catenary.compliance();
             let next_residual = end - next_compliance.end;
             // Not past the maximum along the step, but for rounding: then the concave function has grown. Or
             // clearly closer.
-            let moved = (force - now.force).abs();
-            if next_residual.dot(&(force - now.force)) >= -rounding.dot(&moved)
+            let moved = catenary.force - force;
+            if next_residual.dot(&moved) >= -rounding.dot(&moved.abs())
                 || next_residual.norm() <= 0.5 * residual.norm()
             {
-                break Some((next, next_compliance, next_residual));
+                break Some((next_compliance, next_residual, moved));
             }
             fraction *= 0.5;
             // A nearly vertical cable as long as its chord needs steps down to a ten billionth.
@@ -191,28 +191,28 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
                 break None;
             }
         };
-        let Some((next, next_compliance, next_residual)) = next else {
+        let Some((next_compliance, next_residual, moved)) = next else {
             // No step gains anything: the residual is rounding, or there is no solution.
-            return accept(now, end, iteration);
+            return accept(Catenary { force, ..catenary }, end, iteration);
         };
-        let moved = next.force - now.force;
         let at_rounding = next_residual.x.abs() <= rounding.x && next_residual.y.abs() <= rounding.y;
         // After a full step as small as this the next one is below rounding, unless the step met a kink or
         // left out the asymmetry of a guide.
         let last = fraction == 1.0
-            && matches!(now.cable.law, ElasticLaw::Linear)
-            && now.cable.guide.is_none()
-            && moved.x.abs() <= LAST_STEP * next.force.x
-            && moved.y.abs() <= LAST_STEP * next.anchor_tension().min(next.exit_tension());
-        (now, compliance, residual) = (next, next_compliance, next_residual);
+            && matches!(catenary.cable.law, ElasticLaw::Linear)
+            && catenary.cable.guide.is_none()
+            && moved.x.abs() <= LAST_STEP * catenary.force.x
+            && moved.y.abs() <= LAST_STEP * catenary.anchor_tension().min(catenary.exit_tension());
+        (compliance, residual) = (next_compliance, next_residual);
         if last || at_rounding {
-            return accept(now, end, iteration);
+            return accept(catenary, end, iteration);
         }
     }
-    accept(now, end, iterations)
+    accept(catenary, end, iterations)
 }
 
 /// Rounding error of the computed end position [m]: of its own sums and of the force it is computed from.
+#[inline(always)]
 fn rounding(catenary: &Catenary, compliance: &Compliance, end: Vector2<f64>) -> Vector2<f64> {
     let forces = Vector2::new(catenary.force.x, catenary.force.y.abs() + catenary.weight());
     let sums = Vector2::new(8.0 * end.x, 2.0 * (catenary.unstrained_length + end.norm()));

@@ -55,39 +55,57 @@ struct Linearised<'a> {
 
 impl<'a> Linearised<'a> {
     fn new(problem: &DirectProblem<'a>, state: &Equilibrium) -> Self {
-        let mut balance = Balance::of_load(problem, &state.pose);
+        let balance = Balance::of_load(problem, &state.pose);
         let mut unbalanced = balance.gradient;
-        let mut closure: f64 = 0.0;
-        let mut cables = Vec::with_capacity(problem.cables());
-        let mut turned = Vec::new();
+        let cables = Vec::with_capacity(problem.cables());
+        let residual = Residual { closure: 0.0, force: 0.0, moment: 0.0 };
+        let mut linearised = Self { balance, cables, turned: Vec::new(), residual };
         for (i, force) in state.cable_forces.iter().enumerate() {
-            let cable = SpannedCable::of(problem.robot, &state.pose, i, &problem.catenary(i, *force));
-            closure = closure.max(Vector2::from(cable.misclosure()).norm());
-            let (plane, arm) = (cable.span.plane, cable.anchor_arm);
-            let limp =
-                LinearizedCable { plane, predicted: [0.0; 2], stiffness: [0.0; 3], lateral_stiffness: 0.0 };
-            let Some(linearized) = cable.linearized() else {
-                cables.push((arm, limp));
-                continue;
-            };
-            unbalanced -= Vector6::from(cable.wrench());
-            balance.add_cable(&arm, &linearized.predicted(), linearized.stiffness());
-            match linearized {
-                SpannedStiffness::Level(linearized) => cables.push((arm, linearized)),
-                SpannedStiffness::Turned(other) => {
-                    cables.push((arm, limp));
-                    turned.resize_with(i, || None);
-                    turned.push(Some(other));
+            let (robot, catenary) = (problem.robot, problem.catenary(i, *force));
+            // The compiler writes the usual cable out without the questions that the others ask.
+            match SpannedCable::plain(robot, &state.pose, i, &catenary) {
+                Some(cable) => linearised.add(&cable, &mut unbalanced),
+                None => {
+                    linearised.add_other(&SpannedCable::of(robot, &state.pose, i, &catenary), &mut unbalanced)
                 }
             }
         }
         let freedoms = problem.robot.freedoms();
         if !freedoms.are_all() {
-            balance.hold(freedoms);
+            linearised.balance.hold(freedoms);
             unbalanced = freedoms.of_vector(&unbalanced);
         }
-        let (force, moment) = (unbalanced.fixed_rows::<3>(0).norm(), unbalanced.fixed_rows::<3>(3).norm());
-        Self { balance, cables, turned, residual: Residual { closure, force, moment } }
+        linearised.residual.force = unbalanced.fixed_rows::<3>(0).norm();
+        linearised.residual.moment = unbalanced.fixed_rows::<3>(3).norm();
+        linearised
+    }
+
+    /// Adds the next cable; `unbalanced` is the wrench at the state itself, against its sign.
+    #[inline(always)]
+    fn add(&mut self, cable: &SpannedCable<'a, f64>, unbalanced: &mut Vector6<f64>) {
+        self.residual.closure = self.residual.closure.max(Vector2::from(cable.misclosure()).norm());
+        let (plane, arm) = (cable.span.plane, cable.anchor_arm);
+        let limp =
+            LinearizedCable { plane, predicted: [0.0; 2], stiffness: [0.0; 3], lateral_stiffness: 0.0 };
+        let Some(linearized) = cable.linearized() else {
+            self.cables.push((arm, limp));
+            return;
+        };
+        *unbalanced -= Vector6::from(cable.wrench());
+        self.balance.add_cable(&arm, &linearized.predicted(), linearized.stiffness());
+        match linearized {
+            SpannedStiffness::Level(linearized) => self.cables.push((arm, linearized)),
+            SpannedStiffness::Turned(other) => {
+                self.turned.resize_with(self.cables.len(), || None);
+                self.turned.push(Some(other));
+                self.cables.push((arm, limp));
+            }
+        }
+    }
+
+    #[cold]
+    fn add_other(&mut self, cable: &SpannedCable<'a, f64>, unbalanced: &mut Vector6<f64>) {
+        self.add(cable, unbalanced);
     }
 
     /// The motion (dp, dφ) that balances the linearised platform. `None` if its stiffness is singular.
@@ -201,7 +219,7 @@ fn iterate(
 /// Gives slack cables without weight whose points have come too far apart the force that strains them.
 fn tighten(problem: &DirectProblem, state: &mut Equilibrium) -> Option<()> {
     for (i, force) in state.cable_forces.iter_mut().enumerate() {
-        if problem.catenary(i, *force).is_limp() {
+        if *force == Vector2::zeros() && problem.catenary(i, *force).is_limp() {
             *force = problem.force_at(&state.pose, i, None).ok()?;
         }
     }

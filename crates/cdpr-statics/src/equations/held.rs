@@ -1,6 +1,6 @@
 //! A cable of a robot between its two points, both held, as a function of its chord force.
 
-use crate::equations::cable::{CablePlane, Span};
+use crate::equations::cable::Span;
 use crate::equations::spanned::{end, to_base};
 use cdpr_cable::{Cable, CableError, Catenary, HeldCable, HeldSpatialCable, length_for_tension};
 use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
@@ -18,53 +18,41 @@ pub(crate) struct Ends<'a> {
     pub(crate) cable: Cable<'a>,
     /// From the exit point to the anchor point [m].
     pub(crate) end: Vector3<f64>,
+    span: Span<f64>,
     level: Option<&'a Matrix3<f64>>,
 }
 
 /// A cable between its two points with the derivatives by its chord force.
 #[derive(Clone)]
-pub(crate) struct Held<'a> {
-    shape: Shape<'a>,
-    level: Option<&'a Matrix3<f64>>,
-}
-
-#[derive(Clone)]
-enum Shape<'a> {
-    Planar(HeldCable<'a>, CablePlane<f64>),
+pub(crate) enum Held<'a> {
+    /// In the vertical plane of its points.
+    Planar(HeldCable<'a>),
+    /// Over a tilted axis.
     Spatial(Box<HeldSpatialCable<'a>>),
 }
 
 impl<'a> Ends<'a> {
     pub(crate) fn of(robot: &'a Robot, pose: &Pose, i: usize) -> Self {
-        Self { cable: robot.cable(i), end: end(robot, pose, i), level: robot.gravity.level() }
-    }
-
-    fn span(&self) -> Span<f64> {
-        Span::new(self.end.into())
-    }
-
-    fn held(&self, shape: Shape<'a>) -> Held<'a> {
-        Held { shape, level: self.level }
+        let end = end(robot, pose, i);
+        Self { cable: robot.cable(i), end, span: Span::new(end.into()), level: robot.gravity.level() }
     }
 
     /// The cable with the chord force `chord_force` [N].
     pub(crate) fn at_chord_force(&self, chord_force: f64) -> Result<Held<'a>, CableError> {
-        Ok(self.held(if self.cable.leaves_its_plane() {
-            Shape::Spatial(Box::new(HeldSpatialCable::at_chord_force(&self.cable, self.end, chord_force)?))
-        } else {
-            let Span { plane, end } = self.span();
-            Shape::Planar(HeldCable::at_chord_force(&self.cable, end.into(), chord_force)?, plane)
-        }))
+        if self.cable.leaves_its_plane() {
+            let held = HeldSpatialCable::at_chord_force(&self.cable, self.end, chord_force)?;
+            return Ok(Held::Spatial(Box::new(held)));
+        }
+        Ok(Held::Planar(HeldCable::at_chord_force(&self.cable, self.span.end.into(), chord_force)?))
     }
 
     /// The cable of least tension at A.
     pub(crate) fn at_least_tension(&self) -> Result<Held<'a>, CableError> {
-        Ok(self.held(if self.cable.leaves_its_plane() {
-            Shape::Spatial(Box::new(HeldSpatialCable::at_least_tension(&self.cable, self.end)?))
-        } else {
-            let Span { plane, end } = self.span();
-            Shape::Planar(HeldCable::at_least_tension(&self.cable, end.into())?, plane)
-        }))
+        if self.cable.leaves_its_plane() {
+            let held = HeldSpatialCable::at_least_tension(&self.cable, self.end)?;
+            return Ok(Held::Spatial(Box::new(held)));
+        }
+        Ok(Held::Planar(HeldCable::at_least_tension(&self.cable, self.span.end.into())?))
     }
 
     /// Unstrained length [m] and force (fx, fz) [N] of the cable with the tension `tension` [N] at A.
@@ -72,7 +60,7 @@ impl<'a> Ends<'a> {
         if self.cable.leaves_its_plane() {
             return Ok(self.at_chord_force(tension)?.with_tension(tension)?.catenary());
         }
-        Ok(length_for_tension(&self.cable, self.span().end.into(), tension)?.catenary)
+        Ok(length_for_tension(&self.cable, self.span.end.into(), tension)?.catenary)
     }
 
     /// Height of the leave point above the entry point with the tension `tension` [N] at A [m].
@@ -82,7 +70,7 @@ impl<'a> Ends<'a> {
             return Ok(catenary.leave_point().y);
         }
         let held = self.at_chord_force(tension)?.with_tension(tension)?;
-        let Shape::Spatial(held) = held.shape else { return Ok(0.0) };
+        let Held::Spatial(held) = held else { return Ok(0.0) };
         Ok(held.cable.in_plane().0.leave_point().y)
     }
 
@@ -99,62 +87,92 @@ impl<'a> Ends<'a> {
         }
         Ok(tension.max(ABOVE_LEAST * self.at_least_tension()?.tension()))
     }
+
+    /// F_i [N], the force on the platform.
+    #[inline]
+    pub(crate) fn force(&self, held: &Held) -> [f64; 3] {
+        match held {
+            Held::Planar(held) => self.on_platform(self.span.plane.lift(held.catenary.force.into())),
+            Held::Spatial(held) => self.on_platform(held.cable.force.into()),
+        }
+    }
+
+    /// dF_i/dσ.
+    #[inline]
+    pub(crate) fn force_slope(&self, held: &Held) -> [f64; 3] {
+        match held {
+            Held::Planar(held) => self.on_platform(self.span.plane.lift(held.force_slope.into())),
+            Held::Spatial(held) => self.on_platform(held.force_slope.into()),
+        }
+    }
+
+    /// d²F_i/dσ² [1/N] and d²t/dσ² [1/N].
+    pub(crate) fn curvatures(&self, held: &Held) -> ([f64; 3], f64) {
+        match held {
+            Held::Planar(held) => {
+                let force = held.force_curvature();
+                (self.on_platform(self.span.plane.lift(force.into())), held.tension_curvature(&force))
+            }
+            Held::Spatial(held) => {
+                let force = held.force_curvature();
+                (self.on_platform(force.into()), held.tension_curvature(&force))
+            }
+        }
+    }
+
+    fn on_platform(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        to_base(self.level, [-x, -y, -z])
+    }
 }
 
 impl<'a> Held<'a> {
     /// The same cable with another chord force [N].
     pub(crate) fn with_chord_force(&self, chord_force: f64) -> Result<Self, CableError> {
-        Ok(Self {
-            shape: match &self.shape {
-                Shape::Planar(held, plane) => Shape::Planar(held.with_chord_force(chord_force)?, *plane),
-                Shape::Spatial(held) => Shape::Spatial(Box::new(held.with_chord_force(chord_force)?)),
-            },
-            level: self.level,
+        Ok(match self {
+            Self::Planar(held) => Self::Planar(held.with_chord_force(chord_force)?),
+            Self::Spatial(held) => Self::Spatial(Box::new(held.with_chord_force(chord_force)?)),
         })
     }
 
     /// The same cable with the tension `tension` [N] at A, on its taut branch.
     pub(crate) fn with_tension(&self, tension: f64) -> Result<Self, CableError> {
-        Ok(Self {
-            shape: match &self.shape {
-                Shape::Planar(held, plane) => Shape::Planar(held.with_tension(tension)?, *plane),
-                Shape::Spatial(held) => Shape::Spatial(Box::new(held.with_tension(tension)?)),
-            },
-            level: self.level,
+        Ok(match self {
+            Self::Planar(held) => Self::Planar(held.with_tension(tension)?),
+            Self::Spatial(held) => Self::Spatial(Box::new(held.with_tension(tension)?)),
         })
     }
 
     /// σ [N].
     #[inline]
     pub(crate) fn chord_force(&self) -> f64 {
-        match &self.shape {
-            Shape::Planar(held, _) => held.chord_force,
-            Shape::Spatial(held) => held.chord_force,
+        match self {
+            Self::Planar(held) => held.chord_force,
+            Self::Spatial(held) => held.chord_force,
         }
     }
 
     /// t [N].
     pub(crate) fn tension(&self) -> f64 {
-        match &self.shape {
-            Shape::Planar(held, _) => held.tension(),
-            Shape::Spatial(held) => held.tension(),
+        match self {
+            Self::Planar(held) => held.tension(),
+            Self::Spatial(held) => held.tension(),
         }
     }
 
     /// dt/dσ.
     pub(crate) fn tension_slope(&self) -> f64 {
-        match &self.shape {
-            Shape::Planar(held, _) => held.tension_slope(),
-            Shape::Spatial(held) => held.tension_slope(),
+        match self {
+            Self::Planar(held) => held.tension_slope(),
+            Self::Spatial(held) => held.tension_slope(),
         }
     }
 
     /// Unstrained length and force (fx, fz) on the cable at A. The guide of a cable over a tilted axis is
     /// that in the level frame.
     pub(crate) fn catenary(&self) -> Catenary<'a> {
-        match &self.shape {
-            Shape::Planar(held, _) => held.catenary,
-            Shape::Spatial(held) => Catenary {
+        match self {
+            Self::Planar(held) => held.catenary,
+            Self::Spatial(held) => Catenary {
                 cable: held.cable.cable,
                 unstrained_length: held.cable.unstrained_length,
                 force: Vector2::new(held.cable.force.xy().norm(), held.cable.force.z),
@@ -164,44 +182,10 @@ impl<'a> Held<'a> {
 
     /// w c/2σ: half the angle, as a hyperbolic one, that the cable's direction turns through.
     pub(crate) fn slackness(&self) -> f64 {
-        let (cable, chord) = match &self.shape {
-            Shape::Planar(held, _) => (&held.catenary.cable, held.end.norm()),
-            Shape::Spatial(held) => (&held.cable.cable, held.end.norm()),
+        let (cable, chord) = match self {
+            Self::Planar(held) => (&held.catenary.cable, held.end.norm()),
+            Self::Spatial(held) => (&held.cable.cable, held.end.norm()),
         };
         0.5 * cable.weight_per_length * chord / self.chord_force()
-    }
-
-    /// F_i [N], the force on the platform.
-    pub(crate) fn force(&self) -> [f64; 3] {
-        match &self.shape {
-            Shape::Planar(held, plane) => self.on_platform(plane.lift(held.catenary.force.into())),
-            Shape::Spatial(held) => self.on_platform(held.cable.force.into()),
-        }
-    }
-
-    /// dF_i/dσ.
-    pub(crate) fn force_slope(&self) -> [f64; 3] {
-        match &self.shape {
-            Shape::Planar(held, plane) => self.on_platform(plane.lift(held.force_slope.into())),
-            Shape::Spatial(held) => self.on_platform(held.force_slope.into()),
-        }
-    }
-
-    /// d²F_i/dσ² [1/N] and d²t/dσ² [1/N].
-    pub(crate) fn curvatures(&self) -> ([f64; 3], f64) {
-        match &self.shape {
-            Shape::Planar(held, plane) => {
-                let force = held.force_curvature();
-                (self.on_platform(plane.lift(force.into())), held.tension_curvature(&force))
-            }
-            Shape::Spatial(held) => {
-                let force = held.force_curvature();
-                (self.on_platform(force.into()), held.tension_curvature(&force))
-            }
-        }
-    }
-
-    fn on_platform(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        to_base(self.level, [-x, -y, -z])
     }
 }

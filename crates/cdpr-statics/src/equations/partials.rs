@@ -110,7 +110,7 @@ fn moment(arm: &Vector3<f64>, force: &Vector3<f64>) -> Vector6<f64> {
 }
 
 /// A cable with the derivatives of its force on the platform.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(crate) struct CableDerivatives {
     /// s_i [m].
     pub(crate) arm: Vector3<f64>,
@@ -124,14 +124,21 @@ pub(crate) struct CableDerivatives {
     per_density: Vector3<f64>,
     /// Per modulus [N/Pa].
     per_modulus: Vector3<f64>,
-    /// By lead and radius of the guide [N/m]; zero without a guide.
-    per_guide: [Vector3<f64>; 2],
-    /// By the tilts of the swivel axis of the pulley [N/rad]; zero without a pulley.
-    per_tilt: [Vector3<f64>; 2],
-    /// By the components of gravity [N s²/m], equation (D10); zero where they are not parameters.
-    per_gravity: Matrix3<f64>,
     /// k_L [N/m] per length, or v_i per tension where the tension is given.
     pub(crate) per_actuation: Vector3<f64>,
+    /// Those by guide and gravity; `None` where all are zero or no parameters.
+    surroundings: Option<Box<Surroundings>>,
+}
+
+/// Derivatives of a cable's force by what leads it and by gravity.
+#[derive(Clone)]
+struct Surroundings {
+    /// By lead and radius of the guide [N/m].
+    per_guide: [Vector3<f64>; 2],
+    /// By the tilts of the swivel axis of the pulley [N/rad].
+    per_tilt: [Vector3<f64>; 2],
+    /// By the components of gravity [N s²/m], equation (D10).
+    per_gravity: Matrix3<f64>,
 }
 
 impl CableDerivatives {
@@ -147,10 +154,8 @@ impl CableDerivatives {
             stiffness: Matrix3::zeros(),
             per_density: o,
             per_modulus: o,
-            per_guide: [o; 2],
-            per_tilt: [o; 2],
-            per_gravity: Matrix3::zeros(),
             per_actuation: o,
+            surroundings: None,
         };
         let Some(linearized) = cable.linearized() else { return none };
         let mut stiffness = Matrix3::from(linearized.stiffness());
@@ -164,21 +169,32 @@ impl CableDerivatives {
             stiffness,
             per_density: stiffness * ends.per_weight * robot.gravity.magnitude(),
             per_modulus: stiffness * ends.per_stiffness * robot.cables[i].properties.section,
-            per_guide: [ends.per_lead, ends.per_radius].map(|end| stiffness * end),
             per_actuation: stiffness * cable.end_per_length(),
             ..none
         }
-        .with_directions(robot, pose, i, &(stiffness * ends.per_axis))
+        .within(robot, pose, i, || {
+            ([ends.per_lead, ends.per_radius].map(|end| stiffness * end), stiffness * ends.per_axis)
+        })
     }
 
-    /// The same cable with its derivatives by the tilts of its swivel axis and by gravity, equation (D10),
-    /// where they are parameters; from those by the components of the axis.
-    fn with_directions(mut self, robot: &Robot, pose: &Pose, i: usize, per_axis: &Matrix3<f64>) -> Self {
+    /// The same cable with its derivatives by guide and gravity, equation (D10), where they are parameters;
+    /// from those by lead and radius and by the components of the swivel axis.
+    fn within(
+        mut self,
+        robot: &Robot,
+        pose: &Pose,
+        i: usize,
+        by_guide: impl FnOnce() -> ([Vector3<f64>; 2], Matrix3<f64>),
+    ) -> Self {
         let pulley = robot.cables[i].pulley.as_ref();
-        let axis = pulley.map_or_else(Vector3::zeros, |pulley| pulley.axis.normalize());
-        if let Some(pulley) = pulley {
-            self.per_tilt = TiltAxis::ALL.map(|tilt| per_axis * tilt.of(pulley).cross(&axis));
+        if pulley.is_none() && robot.cables[i].lead == 0.0 && !robot.gravity.is_vector() {
+            return self;
         }
+        let (per_guide, per_axis) = by_guide();
+        let axis = pulley.map_or_else(Vector3::zeros, |pulley| pulley.axis.normalize());
+        let by_tilts = |pulley| TiltAxis::ALL.map(|tilt: TiltAxis| per_axis * tilt.of(pulley).cross(&axis));
+        let per_tilt = pulley.map_or([Vector3::zeros(); 2], by_tilts);
+        let mut per_gravity = Matrix3::zeros();
         let g = robot.gravity.magnitude();
         if robot.gravity.is_vector() && g > 0.0 {
             let (up, span) = (robot.gravity.vector() / -g, robot.span(pose, i));
@@ -188,9 +204,10 @@ impl CableDerivatives {
                 let by_direction = turn.cross(&self.force) + self.stiffness * turn.cross(&span)
                     - per_axis * turn.cross(&axis);
                 let column = by_direction - self.per_density * (density / g * up[component]);
-                self.per_gravity.set_column(component, &column);
+                per_gravity.set_column(component, &column);
             }
         }
+        self.surroundings = Some(Box::new(Surroundings { per_guide, per_tilt, per_gravity }));
         self
     }
 
@@ -209,10 +226,15 @@ impl CableDerivatives {
             stiffness: self.stiffness - v * (self.direction.transpose() * self.stiffness),
             per_density: keep(self.per_density),
             per_modulus: keep(self.per_modulus),
-            per_guide: self.per_guide.map(keep),
-            per_tilt: self.per_tilt.map(keep),
-            per_gravity: self.per_gravity - v * (self.direction.transpose() * self.per_gravity),
             per_actuation: v,
+            surroundings: self.surroundings.as_ref().map(|around| {
+                let Surroundings { per_guide, per_tilt, per_gravity } = &**around;
+                Box::new(Surroundings {
+                    per_guide: per_guide.map(keep),
+                    per_tilt: per_tilt.map(keep),
+                    per_gravity: per_gravity - v * (self.direction.transpose() * per_gravity),
+                })
+            }),
             ..*self
         }
     }
@@ -228,12 +250,10 @@ impl CableDerivatives {
             stiffness: slopes.per_end,
             per_density: -slopes.per_weight * robot.gravity.magnitude(),
             per_modulus: -slopes.per_stiffness * robot.cables[i].properties.section,
-            per_guide: [-slopes.per_lead, -slopes.per_radius],
-            per_tilt: [Vector3::zeros(); 2],
-            per_gravity: Matrix3::zeros(),
             per_actuation: -slopes.per_tension,
+            surroundings: None,
         }
-        .with_directions(robot, pose, i, &-slopes.per_axis)
+        .within(robot, pose, i, || ([-slopes.per_lead, -slopes.per_radius], -slopes.per_axis))
     }
 
     /// The derivatives of the tension `t` [N] that the greatest tension of cable i at its exit point leaves
@@ -251,12 +271,10 @@ impl CableDerivatives {
             per_density: per_work * (end(robot, pose, i).z * robot.gravity.magnitude()),
             // The energy falls in proportion to 1/E.
             per_modulus: per_work * (energy / robot.cables[i].properties.youngs_modulus),
-            per_guide: [o; 2],
-            per_tilt: [o; 2],
-            per_gravity: Matrix3::zeros(),
             per_actuation: o,
+            surroundings: None,
         }
-        .with_directions(robot, pose, i, &Matrix3::zeros())
+        .within(robot, pose, i, || ([o; 2], Matrix3::zeros()))
     }
 
     /// Wrench about P per length, or per tension where the tension is given.
@@ -384,6 +402,7 @@ fn each_effect(
     mut add: impl FnMut(usize, usize, Vector3<f64>, Vector3<f64>),
 ) {
     let o = Vector3::zeros();
+    let around = |i: usize| cables[i].surroundings.as_deref();
     for (column, parameter) in inputs.parameters.iter().enumerate() {
         match *parameter {
             // dF_i = k_ρ dρ
@@ -403,14 +422,17 @@ fn each_effect(
             Parameter::ExitPoint(i, axis) => {
                 add(column, i, cables[i].stiffness.column(axis as usize).into(), o);
             }
-            Parameter::Lead(i) => add(column, i, cables[i].per_guide[0], o),
-            Parameter::PulleyRadius(i) => add(column, i, cables[i].per_guide[1], o),
+            Parameter::Lead(i) => add(column, i, around(i).map_or(o, |by| by.per_guide[0]), o),
+            Parameter::PulleyRadius(i) => add(column, i, around(i).map_or(o, |by| by.per_guide[1]), o),
+            Parameter::Tilt(i, axis) => {
+                add(column, i, around(i).map_or(o, |by| by.per_tilt[axis as usize]), o)
+            }
             Parameter::Gravity(axis) => {
-                for (i, cable) in cables.iter().enumerate() {
-                    add(column, i, cable.per_gravity.column(axis as usize).into(), o);
+                for i in 0..cables.len() {
+                    let column_of = |by: &Surroundings| by.per_gravity.column(axis as usize).into();
+                    add(column, i, around(i).map_or(o, column_of), o);
                 }
             }
-            Parameter::Tilt(i, axis) => add(column, i, cables[i].per_tilt[axis as usize], o),
             // These act on the weight or on the set-points.
             Parameter::Mass | Parameter::CenterOfMass(_) | Parameter::TensionOffset(_) => {}
         }

@@ -10,8 +10,8 @@ use crate::equations::vector::{dot, wrench};
 use crate::problem::DirectProblem;
 use cdpr_cable::kernel::{Real, Response, closure_of_limp, response};
 use cdpr_cable::{
-    CableError, Catenary, Guide, HeldCable, HeldSpatialCable, SpatialCable, SpatialResponse, SpatialSlopes,
-    SpatialTensionSlope, end_force, end_force_near, spatial_end_force,
+    CableError, Catenary, ElasticLaw, Guide, HeldCable, HeldSpatialCable, SpatialCable, SpatialResponse,
+    SpatialSlopes, SpatialTensionSlope, end_force, end_force_near, spatial_end_force,
 };
 use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
 
@@ -121,6 +121,26 @@ fn hanging(
 }
 
 impl<'a> SpannedCable<'a, f64> {
+    /// [`SpannedCable::of`] for a cable without guide that carries a force, on a level base.
+    #[inline(always)]
+    pub(crate) fn plain(robot: &'a Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Option<Self> {
+        let Catenary { cable, unstrained_length: length, force } = *catenary;
+        if robot.gravity.level().is_some() || cable.guide.is_some() || force == Vector2::zeros() {
+            return None;
+        }
+        let anchor_arm = robot.anchor_arm(pose, i).into();
+        let r = between(&pose.position.into(), &anchor_arm, &robot.cables[i].exit_point.into());
+        let force = force.into();
+        let response = match cable.law {
+            ElasticLaw::Linear => {
+                response(cable.weight_per_length, 1.0 / cable.axial_stiffness, length, force)
+            }
+            ElasticLaw::Piecewise(_) => catenary.response(),
+        };
+        let answer = Answer::Planar(response);
+        Some(Self { anchor_arm, span: Span::new(r), force, answer, level: None })
+    }
+
     /// Cable i of a robot at a pose, in the shape of `catenary`.
     #[inline(always)]
     pub(crate) fn of(robot: &'a Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Self {
@@ -409,12 +429,14 @@ impl<'a, T: Real> SpannedCable<'a, T> {
 }
 
 /// The vector from exit point i to anchor point i at a pose [m], in the level frame.
+#[inline(always)]
 pub(crate) fn end(robot: &Robot, pose: &Pose, i: usize) -> Vector3<f64> {
     to_level(robot.gravity.level(), robot.span(pose, i).into()).into()
 }
 
 impl<'a> DirectProblem<'a> {
     /// The span of cable i at a pose, in the level frame: that of a cable without pulley.
+    #[inline]
     pub(crate) fn span(&self, pose: &Pose, i: usize) -> Span<f64> {
         Span::new(end(self.robot, pose, i).into())
     }
@@ -427,31 +449,39 @@ impl<'a> DirectProblem<'a> {
         i: usize,
         near: Option<(&Pose, &Vector2<f64>)>,
     ) -> Result<Vector2<f64>, CableError> {
-        let (cable, length, span) = (self.cable(i), self.lengths[i], self.span(pose, i));
-        if cable.leaves_its_plane() {
-            let near = near.map(|(pose, force)| {
-                let near = SpannedCable::of(self.robot, pose, i, &self.catenary(i, *force));
-                near.span.plane.lift(near.force).into()
-            });
-            let force = spatial_end_force(&cable, length, end(self.robot, pose, i), near)?.force;
-            return Ok(Vector2::new(force.xy().norm(), force.z));
+        let mut catenary = self.catenary(i, near.map_or_else(Vector2::zeros, |(_, force)| *force));
+        if catenary.cable.leaves_its_plane() {
+            return self.spatial_force_at(pose, i, near);
         }
-        let solution = match near {
-            None => end_force(&cable, length, span.end.into())?,
-            Some((before, force)) => {
-                let mut near = self.catenary(i, *force);
-                let way = Vector2::from(span.end) - Vector2::from(self.span(before, i).end);
-                let predicted = force + near.in_plane_stiffness() * way;
-                if (0.3 * force.x..3.0 * force.x).contains(&predicted.x) {
-                    near.force = predicted;
-                }
-                end_force_near(&near, span.end.into())?
-            }
+        let span = self.span(pose, i);
+        let Some((before, force)) = near else {
+            return Ok(end_force(&catenary.cable, self.lengths[i], span.end.into())?.catenary.force);
         };
-        Ok(solution.catenary.force)
+        let way = Vector2::from(span.end) - Vector2::from(self.span(before, i).end);
+        let predicted = force + catenary.in_plane_stiffness() * way;
+        if (0.3 * force.x..3.0 * force.x).contains(&predicted.x) {
+            catenary.force = predicted;
+        }
+        Ok(end_force_near(&catenary, span.end.into())?.catenary.force)
+    }
+
+    #[cold]
+    fn spatial_force_at(
+        &self,
+        pose: &Pose,
+        i: usize,
+        near: Option<(&Pose, &Vector2<f64>)>,
+    ) -> Result<Vector2<f64>, CableError> {
+        let near = near.map(|(pose, force)| {
+            let near = SpannedCable::of(self.robot, pose, i, &self.catenary(i, *force));
+            near.span.plane.lift(near.force).into()
+        });
+        let force = spatial_end_force(&self.cable(i), self.lengths[i], end(self.robot, pose, i), near)?.force;
+        Ok(Vector2::new(force.xy().norm(), force.z))
     }
 
     /// Cable i in its vertical plane, with the force (fx, fz) [N] at a pose.
+    #[inline]
     pub(crate) fn catenary_at(&self, pose: &Pose, i: usize, force: Vector2<f64>) -> Catenary<'a> {
         let catenary = self.catenary(i, force);
         if !catenary.cable.leaves_its_plane() {

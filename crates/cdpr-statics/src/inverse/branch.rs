@@ -74,7 +74,7 @@ impl Answered {
                 step = 1.0 - share;
             } else {
                 let (pose, load, reference) = self.towards(question, share + step);
-                let between = Question { pose: &pose, load: &load, reference, ..question.clone() };
+                let between = question.nearby(&pose, &load, reference);
                 if let Some(point) = last.corrected(&between, &mut iterations) {
                     passed = Some(Self::new(&between, &point.optimum()));
                     share += step;
@@ -128,7 +128,8 @@ impl Answered {
             }
             greatest = CONTRACTION * change;
             let moved = point.moved(&step)?;
-            point.set(moved);
+            let rows = point.rows_of(&moved);
+            point.set(moved, rows);
             point.multipliers = multipliers;
         }
     }

@@ -64,7 +64,7 @@ pub(super) fn straight(question: &Question) -> Vec<f64> {
     let (robot, pose) = (question.robot, question.pose);
     let pulls: Vec<Vector3<f64>> = (0..question.cables()).map(|i| -robot.span(pose, i).normalize()).collect();
     let mut matrix = robot.wrench_matrix(pose, &pulls);
-    matrix.fixed_rows_mut::<3>(3).unscale_mut(question.arm());
+    matrix.fixed_rows_mut::<3>(3).unscale_mut(question.arm);
     let freedoms = robot.freedoms();
     let each = matrix.column_iter().zip(&question.reference).zip(&question.limits);
     let unknowns: Vec<BoxUnknown> = each
@@ -75,7 +75,7 @@ pub(super) fn straight(question: &Question) -> Vec<f64> {
             bounds: [limits.min, limits.max],
         })
         .collect();
-    let (residual, multipliers) = (question.external(), Vector6::zeros());
+    let (residual, multipliers) = (question.external, Vector6::zeros());
     BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers }.solve().values
 }
 
@@ -122,12 +122,12 @@ impl Point<'_> {
             let moved = self.moved(&step);
             let next = moved.map(|moved| {
                 let rows = self.rows_of(&moved);
-                (rows.iter().fold(self.external, |sum, row| sum + row.wrench).norm(), moved)
+                (rows.iter().fold(self.external, |sum, row| sum + row.wrench).norm(), moved, rows)
             });
             match next {
-                Some((next, moved)) if next < residual => {
+                Some((next, moved, rows)) if next < residual => {
                     let gained = residual - next;
-                    self.set(moved);
+                    self.set(moved, rows);
                     residual = next;
                     damping = (0.1 * damping).max(1e-9);
                     if gained <= 1e-9 * residual {

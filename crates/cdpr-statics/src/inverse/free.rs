@@ -200,13 +200,13 @@ impl<'a> Search<'a> {
     }
 
     fn question_at<'b>(&'b self, pose: &'b Pose) -> Question<'b> {
-        Question { pose, ..self.question.clone() }
+        self.question.nearby(pose, self.question.load, self.question.reference.clone())
     }
 
     /// The cables at a pose with given chord forces [N]; `None` where one of them has no shape.
     fn point(&self, changes: &[f64], chord_forces: &[f64]) -> Option<Point> {
         let pose = self.pose(changes);
-        let arm = self.question.arm();
+        let arm = self.question.arm;
         let question = self.question_at(&pose);
         let strand = |(i, force): (usize, &f64)| Strand::near(&question, i, *force, None).ok();
         let strands: Vec<Strand> = chord_forces.iter().enumerate().map(strand).collect::<Option<_>>()?;
@@ -245,7 +245,7 @@ impl<'a> Search<'a> {
     fn descend(&self, mut changes: Vec<f64>) -> Outcome {
         let start = self.pose(&changes);
         let question = self.question_at(&start);
-        let least = 1e-2 * self.question.external().norm() / self.question.cables() as f64;
+        let least = 1e-2 * self.question.external.norm() / self.question.cables() as f64;
         let mut chord_forces: Vec<f64> = straight(&question).into_iter().map(|t| t.max(least)).collect();
         let Some(mut point) = self.point(&changes, &chord_forces) else { return Outcome::Lost };
         let mut damping = 1e-3;
@@ -371,11 +371,11 @@ impl<'a> Search<'a> {
             rank(one).cmp(&rank(other)).then(away(one).total_cmp(&away(other)))
         });
         if found.is_empty() {
-            let best = nearest.map_or_else(|| self.question.external(), |point| point.residual);
+            let best = nearest.map_or_else(|| self.question.external, |point| point.residual);
             return Err(StaticsError::NoRest {
                 starts: STARTS,
                 force: best.fixed_rows::<3>(0).norm(),
-                moment: best.fixed_rows::<3>(3).norm() * self.question.arm(),
+                moment: best.fixed_rows::<3>(3).norm() * self.question.arm,
             });
         }
         let first = found.remove(0);

@@ -87,15 +87,15 @@ impl<'a> Strand<'a> {
         Row {
             tension: held.tension(),
             tension_slope: held.tension_slope(),
-            wrench: self.wrench(held.force(), arm),
-            slope: self.wrench(held.force_slope(), arm),
+            wrench: self.wrench(self.ends.force(held), arm),
+            slope: self.wrench(self.ends.force_slope(held), arm),
             reference: self.reference,
         }
     }
 
     /// Second derivative of the Lagrangian, h_i of (I3).
     pub(super) fn hessian(&self, row: &Row, multipliers: &Vector6<f64>, arm: f64) -> f64 {
-        let (force, tension) = self.held.curvatures();
+        let (force, tension) = self.ends.curvatures(&self.held);
         row.tension_slope * row.tension_slope
             + (row.tension - row.reference) * tension
             + multipliers.dot(&self.wrench(force, arm))
@@ -167,7 +167,7 @@ impl<'a> Strand<'a> {
         for k in 0..=INTERVALS {
             held =
                 held.with_chord_force(low * (high / low).powf(f64::from(k) / f64::from(INTERVALS))).ok()?;
-            least = least.min(y.dot(&self.wrench(held.force(), arm)));
+            least = least.min(y.dot(&self.wrench(self.ends.force(&held), arm)));
         }
         Some(least)
     }

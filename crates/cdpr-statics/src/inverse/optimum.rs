@@ -75,10 +75,9 @@ impl<'a> Point<'a> {
 
     /// The cables as they are, without multipliers.
     pub(super) fn of(question: &Question<'a>, strands: Vec<Strand<'a>>) -> Self {
-        let arm = question.arm();
+        let arm = question.arm;
         let rows = strands.iter().map(|strand| strand.row(&strand.held, arm)).collect();
-        let external = question.external();
-        Self { strands, rows, external, arm, multipliers: Vector6::zeros(), iterations: 0 }
+        Self { strands, rows, external: question.external, arm, multipliers: Vector6::zeros(), iterations: 0 }
     }
 
     /// F [N].
@@ -120,11 +119,12 @@ impl<'a> Point<'a> {
         self.strands.iter().zip(moved).map(|(strand, held)| strand.row(held, self.arm)).collect()
     }
 
-    pub(super) fn set(&mut self, moved: Vec<Held<'a>>) {
-        for ((strand, row), held) in self.strands.iter_mut().zip(&mut self.rows).zip(moved) {
+    /// Moves the cables, whose rows are those of [`Point::rows_of`].
+    pub(super) fn set(&mut self, moved: Vec<Held<'a>>, rows: Vec<Row>) {
+        for (strand, held) in self.strands.iter_mut().zip(moved) {
             strand.held = held;
-            *row = strand.row(&strand.held, self.arm);
         }
+        self.rows = rows;
     }
 
     /// Solves a program for a step, and asks for the chord forces of all limits that it meets.
@@ -231,7 +231,8 @@ impl<'a> Point<'a> {
             // Full steps near the optimum; elsewhere those that the merit function accepts.
             if error <= 1e-7 * size {
                 let Some(moved) = self.moved(&step) else { return false };
-                self.set(moved);
+                let rows = self.rows_of(&moved);
+                self.set(moved, rows);
                 self.multipliers = multipliers;
                 continue;
             }
@@ -258,7 +259,7 @@ impl<'a> Point<'a> {
                 let accepted = merit + 1e-4 * share * slope.min(0.0);
                 let rounding = 1e-14 * merit.abs();
                 if Self::merit(&next, self.external, penalty) <= accepted + rounding {
-                    self.set(moved);
+                    self.set(moved, next);
                     self.multipliers += (multipliers - self.multipliers) * share;
                     return true;
                 }
@@ -267,9 +268,10 @@ impl<'a> Point<'a> {
                     let end = next.iter().fold(self.external, |sum, row| sum + row.wrench);
                     if let Some(corrected) = self.corrected(step, end)
                         && let Some(moved) = self.moved(&corrected)
-                        && Self::merit(&self.rows_of(&moved), self.external, penalty) <= accepted + rounding
+                        && let rows = self.rows_of(&moved)
+                        && Self::merit(&rows, self.external, penalty) <= accepted + rounding
                     {
-                        self.set(moved);
+                        self.set(moved, rows);
                         self.multipliers = multipliers;
                         return true;
                     }

@@ -14,6 +14,11 @@ pub(super) struct Question<'a> {
     /// Reference tensions [N].
     pub(super) reference: Vec<f64>,
     pub(super) limits: Vec<TensionLimits>,
+    /// The length [m] that makes moments comparable with forces: of the platform, or of a cable where the
+    /// platform is a point.
+    pub(super) arm: f64,
+    /// w_ex, moments divided by the arm [N]; zero along held motions.
+    pub(super) external: Vector6<f64>,
 }
 
 impl<'a> Question<'a> {
@@ -56,24 +61,26 @@ impl<'a> Question<'a> {
         if let Some((i, value)) = reference.iter().enumerate().find(|(_, value)| !value.is_finite()) {
             return Err(StaticsError::invalid(format!("reference[{i}]"), value, "a finite tension [N]"));
         }
-        Ok(Self { robot, pose, load, reference, limits: limits_at(robot, pose)? })
+        let (limits, (arm, external)) = (limits_at(robot, pose)?, external(robot, pose, load));
+        Ok(Self { robot, pose, load, reference, limits, arm, external })
+    }
+
+    /// The question at a pose nearby, within the same limits.
+    pub(super) fn nearby(&self, pose: &'a Pose, load: &'a Load, reference: Vec<f64>) -> Self {
+        let (arm, external) = external(self.robot, pose, load);
+        Self { robot: self.robot, pose, load, reference, limits: self.limits.clone(), arm, external }
     }
 
     pub(super) fn cables(&self) -> usize {
         self.reference.len()
     }
+}
 
-    /// The length [m] that makes moments comparable with forces: of the platform, or of a cable where the
-    /// platform is a point.
-    pub(super) fn arm(&self) -> f64 {
-        let longest = (0..self.cables()).map(|i| self.robot.span(self.pose, i).norm()).fold(0.0, f64::max);
-        self.robot.platform_size().max(1e-3 * longest)
-    }
-
-    /// w_ex, moments divided by the arm [N]; zero along held motions.
-    pub(super) fn external(&self) -> Vector6<f64> {
-        let mut wrench = self.load.total(self.robot, self.pose).to_vector();
-        wrench.fixed_rows_mut::<3>(3).unscale_mut(self.arm());
-        self.robot.freedoms().of_vector(&wrench)
-    }
+/// The arm [m], and w_ex with its moments divided by it.
+fn external(robot: &Robot, pose: &Pose, load: &Load) -> (f64, Vector6<f64>) {
+    let longest = (0..robot.cables.len()).map(|i| robot.span(pose, i).norm()).fold(0.0, f64::max);
+    let arm = robot.platform_size().max(1e-3 * longest);
+    let mut wrench = load.total(robot, pose).to_vector();
+    wrench.fixed_rows_mut::<3>(3).unscale_mut(arm);
+    (arm, robot.freedoms().of_vector(&wrench))
 }
