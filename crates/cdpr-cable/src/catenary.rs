@@ -3,7 +3,7 @@
 //! What follows from the force at its end is in the modules of this folder.
 
 pub(crate) mod compliance;
-mod guided;
+pub(crate) mod guided;
 mod mechanics;
 mod pieces;
 mod shape;
@@ -73,7 +73,7 @@ impl<'a> Catenary<'a> {
     pub fn free_length(&self) -> f64 {
         match &self.cable.guide {
             None => self.unstrained_length,
-            Some(guide) => self.guided(guide).free,
+            Some(guide) => self.guided(guide).way.free,
         }
     }
 

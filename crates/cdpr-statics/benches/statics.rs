@@ -9,7 +9,7 @@ use cdpr_statics::{
     DirectProblem, Load, Setting, Start, Tracker, deflection, derivatives, direct, follow, inverse,
 };
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use problems::{caroca, counted, ring, settings};
+use problems::{caroca, counted, led, ring, settings};
 use std::hint::black_box;
 
 fn inverse_model(criterion: &mut Criterion) {
@@ -22,7 +22,19 @@ fn inverse_model(criterion: &mut Criterion) {
             b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none(), None)));
         });
     }
+    for (name, axis) in pulleys() {
+        let (robot, pose) = (led(axis), Pose::at(0.0, 0.0, 1.75));
+        assert!(inverse(&robot, &pose, &Load::none(), None).unwrap().residual.force < 1e-9);
+        group.bench_function(BenchmarkId::new("pulleys", name), |b| {
+            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none(), None)));
+        });
+    }
     group.finish();
+}
+
+/// Axes along which cables enter their pulleys.
+fn pulleys() -> [(&'static str, Vector3<f64>); 2] {
+    [("vertical", Vector3::z()), ("tilted", Vector3::new(0.05, -0.03, 1.0))]
 }
 
 fn direct_model(criterion: &mut Criterion) {
@@ -136,6 +148,14 @@ fn whole_deflection(criterion: &mut Criterion) {
             b.iter(|| {
                 counted(|| DirectProblem::new(black_box(&robot), lengths, &Load::none())?.linearize(unloaded))
             });
+        });
+    }
+    for (name, axis) in pulleys() {
+        let (robot, pose) = (led(axis), Pose::at(0.0, 0.0, 1.75));
+        let found = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
+        assert!(found.loaded.report.residual.force < 1e-8);
+        group.bench_function(BenchmarkId::new("pulleys", name), |b| {
+            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
         });
     }
     group.finish();

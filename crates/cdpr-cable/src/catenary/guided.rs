@@ -58,41 +58,67 @@ use crate::law::ElasticLaw;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::PI;
 
-/// A cable on its guide, for a force at A and an unstrained length, over any kind of number. Vectors are in
-/// the axes of the cable's plane: forwards, across and upwards.
+/// The way of a cable over its wheel, for a force at A and an unstrained length beyond the leave point that
+/// need not fit the whole one, over any kind of number. Vectors are in the axes of the cable's plane: forwards,
+/// across and upwards.
 #[derive(Clone, Copy)]
-pub(crate) struct Guided<T> {
+pub(crate) struct Way<T> {
     /// Unstrained length Lf beyond the leave point [m].
     pub(crate) free: T,
     /// Angle ψ between the way in and the way back out [rad]: the cable lies on the wheel for π - ψ.
     pub(crate) psi: T,
     cos: T,
+    sin: T,
     u: [T; 3],
-    m: [T; 3],
     n: [T; 3],
+    k: [T; 3],
     /// T0 [N].
     tension: T,
     /// Direction τ of the cable at the leave point, in its plane.
     tangent: [T; 2],
-    /// Leave point B from D [m].
-    pub(crate) leave: [T; 3],
-    /// μ [m/N].
-    mu: T,
     /// a + d [m].
     pub(crate) guided: T,
     /// 1 + ε(T0).
     stretch: T,
     /// ε'(T0) [1/N].
     flexibility: T,
-    q: [T; 3],
+    /// q = across m + along τ [m/N].
+    across: T,
+    along: T,
     beta: T,
     /// What Lf and the unstrained length of lead and arc exceed L by [m].
     excess: T,
 }
 
-impl<T: Real> Guided<T> {
-    /// (C19) to (C21) for an unstrained length `free` beyond the leave point that need not fit L.
-    fn with_free(cable: &Cable, guide: &Guide, numbers: &Numbers<T>, [fx, fz]: [T; 2], free: T) -> Self {
+/// A cable on its guide.
+#[derive(Clone, Copy)]
+pub(crate) struct Guided<T> {
+    pub(crate) way: Way<T>,
+    m: [T; 3],
+    /// Leave point B from D [m].
+    pub(crate) leave: [T; 3],
+    /// μ [m/N].
+    mu: T,
+    q: [T; 3],
+}
+
+/// An angle ψ [rad] with its cosine and sine.
+type Angle<T> = [T; 3];
+
+/// Sine of a turn up to which [`turned_from`] has all digits.
+const SMALL_TURN: f64 = 1e-2;
+
+impl<T: Real> Way<T> {
+    /// (C19) to (C21) for an unstrained length `free` beyond the leave point; ψ is known nearby, or not yet.
+    #[inline(always)]
+    fn new(
+        cable: &Cable,
+        guide: &Guide,
+        numbers: &Numbers<T>,
+        [fx, fz]: [T; 2],
+        free: T,
+        nearby: Option<&Angle<T>>,
+    ) -> Self {
         let Numbers { weight_per_length: w, axial_flexibility, lead, radius, length, axis } = *numbers;
         let (zero, one) = (T::of(0.0), T::of(1.0));
         let v0 = fz - w * free;
@@ -106,7 +132,7 @@ impl<T: Real> Guided<T> {
         };
         let stretch = alpha + t0 * flexibility;
         let (tx, tz) = (fx / t0, v0 / t0);
-        let ([cos, sin], u, n, [kx, ky, kz]) = match guide.entry {
+        let ([cos, sin], u, n, k) = match guide.entry {
             Entry::Along(_) => {
                 let [kx, ky, kz] = axis;
                 let across = [ky * tz, kz * tx - kx * tz, -(ky * tx)];
@@ -120,84 +146,119 @@ impl<T: Real> Guided<T> {
                 ([-(tz * up), tx], [one, zero, zero], [zero, up, zero], [zero, zero, up])
             }
         };
-        let psi = sin.atan2(cos);
+        let psi = nearby.and_then(|angle| turned_from(angle, cos, sin)).unwrap_or_else(|| sin.atan2(cos));
+        let guided = lead + radius * (-psi + PI);
+        let (across, along) = (radius / (stretch * t0), guided * flexibility / (stretch * stretch));
+        Self {
+            free,
+            psi,
+            cos,
+            sin,
+            u,
+            n,
+            k,
+            tension: t0,
+            tangent: [tx, tz],
+            guided,
+            stretch,
+            flexibility,
+            across,
+            along,
+            beta: w * (across * (cos * u[2] + sin * k[2]) + along * tz) + 1.0,
+            excess: free + guided / stretch - length,
+        }
+    }
+
+    fn angle(&self) -> Angle<T> {
+        [self.psi, self.cos, self.sin]
+    }
+}
+
+/// ψ of this cosine and sine, from an angle nearby; `None` where it is farther away than [`SMALL_TURN`].
+#[inline(always)]
+fn turned_from<T: Real>(&[psi, cos, sin]: &Angle<T>, new_cos: T, new_sin: T) -> Option<T> {
+    let turn = new_sin * cos - new_cos * sin;
+    let forwards = (new_cos * cos + new_sin * sin).value() > 0.0;
+    // The series of the arcsine: what follows is below 4e-18 of the turn.
+    let square = turn * turn;
+    let series = square * (square * (square * (15.0 / 336.0) + 3.0 / 40.0) + 1.0 / 6.0) + 1.0;
+    (forwards && turn.value().abs() <= SMALL_TURN).then(|| psi + turn * series)
+}
+
+impl<T: Real> Guided<T> {
+    /// The cable with the force `force` [N] at A, (C20).
+    pub(crate) fn new(cable: &Cable, guide: &Guide, numbers: &Numbers<T>, force: [T; 2]) -> Self {
+        let (plain, plain_force) = (numbers.map(T::value), force.map(T::value));
+        // A cable that is too short has a negative free length, for which all formulas go on.
+        let mut free = plain.length - guide.lead;
+        let mut angle = None;
+        for _ in 0..MAX_ITERATIONS {
+            let now = Way::new(cable, guide, &plain, plain_force, free, angle.as_ref());
+            let step = -now.excess / now.beta;
+            free += step;
+            angle = Some(now.angle());
+            // The tangent turns by this angle, and the excess that is left goes with its square.
+            let per_length = plain.weight_per_length / now.tension;
+            let extent = guide.radius + now.guided;
+            let left = extent * (per_length * step).powi(2);
+            if extent * (per_length * left).powi(2) <= 0.1 * f64::EPSILON * plain.length {
+                break;
+            }
+        }
+        // One more step squares the error and gives the number its derivatives.
+        let angle = angle.map(|angle| angle.map(T::of));
+        let near = Way::new(cable, guide, numbers, force, T::of(free), angle.as_ref());
+        let free = near.free - near.excess / near.beta;
+        Self::over(Way::new(cable, guide, numbers, force, free, Some(&near.angle())), numbers.radius)
+    }
+
+    /// What follows from the way over a wheel of this radius [m].
+    #[inline(always)]
+    fn over(way: Way<T>, radius: T) -> Self {
+        let Way { cos, sin, u, k, tension: t0, tangent: [tx, tz], across, along, .. } = way;
         // 1 + cos ψ, and its share of sin ψ, without cancellation. A cable that goes straight on has no
         // wheel's plane: without a pulley that adds no flexibility.
         let backwards = cos.value() < 0.0;
         let one_plus_cos = if backwards { sin * sin / (-cos + 1.0) } else { cos + 1.0 };
         let mu = if radius.value() == 0.0 && sin.value() == 0.0 {
-            zero
+            T::of(0.0)
         } else if backwards {
             radius * sin / (t0 * (-cos + 1.0))
         } else {
             radius * (cos + 1.0) / (t0 * sin)
         };
-        let k = [kx, ky, kz];
         let m = [0, 1, 2].map(|i| cos * u[i] + sin * k[i]);
-        let guided = lead + radius * (-psi + PI);
-        let (across, along) = (radius / (stretch * t0), guided * flexibility / (stretch * stretch));
-        let q = [across * m[0] + along * tx, across * m[1], across * m[2] + along * tz];
         Self {
-            free,
-            psi,
-            cos,
-            u,
+            way,
             m,
-            n,
-            tension: t0,
-            tangent: [tx, tz],
             leave: [0, 1, 2].map(|i| radius * (one_plus_cos * u[i] + sin * k[i])),
             mu,
-            guided,
-            stretch,
-            flexibility,
-            q,
-            beta: w * q[2] + 1.0,
-            excess: free + guided / stretch - length,
+            q: [across * m[0] + along * tx, across * m[1], across * m[2] + along * tz],
         }
-    }
-
-    /// The cable with the force `force` [N] at A, (C20).
-    pub(crate) fn new(cable: &Cable, guide: &Guide, numbers: &Numbers<T>, force: [T; 2]) -> Self {
-        let (plain, plain_force) = (numbers.map(T::value), force.map(T::value));
-        let at = |free| Guided::with_free(cable, guide, &plain, plain_force, free);
-        // A cable that is too short has a negative free length, for which all formulas go on.
-        let mut free = plain.length - guide.lead;
-        for _ in 0..MAX_ITERATIONS {
-            let now = at(free);
-            let step = -now.excess / now.beta;
-            free += step;
-            // The tangent turns by this angle, and the excess that is left goes with its square.
-            if (plain.weight_per_length * step).abs() <= 1e-5 * now.tension {
-                break;
-            }
-        }
-        // One more step squares the error and gives the number its derivatives.
-        let near = Self::with_free(cable, guide, numbers, force, T::of(free));
-        let free = near.free - near.excess / near.beta;
-        Self::with_free(cable, guide, numbers, force, free)
     }
 
     /// κ of (C22) [m/N].
     fn kappa(&self) -> T {
-        self.guided * self.flexibility / self.stretch
+        self.way.guided * self.way.flexibility / self.way.stretch
     }
 
     /// τ in space.
     fn along(&self) -> [T; 3] {
-        [self.tangent[0], T::of(0.0), self.tangent[1]]
+        [self.way.tangent[0], T::of(0.0), self.way.tangent[1]]
     }
 
     /// The vectors by which κ τ and μ n are multiplied in (C22): τ - γ q and n - δ q.
     fn coupled(&self, w: T) -> [[T; 3]; 2] {
-        let [gamma, delta] = [self.tangent[1], self.n[2]].map(|z| w * z / self.beta);
+        let Way { tangent, n, beta, .. } = self.way;
+        let [gamma, delta] = [tangent[1], n[2]].map(|z| w * z / beta);
         let along = self.along();
-        [[0, 1, 2].map(|i| along[i] - gamma * self.q[i]), [0, 1, 2].map(|i| self.n[i] - delta * self.q[i])]
+        [[0, 1, 2].map(|i| along[i] - gamma * self.q[i]), [0, 1, 2].map(|i| n[i] - delta * self.q[i])]
     }
 
     /// The response of the whole cable in its plane from that of its free part, (C22) and (C23).
     fn response(&self, w: T, free: &Response<T>) -> Response<T> {
-        let Self { tangent: [tx, tz], leave, n: [nx, ny, nz], mu, stretch, .. } = *self;
+        let Self { way: Way { tangent: [tx, tz], n: [nx, ny, nz], stretch, beta, .. }, leave, mu, .. } =
+            *self;
         let kappa = self.kappa();
         let [[px, _, pz], [ox, oy, oz]] = self.coupled(w);
         let [xx, xz, zz] = free.flexibility;
@@ -206,8 +267,8 @@ impl<T: Real> Guided<T> {
         let mut flexibility =
             [xx + kappa * tx * px, xz + kappa * (tx * pz + tz * px) * 0.5, zz + kappa * tz * pz];
         let mut determinant = free.determinant + kappa * mixed - kappa * kappa * twist * twist * 0.25;
-        let delta = w * nz / self.beta;
-        let paid_out = stretch - kappa * w * tz / self.beta;
+        let delta = w * nz / beta;
+        let paid_out = stretch - kappa * w * tz / beta;
         let mut end_per_length = [tx * paid_out, tz * paid_out];
         if nx.value() != 0.0 || nz.value() != 0.0 {
             let more = [nx * ox, (nx * oz + nz * ox) * 0.5, nz * oz];
@@ -228,14 +289,14 @@ impl<T: Real> Guided<T> {
     /// The response of the whole cable in space: end position, flexibility dA/dF, rows first, and dA/dL,
     /// (C22) and (C23).
     pub(crate) fn in_space(&self, w: T, free: &Response<T>) -> ([T; 3], [[T; 3]; 3], [T; 3]) {
-        let Self { leave, n, mu, stretch, .. } = *self;
+        let Self { way: Way { tangent, n, stretch, beta, .. }, leave, mu, .. } = *self;
         let (kappa, along) = (self.kappa(), self.along());
         let [p, o] = self.coupled(w);
         let ([xx, xz, zz], zero) = (free.flexibility, T::of(0.0));
         let own = [[xx, zero, xz], [zero, free.lateral_flexibility, zero], [xz, zero, zz]];
         let axes = [0, 1, 2];
         let entry = |i: usize, j: usize| own[i][j] + kappa * along[i] * p[j] + mu * n[i] * o[j];
-        let [gamma, delta] = [self.tangent[1], n[2]].map(|z| w * z / self.beta);
+        let [gamma, delta] = [tangent[1], n[2]].map(|z| w * z / beta);
         let paid_out = stretch - kappa * gamma;
         (
             [leave[0] + free.end[0], leave[1], leave[2] + free.end[1]],
@@ -247,26 +308,34 @@ impl<T: Real> Guided<T> {
     /// Half the difference `dx/dfz - dz/dfx` of the flexibility (C22) in the cable's plane [m/N].
     fn asymmetry(&self, w: T) -> T {
         let [[px, _, pz], [ox, _, oz]] = self.coupled(w);
-        let ([tx, tz], [nx, _, nz]) = (self.tangent, self.n);
+        let ([tx, tz], [nx, _, nz]) = (self.way.tangent, self.way.n);
         (self.kappa() * (tx * pz - tz * px) + self.mu * (nx * oz - nz * ox)) * 0.5
     }
 }
 
 const MAX_ITERATIONS: usize = 20;
 
-/// The response to the force `force` [N] at A of a cable on a guide, and half the difference `dx/dfz -
-/// dz/dfx` of the flexibility (C22) [m/N].
+/// What a response does not tell of a cable on a guide.
+pub(crate) struct OnGuide<T> {
+    /// Half the difference `dx/dfz - dz/dfx` of the flexibility (C22) [m/N].
+    pub(crate) asymmetry: T,
+    /// Unstrained length beyond the leave point [m].
+    pub(crate) free: T,
+}
+
+/// The response to the force `force` [N] at A of a cable on a guide.
 #[cold]
 pub(crate) fn response<T: Real>(
     cable: &Cable,
     guide: &Guide,
     numbers: &Numbers<T>,
     force: [T; 2],
-) -> (Response<T>, T) {
+) -> (Response<T>, OnGuide<T>) {
     let guided = Guided::new(cable, guide, numbers, force);
-    let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, force);
+    let free = cable.free_response(&Numbers { length: guided.way.free, ..*numbers }, force);
     let w = numbers.weight_per_length;
-    (guided.response(w, &free), guided.asymmetry(w))
+    let on_guide = OnGuide { asymmetry: guided.asymmetry(w), free: guided.way.free };
+    (guided.response(w, &free), on_guide)
 }
 
 /// Derivatives of the end position at constant force and length, (C24).
@@ -289,7 +358,7 @@ impl<'a> Catenary<'a> {
             None => *self,
             Some(guide) => Catenary {
                 cable: Cable { guide: None, ..self.cable },
-                unstrained_length: self.guided(guide).free,
+                unstrained_length: self.guided(guide).way.free,
                 force: self.force,
             },
         }
@@ -323,7 +392,7 @@ impl<'a> Catenary<'a> {
     pub fn on_the_pulley(&self, points: usize) -> Vec<Vector3<f64>> {
         let Some(guide) = self.cable.guide.filter(|guide| guide.radius > 0.0) else { return Vec::new() };
         let (at, count) = (self.guided(&guide), points.max(2));
-        let (u, axis) = (Vector3::from(at.u), Vector3::from(guide.entry.axis()));
+        let (u, axis) = (Vector3::from(at.way.u), Vector3::from(guide.entry.axis()));
         let angles = (0..count).map(|k| PI - self.wrap() * k as f64 / count as f64);
         angles.map(|angle| guide.radius * ((1.0 + angle.cos()) * u + angle.sin() * axis)).collect()
     }
@@ -332,7 +401,7 @@ impl<'a> Catenary<'a> {
     /// across and upwards. None without a pulley.
     pub fn wheel(&self, points: usize) -> Vec<Vector3<f64>> {
         let Some(guide) = self.cable.guide.filter(|guide| guide.radius > 0.0) else { return Vec::new() };
-        let (u, axis) = (Vector3::from(self.guided(&guide).u), Vector3::from(guide.entry.axis()));
+        let (u, axis) = (Vector3::from(self.guided(&guide).way.u), Vector3::from(guide.entry.axis()));
         let angles = (0..=points).map(|k| 2.0 * PI * k as f64 / points as f64);
         angles.map(|angle| guide.radius * ((1.0 + angle.cos()) * u + angle.sin() * axis)).collect()
     }
@@ -340,7 +409,7 @@ impl<'a> Catenary<'a> {
     /// Angle over which the cable lies on its pulley [rad]; zero without a pulley.
     pub fn wrap(&self) -> f64 {
         match &self.cable.guide {
-            Some(guide) if guide.radius > 0.0 => PI - self.guided(guide).psi,
+            Some(guide) if guide.radius > 0.0 => PI - self.guided(guide).way.psi,
             _ => 0.0,
         }
     }
@@ -349,8 +418,9 @@ impl<'a> Catenary<'a> {
 /// Potential energy [J], (C25).
 #[cold]
 pub(crate) fn potential_energy(catenary: &Catenary, guide: &Guide) -> f64 {
-    let (at, free, w) = (catenary.guided(guide), catenary.free(), catenary.cable.weight_per_length);
-    let ([_, _, height], [_, _, rise], [_, _, up]) = (at.leave, at.u, guide.entry.axis());
+    let (Guided { way: at, leave, .. }, free) = (catenary.guided(guide), catenary.free());
+    let w = catenary.cable.weight_per_length;
+    let ([_, _, height], [_, _, rise], [_, _, up]) = (leave, at.u, guide.entry.axis());
     let led = at.guided / at.stretch * catenary.cable.elastic_energy(free.exit_tension());
     let over_the_wheel = (at.psi - PI + at.psi.sin()) * rise - at.cos * up;
     let square = guide.radius * guide.radius;
@@ -359,11 +429,11 @@ pub(crate) fn potential_energy(catenary: &Catenary, guide: &Guide) -> f64 {
 
 #[cold]
 pub(crate) fn end_slopes(catenary: &Catenary, guide: &Guide) -> EndSlopes {
-    let (at, free) = (catenary.guided(guide), catenary.free());
-    let w = catenary.cable.weight_per_length;
+    let (guided, free) = (catenary.guided(guide), catenary.free());
+    let (at, w) = (guided.way, catenary.cable.weight_per_length);
     let tangent = Vector2::from(at.tangent);
-    let [u, m, n] = [at.u, at.m, at.n].map(|[x, _, z]| Vector2::new(x, z));
-    let (along, across) = (at.kappa() * tangent.y * tangent, at.mu * n.y * n);
+    let [u, m, n] = [at.u, guided.m, at.n].map(|[x, _, z]| Vector2::new(x, z));
+    let (along, across) = (guided.kappa() * tangent.y * tangent, guided.mu * n.y * n);
     let paid_out = tangent * at.stretch - (along + across) * (w / at.beta);
     let strain_per_stiffness = -(at.stretch - 1.0) / catenary.cable.axial_stiffness;
     EndSlopes {

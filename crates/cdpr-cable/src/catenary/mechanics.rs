@@ -6,7 +6,8 @@
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
 use crate::catenary::compliance::Compliance;
-use crate::catenary::{guided, pieces};
+use crate::catenary::guided::{self, OnGuide};
+use crate::catenary::pieces;
 use crate::kernel::{Real, Response, Terms, response};
 use crate::law::ElasticLaw;
 use nalgebra::{Matrix2, Matrix3, Vector2};
@@ -22,18 +23,18 @@ impl Cable<'_> {
         }
     }
 
-    /// The same, with half the difference `dx/dfz - dz/dfx` of the flexibility [m/N] of a cable on a guide.
+    /// The same, with what it does not tell of a cable on a guide.
     #[inline]
     pub(crate) fn whole_response<T: Real>(
         &self,
         numbers: &Numbers<T>,
         force: [T; 2],
-    ) -> (Response<T>, Option<T>) {
+    ) -> (Response<T>, Option<OnGuide<T>>) {
         match &self.guide {
             None => (self.free_response(numbers, force), None),
             Some(guide) => {
-                let (response, asymmetry) = guided::response(self, guide, numbers, force);
-                (response, Some(asymmetry))
+                let (response, on_guide) = guided::response(self, guide, numbers, force);
+                (response, Some(on_guide))
             }
         }
     }

@@ -69,7 +69,7 @@ pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T;
     let [kx, ky, kz] = numbers.axis;
     let in_plane = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
     let guided = Guided::new(cable, &guide(cable), &in_plane, [fx, z]);
-    let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, [fx, z]);
+    let free = cable.free_response(&Numbers { length: guided.way.free, ..*numbers }, [fx, z]);
     let (end, flexibility, per_length) = guided.in_space(numbers.weight_per_length, &free);
     let turn = |[h, l, z]: [T; 3]| [c * h - s * l, s * h + c * l, z];
     let rows = flexibility.map(turn);

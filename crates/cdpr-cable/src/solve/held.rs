@@ -26,6 +26,7 @@
 
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
+use crate::catenary::guided::OnGuide;
 use crate::error::{CableError, SMALLEST, check};
 use crate::guide::Straight;
 use crate::kernel::{Dual, Field, Real, Response};
@@ -191,12 +192,11 @@ impl<'a> HeldCable<'a> {
             per_guide,
         };
         if self.catenary.cable.guide.is_none() {
-            let (v, slopes) = self.slopes_by([x, z, w, flexibility, self.chord_force], 1);
+            let (v, slopes) = self.slopes_by([x, z, w, flexibility, self.chord_force]);
             let [x, z, w, flexibility, t] = slopes;
             of([v, x, z, w, flexibility, t], [Vector2::zeros(); 2])
         } else {
-            // The flexibility that closes the cable is known to about w r/T0: each pass squares what is left.
-            let (v, slopes) = self.slopes_by([x, z, w, flexibility, lead, radius, self.chord_force], 3);
+            let (v, slopes) = self.slopes_by([x, z, w, flexibility, lead, radius, self.chord_force]);
             let [x, z, w, flexibility, lead, radius, t] = slopes;
             of([v, x, z, w, flexibility, t], [lead, radius])
         }
@@ -206,11 +206,7 @@ impl<'a> HeldCable<'a> {
     /// force, whose place t itself takes.
     ///
     /// The inputs are x, z, w, 1/EA and, with a guide, its lead and radius.
-    fn slopes_by<const N: usize>(
-        &self,
-        values: [f64; N],
-        passes: usize,
-    ) -> (Vector2<f64>, [Vector2<f64>; N]) {
+    fn slopes_by<const N: usize>(&self, values: [f64; N]) -> (Vector2<f64>, [Vector2<f64>; N]) {
         let mut inputs: [Dual<N>; N] = std::array::from_fn(|k| Dual::input(values[k], k));
         let plain = self.in_plane();
         let mut numbers = plain.numbers.map(Dual::of);
@@ -221,14 +217,11 @@ impl<'a> HeldCable<'a> {
         let (end, chord_force) = ([inputs[0], inputs[1]], inputs[N - 1]);
         let mut cable = InPlane { end, numbers, chord_force, fz: Dual::of(plain.fz) };
         // What closes the cable for every change of an input.
-        let matrix = ClosureMatrix::of(&plain, &self.catenary.response());
-        for _ in 0..passes {
-            let [across, height] = cable.misclosure(&cable.response(&self.catenary).0);
-            for k in 0..N {
-                let [fz, length] = matrix.solve([across.slopes[k], height.slopes[k]]);
-                cable.fz.slopes[k] += fz;
-                cable.numbers.length.slopes[k] += length;
-            }
+        let matrix = ClosureMatrix::of(&plain, &plain.whole_response(&self.catenary));
+        let [across, height] = cable.misclosure(&cable.response(&self.catenary).0);
+        for k in 0..N {
+            let [fz, length] = matrix.solve([across.slopes[k], height.slopes[k]]);
+            (cable.fz.slopes[k], cable.numbers.length.slopes[k]) = (fz, length);
         }
         // The same with the tension held, by a change of the chord force.
         let tension = |cable: &InPlane<Dual<N>>| {
@@ -270,11 +263,7 @@ impl<'a> HeldCable<'a> {
         let force_slope = Vector2::zeros();
         let held = Self { catenary, end, chord_force, force_slope, length_slope: 0.0 };
         let in_plane = held.in_plane();
-        let response = match catenary.cable.guide {
-            None => (catenary.response(), None),
-            Some(_) => in_plane.response(&catenary),
-        };
-        let [fx, fz, length_slope] = in_plane.slopes(&response);
+        let [fx, fz, length_slope] = in_plane.slopes(&in_plane.whole_response(&catenary));
         Self { force_slope: Vector2::new(fx, fz), length_slope, ..held }
     }
 
@@ -291,16 +280,16 @@ impl<'a> HeldCable<'a> {
         let mut residual = f64::INFINITY;
         for iteration in 1..=MAX_ITERATIONS {
             let catenary = Catenary { cable: *cable, unstrained_length: length, force: Vector2::new(fx, fz) };
-            let response = catenary.response();
             let in_plane = InPlane { end: end.into(), numbers: cable.numbers(length), chord_force, fz };
-            let misclosure = in_plane.misclosure(&response);
+            let response = in_plane.whole_response(&catenary);
+            let misclosure = in_plane.misclosure(&response.0);
             let before = residual;
             residual = (misclosure[0] * fx).hypot(misclosure[1]);
             let [dfz, dlength] = ClosureMatrix::of(&in_plane, &response).solve(misclosure);
             if !(dfz.is_finite() && dlength.is_finite()) {
                 return Err(CableError::NotConverged { iterations: iteration, residual });
             }
-            let free = catenary.free_length();
+            let free = response.1.map_or(length, |on_guide| on_guide.free);
             let (v0, led) = (fz - cable.weight_per_length * free, length - free);
             length = (length + dlength).clamp(0.5 * length, 2.0 * length);
             // Where the cable is nearly vertical at an end, the force there changes its sign only in small
@@ -405,8 +394,8 @@ impl<T: Real> InPlane<T> {
         self.chord_force * self.horizontal() / self.chord()
     }
 
-    /// The response, and the asymmetry of its flexibility on a guide.
-    fn response(&self, catenary: &Catenary) -> (Response<T>, Option<T>) {
+    /// The response, and what it does not tell of a cable on a guide.
+    fn response(&self, catenary: &Catenary) -> (Response<T>, Option<OnGuide<T>>) {
         catenary.cable.whole_response(&self.numbers, [self.fx(), self.fz])
     }
 
@@ -416,11 +405,11 @@ impl<T: Real> InPlane<T> {
     }
 
     /// (fx', fz', L'), (C18).
-    fn slopes(&self, (response, asymmetry): &(Response<T>, Option<T>)) -> [T; 3] {
+    fn slopes(&self, (response, on_guide): &(Response<T>, Option<OnGuide<T>>)) -> [T; 3] {
         let (fx, fx_slope) = (self.fx(), self.horizontal() / self.chord());
         let ([xx, shear, zz], mut determinant) = (response.flexibility, response.determinant);
         let (mut xz, mut zx) = (shear, shear);
-        if let Some(asymmetry) = *asymmetry {
+        if let Some(OnGuide { asymmetry, .. }) = *on_guide {
             (xz, zx) = (shear + asymmetry, shear - asymmetry);
             determinant = determinant + asymmetry * asymmetry;
         }
@@ -434,6 +423,17 @@ impl<T: Real> InPlane<T> {
     }
 }
 
+impl InPlane<f64> {
+    /// The response of a cable with these numbers.
+    #[inline]
+    fn whole_response(&self, catenary: &Catenary) -> (Response<f64>, Option<OnGuide<f64>>) {
+        match catenary.cable.guide {
+            None => (catenary.response(), None),
+            Some(_) => self.response(catenary),
+        }
+    }
+}
+
 /// The derivative of (x/fx, z) with respect to (fz, L).
 struct ClosureMatrix {
     across: [f64; 2],
@@ -441,10 +441,11 @@ struct ClosureMatrix {
 }
 
 impl ClosureMatrix {
-    fn of(cable: &InPlane<f64>, response: &Response<f64>) -> Self {
+    fn of(cable: &InPlane<f64>, (response, on_guide): &(Response<f64>, Option<OnGuide<f64>>)) -> Self {
         let fx = cable.fx();
+        let asymmetry = on_guide.as_ref().map_or(0.0, |on_guide| on_guide.asymmetry);
         Self {
-            across: [response.flexibility[1] / fx, response.end_per_length[0] / fx],
+            across: [(response.flexibility[1] + asymmetry) / fx, response.end_per_length[0] / fx],
             height: [response.flexibility[2], response.end_per_length[1]],
         }
     }
