@@ -13,13 +13,14 @@ struct Target {
 
 const JSON: &[&str] = &["-dict=json.dict", "-max_len=16384"];
 
-const TARGETS: [Target; 7] = [
+const TARGETS: [Target; 8] = [
     Target { name: "robot_file", seeds: Some("robots"), arguments: JSON },
     Target { name: "study_file", seeds: Some("studies"), arguments: JSON },
     Target { name: "end_force", seeds: None, arguments: &[] },
     Target { name: "length_for_tension", seeds: None, arguments: &[] },
     Target { name: "catenary", seeds: None, arguments: &[] },
     Target { name: "law", seeds: None, arguments: &[] },
+    Target { name: "pulley", seeds: None, arguments: &[] },
     Target { name: "record", seeds: Some("cables"), arguments: &["-max_len=16384"] },
 ];
 

@@ -73,7 +73,9 @@ impl Guide {
         let Some(Straight { leave, free, guided }) = self.straight(end) else {
             return end * (1.0 - rest / end.norm()).max(0.0);
         };
-        (end - leave) * ((free + guided - rest).max(0.0) / free)
+        let missing = (free + guided - rest).max(0.0);
+        let direction = if free > 0.0 { (end - leave) / free } else { Vector3::x() };
+        direction * missing
     }
 
     /// Where a straight cable to `end` [m] from D leaves the wheel; `None` where `end` lies within the wheel,

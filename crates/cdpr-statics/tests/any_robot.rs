@@ -2,7 +2,8 @@
 //! outcome that is true.
 
 use cdpr_robot::{
-    CableEnd, CableProperties, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3, Wrench,
+    CableEnd, CableProperties, Plane, Platform, Pose, Pulley, Robot, RobotCable, Rotation3, TensionLimits,
+    Vector3, Wrench,
 };
 use cdpr_statics::{DirectProblem, Load, Start, StaticsError, direct};
 use rand::{RngExt, SeedableRng};
@@ -11,6 +12,9 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 const CASES: u64 = 100_000;
+
+/// Robots as they are built are slower; `CDPR_CASES` takes the place of this number.
+const CASES_AS_BUILT: u64 = 10_000;
 
 /// Every so many answers one is certified.
 const CERTIFIED: u64 = 10;
@@ -94,6 +98,53 @@ fn case(seed: u64) -> Case {
     Case { robot, lengths, load: Load { payload, wrench }, start }
 }
 
+/// The same with what real robots have: pulleys with vertical and tilted axes, leads, one to five cables, a
+/// base that is not level, point masses and planes.
+fn as_built(seed: u64) -> Case {
+    let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+    let Case { mut robot, mut lengths, mut load, mut start } = case(seed);
+    robot.name = format!("robot {seed} as built");
+    if rng.random_bool(0.5) {
+        let n = rng.random_range(1..=5);
+        robot.cables.truncate(n);
+        lengths.truncate(n);
+    }
+    if rng.random_bool(0.3) {
+        let tilt = direction(rng) * 3.0;
+        robot.gravity = Vector3::new(tilt.x, tilt.y, -9.2 + 0.1 * tilt.z).into();
+    }
+    match rng.random_range(0..6) {
+        0 => {
+            robot.platform.point = true;
+            robot.platform.center_of_mass = Vector3::zeros();
+            robot.cables.iter_mut().for_each(|cable| cable.anchor_point = Vector3::zeros());
+            start.rotation = Rotation3::identity();
+            load.wrench.moment = Vector3::zeros();
+        }
+        1 => {
+            robot.plane = Some(Plane::Xz);
+            start.rotation = Rotation3::new(Vector3::new(0.0, start.rotation.scaled_axis().y, 0.0));
+        }
+        _ => {}
+    }
+    let span = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+    let radius = rng.random_bool(0.7).then(|| log_uniform(rng, 1e-3, 0.05) * span);
+    let (tilted, led) = (rng.random_bool(0.5), rng.random_bool(0.5));
+    for (cable, length) in robot.cables.iter_mut().zip(&mut lengths) {
+        if led {
+            cable.lead = log_uniform(rng, 0.01, 1.0) * span;
+            *length += cable.lead;
+        }
+        if let Some(radius) = radius {
+            let upright = Vector3::z() * if cable.exit_point.z > start.position.z { 1.0 } else { -1.0 };
+            let axis = if tilted { upright + 0.5 * direction(rng) } else { upright };
+            cable.pulley = Some(Pulley { radius, axis });
+            *length += 0.5 * std::f64::consts::PI * radius;
+        }
+    }
+    Case { robot, lengths, load, start }
+}
+
 /// What became of a case; the certificate of an equilibrium beside it.
 fn outcome(case: &Case, certified: bool) -> (String, Option<String>) {
     let Case { robot, lengths, load, start } = case;
@@ -132,6 +183,36 @@ fn outcome(case: &Case, certified: bool) -> (String, Option<String>) {
             assert!((0.0..1.0).contains(&share), "{}: {error}", robot.name);
             (error.kind().to_owned(), None)
         }
+    }
+}
+
+#[test]
+fn any_robot_as_it_is_built_finds_an_equilibrium_or_says_truly_why_not() {
+    let cases = std::env::var("CDPR_CASES").map_or(CASES_AS_BUILT, |cases| cases.parse().unwrap());
+    let outcomes: Vec<_> = (0..cases)
+        .into_par_iter()
+        .map(|seed| {
+            let case = as_built(seed);
+            match direct(&case.robot, &case.lengths, &case.load, Start::Pose(&case.start)) {
+                Ok(found) => {
+                    let kind = if found.stability.is_stable() { "stable" } else { "unstable" };
+                    format!("{kind} {:?}", found.report.method)
+                }
+                Err(error) => {
+                    if seed < 3000 {
+                        println!("{seed}: {error}");
+                    }
+                    error.kind().to_owned()
+                }
+            }
+        })
+        .collect();
+    let mut counts = BTreeMap::<String, u64>::new();
+    for outcome in outcomes {
+        *counts.entry(outcome).or_default() += 1;
+    }
+    for (outcome, count) in &counts {
+        println!("{count:8} {outcome}");
     }
 }
 

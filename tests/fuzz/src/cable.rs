@@ -1,6 +1,8 @@
 //! What must hold for a cable, whatever the numbers.
 
-use cdpr_cable::{Cable, CableError, Catenary, ElasticLaw, PiecewiseLaw, Segment, Solution, Vector2};
+use cdpr_cable::{
+    Cable, CableError, Catenary, ElasticLaw, Entry, Guide, PiecewiseLaw, Segment, Solution, Vector2,
+};
 
 /// `w, EA, L, x, z`: an equilibrium with an honest residual, or a typed error.
 pub fn end_force([weight_per_length, axial_stiffness, length, x, z]: [f64; 5]) {
@@ -39,6 +41,42 @@ pub fn law([weight_per_length, axial_stiffness, length, x, z, kink, soft, stiff]
         }
         Err(error) => typed(&error, &[weight_per_length, axial_stiffness, length, x, z]),
     }
+}
+
+/// `w, EA, L, x, z, d, r`: an equilibrium over a lead and a pulley with a vertical axis, with an honest
+/// residual, or a typed error.
+pub fn pulley([weight_per_length, axial_stiffness, length, x, z, lead, radius]: [f64; 7]) {
+    let entry = if z > 0.0 { Entry::Downwards } else { Entry::Upwards };
+    let guide = Some(Guide { lead, radius, entry });
+    let cable = Cable { guide, ..Cable::linear(weight_per_length, axial_stiffness) };
+    let end = Vector2::new(x, z);
+    // Of lengths far from each other, and of a cable that its own weight stretches by a tenth, no digits are
+    // left for an answer.
+    let lengths = [length, x.hypot(z), lead, radius].map(|length| length == 0.0 || ordinary(length));
+    let sound = ordinary(axial_stiffness) && 10.0 * weight_per_length * length <= axial_stiffness;
+    let ordinary = sound && lengths == [true; 4];
+    match cdpr_cable::end_force(&cable, length, end) {
+        Ok(Solution { catenary, residual, .. }) => {
+            finite("force", catenary.force.as_slice());
+            assert!(catenary.force.x >= 0.0, "fx {:e}", catenary.force.x);
+            if ordinary && !catenary.is_limp() {
+                finite("stiffness", catenary.in_plane_stiffness().as_slice());
+                finite("leave_point", catenary.leave_point().as_slice());
+            }
+            let strain = catenary.cable.strain(catenary.anchor_tension() + catenary.weight().abs());
+            let size = length * (1.0 + strain) + end.norm() + lead + 4.0 * radius;
+            let largest = if ordinary { 1e-9 * size } else { size };
+            assert!(residual <= largest, "residual {residual:e} is accepted for a size of {size:e}");
+        }
+        Err(CableError::NotConverged { residual, .. }) => assert!(!ordinary, "not converged: {residual:e}"),
+        // Two lengths of 1e30 m add up to more than is admissible.
+        Err(_) if [x, z, radius].iter().any(|length| length.abs() > 0.1 * LARGEST) => {}
+        Err(error) => typed(&error, &[weight_per_length, axial_stiffness, length, x, z, lead, radius]),
+    }
+}
+
+fn ordinary(number: f64) -> bool {
+    (1e-3..=1e6).contains(&number)
 }
 
 /// `w, EA, x, z, tension`: a length with an honest residual and the wanted tension, or a typed error.

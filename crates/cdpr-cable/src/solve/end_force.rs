@@ -16,7 +16,7 @@
 use crate::cable::Cable;
 use crate::catenary::Catenary;
 use crate::catenary::compliance::Compliance;
-use crate::error::{CableError, check, check_length};
+use crate::error::{CableError, SMALLEST, check, check_length};
 use crate::guide::{Guide, Straight, in_plane};
 use crate::law::ElasticLaw;
 use nalgebra::Vector2;
@@ -129,7 +129,16 @@ fn guided_start<'a>(
 ) -> Result<Catenary<'a>, CableError> {
     let (Straight { free, guided, .. }, plain, beyond) = straightened(cable, guide, end)?;
     let strain = ((free + guided) / unstrained_length - 1.0).max(cable.strain(0.0));
-    let force = end_force(&plain, unstrained_length - guided / (1.0 + strain), beyond)?.catenary.force;
+    // At least what the strain leaves to it, however long the lead.
+    let least = unstrained_length * (free / (free + guided));
+    let rest = (unstrained_length - guided / (1.0 + strain)).max(least);
+    check(
+        "unstrained_length",
+        unstrained_length,
+        rest >= SMALLEST,
+        "a length of which 1e-30 m or more remain beyond lead and pulley [m]",
+    )?;
+    let force = end_force(&plain, rest, beyond)?.catenary.force;
     Ok(Catenary { cable: *cable, unstrained_length, force })
 }
 

@@ -89,6 +89,7 @@ fn hanging(
     end: Vector3<f64>,
 ) -> (Vector2<f64>, SpatialResponse) {
     const MAX_ITERATIONS: usize = 30;
+    const ROUNDING: f64 = 1e-15;
     let [fx, fz] = catenary.force.into();
     let at = |forwards: Vector2<f64>| {
         let force = Vector3::new(fx * forwards.x, fx * forwards.y, fz);
@@ -100,6 +101,9 @@ fn hanging(
     };
     let (mut response, mut way, mut beside) = at(forwards);
     for _ in 0..MAX_ITERATIONS {
+        if beside.abs() <= ROUNDING * way.norm() {
+            break;
+        }
         // What a turn of the plane by an angle moves across it: nearly the distance from the leave point.
         let across = Vector3::new(-forwards.y, forwards.x, 0.0);
         let swing = fx * (response.flexibility * across).dot(&across);
