@@ -59,15 +59,31 @@ fn straightened<'a>(
 ) -> Result<(Straight, Cable<'a>, Vector3<f64>), CableError> {
     let guide = guide(cable);
     let axis = Vector3::from(guide.entry.axis());
-    let straight = guide.straight(end).ok_or(CableError::InvalidInput {
+    let straight = guide.straight(end).ok_or_else(|| below_the_pulley(end, axis))?;
+    let beyond = end - straight.leave;
+    Ok((straight, Cable { guide: None, ..*cable }, beyond))
+}
+
+fn below_the_pulley(end: Vector3<f64>, axis: Vector3<f64>) -> CableError {
+    CableError::InvalidInput {
         field: "end",
         value: (end - axis * end.dot(&axis)).norm(),
         expected: "a distance [m] from the swivel axis at which the cable can leave the pulley away from the \
                    axis: more than its diameter beyond the wheel",
-    })?;
-    let beyond = end - straight.leave;
-    Ok((straight, Cable { guide: None, ..*cable }, beyond))
+    }
 }
+
+/// Why the search for the force ended: in a cable that turns straight back on its wheel, whose swivel has no
+/// direction then, because the end lies where a cable would lean back towards the axis.
+fn lost(last: &SpatialCable, end: Vector3<f64>, iterations: usize, residual: f64) -> CableError {
+    if last.in_plane().0.wrap() > STRAIGHT_BACK {
+        return below_the_pulley(end, guide(&last.cable).entry.axis().into());
+    }
+    CableError::NotConverged { iterations, residual }
+}
+
+/// A cable that lies on its wheel over this angle turns straight back [rad].
+const STRAIGHT_BACK: f64 = 0.999 * std::f64::consts::PI;
 
 /// A vector in its vertical plane, and the direction of the plane.
 fn flat(v: Vector3<f64>) -> (Vector2<f64>, [f64; 2]) {
@@ -89,8 +105,8 @@ fn newton<'a>(
     let mut residual = end - response.end;
     let size = now.unstrained_length + end.norm();
     for iteration in 1..=iterations {
-        let failed = CableError::NotConverged { iterations: iteration, residual: residual.norm() };
-        let stiffness = response.flexibility.try_inverse().ok_or_else(|| failed.clone())?;
+        let failed = || lost(&now, end, iteration, residual.norm());
+        let stiffness = response.flexibility.try_inverse().ok_or_else(failed)?;
         let step = stiffness * residual;
         let forces = now.force.norm() + now.cable.weight_per_length * now.unstrained_length;
         // Of its own sums, and of the force that the end is computed from.
@@ -117,11 +133,11 @@ fn newton<'a>(
             fraction *= 0.5;
             if fraction < 1e-14 {
                 // No step gains anything: the residual is rounding, or there is no solution.
-                return if at_rounding(1e3) { Ok(now) } else { Err(failed) };
+                return if at_rounding(1e3) { Ok(now) } else { Err(failed()) };
             }
         }
     }
-    Err(CableError::NotConverged { iterations, residual: residual.norm() })
+    Err(lost(&now, end, iterations, residual.norm()))
 }
 
 /// A cable over a pulley with a tilted axis between held ends, with the derivatives by its chord force.

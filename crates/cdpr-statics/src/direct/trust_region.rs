@@ -89,17 +89,17 @@ impl Point {
         }
     }
 
-    /// The point a step (dp, l dφ) away; `None` where a cable has no equilibrium.
-    fn moved(&self, problem: &DirectProblem, step: &Vector6<f64>) -> Option<Self> {
+    /// The point a step (dp, l dφ) away, or which cable has no equilibrium there.
+    fn moved(&self, problem: &DirectProblem, step: &Vector6<f64>) -> Result<Self, StaticsError> {
         let motion = problem.robot.freedoms().of_vector(&step.component_mul(&scale(problem)));
         let pose =
             self.equilibrium.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
         let solve = |(i, force): (usize, &Vector2<f64>)| {
-            problem.force_at(&pose, i, Some((&self.equilibrium.pose, force))).ok()
+            problem.force_at(&pose, i, Some((&self.equilibrium.pose, force))).map_err(StaticsError::cable(i))
         };
         let cable_forces =
-            self.equilibrium.cable_forces.iter().enumerate().map(solve).collect::<Option<_>>()?;
-        Some(Self::new(problem, Equilibrium { pose, cable_forces }))
+            self.equilibrium.cable_forces.iter().enumerate().map(solve).collect::<Result<_, _>>()?;
+        Ok(Self::new(problem, Equilibrium { pose, cable_forces }))
     }
 
     /// By how much the potential falls, less the work of the load's moment, on the way to `next` by `step`.
@@ -141,9 +141,14 @@ pub(crate) fn minimise(problem: &DirectProblem, start: &Pose) -> Result<Converge
             // Neither slope nor negative curvature, or NaN: there is nowhere to go.
             return Err(not_converged(problem, &now, iteration));
         }
-        let Some(mut next) = now.moved(problem, &step) else {
-            radius = 0.25 * step.norm();
-            continue;
+        let mut next = match now.moved(problem, &step) {
+            Ok(next) => next,
+            // Downhill lie poses at which a cable has no shape.
+            Err(error) if step.norm() <= 1e-12 * size => return Err(error),
+            Err(_) => {
+                radius = 0.25 * step.norm();
+                continue;
+            }
         };
         let mut gain = now.gain(problem, &next, &step);
         // In a curved valley a step leaves the floor, and further steps of the same kind return to it.
@@ -152,7 +157,7 @@ pub(crate) fn minimise(problem: &DirectProblem, start: &Pose) -> Result<Converge
                 break;
             }
             let (second, _) = subproblem(&next.gradient, &next.hessian, radius);
-            let Some(after) = next.moved(problem, &second) else { break };
+            let Ok(after) = next.moved(problem, &second) else { break };
             gain += next.gain(problem, &after, &second);
             next = after;
         }
