@@ -4,7 +4,7 @@
 #[path = "../../tests/common.rs"]
 mod common;
 
-use cdpr_robot::{Pulley, Robot, Vector3};
+use cdpr_robot::Robot;
 pub(crate) use common::caroca;
 use criterion::Criterion;
 use std::time::Duration;
@@ -12,15 +12,6 @@ use std::time::Duration;
 /// A suspended robot with `n` cables between a ring of exit points and a drum.
 pub(crate) fn ring(n: usize) -> Robot {
     Robot { cables: common::ring(n, || 0.0), ..caroca() }
-}
-
-/// CAROCA with pulleys of 45 mm, which its cables enter along `axis`, and leads of 3 m.
-pub(crate) fn led(axis: Vector3<f64>) -> Robot {
-    let mut robot = caroca();
-    for cable in &mut robot.cables {
-        (cable.pulley, cable.lead) = (Some(Pulley { radius: 0.045, axis }), 3.0);
-    }
-    robot
 }
 
 pub(crate) fn settings() -> Criterion {
