@@ -66,7 +66,8 @@ impl<'a> Linearised<'a> {
             match SpannedCable::plain(robot, &state.pose, i, &catenary) {
                 Some(cable) => linearised.add(&cable, &mut unbalanced),
                 None => {
-                    linearised.add_other(&SpannedCable::of(robot, &state.pose, i, &catenary), &mut unbalanced)
+                    let cable = SpannedCable::of(robot, &state.pose, i, &catenary);
+                    linearised.add_other(&cable, &mut unbalanced);
                 }
             }
         }

@@ -425,7 +425,7 @@ fn each_effect(
             Parameter::Lead(i) => add(column, i, around(i).map_or(o, |by| by.per_guide[0]), o),
             Parameter::PulleyRadius(i) => add(column, i, around(i).map_or(o, |by| by.per_guide[1]), o),
             Parameter::Tilt(i, axis) => {
-                add(column, i, around(i).map_or(o, |by| by.per_tilt[axis as usize]), o)
+                add(column, i, around(i).map_or(o, |by| by.per_tilt[axis as usize]), o);
             }
             Parameter::Gravity(axis) => {
                 for i in 0..cables.len() {
