@@ -74,6 +74,16 @@ fn a_slip_in_a_name_finds_the_name() {
 }
 
 #[test]
+fn the_gallery_has_a_section_and_a_picture_of_every_robot() {
+    let page = std::fs::read_to_string(root().join("docs/robots.md")).unwrap();
+    for file in ROBOTS {
+        let picture = format!("images/robots/{}.svg", file.name);
+        assert!(page.contains(&format!("]({picture})")), "{}: run: cargo xtask gallery", file.name);
+        assert!(root().join("docs").join(&picture).exists(), "{picture}: run: cargo xtask gallery");
+    }
+}
+
+#[test]
 fn every_study_file_is_a_study_with_a_source() {
     let files = files("data/studies");
     assert!(!files.is_empty());

@@ -9,6 +9,7 @@ mod bench;
 mod cable;
 mod cargo;
 mod fuzz;
+mod gallery;
 mod led;
 mod peers;
 mod scaling;
@@ -47,6 +48,7 @@ tasks:
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
                  panics, hangs or touches a file outside of its folder of results
+  gallery        writes docs/robots.md, a picture and a table for each robot of the library
   schemas        writes the JSON Schemas of the file formats to docs/schemas
   help           prints this text";
 
@@ -67,6 +69,7 @@ fn main() -> ExitCode {
         Some("bench-peers") => peers::bench(),
         Some("fuzz") => fuzz::run(&rest),
         Some("attack") => attack::run(),
+        Some("gallery") => gallery(),
         Some("schemas") => schemas(),
         Some("help" | "--help" | "-h") => {
             eprintln!("{HELP}");
@@ -160,6 +163,16 @@ fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>)
         is_value = !is_value && argument == option;
     }
     (value, rest)
+}
+
+fn gallery() -> ExitCode {
+    match gallery::run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 fn schemas() -> ExitCode {

@@ -11,7 +11,7 @@ from conftest import program
 
 def test_a_robot_of_the_library_has_a_name(cogiro):
     assert cdpr.Robot.from_file("cogiro").to_dict() == cogiro.to_dict()
-    with pytest.raises(cdpr.FileError, match="near are cogiro"):
+    with pytest.raises(cdpr.InputError, match="near are cogiro"):
         cdpr.Robot.from_file("cogira")
 
 

@@ -43,8 +43,13 @@ pub fn open_robot_in_any_unit(path: &Path) -> Result<Robot, StudyError> {
 /// As [`open_robot`].
 pub(crate) fn open_robot_from(folder: &Path, name: &str) -> Result<Robot, StudyError> {
     let path = folder.join(name);
-    let in_library = !path.exists() && named_file(ROBOTS, Path::new(name)).is_some();
-    open_robot(if in_library { Path::new(name) } else { &path })
+    match plain_name(Path::new(name)).map(|name| (name, named(ROBOTS, name))) {
+        Some((_, Some(file))) if has_no_file(&path) => {
+            read_from(&path, Some(file.text), InputKind::Robot, Robot::from_json)
+        }
+        Some((name, None)) if !path.exists() => Err(no_such_name(name, ROBOTS, InputKind::Robot)),
+        _ => open_robot(&path),
+    }
 }
 
 /// Reads a cable file, or the cable of the catalogue that has this name where no file has it.
@@ -57,7 +62,12 @@ pub fn open_cable(path: &Path) -> Result<CatalogueCable, StudyError> {
 
 /// The file of a library that is called by a path: one without folders, where no file has that path.
 pub(crate) fn named_file(library: &[LibraryFile], path: &Path) -> Option<LibraryFile> {
-    named(library, plain_name(path)?).filter(|_| !path.exists())
+    named(library, plain_name(path)?).filter(|_| has_no_file(path))
+}
+
+/// Whether no file has this path. Results may be in a folder of the robot's name.
+fn has_no_file(path: &Path) -> bool {
+    !path.exists() || path.is_dir()
 }
 
 /// A path that could be a name in a library: without folders and extension.
@@ -75,14 +85,25 @@ fn read_named<T>(
     read: fn(&str) -> Result<T, RobotError>,
 ) -> Result<T, StudyError> {
     let library = if kind == InputKind::Cable { CABLES } else { ROBOTS };
-    let text = match (named_file(library, path), plain_name(path)) {
-        (Some(file), _) => file.text.to_owned(),
-        (None, Some(name)) if !path.exists() => {
-            let near = near(library, name).join(", ");
-            return Err(StudyError::NoSuchName { name: name.to_owned(), kind, near });
-        }
-        _ => read_text(path, kind)?,
-    };
+    let file = named_file(library, path);
+    match plain_name(path) {
+        Some(name) if file.is_none() && !path.exists() => Err(no_such_name(name, library, kind)),
+        _ => read_from(path, file.map(|file| file.text), kind, read),
+    }
+}
+
+fn no_such_name(name: &str, library: &[LibraryFile], kind: InputKind) -> StudyError {
+    StudyError::NoSuchName { name: name.to_owned(), kind, near: near(library, name).join(", ") }
+}
+
+/// Reads the text of a library, or else that of the file.
+fn read_from<T>(
+    path: &Path,
+    text: Option<&'static str>,
+    kind: InputKind,
+    read: fn(&str) -> Result<T, RobotError>,
+) -> Result<T, StudyError> {
+    let text = text.map_or_else(|| read_text(path, kind), |text| Ok(text.to_owned()))?;
     read(&text).map_err(|source| {
         let other = other_kind(path, &text, kind);
         other.unwrap_or_else(|| StudyError::Robot { path: path.to_owned(), source })
@@ -99,7 +120,12 @@ mod tests {
         assert_eq!(open_cable(Path::new("steel-4mm")).unwrap().properties.diameter, Some(0.004));
         let folder = tempfile::tempdir().unwrap();
         let named = |name: &str| open_robot_from(folder.path(), name).unwrap().name;
+        let error = open_robot_from(folder.path(), "cogira").unwrap_err().to_string();
+        assert!(error.ends_with("near are cogiro"), "{error}");
         assert_eq!(named("cogiro"), "CoGiRo");
+        std::fs::create_dir(folder.path().join("cogiro")).unwrap();
+        assert_eq!(named("cogiro"), "CoGiRo");
+        std::fs::remove_dir(folder.path().join("cogiro")).unwrap();
         let grab = named_file(ROBOTS, Path::new("grab")).unwrap().text;
         std::fs::write(folder.path().join("cogiro"), grab).unwrap();
         assert_eq!(named("cogiro"), "GRAB, 4 cables");
