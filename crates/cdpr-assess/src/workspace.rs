@@ -190,14 +190,14 @@ impl Held {
         let Deflection { lengths, unloaded, loaded } = deflection;
         let [least_before, greatest_before] = range(&unloaded.equilibrium.tensions());
         let [least, greatest] = range(&loaded.equilibrium.tensions());
-        let modes = || DirectProblem::new(robot, lengths, load)?.modes(&loaded.equilibrium);
+        let frequency = || DirectProblem::new(robot, lengths, load)?.lowest_frequency(&loaded.equilibrium);
         Self {
             least_tension: least.min(least_before),
             greatest_tension: greatest.max(greatest_before),
             out_of_limits: out_of_limits(robot, lengths, &[&unloaded.equilibrium, &loaded.equilibrium]),
             displacement: deflection.displacement(),
             least_stiffness: loaded.stability.least_stiffness(),
-            lowest_frequency: modes().ok().and_then(|modes| Some(modes.first()?.frequency)),
+            lowest_frequency: frequency().ok(),
             slack: loaded.report.slack.clone(),
             dominant,
         }

@@ -123,6 +123,17 @@ impl DirectProblem<'_> {
         Ok(order.iter().enumerate().map(mode).collect())
     }
 
+    /// The lowest natural frequency about a stable equilibrium [Hz], without motions that nothing resists; zero
+    /// where nothing resists any.
+    ///
+    /// # Errors
+    /// As [`DirectProblem::modes`].
+    pub fn lowest_frequency(&self, equilibrium: &Equilibrium) -> Result<f64, StaticsError> {
+        let modes = self.modes(equilibrium)?;
+        let resisted = modes.iter().map(|mode| mode.frequency).find(|frequency| *frequency > 0.0);
+        Ok(resisted.unwrap_or(0.0))
+    }
+
     /// M of (V1) [kg, kg m, kg m²].
     fn mass_matrix(&self, pose: &Pose) -> Result<Matrix6<f64>, StaticsError> {
         let platform = &self.robot.platform;

@@ -111,9 +111,7 @@ impl<'a> OutputObserver<'a> {
             Output::Stiffness => Measured::Number(found.loaded.stability.least_stiffness()),
             Output::Frequency => {
                 let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
-                let modes = problem.modes(&found.loaded.equilibrium)?;
-                let resisted = modes.iter().map(|mode| mode.frequency).find(|frequency| *frequency > 0.0);
-                Measured::Number(resisted.unwrap_or(0.0))
+                Measured::Number(problem.lowest_frequency(&found.loaded.equilibrium)?)
             }
         })
     }
