@@ -65,7 +65,7 @@ fn values_in_another_unit_are_questioned_with_what_they_would_be() {
         modulus("20"),
         "cable.youngs_modulus is 20: expected a modulus in Pa, soft rubber has 1e6: 20 GPa is 2e10, 20 MPa \
          is \
-         2e7 (line 7, column 104)"
+         2e7 (line 12, column 104)"
     );
     assert!(modulus("102200").contains("102200 MPa is 1.022e11"));
     let in_mm = {
@@ -233,49 +233,49 @@ fn refusal(from: &str, to: &str) -> String {
 #[test]
 fn a_bad_file_is_refused_with_field_value_and_remedy() {
     let cases = [
-        (r#""mass": 180.0, "#, "", "line 6, column 43: platform: missing field `mass`"),
+        (r#""mass": 180.0, "#, "", "line 11, column 43: platform: missing field `mass`"),
         (
             r#""mass": 180.0"#,
             r#""mas": 180.0"#,
-            "line 6, column 20: platform.mas: unknown field `mas`, expected one of `mass`, `center_of_mass`, \
+            "line 11, column 20: platform.mas: unknown field `mas`, expected one of `mass`, `center_of_mass`, \
              `inertia`, `point`",
         ),
         (
             r#""mass": 180.0"#,
             r#""mass": NaN"#,
-            "line 6, column 24: platform.mass: expected a JSON value; NaN, Infinity and bare words are not \
+            "line 11, column 24: platform.mass: expected a JSON value; NaN, Infinity and bare words are not \
              JSON",
         ),
         (
             r#""mass": 180.0"#,
             r#""mass": "heavy""#,
-            "line 6, column 30: platform.mass: invalid type: string \"heavy\", expected a number",
+            "line 11, column 30: platform.mass: invalid type: string \"heavy\", expected a number",
         ),
         (
             r#""mass": 180.0"#,
             r#""mass": 1e999"#,
-            "line 6, column 28: platform.mass: number out of range, expected a finite number",
+            "line 11, column 28: platform.mass: number out of range, expected a finite number",
         ),
         (
             r#""mass": 180.0"#,
             r#""mass": -1"#,
-            "platform.mass is -1: expected a finite, positive mass [kg] (line 6, column 24)",
+            "platform.mass is -1: expected a finite, positive mass [kg] (line 11, column 24)",
         ),
         (
             "1.2566370614e-5",
             "-1.2e-5",
-            "cable.section is -0.000012: expected a finite, positive section [m²] (line 7, column 43)",
+            "cable.section is -0.000012: expected a finite, positive section [m²] (line 12, column 43)",
         ),
         (
             "1.022e11",
             "0",
-            "cable.youngs_modulus is 0: expected a finite, positive modulus [Pa] (line 7, column 104)",
+            "cable.youngs_modulus is 0: expected a finite, positive modulus [Pa] (line 12, column 104)",
         ),
         (
             r#""min": 1.0, "max": 10290.0"#,
             r#""min": 20.0, "max": 10.0"#,
             "tension_limits.max is 10: expected a finite tension above tension_limits.min \
-             (line 8, column 42)",
+             (line 13, column 42)",
         ),
         (
             "cdpr-robot/1",
@@ -285,7 +285,7 @@ fn a_bad_file_is_refused_with_field_value_and_remedy() {
         (
             "[-3.5, 2, 3.5]",
             "[-3.5, 2]",
-            "line 10, column 28: cables[0].exit_point: invalid length 2, expected an array of length 3",
+            "line 15, column 28: cables[0].exit_point: invalid length 2, expected an array of length 3",
         ),
     ];
     for (from, to, expected) in cases {
