@@ -1,7 +1,8 @@
 //! `cargo xtask gallery`: docs/robots.md, a picture and a table for each robot of the library.
 //!
-//! The picture is that of the study that `cdpr study new` writes, at its pose and under its load; a robot with
-//! fewer cables than free motions is drawn with straight cables at the pose that `cdpr inverse --free` finds.
+//! The picture is that of the study that `cdpr study new` writes, at its pose and under its load; a robot
+//! with fewer cables than free motions is drawn with straight cables at the pose that `cdpr inverse --free`
+//! finds.
 
 use crate::cargo::{cdpr_command, root};
 use serde_json::{Value, json};

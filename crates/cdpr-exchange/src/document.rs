@@ -76,8 +76,8 @@ fn without_numbers(path: &str) -> String {
 }
 
 impl Document {
-    /// What was not read, a node or several within one, in the order of the file: the outermost ones alone, and
-    /// once for nodes that differ in their number alone.
+    /// What was not read, a node or several within one, in the order of the file: the outermost ones alone,
+    /// and once for nodes that differ in their number alone.
     pub(crate) fn unread(&self) -> Vec<Unread> {
         let mut groups: Vec<Unread> = Vec::new();
         self.root.collect_unread(&mut groups);

@@ -5,8 +5,8 @@ use cdpr_exchange::{ExchangeError, ImportOptions, Imported, Lacking, NoteKind};
 use cdpr_robot::{Pose, Pulley, Robot, Rotation3, Vector3};
 use std::f64::consts::PI;
 
-/// Length of a straight cable from `d` over a pulley of radius `r` and swivel axis `k` to `p`, as CASPR, WireX
-/// and IRMA compute it: an independent transcription.
+/// Length of a straight cable from `d` over a pulley of radius `r` and swivel axis `k` to `p`, as CASPR,
+/// WireX and IRMA compute it: an independent transcription.
 fn length_over_pulley(d: Vector3<f64>, k: Vector3<f64>, r: f64, p: Vector3<f64>) -> f64 {
     let d_to_p = p - d;
     let u = (d_to_p - k * k.dot(&d_to_p)).normalize();

@@ -59,8 +59,8 @@ use nalgebra::{Vector2, Vector3};
 use std::f64::consts::PI;
 
 /// The way of a cable over its wheel, for a force at A and an unstrained length beyond the leave point that
-/// need not fit the whole one, over any kind of number. Vectors are in the axes of the cable's plane: forwards,
-/// across and upwards.
+/// need not fit the whole one, over any kind of number. Vectors are in the axes of the cable's plane:
+/// forwards, across and upwards.
 #[derive(Clone, Copy)]
 pub(crate) struct Way<T> {
     /// Unstrained length Lf beyond the leave point [m].

@@ -1,8 +1,8 @@
 //! MuJoCo's MJCF: a platform with a free joint, and a tendon a cable between two sites.
 //!
-//! A tendon is a spring without weight: f = k (l - L) for l > L, and no force below, which `springlength="0 L"`
-//! says. With k = EA / L it is the straight cable of unstrained length L. The lengths are those with which
-//! straight cables hold the pose.
+//! A tendon is a spring without weight: f = k (l - L) for l > L, and no force below, which
+//! `springlength="0 L"` says. With k = EA / L it is the straight cable of unstrained length L. The lengths
+//! are those with which straight cables hold the pose.
 
 use crate::error::ExchangeError;
 use crate::write::scene::{Exported, check_plain, escaped, inertia, words};

@@ -12,7 +12,8 @@ pub struct Exported {
     pub notes: Vec<String>,
 }
 
-/// Inertia about the centre of mass [kg m²], and whether it was assumed: that of a ball as large as the platform.
+/// Inertia about the centre of mass [kg m²], and whether it was assumed: that of a ball as large as the
+/// platform.
 pub(crate) fn inertia(robot: &Robot) -> (Matrix3<f64>, bool) {
     let radius = robot.platform_size().max(0.01);
     let of_ball = || Matrix3::identity() * (0.4 * robot.platform.mass * radius * radius);

@@ -1,8 +1,8 @@
 //! From the held coordinates of a pose to set-points and lengths, for fewer cables than free motions.
 //!
 //! The unloaded platform rests at a pose whose free coordinates q are found beside the lengths, (I6) of
-//! `inverse/free.rs`. If the inputs change its balance by ∂G and the held coordinates move it by dc, then with
-//! the motions T of the free coordinates
+//! `inverse/free.rs`. If the inputs change its balance by ∂G and the held coordinates move it by dc, then
+//! with the motions T of the free coordinates
 //!
 //! ```text
 //! ∂G/∂(p, φ) (T dq + dc) + sum [k_L; s x k_L] dL_i + ∂G = 0                                       (D11)

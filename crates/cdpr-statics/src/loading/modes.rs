@@ -123,8 +123,8 @@ impl DirectProblem<'_> {
         Ok(order.iter().enumerate().map(mode).collect())
     }
 
-    /// The lowest natural frequency about a stable equilibrium [Hz], without motions that nothing resists; zero
-    /// where nothing resists any.
+    /// The lowest natural frequency about a stable equilibrium [Hz], without motions that nothing resists;
+    /// zero where nothing resists any.
     ///
     /// # Errors
     /// As [`DirectProblem::modes`].
