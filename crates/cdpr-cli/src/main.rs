@@ -18,7 +18,7 @@ mod study;
 use clap::{CommandFactory, Parser, Subcommand};
 use error::ProgramError;
 use output::Ending;
-use pose::at_pose::RobotAtFreePose;
+use pose::at_pose::{RobotAtFreePose, RobotAtPose};
 use std::process::ExitCode;
 
 /// Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
@@ -49,6 +49,10 @@ enum Command {
     /// Compute the Cartesian stiffness at a pose and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
     Stiffness(RobotAtFreePose),
+    /// Print what a robot does along a path of poses: lengths, tensions, sag, deflection, stiffness, frequency.
+    #[command(after_help = "Example: cdpr path data/robots/caroca.json --poses data/poses/caroca.csv \
+                      --payload 50 > path.csv")]
+    Path(RobotAtPose),
     /// Map where the cables hold the platform, and how far it gives there, over a plane or a box.
     #[command(after_help = "Examples:
   cdpr workspace data/robots/caroca.json --plane z=1.75 --grid 41x41 --payload 50 --out workspace
@@ -162,6 +166,7 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Inverse(settings) => return pose::inverse::run(&settings),
         Command::Deflection(settings) => return pose::deflection::run(&settings),
         Command::Stiffness(settings) => return pose::stiffness::run(&settings),
+        Command::Path(settings) => return pose::path::run(&settings),
         Command::Modes(settings) => return pose::modes::run(&settings),
         Command::Derivatives(settings) => return pose::derivatives::run(&settings),
         Command::Hysteresis(settings) => return pose::hysteresis::run(&settings),

@@ -8,4 +8,5 @@ pub(crate) mod export;
 pub(crate) mod hysteresis;
 pub(crate) mod inverse;
 pub(crate) mod modes;
+pub(crate) mod path;
 pub(crate) mod stiffness;

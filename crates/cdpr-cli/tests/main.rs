@@ -17,6 +17,7 @@ mod hysteresis;
 mod library;
 mod models;
 mod modulus;
+mod path;
 mod poses;
 mod robustness;
 mod strangers;

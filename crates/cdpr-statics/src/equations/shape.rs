@@ -21,6 +21,16 @@ pub struct CableShape {
 }
 
 impl DirectProblem<'_> {
+    /// The sag of every cable at an equilibrium [m], beyond its pulley: the greatest distance across its chord.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable.
+    pub fn sags(&self, equilibrium: &Equilibrium) -> Result<Vec<f64>, StaticsError> {
+        self.check("equilibrium", equilibrium)?;
+        let forces = equilibrium.cable_forces.iter().enumerate();
+        Ok(forces.map(|(i, force)| self.catenary_at(&equilibrium.pose, i, *force).sag()).collect())
+    }
+
     /// The shape of cable `i` at an equilibrium: `on_pulley` points on its pulley, if it has one, and `free`
     /// points beyond, both at equal distances along the cable.
     ///
