@@ -30,9 +30,10 @@ pub(crate) fn run() -> Result<(), String> {
     let mut page = String::from(
         "# Robots that are known
 
-The library has these robots; every command takes their names, `cdpr check cogiro`. Each table has the pose at the
-middle of the workspace that `cdpr study new` finds, the tensions that hold it, and how far the template's payload,
-a tenth of the platform's mass, moves the platform. `cargo xtask gallery` makes this page and its pictures.
+The library has these robots; every command takes their names, `cdpr check cogiro`. Each table has the pose at
+the middle of the workspace that `cdpr study new` finds, the tensions that hold it, and how far the template's
+payload, a tenth of the platform's mass, moves the platform. `cargo xtask gallery` makes this page and its
+pictures.
 
 ",
     );

@@ -49,7 +49,7 @@ enum Command {
     /// Compute the Cartesian stiffness at a pose and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
     Stiffness(RobotAtFreePose),
-    /// Print what a robot does along a path of poses: lengths, tensions, sag, deflection, stiffness, frequency.
+    /// Print lengths, tensions, sag, deflection, stiffness and frequency along a path of poses.
     #[command(after_help = "Example: cdpr path data/robots/caroca.json --poses data/poses/caroca.csv \
                       --payload 50 > path.csv")]
     Path(RobotAtPose),

@@ -19,8 +19,8 @@ pub(crate) const EXIT_CODES: &str = "Exit codes:
        the standard error says why
   2    wrong arguments; the standard error says why
   3    done, but something is wrong: `check` warns, `import` questions a value, a case of `direct --from` or a
-       pose of `--poses` has no answer, `--certify` proves nothing, a tension lies above tension_limits.max or a breaking force,
-       every observation of a sampling or surface failed
+       pose of `--poses` has no answer, `--certify` proves nothing, a tension lies above
+       tension_limits.max or a breaking force, every observation of a sampling or surface failed
   130  a study was interrupted (Ctrl-C, the end of a job): what is done is kept,
        and the standard error says how to go on";
 

@@ -53,7 +53,7 @@ fn a_path_tells_of_each_pose_what_the_other_commands_say() {
             }
             let (on_path, alone) = (row["rms_mm"].as_f64().unwrap(), deflection["rms_mm"].as_f64().unwrap());
             assert!((on_path / alone - 1.0).abs() < 1e-6, "{robot}: {on_path} mm, {alone} mm");
-            // The sag of a taut parabola is w c h/8T over its chord c and horizontal distance h (Irvine 1981).
+            // The sag of a taut parabola is w c h/8T over its chord c and horizontal part h (Irvine 1981).
             let content: Value = serde_json::from_str(&std::fs::read_to_string(&robot).unwrap()).unwrap();
             let weight = content["cable"]["linear_density"].as_f64().unwrap() * 9.81;
             let each = numbers(&row["sags"]).into_iter().zip(numbers(&row["lengths"]));

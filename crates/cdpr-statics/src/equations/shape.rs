@@ -21,7 +21,7 @@ pub struct CableShape {
 }
 
 impl DirectProblem<'_> {
-    /// The sag of every cable at an equilibrium [m], beyond its pulley: the greatest distance across its chord.
+    /// The sag of every cable at an equilibrium [m]: the greatest distance across its chord, beyond its pulley.
     ///
     /// # Errors
     /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable.
