@@ -18,9 +18,9 @@ mod write;
 pub use error::AssessError;
 pub use inspection::{Finding, Severity, inspect};
 pub use robustness::{
-    Answer, Assignment, Draws, FOUND_ANGLE, FOUND_DISTANCE, Outcome, PoseRegion, Protocol, ProtocolSummary,
-    Published, Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread,
-    StartOffset, anchor_distance, run_robustness,
+    Answer, Assignment, Draws, FOUND_ANGLE, Outcome, PoseRegion, Protocol, ProtocolSummary, Published,
+    Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread, StartOffset,
+    anchor_distance, run_robustness,
 };
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
 pub use workspace::{

@@ -16,10 +16,10 @@ pub(crate) use summary::in_degrees;
 pub use summary::{Draws, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread};
 
 use crate::error::AssessError;
-use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_robot::{Pose, Robot, Vector3, Vector6};
 use cdpr_sensitivity::{RandomDesign, SampleDesign};
 use cdpr_statics::{
-    DirectMethod, DirectProblem, DirectSolution, Load, Residual, Start, StaticsError, direct, inverse,
+    DirectMethod, DirectProblem, DirectSolution, Load, Residual, Start, StaticsError, direct, held_at,
 };
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -50,7 +50,7 @@ pub enum Refusal {
 /// How a solve ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Within [`FOUND_DISTANCE`] and [`FOUND_ANGLE`] of the true pose.
+    /// Within [`Protocol::found_distance`] and [`FOUND_ANGLE`] of the true pose.
     TruePose,
     /// Farther away, with residuals that say that it is an equilibrium.
     OtherEquilibrium,
@@ -111,9 +111,7 @@ pub struct RobustnessResult {
     pub solves: Vec<Solve>,
 }
 
-/// The true pose is found if P is this near [m] ...
-pub const FOUND_DISTANCE: f64 = 0.1;
-/// ... and the rotation [rad].
+/// The true pose is found if the rotation is this near [rad], and P within [`Protocol::found_distance`].
 pub const FOUND_ANGLE: f64 = PI / 180.0;
 
 /// An equilibrium is stable if the direct model, started there, stays within this distance [m, rad].
@@ -134,11 +132,11 @@ impl Refusal {
 }
 
 impl Solve {
-    /// How it ended.
-    pub fn outcome(&self) -> Outcome {
+    /// How it ended, if a pose within `found_distance` [m] of the true one is the true one.
+    pub fn outcome(&self, found_distance: f64) -> Outcome {
         match &self.answer {
             Ok(answer) if !answer.is_equilibrium => Outcome::Failed,
-            Ok(answer) if answer.distance <= FOUND_DISTANCE && answer.angle <= FOUND_ANGLE => {
+            Ok(answer) if answer.distance <= found_distance && answer.angle <= FOUND_ANGLE => {
                 Outcome::TruePose
             }
             Ok(_) => Outcome::OtherEquilibrium,
@@ -232,7 +230,7 @@ fn collect_poses(
             });
         }
         let outcomes: Vec<_> =
-            (drawn..last).into_par_iter().map(|index| draw(robot, &design, index)).collect();
+            (drawn..last).into_par_iter().map(|index| draw(robot, protocol, &design, index)).collect();
         for outcome in outcomes {
             drawn += 1;
             match outcome {
@@ -250,21 +248,29 @@ fn collect_poses(
     Ok((poses, drawn, refused))
 }
 
-fn draw(robot: &Robot, design: &RandomDesign, index: usize) -> Result<HeldPose, Box<RefusedPose>> {
+fn draw(
+    robot: &Robot,
+    protocol: &Protocol,
+    design: &RandomDesign,
+    index: usize,
+) -> Result<HeldPose, Box<RefusedPose>> {
     let mut row = [0.0; 10];
     // The index is below the number of points and the row as long as the inputs.
     let drawn = design.row(index, &mut row);
     debug_assert_eq!(drawn, Ok(()));
     let [x, y, z, angle, directions @ ..] = row;
     let [axis, away, about] = [0, 2, 4].map(|k| on_unit_sphere(directions[k], directions[k + 1]));
-    let pose = Pose::at(x, y, z).moved(Vector3::zeros(), angle * axis);
+    let place = protocol.region.place([x, y, z]);
+    let pose = moved(robot, &Pose::at(place.x, place.y, place.z), Vector3::zeros(), angle * axis);
     let refuse = |refusal| Box::new(RefusedPose { draw: index, pose, refusal });
-    let held = inverse(robot, &pose, &Load::none(), None).map_err(|e| refuse(Refusal::Infeasible(e)))?;
+    let held =
+        held_at(robot, &pose, &Load::none(), &protocol.free).map_err(|e| refuse(Refusal::Infeasible(e)))?;
     let found = DirectProblem::new(robot, &held.lengths, &Load::none())
         .and_then(|problem| problem.direct_any(Start::Near(&held.equilibrium)))
         .map_err(|error| refuse(Refusal::Unanswered(error)))?;
     // Only the stability of the equilibrium at the true pose matters, not what the direct model does from
     // there.
+    let pose = held.equilibrium.pose;
     let motion = pose.motion_to(&found.equilibrium.pose);
     if !found.stability.is_stable()
         || motion.fixed_rows::<3>(0).norm().max(motion.fixed_rows::<3>(3).norm()) > STABLE
@@ -274,6 +280,14 @@ fn draw(robot: &Robot, design: &RandomDesign, index: usize) -> Result<HeldPose, 
     Ok(HeldPose { draw: index, pose, lengths: held.lengths, directions: [away, about] })
 }
 
+/// A pose after the free ones among the motions of a displacement [m] and a rotation [rad].
+fn moved(robot: &Robot, pose: &Pose, displacement: Vector3<f64>, rotation: Vector3<f64>) -> Pose {
+    let [x, y, z] = displacement.into();
+    let [a, b, c] = rotation.into();
+    let free = robot.freedoms().of_vector(&Vector6::new(x, y, z, a, b, c));
+    pose.moved(free.fixed_rows::<3>(0).into(), free.fixed_rows::<3>(3).into())
+}
+
 fn on_unit_sphere(height: f64, azimuth: f64) -> Vector3<f64> {
     let radius = (1.0 - height * height).sqrt();
     Vector3::new(radius * azimuth.cos(), radius * azimuth.sin(), height)
@@ -281,7 +295,7 @@ fn on_unit_sphere(height: f64, azimuth: f64) -> Vector3<f64> {
 
 fn solve(robot: &Robot, held: &HeldPose, start_offset: usize, offset: &StartOffset) -> Solve {
     let [away, about] = held.directions;
-    let start = held.pose.moved(offset.distance * away, offset.angle * about);
+    let start = moved(robot, &held.pose, offset.distance * away, offset.angle * about);
     let clock = Instant::now();
     let found = direct(robot, &held.lengths, &Load::none(), Start::Pose(&start));
     let microseconds = 1e6 * clock.elapsed().as_secs_f64();

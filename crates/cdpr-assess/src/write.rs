@@ -122,7 +122,7 @@ fn write_solves(folder: &ResultsFolder, results: &[RobustnessResult]) -> Result<
             ]);
             record.extend([
                 cell(|a| format!("{:e}", a.anchor_distance)),
-                solve.outcome().name().to_owned(),
+                solve.outcome(result.protocol.found_distance).name().to_owned(),
                 reason,
             ]);
             record.extend([cell(|a| format!("{:?}", a.method)), cell(|a| a.iterations.to_string())]);

@@ -2,9 +2,10 @@
 //! refuses.
 
 use cdpr_assess::{
-    AssessError, Outcome, Protocol, ProtocolSummary, RobustnessResult, anchor_distance, run_robustness,
+    AssessError, Outcome, PoseRegion, Protocol, ProtocolSummary, RobustnessResult, anchor_distance,
+    run_robustness,
 };
-use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_robot::{Coordinate, Pose, Robot, Vector3, library};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn cogiro() -> Robot {
@@ -100,7 +101,7 @@ fn what_is_farther_than_the_limits_or_open_is_not_the_true_pose() {
         (answer.distance, answer.angle) = (distance, degrees.to_radians());
         answer.is_equilibrium = is_equilibrium;
         solve.answer = Ok(answer);
-        (solve.outcome(), solve.failure())
+        (solve.outcome(0.1), solve.failure())
     };
     assert_eq!(outcome(0.099, 0.99, true), (Outcome::TruePose, None));
     assert_eq!(outcome(0.101, 0.0, true), (Outcome::OtherEquilibrium, None));
@@ -146,4 +147,24 @@ fn a_region_in_which_nothing_is_held_ends_with_what_was_drawn() {
         matches!(error, AssessError::TooFewPoses { found: 0, drawn: 1000, infeasible: 1000, .. }),
         "{error}"
     );
+}
+
+#[test]
+fn robots_of_other_sizes_and_with_few_cables_are_tested_in_their_own_room() {
+    let few = [Coordinate::Roll, Coordinate::Pitch];
+    let robots: [(&str, &[Coordinate]); 4] =
+        [("ipanema-3", &[]), ("segesta", &[]), ("caroca", &[]), ("four-cables", &few)];
+    for (name, free) in robots {
+        let robot = Robot::from_json(library::named(library::ROBOTS, name).unwrap().text).unwrap();
+        let room = PoseRegion::of(&robot);
+        let inside = |p: &Vector3<f64>| (0..3).all(|k| (room.low[k]..=room.high[k]).contains(&p[k]));
+        assert!(robot.cables.iter().any(|cable| !inside(&cable.exit_point)), "{name}: {room:?}");
+        let protocol = Protocol { free: free.to_vec(), ..Protocol::thirty_poses(3).in_region(room) };
+        assert!(protocol.starts.iter().all(|start| start.published.is_none()), "{name}");
+        let result = run_robustness(&robot, &protocol, &|| ()).unwrap();
+        let total = ProtocolSummary::new(&result).total;
+        assert_eq!((total.solves, total.failed.len()), (60, 0), "{name}: {:?}", total.failed);
+        assert!(total.true_pose >= 58, "{name}: {}", total.true_pose);
+        assert!(result.solves.iter().all(|solve| inside(&solve.wanted.position)), "{name}");
+    }
 }

@@ -3,6 +3,7 @@
 //! A parser says what is wrong with the text; clap adds the argument and the value.
 
 use crate::error::ProgramError;
+use cdpr_assess::PoseRegion;
 use cdpr_robot::{Coordinate, Robot, TensionReference, Wrench};
 use cdpr_statics::Load;
 use cdpr_study::{Grid, GridAxis, Study, open_robot, open_robot_in_any_unit};
@@ -181,6 +182,19 @@ pub(crate) fn grid(text: &str) -> Result<Grid, String> {
     let axes: Option<Vec<_>> = text.split(',').map(axis).collect();
     let axes = axes.and_then(|axes| <[GridAxis; 3]>::try_from(axes).ok());
     Grid::new(axes.ok_or_else(|| expected.to_owned())?).map_err(|error| error.to_string())
+}
+
+/// A box: `min:max` of each axis [m], separated by commas; rotations in it go up to 30 degrees.
+pub(crate) fn region(text: &str) -> Result<PoseRegion, String> {
+    let axis = |text: &str| {
+        let (min, max) = text.split_once(':')?;
+        Some((number(min).ok()?, number(max).ok()?)).filter(|(min, max)| min <= max)
+    };
+    let axes: Option<Vec<_>> = text.split(',').map(axis).collect();
+    let Some([x, y, z]) = axes.and_then(|axes| <[(f64, f64); 3]>::try_from(axes).ok()) else {
+        return Err("expected min:max of x, y and z, such as -2:2,-1:1,0.5:2.5".to_owned());
+    };
+    Ok(PoseRegion { low: [x.0, y.0, z.0], high: [x.1, y.1, z.1], max_angle: std::f64::consts::FRAC_PI_6 })
 }
 
 /// Numbers by their names.

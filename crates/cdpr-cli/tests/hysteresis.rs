@@ -111,3 +111,21 @@ fn an_invalid_payload_or_length_is_refused() {
     let refused = hysteresis(&["--payload", "50", "--length", "0"]);
     assert!(!refused.status.success());
 }
+
+#[test]
+fn a_platform_on_four_cables_needs_its_free_coordinates() {
+    let law = data_path("cables/caroca-4mm-law.json");
+    let given = ["hysteresis", "four-cables", "--law", &law, "--pose", "0.5,0.3,2", "--payload", "5"];
+    let output = cdpr(&given);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(output.stderr).contains("expected as many names in `free`"));
+    let output = cdpr(&[&given[..], &["--free", "roll,pitch", "--format", "json"]].concat());
+    // A tension lies below its limit.
+    assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let [down, left] = down_and_left(&found);
+    assert!(down < left && left < 0.0, "{down} {left}");
+    let [given, lost] =
+        ["payload_work_j", "dissipated_j"].map(|name| found.get(name).and_then(Value::as_f64).unwrap());
+    assert!(given > 0.0 && (given / lost - 1.0).abs() < 1e-3, "{given} {lost}");
+}

@@ -104,3 +104,20 @@ fn a_folder_that_cannot_be_written_is_refused_before_anything_runs() {
     assert!(!output.status.success());
     assert!(text(output.stderr).starts_with("error: cannot write out: "));
 }
+
+#[test]
+fn a_robot_with_few_cables_stands_in_its_own_room_and_beside_no_published_figures() {
+    let folder = TempDir::new().unwrap();
+    let given = ["--robot", "four-cables", "--free", "roll,pitch", "--poses", "5", "--out", "out"];
+    let text = answered(run(folder.path(), &given));
+    assert!(!text.contains("WireX") && text.contains("E: that of the file"), "{text}");
+    let low = summary(&folder.path().join("out"))["protocols"]["thirty_poses"]["region_low"].clone();
+    assert_ne!(low[0], -6.75);
+    let region = ["--region=-1:1,-0.5:0.5,1:2"];
+    let output = run(folder.path(), &[&given[..], &region].concat());
+    assert!(output.status.success());
+    let low = summary(&folder.path().join("out"))["protocols"]["thirty_poses"]["region_low"].clone();
+    assert_eq!(low, serde_json::json!([-1.0, -0.5, 1.0]));
+    let output = run(folder.path(), &["--region=1:-1,0:1,1:2"]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("expected min:max of x, y and z"));
+}

@@ -6,30 +6,28 @@ use crate::equilibria::{number, vector};
 use crate::pulleys::robot;
 use crate::reference::rotation;
 use cdpr_robot::{
-    CableEnd, CableProperties, Coordinate, Matrix3, Parameter, Plane, Platform, Pose, Robot, RobotCable,
-    Rotation3, TensionLimits, Vector3, Vector6, Wrench,
+    CableEnd, CableProperties, Coordinate, Parameter, Plane, Platform, Pose, Robot, RobotCable, Rotation3,
+    TensionLimits, Vector3, Vector6, Wrench,
 };
 use cdpr_statics::{
-    Deflection, DirectProblem, DirectSolution, FreeSolutions, Load, Mode, Start, StaticsError,
-    deflection_free, derivatives_free, direct, held_at, inverse, inverse_free, modes_at, rough_pose,
-    stiffness_at,
+    DirectProblem, DirectSolution, Load, Mode, Start, StaticsError, direct, inverse, inverse_free, rough_pose,
 };
-use nalgebra::{DVector, Matrix6};
+use nalgebra::Matrix6;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
 
-fn cases() -> Vec<Value> {
+pub(crate) fn cases() -> Vec<Value> {
     let text = include_str!("../../../data/reference/few_cables.json");
     let file: Value = serde_json::from_str(text).unwrap();
     file["cases"].as_array().unwrap().clone()
 }
 
-fn load(case: &Value) -> Load {
+pub(crate) fn load(case: &Value) -> Load {
     Load::wrench(Wrench { force: vector(&case["force"]), moment: vector(&case["moment"]) })
 }
 
-fn pose(case: &Value) -> Pose {
+pub(crate) fn pose(case: &Value) -> Pose {
     Pose { position: vector(&case["position"]), rotation: rotation(&case["rotation"]) }
 }
 
@@ -85,11 +83,11 @@ fn equilibria_on_few_cables_match_arithmetic_of_20_digits() {
 }
 
 /// Cables that stretch by 1e-3 under the load of a kilogram and weigh nothing.
-fn string() -> CableProperties {
+pub(crate) fn string() -> CableProperties {
     CableProperties::linear(1.0, 0.0, 9810.0)
 }
 
-fn suspended(points: &[[[f64; 3]; 2]], properties: &CableProperties, platform: Platform) -> Robot {
+pub(crate) fn suspended(points: &[[[f64; 3]; 2]], properties: &CableProperties, platform: Platform) -> Robot {
     let cable = |[exit, anchor]: &[[f64; 3]; 2]| {
         RobotCable::between(Vector3::from(*exit), Vector3::from(*anchor), properties.clone())
     };
@@ -112,7 +110,7 @@ fn point(mass: f64) -> Platform {
     Platform { point: true, ..Platform::new(mass, Vector3::zeros()) }
 }
 
-fn solve(robot: &Robot, lengths: &[f64], start: &Pose) -> DirectSolution {
+pub(crate) fn solve(robot: &Robot, lengths: &[f64], start: &Pose) -> DirectSolution {
     let solution = direct(robot, lengths, &Load::none(), Start::Pose(start)).unwrap();
     assert!(solution.stability.is_stable());
     solution
@@ -262,153 +260,6 @@ fn slack_cables_without_weight_and_a_platform_without_weight_have_no_pose() {
     assert!(matches!(error, StaticsError::Indifferent { .. }), "{error}");
 }
 
-#[test]
-fn lengths_and_free_coordinates_match_arithmetic_of_20_digits() {
-    let mut compared = 0;
-    for case in cases() {
-        let (kind, robot) = (case["kind"].as_str().unwrap(), robot(&case));
-        let Value::Object(found) = &case["found"] else { continue };
-        let free: Vec<Coordinate> = found.keys().map(|name| name.parse().unwrap()).collect();
-        let [roll, pitch, yaw] = [0, 1, 2].map(|k| number(&case["start_angles"][k]));
-        let wanted = Pose {
-            position: vector(&case["start_position"]),
-            rotation: Rotation3::from_euler_angles(roll, pitch, yaw),
-        };
-        let FreeSolutions { first, others } = inverse_free(&robot, &wanted, &load(&case), &free).unwrap();
-        let expected = pose(&case);
-        let motion = expected.motion_to(&first.equilibrium.pose).norm();
-        let lengths = case["unstrained_lengths_found"].as_array().unwrap();
-        let each = first.lengths.iter().zip(lengths).map(|(l, exact)| (l / number(exact) - 1.0).abs());
-        let worst = each.fold(0.0, f64::max);
-        let line = format!(
-            "{kind:22} {motion:8.1e} m, rad, lengths {worst:8.1e}, {} iterations, {} others",
-            first.iterations,
-            others.len()
-        );
-        println!("{line}");
-        assert!(motion < 1e-9 && worst < 1e-9 && first.stability.is_stable(), "{line}");
-        // Every other is a solution, too: the direct model stays there.
-        for other in &others {
-            let problem = DirectProblem::new(&robot, &other.lengths, &load(&case)).unwrap();
-            let again = problem.direct_any(Start::Near(&other.equilibrium)).unwrap();
-            let motion = other.equilibrium.pose.motion_to(&again.equilibrium.pose).norm();
-            assert!(motion < 1e-9 && again.stability.is_stable() == other.stability.is_stable(), "{line}");
-            let (roll, pitch, yaw) = other.equilibrium.pose.rotation.euler_angles();
-            let angles = [roll, pitch, yaw];
-            for (k, coordinate) in Coordinate::ALL[3..].iter().enumerate() {
-                let kept =
-                    free.contains(coordinate) || (angles[k] - number(&case["start_angles"][k])).abs() < 1e-9;
-                assert!(kept || angles[1].abs() > 1.0, "{line}: {angles:?}");
-            }
-        }
-        compared += 1;
-    }
-    assert_eq!(compared, 3);
-}
-
-#[test]
-fn a_pendulum_hangs_below_its_exit_point_or_stands_above_its_anchor() {
-    // Given the height and all angles but those of the pendulum, x and y follow, and it hangs or stands.
-    let platform = Platform {
-        inertia: Some(Matrix3::from_diagonal(&Vector3::new(0.2, 0.3, 0.1))),
-        ..Platform::new(5.0, Vector3::new(0.0, 0.0, -0.4))
-    };
-    let robot = suspended(&[[[1.0, 2.0, 3.0], [0.0; 3]]], &string(), platform);
-    let wanted = Pose::at(1.2, 1.9, 1.0).moved(Vector3::zeros(), Vector3::new(0.2, -0.1, 0.0));
-    use Coordinate::{Pitch, Roll, X, Y, Yaw};
-    let free = [X, Y, Roll, Pitch, Yaw];
-    let FreeSolutions { first, .. } = inverse_free(&robot, &wanted, &Load::none(), &free).unwrap();
-    assert!(first.stability.is_stable() && first.stability.neutral().len() == 1);
-    let position = first.equilibrium.pose.position;
-    assert!((position - Vector3::new(1.0, 2.0, 1.0)).norm() < 1e-9, "{position}");
-    assert!((first.tensions[0] - 5.0 * 9.81).abs() < 1e-9 && first.residual.force < 1e-9);
-    // Two frequencies of a double pendulum, about each horizontal axis, with that of the yaw zero.
-    let modes = modes_at(&robot, &wanted, &Load::none(), &free).unwrap().modes;
-    let frequencies: Vec<f64> = modes.iter().map(|mode| mode.frequency).collect();
-    assert_eq!((frequencies.len(), frequencies[0]), (6, 0.0));
-    // M q'' + K q = 0 in the angle of the string, times its length l, and that of the platform:
-    // M = [m, -m d; -m d, J + m d²], K = [m g/l, 0; 0, m g d].
-    for inertia in [0.2, 0.3] {
-        let (m, d, l, g): (f64, f64, f64, f64) = (5.0, 0.4, 2.0, 9.81);
-        let (a, b) = (m * inertia, -m * m * g * d - (inertia + m * d * d) * m * g / l);
-        let c = m * g / l * m * g * d;
-        for sign in [-1.0, 1.0] {
-            let square: f64 = (-b + sign * (b * b - 4.0 * a * c).sqrt()) / (2.0 * a);
-            let expected = square.sqrt() / std::f64::consts::TAU;
-            let nearest =
-                frequencies.iter().map(|f| (f / expected - 1.0).abs()).fold(f64::INFINITY, f64::min);
-            assert!(nearest < 1e-8, "{expected}: {frequencies:?}");
-        }
-    }
-}
-
-#[test]
-fn two_cables_hold_a_planar_platform_at_a_place_and_its_tilt_follows() {
-    let points = [[[-3.0, 0.0, 4.0], [-0.3, 0.0, 0.1]], [[3.0, 0.0, 4.0], [0.3, 0.0, 0.1]]];
-    let platform = Platform::new(8.0, Vector3::new(0.0, 0.0, -0.1));
-    let rope = CableProperties::linear(1.0, 0.08, 5e4);
-    let robot = Robot { plane: Some(Plane::Xz), ..suspended(&points, &rope, platform) };
-    let wanted = Pose::at(0.5, 0.0, 1.5);
-    let FreeSolutions { first, .. } =
-        inverse_free(&robot, &wanted, &Load::none(), &[Coordinate::Pitch]).unwrap();
-    let pose = &first.equilibrium.pose;
-    assert_eq!(pose.position, wanted.position);
-    let turn = wanted.motion_to(pose);
-    assert!(turn[4].abs() > 1e-3 && turn[3].abs() < 1e-15 && turn[5].abs() < 1e-15, "{turn}");
-    let again = solve(&robot, &first.lengths, &Pose::at(0.3, 0.0, 1.8));
-    assert!(pose.motion_to(&again.equilibrium.pose).norm() < 1e-9);
-    // Its mirror image is the mirror image.
-    let mirrored = Pose::at(-0.5, 0.0, 1.5);
-    let mirrored = inverse_free(&robot, &mirrored, &Load::none(), &[Coordinate::Pitch]).unwrap().first;
-    let [a, b] = [&first.lengths, &mirrored.lengths];
-    assert!((a[0] - b[1]).abs() < 1e-10 && (a[1] - b[0]).abs() < 1e-10, "{a:?} {b:?}");
-    // A load swings it about, which the linearisation predicts.
-    let load = Load::wrench(Wrench { force: Vector3::new(1e-3, 0.0, 0.0), moment: Vector3::zeros() });
-    let free = [Coordinate::Pitch];
-    let moved = deflection_free(&robot, &wanted, &[0.0; 2], &load, &free).unwrap();
-    let predicted = moved.small_displacement(&robot, &load).unwrap();
-    assert!((moved.displacement() - predicted).norm() < 1e-3 * predicted.norm(), "{predicted}");
-    let stiffness = stiffness_at(&robot, &wanted, &Load::none(), &free).unwrap();
-    assert!(stiffness.stability.is_stable() && stiffness.stability.eigenvalues().len() == 3);
-}
-
-#[test]
-fn four_cables_of_cogiro_hold_chosen_coordinates() {
-    let whole = cogiro();
-    let cables: Vec<_> = [1, 3, 5, 7].map(|i| whole.cables[i].clone()).to_vec();
-    let robot = Robot { cables, ..whole };
-    let wanted = Pose::at(1.0, 0.5, 2.0);
-    use Coordinate::{Pitch, Roll, Yaw};
-    // Its upper cables cross and turn the platform by about 70 degrees: where the yaw is given they hold it
-    // in no stable equilibrium.
-    for (free, stable) in [([Roll, Pitch], false), ([Yaw, Pitch], true), ([Yaw, Roll], true)] {
-        let FreeSolutions { first, others } =
-            inverse_free(&robot, &wanted, &Load::payload(20.0), &free).unwrap();
-        assert_eq!(first.stability.is_stable(), stable, "{free:?}");
-        for one in [&first].into_iter().chain(&others) {
-            assert!(one.residual.force < 1e-7 && one.residual.closure < 1e-12, "{:?}", one.residual);
-            for coordinate in Coordinate::ALL[..3].iter().filter(|coordinate| !free.contains(coordinate)) {
-                let k = coordinate.component();
-                assert_eq!(one.equilibrium.pose.position[k], wanted.position[k]);
-            }
-        }
-    }
-    // Level it rests nowhere at this height.
-    let free = [Coordinate::X, Coordinate::Y];
-    let error = inverse_free(&robot, &wanted, &Load::payload(20.0), &free).unwrap_err();
-    assert!(matches!(error, StaticsError::NoRest { starts: 32, .. }), "{error}");
-    let names = |free: &[Coordinate]| inverse_free(&robot, &wanted, &Load::none(), free).unwrap_err();
-    let error = inverse(&robot, &wanted, &Load::none(), None).unwrap_err();
-    assert_eq!(error.kind(), "free_coordinates");
-    assert!(error.to_string().contains("leave 2 coordinates"), "{error}");
-    assert_eq!(names(&[Coordinate::Roll]).kind(), "free_coordinates");
-    assert!(names(&[Coordinate::Roll; 2]).to_string().contains("each coordinate once"));
-    let point = Robot { platform: Platform { point: true, ..robot.platform }, ..robot.clone() };
-    let point = Robot { cables: robot.cables[..2].to_vec(), ..point };
-    let error = inverse_free(&point, &wanted, &Load::none(), &[Coordinate::Yaw]).unwrap_err();
-    assert!(error.to_string().contains("not held"), "{error}");
-}
-
 /// Suspended robots with one to five cables, point masses and planar robots, straight or sagging, with the
 /// spans of a pose as lengths at rest; and a start.
 fn random(seed: u64) -> Option<(Robot, Vec<f64>, Pose)> {
@@ -443,137 +294,6 @@ fn random(seed: u64) -> Option<(Robot, Vec<f64>, Pose)> {
     let turn = if kind == 2 { Vector3::new(0.0, turn.y, 0.0) } else { turn };
     let start = rest.moved(start, if kind == 1 { Vector3::zeros() } else { turn });
     (lengths.iter().all(|length| *length > 0.05 * size)).then_some((robot, lengths, start))
-}
-
-/// Set-points, lengths, both poses relative to those of `about`, and tensions with the load.
-fn outputs(
-    robot: &Robot,
-    pose: &Pose,
-    offsets: &[f64],
-    load: &Load,
-    free: &[Coordinate],
-    about: &Deflection,
-) -> Vec<DVector<f64>> {
-    let found = deflection_free(robot, pose, offsets, load, free).unwrap();
-    let rest = deflection_free(robot, pose, &vec![0.0; offsets.len()], load, free).unwrap();
-    let set_points = rest.unloaded.equilibrium.tensions().into_iter().zip(offsets).map(|(t, dt)| t + dt);
-    let motion = |from: &DirectSolution, to: &DirectSolution| {
-        DVector::from_column_slice(from.equilibrium.pose.motion_to(&to.equilibrium.pose).as_slice())
-    };
-    vec![
-        DVector::from_iterator(offsets.len(), set_points),
-        DVector::from_vec(found.lengths.clone()),
-        motion(&about.unloaded, &found.unloaded),
-        motion(&about.loaded, &found.loaded),
-        DVector::from_vec(found.loaded.equilibrium.tensions()),
-        DVector::from_element(1, found.rms()),
-    ]
-}
-
-#[test]
-fn derivatives_with_free_coordinates_are_central_differences() {
-    let points = [[[-3.0, 0.0, 4.0], [-0.3, 0.0, 0.1]], [[3.0, 0.0, 4.0], [0.3, 0.0, 0.1]]];
-    let platform = Platform::new(8.0, Vector3::new(0.02, 0.0, -0.1));
-    let rope = CableProperties::linear(1.0, 0.08, 5e4);
-    let planar = Robot { plane: Some(Plane::Xz), ..suspended(&points, &rope, platform) };
-    let mut four = cogiro();
-    four.cables = [0, 2, 4, 6].map(|i| four.cables[i].clone()).to_vec();
-    let mut grab = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
-    // Cables that yield, and have a weight.
-    grab.cables.iter_mut().for_each(|cable| {
-        cable.properties.youngs_modulus = 2e9;
-        cable.properties.linear_density = 1e-3;
-    });
-    let at_grab =
-        Pose { rotation: Rotation3::from_euler_angles(0.0, 0.0, 0.136), ..Pose::at(1.28, -0.19, -0.92) };
-    let [roll, pitch] = [Coordinate::Roll, Coordinate::Pitch];
-    let cases = [
-        (planar.clone(), Pose::at(0.5, 0.0, 1.5), vec![pitch], vec![0.0; 2], 2.0),
-        (planar, Pose::at(0.5, 0.0, 1.5), vec![pitch], vec![3.0, -2.0], 2.0),
-        (four.clone(), Pose::at(1.0, 0.5, 2.0), vec![roll, pitch], vec![0.0; 4], 20.0),
-        (four, Pose::at(1.0, 0.5, 2.0), vec![roll, pitch], vec![5.0, -3.0, 8.0, 2.0], 20.0),
-        (grab, at_grab, vec![roll, pitch], vec![0.0; 4], 0.2),
-    ];
-    for (robot, pose, free, offsets, payload) in cases {
-        let load = Load::payload(payload);
-        // Beside a rest of the platform the search is short.
-        let turn = if robot.plane.is_some() { Vector3::zeros() } else { Vector3::new(4e-3, -6e-3, 3e-3) };
-        let rest = held_at(&robot, &pose, &Load::none(), &free).unwrap().equilibrium.pose;
-        let pose = rest.moved(Vector3::zeros(), turn);
-        let found = derivatives_free(&robot, &pose, &offsets, &load, &free).unwrap();
-        let about = &found.deflection;
-        assert_eq!(*about, deflection_free(&robot, &pose, &offsets, &load, &free).unwrap());
-        let rms = found.rms().unwrap();
-        let parameters = Parameter::of(&robot);
-        for column in 0..found.inputs.count() {
-            let held = column > parameters.len() && !robot.freedoms().contains(column - parameters.len() - 1);
-            if held {
-                continue;
-            }
-            let step = match parameters.get(column) {
-                Some(one @ (Parameter::Mass | Parameter::LinearDensity | Parameter::YoungsModulus)) => {
-                    1e-3 * one.nominal(&robot)
-                }
-                Some(Parameter::TensionOffset(_)) => 1e-3 * robot.platform.mass,
-                Some(_) => 1e-4 * robot.platform_size(),
-                None if column == parameters.len() => 1e-3 * payload,
-                None => 1e-4 * robot.platform_size().min(1.0),
-            };
-            let at = |share: f64| {
-                let mut deviations = vec![0.0; parameters.len()];
-                let (mut load, mut motion) = (load, Vector6::zeros());
-                match column.checked_sub(parameters.len()) {
-                    None => deviations[column] = share * step,
-                    Some(0) => load.payload += share * step,
-                    Some(k) => motion[k - 1] = share * step,
-                }
-                let perturbed = robot.perturbed(&deviations).unwrap();
-                let offsets: Vec<f64> =
-                    offsets.iter().zip(&perturbed.tension_offsets).map(|(one, other)| one + other).collect();
-                let pose = pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
-                outputs(&perturbed.robot, &pose, &offsets, &load, &free, about)
-            };
-            let [far, near, back, far_back] = [2.0, 1.0, -1.0, -2.0].map(at);
-            let exact = [
-                found.set_points.column(column).into_owned(),
-                found.lengths.column(column).into_owned(),
-                DVector::from_column_slice(found.unloaded.pose.column(column).as_slice()),
-                DVector::from_column_slice(found.loaded.pose.column(column).as_slice()),
-                found.loaded.tensions.column(column).into_owned(),
-                DVector::from_element(1, rms[column]),
-            ];
-            let scales = [
-                about.unloaded.equilibrium.tensions().iter().sum::<f64>(),
-                about.lengths.iter().sum(),
-                robot.platform_size(),
-                robot.platform_size(),
-                about.loaded.equilibrium.tensions().iter().sum(),
-                robot.platform_size(),
-            ];
-            for (k, (exact, scale)) in exact.iter().zip(scales).enumerate() {
-                let difference = (8.0 * (&near[k] - &back[k]) - (&far[k] - &far_back[k])) / (12.0 * step);
-                let (size, noise) = (exact.norm().max(difference.norm()), 1e-10 * scale / step);
-                let input = parameters.get(column).map_or_else(|| format!("{column}"), ToString::to_string);
-                assert!(
-                    (exact - &difference).norm() < 2e-6 * size + noise,
-                    "{} {input}, output {k}: {exact} and not {difference}",
-                    robot.name
-                );
-            }
-        }
-    }
-}
-
-#[test]
-fn an_offset_that_a_limit_keeps_has_no_derivative_with_free_coordinates() {
-    let mut four = cogiro();
-    four.cables = [0, 2, 4, 6].map(|i| four.cables[i].clone()).to_vec();
-    let free = [Coordinate::Roll, Coordinate::Pitch];
-    let wanted = Pose::at(1.0, 0.5, 2.0);
-    let found = derivatives_free(&four, &wanted, &[-1e4, 0.0, 0.0, 0.0], &Load::payload(20.0), &free);
-    assert_eq!(found.unwrap_err().kind(), "no_derivative");
-    let found = derivatives_free(&four, &wanted, &[0.0; 4], &Load::payload(20.0), &free[..1]);
-    assert_eq!(found.unwrap_err().kind(), "free_coordinates");
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn pose() -> Pose {
 #[test]
 fn without_hysteresis_the_platform_comes_back_and_nothing_is_lost() {
     let segments = [(0.0, 0.8), (600.0, 1.0)];
-    let cycle = load_cycle(&caroca(), &curves(&segments, &segments), &pose(), 50.0, 20).unwrap();
+    let cycle = load_cycle(&caroca(), &curves(&segments, &segments), &pose(), &[], 50.0, 20).unwrap();
     assert!(cycle.residual().norm() < 1e-12, "{}", cycle.residual());
     assert!(cycle.payload_work.abs() < 1e-10 && cycle.dissipated.iter().all(|energy| energy.abs() < 1e-12));
 }
@@ -33,7 +33,7 @@ fn without_hysteresis_the_platform_comes_back_and_nothing_is_lost() {
 #[test]
 fn the_first_way_is_the_deflection_of_the_loading_curve() {
     let law = curves(&[(0.0, 0.8), (600.0, 1.0)], &[(0.0, 1.1)]);
-    let cycle = load_cycle(&caroca(), &law, &pose(), 50.0, 4).unwrap();
+    let cycle = load_cycle(&caroca(), &law, &pose(), &[], 50.0, 4).unwrap();
     let mut robot = caroca();
     robot.cables.iter_mut().for_each(|cable| cable.properties.law = Some(law[0].loading.clone()));
     let once = deflection(&robot, &pose(), &[0.0; 8], &Load::payload(50.0)).unwrap();
@@ -45,7 +45,7 @@ fn the_first_way_is_the_deflection_of_the_loading_curve() {
 #[test]
 fn a_stiffer_way_back_leaves_the_platform_below_and_dissipates_the_loops_of_its_cables() {
     let law = curves(&[(0.0, 0.8), (600.0, 0.9)], &[(0.0, 1.1)]);
-    let cycle = load_cycle(&caroca(), &law, &pose(), 50.0, 200).unwrap();
+    let cycle = load_cycle(&caroca(), &law, &pose(), &[], 50.0, 200).unwrap();
     let (gone, residual) = (cycle.deflection().z, cycle.residual().z);
     println!("{gone:e} m down, {residual:e} m stay");
     assert!(gone < -1e-3 && residual < 0.05 * gone, "{gone} {residual}");
@@ -63,7 +63,7 @@ fn a_way_back_from_the_turning_point_begins_as_the_record_does() {
     let soft = curves(&[(0.0, 0.8)], &[(0.0, 0.7), (2900.0, 1.2)]);
     let mut moved = soft.clone();
     moved.iter_mut().for_each(|law| law.unloading_from = Unloading::TurningPoint);
-    let [soft, stiff] = [soft, moved].map(|law| load_cycle(&caroca(), &law, &pose(), 50.0, 20).unwrap());
+    let [soft, stiff] = [soft, moved].map(|law| load_cycle(&caroca(), &law, &pose(), &[], 50.0, 20).unwrap());
     assert!(soft.residual().z > 0.0 && soft.payload_work < 0.0);
     assert!(stiff.residual().z < 0.0 && stiff.payload_work > 0.0);
 }
@@ -79,7 +79,7 @@ fn weightless_cables_that_the_payload_makes_slack_come_back() {
             .into_iter()
             .map(|law| HysteresisLaw { unloading_from, turning_tension: 0.0, ..law })
             .collect();
-        let cycle = load_cycle(&robot, &laws, &pose, 400.0, 20).unwrap();
+        let cycle = load_cycle(&robot, &laws, &pose, &[], 400.0, 20).unwrap();
         let slack = cycle.tensions.iter().filter(|[_, loaded, _]| *loaded == 0.0).count();
         println!("{slack} cables slack under the payload");
         assert!(slack > 0);
@@ -93,9 +93,9 @@ fn weightless_cables_that_the_payload_makes_slack_come_back() {
 fn a_cycle_of_nothing_is_refused() {
     let law = curves(&[(0.0, 1.0)], &[(0.0, 1.0)]);
     for (payload, steps, name) in [(0.0, 1, "payload"), (f64::NAN, 1, "payload"), (50.0, 0, "steps")] {
-        let refused = load_cycle(&caroca(), &law, &pose(), payload, steps);
+        let refused = load_cycle(&caroca(), &law, &pose(), &[], payload, steps);
         assert!(matches!(refused, Err(StaticsError::Invalid { field, .. }) if field == name));
     }
-    let refused = load_cycle(&caroca(), &law[1..], &pose(), 50.0, 1);
+    let refused = load_cycle(&caroca(), &law[1..], &pose(), &[], 50.0, 1);
     assert!(matches!(refused, Err(StaticsError::Invalid { field, .. }) if field == "laws"));
 }

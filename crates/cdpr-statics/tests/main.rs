@@ -10,6 +10,7 @@ mod drawn;
 mod elastic_law;
 mod equilibria;
 mod few_cables;
+mod free_coordinates;
 mod grab;
 mod gravity;
 mod hysteresis;

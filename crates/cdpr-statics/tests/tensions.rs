@@ -88,7 +88,7 @@ fn all_models_start_from_the_tensions_that_the_robot_prefers() {
         assert!(distance(&lengths, &found.lengths) < 1e-9 * found.lengths[0], "{}", robot.name);
         if let Some(law) = robot.cables[0].properties.law.clone() {
             let laws = vec![HysteresisLaw::elastic(law); n];
-            let cycle = load_cycle(&robot, &laws, &pose, 50.0, 2).unwrap();
+            let cycle = load_cycle(&robot, &laws, &pose, &[], 50.0, 2).unwrap();
             same(&cycle.loading[0].solution.equilibrium.tensions(), "load cycle");
         }
     }

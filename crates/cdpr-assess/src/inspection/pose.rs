@@ -37,8 +37,13 @@ impl Findings<'_> {
         if arm > 0.0 {
             matrix.rows_mut(3, 3).unscale_mut(arm);
         }
-        let values = matrix.select_rows(&robot.freedoms().components()).singular_values();
-        let condition = values.max() / values.min();
+        // The singular values of a matrix that is not finite, as for a span of zero, are never found.
+        let condition = if matrix.iter().all(|entry| entry.is_finite()) {
+            let values = matrix.select_rows(&robot.freedoms().components()).singular_values();
+            values.max() / values.min()
+        } else {
+            f64::NAN
+        };
         if condition.is_nan() || condition > CONDITION {
             self.add(
                 Severity::Warning,

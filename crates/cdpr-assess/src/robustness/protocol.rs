@@ -1,6 +1,6 @@
 //! Settings of a test of robustness, and the two protocols for which results of other programs are published.
 
-use cdpr_robot::{Axis, Robot};
+use cdpr_robot::{Axis, Coordinate, Robot, Vector3, rounded};
 use cdpr_sensitivity::{Input, Law, RandomDesign};
 use cdpr_study::StudyError;
 use serde::Serialize;
@@ -60,6 +60,10 @@ pub struct Protocol {
     pub youngs_modulus: Option<f64>,
     /// Where poses are drawn from.
     pub region: PoseRegion,
+    /// Coordinates of the drawn poses that are found, for a robot with fewer cables than free motions.
+    pub free: Vec<Coordinate>,
+    /// The true pose is found if P is this near [m] and the rotation within [`FOUND_ANGLE`](super::FOUND_ANGLE).
+    pub found_distance: f64,
     /// Number of stable poses that are collected and solved.
     pub poses: usize,
     /// Start offsets.
@@ -88,9 +92,11 @@ impl Protocol {
         };
         Self {
             name: "mahnke_caverly",
-            title: "Protocol of Mahnke and Caverly: starts up to 1 m and 40 degrees away",
+            title: "Protocol of Mahnke and Caverly",
             youngs_modulus: Some(35e9),
             region: PoseRegion::cogiro(),
+            free: Vec::new(),
+            found_distance: 0.1,
             poses,
             starts: distances.into_iter().flat_map(start).collect(),
             assignment: Assignment::InTurn,
@@ -107,13 +113,34 @@ impl Protocol {
         };
         Self {
             name: "thirty_poses",
-            title: "Thirty poses: starts 0.5 m and 0.25 rad, 0.2 m and 0.1 rad away",
+            title: "Thirty poses",
             youngs_modulus: None,
             region: PoseRegion::cogiro(),
+            free: Vec::new(),
+            found_distance: 0.1,
             poses: 30,
             starts: vec![start(0.5, 0.25, 22), start(0.2, 0.1, 25)],
             assignment: Assignment::Each,
             seed,
+        }
+    }
+
+    /// The protocol in the room of another robot, with the modulus of its file: poses are drawn from
+    /// `region`, and all distances change as its diagonal does, to two digits. Nothing is published of it.
+    pub fn in_region(self, region: PoseRegion) -> Self {
+        let scale = region.diagonal() / self.region.diagonal();
+        let scale = rounded(scale, 1 - scale.log10().floor() as i32);
+        let start = |start: &StartOffset| StartOffset {
+            distance: start.distance * scale,
+            angle: start.angle,
+            published: None,
+        };
+        Self {
+            starts: self.starts.iter().map(start).collect(),
+            found_distance: self.found_distance * scale,
+            youngs_modulus: None,
+            region,
+            ..self
         }
     }
 
@@ -168,7 +195,8 @@ impl Protocol {
         let mut inputs: Vec<Input> = Axis::ALL
             .iter()
             .zip(low.iter().zip(high))
-            .map(|(axis, (a, b))| input(axis.letter(), *a, b))
+            // Where all exit points lie in a plane, so do the poses: see `PoseRegion::place`.
+            .map(|(axis, (a, b))| input(axis.letter(), *a, if *a == b { b + 1.0 } else { b }))
             .collect();
         inputs.push(input("angle", 0.0, max_angle));
         for name in ["axis", "start direction", "start axis"] {
@@ -190,5 +218,31 @@ impl PoseRegion {
     /// Nearly all of the room inside of CoGiRo's frame, with rotations up to 30 degrees.
     pub fn cogiro() -> Self {
         Self { low: [-6.75, -4.75, 0.0], high: [6.75, 4.75, 4.75], max_angle: PI / 6.0 }
+    }
+
+    /// The room of a robot, with rotations up to 30 degrees: the box of its exit points, narrower by a
+    /// twentieth of its size on all sides. Under exit points that are all nearly as high, it is half as high
+    /// as it is wide.
+    pub fn of(robot: &Robot) -> Self {
+        let exits = || robot.cables.iter().map(|cable| cable.exit_point);
+        let start = |value| Vector3::repeat(value);
+        let mut low = exits().fold(start(f64::INFINITY), |low, exit| low.inf(&exit));
+        let high = exits().fold(start(f64::NEG_INFINITY), |high, exit| high.sup(&exit));
+        let wide = (high - low).xy().max();
+        if high.z - low.z < 0.25 * wide {
+            low.z = high.z - 0.5 * wide;
+        }
+        let margin = 0.05 * (high - low);
+        Self { low: (low + margin).into(), high: (high - margin).into(), max_angle: PI / 6.0 }
+    }
+
+    /// The place in its box for a drawn one [m].
+    pub(super) fn place(&self, drawn: [f64; 3]) -> Vector3<f64> {
+        Vector3::from(drawn).sup(&self.low.into()).inf(&self.high.into())
+    }
+
+    /// The diagonal of its box [m].
+    fn diagonal(&self) -> f64 {
+        (Vector3::from(self.high) - Vector3::from(self.low)).norm()
     }
 }

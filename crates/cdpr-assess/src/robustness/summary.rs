@@ -106,11 +106,12 @@ impl ProtocolSummary {
     /// Summarises a test.
     pub fn new(result: &RobustnessResult) -> Self {
         let protocol = &result.protocol;
+        let found = protocol.found_distance;
         let row = |(k, start): (usize, &StartOffset)| RobustnessRow {
             distance: Some(start.distance),
             angle_deg: Some(in_degrees(start.angle)),
             published: start.published,
-            ..RobustnessRow::of(result.solves.iter().filter(|solve| solve.start_offset == k))
+            ..RobustnessRow::of(result.solves.iter().filter(|solve| solve.start_offset == k), found)
         };
         Self {
             title: protocol.title.to_owned(),
@@ -121,10 +122,10 @@ impl ProtocolSummary {
             poses: protocol.poses,
             assignment: protocol.assignment,
             seed: protocol.seed,
-            found_distance: super::FOUND_DISTANCE,
+            found_distance: found,
             found_angle_deg: in_degrees(super::FOUND_ANGLE),
             draws: Draws::of(result),
-            total: RobustnessRow::of(result.solves.iter()),
+            total: RobustnessRow::of(result.solves.iter(), found),
             rows: protocol.starts.iter().enumerate().map(row).collect(),
         }
     }
@@ -154,16 +155,16 @@ impl RobustnessRow {
         (self.solves > 0).then(|| self.true_pose as f64 / self.solves as f64)
     }
 
-    fn of<'a>(solves: impl Iterator<Item = &'a Solve> + Clone) -> Self {
+    fn of<'a>(solves: impl Iterator<Item = &'a Solve> + Clone, found_distance: f64) -> Self {
         let mut failed = BTreeMap::new();
         for kind in solves.clone().filter_map(Solve::failure) {
             *failed.entry(kind.to_owned()).or_default() += 1;
         }
-        let count = |outcome| solves.clone().filter(|solve| solve.outcome() == outcome).count();
+        let count = |outcome| solves.clone().filter(|solve| solve.outcome(found_distance) == outcome).count();
         let answers = || solves.clone().filter_map(|solve| solve.answer.as_ref().ok());
         let by = |method| answers().filter(|answer| answer.method == method).count();
         let of_true_poses = |value: fn(&Answer) -> f64| {
-            let found = solves.clone().filter(|solve| solve.outcome() == Outcome::TruePose);
+            let found = solves.clone().filter(|solve| solve.outcome(found_distance) == Outcome::TruePose);
             Spread::of(found.filter_map(|solve| solve.answer.as_ref().ok()).map(value))
         };
         Self {

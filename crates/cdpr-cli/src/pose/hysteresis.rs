@@ -1,7 +1,7 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
 use crate::answer::{OutOfLimits, vector};
-use crate::arguments::{Format, Preference, number, payload};
+use crate::arguments::{Format, FreeArguments, Preference, number, payload};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use crate::poses::{self, Angles};
@@ -34,6 +34,8 @@ pub(crate) struct Settings {
     pose: Pose,
     #[command(flatten)]
     angles: Angles,
+    #[command(flatten)]
+    free: FreeArguments,
     /// Mass put on the platform's centre of mass and taken off again [kg].
     #[arg(long, value_parser = payload, allow_hyphen_values = true)]
     payload: f64,
@@ -89,7 +91,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = settings.preference.open_robot(&settings.robot)?;
     let laws = laws(&robot, settings)?;
     let pose = settings.angles.of(&settings.pose)?;
-    let cycle = || load_cycle(&robot, &laws, &pose, settings.payload, settings.steps);
+    let cycle = || load_cycle(&robot, &laws, &pose, &settings.free.free, settings.payload, settings.steps);
     let cycle = patiently("following the load", cycle)?;
     let found = Found::new(&robot, &laws, &cycle);
     settings.format.print(&found, print)?;

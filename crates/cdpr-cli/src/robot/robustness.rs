@@ -1,28 +1,37 @@
 //! `cdpr robustness`: how often the direct model finds the true pose from a wrong start.
 
-use crate::arguments::{Format, Preference};
+use crate::arguments::{self, Format, FreeArguments, Preference};
 use crate::error::ProgramError;
 use crate::output::{drawn, progress, table};
 use cdpr_assess::{
-    Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, begin_robustness, run_robustness,
-    write_robustness,
+    PoseRegion, Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, begin_robustness,
+    run_robustness, write_robustness,
 };
-use cdpr_robot::shown;
+use cdpr_robot::{Robot, rounded, shown};
 use std::path::PathBuf;
 use std::time::Instant;
 
 /// The robot and the sizes of the protocols.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Robot file (JSON, `cdpr-robot/1`); the protocols are made for CoGiRo.
+    /// Robot file (JSON, `cdpr-robot/1`) or name.
+    ///
+    /// The protocols are made for CoGiRo. In the room of another robot their distances change with its size.
     #[arg(long)]
     robot: PathBuf,
     /// Poses of the protocol of Mahnke and Caverly.
     #[arg(long, default_value_t = 10_000)]
     poses: usize,
-    /// Young's modulus of all cables in that protocol [Pa]; the thirty poses keep the robot's.
-    #[arg(long, default_value_t = 35e9, allow_negative_numbers = true)]
-    modulus: f64,
+    /// Young's modulus of all cables in that protocol [Pa]; the thirty poses keep the robot's [default: 35e9
+    /// for CoGiRo, else the robot's].
+    #[arg(long, allow_negative_numbers = true)]
+    modulus: Option<f64>,
+    /// Box from which poses are drawn, min:max of x, y and z [m]: -2:2,-1:1,0.5:2.5 [default: for CoGiRo the
+    /// published one, else the box of the exit points].
+    #[arg(long, value_parser = arguments::region, allow_hyphen_values = true)]
+    region: Option<PoseRegion>,
+    #[command(flatten)]
+    free: FreeArguments,
     /// Seed of poses and starts. The same seed gives the same numbers, but for the times.
     #[arg(long, default_value_t = 2017)]
     seed: u64,
@@ -38,13 +47,11 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let clock = Instant::now();
-    let mut first = Protocol::mahnke_caverly(settings.poses, settings.seed);
-    first.youngs_modulus = Some(settings.modulus);
-    let protocols = [first, Protocol::thirty_poses(settings.seed)];
+    let robot = settings.preference.open_robot(&settings.robot)?;
+    let protocols = protocols(&robot, settings);
     for protocol in &protocols {
         protocol.validate()?;
     }
-    let robot = settings.preference.open_robot(&settings.robot)?;
     let folder = begin_robustness(&settings.out)?;
 
     let steps = protocols.iter().map(|protocol| protocol.poses + protocol.solves()).sum();
@@ -72,6 +79,24 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     })?)
 }
 
+fn protocols(robot: &Robot, settings: &Settings) -> [Protocol; 2] {
+    let room = match &settings.region {
+        None if robot.name == "CoGiRo" => None,
+        None => Some(PoseRegion::of(robot)),
+        given => *given,
+    };
+    let own = |protocol: Protocol| Protocol {
+        free: settings.free.free.clone(),
+        ..match room {
+            Some(room) => protocol.in_region(room),
+            None => protocol,
+        }
+    };
+    let first = own(Protocol::mahnke_caverly(settings.poses, settings.seed));
+    let youngs_modulus = settings.modulus.or(first.youngs_modulus);
+    [Protocol { youngs_modulus, ..first }, own(Protocol::thirty_poses(settings.seed))]
+}
+
 fn print_results(summary: &RobustnessSummary) {
     for protocol in summary.protocols.values() {
         println!("{}: {}", shown(&summary.robot), protocol.title);
@@ -94,7 +119,9 @@ fn print_settings(protocol: &ProtocolSummary) {
         protocol.youngs_modulus.map_or_else(|| "that of the file".to_owned(), |e| format!("{} GPa", e / 1e9));
     println!(
         "E: {modulus}; seed {}; found: within {} m and {} degrees",
-        protocol.seed, protocol.found_distance, protocol.found_angle_deg
+        protocol.seed,
+        rounded(protocol.found_distance, 4),
+        protocol.found_angle_deg
     );
     let draws = &protocol.draws;
     let kinds = |counts: &std::collections::BTreeMap<String, usize>| {

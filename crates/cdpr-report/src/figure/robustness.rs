@@ -45,7 +45,7 @@ pub fn found_poses(result: &RobustnessResult) -> Result<String, ReportError> {
             Ok(answer) => Some(ReportError::finite("anchor_distance", answer.anchor_distance)?),
             Err(_) => None,
         };
-        points.push((x, y.map(|y| y.max(NEAREST).log10()), solve.outcome()));
+        points.push((x, y.map(|y| y.max(NEAREST).log10()), solve.outcome(result.protocol.found_distance)));
     }
     let found = || points.iter().filter_map(|(_, y, _)| *y);
     // Whole decades, and one more for solves without an answer.

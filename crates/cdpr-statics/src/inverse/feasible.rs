@@ -186,8 +186,11 @@ impl Point<'_> {
         });
         let rank_deficient = {
             let matrix = Matrix6xX::from_columns(&self.rows.iter().map(|row| row.slope).collect::<Vec<_>>());
-            let values = matrix.select_rows(&question.robot.freedoms().components()).singular_values();
-            values.min() < 1e-9 * values.max()
+            // The singular values of a matrix that is not finite are never found.
+            matrix.iter().all(|entry| entry.is_finite()) && {
+                let values = matrix.select_rows(&question.robot.freedoms().components()).singular_values();
+                values.min() < 1e-9 * values.max()
+            }
         };
         StaticsError::NoTensions {
             position: question.pose.position.into(),

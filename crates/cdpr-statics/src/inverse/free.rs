@@ -221,7 +221,7 @@ impl<'a> Search<'a> {
         residual.iter().all(|entry| entry.is_finite()).then_some(Point { held, rows, residual, forces })
     }
 
-    /// dF/d(ln σ, q), with q in units.
+    /// dF/d(ln σ, q), with q in units; `None` where it is not finite, as for a force near zero.
     fn slopes(&self, changes: &[f64], chord_forces: &[f64], point: &Point) -> Option<DMatrix<f64>> {
         let mut slopes = DMatrix::zeros(6, chord_forces.len() + changes.len());
         for (i, (row, force)) in point.rows.iter().zip(chord_forces).enumerate() {
@@ -238,7 +238,7 @@ impl<'a> Search<'a> {
             let slope = (at(DIFFERENCE)? - at(-DIFFERENCE)?) / (2.0 * DIFFERENCE);
             slopes.set_column(chord_forces.len() + k, &slope);
         }
-        Some(slopes)
+        slopes.iter().all(|slope| slope.is_finite()).then_some(slopes)
     }
 
     /// The solution that the steps lead to from these changes of the free coordinates.
@@ -254,7 +254,9 @@ impl<'a> Search<'a> {
             if norm <= ROUNDING * point.forces {
                 return Outcome::Found(point, iteration);
             }
-            let Some(slopes) = self.slopes(&changes, &chord_forces, &point) else { return Outcome::Lost };
+            let Some(slopes) = self.slopes(&changes, &chord_forces, &point) else {
+                return Outcome::Stuck(point);
+            };
             let normal = slopes.transpose() * &slopes;
             let right = -(slopes.transpose() * point.residual);
             let greatest = normal.diagonal().max();

@@ -20,11 +20,11 @@
 
 use crate::direct::{DirectSolution, Start, direct};
 use crate::error::StaticsError;
-use crate::loading::deflection::wind;
+use crate::inverse::{HeldPose, held_at};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_cable::{CableError, PiecewiseLaw, Segment};
-use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
 
 /// The loading and unloading curves of a cable, with strains in proportion to the robot's modulus.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,6 +128,7 @@ impl HysteresisLaw {
 /// The load cycle of a payload [kg] at a pose that the inverse model holds under the platform's own weight,
 /// in `steps` steps each way.
 ///
+/// A robot with fewer cables than free motions rests where the `free` coordinates of the pose are found.
 /// There is one law for each cable; the laws of the robot's own cables are ignored.
 ///
 /// # Errors
@@ -137,6 +138,7 @@ pub fn load_cycle(
     robot: &Robot,
     laws: &[HysteresisLaw],
     pose: &Pose,
+    free: &[Coordinate],
     payload: f64,
     steps: usize,
 ) -> Result<LoadCycle, StaticsError> {
@@ -154,12 +156,11 @@ pub fn load_cycle(
         return invalid("laws", format!("a list of {}", laws.len()), &format!("{n}, one a cable"));
     }
     let mut robot = with_laws(robot, laws.iter().map(|law| law.loading.clone()).collect());
-    let wound = wind(&robot, pose, &vec![0.0; n])?;
-    let lengths = wound.lengths;
+    let HeldPose { lengths, equilibrium: held } = held_at(&robot, pose, &Load::none(), free)?;
     let mut ways = Vec::with_capacity(2);
     let mut middles = Vec::with_capacity(3);
     let mut energies = vec![0.0; n];
-    let first = direct(&robot, &lengths, &Load::none(), Start::Near(&wound.held))?;
+    let first = direct(&robot, &lengths, &Load::none(), Start::Near(&held))?;
     let mut here = CycleStep { payload: 0.0, solution: first };
     middles.push(middle_tensions(&robot, &lengths, &here.solution.equilibrium)?);
     for up in [true, false] {
