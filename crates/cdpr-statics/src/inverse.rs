@@ -26,6 +26,7 @@
 mod branch;
 mod feasible;
 mod free;
+mod greatest;
 mod held;
 mod limits;
 mod optimum;
@@ -43,6 +44,7 @@ use cdpr_robot::{Pose, Robot, Vector6};
 use cdpr_tension::Bound;
 use feasible::search;
 pub use free::{FreeSolution, FreeSolutions, held_at, inverse_free};
+pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub use limits::limits_at;
 use optimum::Optimum;
 use question::Question;

@@ -5,6 +5,7 @@
 //! | which unstrained lengths hold a pose (IEGM)? | [`inverse`] |
 //! | and those of a path, without jumps where there need be none? | [`InversePath`] |
 //! | and with fewer cables than free motions (n < m)? | [`inverse_free`] |
+//! | what can be carried there, how far are the limits of tension? | [`greatest_payload`], [`tension_margin`] |
 //! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
 //! | and for the next lengths and load, in a microsecond or two? | [`Tracker`] |
 //! | is it stable, and how far is it from becoming unstable? | [`DirectSolution::stability`] |
@@ -65,8 +66,8 @@ pub use direct::{
 pub use equations::{CableShape, Inputs, Linearization};
 pub use error::{Blocked, StaticsError};
 pub use inverse::{
-    FreeSolution, FreeSolutions, HeldPose, InversePath, InverseSolution, PathSolution, held_at, inverse,
-    inverse_free, lengths_for_tensions, limits_at,
+    Blocking, FreeSolution, FreeSolutions, Greatest, HeldPose, InversePath, InverseSolution, PathSolution,
+    greatest_payload, held_at, inverse, inverse_free, lengths_for_tensions, limits_at, tension_margin,
 };
 pub use lanes::{Observation, Observer, Tracker};
 pub use loading::{

@@ -13,6 +13,7 @@ mod few_cables;
 mod free_coordinates;
 mod grab;
 mod gravity;
+mod greatest;
 mod hysteresis;
 mod inverse;
 mod models;

@@ -46,9 +46,11 @@
 
 mod box_problem;
 mod distribution;
+mod linear_program;
 mod problem;
 mod quadratic_program;
 
 pub use box_problem::{BoxProblem, BoxSolution, BoxUnknown};
 pub use distribution::{Distribution, DistributionMethod, closed_form, distribute, offset};
+pub use linear_program::{LinearProgram, LinearSolution};
 pub use problem::{Bound, Problem, TensionError};

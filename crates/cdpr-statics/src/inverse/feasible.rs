@@ -24,7 +24,7 @@ use cdpr_robot::{Matrix6xX, TensionLimits, Vector3, Vector6};
 use cdpr_tension::{Bound, BoxProblem, BoxUnknown};
 
 /// A residual below this, relative to wrench and tensions, balances.
-const BALANCED: f64 = 1e-8;
+pub(super) const BALANCED: f64 = 1e-8;
 
 /// The optimum: of cables that sag little from the first start that leads to one, else the best of all
 /// starts.
@@ -146,7 +146,7 @@ impl Point<'_> {
     }
 
     /// |F|, relative to wrench and tensions.
-    fn residue(&self) -> f64 {
+    pub(super) fn residue(&self) -> f64 {
         self.residual().norm() / self.size()
     }
 
@@ -156,7 +156,7 @@ impl Point<'_> {
     }
 
     /// Whether no tensions within the limits balance the wrench in the direction of the residual.
-    fn refutes(&mut self) -> bool {
+    pub(super) fn refutes(&mut self) -> bool {
         let direction = self.residual().normalize();
         let mut least = direction.dot(&self.external);
         for strand in &mut self.strands {
@@ -168,7 +168,13 @@ impl Point<'_> {
         least > 1e-9 * self.size()
     }
 
-    fn refusal(&self, question: &Question, starts: usize, iterations: usize, refuted: bool) -> StaticsError {
+    pub(super) fn refusal(
+        &self,
+        question: &Question,
+        starts: usize,
+        iterations: usize,
+        refuted: bool,
+    ) -> StaticsError {
         let residual = self.residual();
         if self.residue() <= BALANCED {
             return StaticsError::InverseNotConverged {
