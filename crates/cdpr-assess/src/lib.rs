@@ -4,10 +4,14 @@
 //! | question | function |
 //! |---|---|
 //! | Where is the platform held, how far does a load deflect it, how stiff is it? | [`compute_workspace`] |
+//! | What can it carry at a pose, how far are the limits of tension? | [`capacity_at`] |
+//! | How near do cables come to each other and to the platform? | [`clearance_at`] |
 //! | Which tolerances have to be tightened for a limit on deflection or position? | [`tolerance_budget`] |
 //! | How often does the direct model find the true pose from a wrong start? | [`run_robustness`] |
 //! | Which values of a robot file look wrong? | [`inspect`] |
 
+mod capacity;
+mod clearance;
 mod error;
 mod inspection;
 mod robustness;
@@ -15,6 +19,8 @@ mod tolerance;
 mod workspace;
 mod write;
 
+pub use capacity::{Block, Capacity, Figure, WrenchSet, capacity_at};
+pub use clearance::{CableDistance, Clearance, PlatformDistance, clearance_at};
 pub use error::AssessError;
 pub use inspection::{Finding, Severity, inspect};
 pub use robustness::{

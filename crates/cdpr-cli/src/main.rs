@@ -49,6 +49,14 @@ enum Command {
     /// Compute the Cartesian stiffness at a pose and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
     Stiffness(RobotAtFreePose),
+    /// Find what a robot can carry at a pose, and how far its tensions stay from their limits.
+    ///
+    /// With the tensions distributed anew by the winches, and with the lengths kept. A set of wrenches may act
+    /// beside the load; the figures are those of the wrench that leaves the least.
+    #[command(after_help = "Examples:
+  cdpr capacity data/robots/cogiro.json --pose 0,0,2
+  cdpr capacity data/robots/caroca.json --pose 0,0,1.75 --payload 50 --wrench-box 50,50,50,10,10,10")]
+    Capacity(pose::capacity::Settings),
     /// Print lengths, tensions, sag, deflection, stiffness and frequency along a path of poses.
     #[command(after_help = "Example: cdpr path data/robots/caroca.json --poses data/poses/caroca.csv \
                       --payload 50 > path.csv")]
@@ -166,6 +174,7 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Inverse(settings) => return pose::inverse::run(&settings),
         Command::Deflection(settings) => return pose::deflection::run(&settings),
         Command::Stiffness(settings) => return pose::stiffness::run(&settings),
+        Command::Capacity(settings) => return pose::capacity::run(&settings),
         Command::Path(settings) => return pose::path::run(&settings),
         Command::Modes(settings) => return pose::modes::run(&settings),
         Command::Derivatives(settings) => return pose::derivatives::run(&settings),

@@ -1,6 +1,7 @@
 //! Commands about a robot at a pose: its lengths, equilibria, stiffness and derivatives.
 
 pub(crate) mod at_pose;
+pub(crate) mod capacity;
 pub(crate) mod deflection;
 pub(crate) mod derivatives;
 pub(crate) mod direct;

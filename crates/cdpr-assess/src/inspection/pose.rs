@@ -2,7 +2,8 @@
 //! equilibria.
 
 use super::{Findings, Severity};
-use cdpr_robot::{Pose, Robot, Vector3};
+use crate::clearance::HangingCables;
+use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{DirectProblem, InverseSolution, Load, Start, inverse};
 use cdpr_study::frame;
 
@@ -10,6 +11,8 @@ use cdpr_study::frame;
 const CABLE_WEIGHT: f64 = 0.5;
 /// Ratio of the extreme singular values of the wrench matrix beyond which it hardly resists some wrench.
 const CONDITION: f64 = 100.0;
+/// Distance of the surfaces of cables that touch [m].
+const TOUCHING: f64 = 1e-9;
 
 impl Findings<'_> {
     /// Findings at a pose with feasible tensions.
@@ -66,24 +69,20 @@ impl Findings<'_> {
             );
         }
         self.pulleys(solution, &at);
-        for j in cables {
-            self.crossings(pose, j, &spans, &at);
+        // Without lengths there are no shapes.
+        if let Ok(hanging) = HangingCables::new(robot, &solution.lengths, &solution.equilibrium) {
+            for j in cables {
+                self.crossings(&hanging, j, &at);
+                self.through_the_platform(&hanging, j, &at);
+            }
         }
     }
 
-    /// Which of the cables before this one touch it away from their ends, all drawn straight: one finding,
-    /// with the nearest of them.
-    fn crossings(&mut self, pose: &Pose, j: usize, spans: &[Vector3<f64>], at: &str) {
-        let cables = &self.robot.cables;
-        let width = |k: usize| cables[k].properties.diameter.unwrap_or(0.0);
-        let anchor = self.robot.anchor_arm(pose, j);
+    /// Which of the cables before this one touch it: one finding, with the nearest of them.
+    fn crossings(&mut self, hanging: &HangingCables, j: usize, at: &str) {
         let distance = |i: usize| {
-            let between = cables[j].exit_point - cables[i].exit_point;
-            let anchors = anchor - self.robot.anchor_arm(pose, i);
-            let touch = 0.5 * (width(i) + width(j));
-            let apart = between.norm() >= 1e-9 && anchors.norm() >= 1e-9;
-            let distance = apart.then(|| line_distance((&spans[i], &spans[j]), &between))??;
-            (distance <= touch.max(1e-9)).then_some((distance, i))
+            let distance = hanging.pair(i, j, TOUCHING)?;
+            (distance <= TOUCHING).then_some((distance, i))
         };
         let touching: Vec<_> = (0..j).filter_map(distance).collect();
         let Some((distance, i)) = touching.iter().copied().min_by(|one, other| one.0.total_cmp(&other.0))
@@ -97,25 +96,24 @@ impl Findings<'_> {
         self.add(
             Severity::Warning,
             format!("cables[{j}]"),
-            format!("{:.1} mm from cables[{i}]{others} {at}", 1e3 * distance),
-            "these cables, drawn straight, touch",
+            format!("{:.1} mm from cables[{i}]{others} {at}", 1e3 * distance.max(0.0)),
+            "these cables touch, as they hang",
             "check the order of the points: each exit_point beside the anchor_point of the same cable",
         );
     }
-}
 
-/// Distance of two lines between their exit and anchor points; `between` leads from the first exit point to
-/// the second. `None` where the lines are parallel, or closest outside of these ends.
-fn line_distance((first, second): (&Vector3<f64>, &Vector3<f64>), between: &Vector3<f64>) -> Option<f64> {
-    let normal = first.cross(second);
-    let square = normal.norm_squared();
-    if square < 1e-12 * first.norm_squared() * second.norm_squared() {
-        return None;
+    /// A cable that passes through the hull of the anchor points.
+    fn through_the_platform(&mut self, hanging: &HangingCables, i: usize, at: &str) {
+        if hanging.platform(i).is_some_and(|distance| distance <= 0.0) {
+            self.add(
+                Severity::Note,
+                format!("cables[{i}]"),
+                format!("0 mm from the hull of the other anchor points {at}"),
+                "this cable passes through the platform, if that fills the hull of its anchor points",
+                "nothing, if the platform is open there; else check the order of the points",
+            );
+        }
     }
-    let on_first = between.cross(second).dot(&normal) / square;
-    let on_second = between.cross(first).dot(&normal) / square;
-    let inside = |share: f64| share > 0.0 && share < 1.0;
-    (inside(on_first) && inside(on_second)).then(|| between.dot(&normal).abs() / square.sqrt())
 }
 
 /// A level pose with feasible tensions, on the vertical through the middle of the exit points. Where the exit
@@ -130,19 +128,4 @@ pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
         let pose = Pose::at(0.5 * (x_low + x_high), 0.5 * (y_low + y_high), middle + offset);
         inverse(robot, &pose, &Load::none(), None).ok().map(|solution| (pose, solution))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn two_lines_that_meet_have_no_distance() {
-        let (first, second) = (Vector3::new(2.0, 2.0, 0.0), Vector3::new(2.0, -2.0, 0.0));
-        let distance = |between| line_distance((&first, &second), &between);
-        assert_eq!(distance(Vector3::new(0.0, 2.0, 0.0)), Some(0.0));
-        assert_eq!(distance(Vector3::new(0.0, 2.0, 0.5)), Some(0.5));
-        assert_eq!(distance(Vector3::new(5.0, 2.0, 0.0)), None);
-        assert_eq!(line_distance((&first, &first), &Vector3::x()), None);
-    }
 }

@@ -1,0 +1,378 @@
+//! What a robot can carry at a pose, and how far a set of wrenches stays away from the limits of tension.
+//!
+//! A pose is wrench-feasible for a set of wrenches if tensions within the limits balance each of them
+//! (Bosscher, Riechel, Ebert-Uphoff, *Wrench-feasible workspace generation for cable-driven robots*, IEEE
+//! Trans. Robotics 22, 2006). Two figures say by how much:
+//!
+//! ```text
+//! payload = min over the set of the greatest mass at the centre of mass that is held beside the wrench (W1)
+//! margin = min over the set of the distance from the tensions to the nearest limit (W2)
+//! ```
+//!
+//! With the tensions *distributed anew* they are the best that the limits allow, see
+//! [`cdpr_statics::greatest_payload`] and [`cdpr_statics::tension_margin`]; both are concave in the wrench if
+//! the cables are straight, so that the corners of a box stand for all of it (Bouchard, Gosselin, Moore, *On
+//! the ability of a cable-driven robot to generate a prescribed set of wrenches*, J. Mechanisms Robotics 2,
+//! 2010). With the *lengths kept* that hold the pose under the platform's own weight, the tensions are those
+//! of the direct model. The payload then is the one at which the first limit is reached while it grows from
+//! zero.
+
+use crate::clearance::{Clearance, clearance_at};
+use cdpr_robot::{CableEnd, Coordinate, Pose, Robot, Wrench};
+use cdpr_statics::{
+    Blocking, Bound, Equilibrium, FreeSolution, FreeSolutions, Greatest, HeldPose, Limit, Load, Start,
+    StaticsError, direct, greatest_payload, held_at, inverse, inverse_free, tension_margin,
+};
+
+/// Loads whose effect on a robot is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrenchSet {
+    /// Wrenches about P in the base frame [N, N m], at least one.
+    wrenches: Vec<Wrench>,
+}
+
+impl WrenchSet {
+    /// These wrenches [N, N m]; without any the zero wrench.
+    pub fn of(wrenches: Vec<Wrench>) -> Self {
+        if wrenches.is_empty() { Self { wrenches: vec![Wrench::zero()] } } else { Self { wrenches } }
+    }
+
+    /// The corners of a box about each of the wrenches, of these half widths [N, N m].
+    #[must_use]
+    pub fn widened(&self, half_widths: &Wrench) -> Self {
+        let widths = half_widths.to_vector();
+        let mut corners: Vec<_> = self.wrenches.iter().map(Wrench::to_vector).collect();
+        for k in (0..6).filter(|k| widths[*k] != 0.0) {
+            let both = |corner| {
+                [-1.0, 1.0].map(|sign| {
+                    let mut corner: cdpr_robot::Vector6<f64> = corner;
+                    corner[k] += sign * widths[k];
+                    corner
+                })
+            };
+            corners = corners.into_iter().flat_map(both).collect();
+        }
+        Self { wrenches: corners.iter().map(Wrench::from_vector).collect() }
+    }
+
+    /// The set with a wrench [N, N m] added to each.
+    #[must_use]
+    pub fn shifted(&self, by: Wrench) -> Self {
+        Self { wrenches: self.wrenches.iter().map(|wrench| *wrench + by).collect() }
+    }
+
+    /// The wrenches [N, N m].
+    pub fn wrenches(&self) -> &[Wrench] {
+        &self.wrenches
+    }
+}
+
+/// What can be carried at a pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Capacity {
+    /// Greatest payload [kg], tensions distributed anew.
+    pub payload_anew: Result<Figure, StaticsError>,
+    /// Greatest payload [kg] with the lengths kept: until a tension reaches any of its limits.
+    pub payload_kept: Result<Figure, StaticsError>,
+    /// Greatest payload [kg] with the lengths kept, whichever cables become slack: until a tension reaches
+    /// its greatest value or a breaking force.
+    pub payload_kept_slack: Result<Figure, StaticsError>,
+    /// Margin of the tensions [N], distributed anew.
+    pub margin_anew: Result<Figure, StaticsError>,
+    /// Margin of the tensions [N] with the lengths kept.
+    pub margin_kept: Result<Figure, StaticsError>,
+    /// Distances of the cables, in the shapes that bear the load with the tensions distributed anew.
+    pub clearance: Result<Clearance, StaticsError>,
+}
+
+/// A payload [kg] or margin [N], for the wrench of the set that leaves the least.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// The value; a payload is negative infinity where a limit is passed even without one.
+    pub value: f64,
+    /// Index of the wrench.
+    pub wrench: usize,
+    /// What blocks a greater value, the limit that gives most first.
+    pub blocking: Vec<Block>,
+}
+
+/// What blocks a greater value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Block {
+    /// A limit of a tension.
+    Limit {
+        /// Index of the cable, from 0.
+        cable: usize,
+        /// Which of its limits.
+        limit: Limit,
+        /// The limit [N].
+        value: f64,
+        /// By how much the figure grows where the limit gives way [kg/N, N/N], if that is known.
+        gain: Option<f64>,
+    },
+    /// The equilibrium ends, or is not found, beyond this payload.
+    Lost(StaticsError),
+}
+
+/// What the cables can carry at a pose besides the platform.
+///
+/// Margins are those under the whole `load`; payloads are found beside its wrench, in place of its payload.
+/// The wrenches of `set` add to the load. A robot with fewer cables than free motions has the `free`
+/// coordinates found under each load, if the tensions are distributed anew.
+pub fn capacity_at(
+    robot: &Robot,
+    pose: &Pose,
+    load: &Load,
+    set: &WrenchSet,
+    free: &[Coordinate],
+) -> Capacity {
+    let set = set.shifted(load.wrench);
+    let loaded = |payload: f64, wrench: &Wrench| Load { payload, wrench: *wrench };
+    let wound_up = wound(robot, pose, &Load::none(), free);
+    let anew = |load: &Load, near: &Equilibrium| rest_near(robot, near, load, free);
+    let kept = |load: &Load, near: &Equilibrium| {
+        let HeldPose { lengths, .. } = wound_up.as_ref().map_err(Clone::clone)?;
+        let found = direct(robot, lengths, load, Start::Near(near))?;
+        Ok((lengths.clone(), found.equilibrium))
+    };
+    let payload = |answer: &dyn Fn(&Load, &Equilibrium) -> State, counts: fn(Limit) -> bool| {
+        set.least(|wrench| {
+            let start = &wound_up.as_ref().map_err(Clone::clone)?.equilibrium;
+            Rising { robot, answer: &|mass, near| answer(&loaded(mass, wrench), near), counts }.top(start)
+        })
+    };
+    let margin = |answer: &dyn Fn(&Load, &Equilibrium) -> State| {
+        set.least(|wrench| {
+            let start = &wound_up.as_ref().map_err(Clone::clone)?.equilibrium;
+            let (lengths, equilibrium) = answer(&loaded(load.payload, wrench), start)?;
+            let nearest = nearest(robot, &lengths, &equilibrium, |_| true);
+            Ok((nearest.distance, vec![nearest.block()]))
+        })
+    };
+    let any = |limit| limit != Limit::MaxElsewhere;
+    let payload_kept = payload(&kept, any);
+    let is_max = |limit: Limit| matches!(limit, Limit::Max | Limit::BreakingForce);
+    let first_is_max = payload_kept.as_ref().is_ok_and(|figure| {
+        figure.blocking.iter().all(|block| matches!(block, Block::Limit { limit, .. } if is_max(*limit)))
+    });
+    Capacity {
+        payload_anew: if free.is_empty() {
+            set.least(|wrench| greatest_payload(robot, pose, wrench).map(found))
+        } else {
+            payload(&anew, any)
+        },
+        payload_kept_slack: if first_is_max && set.wrenches.len() == 1 {
+            payload_kept.clone()
+        } else {
+            payload(&kept, |limit| matches!(limit, Limit::Max | Limit::BreakingForce))
+        },
+        payload_kept,
+        margin_anew: if free.is_empty() {
+            set.least(|wrench| tension_margin(robot, pose, &loaded(load.payload, wrench)).map(found))
+        } else {
+            margin(&anew)
+        },
+        margin_kept: margin(&kept),
+        clearance: wound(robot, pose, load, free)
+            .and_then(|held| clearance_at(robot, &held.lengths, &held.equilibrium)),
+    }
+}
+
+/// Lengths and equilibrium at a load.
+type State = Result<(Vec<f64>, Equilibrium), StaticsError>;
+
+/// The lengths that hold the pose under a load.
+fn wound(robot: &Robot, pose: &Pose, load: &Load, free: &[Coordinate]) -> Result<HeldPose, StaticsError> {
+    if free.is_empty() {
+        let found = inverse(robot, pose, load, None)?;
+        return Ok(HeldPose { lengths: found.lengths, equilibrium: found.equilibrium });
+    }
+    held_at(robot, pose, load, free)
+}
+
+/// The rest under a load that is nearest to another one, in or out of the limits: the same branch.
+fn rest_near(robot: &Robot, near: &Equilibrium, load: &Load, free: &[Coordinate]) -> State {
+    let FreeSolutions { first, others } = inverse_free(robot, &near.pose, load, free)?;
+    let away = |found: &FreeSolution| near.pose.motion_to(&found.equilibrium.pose).norm();
+    let stable = others.into_iter().filter(|other| other.stability.is_stable());
+    let nearest = stable.fold(first, |best, other| if away(&other) < away(&best) { other } else { best });
+    Ok((nearest.lengths, nearest.equilibrium))
+}
+
+fn found(Greatest { value, blocking, .. }: Greatest) -> (f64, Vec<Block>) {
+    let block = |Blocking { index, bound, limit, gain }| Block::Limit {
+        cable: index,
+        limit: match bound {
+            Bound::Min => Limit::Min,
+            Bound::Max => Limit::Max,
+        },
+        value: limit,
+        gain: Some(gain),
+    };
+    (value, blocking.into_iter().map(block).collect())
+}
+
+impl WrenchSet {
+    /// The least figure over the set; the first failure if there is one.
+    fn least(
+        &self,
+        figure: impl Fn(&Wrench) -> Result<(f64, Vec<Block>), StaticsError>,
+    ) -> Result<Figure, StaticsError> {
+        let mut least = Figure { value: f64::INFINITY, wrench: 0, blocking: Vec::new() };
+        for (wrench, one) in self.wrenches.iter().enumerate() {
+            let (value, blocking) = figure(one)?;
+            if value < least.value {
+                least = Figure { value, wrench, blocking };
+            }
+        }
+        Ok(least)
+    }
+}
+
+/// A limit and the way to it.
+#[derive(Clone, Copy)]
+struct Near {
+    cable: usize,
+    limit: Limit,
+    value: f64,
+    /// From the tension to the limit [N], negative beyond it.
+    distance: f64,
+}
+
+impl Near {
+    fn block(&self) -> Block {
+        let Self { cable, limit, value, .. } = *self;
+        Block::Limit { cable, limit, value, gain: None }
+    }
+}
+
+/// The limits of all cables, in an order that depends on the robot alone.
+fn limits(robot: &Robot, lengths: &[f64], equilibrium: &Equilibrium) -> Vec<Near> {
+    let exits = equilibrium.exit_tensions(robot, lengths);
+    let each = equilibrium.tensions().into_iter().zip(exits).enumerate();
+    each.flat_map(|(cable, (anchor, exit))| {
+        let limits = robot.limits(cable);
+        let limited = if robot.max_at(cable) == CableEnd::Anchor { anchor } else { exit };
+        let near = |limit, value, distance| Near { cable, limit, value, distance };
+        let breaking = robot.cables[cable].properties.breaking_force;
+        let breaking = breaking.map(|force| near(Limit::BreakingForce, force, force - anchor.max(exit)));
+        let [min, max] = [
+            near(Limit::Min, limits.min, anchor - limits.min),
+            near(Limit::Max, limits.max, limits.max - limited),
+        ];
+        [Some(min), Some(max), breaking].into_iter().flatten()
+    })
+    .collect()
+}
+
+/// The limit next to the tensions, or farthest behind them.
+fn nearest(
+    robot: &Robot,
+    lengths: &[f64],
+    equilibrium: &Equilibrium,
+    counts: impl Fn(Limit) -> bool,
+) -> Near {
+    let all = limits(robot, lengths, equilibrium).into_iter().filter(|near| counts(near.limit));
+    let none = Near { cable: 0, limit: Limit::Max, value: f64::INFINITY, distance: f64::INFINITY };
+    all.fold(none, |nearest, near| if near.distance < nearest.distance { near } else { nearest })
+}
+
+/// A payload that grows until a limit is reached.
+struct Rising<'a> {
+    robot: &'a Robot,
+    /// The equilibrium at a payload [kg], from one nearby.
+    answer: &'a dyn Fn(f64, &Equilibrium) -> State,
+    /// Which limits end it.
+    counts: fn(Limit) -> bool,
+}
+
+/// A payload [kg] with its equilibrium and the limit next to it.
+struct Step {
+    mass: f64,
+    lengths: Vec<f64>,
+    equilibrium: Equilibrium,
+    near: Near,
+}
+
+/// First payload over the platform's mass, greatest ratio of one to the one before, accuracy of the last one.
+const FIRST: f64 = 0.01;
+const GROWTH: f64 = 8.0;
+const ACCURACY: f64 = 1e-10;
+
+/// A tension beyond its limit by this share is on it.
+const ON_LIMIT: f64 = 1e-9;
+
+impl Rising<'_> {
+    fn at(&self, mass: f64, near: &Equilibrium) -> Result<Step, StaticsError> {
+        let (lengths, equilibrium) = (self.answer)(mass, near)?;
+        let near = nearest(self.robot, &lengths, &equilibrium, self.counts);
+        Ok(Step { mass, lengths, equilibrium, near })
+    }
+
+    /// Whether no limit is passed.
+    fn holds(step: &Step) -> bool {
+        step.near.distance >= -ON_LIMIT * step.near.value
+    }
+
+    /// The payload at which the first limit is reached.
+    fn top(&self, start: &Equilibrium) -> Result<(f64, Vec<Block>), StaticsError> {
+        const MAX_STEPS: usize = 200;
+        let mut low = self.at(0.0, start)?;
+        if !Self::holds(&low) {
+            return Ok((f64::NEG_INFINITY, vec![low.near.block()]));
+        }
+        let unit = self.robot.platform.mass;
+        let mut next = FIRST * unit;
+        // The end of the bracket: a payload that passes a limit, or why it has no equilibrium.
+        let mut high: Option<(f64, Result<Near, StaticsError>)> = None;
+        for step in 0..MAX_STEPS {
+            let end = high.as_ref().map_or(f64::INFINITY, |(mass, _)| *mass);
+            if end.is_finite() && end - low.mass <= ACCURACY * (unit + end) {
+                break;
+            }
+            let tried = self.at(next, &low.equilibrium);
+            match tried {
+                Ok(found) if Self::holds(&found) => {
+                    next = self.foreseen(&low, &found).min(GROWTH * found.mass);
+                    low = found;
+                }
+                Ok(found) => {
+                    next = self.foreseen(&low, &found);
+                    high = Some((found.mass, Ok(found.near)));
+                }
+                Err(error) => {
+                    high = Some((next, Err(error)));
+                    next = f64::INFINITY;
+                }
+            }
+            if let Some((end, _)) = &high {
+                // A root foreseen from two sides; in between a bisection.
+                let width = end - low.mass;
+                let beside = ACCURACY * (unit + end);
+                let is_inside = next > low.mass && next < *end && step % 3 != 2;
+                next = if is_inside {
+                    next.clamp(low.mass + 0.4 * beside.min(width), end - 0.4 * beside.min(width))
+                } else {
+                    low.mass + 0.5 * width
+                };
+            }
+        }
+        let block = match high {
+            None => return Ok((f64::INFINITY, Vec::new())),
+            Some((_, Ok(near))) => near.block(),
+            Some((_, Err(error))) => Block::Lost(error),
+        };
+        Ok((low.mass, vec![block]))
+    }
+
+    /// The payload at which, by two others, the first limit is reached; infinite if all become more distant.
+    fn foreseen(&self, one: &Step, other: &Step) -> f64 {
+        let each = [one, other].map(|step| limits(self.robot, &step.lengths, &step.equilibrium));
+        let roots = each[0].iter().zip(&each[1]).filter(|(near, _)| (self.counts)(near.limit));
+        let root = |(a, b): (&Near, &Near)| {
+            let slope = (b.distance - a.distance) / (other.mass - one.mass);
+            if slope < 0.0 { one.mass - a.distance / slope } else { f64::INFINITY }
+        };
+        roots.map(root).fold(f64::INFINITY, f64::min)
+    }
+}
