@@ -17,12 +17,12 @@
 //! of the direct model. The payload then is the one at which the first limit is reached while it grows from
 //! zero.
 
-use crate::clearance::{Clearance, clearance_at};
-use cdpr_robot::{CableEnd, Coordinate, Pose, Robot, Wrench};
+use cdpr_robot::{CableEnd, Coordinate, Pose, Robot, Wrench, decimal};
 use cdpr_statics::{
     Blocking, Bound, Equilibrium, FreeSolution, FreeSolutions, Greatest, HeldPose, Limit, Load, Start,
     StaticsError, direct, greatest_payload, held_at, inverse, inverse_free, tension_margin,
 };
+use std::fmt;
 
 /// Loads whose effect on a robot is asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,8 +81,6 @@ pub struct Capacity {
     pub margin_anew: Result<Figure, StaticsError>,
     /// Margin of the tensions [N] with the lengths kept.
     pub margin_kept: Result<Figure, StaticsError>,
-    /// Distances of the cables, in the shapes that bear the load with the tensions distributed anew.
-    pub clearance: Result<Clearance, StaticsError>,
 }
 
 /// A payload [kg] or margin [N], for the wrench of the set that leaves the least.
@@ -94,6 +92,29 @@ pub struct Figure {
     pub wrench: usize,
     /// What blocks a greater value, the limit that gives most first.
     pub blocking: Vec<Block>,
+}
+
+impl Figure {
+    /// What blocks a greater value, in words.
+    pub fn blocked_by(&self) -> String {
+        self.blocking.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+    }
+}
+
+impl fmt::Display for Block {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Lost(error) => error.fmt(f),
+            Self::Limit { cable, limit, value, .. } => {
+                let limit = match limit {
+                    Limit::BreakingForce => "breaking force",
+                    Limit::Max | Limit::MaxElsewhere => "max",
+                    Limit::Min => "min",
+                };
+                write!(f, "cable {} at its {limit}, {} N", cable + 1, decimal(*value, 1))
+            }
+        }
+    }
 }
 
 /// What blocks a greater value.
@@ -173,8 +194,6 @@ pub fn capacity_at(
             margin(&anew)
         },
         margin_kept: margin(&kept),
-        clearance: wound(robot, pose, load, free)
-            .and_then(|held| clearance_at(robot, &held.lengths, &held.equilibrium)),
     }
 }
 
@@ -182,7 +201,12 @@ pub fn capacity_at(
 type State = Result<(Vec<f64>, Equilibrium), StaticsError>;
 
 /// The lengths that hold the pose under a load.
-fn wound(robot: &Robot, pose: &Pose, load: &Load, free: &[Coordinate]) -> Result<HeldPose, StaticsError> {
+pub(crate) fn wound(
+    robot: &Robot,
+    pose: &Pose,
+    load: &Load,
+    free: &[Coordinate],
+) -> Result<HeldPose, StaticsError> {
     if free.is_empty() {
         let found = inverse(robot, pose, load, None)?;
         return Ok(HeldPose { lengths: found.lengths, equilibrium: found.equilibrium });
@@ -333,7 +357,9 @@ impl Rising<'_> {
             let tried = self.at(next, &low.equilibrium);
             match tried {
                 Ok(found) if Self::holds(&found) => {
-                    next = self.foreseen(&low, &found).min(GROWTH * found.mass);
+                    // Beyond what is foreseen, so that the limit is enclosed.
+                    let beyond = found.mass + 0.1 * (found.mass - low.mass);
+                    next = self.foreseen(&low, &found).max(beyond).min(GROWTH * found.mass);
                     low = found;
                 }
                 Ok(found) => {

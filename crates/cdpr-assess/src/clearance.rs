@@ -13,8 +13,9 @@
 //! cables whose exit or anchor points lie within the thickness of the cables share a point and have no
 //! distance.
 
-use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{DMatrix, DirectProblem, Equilibrium, Load, StaticsError};
+use crate::capacity::wound;
+use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
+use cdpr_statics::{DMatrix, DirectProblem, Equilibrium, HeldPose, Load, StaticsError};
 
 /// The least distances at a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +75,21 @@ pub fn clearance_at(
     Ok(clearance)
 }
 
+/// The distances of the cables that bear `load` at a pose, with the tensions distributed anew; with fewer cables
+/// than free motions the `free` coordinates are found.
+///
+/// # Errors
+/// Those of [`cdpr_statics::inverse`] and [`cdpr_statics::held_at`].
+pub fn clearance_under(
+    robot: &Robot,
+    pose: &Pose,
+    load: &Load,
+    free: &[Coordinate],
+) -> Result<Clearance, StaticsError> {
+    let HeldPose { lengths, equilibrium } = wound(robot, pose, load, free)?;
+    clearance_at(robot, &lengths, &equilibrium)
+}
+
 /// Intervals of a cable between the points of its curve.
 const INTERVALS: usize = 32;
 
@@ -112,10 +128,15 @@ impl<'a> HangingCables<'a> {
         0.5 * self.robot.cables[i].properties.diameter.unwrap_or(0.0)
     }
 
+    /// The mean of the diameters of two cables [m]; zero where they are not known.
+    pub(crate) fn thickness(&self, i: usize, j: usize) -> f64 {
+        self.radius(i) + self.radius(j)
+    }
+
     /// The distance of the surfaces of two cables [m]; `None` where they share a point, or where it is above
     /// `bound`.
     pub(crate) fn pair(&self, i: usize, j: usize, bound: f64) -> Option<f64> {
-        let touch = self.radius(i) + self.radius(j);
+        let touch = self.thickness(i, j);
         let [one, other] = [i, j].map(|k| &self.robot.cables[k]);
         let [a, b] = [i, j].map(|k| self.robot.anchor_arm(&self.pose, k));
         let shared = touch.max(1e-9);

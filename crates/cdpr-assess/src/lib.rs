@@ -6,21 +6,25 @@
 //! | Where is the platform held, how far does a load deflect it, how stiff is it? | [`compute_workspace`] |
 //! | What can it carry at a pose, how far are the limits of tension? | [`capacity_at`] |
 //! | How near do cables come to each other and to the platform? | [`clearance_at`] |
+//! | How far may it tilt there? | [`tilt_at`] |
 //! | Which tolerances have to be tightened for a limit on deflection or position? | [`tolerance_budget`] |
 //! | How often does the direct model find the true pose from a wrong start? | [`run_robustness`] |
 //! | Which values of a robot file look wrong? | [`inspect`] |
 
+mod boundary;
 mod capacity;
 mod clearance;
 mod error;
 mod inspection;
 mod robustness;
+mod tilt;
 mod tolerance;
 mod workspace;
 mod write;
 
+pub use boundary::Boundary;
 pub use capacity::{Block, Capacity, Figure, WrenchSet, capacity_at};
-pub use clearance::{CableDistance, Clearance, PlatformDistance, clearance_at};
+pub use clearance::{CableDistance, Clearance, PlatformDistance, clearance_at, clearance_under};
 pub use error::AssessError;
 pub use inspection::{Finding, Severity, inspect};
 pub use robustness::{
@@ -28,8 +32,10 @@ pub use robustness::{
     Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread, StartOffset,
     anchor_distance, run_robustness,
 };
+pub use tilt::{Tilt, TiltTowards, tilt_at};
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
 pub use workspace::{
-    Anew, Dominant, HELD, Held, Workspace, WorkspacePose, WorkspaceRow, WorkspaceSummary, compute_workspace,
+    Anew, BoundarySummary, Dominant, Further, HELD, Held, TiltDirections, Way, Workspace, WorkspacePose,
+    WorkspaceRow, WorkspaceSummary, compute_workspace, workspace_boundary,
 };
 pub use write::{begin_robustness, begin_workspace, write_robustness, write_workspace};

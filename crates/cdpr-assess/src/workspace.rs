@@ -5,16 +5,22 @@
 //! yields, and its tensions are what the direct model says. Where the winches hold the pose, the tensions are
 //! distributed anew, by the inverse model with the load. A pose may be held in one way and not in the other.
 
-use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Rotation3, Vector3};
+mod row;
+mod summary;
+
+use crate::boundary::{Boundary, boundary};
+use crate::capacity::{Capacity, WrenchSet, capacity_at};
+use crate::clearance::{Clearance, clearance_under};
+use crate::tilt::{Tilt, tilt_at};
+use cdpr_robot::{Axis, Coordinate, Parameter, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, Limit, Load, OutOfLimits, StaticsError, deflection_free,
-    derivatives_free, held_at, inverse, out_of_limits,
+    derivatives_free, held_at, inverse, out_of_limits, tension_margin,
 };
-use cdpr_study::{ErrorModel, Extremes, Grid, StudyError};
-use indexmap::IndexMap;
+use cdpr_study::{ErrorModel, Grid, StudyError};
 use rayon::prelude::*;
-use serde::Serialize;
-use std::collections::BTreeMap;
+pub use row::WorkspaceRow;
+pub use summary::{BoundarySummary, WorkspaceSummary};
 
 /// The question about every position of a grid.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +38,47 @@ pub struct Workspace<'a> {
     /// Coordinates that are found at every position, for a robot with fewer cables than free motions: as many
     /// as cables are missing.
     pub free: &'a [Coordinate],
+    /// What is asked for besides.
+    pub further: Further<'a>,
+}
+
+/// Questions whose answers take longer than the others.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Further<'a> {
+    /// The greatest payload and the margins of the tensions, for a set of wrenches beside the load.
+    pub capacity: Option<&'a WrenchSet>,
+    /// The distances of cables to each other and to the platform.
+    pub distances: bool,
+    /// How far the platform may tilt.
+    pub tilt: Option<TiltDirections>,
+}
+
+/// In how many directions, and how exactly, the tilt is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TiltDirections {
+    /// Number of azimuths.
+    pub count: usize,
+    /// Accuracy [rad].
+    pub accuracy: f64,
+}
+
+/// How a load comes onto the platform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// The winches hold the pose: tensions are distributed anew.
+    Anew,
+    /// The lengths are kept.
+    Kept,
+}
+
+impl Way {
+    /// `anew` or `kept`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Anew => "anew",
+            Self::Kept => "kept",
+        }
+    }
 }
 
 /// A position and its results.
@@ -44,6 +91,12 @@ pub struct WorkspacePose {
     pub outcome: Result<Held, StaticsError>,
     /// The tensions distributed anew under the load, or the reason why they cannot be; `None` without a load.
     pub anew: Option<Result<Anew, StaticsError>>,
+    /// What can be carried, if asked for.
+    pub capacity: Option<Capacity>,
+    /// Distances of the cables that bear the load, tensions distributed anew, if asked for.
+    pub clearance: Option<Result<Clearance, StaticsError>>,
+    /// How far the platform may tilt under the load, if asked for.
+    pub tilt: Option<Result<Tilt, StaticsError>>,
 }
 
 /// Tensions within the limits that hold a pose under the load.
@@ -110,7 +163,73 @@ pub fn compute_workspace(
     tick: &(dyn Fn() + Sync),
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<WorkspacePose>, StudyError> {
-    let Workspace { robot, rotation, load, tolerances, free, .. } = *workspace;
+    check(workspace)?;
+    let Workspace { robot, rotation, load, free, further, .. } = *workspace;
+    let one = |level: Pose| {
+        if stop() {
+            return Err(StudyError::Stopped);
+        }
+        let pose = Pose { rotation, ..level };
+        let outcome = held(workspace, &pose);
+        let anew = (load != Load::none()).then(|| {
+            let [least_tension, greatest_tension] = range(&tensions_anew(workspace, &pose)?);
+            Ok(Anew { least_tension, greatest_tension })
+        });
+        let capacity = further.capacity.map(|set| capacity_at(robot, &pose, &load, set, free));
+        let clearance = further.distances.then(|| clearance_under(robot, &pose, &load, free));
+        let tilt = further
+            .tilt
+            .map(|TiltDirections { count, accuracy }| tilt_at(robot, &pose, &load, count, accuracy));
+        tick();
+        Ok(WorkspacePose { pose, outcome, anew, capacity, clearance, tilt })
+    };
+    workspace.grid.poses().into_par_iter().map(one).collect()
+}
+
+/// The boundary of the positions that are held with all tensions within the limits, the load borne in one way.
+///
+/// # Errors
+/// As [`compute_workspace`], and [`StudyError::Setting`] for a grid that is neither a plane nor a box.
+pub fn workspace_boundary(
+    workspace: &Workspace,
+    way: Way,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Boundary, StudyError> {
+    check(workspace)?;
+    let Workspace { robot, rotation, grid, ref load, free, .. } = *workspace;
+    // Quicker than the inverse model to say no.
+    let has_tensions = |pose: &Pose, load: &Load| match tension_margin(robot, pose, load) {
+        Ok(found) => found.value >= 0.0,
+        Err(error) => matches!(error, StaticsError::InverseNotConverged { .. }),
+    };
+    let is_held = |position: &Vector3<f64>| {
+        let pose = Pose { position: *position, rotation };
+        match (way, free) {
+            (Way::Anew, []) => has_tensions(&pose, load),
+            (Way::Kept, []) if !has_tensions(&pose, &Load::none()) => false,
+            (Way::Kept, _) => held(workspace, &pose).is_ok_and(|held| held.is_within_limits()),
+            // Free coordinates are found whatever the limits are.
+            (Way::Anew, _) => tensions_anew(workspace, &pose).is_ok_and(|tensions| {
+                let within = |(i, t): (usize, &f64)| *t <= robot.limits(i).max && *t >= robot.limits(i).min;
+                tensions.iter().enumerate().all(within)
+            }),
+        }
+    };
+    boundary(&Axis::ALL.map(|axis| grid.axis(axis).coordinates()), &is_held, stop)
+}
+
+/// The tensions at the platform that bear the load, distributed anew [N].
+fn tensions_anew(workspace: &Workspace, pose: &Pose) -> Result<Vec<f64>, StaticsError> {
+    let Workspace { robot, ref load, free, .. } = *workspace;
+    Ok(match free {
+        [] => inverse(robot, pose, load, None)?.tensions,
+        _ => held_at(robot, pose, load, free)?.equilibrium.tensions(),
+    })
+}
+
+/// Checks the settings.
+fn check(workspace: &Workspace) -> Result<(), StudyError> {
+    let Workspace { robot, load, tolerances, free, further, .. } = *workspace;
     if !(load.payload.is_finite() && load.payload >= 0.0) {
         return Err(StudyError::setting("payload", load.payload, "a finite mass, zero or more [kg]"));
     }
@@ -145,24 +264,12 @@ pub fn compute_workspace(
             expected,
         ));
     }
-    let one = |level: Pose| {
-        if stop() {
-            return Err(StudyError::Stopped);
-        }
-        let pose = Pose { rotation, ..level };
-        let outcome = held(workspace, &pose);
-        let anew = (load != Load::none()).then(|| {
-            let tensions = match free {
-                [] => inverse(robot, &pose, &load, None)?.tensions,
-                _ => held_at(robot, &pose, &load, free)?.equilibrium.tensions(),
-            };
-            let [least_tension, greatest_tension] = range(&tensions);
-            Ok(Anew { least_tension, greatest_tension })
-        });
-        tick();
-        Ok(WorkspacePose { pose, outcome, anew })
-    };
-    workspace.grid.poses().into_par_iter().map(one).collect()
+    if further.tilt.is_some() && !free.is_empty() {
+        let named = free.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        let expected = "no tilt, because the platform with free coordinates tilts as it rests";
+        return Err(StudyError::setting("free", format!("[{named}]"), expected));
+    }
+    Ok(())
 }
 
 fn held(workspace: &Workspace, pose: &Pose) -> Result<Held, StaticsError> {
@@ -218,205 +325,4 @@ impl Dominant {
         let (input, part) = parts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
         (variance > 0.0).then(|| Self { input, share: part / variance, std: variance.sqrt() })
     }
-}
-
-/// A row of `workspace.csv` and `workspace.json`: positions [m], deflection [mm], tensions [N], stiffness
-/// [N/m], frequencies [Hz]. Values that do not exist are empty.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[allow(missing_docs)]
-pub struct WorkspaceRow {
-    pub x: f64,
-    pub y: f64,
-    pub z: f64,
-    /// With the lengths kept: `held`; `beyond_limits` where the load takes a tension out of the limits; else
-    /// the kind of failure.
-    pub status: &'static str,
-    pub least_tension: Option<f64>,
-    pub greatest_tension: Option<f64>,
-    pub dx_mm: Option<f64>,
-    pub dy_mm: Option<f64>,
-    pub dz_mm: Option<f64>,
-    /// |dp|.
-    pub rms_mm: Option<f64>,
-    pub least_stiffness: Option<f64>,
-    /// Lowest natural frequency with the load.
-    pub lowest_frequency_hz: Option<f64>,
-    /// Their numbers, from 1, with spaces between.
-    pub slack_cables: Option<String>,
-    /// Tensions out of limits, in words.
-    pub out_of_limits: Option<String>,
-    /// The cause with the largest share of the variance of |dp|.
-    pub dominant: Option<String>,
-    pub dominant_share: Option<f64>,
-    /// Standard deviation of |dp| from all tolerances.
-    pub std_mm: Option<f64>,
-    /// Why the pose is not held.
-    pub reason: Option<String>,
-    /// `held` where tensions distributed anew hold the pose under the load, else the kind of failure; this
-    /// and the following are empty without a load.
-    pub anew_status: Option<&'static str>,
-    pub anew_least_tension: Option<f64>,
-    pub anew_greatest_tension: Option<f64>,
-    pub anew_reason: Option<String>,
-}
-
-impl WorkspaceRow {
-    /// The row of a pose and its result.
-    pub fn new(workspace: &Workspace, pose: &WorkspacePose) -> Self {
-        let [x, y, z] = pose.pose.position.into();
-        let held = pose.outcome.as_ref().ok();
-        let loaded = held.filter(|_| workspace.load != Load::none());
-        let displacement = loaded.map(|held| 1e3 * held.displacement);
-        let dominant = held.and_then(|held| held.dominant);
-        let anew = pose.anew.as_ref();
-        let tensions = anew.and_then(|anew| anew.as_ref().ok());
-        let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
-        Self {
-            x,
-            y,
-            z,
-            status: match &pose.outcome {
-                Ok(held) if held.is_within_limits() => HELD,
-                Ok(_) => "beyond_limits",
-                Err(error) => error.kind(),
-            },
-            least_tension: held.map(|held| held.least_tension),
-            greatest_tension: held.map(|held| held.greatest_tension),
-            dx_mm: displacement.map(|dp| dp.x),
-            dy_mm: displacement.map(|dp| dp.y),
-            dz_mm: displacement.map(|dp| dp.z),
-            rms_mm: displacement.map(|dp| dp.norm()),
-            least_stiffness: held.map(|held| held.least_stiffness),
-            lowest_frequency_hz: held.and_then(|held| held.lowest_frequency),
-            slack_cables: held
-                .map(|held| held.slack.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")),
-            out_of_limits: held.filter(|held| !held.out_of_limits.is_empty()).map(|held| {
-                held.out_of_limits.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
-            }),
-            dominant: dominant.and_then(name),
-            dominant_share: dominant.map(|dominant| dominant.share),
-            std_mm: dominant.map(|dominant| 1e3 * dominant.std),
-            reason: pose.outcome.as_ref().err().map(ToString::to_string),
-            anew_status: anew.map(|anew| anew.as_ref().map_or_else(StaticsError::kind, |_| HELD)),
-            anew_least_tension: tensions.map(|anew| anew.least_tension),
-            anew_greatest_tension: tensions.map(|anew| anew.greatest_tension),
-            anew_reason: anew.and_then(|anew| anew.as_ref().err().map(ToString::to_string)),
-        }
-    }
-}
-
-/// A workspace with its settings; `workspace.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct WorkspaceSummary {
-    /// Name of the robot.
-    pub robot: String,
-    /// Version of the program.
-    pub version: String,
-    /// Mass added at the platform's centre of mass [kg].
-    pub payload: f64,
-    /// Force of the load at P [N].
-    pub force: [f64; 3],
-    /// Moment of the load about P [N m].
-    pub moment: [f64; 3],
-    /// Orientation of the platform: w, x, y, z.
-    pub quaternion: [f64; 4],
-    /// The positions [m].
-    pub grid: Grid,
-    /// Standard deviation of every cause, in SI units.
-    pub uncertainties: IndexMap<String, f64>,
-    /// Number of positions by status, with the lengths kept under the load.
-    pub status: BTreeMap<&'static str, usize>,
-    /// Number of positions by status, with the tensions distributed anew under the load; empty without a
-    /// load.
-    pub anew_status: BTreeMap<&'static str, usize>,
-    /// Number of positions with tensions above a greatest tension or a breaking force.
-    pub too_much: usize,
-    /// Number of positions at which each cause dominates.
-    pub dominant: BTreeMap<String, usize>,
-    /// |dp| [mm] over the positions with status `held`. This and the following are absent without such
-    /// positions.
-    pub rms_mm: Option<Extremes>,
-    /// Stiffness of the softest motion [N/m].
-    pub least_stiffness: Option<Extremes>,
-    /// Lowest natural frequency with the load [Hz]; absent without `platform.inertia`.
-    pub lowest_frequency_hz: Option<Extremes>,
-    /// Greatest tension [N].
-    pub greatest_tension: Option<Extremes>,
-    /// Least tension [N].
-    pub least_tension: Option<Extremes>,
-    /// Greatest tension [N] where tensions are distributed anew, over the positions that they hold.
-    pub anew_greatest_tension: Option<Extremes>,
-    /// Every position, in the order of the grid.
-    pub rows: Vec<WorkspaceRow>,
-}
-
-impl WorkspaceSummary {
-    /// Whether there is a load besides the platform's own weight.
-    pub fn is_loaded(&self) -> bool {
-        self.payload != 0.0 || self.force != [0.0; 3] || self.moment != [0.0; 3]
-    }
-
-    /// Load and orientation, as in `payload 50 kg, force (0, 100, 0) N`.
-    pub fn conditions(&self) -> String {
-        let mut words = vec![format!("payload {} kg", self.payload)];
-        for (name, vector, unit) in [("force", self.force, "N"), ("moment", self.moment, "N m")] {
-            let [x, y, z] = vector;
-            if vector != [0.0; 3] {
-                words.push(format!("{name} ({x}, {y}, {z}) {unit}"));
-            }
-        }
-        let [qw, qx, qy, qz] = self.quaternion;
-        if [qx, qy, qz] != [0.0; 3] {
-            words.push(format!("quaternion ({qw:.4}, {qx:.4}, {qy:.4}, {qz:.4})"));
-        }
-        words.join(", ")
-    }
-
-    /// Summarises the poses of a workspace.
-    pub fn new(workspace: &Workspace, poses: &[WorkspacePose]) -> Self {
-        let rows: Vec<_> = poses.iter().map(|pose| WorkspaceRow::new(workspace, pose)).collect();
-        let (mut status, mut anew_status, mut dominant) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
-        for row in &rows {
-            *status.entry(row.status).or_insert(0) += 1;
-            if let Some(anew) = row.anew_status {
-                *anew_status.entry(anew).or_insert(0) += 1;
-            }
-            if let Some(name) = &row.dominant {
-                *dominant.entry(name.clone()).or_insert(0) += 1;
-            }
-        }
-        let causes = workspace.tolerances.map(|model| model.inputs.as_slice()).unwrap_or_default();
-        Self {
-            robot: workspace.robot.name.clone(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            payload: workspace.load.payload,
-            force: workspace.load.wrench.force.into(),
-            moment: workspace.load.wrench.moment.into(),
-            quaternion: Pose { position: Vector3::zeros(), rotation: workspace.rotation }.quaternion(),
-            grid: workspace.grid,
-            uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.law.std())).collect(),
-            status,
-            anew_status,
-            too_much: poses.iter().filter(|pose| pose.is_too_much()).count(),
-            dominant,
-            rms_mm: held_extremes(&rows, |row| row.rms_mm),
-            least_stiffness: held_extremes(&rows, |row| row.least_stiffness),
-            lowest_frequency_hz: held_extremes(&rows, |row| row.lowest_frequency_hz),
-            greatest_tension: held_extremes(&rows, |row| row.greatest_tension),
-            least_tension: held_extremes(&rows, |row| row.least_tension),
-            anew_greatest_tension: extremes(rows.iter(), |row| row.anew_greatest_tension),
-            rows,
-        }
-    }
-}
-
-fn held_extremes(rows: &[WorkspaceRow], value: impl Fn(&WorkspaceRow) -> Option<f64>) -> Option<Extremes> {
-    extremes(rows.iter().filter(|row| row.status == HELD), value)
-}
-
-fn extremes<'a>(
-    rows: impl Iterator<Item = &'a WorkspaceRow>,
-    value: impl Fn(&WorkspaceRow) -> Option<f64>,
-) -> Option<Extremes> {
-    Extremes::of(rows.filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
 }

@@ -1,5 +1,6 @@
 //! Result files of assessments: tables as CSV, summaries as JSON.
 
+use crate::boundary::Boundary;
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::workspace::WorkspaceSummary;
 use cdpr_robot::Pose;
@@ -7,6 +8,12 @@ use cdpr_study::{ResultsFolder, ResultsOf, StudyError};
 use std::path::Path;
 
 const WORKSPACE: &str = "workspace.json";
+
+/// The boundary in a plane.
+const POLYGONS: &str = "boundary.csv";
+
+/// The boundary in a box.
+const MESH: &str = "boundary.stl";
 
 const ROBUSTNESS: &str = "robustness.json";
 
@@ -16,20 +23,30 @@ const ROBUSTNESS: &str = "robustness.json";
 /// As [`ResultsFolder::begin`].
 pub fn begin_workspace(folder: &Path) -> Result<ResultsFolder, StudyError> {
     let is_map = |name: &str| {
-        let tensions = ["greatest_tension", "greatest_tension_anew"];
-        let maps =
-            [&["deflection", "least_stiffness", "lowest_frequency", "dominant_tolerance"][..], &tensions]
-                .concat();
+        let maps = [
+            "deflection",
+            "least_stiffness",
+            "lowest_frequency",
+            "dominant_tolerance",
+            "greatest_tension",
+            "greatest_tension_anew",
+            "payload_anew",
+            "payload_kept",
+            "margin_anew",
+            "nearest_cables",
+            "nearest_to_platform",
+            "tilt",
+        ];
         let name = name.strip_suffix(".svg");
         name.is_some_and(|name| maps.contains(&name.split_once("_z").map_or(name, |(map, _)| map)))
     };
     ResultsFolder::begin(folder, ResultsOf::Workspace, |name| {
-        [WORKSPACE, "workspace.csv"].contains(&name) || is_map(name)
+        [WORKSPACE, "workspace.csv", POLYGONS, MESH].contains(&name) || is_map(name)
     })
 }
 
-/// Writes `workspace.csv`, one row for each position, the maps (name and text), and, last of all,
-/// `workspace.json`, the rows with settings and extremes. Maps of an earlier workspace that are not among
+/// Writes `workspace.csv`, one row for each position, the maps (name and text), the boundary if there is one
+/// (`boundary.csv` in a plane, `boundary.stl` in a box), and, last of all, `workspace.json`, the rows with settings and extremes. Maps of an earlier workspace that are not among
 /// these are removed.
 ///
 /// # Errors
@@ -38,11 +55,28 @@ pub fn write_workspace(
     folder: &ResultsFolder,
     summary: &WorkspaceSummary,
     maps: &[(String, String)],
+    boundary: Option<&Boundary>,
 ) -> Result<(), StudyError> {
     folder.remove(WORKSPACE)?;
     folder.write_rows("workspace.csv", &summary.rows)?;
     write_figures(folder, maps)?;
+    if let Some(boundary) = boundary {
+        write_boundary(folder, boundary)?;
+    }
     folder.conclude(WORKSPACE, summary, &[]).map(|_| ())
+}
+
+/// Writes the polygons, a point a line and each closed by its first point, or the mesh.
+fn write_boundary(folder: &ResultsFolder, boundary: &Boundary) -> Result<(), StudyError> {
+    if !boundary.triangles.is_empty() {
+        return folder.write(MESH, &boundary.stl()).map(|_| ());
+    }
+    let header = ["polygon", "x", "y", "z"].map(str::to_owned).to_vec();
+    let points = boundary.polygons.iter().enumerate().flat_map(|(k, polygon)| {
+        let closed = polygon.iter().chain(polygon.first());
+        closed.map(move |p| vec![(k + 1).to_string(), p.x.to_string(), p.y.to_string(), p.z.to_string()])
+    });
+    folder.write_csv(POLYGONS, header, points).map(|_| ())
 }
 
 /// Makes a folder for the robustness of the direct model, or takes one of an earlier run.

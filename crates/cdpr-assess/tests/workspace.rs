@@ -1,10 +1,14 @@
 //! Workspaces: every position is what the models say of it alone.
 
-use cdpr_assess::{Workspace, WorkspaceSummary, compute_workspace};
-use cdpr_robot::{Coordinate, Matrix3, Parameter, Robot, Rotation3, Vector3};
+use cdpr_assess::{
+    Further, TiltDirections, Way, Workspace, WorkspaceSummary, WrenchSet, capacity_at, clearance_under,
+    compute_workspace, tilt_at, workspace_boundary,
+};
+use cdpr_robot::{Coordinate, Matrix3, Parameter, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{DirectProblem, Load, deflection, deflection_free, derivatives, held_at, inverse};
 use cdpr_study::{ErrorModel, Grid, GridAxis, StudyError, uncertainties};
 use serde_json::Value;
+use std::f64::consts::FRAC_PI_2;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn caroca() -> Robot {
@@ -31,6 +35,7 @@ fn every_position_is_what_the_models_say_of_it() {
         load: Load::payload(50.0),
         tolerances: Some(&model),
         free: &[],
+        further: Further::default(),
     };
     let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
     assert_eq!(poses.len(), 12);
@@ -85,11 +90,21 @@ fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
         load: Load::payload(50.0),
         tolerances: None,
         free: &[],
+        further: Further::default(),
     };
     let summary =
         WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap());
     assert_eq!(summary.rows[0].status, "beyond_limits");
-    assert!(summary.rows[0].greatest_tension.unwrap() > 650.0 && summary.rows[0].reason.is_none());
+    assert!(summary.rows[0].greatest_tension.unwrap() > 650.0);
+    assert!(summary.rows[0].reason.as_ref().unwrap().contains("above tension_limits.max, 650 N"));
+    assert!(summary.rows[1].reason.as_ref().unwrap().contains("no tensions between"));
+    let [(first, 1), (second, 1)] =
+        summary.left_out.iter().map(|(why, n)| (why.as_str(), *n)).collect::<Vec<_>>()[..]
+    else {
+        panic!("{:?}", summary.left_out)
+    };
+    assert!(first.starts_with("beyond_limits: cable ") && first.ends_with(", max"), "{first}");
+    assert_eq!(second, "infeasible_tension");
     assert_eq!(summary.rows[1].status, "infeasible_tension");
     assert_eq!(
         (summary.rms_mm, summary.rows[1].rms_mm, summary.rows[0].dominant.clone()),
@@ -107,7 +122,15 @@ fn the_stadium_robot_is_held_wherever_an_independent_program_finds_tensions() {
     for payload in [0.0, 40.0] {
         let load = Load::payload(payload);
         let rotation = Rotation3::identity();
-        let workspace = Workspace { robot: &robot, grid, rotation, load, tolerances: None, free: &[] };
+        let workspace = Workspace {
+            robot: &robot,
+            grid,
+            rotation,
+            load,
+            tolerances: None,
+            free: &[],
+            further: Further::default(),
+        };
         let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
         let rows = file["poses"].as_array().unwrap().iter().filter(|row| row[0] == payload);
         let rows: Vec<_> = rows.collect();
@@ -148,6 +171,7 @@ fn a_platform_with_an_inertia_has_its_lowest_frequency_under_the_load() {
             load,
             tolerances: None,
             free: &[],
+            further: Further::default(),
         };
         let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
         let summary = WorkspaceSummary::new(&workspace, &poses);
@@ -183,6 +207,7 @@ fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
         load: Load::payload(20.0),
         tolerances: Some(&model),
         free: &free,
+        further: Further::default(),
     };
     let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
     assert_eq!(poses.len(), 8);
@@ -202,6 +227,121 @@ fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
 }
 
 #[test]
+fn further_columns_are_what_is_said_of_each_pose() {
+    let robot = caroca();
+    let set = WrenchSet::of(Vec::new());
+    let tilt = TiltDirections { count: 4, accuracy: 1e-3 };
+    let load = Load::payload(20.0);
+    let workspace = Workspace {
+        robot: &robot,
+        grid: grid(),
+        rotation: Rotation3::identity(),
+        load,
+        tolerances: None,
+        free: &[],
+        further: Further { capacity: Some(&set), distances: true, tilt: Some(tilt) },
+    };
+    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
+    let summary = WorkspaceSummary::new(&workspace, &poses);
+    for (found, row) in poses.iter().zip(&summary.rows) {
+        let pose = &found.pose;
+        let capacity = capacity_at(&robot, pose, &load, &set, &[]);
+        assert_eq!(row.payload_anew_kg, capacity.payload_anew.ok().map(|figure| figure.value));
+        assert_eq!(row.margin_anew, capacity.margin_anew.ok().map(|figure| figure.value));
+        let tilt = tilt_at(&robot, pose, &load, 4, 1e-3).ok();
+        let least = tilt.as_ref().and_then(|tilt| tilt.least());
+        assert_eq!(row.tilt_deg, least.map(|least| least.angle.to_degrees()));
+        assert_eq!(row.tilt_deg.is_some(), row.anew_status == Some("held"));
+        let near = clearance_under(&robot, pose, &load, &[]).ok().and_then(|found| found.cables);
+        assert_eq!(row.nearest_cables_mm, near.map(|near| 1e3 * near.distance));
+    }
+    assert!(summary.tilt_deg.unwrap().min > 1.0 && summary.payload_anew_kg.unwrap().max > 1000.0);
+    let left: usize = summary.left_out.values().sum();
+    assert_eq!(left + summary.status["held"], poses.len());
+}
+
+#[test]
+fn the_platform_is_held_at_the_tilt_reached_and_not_beyond() {
+    let robots = [caroca(), Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap()];
+    for robot in robots {
+        let pose = Pose::at(0.3, -0.2, 1.75);
+        let accuracy = 1e-5;
+        let tilt = tilt_at(&robot, &pose, &Load::none(), 8, accuracy).unwrap();
+        for towards in &tilt.directions {
+            let axis = Vector3::new(-towards.azimuth.sin(), towards.azimuth.cos(), 0.0);
+            let held = |angle: f64| {
+                let tilted = Pose { rotation: Rotation3::new(angle * axis) * pose.rotation, ..pose };
+                inverse(&robot, &tilted, &Load::none(), None).is_ok()
+            };
+            let angle = towards.angle;
+            println!(
+                "{}: {:.3} degrees towards {:.0}",
+                robot.name,
+                angle.to_degrees(),
+                towards.azimuth.to_degrees()
+            );
+            assert!(held(angle));
+            // Without a limit it ends at a right angle.
+            let is_right = angle == FRAC_PI_2;
+            assert!(is_right || !held(angle + 2.0 * accuracy), "{towards:?}");
+            assert!((0..20).all(|k| held(angle * f64::from(k) / 20.0)));
+            let up = Rotation3::new(angle * axis) * Vector3::z();
+            assert!(up.x * towards.azimuth.cos() + up.y * towards.azimuth.sin() > 0.0);
+        }
+    }
+    let mut point = caroca();
+    point.platform.point = true;
+    point.cables.iter_mut().for_each(|cable| cable.anchor_point = Vector3::zeros());
+    let refused = tilt_at(&point, &Pose::at(0.0, 0.0, 1.75), &Load::none(), 8, 1e-3).unwrap_err();
+    assert!(refused.to_string().starts_with("platform.point is true"), "{refused}");
+}
+
+#[test]
+fn the_boundary_runs_between_what_is_held_and_what_is_not() {
+    let mut robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
+    // Of cables without weight the margin is a linear program, which takes less time.
+    robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density = 0.0);
+    let axis = |min, max, points| GridAxis { min, max, points };
+    let plane =
+        |points| Grid::new([axis(-8.0, 8.0, points), axis(-6.0, 6.0, points), axis(1.0, 1.0, 1)]).unwrap();
+    let workspace = |grid| Workspace {
+        robot: &robot,
+        grid,
+        rotation: Rotation3::identity(),
+        load: Load::payload(100.0),
+        tolerances: None,
+        free: &[],
+        further: Further::default(),
+    };
+    let coarse = workspace_boundary(&workspace(plane(9)), Way::Anew, &|| false).unwrap();
+    let fine = workspace_boundary(&workspace(plane(17)), Way::Anew, &|| false).unwrap();
+    println!("{} +- {} m2, {} +- {} m2", coarse.measure, coarse.error, fine.measure, fine.error);
+    assert!((coarse.measure - fine.measure).abs() < coarse.error + fine.error);
+    assert!(fine.error < 2e-3 * fine.measure && coarse.error < 1e-2 * coarse.measure);
+    let center = Vector3::new(0.0, 0.0, 1.0);
+    let held =
+        |p: Vector3<f64>| inverse(&robot, &Pose::at(p.x, p.y, p.z), &Load::payload(100.0), None).is_ok();
+    let points = &fine.polygons[0];
+    assert!(points.len() > 100);
+    let between = points.iter().filter(|p| held(center.lerp(p, 0.995)) && !held(center.lerp(p, 1.005)));
+    assert!(between.count() > points.len() * 9 / 10);
+
+    let space = Grid::new([axis(-8.0, 8.0, 5), axis(-6.0, 6.0, 5), axis(0.0, 4.0, 3)]).unwrap();
+    let mesh = workspace_boundary(&workspace(space), Way::Kept, &|| false).unwrap();
+    println!("{} +- {} m3 in {} triangles", mesh.measure, mesh.error, mesh.triangles.len());
+    assert!(mesh.measure > 200.0 && mesh.measure < 16.0 * 12.0 * 4.0 && !mesh.triangles.is_empty());
+    let open: Vector3<f64> = mesh.triangles.iter().map(|[p, q, r]| (q - p).cross(&(r - p))).sum();
+    assert!(open.norm() < 1e-9, "the mesh is closed");
+
+    let line = Grid::new([axis(-1.0, 1.0, 3), axis(0.0, 0.0, 1), axis(1.0, 1.0, 1)]).unwrap();
+    let refused = workspace_boundary(&workspace(line), Way::Anew, &|| false).unwrap_err();
+    assert!(
+        refused.to_string().starts_with("grid is [3, 1, 1] points: expected a plane or a box"),
+        "{refused}"
+    );
+}
+
+#[test]
 fn tolerances_of_another_robot_are_refused() {
     let robot = caroca();
     let seven = Robot { cables: robot.cables[..7].to_vec(), ..robot.clone() };
@@ -213,6 +353,7 @@ fn tolerances_of_another_robot_are_refused() {
         load: Load::payload(50.0),
         tolerances: Some(&model),
         free: &[],
+        further: Further::default(),
     };
     let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
     assert_eq!(message, "error model is for 55 parameters: expected one for the 62 parameters of CAROCA");
@@ -231,6 +372,7 @@ fn a_workspace_ends_where_it_is_told_to() {
         load: Load::payload(50.0),
         tolerances: None,
         free: &[],
+        further: Further::default(),
     };
     let done = AtomicUsize::new(0);
     let tick = || {

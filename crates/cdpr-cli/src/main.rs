@@ -14,6 +14,7 @@ mod poses;
 mod robot;
 mod slips;
 mod study;
+mod wrenches;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use error::ProgramError;
@@ -65,7 +66,8 @@ enum Command {
     #[command(after_help = "Examples:
   cdpr workspace data/robots/caroca.json --plane z=1.75 --grid 41x41 --payload 50 --out workspace
   cdpr workspace data/robots/caroca.json --box=-3:3:25,-1.5:1.5:13,0.5:2.5:9 --payload 50 \
-                      --uncertainty a=0.002,b=0.002")]
+                      --uncertainty a=0.002,b=0.002
+  cdpr workspace data/robots/cogiro.json --plane z=1.5 --capacity --distances --tilt --boundary")]
     Workspace(robot::workspace::Settings),
     /// List everything that is odd about a robot file.
     #[command(after_help = "Example: cdpr check data/robots/cogiro.json")]

@@ -3,7 +3,7 @@
 
 use crate::common::data;
 use cdpr_assess::{
-    Protocol, ProtocolSummary, RobustnessSummary, Workspace, WorkspaceSummary, begin_robustness,
+    Further, Protocol, ProtocolSummary, RobustnessSummary, Workspace, WorkspaceSummary, begin_robustness,
     begin_workspace, compute_workspace, run_robustness, write_robustness, write_workspace,
 };
 use cdpr_report::{draw, found_poses, report_with, success_share, workspace_maps};
@@ -156,13 +156,20 @@ fn workspaces_of_which_nothing_is_held_or_without_load() {
         let owned = begin_workspace(folder.path()).unwrap();
         let grid = Grid::new([x, y, z]).unwrap();
         let tolerances = Some(&tolerances).filter(|_| load != Load::none());
-        let workspace =
-            Workspace { robot: &robot, grid, rotation: Rotation3::identity(), load, tolerances, free: &[] };
+        let workspace = Workspace {
+            robot: &robot,
+            grid,
+            rotation: Rotation3::identity(),
+            load,
+            tolerances,
+            free: &[],
+            further: Further::default(),
+        };
         let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
         let summary = WorkspaceSummary::new(&workspace, &poses);
         let maps = workspace_maps(&robot, &summary).into_iter();
         let maps: Vec<_> = maps.filter_map(|map| Some((map.name, map.svg.ok()?))).collect();
-        write_workspace(&owned, &summary, &maps).unwrap();
+        write_workspace(&owned, &summary, &maps, None).unwrap();
         assert_finite(what, &format!("{summary:?}"));
         if !maps.is_empty() {
             assert_all_finite(what, folder.path());

@@ -1,6 +1,6 @@
 //! Maps of a plane, and workspaces that are not a plane.
 
-use cdpr_assess::{Workspace, WorkspaceRow, WorkspaceSummary, compute_workspace};
+use cdpr_assess::{Further, Workspace, WorkspaceRow, WorkspaceSummary, compute_workspace};
 use cdpr_report::{MapQuantity, ReportError, heat_map, tolerance_map};
 use cdpr_robot::{Axis, Matrix3, Robot, Rotation3, Vector3};
 use cdpr_statics::Load;
@@ -18,6 +18,7 @@ fn summary(robot: &Robot, grid: Grid) -> WorkspaceSummary {
         load: Load::payload(50.0),
         tolerances: None,
         free: &[],
+        further: Further::default(),
     };
     WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap())
 }

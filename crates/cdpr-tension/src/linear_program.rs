@@ -45,8 +45,9 @@ pub struct LinearSolution {
 const ROUNDING: f64 = 1e-11;
 
 struct Tableau {
-    /// Coefficients, the right side last; below them the reduced costs.
-    rows: Vec<Vec<f64>>,
+    /// Coefficients of all rows, each with its right side last.
+    rows: Vec<f64>,
+    /// Reduced costs.
     costs: Vec<f64>,
     /// The unknown of each row.
     basis: Vec<usize>,
@@ -63,7 +64,7 @@ impl LinearProgram {
         let mut tableau = self.tableau();
         tableau.solve()?;
         let mut shifts = vec![0.0; n + 2 * m];
-        for (row, unknown) in tableau.rows.iter().zip(&tableau.basis) {
+        for (row, unknown) in tableau.rows.chunks(n + 2 * m + 1).zip(&tableau.basis) {
             shifts[*unknown] = row[n + 2 * m];
         }
         let value = |j: usize| {
@@ -80,28 +81,47 @@ impl LinearProgram {
         })
     }
 
+    /// Of each row an unknown that stands in no other, without upper bound and without cost, if there is one.
+    fn own_unknowns(&self) -> Vec<Option<usize>> {
+        let mut own = vec![None; self.rows.len()];
+        let free = |j: &usize| self.objective[*j] == 0.0 && self.bounds[*j][1].is_infinite();
+        for j in (0..self.objective.len()).filter(free) {
+            let mut rows = (0..self.rows.len()).filter(|i| self.rows[*i][j] != 0.0);
+            if let (Some(i), None) = (rows.next(), rows.next()) {
+                own[i] = Some(j);
+            }
+        }
+        own
+    }
+
     /// The tableau whose basis are the residuals at the lower bounds.
     fn tableau(&self) -> Tableau {
         let (n, m) = (self.objective.len(), self.rows.len());
         let width = |[low, high]: &[f64; 2]| high - low;
         let widths = self.bounds.iter().map(width).chain(vec![f64::INFINITY; 2 * m]).collect();
-        let (mut rows, mut basis) = (Vec::with_capacity(m), Vec::with_capacity(m));
+        let (mut rows, mut basis) = (vec![0.0; m * (n + 2 * m + 1)], Vec::with_capacity(m));
         // The residuals cost M each, those beside the basis on top of what the basis costs.
         let mut costs: Vec<f64> = self.objective.clone();
         costs.extend(vec![-self.penalty; 2 * m]);
         costs.push(0.0);
-        for (i, (coefficients, right)) in self.rows.iter().zip(&self.right).enumerate() {
+        let own = self.own_unknowns();
+        let each = self.rows.iter().zip(&self.right).zip(rows.chunks_mut(n + 2 * m + 1)).enumerate();
+        for (i, ((coefficients, right), row)) in each {
             let open =
                 coefficients.iter().zip(&self.bounds).fold(*right, |rest, (a, [low, _])| rest - a * low);
             let sign = if open < 0.0 { -1.0 } else { 1.0 };
-            let mut row: Vec<f64> = coefficients.iter().map(|a| sign * a).collect();
-            row.extend(vec![0.0; 2 * m]);
+            row.iter_mut().zip(coefficients).for_each(|(to, a)| *to = sign * a);
             row[n + 2 * i] = sign;
             row[n + 2 * i + 1] = -sign;
-            row.push(sign * open);
-            costs.iter_mut().zip(&row).for_each(|(cost, a)| *cost += self.penalty * a);
+            row[n + 2 * m] = sign * open;
+            if let Some(j) = own[i].filter(|j| row[*j] > 0.0) {
+                let scale = 1.0 / row[j];
+                row.iter_mut().for_each(|a| *a *= scale);
+                basis.push(j);
+                continue;
+            }
+            costs.iter_mut().zip(&*row).for_each(|(cost, a)| *cost += self.penalty * a);
             basis.push(n + 2 * i + usize::from(sign < 0.0));
-            rows.push(row);
         }
         Tableau { rows, costs, basis, widths, reflected: vec![false; n + 2 * m] }
     }
@@ -109,7 +129,7 @@ impl LinearProgram {
 
 impl Tableau {
     fn solve(&mut self) -> Option<()> {
-        let most = 50 * (self.rows.len() + self.widths.len());
+        let most = 50 * (self.basis.len() + self.widths.len());
         for pivot in 0..most {
             // The steepest unknown; the first one where pivots might go round in a circle (Bland's rule).
             let rising =
@@ -130,7 +150,7 @@ impl Tableau {
         let last = self.widths.len();
         let mut most = self.widths[entering];
         let mut leaving = None;
-        for (i, row) in self.rows.iter().enumerate() {
+        for (i, row) in self.rows.chunks(last + 1).enumerate() {
             let (slope, value, width) = (row[entering], row[last], self.widths[self.basis[i]]);
             let (room, at_upper) = match slope {
                 s if s > ROUNDING => (value.max(0.0) / s, false),
@@ -157,7 +177,7 @@ impl Tableau {
     /// Measures an unknown outside the basis from its other bound.
     fn reflect(&mut self, j: usize) {
         let (width, last) = (self.widths[j], self.widths.len());
-        for row in self.rows.iter_mut().chain([&mut self.costs]) {
+        for row in self.rows.chunks_mut(last + 1).chain([&mut self.costs[..]]) {
             row[last] -= row[j] * width;
             row[j] = -row[j];
         }
@@ -167,7 +187,7 @@ impl Tableau {
     /// Measures the unknown of a row from its other bound.
     fn reflect_basic(&mut self, i: usize) {
         let (j, last) = (self.basis[i], self.widths.len());
-        let row = &mut self.rows[i];
+        let row = &mut self.rows[i * (last + 1)..(i + 1) * (last + 1)];
         row.iter_mut().for_each(|a| *a = -*a);
         row[j] = 1.0;
         row[last] += self.widths[j];
@@ -175,19 +195,20 @@ impl Tableau {
     }
 
     fn pivot(&mut self, i: usize, entering: usize) {
-        let mut row = std::mem::take(&mut self.rows[i]);
+        let length = self.widths.len() + 1;
+        let (before, rest) = self.rows.split_at_mut(i * length);
+        let (row, after) = rest.split_at_mut(length);
         let scale = 1.0 / row[entering];
         row.iter_mut().for_each(|a| *a *= scale);
         row[entering] = 1.0;
-        let others = self.rows.iter_mut().filter(|other| !other.is_empty()).chain([&mut self.costs]);
-        for other in others {
+        let others = before.chunks_mut(length).chain(after.chunks_mut(length));
+        for other in others.chain([&mut self.costs[..]]) {
             let share = other[entering];
             if share != 0.0 {
-                other.iter_mut().zip(&row).for_each(|(a, b)| *a -= share * b);
+                other.iter_mut().zip(&*row).for_each(|(a, b)| *a -= share * b);
                 other[entering] = 0.0;
             }
         }
-        self.rows[i] = row;
         self.basis[i] = entering;
     }
 }

@@ -78,11 +78,12 @@ impl Findings<'_> {
         }
     }
 
-    /// Which of the cables before this one touch it: one finding, with the nearest of them.
+    /// Which of the cables before this one pass it within their thickness: one finding, with the nearest of them.
     fn crossings(&mut self, hanging: &HangingCables, j: usize, at: &str) {
         let distance = |i: usize| {
-            let distance = hanging.pair(i, j, TOUCHING)?;
-            (distance <= TOUCHING).then_some((distance, i))
+            let near = hanging.thickness(i, j).max(TOUCHING);
+            let distance = hanging.pair(i, j, near)?;
+            (distance <= near).then_some((distance, i))
         };
         let touching: Vec<_> = (0..j).filter_map(distance).collect();
         let Some((distance, i)) = touching.iter().copied().min_by(|one, other| one.0.total_cmp(&other.0))
@@ -91,13 +92,17 @@ impl Findings<'_> {
         };
         let others = match touching.len() - 1 {
             0 => String::new(),
-            more => format!(" and touching {more} cables more"),
+            more => format!(" and as near to {more} cables more"),
         };
         self.add(
             Severity::Warning,
             format!("cables[{j}]"),
             format!("{:.1} mm from cables[{i}]{others} {at}", 1e3 * distance.max(0.0)),
-            "these cables touch, as they hang",
+            if distance <= TOUCHING {
+                "these cables touch, as they hang"
+            } else {
+                "these cables, as they hang, pass within their thickness"
+            },
             "check the order of the points: each exit_point beside the anchor_point of the same cable",
         );
     }

@@ -1,16 +1,18 @@
 //! `cdpr capacity`: what a robot can carry at a pose, and how far its tensions are from their limits.
 
-use crate::answer::{OutOfLimits, decimal, vector};
-use crate::arguments::{FreeArguments, components};
+use crate::answer::{OutOfLimits, bound_name, decimal, vector};
+use crate::arguments::FreeArguments;
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{Failure, RobotAtPose, Row};
-use cdpr_assess::{Block, CableDistance, Capacity, Figure, PlatformDistance, WrenchSet, capacity_at};
-use cdpr_robot::{Robot, Vector6, Wrench};
+use crate::wrenches::WrenchArguments;
+use cdpr_assess::{
+    Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, Tilt, TiltTowards, WrenchSet,
+    capacity_at, clearance_under, tilt_at,
+};
+use cdpr_robot::Robot;
 use cdpr_statics::{Limit, StaticsError};
-use cdpr_study::{InputKind, read_text};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
 
 /// The robot, its poses, and the wrenches.
 #[derive(clap::Args)]
@@ -21,56 +23,16 @@ pub(crate) struct Settings {
     free: FreeArguments,
     #[command(flatten)]
     set: WrenchArguments,
+    /// How far the platform may tilt under the load, to 0.01 degrees, towards so many directions.
+    #[arg(long, value_name = "DIRECTIONS", num_args = 0..=1, default_missing_value = "8")]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=360))]
+    tilt: Option<u16>,
 }
 
-/// A set of wrenches that act on the platform beside the load.
-#[derive(clap::Args)]
-pub(crate) struct WrenchArguments {
-    /// Wrench about P: fx,fy,fz,mx,my,mz [N, N m]; several times for a set.
-    #[arg(long, value_name = "WRENCH", value_parser = components::<6>, allow_hyphen_values = true)]
-    wrench: Vec<[f64; 6]>,
-    /// File of wrenches (CSV): fx,fy,fz,mx,my,mz on each line, below a header or without one.
-    #[arg(long, value_name = "FILE", conflicts_with = "wrench")]
-    wrenches: Option<PathBuf>,
-    /// Half widths of a box about each wrench, or about zero, whose corners are the set:
-    /// fx,fy,fz,mx,my,mz [N, N m].
-    #[arg(long, value_name = "WRENCH", value_parser = components::<6>, allow_hyphen_values = true)]
-    wrench_box: Option<[f64; 6]>,
-}
+/// Accuracy of the tilt [degrees].
+const TILT_ACCURACY: f64 = 0.01;
 
-impl WrenchArguments {
-    pub(crate) fn set(&self) -> Result<WrenchSet, ProgramError> {
-        let wrench = |numbers: &[f64; 6]| Wrench::from_vector(&Vector6::from(*numbers));
-        let listed = self.wrenches.as_deref().map(wrench_file).transpose()?;
-        let set = WrenchSet::of(listed.as_ref().unwrap_or(&self.wrench).iter().map(wrench).collect());
-        Ok(self.wrench_box.as_ref().map_or_else(|| set.clone(), |widths| set.widened(&wrench(widths))))
-    }
-}
-
-/// The wrenches of a file, one a line.
-fn wrench_file(path: &Path) -> Result<Vec<[f64; 6]>, ProgramError> {
-    let text = read_text(path, InputKind::Poses)?;
-    let mut wrenches = Vec::new();
-    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    for (number, line) in lines {
-        match components::<6>(line) {
-            Ok(wrench) => wrenches.push(wrench),
-            // A header has no number.
-            Err(_) if wrenches.is_empty() && !line.contains(|c: char| c.is_ascii_digit()) => {}
-            Err(reason) => {
-                let place = format!("--wrenches {}, line {}: {reason}", path.display(), number + 1);
-                return Err(ProgramError::Usage(place));
-            }
-        }
-    }
-    if wrenches.is_empty() {
-        let empty = format!("--wrenches {}: expected a wrench on each line", path.display());
-        return Err(ProgramError::Usage(empty));
-    }
-    Ok(wrenches)
-}
-
-pub(crate) fn run(Settings { at, free, set }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(Settings { at, free, set, tilt }: &Settings) -> Result<Ending, ProgramError> {
     let (load, set) = (at.load.load(), set.set()?);
     let solve = |robot: &Robot, pose: &_| {
         let found = capacity_at(robot, pose, &load, &set, &free.free);
@@ -78,7 +40,10 @@ pub(crate) fn run(Settings { at, free, set }: &Settings) -> Result<Ending, Progr
         if let (Err(error), Err(_)) = (&found.payload_kept, &found.margin_anew) {
             return Err(error.clone());
         }
-        Ok(Answer::new(found, &set))
+        let clearance = clearance_under(robot, pose, &load, &free.free).ok();
+        let tilted = |count: &u16| tilt_at(robot, pose, &load, (*count).into(), TILT_ACCURACY.to_radians());
+        let tilt = tilt.as_ref().map(tilted).transpose()?;
+        Ok(Answer::new(found, clearance, tilt.as_ref(), &set))
     };
     at.answer(solve, Answer::print)
 }
@@ -97,6 +62,32 @@ struct Answer {
     /// where no tensions bear the load, or all cables share points.
     nearest_cables: Option<NearCables>,
     nearest_to_platform: Option<NearPlatform>,
+    /// How far the platform may tilt towards each direction, if asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    tilt: Vec<Towards>,
+}
+
+/// How far the platform may tilt towards a direction.
+#[derive(Serialize)]
+struct Towards {
+    /// The direction in which the upward axis leans, from x to y.
+    azimuth_deg: f64,
+    angle_deg: f64,
+    /// The limit that ends it; absent where none does below a right angle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blocking: Option<Blocking>,
+}
+
+impl Towards {
+    fn new(TiltTowards { azimuth, angle, blocking }: &TiltTowards) -> Self {
+        let blocking = blocking.map(|found| Blocking {
+            cable: found.index + 1,
+            limit: bound_name(found.bound),
+            value: found.limit,
+            gain: None,
+        });
+        Self { azimuth_deg: azimuth.to_degrees(), angle_deg: angle.to_degrees(), blocking }
+    }
 }
 
 /// Two cables and the distance of their surfaces.
@@ -149,6 +140,13 @@ struct Blocking {
     gain: Option<f64>,
 }
 
+impl Blocking {
+    fn words(&self) -> String {
+        let Self { cable, limit, value, .. } = self;
+        format!("cable {cable} at its {limit}, {} N", decimal(*value, 1))
+    }
+}
+
 impl Shown {
     fn new(figure: Result<Figure, StaticsError>, set: &WrenchSet) -> Self {
         let none = Self { value: None, wrench: None, blocking: Vec::new(), error: None };
@@ -175,10 +173,7 @@ impl Shown {
 
     /// What blocks, in words.
     fn words(&self) -> String {
-        let one = |Blocking { cable, limit, value, .. }: &Blocking| {
-            format!("cable {cable} at its {limit}, {} N", decimal(*value, 1))
-        };
-        let mut words: Vec<_> = self.blocking.iter().map(one).collect();
+        let mut words: Vec<_> = self.blocking.iter().map(Blocking::words).collect();
         if let Some(wrench) = &self.wrench {
             words.push(format!("under the wrench {}", vector(wrench, 1)));
         }
@@ -207,8 +202,14 @@ impl Row for Answer {
             let blocked = name.rsplit_once('_').map_or(name, |(start, _)| start);
             [name.to_owned(), format!("{blocked}_blocked_by")]
         };
-        let distances =
-            ["nearest_cables_m", "nearest_cables", "nearest_to_platform_m", "nearest_to_platform"];
+        let distances = [
+            "nearest_cables_m",
+            "nearest_cables",
+            "nearest_to_platform_m",
+            "nearest_to_platform",
+            "tilt_deg",
+            "tilt_azimuth_deg",
+        ];
         names.into_iter().flat_map(both).chain(distances.map(str::to_owned)).collect()
     }
 
@@ -216,11 +217,14 @@ impl Row for Answer {
         let figures = self.all().into_iter().flat_map(|(_, shown)| [shown.number(), shown.words()]);
         let cables = self.nearest_cables.as_ref();
         let platform = self.nearest_to_platform.as_ref();
+        let least = self.tilt.iter().min_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg));
         let distances = [
             cables.map(|near| format!("{:?}", near.distance)),
             cables.map(|NearCables { cables: [i, j], .. }| format!("{i} {j}")),
             platform.map(|near| format!("{:?}", near.distance)),
             platform.map(|near| near.cable.to_string()),
+            least.map(|towards| format!("{:?}", towards.angle_deg)),
+            least.map(|towards| format!("{:?}", towards.azimuth_deg)),
         ];
         figures.chain(distances.map(Option::unwrap_or_default)).collect()
     }
@@ -231,9 +235,9 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(found: Capacity, set: &WrenchSet) -> Self {
+    fn new(found: Capacity, clearance: Option<Clearance>, tilt: Option<&Tilt>, set: &WrenchSet) -> Self {
         let shown = |figure| Shown::new(figure, set);
-        let (cables, platform) = found.clearance.map_or((None, None), |found| (found.cables, found.platform));
+        let (cables, platform) = clearance.map_or((None, None), |found| (found.cables, found.platform));
         Self {
             payload: Ways { anew: shown(found.payload_anew), kept: shown(found.payload_kept) },
             payload_kept_slack: shown(found.payload_kept_slack),
@@ -242,6 +246,7 @@ impl Answer {
                 .map(|CableDistance { distance, pair }| NearCables { distance, cables: pair.map(|i| i + 1) }),
             nearest_to_platform: platform
                 .map(|PlatformDistance { distance, cable }| NearPlatform { distance, cable: cable + 1 }),
+            tilt: tilt.map(|tilt| tilt.directions.iter().map(Towards::new).collect()).unwrap_or_default(),
         }
     }
 
@@ -273,5 +278,14 @@ impl Answer {
         if let Some(NearPlatform { distance, cable }) = self.nearest_to_platform {
             println!("cable {cable} is nearest to the platform, {:.1} mm", 1e3 * distance);
         }
+        if self.tilt.is_empty() {
+            return;
+        }
+        let mut rows = table(&["tilt towards [deg]", "reached [deg]", "ended by"]);
+        for Towards { azimuth_deg, angle_deg, blocking } in &self.tilt {
+            let ended = blocking.as_ref().map(Blocking::words).unwrap_or_default();
+            rows.add_row([decimal(*azimuth_deg, 1), decimal(*angle_deg, 2), ended]);
+        }
+        println!("{rows}");
     }
 }

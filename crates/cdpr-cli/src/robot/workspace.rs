@@ -2,9 +2,13 @@
 
 use crate::arguments::{self, Format, FreeArguments, LoadArguments, Named, Preference, Threads};
 use crate::error::ProgramError;
-use crate::output::{Ending, drawn, progress, table};
+use crate::output::{Ending, drawn, patiently, progress, table};
 use crate::poses::{self, Angles};
-use cdpr_assess::{Workspace, WorkspaceSummary, begin_workspace, compute_workspace, write_workspace};
+use crate::wrenches::WrenchArguments;
+use cdpr_assess::{
+    BoundarySummary, Further, TiltDirections, Way, Workspace, WorkspaceSummary, begin_workspace,
+    compute_workspace, workspace_boundary, write_workspace,
+};
 use cdpr_report::workspace_maps;
 use cdpr_robot::{Axis, Robot, Rotation3, shown};
 use cdpr_study::{ErrorModel, Extremes, Grid, Study};
@@ -49,6 +53,8 @@ pub(crate) struct Settings {
     /// Name of the study's error model.
     #[arg(long, requires = "study")]
     error_model: Option<String>,
+    #[command(flatten)]
+    further: FurtherArguments,
     /// Folder for the results; made if missing.
     #[arg(long, default_value = "workspace")]
     out: PathBuf,
@@ -58,6 +64,47 @@ pub(crate) struct Settings {
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
+
+/// Columns of the table that take longer than the others, and the boundary.
+#[derive(clap::Args)]
+struct FurtherArguments {
+    /// Greatest payload and margins of the tensions at each position, for the wrenches beside the load.
+    #[arg(long)]
+    capacity: bool,
+    #[command(flatten)]
+    set: WrenchArguments,
+    /// Distances of the nearest two cables, and of the cable nearest to the platform, as they hang.
+    #[arg(long)]
+    distances: bool,
+    /// How far the platform may tilt, to 0.1 degrees, in the worst of so many directions.
+    #[arg(long, value_name = "DIRECTIONS", num_args = 0..=1, default_missing_value = "4")]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=360))]
+    tilt: Option<u16>,
+    /// Boundary of the positions that are held under the load: polygons in a plane, a mesh in a box (STL).
+    #[arg(long, value_enum, value_name = "WAY", num_args = 0..=1, default_missing_value = "anew")]
+    boundary: Option<BoundaryWay>,
+}
+
+/// How the load is borne at the boundary.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum BoundaryWay {
+    /// Tensions distributed anew.
+    Anew,
+    /// Lengths kept.
+    Kept,
+}
+
+impl From<BoundaryWay> for Way {
+    fn from(way: BoundaryWay) -> Self {
+        match way {
+            BoundaryWay::Anew => Self::Anew,
+            BoundaryWay::Kept => Self::Kept,
+        }
+    }
+}
+
+/// Accuracy of the tilt in a map [degrees].
+const TILT_ACCURACY: f64 = 0.1;
 
 /// A plane on which one coordinate is constant.
 #[derive(Clone, Copy)]
@@ -94,7 +141,14 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         (None, None) => return Err(ProgramError::Usage("expected --plane or --box".to_owned())),
     };
     let tolerances = settings.tolerances(&robot)?;
+    if settings.further.set.are_given() && !settings.further.capacity {
+        let usage =
+            "--wrench, --wrenches and --wrench-box: expected with --capacity, whose figures they change";
+        return Err(ProgramError::Usage(usage.to_owned()));
+    }
     let folder = begin_workspace(&settings.out)?;
+    let set = settings.further.set.set()?;
+    let further = &settings.further;
     let workspace = Workspace {
         robot: &robot,
         grid,
@@ -102,16 +156,29 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         load: settings.load.load(),
         tolerances: tolerances.as_ref(),
         free: &settings.free.free,
+        further: Further {
+            capacity: further.capacity.then_some(&set),
+            distances: further.distances,
+            tilt: further
+                .tilt
+                .map(|count| TiltDirections { count: count.into(), accuracy: TILT_ACCURACY.to_radians() }),
+        },
     };
     let progress = progress(grid.poses().len(), "poses");
     let clock = Instant::now();
     let poses = compute_workspace(&workspace, &|| progress.inc(1), &|| false)?;
     let seconds = clock.elapsed().as_secs_f64();
     progress.finish_and_clear();
-    let summary = WorkspaceSummary::new(&workspace, &poses);
+    let mut summary = WorkspaceSummary::new(&workspace, &poses);
+    let mut boundary = None;
+    if let Some(way) = further.boundary {
+        let found = patiently("boundary", || workspace_boundary(&workspace, way.into(), &|| false))?;
+        summary.boundary = Some(BoundarySummary::new(way.into(), &found));
+        boundary = Some(found);
+    }
     let maps = workspace_maps(&robot, &summary).into_iter();
     let maps: Vec<_> = maps.filter_map(|map| drawn(&map.name, map.svg)).collect();
-    write_workspace(&folder, &summary, &maps)?;
+    write_workspace(&folder, &summary, &maps, boundary.as_ref())?;
     settings.format.print(&summary, |summary| {
         print(summary);
         println!("{} poses in {seconds:.2} s; results in {}", poses.len(), settings.out.display());
@@ -151,6 +218,12 @@ fn print(summary: &WorkspaceSummary) {
         println!("with the tensions distributed anew:");
     }
     counts(&summary.anew_status);
+    if !summary.left_out.is_empty() {
+        println!("left out, with the lengths kept:");
+        for (why, count) in &summary.left_out {
+            println!("{count:8} {why}");
+        }
+    }
     let mut rows = table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
     let position = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
     for (name, extremes) in [
@@ -160,6 +233,13 @@ fn print(summary: &WorkspaceSummary) {
         ("greatest tension [N]", summary.greatest_tension),
         ("least tension [N]", summary.least_tension),
         ("greatest tension, distributed anew [N]", summary.anew_greatest_tension),
+        ("greatest payload, distributed anew [kg]", summary.payload_anew_kg),
+        ("greatest payload, lengths kept [kg]", summary.payload_kept_kg),
+        ("margin, distributed anew [N]", summary.margin_anew),
+        ("margin, lengths kept [N]", summary.margin_kept),
+        ("distance of the nearest cables [mm]", summary.nearest_cables_mm),
+        ("distance of cables and platform [mm]", summary.nearest_to_platform_mm),
+        ("tilt in the worst direction [deg]", summary.tilt_deg),
     ] {
         if let Some(Extremes { min, min_at, max, max_at }) = extremes {
             rows.add_row([
@@ -172,6 +252,16 @@ fn print(summary: &WorkspaceSummary) {
         }
     }
     println!("{rows}");
+    if let Some(BoundarySummary { way, measure, error, unit, parts, evaluations }) = &summary.boundary {
+        let (name, parts) = match *unit {
+            "m2" => ("area", format!("{parts} polygons in boundary.csv")),
+            _ => ("volume", format!("{parts} triangles in boundary.stl")),
+        };
+        println!(
+            "{name} of the region held ({way}): {measure:.4} {unit}, error {error:.1e}; {parts}; {evaluations} \
+             positions asked for"
+        );
+    }
     let mut dominant: Vec<_> = summary.dominant.iter().collect();
     dominant.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
     for (name, count) in dominant.into_iter().take(5) {

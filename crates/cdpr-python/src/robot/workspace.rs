@@ -108,6 +108,7 @@ impl Robot {
             load: Load::payload(payload),
             tolerances: tolerances.as_ref(),
             free: &free,
+            further: cdpr_assess::Further::default(),
         };
         let poses = run(py, |stop| compute_workspace(&workspace, &|| (), &|| stop.load(Ordering::Relaxed)))??;
         let rows: Vec<WorkspaceRow> = poses.iter().map(|pose| WorkspaceRow::new(&workspace, pose)).collect();

@@ -23,16 +23,34 @@ pub enum MapQuantity {
     GreatestTension,
     /// Greatest tension of any cable where tensions are distributed anew under the load.
     GreatestTensionAnew,
+    /// Greatest payload where tensions are distributed anew.
+    PayloadAnew,
+    /// Greatest payload with the lengths kept.
+    PayloadKept,
+    /// Distance of the tensions, distributed anew, from the nearest limit.
+    MarginAnew,
+    /// Distance of the nearest two cables.
+    NearestCables,
+    /// Distance of the cable nearest to the platform.
+    NearestToPlatform,
+    /// Tilt in the worst direction.
+    Tilt,
 }
 
 impl MapQuantity {
     /// All quantities.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 11] = [
         Self::Deflection,
         Self::LeastStiffness,
         Self::LowestFrequency,
         Self::GreatestTension,
         Self::GreatestTensionAnew,
+        Self::PayloadAnew,
+        Self::PayloadKept,
+        Self::MarginAnew,
+        Self::NearestCables,
+        Self::NearestToPlatform,
+        Self::Tilt,
     ];
 
     /// Name of its figure file.
@@ -43,6 +61,12 @@ impl MapQuantity {
             Self::LowestFrequency => "lowest_frequency",
             Self::GreatestTension => "greatest_tension",
             Self::GreatestTensionAnew => "greatest_tension_anew",
+            Self::PayloadAnew => "payload_anew",
+            Self::PayloadKept => "payload_kept",
+            Self::MarginAnew => "margin_anew",
+            Self::NearestCables => "nearest_cables",
+            Self::NearestToPlatform => "nearest_to_platform",
+            Self::Tilt => "tilt",
         }
     }
 
@@ -51,18 +75,33 @@ impl MapQuantity {
         match self {
             Self::Deflection | Self::GreatestTensionAnew => summary.is_loaded(),
             Self::LeastStiffness | Self::GreatestTension => true,
-            Self::LowestFrequency => summary.rows.iter().any(|row| row.lowest_frequency_hz.is_some()),
+            _ => summary.rows.iter().any(|row| self.value(row).is_some()),
         }
     }
 
     /// How the load is borne, for the title.
     fn under_load(self) -> &'static str {
-        if self == Self::GreatestTensionAnew { "tensions distributed anew" } else { "lengths kept" }
+        if self.is_anew() { "tensions distributed anew" } else { "lengths kept" }
     }
 
     /// Whether a position is held, with all tensions within the limits.
     fn is_held(self, row: &WorkspaceRow) -> bool {
-        if self == Self::GreatestTensionAnew { row.anew_status == Some(HELD) } else { row.status == HELD }
+        match row.anew_status {
+            Some(status) if self.is_anew() => status == HELD,
+            // Without a load both ways are one.
+            _ => row.status == HELD,
+        }
+    }
+
+    fn is_anew(self) -> bool {
+        !matches!(
+            self,
+            Self::Deflection
+                | Self::LeastStiffness
+                | Self::LowestFrequency
+                | Self::GreatestTension
+                | Self::PayloadKept
+        )
     }
 
     /// Words for the title, label of the colour bar, and unit.
@@ -74,6 +113,12 @@ impl MapQuantity {
             Self::GreatestTension | Self::GreatestTensionAnew => {
                 ("greatest tension", "greatest tension", "N")
             }
+            Self::PayloadAnew => ("greatest payload, tensions distributed anew", "payload", "kg"),
+            Self::PayloadKept => ("greatest payload, lengths kept", "payload", "kg"),
+            Self::MarginAnew => ("distance of the tensions from their limits", "margin", "N"),
+            Self::NearestCables => ("distance of the nearest two cables", "distance", "mm"),
+            Self::NearestToPlatform => ("distance of cables and platform", "distance", "mm"),
+            Self::Tilt => ("tilt in the worst direction", "tilt", "degrees"),
         }
     }
 
@@ -85,6 +130,12 @@ impl MapQuantity {
             Self::LowestFrequency => row.lowest_frequency_hz,
             Self::GreatestTension => row.greatest_tension,
             Self::GreatestTensionAnew => row.anew_greatest_tension,
+            Self::PayloadAnew => row.payload_anew_kg,
+            Self::PayloadKept => row.payload_kept_kg,
+            Self::MarginAnew => row.margin_anew,
+            Self::NearestCables => row.nearest_cables_mm,
+            Self::NearestToPlatform => row.nearest_to_platform_mm,
+            Self::Tilt => row.tilt_deg,
         }
     }
 }

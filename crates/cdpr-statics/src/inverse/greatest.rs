@@ -26,7 +26,7 @@
 use super::HeldPose;
 use super::feasible::{BALANCED, search, straight};
 use super::held::Strand;
-use super::optimum::Point;
+use super::optimum::{Optimum, Point};
 use super::question::Question;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
@@ -92,7 +92,7 @@ pub fn greatest_payload(robot: &Robot, pose: &Pose, wrench: &Wrench) -> Result<G
     let direction = robot.freedoms().of_vector(&direction);
     let components = robot.freedoms().components();
     let rise = Rise { direction, limits: None, range: [0.0, heaviest], components };
-    let (force, found) = rise.top(&question)?;
+    let (force, found) = rise.top(&question, &question)?;
     let payload = force / gravity;
     let load = Load { payload, ..load };
     Greatest::new(&question, payload, 1.0 / gravity, &load, found)
@@ -104,10 +104,11 @@ pub fn greatest_payload(robot: &Robot, pose: &Pose, wrench: &Wrench) -> Result<G
 ///
 /// # Errors
 /// Those of [`super::inverse`]; [`StaticsError::NoTensions`] where the load cannot be balanced by any pull of
-/// the cables, whatever their limits.
+/// the cables, whatever their limits; [`StaticsError::InverseNotConverged`] where tensions hold the pose and their
+/// margin was not found.
 pub fn tension_margin(robot: &Robot, pose: &Pose, load: &Load) -> Result<Greatest, StaticsError> {
-    let mut question = Question::of_whole_pose(robot, pose, load, None)?;
-    let limits = question.limits.clone();
+    let own = Question::of_whole_pose(robot, pose, load, None)?;
+    let (mut question, limits) = (own.clone(), own.limits.clone());
     let largest = limits.iter().map(|limits| limits.max).fold(question.external.norm(), f64::max);
     // Wider than any margin: what is left are the least tensions that the cables' weight demands.
     for wide in &mut question.limits {
@@ -116,7 +117,7 @@ pub fn tension_margin(robot: &Robot, pose: &Pose, load: &Load) -> Result<Greates
     let range = [-WIDEST * largest, largest];
     let components = robot.freedoms().components();
     let rise = Rise { direction: Vector6::zeros(), limits: Some(limits), range, components };
-    let (margin, found) = rise.top(&question)?;
+    let (margin, found) = rise.top(&question, &own)?;
     Greatest::new(&question, margin, 1.0, load, found)
 }
 
@@ -176,14 +177,17 @@ impl Greatest {
                 slope.max(0.0) + drawn(1).unwrap_or(0.0).max(0.0),
             ];
             for (gain, bound) in gains.into_iter().zip([Bound::Min, Bound::Max]) {
-                if gain > 1e-9 * unit {
+                if gain > 0.0 {
                     let TensionLimits { min, max } = limits[index];
                     let limit = if bound == Bound::Min { min } else { max };
                     blocking.push(Blocking { index, bound, limit, gain });
                 }
             }
         }
-        blocking.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        blocking.sort_by(|a: &Blocking, b| b.gain.total_cmp(&a.gain));
+        // Less than this is rounding.
+        let least = 1e-6 * blocking.first().map_or(0.0, |first| first.gain);
+        blocking.retain(|block| block.gain > least);
         let tensions = point.rows.iter().map(|row| row.tension).collect();
         Ok(Self { value, tensions, lengths, equilibrium, blocking, iterations, residual })
     }
@@ -200,6 +204,9 @@ const LEAST_REGION: f64 = 1e-9;
 const LEAST_PENALTY: f64 = 1e3;
 const GREATEST_PENALTY: f64 = 1e6;
 
+/// Steps that hardly bring the balance nearer while even the linearised cables do not balance.
+const MOST_STALLED: usize = 3;
+
 /// A residual below this, relative to wrench and tensions, leaves nothing to z.
 const BALANCE: f64 = 1e-11;
 
@@ -213,8 +220,8 @@ const NEARLY_ROUNDING: f64 = 1e-9;
 const MAX_ITERATIONS: usize = 100;
 
 impl Rise {
-    /// The greatest z and the cables there.
-    fn top<'a>(&self, question: &Question<'a>) -> Result<(f64, Top<'a>), StaticsError> {
+    /// The greatest z and the cables there; `own` is the question with the limits as they are.
+    fn top<'a>(&self, question: &Question<'a>, own: &Question<'a>) -> Result<(f64, Top<'a>), StaticsError> {
         let (mut point, top) = self.climb(question, &straight(question))?;
         if let Some(top) = top {
             return Ok(top);
@@ -223,9 +230,9 @@ impl Rise {
         if point.residual().dot(&self.direction) >= 0.0 && point.residue() > BALANCED && point.refutes() {
             return Err(point.refusal(question, 1, point.iterations, true));
         }
-        let tensions = search(question)?.tensions;
-        let (point, top) = self.climb(question, &tensions)?;
-        top.ok_or_else(|| point.refusal(question, 2, point.iterations, false))
+        let Optimum { tensions, iterations, stationarity, .. } = search(own)?;
+        let (_, top) = self.climb(question, &tensions)?;
+        top.ok_or(StaticsError::InverseNotConverged { iterations, stationarity })
     }
 
     /// Climbs from some tensions [N]; besides where it ends, the top if it is one.
@@ -234,18 +241,13 @@ impl Rise {
         question: &Question<'a>,
         tensions: &[f64],
     ) -> Result<(Point<'a>, Option<(f64, Top<'a>)>), StaticsError> {
-        let mut point = Point::new(question, tensions)?;
-        for (i, strand) in point.strands.iter_mut().enumerate() {
-            for side in 0..2 {
-                strand.learn(side).map_err(StaticsError::cable(i))?;
-            }
-        }
+        let point = Point::new(question, tensions)?;
         let mut at = Climber { point, z: self.range[0].max(0.0) };
-        let (mut region, mut penalty) = (REGION, LEAST_PENALTY);
+        let (mut region, mut penalty, mut stalled) = (REGION, LEAST_PENALTY, 0);
         for iteration in 1..=MAX_ITERATIONS {
             at.point.iterations += 1;
             let size = at.point.size();
-            let Some(solution) = self.program(&at.point, size, region, penalty).solve() else { break };
+            let Some(solution) = self.step(&mut at.point, size, region, penalty)? else { break };
             let unbalanced = solution.residual > BALANCED && region == REGION;
             if unbalanced && penalty < GREATEST_PENALTY {
                 penalty = GREATEST_PENALTY;
@@ -269,7 +271,7 @@ impl Rise {
                 let top = Top { point, solution, iterations: iteration, limits };
                 return Ok((at.point, Some((at.z, top))));
             }
-            if unbalanced && change <= 1e-6 {
+            if unbalanced && (change <= 1e-6 || stalled >= MOST_STALLED) {
                 break;
             }
             let Some(moved) = at.point.moved(changes) else {
@@ -280,6 +282,7 @@ impl Rise {
             let rows = next.point.rows_of(&moved);
             next.point.set(moved, rows);
             let reached = merit(&next) - merit(&at);
+            stalled += usize::from(unbalanced && self.open(&next) > 0.9 * self.open(&at));
             if reached >= 0.1 * gain - 0.1 * ROUNDING * penalty * size {
                 if reached > 0.7 * gain {
                     region = (4.0 * region).min(REGION);
@@ -290,6 +293,34 @@ impl Rise {
             }
         }
         Ok((at.point, None))
+    }
+
+    /// Solves the program for a step, and asks for the chord forces of all limits that it meets.
+    fn step(
+        &self,
+        point: &mut Point,
+        size: f64,
+        region: f64,
+        penalty: f64,
+    ) -> Result<Option<LinearSolution>, StaticsError> {
+        loop {
+            let program = self.program(point, size, region, penalty);
+            let Some(solution) = program.solve() else { return Ok(None) };
+            let mut learned = false;
+            for (i, strand) in point.strands.iter_mut().enumerate() {
+                for side in 0..2 {
+                    let room = strand.room()[side] / size;
+                    let met = [solution.values[i] <= room, solution.values[i] >= room][side];
+                    if met && !strand.knows(side) {
+                        strand.learn(side).map_err(StaticsError::cable(i))?;
+                        learned = true;
+                    }
+                }
+            }
+            if !learned {
+                return Ok(Some(solution));
+            }
+        }
     }
 
     /// |F|_1 and by how much tensions pass the limits drawn closer [N].

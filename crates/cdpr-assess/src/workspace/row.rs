@@ -1,0 +1,144 @@
+//! A row of the table of a workspace.
+
+use super::{Dominant, HELD, Workspace, WorkspacePose};
+use crate::capacity::{Capacity, Figure};
+use crate::clearance::CableDistance;
+use cdpr_statics::{Load, OutOfLimits, StaticsError};
+use serde::Serialize;
+
+/// A row of `workspace.csv` and `workspace.json`: positions [m], deflection [mm], tensions [N], stiffness
+/// [N/m], frequencies [Hz]. Values that do not exist are empty.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct WorkspaceRow {
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
+    /// With the lengths kept: `held`; `beyond_limits` where the load takes a tension out of the limits; else
+    /// the kind of failure.
+    pub status: &'static str,
+    pub least_tension: Option<f64>,
+    pub greatest_tension: Option<f64>,
+    pub dx_mm: Option<f64>,
+    pub dy_mm: Option<f64>,
+    pub dz_mm: Option<f64>,
+    /// |dp|.
+    pub rms_mm: Option<f64>,
+    pub least_stiffness: Option<f64>,
+    /// Lowest natural frequency with the load.
+    pub lowest_frequency_hz: Option<f64>,
+    /// Their numbers, from 1, with spaces between.
+    pub slack_cables: Option<String>,
+    /// Tensions out of limits, in words.
+    pub out_of_limits: Option<String>,
+    /// The cause with the largest share of the variance of |dp|.
+    pub dominant: Option<String>,
+    pub dominant_share: Option<f64>,
+    /// Standard deviation of |dp| from all tolerances.
+    pub std_mm: Option<f64>,
+    /// Why the pose is not held.
+    pub reason: Option<String>,
+    /// `held` where tensions distributed anew hold the pose under the load, else the kind of failure; this
+    /// and the following are empty without a load.
+    pub anew_status: Option<&'static str>,
+    pub anew_least_tension: Option<f64>,
+    pub anew_greatest_tension: Option<f64>,
+    pub anew_reason: Option<String>,
+    /// Greatest mass at the centre of mass [kg], tensions distributed anew; this and all that follows is empty
+    /// where it was not asked for or does not exist.
+    pub payload_anew_kg: Option<f64>,
+    /// The cables and limits that block it, in words.
+    pub payload_anew_blocked_by: Option<String>,
+    /// Greatest mass at the centre of mass [kg], lengths kept.
+    pub payload_kept_kg: Option<f64>,
+    pub payload_kept_blocked_by: Option<String>,
+    /// Distance of the tensions from the nearest limit [N].
+    pub margin_anew: Option<f64>,
+    pub margin_kept: Option<f64>,
+    /// Distance of the nearest two cables.
+    pub nearest_cables_mm: Option<f64>,
+    /// Their numbers, from 1.
+    pub nearest_cables: Option<String>,
+    /// Distance of the cable nearest to the platform.
+    pub nearest_to_platform_mm: Option<f64>,
+    pub nearest_to_platform: Option<usize>,
+    /// How far the platform may tilt in the worst direction.
+    pub tilt_deg: Option<f64>,
+    /// The azimuth of that direction, from x to y.
+    pub tilt_azimuth_deg: Option<f64>,
+}
+
+impl WorkspaceRow {
+    /// The row of a pose and its result.
+    pub fn new(workspace: &Workspace, pose: &WorkspacePose) -> Self {
+        let [x, y, z] = pose.pose.position.into();
+        let held = pose.outcome.as_ref().ok();
+        let loaded = held.filter(|_| workspace.load != Load::none());
+        let displacement = loaded.map(|held| 1e3 * held.displacement);
+        let dominant = held.and_then(|held| held.dominant);
+        let anew = pose.anew.as_ref();
+        let tensions = anew.and_then(|anew| anew.as_ref().ok());
+        let figure = |of: fn(&Capacity) -> &Result<Figure, StaticsError>| {
+            pose.capacity
+                .as_ref()
+                .and_then(|capacity| of(capacity).as_ref().ok())
+                .filter(|f| f.value.is_finite())
+        };
+        let clearance = pose.clearance.as_ref().and_then(|clearance| clearance.as_ref().ok());
+        let (cables, platform) = (clearance.and_then(|c| c.cables), clearance.and_then(|c| c.platform));
+        let tilt = pose.tilt.as_ref().and_then(|tilt| tilt.as_ref().ok()?.least());
+        let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
+        Self {
+            x,
+            y,
+            z,
+            status: match &pose.outcome {
+                Ok(held) if held.is_within_limits() => HELD,
+                Ok(_) => "beyond_limits",
+                Err(error) => error.kind(),
+            },
+            least_tension: held.map(|held| held.least_tension),
+            greatest_tension: held.map(|held| held.greatest_tension),
+            dx_mm: displacement.map(|dp| dp.x),
+            dy_mm: displacement.map(|dp| dp.y),
+            dz_mm: displacement.map(|dp| dp.z),
+            rms_mm: displacement.map(|dp| dp.norm()),
+            least_stiffness: held.map(|held| held.least_stiffness),
+            lowest_frequency_hz: held.and_then(|held| held.lowest_frequency),
+            slack_cables: held
+                .map(|held| held.slack.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")),
+            out_of_limits: held
+                .filter(|held| !held.out_of_limits.is_empty())
+                .map(|held| in_words(&held.out_of_limits)),
+            dominant: dominant.and_then(name),
+            dominant_share: dominant.map(|dominant| dominant.share),
+            std_mm: dominant.map(|dominant| 1e3 * dominant.std),
+            reason: match &pose.outcome {
+                Ok(held) if held.is_within_limits() => None,
+                Ok(held) => Some(in_words(&held.out_of_limits)),
+                Err(error) => Some(error.to_string()),
+            },
+            anew_status: anew.map(|anew| anew.as_ref().map_or_else(StaticsError::kind, |_| HELD)),
+            anew_least_tension: tensions.map(|anew| anew.least_tension),
+            anew_greatest_tension: tensions.map(|anew| anew.greatest_tension),
+            anew_reason: anew.and_then(|anew| anew.as_ref().err().map(ToString::to_string)),
+            payload_anew_kg: figure(|capacity| &capacity.payload_anew).map(|figure| figure.value),
+            payload_anew_blocked_by: figure(|capacity| &capacity.payload_anew).map(Figure::blocked_by),
+            payload_kept_kg: figure(|capacity| &capacity.payload_kept).map(|figure| figure.value),
+            payload_kept_blocked_by: figure(|capacity| &capacity.payload_kept).map(Figure::blocked_by),
+            margin_anew: figure(|capacity| &capacity.margin_anew).map(|figure| figure.value),
+            margin_kept: figure(|capacity| &capacity.margin_kept).map(|figure| figure.value),
+            nearest_cables_mm: cables.map(|near| 1e3 * near.distance),
+            nearest_cables: cables.map(|CableDistance { pair: [i, j], .. }| format!("{} {}", i + 1, j + 1)),
+            nearest_to_platform_mm: platform.map(|near| 1e3 * near.distance),
+            nearest_to_platform: platform.map(|near| near.cable + 1),
+            tilt_deg: tilt.map(|tilt| tilt.angle.to_degrees()),
+            tilt_azimuth_deg: tilt.map(|tilt| tilt.azimuth.to_degrees()),
+        }
+    }
+}
+
+/// Tensions out of limits, in one cell.
+fn in_words(list: &[OutOfLimits]) -> String {
+    list.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}

@@ -1,0 +1,213 @@
+//! A workspace in numbers: settings, counts, extremes.
+
+use super::{HELD, Way, Workspace, WorkspacePose, WorkspaceRow};
+use crate::boundary::Boundary;
+use cdpr_robot::{Pose, Vector3};
+use cdpr_statics::Limit;
+use cdpr_study::{Extremes, Grid};
+use indexmap::IndexMap;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// A workspace with its settings; `workspace.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WorkspaceSummary {
+    /// Name of the robot.
+    pub robot: String,
+    /// Version of the program.
+    pub version: String,
+    /// Mass added at the platform's centre of mass [kg].
+    pub payload: f64,
+    /// Force of the load at P [N].
+    pub force: [f64; 3],
+    /// Moment of the load about P [N m].
+    pub moment: [f64; 3],
+    /// Orientation of the platform: w, x, y, z.
+    pub quaternion: [f64; 4],
+    /// The positions [m].
+    pub grid: Grid,
+    /// Standard deviation of every cause, in SI units.
+    pub uncertainties: IndexMap<String, f64>,
+    /// Number of positions by status, with the lengths kept under the load.
+    pub status: BTreeMap<&'static str, usize>,
+    /// Number of positions by status, with the tensions distributed anew under the load; empty without a
+    /// load.
+    pub anew_status: BTreeMap<&'static str, usize>,
+    /// Number of positions that are left out, by what keeps each from being `held`, with the lengths kept: the
+    /// kind of failure, or the cable and the limit that its tension passes.
+    pub left_out: BTreeMap<String, usize>,
+    /// Number of positions with tensions above a greatest tension or a breaking force.
+    pub too_much: usize,
+    /// Number of positions at which each cause dominates.
+    pub dominant: BTreeMap<String, usize>,
+    /// |dp| [mm] over the positions with status `held`. This and the following are absent without such
+    /// positions.
+    pub rms_mm: Option<Extremes>,
+    /// Stiffness of the softest motion [N/m].
+    pub least_stiffness: Option<Extremes>,
+    /// Lowest natural frequency with the load [Hz]; absent without `platform.inertia`.
+    pub lowest_frequency_hz: Option<Extremes>,
+    /// Greatest tension [N].
+    pub greatest_tension: Option<Extremes>,
+    /// Least tension [N].
+    pub least_tension: Option<Extremes>,
+    /// Greatest tension [N] where tensions are distributed anew, over the positions that they hold.
+    pub anew_greatest_tension: Option<Extremes>,
+    /// Greatest payload [kg], tensions distributed anew; this and the following over the positions at which it
+    /// exists, if asked for.
+    pub payload_anew_kg: Option<Extremes>,
+    /// Greatest payload [kg], lengths kept.
+    pub payload_kept_kg: Option<Extremes>,
+    /// Margin of the tensions [N], distributed anew.
+    pub margin_anew: Option<Extremes>,
+    /// Margin of the tensions [N], lengths kept.
+    pub margin_kept: Option<Extremes>,
+    /// Distance of the nearest two cables [mm].
+    pub nearest_cables_mm: Option<Extremes>,
+    /// Distance of the cable nearest to the platform [mm].
+    pub nearest_to_platform_mm: Option<Extremes>,
+    /// Tilt in the worst direction [deg].
+    pub tilt_deg: Option<Extremes>,
+    /// The boundary of the positions that are held, if asked for.
+    pub boundary: Option<BoundarySummary>,
+    /// Every position, in the order of the grid.
+    pub rows: Vec<WorkspaceRow>,
+}
+
+/// The region of the positions that are held.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BoundarySummary {
+    /// How the load is borne: `anew` or `kept`.
+    pub way: &'static str,
+    /// Its area [m²] in a plane, its volume [m³] in a box.
+    pub measure: f64,
+    /// Estimate of the error of it.
+    pub error: f64,
+    /// `m2` or `m3`.
+    pub unit: &'static str,
+    /// Polygons of its boundary in a plane, triangles in a box.
+    pub parts: usize,
+    /// Positions that were asked for.
+    pub evaluations: usize,
+}
+
+impl BoundarySummary {
+    /// Sums up a boundary.
+    pub fn new(way: Way, boundary: &Boundary) -> Self {
+        let Boundary { measure, error, polygons, triangles, evaluations } = boundary;
+        let is_plane = triangles.is_empty();
+        Self {
+            way: way.name(),
+            measure: *measure,
+            error: *error,
+            unit: if is_plane { "m2" } else { "m3" },
+            parts: if is_plane { polygons.len() } else { triangles.len() },
+            evaluations: *evaluations,
+        }
+    }
+}
+
+impl WorkspaceSummary {
+    /// Whether there is a load besides the platform's own weight.
+    pub fn is_loaded(&self) -> bool {
+        self.payload != 0.0 || self.force != [0.0; 3] || self.moment != [0.0; 3]
+    }
+
+    /// Load and orientation, as in `payload 50 kg, force (0, 100, 0) N`.
+    pub fn conditions(&self) -> String {
+        let mut words = vec![format!("payload {} kg", self.payload)];
+        for (name, vector, unit) in [("force", self.force, "N"), ("moment", self.moment, "N m")] {
+            let [x, y, z] = vector;
+            if vector != [0.0; 3] {
+                words.push(format!("{name} ({x}, {y}, {z}) {unit}"));
+            }
+        }
+        let [qw, qx, qy, qz] = self.quaternion;
+        if [qx, qy, qz] != [0.0; 3] {
+            words.push(format!("quaternion ({qw:.4}, {qx:.4}, {qy:.4}, {qz:.4})"));
+        }
+        words.join(", ")
+    }
+
+    /// Summarises the poses of a workspace.
+    pub fn new(workspace: &Workspace, poses: &[WorkspacePose]) -> Self {
+        let rows: Vec<_> = poses.iter().map(|pose| WorkspaceRow::new(workspace, pose)).collect();
+        let (mut status, mut anew_status, mut dominant) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        for row in &rows {
+            *status.entry(row.status).or_insert(0) += 1;
+            if let Some(anew) = row.anew_status {
+                *anew_status.entry(anew).or_insert(0) += 1;
+            }
+            if let Some(name) = &row.dominant {
+                *dominant.entry(name.clone()).or_insert(0) += 1;
+            }
+        }
+        let causes = workspace.tolerances.map(|model| model.inputs.as_slice()).unwrap_or_default();
+        Self {
+            robot: workspace.robot.name.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            payload: workspace.load.payload,
+            force: workspace.load.wrench.force.into(),
+            moment: workspace.load.wrench.moment.into(),
+            quaternion: Pose { position: Vector3::zeros(), rotation: workspace.rotation }.quaternion(),
+            grid: workspace.grid,
+            uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.law.std())).collect(),
+            status,
+            anew_status,
+            left_out: left_out(poses),
+            too_much: poses.iter().filter(|pose| pose.is_too_much()).count(),
+            dominant,
+            rms_mm: held_extremes(&rows, |row| row.rms_mm),
+            least_stiffness: held_extremes(&rows, |row| row.least_stiffness),
+            lowest_frequency_hz: held_extremes(&rows, |row| row.lowest_frequency_hz),
+            greatest_tension: held_extremes(&rows, |row| row.greatest_tension),
+            least_tension: held_extremes(&rows, |row| row.least_tension),
+            anew_greatest_tension: extremes(rows.iter(), |row| row.anew_greatest_tension),
+            payload_anew_kg: extremes(rows.iter(), |row| row.payload_anew_kg),
+            payload_kept_kg: extremes(rows.iter(), |row| row.payload_kept_kg),
+            margin_anew: extremes(rows.iter(), |row| row.margin_anew),
+            margin_kept: extremes(rows.iter(), |row| row.margin_kept),
+            nearest_cables_mm: extremes(rows.iter(), |row| row.nearest_cables_mm),
+            nearest_to_platform_mm: extremes(rows.iter(), |row| row.nearest_to_platform_mm),
+            tilt_deg: extremes(rows.iter(), |row| row.tilt_deg),
+            boundary: None,
+            rows,
+        }
+    }
+}
+
+/// What keeps positions from being held, and of how many.
+fn left_out(poses: &[WorkspacePose]) -> BTreeMap<String, usize> {
+    let mut counts = BTreeMap::new();
+    for pose in poses {
+        let why = match &pose.outcome {
+            Ok(held) if held.is_within_limits() => continue,
+            Ok(held) => match held.out_of_limits.iter().min_by_key(|found| found.limit) {
+                Some(found) => format!("beyond_limits: cable {}, {}", found.cable + 1, name(found.limit)),
+                None => continue,
+            },
+            Err(error) => error.kind().to_owned(),
+        };
+        *counts.entry(why).or_insert(0) += 1;
+    }
+    counts
+}
+
+fn name(limit: Limit) -> &'static str {
+    match limit {
+        Limit::BreakingForce => "breaking_force",
+        Limit::Max | Limit::MaxElsewhere => "max",
+        Limit::Min => "min",
+    }
+}
+
+fn held_extremes(rows: &[WorkspaceRow], value: impl Fn(&WorkspaceRow) -> Option<f64>) -> Option<Extremes> {
+    extremes(rows.iter().filter(|row| row.status == HELD), value)
+}
+
+fn extremes<'a>(
+    rows: impl Iterator<Item = &'a WorkspaceRow>,
+    value: impl Fn(&WorkspaceRow) -> Option<f64>,
+) -> Option<Extremes> {
+    Extremes::of(rows.filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
+}
