@@ -3,10 +3,10 @@
 //! The grid is cut into simplices along the diagonals of its cells (Freudenthal), triangles in a plane and
 //! tetrahedra in a box. Where a simplex has positions of both kinds, the boundary crosses its edges, and each
 //! crossing is found by bisection (marching simplices: Allgower, Gnutzmann, *Simplicial pivoting for mesh
-//! generation of implicitly defined surfaces*, Computer Aided Geometric Design 8, 1991). Then every edge of the
-//! boundary is divided, and its middle moved at right angles to where the region ends. A denser grid is not
-//! needed for that; what is smaller than a cell of the grid, a hole or an island, is not seen. The region is
-//! taken to end where the grid does.
+//! generation of implicitly defined surfaces*, Computer Aided Geometric Design 8, 1991). Then every edge of
+//! the boundary is divided, and its middle moved at right angles to where the region ends. A denser grid is
+//! not needed for that; what is smaller than a cell of the grid, a hole or an island, is not seen. The region
+//! is taken to end where the grid does.
 //!
 //! Area A and volume V follow from the closed boundary,
 //!
@@ -14,9 +14,9 @@
 //! A = 1/2 sum p x q  over its segments pq,      V = 1/6 sum p·(q x r)  over its triangles pqr       (W4)
 //! ```
 //!
-//! with the region on the left of a segment and behind a triangle. The last division changes them by more than
-//! what is left to divide, if the boundary is smooth; that change and what the bisection leaves open is the
-//! estimate of the error.
+//! with the region on the left of a segment and behind a triangle. The last division changes them by more
+//! than what is left to divide, if the boundary is smooth; that change and what the bisection leaves open is
+//! the estimate of the error.
 
 use cdpr_robot::Vector3;
 use cdpr_study::StudyError;
@@ -280,8 +280,8 @@ impl Region<'_> {
         Mesh { faces: faces.collect(), points: mesh.points.iter().copied().chain(middles).collect() }
     }
 
-    /// A point moved along a normal to where the region ends, at most by `reach` [m]; the point itself where it
-    /// does not end so near.
+    /// A point moved along a normal to where the region ends, at most by `reach` [m]; the point itself where
+    /// it does not end so near.
     fn moved(&self, point: Vector3<f64>, normal: &Vector3<f64>, reach: f64) -> Vector3<f64> {
         let Some(normal) = normal.try_normalize(0.0) else { return point };
         let far = |sign: f64| point + sign * reach * normal;

@@ -75,8 +75,8 @@ pub fn clearance_at(
     Ok(clearance)
 }
 
-/// The distances of the cables that bear `load` at a pose, with the tensions distributed anew; with fewer cables
-/// than free motions the `free` coordinates are found.
+/// The distances of the cables that bear `load` at a pose, with the tensions distributed anew; with fewer
+/// cables than free motions the `free` coordinates are found.
 ///
 /// # Errors
 /// Those of [`cdpr_statics::inverse`] and [`cdpr_statics::held_at`].

@@ -7,11 +7,11 @@
 //! ```
 //!
 //! so that its upward axis leans towards θ. As α grows from zero, the margin of the tensions distributed anew
-//! ([`cdpr_statics::tension_margin`]) falls and meets zero where no tensions within the limits hold the platform
-//! any longer. Steps of at most 15° see to it that this is the first such angle, of margins that change
-//! over such an angle; a secant and bisections find it. The orientation workspace of cable-driven robots is
-//! defined so by Gouttefarde, Merlet, Daney (*Wrench-feasible workspace of parallel cable-driven mechanisms*,
-//! ICRA 2007), as the orientations at a position that are wrench-feasible.
+//! ([`cdpr_statics::tension_margin`]) falls and meets zero where no tensions within the limits hold the
+//! platform any longer. Steps of at most 15° see to it that this is the first such angle, of margins that
+//! change over such an angle; a secant and bisections find it. The orientation workspace of cable-driven
+//! robots is defined so by Gouttefarde, Merlet, Daney (*Wrench-feasible workspace of parallel cable-driven
+//! mechanisms*, ICRA 2007), as the orientations at a position that are wrench-feasible.
 
 use cdpr_robot::{Matrix3, Plane, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{Blocking, Load, StaticsError, tension_margin};
@@ -29,8 +29,8 @@ pub struct Tilt {
 pub struct TiltTowards {
     /// Azimuth θ towards which the upward axis leans, from x to y of the level frame [rad].
     pub azimuth: f64,
-    /// The angle reached [rad]: held there, and not at one that is larger by the accuracy; a right angle where
-    /// no limit ends it before.
+    /// The angle reached [rad]: held there, and not at one that is larger by the accuracy; a right angle
+    /// where no limit ends it before.
     pub angle: f64,
     /// The limit next to the tensions there; `None` at a right angle.
     pub blocking: Option<Blocking>,
@@ -162,7 +162,8 @@ mod tests {
 
     #[test]
     fn the_first_root_is_found_to_the_accuracy() {
-        let margins: [(fn(f64) -> f64, f64); 4] = [
+        type Margin = fn(f64) -> f64;
+        let margins: [(Margin, f64); 4] = [
             (|angle| 1.0 - 2.0 * angle, 0.5),
             (|angle| (0.3 - angle) * (1.0 + angle), 0.3),
             (|angle| if angle < 0.7 { 1e-3 } else { -100.0 }, 0.7),

@@ -186,7 +186,8 @@ pub fn compute_workspace(
     workspace.grid.poses().into_par_iter().map(one).collect()
 }
 
-/// The boundary of the positions that are held with all tensions within the limits, the load borne in one way.
+/// The boundary of the positions that are held with all tensions within the limits, the load borne in one
+/// way.
 ///
 /// # Errors
 /// As [`compute_workspace`], and [`StudyError::Setting`] for a grid that is neither a plane nor a box.

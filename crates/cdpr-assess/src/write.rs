@@ -46,8 +46,8 @@ pub fn begin_workspace(folder: &Path) -> Result<ResultsFolder, StudyError> {
 }
 
 /// Writes `workspace.csv`, one row for each position, the maps (name and text), the boundary if there is one
-/// (`boundary.csv` in a plane, `boundary.stl` in a box), and, last of all, `workspace.json`, the rows with settings and extremes. Maps of an earlier workspace that are not among
-/// these are removed.
+/// (`boundary.csv` in a plane, `boundary.stl` in a box), and, last of all, `workspace.json`, the rows with
+/// settings and extremes. Maps of an earlier workspace that are not among these are removed.
 ///
 /// # Errors
 /// As [`ResultsFolder::claim`].

@@ -7,11 +7,11 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 /// Robots of which `check` warns, with the place of the warning and what is behind it.
-const EXPLAINED: [(&str, &str, &str); 1] = [(
-    "copacabana-handling",
-    "cables[6]",
-    "its upper exit points lead to the lower anchor points, so that cables pass each other closely",
-)];
+const EXPLAINED: [(&str, &str, &str); 2] =
+    [("copacabana-handling", "cables[4]", CLOSELY), ("copacabana-handling", "cables[6]", CLOSELY)];
+
+const CLOSELY: &str =
+    "its upper exit points lead to the lower anchor points, so that cables pass each other closely";
 
 #[test]
 fn robots_and_cables_are_listed_with_a_line_each() {

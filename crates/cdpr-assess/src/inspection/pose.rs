@@ -78,7 +78,8 @@ impl Findings<'_> {
         }
     }
 
-    /// Which of the cables before this one pass it within their thickness: one finding, with the nearest of them.
+    /// Which of the cables before this one pass it within their thickness: one finding, with the nearest of
+    /// them.
     fn crossings(&mut self, hanging: &HangingCables, j: usize, at: &str) {
         let distance = |i: usize| {
             let near = hanging.thickness(i, j).max(TOUCHING);

@@ -44,8 +44,8 @@ pub struct WorkspaceRow {
     pub anew_least_tension: Option<f64>,
     pub anew_greatest_tension: Option<f64>,
     pub anew_reason: Option<String>,
-    /// Greatest mass at the centre of mass [kg], tensions distributed anew; this and all that follows is empty
-    /// where it was not asked for or does not exist.
+    /// Greatest mass at the centre of mass [kg], tensions distributed anew; this and all that follows is
+    /// empty where it was not asked for or does not exist.
     pub payload_anew_kg: Option<f64>,
     /// The cables and limits that block it, in words.
     pub payload_anew_blocked_by: Option<String>,

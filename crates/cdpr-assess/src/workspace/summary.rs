@@ -33,8 +33,8 @@ pub struct WorkspaceSummary {
     /// Number of positions by status, with the tensions distributed anew under the load; empty without a
     /// load.
     pub anew_status: BTreeMap<&'static str, usize>,
-    /// Number of positions that are left out, by what keeps each from being `held`, with the lengths kept: the
-    /// kind of failure, or the cable and the limit that its tension passes.
+    /// Number of positions that are left out, by what keeps each from being `held`, with the lengths kept:
+    /// the kind of failure, or the cable and the limit that its tension passes.
     pub left_out: BTreeMap<String, usize>,
     /// Number of positions with tensions above a greatest tension or a breaking force.
     pub too_much: usize,
@@ -53,8 +53,8 @@ pub struct WorkspaceSummary {
     pub least_tension: Option<Extremes>,
     /// Greatest tension [N] where tensions are distributed anew, over the positions that they hold.
     pub anew_greatest_tension: Option<Extremes>,
-    /// Greatest payload [kg], tensions distributed anew; this and the following over the positions at which it
-    /// exists, if asked for.
+    /// Greatest payload [kg], tensions distributed anew; this and the following over the positions at which
+    /// it exists, if asked for.
     pub payload_anew_kg: Option<Extremes>,
     /// Greatest payload [kg], lengths kept.
     pub payload_kept_kg: Option<Extremes>,

@@ -258,8 +258,8 @@ fn print(summary: &WorkspaceSummary) {
             _ => ("volume", format!("{parts} triangles in boundary.stl")),
         };
         println!(
-            "{name} of the region held ({way}): {measure:.4} {unit}, error {error:.1e}; {parts}; {evaluations} \
-             positions asked for"
+            "{name} of the region held ({way}): {measure:.4} {unit}, error {error:.1e}; {parts}; \
+             {evaluations} positions asked for"
         );
     }
     let mut dominant: Vec<_> = summary.dominant.iter().collect();

@@ -104,8 +104,8 @@ pub fn greatest_payload(robot: &Robot, pose: &Pose, wrench: &Wrench) -> Result<G
 ///
 /// # Errors
 /// Those of [`super::inverse`]; [`StaticsError::NoTensions`] where the load cannot be balanced by any pull of
-/// the cables, whatever their limits; [`StaticsError::InverseNotConverged`] where tensions hold the pose and their
-/// margin was not found.
+/// the cables, whatever their limits; [`StaticsError::InverseNotConverged`] where tensions hold the pose and
+/// their margin was not found.
 pub fn tension_margin(robot: &Robot, pose: &Pose, load: &Load) -> Result<Greatest, StaticsError> {
     let own = Question::of_whole_pose(robot, pose, load, None)?;
     let (mut question, limits) = (own.clone(), own.limits.clone());
@@ -193,6 +193,9 @@ impl Greatest {
     }
 }
 
+/// A residual below this, relative to wrench and tensions, may become a balance from another start.
+const NEARLY_BALANCED: f64 = 1e-3;
+
 /// Largest growth of a chord force in a step at first.
 const REGION: f64 = 100.0;
 
@@ -229,6 +232,10 @@ impl Rise {
         // What refutes a balance at z = 0 refutes one at any z, unless z pulls the other way.
         if point.residual().dot(&self.direction) >= 0.0 && point.residue() > BALANCED && point.refutes() {
             return Err(point.refusal(question, 1, point.iterations, true));
+        }
+        // Far from a balance within wide limits, another start is not worth its time.
+        if self.limits.is_some() && point.residue() > NEARLY_BALANCED {
+            return Err(point.refusal(question, 1, point.iterations, false));
         }
         let Optimum { tensions, iterations, stationarity, .. } = search(own)?;
         let (_, top) = self.climb(question, &tensions)?;
