@@ -13,8 +13,8 @@ mod response;
 mod series;
 
 pub use dual::Dual;
-pub use field::{Field, Real};
+pub use field::{Field, Lanewise, Real};
 pub use plane::{closure_of_limp, in_plane_stiffness, stiffness_in_space};
 pub(crate) use response::Terms;
-pub use response::{Response, TautEnd, response, taut_end, taut_response};
-pub use series::TAUT;
+pub use response::{LaneEnd, Response, lane_end, lane_response, response};
+pub use series::{FOLDED, TAUT};

@@ -1,8 +1,8 @@
 //! Observer robots in lanes: the answers of the scalar models, whoever else is in the batch.
 
-use crate::common::{caroca, cogiro, ipanema};
-use cdpr_robot::{CableEnd, Parameter, Pose, Robot, RobotError, TensionReference, Vector3};
-use cdpr_statics::{Load, Observer, StaticsError};
+use crate::common::{caroca, cogiro, ipanema, robots};
+use cdpr_robot::{CableEnd, Parameter, Pose, Robot, RobotError, TensionReference, Vector3, library};
+use cdpr_statics::{Load, Observer, Residual, StaticsError};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
@@ -28,14 +28,20 @@ fn rows(robot: &Robot, count: usize, times: f64, seed: u64) -> Vec<f64> {
 fn compare(robot: &Robot, pose: &Pose, load: &Load, rows: &[f64]) -> (usize, usize) {
     let observer = Observer::new(robot, pose, load).unwrap();
     let together = observer.observe_all(rows);
+    // Rounding of larger and heavier robots is larger.
+    let longest = (0..robot.cables.len()).map(|i| robot.span(pose, i).norm()).fold(0.0, f64::max);
+    let scale = (longest / 20.0).max(1.0);
+    let heavy = (robot.platform.mass / 400.0).max(1.0);
     let (mut left, mut failed) = (0, 0);
     for (row, found) in rows.chunks(Parameter::of(robot).len()).zip(&together) {
         match (found, observer.observe(row)) {
             (Ok(found), Ok(alone)) => {
                 let error = (found.displacement - alone.displacement).norm();
-                assert!(error < 1e-12, "{error:e} m of {:e} m", alone.displacement.norm());
+                assert!(error < 1e-12 * scale, "{error:e} m of {:e} m", alone.displacement.norm());
                 for residual in [found.unloaded, found.loaded] {
-                    assert!(residual.closure < 3e-12 && residual.force < 1e-8 && residual.moment < 1e-8);
+                    let Residual { closure, force, moment } = residual;
+                    assert!(closure < 3e-12 * scale, "{residual:?}");
+                    assert!(force.max(moment / scale) < 1e-8 * heavy, "{residual:?}");
                 }
                 left += usize::from(*found == alone);
             }
@@ -90,7 +96,7 @@ fn lanes_prefer_the_same_tensions_and_keep_the_same_limits() {
             (own.max_at, own.max) = (Some(end), Some(free.tensions[tightest] + 4.0));
             let (left, failed) = compare(&robot, &pose, &load, &rows);
             println!("{}: {left} of 300 left to the scalar models, {failed} failed there", robot.name);
-            assert!(left > 30 && left < 300, "{}: {left}", robot.name);
+            assert!(left < 15 && failed == 0, "{}: {left}, {failed}", robot.name);
         }
     }
 }
@@ -116,6 +122,35 @@ fn other_robots_poses_loads_and_ranges_agree_too() {
         }
     }
     println!("of 1200 each, (left to the scalar models, failed): {outcomes:?}");
+}
+
+#[test]
+fn cables_at_their_limits_and_cables_that_sag_stay_in_the_lanes() {
+    // Robots that are held from all sides have cables at a limit at every pose, and those of the telescope and
+    // of a stadium sag. Deviations are shares of the robot's size.
+    let named = |name| Robot::from_json(library::named(library::ROBOTS, name).unwrap().text).unwrap();
+    let more = [
+        (named("segesta"), Pose::at(0.05, 0.02, 0.5)),
+        (named("cable-robot-simulator"), Pose::at(0.5, 0.3, 0.2)),
+    ];
+    for (mut robot, pose) in robots().into_iter().chain(more) {
+        robot.cables.iter_mut().for_each(|cable| (cable.pulley, cable.lead) = (None, 0.0));
+        let longest = (0..robot.cables.len()).map(|i| robot.span(&pose, i).norm()).fold(0.0, f64::max);
+        let size = (longest / 20.0).min(robot.platform_size());
+        let mut rows = rows(&robot, 200, 1.0, 11);
+        let parameters = Parameter::of(&robot);
+        for (k, value) in rows.iter_mut().enumerate() {
+            *value *= match parameters[k % parameters.len()] {
+                Parameter::Mass | Parameter::LinearDensity | Parameter::YoungsModulus => 0.5,
+                Parameter::TensionOffset(_) => robot.platform.mass / 400.0,
+                _ => 0.2 * size,
+            };
+        }
+        let load = Load::payload(0.1 * robot.platform.mass);
+        let (left, failed) = compare(&robot, &pose, &load, &rows);
+        println!("{}: {left} of 200 left to the scalar models, {failed} failed there", robot.name);
+        assert!(left <= 2, "{}: {left}, {failed}", robot.name);
+    }
 }
 
 #[test]

@@ -23,6 +23,21 @@ pub trait Field:
     fn sqrt(self) -> Self;
 }
 
+/// Numbers for several cables at a time, whose formulas cannot branch: a comparison has an answer for each.
+pub trait Lanewise: Field {
+    /// An answer for each cable.
+    type Mask: Copy;
+
+    /// Whether a number is at most `bound`; false for NaN.
+    fn at_most(self, bound: f64) -> Self::Mask;
+
+    /// Whether the answer is yes for all.
+    fn all(mask: Self::Mask) -> bool;
+
+    /// One of two numbers for each.
+    fn select(mask: Self::Mask, chosen: Self, otherwise: Self) -> Self;
+}
+
 /// Numbers for formulas with branches: a double, an interval of doubles, a double with its derivative.
 pub trait Real: Field {
     /// The exact number `value`.
@@ -53,6 +68,22 @@ impl Field for f64 {
 
     fn sqrt(self) -> Self {
         Self::sqrt(self)
+    }
+}
+
+impl Lanewise for f64 {
+    type Mask = bool;
+
+    fn at_most(self, bound: f64) -> bool {
+        self <= bound
+    }
+
+    fn all(mask: bool) -> bool {
+        mask
+    }
+
+    fn select(mask: bool, chosen: Self, otherwise: Self) -> Self {
+        if mask { chosen } else { otherwise }
     }
 }
 

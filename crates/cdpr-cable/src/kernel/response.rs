@@ -75,8 +75,8 @@
 //! A taut cable, `q² <= 0.02`, does not need the choice: there `-fz V0 <= (w L/2)² = q² s²/4`, a fiftieth of
 //! `T T0`.
 
-use super::field::{Field, Real};
-use super::series::{SERIES_LIMIT, TAUT, psi_of_slack, psi_of_taut};
+use super::field::{Field, Lanewise, Real};
+use super::series::{SERIES_LIMIT, TAUT, psi_by_halves, psi_of_slack, psi_of_taut};
 use nalgebra::Vector2;
 
 /// End position of a cable for a force at its end, with its derivatives, over any kind of number.
@@ -109,20 +109,27 @@ pub fn response<T: Real>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]
     Terms::new(w, axial_flexibility, length, fx, fz).response()
 }
 
-/// The [`response`] of a taut cable, whose [`Response::slackness`] is at most [`TAUT`].
+/// The [`response`] of several cables at a time, in lanes: a taut cable, whose [`Response::slackness`] is at
+/// most [`TAUT`], costs as few roots and quotients as possible, and only sagging ones need more.
 ///
-/// It has no branches and as few roots and quotients as possible, for numbers that are shared by several
-/// cables and cannot branch.
+/// Cables that hang folded, with a slackness above [`FOLDED`], lose digits.
 #[inline(always)]
-pub fn taut_response<T: Field>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
+pub fn lane_response<T: Lanewise>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
     let terms = Terms::with_square(w, axial_flexibility, length, fx, fz, fx * fx);
     let q2 = terms.slackness();
-    terms.assemble(q2, psi_of_taut(q2), terms.shape_of_the_taut())
+    let taut = q2.at_most(TAUT);
+    let (mut psi, mut shape) = (psi_of_taut(q2), terms.shape_of_the_taut());
+    if !T::all(taut) {
+        let (slack_psi, (g, n_over_d)) = terms.sag_in_lanes(q2);
+        psi = T::select(taut, psi, slack_psi);
+        shape = (T::select(taut, shape.0, g), T::select(taut, shape.1, n_over_d));
+    }
+    terms.assemble(q2, psi, shape)
 }
 
-/// End position, tension and slackness of a taut cable.
+/// End position, tension and slackness of a cable.
 #[derive(Clone, Copy, Debug)]
-pub struct TautEnd<T> {
+pub struct LaneEnd<T> {
     /// End position (x, z) [m], (C1) and (C2).
     pub end: [T; 2],
     /// Tension T at A [N].
@@ -131,13 +138,18 @@ pub struct TautEnd<T> {
     pub slackness: T,
 }
 
-/// The end of a taut cable alone, as in [`taut_response`].
+/// The ends of several cables at a time alone, as in [`lane_response`].
 #[inline(always)]
-pub fn taut_end<T: Field>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> TautEnd<T> {
+pub fn lane_end<T: Lanewise>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> LaneEnd<T> {
     let terms = Terms::with_square(w, axial_flexibility, length, fx, fz, fx * fx);
     let slackness = terms.slackness();
-    let x = fx * terms.lateral_flexibility(slackness * psi_of_taut(slackness) + 1.0);
-    TautEnd { end: [x, terms.height()], tension: terms.t, slackness }
+    let taut = slackness.at_most(TAUT);
+    let mut psi = psi_of_taut(slackness);
+    if !T::all(taut) {
+        psi = T::select(taut, psi, terms.sag_in_lanes(slackness).0);
+    }
+    let x = fx * terms.lateral_flexibility(slackness * psi + 1.0);
+    LaneEnd { end: [x, terms.height()], tension: terms.t, slackness }
 }
 
 /// The quantities that equations (C1)-(C11) share.
@@ -289,6 +301,28 @@ impl<T: Field> Terms<T> {
             direction: [fx * tension_inv, fz * tension_inv],
             slackness: q2,
         }
+    }
+}
+
+impl<T: Lanewise> Terms<T> {
+    /// ψ(q²), and g and N/D, of cables with any sag.
+    #[inline(always)]
+    fn sag_in_lanes(&self, q2: T) -> (T, (T, T)) {
+        let Self { fx2, fz, v0, t, t0, s_inv, .. } = *self;
+        let (p, tt0) = (fz * v0, t * t0);
+        let dips = p.at_most(0.0);
+        let m = (fx2 + self.squares()) / (tt0 - p);
+        let folded_d = fx2 * (m + 1.0);
+        let d = T::select(dips, folded_d, fx2 + tt0 + p);
+        // sqrt(1 - q²)
+        let cosine = (d * 2.0).sqrt() * s_inv;
+        let folded_g = (m + 1.0).recip();
+        let (g, n_over_d) = self.shape_of_the_taut();
+        let shape = (
+            T::select(dips, folded_g, g),
+            T::select(dips, folded_g * (self.squares() + p * 2.0 * m), n_over_d),
+        );
+        (psi_by_halves(q2, cosine), shape)
     }
 }
 

@@ -1,9 +1,15 @@
 //! The series of ψ(q²) = (atanh(q)/q - 1)/q², which is the part of a cable's sag in its end position.
 
-use super::field::Field;
+use super::field::{Field, Lanewise};
 
-/// A cable with q² up to this is taut: the formulas of [`crate::kernel::taut_response`] hold to rounding.
+/// A cable with q² up to this is taut: ten terms of the series are enough.
 pub const TAUT: f64 = 0.02;
+
+/// A cable with q² above this hangs folded: [`crate::kernel::lane_response`] loses digits.
+pub const FOLDED: f64 = 1.0 - 1e-6;
+
+/// Halvings of atanh(q) that lead from [`FOLDED`] to [`TAUT`].
+const MOST_HALVINGS: usize = 8;
 
 /// Above this q² the logarithm is used; it agrees with the series to rounding there.
 pub(super) const SERIES_LIMIT: f64 = 0.1;
@@ -37,6 +43,33 @@ pub(super) fn psi_of_taut<T: Field>(q2: T) -> T {
     odd * q2 + even
 }
 
+/// ψ(q²) for any q² up to [`FOLDED`], from q² and `cosine` = sqrt(1 - q²).
+///
+/// With `q' = q/(1 + sqrt(1 - q²))` is `atanh(q) = 2 atanh(q')`, and
+///
+/// ```text
+/// q'² = q²/(1 + c)²,    ψ(q²) = (1 + 2 ψ(q'²)/(1 + c)) / (1 + c)²,    c'² = 2 c/(1 + c)            (C27)
+/// ```
+///
+/// in which nothing cancels. Each cable is halved until it is [`TAUT`], by its own q² alone.
+#[inline(always)]
+pub(super) fn psi_by_halves<T: Lanewise>(q2: T, cosine: T) -> T {
+    let (mut q2, mut cosine) = (q2, cosine);
+    let mut halvings = [(q2.at_most(TAUT), cosine); MOST_HALVINGS];
+    let mut count = 0;
+    while count < MOST_HALVINGS && !T::all(q2.at_most(TAUT)) {
+        let taut = q2.at_most(TAUT);
+        let inverse = (cosine + 1.0).recip();
+        halvings[count] = (taut, inverse);
+        q2 = T::select(taut, q2, q2 * inverse * inverse);
+        cosine = T::select(taut, cosine, (cosine * 2.0 * inverse).sqrt());
+        count += 1;
+    }
+    halvings[..count].iter().rev().fold(psi_of_taut(q2), |psi, (taut, inverse)| {
+        T::select(*taut, psi, (psi * 2.0 * *inverse + 1.0) * *inverse * *inverse)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -49,5 +82,17 @@ mod tests {
             assert_relative_eq!(psi_of_slack(q2), (q.atanh() / q - 1.0) / q2, max_relative = 1e-14);
         }
         assert_relative_eq!(psi_of_taut(TAUT), psi_of_slack(TAUT), max_relative = 1e-15);
+    }
+
+    #[test]
+    fn halves_agree_with_the_logarithm_up_to_folded_cables() {
+        for cosine in [0.99, 0.95, 0.9, 0.5, 0.1, 1e-2, 2e-3, 1.001e-3] {
+            let q2 = 1.0 - cosine * cosine;
+            let q = f64::sqrt(q2);
+            // atanh q = ln((1 + q)/c)
+            let logarithm = (((1.0 + q) / cosine).ln() / q - 1.0) / q2;
+            let expected = if q2 < SERIES_LIMIT { psi_of_slack(q2) } else { logarithm };
+            assert_relative_eq!(psi_by_halves(q2, cosine), expected, max_relative = 1e-14);
+        }
     }
 }

@@ -1,12 +1,12 @@
-//! One taut cable in each lane: where it runs and how it answers.
+//! One cable in each lane: where it runs and how it answers.
 
 use crate::equations::{LinearizedCable, Span, between};
 use crate::lanes::algebra::{Lanes2, Lanes3, three};
 use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::kernel::{Response, TautEnd, taut_end, taut_response};
+use cdpr_cable::kernel::{LaneEnd, Response, lane_end, lane_response};
 
-/// A taut cable of every robot, or several taut cables of one.
-pub(crate) struct TautCable<S: Simd> {
+/// A cable of every robot, or several cables of one.
+pub(crate) struct LaneCable<S: Simd> {
     /// Weight per length [N/m].
     pub(crate) weight_per_length: Lanes<S>,
     /// 1/EA [1/N].
@@ -21,10 +21,10 @@ pub(crate) struct TautCable<S: Simd> {
     pub(crate) force: Lanes2<S>,
 }
 
-impl<S: Simd> TautCable<S> {
+impl<S: Simd> LaneCable<S> {
     #[inline(always)]
-    pub(crate) fn end(&self) -> TautEnd<Lanes<S>> {
-        taut_end(self.weight_per_length, self.axial_flexibility, self.length, self.force)
+    pub(crate) fn end(&self) -> LaneEnd<Lanes<S>> {
+        lane_end(self.weight_per_length, self.axial_flexibility, self.length, self.force)
     }
 
     /// The span of the cable with the platform at `position`.
@@ -36,7 +36,7 @@ impl<S: Simd> TautCable<S> {
 
     #[inline(always)]
     pub(crate) fn response(&self) -> Response<Lanes<S>> {
-        taut_response(self.weight_per_length, self.axial_flexibility, self.length, self.force)
+        lane_response(self.weight_per_length, self.axial_flexibility, self.length, self.force)
     }
 }
 

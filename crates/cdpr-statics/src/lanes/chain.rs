@@ -26,11 +26,12 @@
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
 use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, SymmetricFactors, six, three};
-use crate::lanes::cable::TautCable;
+use crate::lanes::cable::LaneCable;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots, Scale};
 use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::kernel::{Field, Response, TAUT};
+use cdpr_cable::kernel::{FOLDED, Field, Response};
 use cdpr_robot::{CableEnd, TensionLimits};
+use cdpr_tension::Bound;
 
 /// Robots at their wanted pose, with lengths and forces to start from.
 pub(crate) struct ChainStart<S: Simd> {
@@ -52,6 +53,8 @@ pub(crate) struct Choice {
     pub(crate) limits: TensionLimits,
     /// Where the greatest tension is limited.
     pub(crate) max_at: CableEnd,
+    /// The limit at which the nominal robot has it.
+    pub(crate) active: Option<Bound>,
 }
 
 /// What all robots of a batch share.
@@ -84,6 +87,9 @@ const LAST_CHANGE: f64 = 1e-7;
 /// m.
 const LAST_DISTRIBUTION: f64 = 1e-9;
 
+/// Iterations for the tensions, whose limits may change on the way.
+const MAX_DISTRIBUTIONS: usize = 20;
+
 /// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at
 /// the wanted pose.
 #[inline(always)]
@@ -114,21 +120,66 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome
     Outcome { valid, displacement: three(|k| robots.position[k] - stood[k]), unloaded, loaded }
 }
 
-impl<S: Simd> TautCable<S> {
-    /// Whether a tension at the platform does not exceed the greatest one.
-    ///
-    /// An offset may lead beyond it: what becomes of the set-point then is not decided here.
+impl<S: Simd> LaneCable<S> {
+    /// The tensions at the platform that the limits allow [N], as `limits_at` has them.
     #[inline(always)]
-    fn is_below_greatest(&self, span: &Span<Lanes<S>>, tension: Lanes<S>, choice: &Choice) -> Mask<S> {
-        let greatest = tension.all(choice.limits.max);
+    fn limits(&self, span: &Span<Lanes<S>>, choice: &Choice) -> [Lanes<S>; 2] {
+        let [least, greatest] = [choice.limits.min, choice.limits.max].map(|limit| self.length.all(limit));
         match choice.max_at {
-            CableEnd::Anchor => tension.less_or_equal(greatest),
+            CableEnd::Anchor => [least, greatest],
             CableEnd::Exit => {
-                // (C26) of `cdpr_cable`, for a linear cable.
-                let whole = |t: Lanes<S>| t + t * t * self.axial_flexibility * 0.5;
-                whole(tension).less_or_equal(whole(greatest) + self.weight_per_length * span.end[1])
+                // (C26) of `cdpr_cable`, for a linear cable: t + t²/2EA grows with the height by its weight.
+                let half = self.axial_flexibility * 0.5;
+                let whole = greatest + greatest * greatest * half + self.weight_per_length * span.end[1];
+                [least, whole * 2.0 * ((whole * half * 4.0 + 1.0).sqrt() + 1.0).recip()]
             }
         }
+    }
+}
+
+/// The lanes in which a cable is held at the least of its tensions, and at the greatest.
+#[derive(Clone, Copy)]
+struct AtLimit<S: Simd> {
+    limits: [Lanes<S>; 2],
+    sides: [Mask<S>; 2],
+    /// Whether it is held in any lane.
+    any: bool,
+}
+
+impl<S: Simd> AtLimit<S> {
+    #[inline(always)]
+    fn new(limits: [Lanes<S>; 2], active: Option<Bound>) -> Self {
+        let all = limits[0].less_or_equal(limits[0]);
+        let none = all & !all;
+        let side = |bound| if active == Some(bound) { all } else { none };
+        Self { limits, sides: [side(Bound::Min), side(Bound::Max)], any: active.is_some() }
+    }
+
+    /// `free` in the lanes in which the cable is held at no limit, in the others `held` or, at the least
+    /// tension, `least`.
+    #[inline(always)]
+    fn select(&self, free: Lanes<S>, [least, greatest]: [Lanes<S>; 2]) -> Lanes<S> {
+        self.sides[0].select(least, self.sides[1].select(greatest, free))
+    }
+
+    /// Holds the cable where its tension has passed a limit, and frees it where the sum to be minimised falls
+    /// with a tension on the right side: (I2) of `inverse.rs`, whose slope over the tension is `slope`.
+    /// Returns the lanes in which nothing changes.
+    #[inline(always)]
+    fn revise(&mut self, tension: Lanes<S>, slope: Lanes<S>, going: Mask<S>) -> Mask<S> {
+        let zero = slope.all(0.0);
+        let [low, high] = self.sides;
+        let free = !(low | high);
+        let below = free & !self.limits[0].less_or_equal(tension);
+        let above = free & !tension.less_or_equal(self.limits[1]);
+        let (rises, falls) = (low & !zero.less_or_equal(slope), high & !slope.less_or_equal(zero));
+        let changed = going & (below | above | rises | falls);
+        self.sides = [
+            (low & !(changed & rises)) | (changed & below),
+            (high & !(changed & falls)) | (changed & above & !below),
+        ];
+        self.any |= changed.any();
+        !changed
     }
 }
 
@@ -148,7 +199,7 @@ struct HeldCable<S: Simd> {
 
 impl<S: Simd> HeldCable<S> {
     #[inline(always)]
-    fn new(cable: &TautCable<S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
+    fn new(cable: &LaneCable<S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
         let [fx, fz] = cable.force;
         let [xx, xz, zz] = response.flexibility;
         let along = response.direction;
@@ -171,7 +222,7 @@ impl<S: Simd> HeldCable<S> {
 
     /// Changes the tension by `dt` where `going`. Returns the largest relative change made.
     #[inline(always)]
-    fn change(&self, cable: &mut TautCable<S>, dt: Lanes<S>, going: Mask<S>, shared: &Shared) -> Lanes<S> {
+    fn change(&self, cable: &mut LaneCable<S>, dt: Lanes<S>, going: Mask<S>, shared: &Shared) -> Lanes<S> {
         let across = (self.alpha + self.beta * dt) * self.tension;
         let longer = self.gamma + self.delta * dt;
         let [ux, uz] = self.along;
@@ -185,8 +236,11 @@ impl<S: Simd> HeldCable<S> {
 }
 
 /// The tensions nearest to their reference at the wanted pose, equations (L2) and (L3); `offsets` are added
-/// to them and become set-points, towards which cables make a first step. Returns the lanes with taut cables
-/// and all tensions within the limits.
+/// to them and become set-points, towards which cables make a first step. Returns the lanes where they were
+/// found.
+///
+/// A cable that is held at a limit of its tension has a known dt and drops out of the matrix. Which ones are
+/// held is known of the nominal robot; where the optimum of a lane says otherwise, that lane goes on.
 #[inline(always)]
 fn distribute<S: Simd>(
     robots: &mut Robots<S>,
@@ -201,21 +255,35 @@ fn distribute<S: Simd>(
     let mut going = zero.less_or_equal(zero);
     let mut within = going;
     let mut linear = Vec::with_capacity(spans.len());
-    for _ in 0..MAX_ITERATIONS {
+    let cables = spans.iter().zip(&robots.cables).zip(&shared.choices);
+    let mut at_limits: Vec<_> = cables
+        .map(|((span, cable), choice)| AtLimit::new(cable.limits(span, choice), choice.active))
+        .collect();
+    for _ in 0..MAX_DISTRIBUTIONS {
         linear.clear();
         let mut matrix = [[zero; 6]; 6];
         let mut right = weight;
-        for ((span, cable), choice) in spans.iter().zip(&robots.cables).zip(&shared.choices) {
+        let cables = spans.iter().zip(&robots.cables).zip(&shared.choices);
+        for (((span, cable), choice), at_limit) in cables.zip(&at_limits) {
             let held = HeldCable::new(cable, span, &cable.response());
             let [ux, uz] = held.along;
             let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(held.along));
             let rotation = wrench(&cable.anchor_arm, &span.plane.force_on_platform([-uz, ux]));
             let (pulled, rotated) = (dot(&pull, &multipliers), dot(&rotation, &multipliers));
             let bent = held.tension * held.beta;
-            let d_inv = (-(bent * held.beta * pulled) + 1.0).recip();
+            let mut d_inv = (-(bent * held.beta * pulled) + 1.0).recip();
             let beyond = held.tension + -choice.reference;
             let left = beyond + pulled + bent * rotated + held.alpha * (rotated - bent * pulled);
             let slope = six(|k| pull[k] + rotation[k] * bent);
+            let mut known = zero;
+            if at_limit.any {
+                let [low, high] = at_limit.limits;
+                known = at_limit.select(zero, [low - held.tension, high - held.tension]);
+                d_inv = at_limit.select(d_inv, [zero; 2]);
+                for k in 0..6 {
+                    right[k] += slope[k] * known;
+                }
+            }
             for k in 0..6 {
                 let c = slope[k] * d_inv;
                 right[k] += (pull[k] + rotation[k] * held.alpha) * held.tension - c * left;
@@ -223,28 +291,32 @@ fn distribute<S: Simd>(
                     matrix[k][l] += c * slope[l];
                 }
             }
-            linear.push((held, slope, left, d_inv));
+            linear.push((held, slope, left, d_inv, known));
         }
         let step = SymmetricFactors::new(matrix).solve(&right);
         let mut moved = zero;
-        for ((held, slope, left, d_inv), cable) in linear.iter().zip(&mut robots.cables) {
-            let dt = -(*left + dot(slope, &step)) * *d_inv;
+        for ((held, slope, left, d_inv, known), cable) in linear.iter().zip(&mut robots.cables) {
+            let dt = *known - (*left + dot(slope, &step)) * *d_inv;
             moved = moved.max(held.change(cable, dt, going, shared));
         }
         multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
-        let last = going & moved.less_or_equal(last_change);
+        let mut last = going & moved.less_or_equal(last_change);
         if last.any() {
-            let cables = linear.iter().zip(&mut robots.cables).zip(&mut *offsets);
-            for ((((held, ..), cable), offset), (span, choice)) in
-                cables.zip(spans.iter().zip(&shared.choices))
-            {
+            let here = last;
+            let cables = linear.iter().zip(&robots.cables).zip(&mut at_limits);
+            for (((_, slope, left, ..), cable), at_limit) in cables {
                 let tension = dot(&cable.force, &cable.force).sqrt();
-                let least = zero.all(choice.limits.min);
-                let set_point = (tension + *offset).max(least);
+                last = last & at_limit.revise(tension, *left + dot(slope, &step), here);
+            }
+            let cables = linear.iter().zip(&mut robots.cables).zip(&mut *offsets);
+            for ((((held, ..), cable), offset), at_limit) in cables.zip(&at_limits) {
+                let [least, greatest] = at_limit.limits;
+                let tension = dot(&cable.force, &cable.force).sqrt();
+                let set_point = (at_limit.select(tension, at_limit.limits) + *offset).max(least);
+                let set_point = set_point.less_or_equal(greatest).select(set_point, greatest);
                 let sound = zero.less_or_equal(cable.force[0])
-                    & held.slackness.less_or_equal(zero.all(TAUT))
-                    & least.less_or_equal(tension)
-                    & cable.is_below_greatest(span, tension.max(set_point), choice);
+                    & held.slackness.less_or_equal(zero.all(FOLDED))
+                    & least.less_or_equal(greatest);
                 within = within & (sound | !last);
                 *offset = last.select(set_point, *offset);
                 let closed = HeldCable { alpha: zero, gamma: zero, ..*held };

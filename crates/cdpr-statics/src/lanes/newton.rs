@@ -8,9 +8,9 @@ use crate::direct::MAX_STRAIN;
 use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable};
 use crate::lanes::algebra::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, six, three};
-use crate::lanes::cable::TautCable;
+use crate::lanes::cable::LaneCable;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
-use cdpr_cable::kernel::{Field, TAUT, TautEnd};
+use cdpr_cable::kernel::{FOLDED, Field, LaneEnd};
 use cdpr_robot::Robot;
 use smallvec::{SmallVec, smallvec};
 
@@ -23,18 +23,18 @@ pub(crate) fn in_lanes(robot: &Robot) -> bool {
 pub(crate) enum Layout<S: Simd> {
     /// Each lane holds a robot.
     Robots,
-    /// Each lane holds a cable of one robot. The mask says which lanes of the last [`TautCable`] count; the
+    /// Each lane holds a cable of one robot. The mask says which lanes of the last [`LaneCable`] count; the
     /// others repeat a cable.
     Cables(Mask<S>),
 }
 
-/// Number of [`TautCable`]s that are stored without allocation.
+/// Number of [`LaneCable`]s that are stored without allocation.
 const INLINE: usize = 4;
 
 /// Robots, in an equilibrium or near one.
 pub(crate) struct Robots<S: Simd> {
     pub(crate) layout: Layout<S>,
-    pub(crate) cables: SmallVec<[TautCable<S>; INLINE]>,
+    pub(crate) cables: SmallVec<[LaneCable<S>; INLINE]>,
     /// Position of the platform [m].
     pub(crate) position: Lanes3<S>,
     /// R c, the lever of the centre of mass [m].
@@ -249,7 +249,7 @@ impl<S: Simd> Robots<S> {
         let (mut tensions, mut failed) = (zero, zero);
         for (i, (cable, linearized)) in self.cables.iter().zip(&mut platform.cables).enumerate() {
             let span = cable.span(&self.position);
-            let TautEnd { end, tension, slackness } = cable.end();
+            let LaneEnd { end, tension, slackness } = cable.end();
             let miss = span.misclosure(end);
             residual.closure = residual.closure.max(dot(&miss, &miss));
             let predicted = linearized.answer(cable.force, miss);
@@ -262,7 +262,7 @@ impl<S: Simd> Robots<S> {
             tensions += self.counted(i, tension);
             let strain = (tension + cable.weight_per_length * cable.length) * cable.axial_flexibility;
             let sound = zero.less_or_equal(fx)
-                & slackness.less_or_equal(zero.all(TAUT))
+                & slackness.less_or_equal(zero.all(FOLDED))
                 & strain.less_or_equal(zero.all(MAX_STRAIN));
             failed = failed.max((!sound).select(zero.all(1.0), zero));
         }

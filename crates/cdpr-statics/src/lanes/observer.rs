@@ -7,7 +7,7 @@
 use crate::error::StaticsError;
 use crate::inverse::inverse;
 use crate::lanes::algebra::{six, three};
-use crate::lanes::cable::TautCable;
+use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::{ChainStart, Choice, Shared, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale, in_lanes};
@@ -17,6 +17,7 @@ use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
 use cdpr_cable::kernel::Field;
 use cdpr_robot::{Axis, Parameter, ParameterLayout, Pose, Robot, Vector3, Vector6};
+use cdpr_tension::Bound;
 use smallvec::SmallVec;
 use std::array::from_fn;
 
@@ -110,13 +111,14 @@ impl Nominal {
         let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let reference = robot.reference();
-        let choice = |(i, reference): (usize, &f64)| Choice {
+        let choice = |(i, (reference, active)): (usize, (&f64, &Option<Bound>))| Choice {
             reference: *reference,
             limits: robot.limits(i),
             max_at: robot.max_at(i),
+            active: *active,
         };
         let shared = Shared {
-            choices: reference.iter().enumerate().map(choice).collect(),
+            choices: reference.iter().zip(&solution.active).enumerate().map(choice).collect(),
             tension: solution.tensions.iter().sum(),
             scale: Scale {
                 size: problem.size(),
@@ -256,7 +258,7 @@ impl<S: Simd> Rows<'_, S> {
                 & offset.less_or_equal(offset);
             let force = nominal.equilibrium.cable_forces[i];
             start.offsets.push(offset);
-            start.robots.cables.push(TautCable {
+            start.robots.cables.push(LaneCable {
                 weight_per_length: density * gravity,
                 axial_flexibility: (modulus * cable.properties.section).recip(),
                 exit_point: self.point(layout.exit_point(i), &cable.exit_point),

@@ -5,7 +5,7 @@
 //! comparisons are used, which IEEE 754 defines to the bit, and nothing is fused: a problem has the same
 //! answer in any lane of any unit. Lanes cannot branch; a [`Mask`] selects between them.
 
-use cdpr_cable::kernel::Field;
+use cdpr_cable::kernel::{Field, Lanewise};
 use pulp::Arch;
 #[cfg(test)]
 pub(crate) use pulp::Scalar;
@@ -203,6 +203,25 @@ impl<S: Simd> SubAssign for Lanes<S> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
+    }
+}
+
+impl<S: Simd> Lanewise for Lanes<S> {
+    type Mask = Mask<S>;
+
+    #[inline(always)]
+    fn at_most(self, bound: f64) -> Mask<S> {
+        self.less_or_equal(self.all(bound))
+    }
+
+    #[inline(always)]
+    fn all(mask: Mask<S>) -> bool {
+        !(!mask).any()
+    }
+
+    #[inline(always)]
+    fn select(mask: Mask<S>, chosen: Self, otherwise: Self) -> Self {
+        mask.select(chosen, otherwise)
     }
 }
 

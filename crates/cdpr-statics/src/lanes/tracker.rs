@@ -2,7 +2,7 @@
 
 use crate::direct::{Start, direct};
 use crate::error::StaticsError;
-use crate::lanes::cable::TautCable;
+use crate::lanes::cable::LaneCable;
 use crate::lanes::newton::{Layout, LinearizedPlatform, PlatformLoad, Robots, Scale, in_lanes};
 use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
@@ -142,7 +142,7 @@ impl WithSimd for Update<'_, '_> {
                 }
             }
             let column = |k: usize| Lanes::from_array(simd, &values[k]);
-            robots.cables.push(TautCable {
+            robots.cables.push(LaneCable {
                 weight_per_length: column(0),
                 axial_flexibility: column(1),
                 exit_point: [column(2), column(3), column(4)],
