@@ -8,14 +8,13 @@ mod problems;
 use cdpr_robot::{Parameter, Pose, Robot};
 use cdpr_statics::{Load, Observer};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use problems::{caroca, counted, ring, settings};
+use problems::{caroca, counted, ring, robots, settings};
 use std::hint::black_box;
 
 /// Rows of deviations: sawtooths through the ranges of Table 3 of Baklouti, Caro, Courteille (CableCon 2017),
 /// one a parameter.
 fn deviations(robot: &Robot, robots: usize) -> Vec<f64> {
-    let parameters = Parameter::of(robot);
-    let half_range = |parameter: &Parameter| match parameter {
+    sawtooths(robot, robots, |parameter| match parameter {
         Parameter::Mass => 18.0,
         Parameter::LinearDensity => 0.01015,
         Parameter::YoungsModulus => 1.8e10,
@@ -23,7 +22,23 @@ fn deviations(robot: &Robot, robots: usize) -> Vec<f64> {
         Parameter::ExitPoint(..) => 0.03,
         Parameter::TensionOffset(_) => 15.0,
         _ => 0.0,
-    };
+    })
+}
+
+/// The same in proportion to a robot's weight, cables and platform.
+fn shares(robot: &Robot, robots: usize) -> Vec<f64> {
+    let cable = &robot.cables[0].properties;
+    sawtooths(robot, robots, |parameter| match parameter {
+        Parameter::Mass => 0.05 * robot.platform.mass,
+        Parameter::LinearDensity => 0.1 * cable.linear_density,
+        Parameter::YoungsModulus => 0.2 * cable.youngs_modulus,
+        Parameter::TensionOffset(_) => 0.04 * robot.platform.mass,
+        _ => 0.01 * robot.platform_size(),
+    })
+}
+
+fn sawtooths(robot: &Robot, robots: usize, half_range: impl Fn(&Parameter) -> f64) -> Vec<f64> {
+    let parameters = Parameter::of(robot);
     let entries = 0..parameters.len() * robots;
     entries
         .map(|i| half_range(&parameters[i % parameters.len()]) * ((i * 37 % 101) as f64 / 50.0 - 1.0))
@@ -61,6 +76,15 @@ fn observation(criterion: &mut Criterion) {
         let found = observer.observe_all(&rows);
         assert!(found.iter().all(|found| found.as_ref().is_ok_and(|found| found.loaded.force < 1e-8)));
         group.bench_function(BenchmarkId::new("cables", cables), |b| {
+            b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
+        });
+    }
+    for (robot, pose) in robots() {
+        let load = Load::payload(0.1 * robot.platform.mass);
+        let observer = Observer::new(&robot, &pose, &load).unwrap();
+        let rows = shares(&robot, BATCH);
+        assert!(observer.observe_all(&rows).iter().all(Result::is_ok), "{}", robot.name);
+        group.bench_function(BenchmarkId::new("robots", &robot.name), |b| {
             b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
         });
     }

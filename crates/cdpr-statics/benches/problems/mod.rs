@@ -5,7 +5,7 @@
 mod common;
 
 use cdpr_robot::Robot;
-pub(crate) use common::caroca;
+pub(crate) use common::{caroca, robots};
 use criterion::Criterion;
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! The chain of an observation for robots with taut cables, one robot in each lane.
+//! The chain of an observation, one robot in each lane.
 //!
 //! Its links are the inverse model, the offset set-points, and the direct model without and with the load.
 //! The equations are those of `inverse.rs` and `direct/newton.rs`, with one difference: the shape of a cable
@@ -19,7 +19,8 @@
 //! ```
 //!
 //! c is the derivative of the cable's wrench with respect to its tension. D holds the derivative of c for a
-//! parabola, whose direction turns in proportion to 1/t; for a taut cable little is missing.
+//! parabola, whose direction turns in proportion to 1/t; for a taut cable little is missing. A cable that
+//! hangs at the least tension that its length allows has no such slope: its lane finds nothing.
 //!
 //! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
 
@@ -70,8 +71,8 @@ pub(crate) struct Shared {
 
 /// The answer for every robot.
 pub(crate) struct Outcome<S: Simd> {
-    /// Lanes with an answer: converged to rounding, stable, all cables taut, all tensions within their
-    /// limits.
+    /// Lanes with an answer: converged to rounding, stable, no cable folded, all tensions within
+    /// their limits.
     pub(crate) valid: Mask<S>,
     /// dp [m].
     pub(crate) displacement: Lanes3<S>,

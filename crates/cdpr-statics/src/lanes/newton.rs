@@ -1,4 +1,4 @@
-//! The direct model of robots with taut cables: Newton's method of `direct/newton.rs`, with its cables
+//! The direct model: Newton's method of `direct/newton.rs`, with its cables
 //! eliminated.
 //!
 //! Each lane holds a robot, or a cable of one robot. A lane stops by its own steps alone: the other lanes of
@@ -230,8 +230,8 @@ impl<S: Simd> Robots<S> {
         }
     }
 
-    /// The residual, and the lanes that hold: where it is rounding, and all cables are pulled, taut and not
-    /// overstrained.
+    /// The residual, and the lanes that hold: where it is rounding, and all cables are pulled, and neither
+    /// folded nor overstrained.
     ///
     /// In the lanes that are `near` the linearisation is moved here and keeps its stiffness.
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Deflections of a robot with deviations of its parameters, many at a time.
 //!
-//! Robots with taut cables, stable and within their limits, are observed in the lanes of the vector unit
+//! Robots with plain cables, stable and taut or sagging, at their limits or not, are observed in the lanes of the vector unit
 //! (`lanes/chain.rs`), each from the tensions of the nominal robot. Any other robot is observed by
 //! [`deflection`], which decides on every failure.
 
@@ -93,10 +93,10 @@ impl<'a> Observer<'a> {
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Observation, StaticsError>> {
         let rows = deviations.chunks_exact(self.parameters);
         let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
-        let taut =
+        let in_lanes =
             dispatch(Batch { observer: self, deviations: &deviations[..rows.len() * self.parameters] });
         let outcomes =
-            taut.into_iter().zip(rows).map(|(taut, row)| taut.map_or_else(|| self.observe(row), Ok));
+            in_lanes.into_iter().zip(rows).map(|(found, row)| found.map_or_else(|| self.observe(row), Ok));
         outcomes.chain(incomplete.map(|row| self.observe(row))).collect()
     }
 }

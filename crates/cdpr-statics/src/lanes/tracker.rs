@@ -63,7 +63,7 @@ impl<'a> Tracker<'a> {
 
     /// Goes to the equilibrium for other lengths [m] and another load, near the current one.
     ///
-    /// Nothing is allocated where Newton's method finds a stable equilibrium with taut cables (up to 32 of
+    /// Nothing is allocated where Newton's method finds a stable equilibrium without folded cables (up to 32 of
     /// them with AVX-512, 16 with AVX2). Otherwise [`direct`] searches.
     ///
     /// # Errors
@@ -71,10 +71,10 @@ impl<'a> Tracker<'a> {
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let problem = DirectProblem::new(self.robot, lengths, load)?;
         // A moment has no potential: pivots do not show whether its equilibria are stable.
-        let taut = load.wrench.moment == Vector3::zeros()
+        let found = load.wrench.moment == Vector3::zeros()
             && in_lanes(self.robot)
             && dispatch(Update { tracker: self, problem: &problem });
-        if !taut {
+        if !found {
             let solution = direct(self.robot, lengths, load, Start::Near(&self.equilibrium))?;
             self.residual = solution.report.residual;
             self.equilibrium = solution.equilibrium;
@@ -83,7 +83,7 @@ impl<'a> Tracker<'a> {
     }
 }
 
-/// Newton's method for taut cables, which fill the lanes; it tells whether it found an equilibrium.
+/// Newton's method for cables, which fill the lanes; it tells whether it found an equilibrium.
 struct Update<'a, 'b> {
     tracker: &'a mut Tracker<'b>,
     problem: &'a DirectProblem<'a>,
