@@ -65,9 +65,13 @@ pub(super) fn psi_by_halves<T: Lanewise>(q2: T, cosine: T) -> T {
         cosine = T::select(taut, cosine, (cosine * 2.0 * inverse).sqrt());
         count += 1;
     }
-    halvings[..count].iter().rev().fold(psi_of_taut(q2), |psi, (taut, inverse)| {
-        T::select(*taut, psi, (psi * 2.0 * *inverse + 1.0) * *inverse * *inverse)
-    })
+    let mut psi = psi_of_taut(q2);
+    while count > 0 {
+        count -= 1;
+        let (taut, inverse) = halvings[count];
+        psi = T::select(taut, psi, (psi * 2.0 * inverse + 1.0) * inverse * inverse);
+    }
+    psi
 }
 
 #[cfg(test)]

@@ -125,7 +125,7 @@ impl<S: Simd> LaneCable<S> {
     /// The tensions at the platform that the limits allow [N], as `limits_at` has them.
     #[inline(always)]
     fn limits(&self, span: &Span<Lanes<S>>, choice: &Choice) -> [Lanes<S>; 2] {
-        let [least, greatest] = [choice.limits.min, choice.limits.max].map(|limit| self.length.all(limit));
+        let (least, greatest) = (self.length.all(choice.limits.min), self.length.all(choice.limits.max));
         match choice.max_at {
             CableEnd::Anchor => [least, greatest],
             CableEnd::Exit => {
@@ -152,8 +152,12 @@ impl<S: Simd> AtLimit<S> {
     fn new(limits: [Lanes<S>; 2], active: Option<Bound>) -> Self {
         let all = limits[0].less_or_equal(limits[0]);
         let none = all & !all;
-        let side = |bound| if active == Some(bound) { all } else { none };
-        Self { limits, sides: [side(Bound::Min), side(Bound::Max)], any: active.is_some() }
+        let sides = match active {
+            None => [none, none],
+            Some(Bound::Min) => [all, none],
+            Some(Bound::Max) => [none, all],
+        };
+        Self { limits, sides, any: active.is_some() }
     }
 
     /// `free` in the lanes in which the cable is held at no limit, in the others `held` or, at the least
@@ -256,10 +260,10 @@ fn distribute<S: Simd>(
     let mut going = zero.less_or_equal(zero);
     let mut within = going;
     let mut linear = Vec::with_capacity(spans.len());
-    let cables = spans.iter().zip(&robots.cables).zip(&shared.choices);
-    let mut at_limits: Vec<_> = cables
-        .map(|((span, cable), choice)| AtLimit::new(cable.limits(span, choice), choice.active))
-        .collect();
+    let mut at_limits = Vec::with_capacity(spans.len());
+    for ((span, cable), choice) in spans.iter().zip(&robots.cables).zip(&shared.choices) {
+        at_limits.push(AtLimit::new(cable.limits(span, choice), choice.active));
+    }
     for _ in 0..MAX_DISTRIBUTIONS {
         linear.clear();
         let mut matrix = [[zero; 6]; 6];
