@@ -116,7 +116,11 @@ fn each_numerical_library_is_named_by_one_module_of_a_crate() {
         ("clarabel", &["cdpr-tension/src/quadratic_program.rs"][..]),
         (
             "faer",
-            &["cdpr-sensitivity/src/measure/least_squares.rs", "cdpr-statics/src/equations/assembled.rs"],
+            &[
+                "cdpr-calibration/src/solve.rs",
+                "cdpr-sensitivity/src/measure/least_squares.rs",
+                "cdpr-statics/src/equations/assembled.rs",
+            ],
         ),
         ("mpi", &["cdpr-cli/src/study/ranks.rs"]),
         ("pulp", &["cdpr-statics/src/lanes/simd.rs"]),

@@ -2,6 +2,7 @@
 
 use cdpr_assess::AssessError;
 use cdpr_cable::{CableError, RecordError};
+use cdpr_calibration::CalibrationError;
 use cdpr_exchange::{ExchangeError, Lacking};
 use cdpr_report::ReportError;
 use cdpr_robot::{JsonError, QuaternionError};
@@ -27,6 +28,8 @@ pub(crate) enum ProgramError {
     Study(#[from] StudyError),
     #[error(transparent)]
     Assess(AssessError),
+    #[error(transparent)]
+    Calibration(CalibrationError),
     #[error(transparent)]
     Report(#[from] ReportError),
     /// A file was read, and what it says is wrong.
@@ -73,6 +76,16 @@ impl From<AssessError> for ProgramError {
         match error {
             AssessError::Study(error) => Self::Study(error),
             error => Self::Assess(error),
+        }
+    }
+}
+
+impl From<CalibrationError> for ProgramError {
+    fn from(error: CalibrationError) -> Self {
+        match error {
+            CalibrationError::Study(error) => Self::Study(error),
+            CalibrationError::Statics(error) => Self::Statics(error),
+            error => Self::Calibration(error),
         }
     }
 }

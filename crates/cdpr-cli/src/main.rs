@@ -85,10 +85,18 @@ enum Command {
         #[command(subcommand)]
         command: study::Command,
     },
-    /// Find the combinations of parameters that measurements identify, and the poses that identify most.
-    #[command(after_help = "Example: cdpr calibration data/robots/caroca.json --grid=-2:2:5,-1:1:3,1:2.5:3 \
-                      --uncertainty a=0.002,b=0.002,youngs_modulus=5e9 --noise position=1e-4,rotation=1e-4")]
-    Calibration(robot::calibration::Settings),
+    /// Fit the parameters of a robot to measurements: the calibrated robot, and the accuracy that is left.
+    #[command(after_help = "Examples:
+  cdpr calibrate caroca --measurements measurements.csv --model tolerances.json \
+                      --noise position=1e-4,rotation=1e-4,length=1e-4 --out calibration
+  cdpr calibrate irma4u --measurements lengths-and-tensions.csv --parameters mass --unknown length_offset \
+                      --noise length=1e-3,tension=2 --out calibration")]
+    Calibrate(Box<robot::calibrate::Settings>),
+    /// Plan a calibration: what measurements tell, which poses to measure, and what a campaign would read.
+    Calibration {
+        #[command(subcommand)]
+        command: robot::calibration::Command,
+    },
     /// Compute the exact derivatives of lengths and deflection with respect to every parameter of a robot.
     #[command(after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 \
                       --format json")]
@@ -185,7 +193,8 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Catenary(settings) => cable::catenary::run(&settings)?,
         Command::Completions { shell } => completions(shell),
         Command::Study { command } => return study::run(command),
-        Command::Calibration(settings) => robot::calibration::run(&settings)?,
+        Command::Calibrate(settings) => return robot::calibrate::run(&settings),
+        Command::Calibration { command } => robot::calibration::run(&command)?,
         Command::LinearDensity(settings) => cable::linear_density::run(&settings)?,
         Command::Modulus(settings) => cable::modulus::run(&settings)?,
         Command::Tolerances(settings) => study::tolerances::run(&settings)?,

@@ -1,5 +1,6 @@
 //! Commands about a robot as a whole: its file, its workspace, its calibration, its direct model.
 
+pub(crate) mod calibrate;
 pub(crate) mod calibration;
 pub(crate) mod check;
 pub(crate) mod import;

@@ -16,7 +16,7 @@ const COMMANDS: [(&str, &str); 12] = [
     ("analyze", "cdpr study merge"),
     ("init", "cdpr study new"),
     ("template", "cdpr study new"),
-    ("calibrate", "cdpr calibration"),
+    ("identify", "cdpr calibration identify"),
 ];
 
 /// Options that are called otherwise, or that another place gives.

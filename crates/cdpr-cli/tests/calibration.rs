@@ -9,7 +9,7 @@ const UNCERTAINTY: [&str; 2] = ["--uncertainty", "a=0.002,b=0.002,youngs_modulus
 const NOISE: [&str; 2] = ["--noise", "position=1e-4,rotation=1e-4"];
 
 fn run(arguments: &[&str]) -> Output {
-    cdpr(&[&["calibration", &data_path("robots/caroca.json")], arguments].concat())
+    cdpr(&[&["calibration", "identify", &data_path("robots/caroca.json")], arguments].concat())
 }
 
 #[test]

@@ -4,6 +4,7 @@
 
 mod bad_input;
 mod book;
+mod calibrate;
 mod calibration;
 mod commands;
 mod common;

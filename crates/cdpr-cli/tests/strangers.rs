@@ -58,7 +58,17 @@ fn a_pipe_that_nobody_writes_into_is_refused_at_once() {
             "5-10",
         ],
         &["hysteresis", &robot, "--law", "pipe", "--pose", "0,0,1.75", "--payload", "50"],
-        &["calibration", &robot, "--poses", "pipe", "--uncertainty", "a=0.002", "--noise", "lengths=0.001"],
+        &[
+            "calibration",
+            "identify",
+            &robot,
+            "--poses",
+            "pipe",
+            "--uncertainty",
+            "a=0.002",
+            "--noise",
+            "lengths=0.001",
+        ],
     ] {
         let output = bench.command(env!("CARGO_BIN_EXE_cdpr")).args(arguments).output().unwrap();
         let error = text(output.stderr);

@@ -84,6 +84,7 @@ fn every_other_command_with_the_inverse_model_takes_preferred_tensions_and_refus
         &["workspace", &robot, "--box=-1:1:2,0:0:1,1.5:1.5:1", "--payload", "50"],
         &[
             "calibration",
+            "identify",
             &robot,
             "--grid=-1:1:2,0:0:1,1.5:1.5:1",
             "--uncertainty",

@@ -6,6 +6,7 @@
 //! content security policy allows the two scripts by their hashes, and forbids all other scripts and every
 //! connection.
 
+mod calibration;
 mod comparison;
 mod elements;
 mod glance;
@@ -15,9 +16,11 @@ mod robot;
 mod run;
 mod setup;
 
+pub use calibration::calibration_report;
+
 use crate::draw::figures;
 use crate::error::ReportError;
-use crate::page::elements::Section;
+use crate::page::elements::{STYLE, Section, inert};
 use crate::scene::Scene;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -26,9 +29,7 @@ use cdpr_study::{Figure, Results};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use std::borrow::Cow;
 
-const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 const PLOTLY: &str = include_str!("../vendor/plotly/plotly-gl3d.min.js");
 
@@ -123,11 +124,6 @@ fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
             }
         }
     }
-}
-
-/// Part of the page in which no character of a name is obeyed.
-fn inert(part: &Markup) -> PreEscaped<Cow<'_, str>> {
-    PreEscaped(shown_lines(&part.0))
 }
 
 /// Content security policy: scripts by their hashes, styles and images of the page itself, and no connection.

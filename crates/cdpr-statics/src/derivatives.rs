@@ -58,12 +58,12 @@ mod winding;
 
 #[cfg(doc)]
 use crate::equations::ABOVE_LEAST;
-use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, solve};
+use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, read, solve};
 use crate::error::StaticsError;
 use crate::loading::{Deflection, deflection_from, wind, wind_free};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Coordinate, Matrix6xX, Pose, Robot};
+use cdpr_robot::{Coordinate, Matrix6xX, Pose, Robot, Vector3};
 use nalgebra::{DMatrix, Matrix3xX};
 pub use optimum::AtBound;
 use rest::Rest;
@@ -286,6 +286,54 @@ impl DirectProblem<'_> {
     pub fn derivatives(&self, equilibrium: &Equilibrium) -> Result<EquilibriumDerivatives, StaticsError> {
         self.check("equilibrium", equilibrium)?;
         EquilibriumDerivatives::new(self, &Inputs::of(self.robot), equilibrium, None)
+    }
+}
+
+/// Derivatives of an equilibrium by all inputs and by the unstrained length of every cable.
+///
+/// Each matrix has the columns of [`Inputs`] followed by one for each length. A length changes alone; so does
+/// an input, while all lengths stay the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForceDerivatives {
+    /// Derivatives of the pose: (dp, dφ) in the base frame, `R <- exp(dφ) R` [m, rad per unit].
+    pub pose: Matrix6xX<f64>,
+    /// Force of each cable on the platform, in the base frame [N].
+    pub forces: Vec<Vector3<f64>>,
+    /// Derivatives of these forces, rows 3i to 3i + 2 for cable i [N per unit].
+    pub per_input: DMatrix<f64>,
+}
+
+impl DirectProblem<'_> {
+    /// Derivatives of an equilibrium, with those by the lengths and with the forces as vectors: what
+    /// measurements of any kind are compared with.
+    ///
+    /// # Errors
+    /// As [`DirectProblem::derivatives`].
+    pub fn force_derivatives(&self, equilibrium: &Equilibrium) -> Result<ForceDerivatives, StaticsError> {
+        self.check("equilibrium", equilibrium)?;
+        let inputs = Inputs::of(self.robot);
+        let (n, count) = (self.cables(), inputs.count());
+        let mut lengths = DMatrix::zeros(n, count + n);
+        (0..n).for_each(|i| lengths[(i, count + i)] = 1.0);
+        let pose = EquilibriumDerivatives::new(self, &inputs, equilibrium, Some(&lengths))?.pose;
+        let cables = CableDerivatives::all(self, &equilibrium.pose, &equilibrium.cable_forces);
+        let mut per_input = DMatrix::zeros(3 * n, count + n);
+        let columns = inputs.pose();
+        for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().enumerate() {
+            let along = |_: &CableDerivatives| Reading { per_force: unit, per_arm: Vector3::zeros() };
+            let mut at_rest = read(&inputs, &equilibrium.pose, &cables, along);
+            let per_motion = at_rest.columns(columns.start, 6).into_owned();
+            at_rest.columns_mut(columns.start, 6).fill(0.0);
+            let moved = per_motion * &pose;
+            for (i, cable) in cables.iter().enumerate() {
+                let mut row = per_input.row_mut(3 * i + axis);
+                row += moved.row(i);
+                let mut of_inputs = row.columns_mut(0, count);
+                of_inputs += at_rest.row(i);
+                row[count + i] += cable.per_actuation[axis];
+            }
+        }
+        Ok(ForceDerivatives { pose, forces: cables.iter().map(|cable| cable.force).collect(), per_input })
     }
 }
 

@@ -42,7 +42,6 @@
 //! # Ok::<(), cdpr_statics::StaticsError>(())
 //! ```
 
-mod calibration;
 mod certificate;
 mod derivatives;
 mod direct;
@@ -54,10 +53,10 @@ mod loading;
 mod problem;
 mod state;
 
-pub use calibration::{Calibration, ChosenPose, Combination, Identifiability, Measurement, ParameterValue};
 pub use certificate::Certificate;
 pub use derivatives::{
-    AtBound, Derivatives, EquilibriumDerivatives, OneSided, VarianceBudget, derivatives, derivatives_free,
+    AtBound, Derivatives, EquilibriumDerivatives, ForceDerivatives, OneSided, VarianceBudget, derivatives,
+    derivatives_free,
 };
 pub use direct::{
     DirectMethod, DirectSolution, Equilibria, Found, Loss, LossKind, Mode, Path, PathStep, Report, Setting,

@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 mod any_robot;
-mod calibration;
 mod common;
 mod derivatives;
 mod drawn;

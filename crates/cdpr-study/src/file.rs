@@ -1,6 +1,7 @@
 //! The files that a user writes, as plain data.
 
 pub(crate) mod cable_law;
+pub(crate) mod errors_file;
 pub(crate) mod grid;
 pub(crate) mod names;
 pub(crate) mod output;

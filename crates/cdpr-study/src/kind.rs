@@ -15,6 +15,10 @@ pub enum InputKind {
     Study,
     /// An elastic law of cables.
     Law,
+    /// Correlated errors of parameters, or an error model.
+    Errors,
+    /// Measurements for a calibration.
+    Measurements,
     /// A load-elongation record.
     Record,
     /// Published moduli.
@@ -37,7 +41,9 @@ impl InputKind {
         MEGABYTE
             * match self {
                 Self::Robot | Self::Cable | Self::Foreign | Self::Law | Self::Moduli => 4,
-                Self::Study | Self::Poses | Self::Cases | Self::Block => 32,
+                Self::Study | Self::Poses | Self::Cases | Self::Block | Self::Errors | Self::Measurements => {
+                    32
+                }
                 Self::Record => 64,
                 Self::Results => 256,
             }
@@ -65,6 +71,8 @@ impl fmt::Display for InputKind {
             Self::Foreign => "a file to import",
             Self::Study => "a study file",
             Self::Law => "a law file",
+            Self::Errors => "an error model",
+            Self::Measurements => "measurements",
             Self::Record => "a record",
             Self::Moduli => "a file of moduli",
             Self::Poses => "a list of poses",

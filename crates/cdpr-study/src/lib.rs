@@ -62,6 +62,7 @@ pub use analysis::surface::{SurfaceResult, SurfaceSummary, SurfaceValues, comput
 pub use cdpr_sensitivity::{Estimate, Family, Truncation};
 pub use error::StudyError;
 pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema};
+pub use file::errors_file::{ERRORS_FORMAT, ErrorsFile, errors_schema};
 pub use file::grid::{GridAxis, GridSpec};
 pub use file::output::Output;
 pub use file::record::{open_record, read_record};
@@ -79,6 +80,7 @@ pub use indexmap::IndexMap;
 pub use kind::InputKind;
 pub use model::cable_law::open_law;
 pub use model::error_model::{ErrorModel, Term, uncertainties};
+pub use model::errors::open_errors;
 pub use model::grid::{Grid, frame};
 pub use model::observed::{Failure, Measured, Observed};
 pub use model::observer::OutputObserver;

@@ -3,6 +3,7 @@
 pub(crate) mod cable_law;
 pub(crate) mod designs;
 pub(crate) mod error_model;
+pub(crate) mod errors;
 pub(crate) mod grid;
 pub(crate) mod hash;
 pub(crate) mod nominal;

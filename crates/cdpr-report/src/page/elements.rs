@@ -1,8 +1,18 @@
 //! Elements of the sections: figures, tables, numbers.
 
 use crate::text;
+use cdpr_robot::shown_lines;
 use cdpr_study::Figure;
 use maud::{Markup, PreEscaped, html};
+use std::borrow::Cow;
+
+/// Style of every page.
+pub(crate) const STYLE: &str = include_str!("page.css");
+
+/// Part of a page in which no character of a name is obeyed.
+pub(crate) fn inert(part: &Markup) -> PreEscaped<Cow<'_, str>> {
+    PreEscaped(shown_lines(&part.0))
+}
 
 /// Section of the report.
 pub(crate) struct Section {

@@ -120,6 +120,9 @@ const REACH: [f64; 2] = [1.3, 0.4];
 /// Every other start is within this share of the reach.
 const NEAR: f64 = 0.2;
 
+/// Iterations for the singular values of a matrix; a few for each of them are usual.
+const SINGULAR_VALUES: usize = 1000;
+
 const MAX_ITERATIONS: usize = 80;
 
 /// A residual below this, relative to wrench and tensions, is rounding.
@@ -267,7 +270,9 @@ impl<'a> Search<'a> {
                 (0..matrix.nrows()).for_each(|k| matrix[(k, k)] += shift);
                 let step = if norm <= 1e-3 * point.forces && damping < 1e-6 {
                     // Near the solution Newton's step, whose equations are not squared.
-                    slopes.clone().svd(true, true).solve(&-point.residual, 1e-13 * greatest.sqrt()).ok()
+                    // Unlimited, the iterations for singular values need not end.
+                    let svd = slopes.clone().try_svd(true, true, f64::EPSILON, SINGULAR_VALUES);
+                    svd.and_then(|svd| svd.solve(&-point.residual, 1e-13 * greatest.sqrt()).ok())
                 } else {
                     matrix.cholesky().map(|factor| factor.solve(&right))
                 };

@@ -50,6 +50,9 @@ pub struct StudyFile {
     /// `b3.z`), a group of parameters (`a`, `b`, `cog`, `dt`; of robots that have them `r`, `lead`, `tilt`,
     /// `gravity`), or the name of a cause that acts on several
     /// parameters. The entry of a parameter takes precedence over that of its group.
+    ///
+    /// A model `{"file": "posterior.json"}` is that of a file beside this one: `cdpr-errors/1`, or an object
+    /// as it would stand here.
     pub error_models: IndexMap<String, IndexMap<String, InputSpec>>,
     /// Samplings by name: all uncertain parameters at once, at points of Sobol's sequence.
     #[serde(default)]

@@ -29,6 +29,8 @@ pub enum ResultsOf {
     Workspace,
     /// The robustness of the direct model.
     Robustness,
+    /// A calibration.
+    Calibration,
     /// Figures alone.
     Figures,
 }
@@ -40,6 +42,7 @@ impl ResultsOf {
             Self::Study => "a study",
             Self::Workspace => "a workspace",
             Self::Robustness => "the robustness of the direct model",
+            Self::Calibration => "a calibration",
             Self::Figures => "figures",
         }
     }

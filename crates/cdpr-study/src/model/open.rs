@@ -7,11 +7,13 @@ use crate::file::value::Value;
 use crate::fs::files::open_robot_from;
 use crate::fs::input::{other_kind, read_text};
 use crate::kind::InputKind;
+use crate::model::errors::with_error_files;
 use crate::model::nominal::Nominals;
 use crate::model::prepare::FEWEST_OBSERVATIONS;
 use crate::model::study::Study;
 use crate::names::BLOCKS_NAME;
 use cdpr_robot::{Coordinate, RobotError, TensionReference, from_json};
+use std::borrow::Cow;
 use std::path::Path;
 
 /// Designs of a sampling besides the first: intervals of a quantile need no more.
@@ -48,8 +50,11 @@ impl Study {
     /// # Errors
     /// As [`Study::open`].
     pub fn from_json(text: &str, path: &Path) -> Result<Self, StudyError> {
-        let study = Self::unchecked(text, path)?;
-        study.validate().map_err(|error| error.placed(text))?;
+        let whole = with_error_files(text, path)?;
+        let study = Self::unchecked(&whole, path)?;
+        // Where files were put in, places are not those of the user's text.
+        let is_own = matches!(whole, Cow::Borrowed(_));
+        study.validate().map_err(|error| if is_own { error.placed(text) } else { error })?;
         Ok(study)
     }
 

@@ -29,12 +29,12 @@
 //! Taking the pose that adds most, one after the other, comes within 1 - 1/e of the information of the best
 //! choice (D-optimal design; Nemhauser, Wolsey, Fisher 1978: the information is submodular).
 
-use crate::derivatives::derivatives;
-use crate::equations::Inputs;
-use crate::error::StaticsError;
-use crate::problem::DirectProblem;
-use crate::state::Load;
-use cdpr_robot::{Parameter, Pose, Robot};
+use crate::error::CalibrationError;
+use crate::solve::{Svd, triangle};
+use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3};
+#[cfg(doc)]
+use cdpr_statics::derivatives;
+use cdpr_statics::{DirectProblem, Load, derivatives_free};
 use nalgebra::{DMatrix, DVector};
 
 /// What is measured at every pose, with the standard deviation of its noise.
@@ -63,6 +63,20 @@ pub struct Calibration {
     indices: Vec<usize>,
     /// Matrix A of each pose, equation (K1).
     poses: Vec<DMatrix<f64>>,
+    places: Vec<Pose>,
+    /// Coordinates that are found, for a robot with few cables.
+    free: Vec<Coordinate>,
+    /// Derivatives of a coordinate where the robot works by each parameter in units of its uncertainty [m].
+    work: DMatrix<f64>,
+}
+
+/// What is to be exact where the robot works.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AtWork {
+    /// The position with given lengths.
+    Position,
+    /// The displacement by the load.
+    Deflection,
 }
 
 /// A parameter with a number.
@@ -113,26 +127,111 @@ impl Calibration {
     /// They are in SI units and in the order of [`Parameter::of`]; a parameter with zero is known.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] unless there is one finite value, not negative, for each parameter.
-    pub fn new(robot: &Robot, uncertainties: &[f64]) -> Result<Self, StaticsError> {
-        Inputs::of(robot).check("uncertainties", uncertainties)?;
+    /// [`CalibrationError::Invalid`] unless there is one finite value, not negative, for each parameter.
+    pub fn new(robot: &Robot, uncertainties: &[f64]) -> Result<Self, CalibrationError> {
+        let count = Parameter::of(robot).len();
+        let wrong = uncertainties.iter().position(|std| !(std.is_finite() && *std >= 0.0));
+        let expected = format!("a finite number, zero or more, for each of the {count} parameters");
+        if uncertainties.len() != count {
+            let value = format!("a list of {}", uncertainties.len());
+            return Err(CalibrationError::invalid("uncertainties", value, expected));
+        }
+        if let Some(k) = wrong {
+            return Err(CalibrationError::invalid(format!("uncertainties[{k}]"), uncertainties[k], expected));
+        }
         let indices = (0..uncertainties.len()).filter(|j| uncertainties[*j] > 0.0).collect();
-        Ok(Self { robot: robot.clone(), uncertainties: uncertainties.to_vec(), indices, poses: Vec::new() })
+        let work = DMatrix::zeros(0, uncertainties.iter().filter(|std| **std > 0.0).count());
+        Ok(Self {
+            robot: robot.clone(),
+            uncertainties: uncertainties.to_vec(),
+            indices,
+            poses: Vec::new(),
+            places: Vec::new(),
+            free: Vec::new(),
+            work,
+        })
+    }
+
+    /// The same for poses of which these coordinates are found, where a robot has few cables.
+    pub fn with_free(self, free: &[Coordinate]) -> Self {
+        Self { free: free.to_vec(), ..self }
+    }
+
+    /// Adds a pose where the robot works, under `load`: plans can make it most exact there.
+    ///
+    /// # Errors
+    /// Those of [`derivatives`].
+    pub fn add_work(&mut self, pose: &Pose, load: &Load, of: AtWork) -> Result<(), CalibrationError> {
+        let offsets = vec![0.0; self.robot.cables.len()];
+        let found = derivatives_free(&self.robot, pose, &offsets, load, &self.free)?;
+        let rows = match of {
+            AtWork::Deflection => found.displacement(),
+            AtWork::Position => {
+                let lengths = &found.deflection.lengths;
+                let problem = DirectProblem::new(&self.robot, lengths, load)?;
+                problem
+                    .derivatives(&found.deflection.loaded.equilibrium)?
+                    .pose
+                    .fixed_rows::<3>(0)
+                    .into_owned()
+            }
+        };
+        let first = self.work.nrows();
+        let mut work =
+            std::mem::replace(&mut self.work, DMatrix::zeros(0, 0)).resize_vertically(first + 3, 0.0);
+        for k in 0..3 {
+            for (column, index) in self.indices.iter().enumerate() {
+                work[(first + k, column)] = rows[(k, *index)] * self.uncertainties[*index];
+            }
+        }
+        self.work = work;
+        Ok(())
+    }
+
+    /// Number of poses added.
+    pub fn count(&self) -> usize {
+        self.poses.len()
+    }
+
+    pub(crate) fn matrices(&self) -> &[DMatrix<f64>] {
+        &self.poses
+    }
+
+    pub(crate) fn work(&self) -> &DMatrix<f64> {
+        &self.work
+    }
+
+    /// The poses farthest from the middle of all, and from each other.
+    pub(crate) fn outermost(&self, count: usize) -> Vec<usize> {
+        let middle =
+            self.places.iter().map(|pose| pose.position).sum::<Vector3<f64>>() / self.count().max(1) as f64;
+        let mut chosen: Vec<usize> = Vec::new();
+        while chosen.len() < count.min(self.count()) {
+            let far = |k: &usize| {
+                let at = self.places[*k].position;
+                let others = chosen.iter().map(|other| (at - self.places[*other].position).norm());
+                others.fold((at - middle).norm(), f64::min)
+            };
+            let left = (0..self.count()).filter(|k| !chosen.contains(k));
+            let Some(next) = left.max_by(|a, b| far(a).total_cmp(&far(b))) else { break };
+            chosen.push(next);
+        }
+        chosen
     }
 
     /// Adds a pose at which `measurements` are made under the platform's weight and `load`.
     ///
     /// # Errors
-    /// Those of [`derivatives`]: the pose is not added; [`StaticsError::Invalid`] for noise that is not
+    /// Those of [`derivatives`]: the pose is not added; [`CalibrationError::Invalid`] for noise that is not
     /// positive.
     pub fn add(
         &mut self,
         pose: &Pose,
         load: &Load,
         measurements: &[Measurement],
-    ) -> Result<(), StaticsError> {
+    ) -> Result<(), CalibrationError> {
         let n = self.robot.cables.len();
-        let nominal = derivatives(&self.robot, pose, &vec![0.0; n], load)?;
+        let nominal = derivatives_free(&self.robot, pose, &vec![0.0; n], load, &self.free)?;
         let lengths = &nominal.deflection.lengths;
         let problem = DirectProblem::new(&self.robot, lengths, load)?;
         let held = problem.derivatives(&nominal.deflection.loaded.equilibrium)?;
@@ -153,8 +252,9 @@ impl Calibration {
         }
         if let Some((_, noise)) = rows.iter().find(|(_, noise)| !(noise.is_finite() && *noise > 0.0)) {
             let expected = "a finite, positive standard deviation";
-            return Err(StaticsError::invalid("noise".to_owned(), noise, expected));
+            return Err(CalibrationError::invalid("noise", noise, expected));
         }
+        self.places.push(*pose);
         self.poses.push(DMatrix::from_fn(rows.len(), self.indices.len(), |row, column| {
             let index = self.indices[column];
             rows[row].0[index] * self.uncertainties[index] / rows[row].1
@@ -175,9 +275,7 @@ impl Calibration {
         // nothing.
         let blocks = poses.into_iter().filter_map(|pose| self.poses.get(pose));
         let triangle = blocks.fold(DMatrix::zeros(n, n), triangle);
-        let svd = triangle.svd(false, true);
-        let vectors = svd.v_t.unwrap_or_else(|| DMatrix::identity(n, n));
-        let values = svd.singular_values;
+        let Svd { vectors, values, .. } = Svd::of(&triangle);
         let rank = values.iter().take_while(|value| **value > ROUNDING * values.max()).count();
         let mut free = vectors.rows(rank, n - rank).into_owned();
         own_parameters(&mut free);
@@ -229,17 +327,9 @@ impl Calibration {
     }
 }
 
-/// The triangular factor of two matrices, one below the other.
-fn triangle(above: DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
-    let rows = above.nrows();
-    let mut stacked = above.resize_vertically(rows + below.nrows(), 0.0);
-    stacked.rows_mut(rows, below.nrows()).copy_from(below);
-    stacked.qr().r()
-}
-
 /// Combines the rows, by Gauss and Jordan with complete pivoting, so that each has a column that is zero in
 /// all others.
-fn own_parameters(rows: &mut DMatrix<f64>) {
+pub(crate) fn own_parameters(rows: &mut DMatrix<f64>) {
     for k in 0..rows.nrows() {
         let below = rows.rows(k, rows.nrows() - k).iamax_full();
         let (pivot, column) = (k + below.0, below.1);

@@ -1,10 +1,9 @@
 //! What a calibration can tell, against perturbed robots.
 
 use crate::common::caroca;
+use cdpr_calibration::{Calibration, Combination, Identifiability, Measurement, ParameterValue};
 use cdpr_robot::{Parameter, Pose, Rotation3, Vector3};
-use cdpr_statics::{
-    Calibration, Combination, Identifiability, Load, Measurement, ParameterValue, Start, direct, inverse,
-};
+use cdpr_statics::{Load, Start, direct, inverse};
 
 const NOISE: Measurement = Measurement::Pose { position: 1e-4, rotation: 1e-4 };
 

@@ -1,0 +1,195 @@
+//! Measurements: what sensors have read, a row for each state of the robot.
+
+use cdpr_robot::{Axis, CableEnd, Rotation3};
+use cdpr_statics::Load;
+use std::fmt;
+
+/// A quantity that a sensor reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Coordinate of P, in the frame of the sensor [m].
+    Position(Axis),
+    /// Component of the rotation vector that leads from the model's to the measured orientation [rad].
+    Rotation(Axis),
+    /// Roll, pitch or yaw, number 0 to 2, R = Rz(yaw) Ry(pitch) Rx(roll) [rad].
+    Angle(usize),
+    /// Coordinate of a marker on the platform, in the frame of the sensor [m].
+    Marker(usize, Axis),
+    /// Displacement of P by the load, from the equilibrium without load [m].
+    Displacement(Axis),
+    /// Tension of a cable at one of its ends [N].
+    Tension(usize, CableEnd),
+    /// Swivel angle of a cable's pulley about the axis in which the cable enters, from the horizontal
+    /// direction [`cdpr_robot::TiltAxis::U`] towards the other one [rad].
+    Swivel(usize),
+    /// Unstrained length of a cable [m].
+    Length(usize),
+}
+
+impl Quantity {
+    /// The sensor that reads it: the name of its noise.
+    pub fn sensor(self) -> &'static str {
+        match self {
+            Self::Position(_) => "position",
+            Self::Rotation(_) | Self::Angle(_) => "rotation",
+            Self::Marker(..) => "marker",
+            Self::Displacement(_) => "displacement",
+            Self::Tension(..) => "tension",
+            Self::Swivel(_) => "swivel",
+            Self::Length(_) => "length",
+        }
+    }
+
+    /// SI unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Position(_) | Self::Marker(..) | Self::Displacement(_) | Self::Length(_) => "m",
+            Self::Rotation(_) | Self::Angle(_) | Self::Swivel(_) => "rad",
+            Self::Tension(..) => "N",
+        }
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Position(axis) => write!(f, "{axis}_m"),
+            Self::Rotation(axis) => write!(f, "r{axis}_rad"),
+            Self::Angle(k) => write!(f, "{}_rad", ["roll", "pitch", "yaw"][*k]),
+            Self::Marker(k, axis) => write!(f, "marker{}_{axis}_m", k + 1),
+            Self::Displacement(axis) => write!(f, "d{axis}_m"),
+            Self::Tension(i, CableEnd::Anchor) => write!(f, "t{}_n", i + 1),
+            Self::Tension(i, CableEnd::Exit) => write!(f, "t{}_winch_n", i + 1),
+            Self::Swivel(i) => write!(f, "swivel{}_rad", i + 1),
+            Self::Length(i) => write!(f, "l{}_m", i + 1),
+        }
+    }
+}
+
+/// A number that a sensor has read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// What is read.
+    pub quantity: Quantity,
+    /// The number, in [`Quantity::unit`]; unused for a rotation, which is that of the row.
+    pub value: f64,
+    /// Standard deviation of its noise.
+    pub std: f64,
+}
+
+/// What is measured in one state of the robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Line in the file, or number of the row from 1: how messages name it.
+    pub line: usize,
+    /// The known load.
+    pub load: Load,
+    /// Known mass of the platform in this row, in place of the robot's [kg].
+    pub mass: Option<f64>,
+    /// Unstrained lengths as the winches tell them [m]; `None` where they are not known.
+    pub lengths: Option<Vec<f64>>,
+    /// Standard deviation of each [m]; zero for lengths that are exact but for the errors of their sensors.
+    pub length_std: Vec<f64>,
+    /// Measured orientation, in the frame of the sensor.
+    pub rotation: Option<Rotation3<f64>>,
+    /// All other readings.
+    pub readings: Vec<Reading>,
+}
+
+impl Row {
+    /// A row without any measurement.
+    pub fn new(line: usize, load: Load) -> Self {
+        Self {
+            line,
+            load,
+            mass: None,
+            lengths: None,
+            length_std: Vec::new(),
+            rotation: None,
+            readings: Vec::new(),
+        }
+    }
+
+    /// The number that a sensor has read of this quantity.
+    pub fn value(&self, quantity: Quantity) -> Option<f64> {
+        self.readings.iter().find(|reading| reading.quantity == quantity).map(|reading| reading.value)
+    }
+}
+
+/// Standard deviations of the noise of each kind of sensor, SI units; `None` where it is not stated.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Noise {
+    /// Of each coordinate of P [m].
+    pub position: Option<f64>,
+    /// Of each component of an orientation [rad].
+    pub rotation: Option<f64>,
+    /// Of each unstrained length [m]; lengths without noise are exact.
+    pub length: Option<f64>,
+    /// Of each tension [N].
+    pub tension: Option<f64>,
+    /// Of each component of a displacement [m]; that of two positions if left out.
+    pub displacement: Option<f64>,
+    /// Of each coordinate of a marker [m]; that of the position if left out.
+    pub marker: Option<f64>,
+    /// Of each swivel angle [rad]; that of the rotation if left out.
+    pub swivel: Option<f64>,
+}
+
+impl Noise {
+    /// The names of the sensors.
+    pub const NAMES: [&str; 7] =
+        ["position", "rotation", "length", "tension", "displacement", "marker", "swivel"];
+
+    /// Noise by the name of its sensor; `lengths` and `tensions` are understood, too.
+    ///
+    /// # Errors
+    /// [`crate::CalibrationError::Invalid`] for another name and for a number that is not positive and finite.
+    pub fn named(named: &[(String, f64)]) -> Result<Self, crate::CalibrationError> {
+        let mut noise = Self::default();
+        for (name, std) in named {
+            let field = match name.as_str() {
+                "position" => &mut noise.position,
+                "rotation" => &mut noise.rotation,
+                "length" | "lengths" => &mut noise.length,
+                "tension" | "tensions" => &mut noise.tension,
+                "displacement" => &mut noise.displacement,
+                "marker" | "markers" => &mut noise.marker,
+                "swivel" => &mut noise.swivel,
+                _ => {
+                    let expected = format!("one of {}", Self::NAMES.join(", "));
+                    return Err(crate::CalibrationError::invalid(format!("noise {name}"), std, expected));
+                }
+            };
+            if !(std.is_finite() && *std > 0.0) {
+                let expected = "a finite, positive standard deviation";
+                return Err(crate::CalibrationError::invalid(format!("noise {name}"), std, expected));
+            }
+            *field = Some(*std);
+        }
+        Ok(noise)
+    }
+
+    /// Standard deviation of a quantity, if it is stated.
+    pub fn of(&self, quantity: Quantity) -> Option<f64> {
+        match quantity {
+            Quantity::Position(_) => self.position,
+            Quantity::Rotation(_) | Quantity::Angle(_) => self.rotation,
+            Quantity::Marker(..) => self.marker.or(self.position),
+            Quantity::Displacement(_) => {
+                self.displacement.or(self.position.map(|std| std * std::f64::consts::SQRT_2))
+            }
+            Quantity::Tension(..) => self.tension,
+            Quantity::Swivel(_) => self.swivel.or(self.rotation),
+            Quantity::Length(_) => self.length,
+        }
+    }
+
+    /// Standard deviation of a quantity whose noise is not stated: so small that it counts as exact beside
+    /// one that is.
+    pub fn exact(quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Tension(..) => 1e-3,
+            _ => 1e-6,
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Calibration of cable-driven parallel robots: from measurements to a better robot, and to the accuracy that
+//! is left.
+//!
+//! | question | function |
+//! |---|---|
+//! | which parameters explain the measurements, and how exactly are they known then? | [`fit`] |
+//! | what do measurements of this kind tell at all? | [`Calibration::identify`] |
+//! | which poses should be measured? | [`Calibration::plan`], [`Calibration::best_poses`] |
+//! | what would a campaign read? | [`simulate`] |
+#![warn(missing_docs)]
+
+mod campaign;
+mod error;
+mod fit;
+mod identify;
+mod model;
+mod plan;
+mod results;
+mod simulate;
+mod solve;
+mod table;
+mod unknowns;
+
+pub use campaign::{Noise, Quantity, Reading, Row};
+pub use error::CalibrationError;
+pub use fit::{Difference, Estimate, Fit, FitSettings, RobustLoss, Untold, cross_validated, fit};
+pub use identify::{
+    AtWork, Calibration, ChosenPose, Combination, Identifiability, Measurement, ParameterValue,
+};
+pub use plan::{Criterion, PosePlan, Quality};
+pub use results::{
+    CALIBRATED_NAME, CalibrationSummary, Context, OutlierSummary, POSTERIOR_NAME, ParameterSummary,
+    SensorSummary, arrows, begin_calibration, write_calibration,
+};
+pub use simulate::{Simulated, drawn, simulate};
+pub use table::{MEASUREMENTS_FORMAT, Measurements, read_measurements, write_measurements};
+pub use unknowns::{SensorError, Unknown, Unknowns};

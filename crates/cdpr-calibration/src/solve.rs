@@ -1,0 +1,157 @@
+//! Linear least squares for many rows with unknowns of their own. No other module names faer.
+//!
+//! A row of measurements has residuals `ρ + A δ + B η` with the unknowns δ of all rows and η of its own. The
+//! orthogonal factor of `B = Q [S; 0]` leaves rows without η (the Schur complement, without squares):
+//!
+//! ```text
+//! Qᵀ [A ρ] = [A_1 ρ_1; A_2 ρ_2],     S η = -(ρ_1 + A_1 δ)                                          (L1)
+//! ```
+//!
+//! and the triangular factor of all `[A_2 ρ_2]` is all that the unknowns of all rows depend on.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+/// A row whose own unknowns are eliminated, equation (L1).
+pub(crate) struct Eliminated {
+    /// [A_2 ρ_2].
+    pub(crate) rest: DMatrix<f64>,
+    /// [A_1 ρ_1] and S.
+    own: Option<(DMatrix<f64>, DMatrix<f64>)>,
+}
+
+impl Eliminated {
+    /// Eliminates the unknowns of `own` (B) from `row` ([A ρ]).
+    pub(crate) fn new(row: DMatrix<f64>, own: &DMatrix<f64>) -> Self {
+        let unknowns = own.ncols();
+        if unknowns == 0 {
+            return Self { rest: row, own: None };
+        }
+        let qr = own.clone().qr();
+        let mut row = row;
+        qr.q_tr_mul(&mut row);
+        let rest = row.rows(unknowns, row.nrows() - unknowns).into_owned();
+        let top = row.rows(0, unknowns).into_owned();
+        Self { rest, own: Some((top, qr.r())) }
+    }
+
+    /// The row's own unknowns for a step of the others.
+    pub(crate) fn own(&self, step: &DVector<f64>) -> Vec<f64> {
+        let Some((top, triangle)) = &self.own else { return Vec::new() };
+        let count = step.len();
+        let mut right = -(top.columns(0, count) * step + top.column(count));
+        triangle.solve_upper_triangular_mut(&mut right);
+        right.as_slice().to_vec()
+    }
+}
+
+/// Rows that one task reduces: the same for any number of threads.
+const CHUNK: usize = 16;
+
+/// The triangular factor of all rows, one below the other, each with `columns` columns.
+pub(crate) fn reduce(rows: &[Eliminated], columns: usize) -> DMatrix<f64> {
+    let chunk = |rows: &[Eliminated]| {
+        let count: usize = rows.iter().map(|row| row.rest.nrows()).sum();
+        let mut stacked = DMatrix::zeros(count.max(columns), columns);
+        let mut at = 0;
+        for row in rows {
+            stacked.rows_mut(at, row.rest.nrows()).copy_from(&row.rest);
+            at += row.rest.nrows();
+        }
+        stacked.qr().r()
+    };
+    let triangles: Vec<_> = rows.par_chunks(CHUNK).map(chunk).collect();
+    let add = |sum: DMatrix<f64>, part: &DMatrix<f64>| triangle(sum, part);
+    triangles.iter().fold(DMatrix::zeros(columns, columns), add)
+}
+
+/// The triangular factor of two matrices, one below the other.
+pub(crate) fn triangle(above: DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
+    let rows = above.nrows();
+    let mut stacked = above.resize_vertically(rows + below.nrows(), 0.0);
+    stacked.rows_mut(rows, below.nrows()).copy_from(below);
+    stacked.qr().r()
+}
+
+/// Singular values of a matrix, from the greatest to the least, with its left vectors in columns and its right
+/// vectors in rows. All are zero for a matrix that is not finite.
+pub(crate) struct Svd {
+    left: DMatrix<f64>,
+    pub(crate) values: DVector<f64>,
+    pub(crate) vectors: DMatrix<f64>,
+}
+
+impl Svd {
+    pub(crate) fn of(matrix: &DMatrix<f64>) -> Self {
+        let (rows, columns) = matrix.shape();
+        let size = rows.min(columns);
+        let copy = faer::Mat::from_fn(rows, columns, |i, j| matrix[(i, j)]);
+        let found = if matrix.iter().all(|entry| entry.is_finite()) { copy.thin_svd().ok() } else { None };
+        let Some(found) = found else {
+            return Self {
+                left: DMatrix::zeros(rows, size),
+                values: DVector::zeros(size),
+                vectors: DMatrix::zeros(size, columns),
+            };
+        };
+        let (u, s, v) = (found.U(), found.S().column_vector(), found.V());
+        Self {
+            left: DMatrix::from_fn(rows, size, |i, k| u[(i, k)]),
+            values: DVector::from_fn(size, |k, _| s[k]),
+            vectors: DMatrix::from_fn(size, columns, |k, j| v[(j, k)]),
+        }
+    }
+}
+
+/// Singular values and vectors of the scaled matrix of a least-squares problem, with what it is to reach.
+pub(crate) struct Decomposed {
+    /// From the greatest to the least.
+    pub(crate) values: DVector<f64>,
+    /// Right singular vectors, a row each.
+    pub(crate) vectors: DMatrix<f64>,
+    /// Residual along each left singular vector.
+    along: DVector<f64>,
+}
+
+/// Singular values below this share of the greatest are rounding.
+pub(crate) const ROUNDING: f64 = 1e-12;
+
+impl Decomposed {
+    /// The problem `|matrix δ + right|` to be least.
+    pub(crate) fn new(matrix: DMatrix<f64>, right: &DVector<f64>) -> Self {
+        let Svd { left, values, vectors } = Svd::of(&matrix);
+        Self { along: left.tr_mul(right), values, vectors }
+    }
+
+    /// Whether the data tell combination k: better than its unit, and better than rounding.
+    pub(crate) fn tells(&self, k: usize) -> bool {
+        self.values[k] >= 1.0 && self.values[k] > ROUNDING * self.values[0]
+    }
+
+    /// Damped step over the combinations that the data tell.
+    pub(crate) fn step(&self, damping: f64) -> DVector<f64> {
+        let mut step = DVector::zeros(self.vectors.ncols());
+        for k in (0..self.values.len()).filter(|k| self.tells(*k)) {
+            let s = self.values[k];
+            step -= self.vectors.row(k).transpose() * (s * self.along[k] / (s * s + damping));
+        }
+        step
+    }
+
+    /// Length of the full step in standard deviations.
+    pub(crate) fn distance(&self) -> f64 {
+        let of = |k: &usize| self.tells(*k);
+        (0..self.values.len()).filter(of).map(|k| self.along[k].powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Covariance over the combinations that the data tell.
+    pub(crate) fn covariance(&self) -> DMatrix<f64> {
+        let n = self.vectors.ncols();
+        let mut covariance = DMatrix::zeros(n, n);
+        for k in (0..self.values.len()).filter(|k| self.tells(*k)) {
+            let v = self.vectors.row(k).transpose() / self.values[k];
+            covariance.ger(1.0, &v, &v, 1.0);
+        }
+        covariance
+    }
+}

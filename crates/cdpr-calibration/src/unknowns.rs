@@ -1,0 +1,308 @@
+//! What is sought: deviations of the robot's parameters, and errors of the sensors.
+
+use crate::error::CalibrationError;
+use cdpr_robot::{Axis, Parameter, Robot, Vector3};
+use cdpr_study::{ErrorModel, Term};
+
+/// An error of the sensors that is sought with the parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SensorError {
+    /// What a winch reads at the length zero [m], a cable: lengths are relative.
+    LengthOffset,
+    /// Relative error of the radius of a drum, a cable.
+    DrumScale,
+    /// What a load cell reads without tension [N], a cable.
+    TensionBias,
+    /// Relative error of the slope of a load cell, a cable.
+    TensionGain,
+    /// What the sensor of a swivel angle reads at zero [rad], a cable.
+    SwivelOffset,
+    /// What an inclinometer reads of roll, pitch and yaw of a level platform [rad].
+    AngleOffset,
+    /// The place of every marker in the platform frame [m].
+    Markers,
+    /// The place of the base frame in the frame of the tracker: a translation [m] and a rotation [rad].
+    Frame,
+    /// Relative error of the tracker's scale.
+    FrameScale,
+}
+
+impl SensorError {
+    /// All, in their order.
+    pub const ALL: [Self; 9] = [
+        Self::LengthOffset,
+        Self::DrumScale,
+        Self::TensionBias,
+        Self::TensionGain,
+        Self::SwivelOffset,
+        Self::AngleOffset,
+        Self::Markers,
+        Self::Frame,
+        Self::FrameScale,
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::LengthOffset => "length_offset",
+            Self::DrumScale => "drum_scale",
+            Self::TensionBias => "tension_bias",
+            Self::TensionGain => "tension_gain",
+            Self::SwivelOffset => "swivel_offset",
+            Self::AngleOffset => "angle_offset",
+            Self::Markers => "markers",
+            Self::Frame => "frame",
+            Self::FrameScale => "frame_scale",
+        }
+    }
+
+    /// The one with this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|error| error.name() == name)
+    }
+
+    /// The names of its numbers for `n` cables and `markers` markers.
+    fn names(self, n: usize, markers: usize) -> Vec<String> {
+        let name = self.name();
+        let axes = |of: String| Axis::ALL.map(|axis| format!("{of}.{axis}"));
+        match self {
+            Self::AngleOffset => ["roll", "pitch", "yaw"].map(|angle| format!("{name}.{angle}")).to_vec(),
+            Self::Markers => (1..=markers).flat_map(|k| axes(format!("marker{k}"))).collect(),
+            Self::Frame => axes(name.to_owned()).into_iter().chain(axes("frame.r".to_owned())).collect(),
+            Self::FrameScale => vec![name.to_owned()],
+            _ => (1..=n).map(|i| format!("{name}{i}")).collect(),
+        }
+    }
+
+    /// SI unit of the number `k` of these.
+    pub fn unit(self, k: usize) -> &'static str {
+        match self {
+            Self::LengthOffset | Self::Markers => "m",
+            Self::Frame if k < 3 => "m",
+            Self::TensionBias => "N",
+            Self::DrumScale | Self::TensionGain | Self::FrameScale => "1",
+            Self::SwivelOffset | Self::AngleOffset | Self::Frame => "rad",
+        }
+    }
+
+    /// A change that is great for such an error; beyond it nothing is known.
+    fn scale(self, robot: &Robot, k: usize) -> f64 {
+        match self {
+            Self::LengthOffset => size(robot),
+            Self::DrumScale | Self::TensionGain | Self::FrameScale => 1.0,
+            Self::TensionBias => robot.limits(k).max,
+            Self::SwivelOffset | Self::AngleOffset => 1.0,
+            Self::Markers => robot.platform_size().max(1e-3 * size(robot)),
+            Self::Frame if k < 3 => size(robot),
+            Self::Frame => 1.0,
+        }
+    }
+}
+
+/// The greatest distance of an exit point from the first [m], or the platform's size if that is greater.
+pub(crate) fn size(robot: &Robot) -> f64 {
+    let first = robot.cables[0].exit_point;
+    robot.cables.iter().map(|cable| (cable.exit_point - first).norm()).fold(robot.platform_size(), f64::max)
+}
+
+/// One number that is sought: a deviation from where the search begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknown {
+    /// Its name.
+    pub name: String,
+    /// Unit: the standard deviation of its prior or, without one, a change so great that a number known no
+    /// better is not known.
+    pub scale: f64,
+    /// Mean and standard deviation of its prior, if it has one.
+    pub prior: Option<[f64; 2]>,
+    /// Least and greatest value.
+    pub bounds: [f64; 2],
+}
+
+/// All unknowns: inputs of an error model, then errors of sensors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknowns {
+    /// The numbers.
+    pub all: Vec<Unknown>,
+    /// Which parameters follow the first of them, with factors.
+    pub(crate) terms: Vec<Term>,
+    /// Errors of sensors with the index of their first number.
+    pub(crate) sensors: Vec<(SensorError, usize)>,
+    /// Where markers stand on the platform, or are thought to stand [m].
+    pub(crate) markers: Vec<Vector3<f64>>,
+    /// Markers whose places are sought.
+    pub(crate) marker_count: usize,
+}
+
+impl Unknowns {
+    /// The inputs of an error model, each with mean and standard deviation of its law as the prior.
+    pub fn of_model(model: &ErrorModel) -> Self {
+        let unknown = |input: &cdpr_sensitivity::Input| Unknown {
+            name: input.name.clone(),
+            scale: input.law.std(),
+            prior: Some([input.law.mean(), input.law.std()]),
+            bounds: [f64::NEG_INFINITY, f64::INFINITY],
+        };
+        Self {
+            all: model.inputs.iter().map(unknown).collect(),
+            terms: model.terms.clone(),
+            sensors: Vec::new(),
+            markers: Vec::new(),
+            marker_count: 0,
+        }
+    }
+
+    /// The named parameters or groups of parameters, without prior.
+    ///
+    /// # Errors
+    /// [`CalibrationError::Invalid`] for a name that the robot does not have, and for offsets of tension
+    /// set-points, which no measurement with given lengths depends on.
+    pub fn free(robot: &Robot, names: &[&str]) -> Result<Self, CalibrationError> {
+        let parameters = Parameter::of(robot);
+        let is = |p: &Parameter, name: &str| p.group() == name || p.to_string() == name;
+        let known = |name: &&&str| parameters.iter().any(|p| is(p, name)) && !name.starts_with("dt");
+        if let Some(name) = names.iter().find(|name| !known(name)) {
+            let expected = format!("parameters of the robot ({})", Parameter::NAMES);
+            return Err(CalibrationError::invalid("unknown", name, expected));
+        }
+        let mut unknowns = Self {
+            all: Vec::new(),
+            terms: Vec::new(),
+            sensors: Vec::new(),
+            markers: Vec::new(),
+            marker_count: 0,
+        };
+        for (index, parameter) in parameters.iter().enumerate() {
+            if names.iter().any(|name| is(parameter, name)) {
+                unknowns.terms.push(Term { input: unknowns.all.len(), parameter: index, factor: 1.0 });
+                unknowns.all.push(Unknown {
+                    name: parameter.to_string(),
+                    scale: natural_scale(robot, *parameter),
+                    prior: None,
+                    bounds: bounds(robot, *parameter),
+                });
+            }
+        }
+        Ok(unknowns)
+    }
+
+    /// The parameters that are sought if nothing is said: anchor and exit points, mass and modulus.
+    pub fn usual(robot: &Robot) -> Self {
+        // Every robot has these.
+        Self::free(robot, &["a", "b", "mass", "youngs_modulus"]).unwrap_or_else(|_| Self {
+            all: Vec::new(),
+            terms: Vec::new(),
+            sensors: Vec::new(),
+            markers: Vec::new(),
+            marker_count: 0,
+        })
+    }
+
+    /// Gives all parameters of a group one deviation in common: one unknown with the name of the group.
+    ///
+    /// # Errors
+    /// [`CalibrationError::Invalid`] where no unknown is of the group.
+    pub fn share(&mut self, robot: &Robot, group: &str) -> Result<(), CalibrationError> {
+        let parameters = Parameter::of(robot);
+        let of_group: Vec<usize> = self
+            .terms
+            .iter()
+            .filter(|term| parameters[term.parameter].group() == group)
+            .map(|term| term.input)
+            .collect();
+        let Some(first) = of_group.first().copied() else {
+            return Err(CalibrationError::invalid("share", group, "a group of parameters that are sought"));
+        };
+        let gone: Vec<usize> = of_group[1..].iter().copied().filter(|input| *input != first).collect();
+        group.clone_into(&mut self.all[first].name);
+        for term in &mut self.terms {
+            if of_group.contains(&term.input) {
+                term.input = first;
+            }
+        }
+        self.remove(&gone);
+        Ok(())
+    }
+
+    /// Adds an error of the sensors, with a prior about zero of that standard deviation if there is one.
+    /// Markers begin where `markers` says, in the platform frame [m].
+    pub fn add(&mut self, robot: &Robot, error: SensorError, std: Option<f64>, markers: usize) {
+        self.sensors.push((error, self.all.len()));
+        self.marker_count = markers;
+        for (k, name) in error.names(robot.cables.len(), markers).into_iter().enumerate() {
+            self.all.push(Unknown {
+                name,
+                scale: std.unwrap_or_else(|| error.scale(robot, k)),
+                prior: std.map(|std| [0.0, std]),
+                bounds: [f64::NEG_INFINITY, f64::INFINITY],
+            });
+        }
+    }
+
+    /// Where markers stand on the platform, or are thought to stand [m].
+    pub fn set_markers(&mut self, markers: Vec<Vector3<f64>>) {
+        self.markers = markers;
+    }
+
+    /// Index of the first number of an error of the sensors.
+    pub(crate) fn sensor(&self, error: SensorError) -> Option<usize> {
+        self.sensors.iter().find(|(own, _)| *own == error).map(|(_, first)| *first)
+    }
+
+    /// Number of the unknowns that are deviations of parameters: the first ones.
+    pub fn of_parameters(&self) -> usize {
+        self.sensors.first().map_or(self.all.len(), |(_, first)| *first)
+    }
+
+    /// Leaves out inputs of parameters: they keep their values.
+    pub(crate) fn remove(&mut self, inputs: &[usize]) {
+        let kept: Vec<usize> = (0..self.all.len()).filter(|input| !inputs.contains(input)).collect();
+        let place = |input: usize| kept.iter().position(|old| *old == input);
+        self.terms.retain_mut(|term| match place(term.input) {
+            Some(input) => {
+                term.input = input;
+                true
+            }
+            None => false,
+        });
+        for (_, first) in &mut self.sensors {
+            *first -= inputs.iter().filter(|input| **input < *first).count();
+        }
+        self.all = kept.into_iter().map(|old| self.all[old].clone()).collect();
+    }
+
+    /// Deviation of each parameter of a robot with `count` of them.
+    pub(crate) fn deviations(&self, count: usize, x: &[f64]) -> Vec<f64> {
+        let mut deviations = vec![0.0; count];
+        for term in &self.terms {
+            deviations[term.parameter] += term.factor * x[term.input];
+        }
+        deviations
+    }
+}
+
+/// A change of a parameter so great that a value known no better is not known.
+fn natural_scale(robot: &Robot, parameter: Parameter) -> f64 {
+    match parameter {
+        Parameter::Mass | Parameter::LinearDensity | Parameter::YoungsModulus => parameter.nominal(robot),
+        Parameter::ExitPoint(..) => 0.1 * size(robot),
+        Parameter::AnchorPoint(..) | Parameter::CenterOfMass(_) => robot.platform_size(),
+        Parameter::PulleyRadius(_) => parameter.nominal(robot).max(1e-2),
+        Parameter::Lead(_) => size(robot),
+        Parameter::TensionOffset(i) => robot.limits(i).max,
+        Parameter::Tilt(..) => 1.0,
+        Parameter::Gravity(_) => robot.gravity.magnitude(),
+    }
+}
+
+/// Deviations that keep a robot valid.
+fn bounds(robot: &Robot, parameter: Parameter) -> [f64; 2] {
+    let nominal = parameter.nominal(robot);
+    match parameter {
+        Parameter::Mass | Parameter::YoungsModulus => [-0.95 * nominal, f64::INFINITY],
+        Parameter::LinearDensity | Parameter::PulleyRadius(_) | Parameter::Lead(_) => {
+            [-nominal, f64::INFINITY]
+        }
+        _ => [f64::NEG_INFINITY, f64::INFINITY],
+    }
+}

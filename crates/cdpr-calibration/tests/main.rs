@@ -1,0 +1,8 @@
+//! Calibrations against perturbed robots, references and each other.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+
+mod common;
+mod identify;
+mod recovery;
+mod reference;

@@ -1,0 +1,261 @@
+//! `cdpr calibrate`: from measurements to a better robot, and to the accuracy that is left.
+
+use crate::arguments::{self, Format, Named, Preference, Threads};
+use crate::error::ProgramError;
+use crate::output::{Ending, patiently, table};
+use cdpr_calibration::{
+    CalibrationSummary, Context, Difference, Fit, FitSettings, Measurements, RobustLoss, SensorError,
+    Unknowns, begin_calibration, cross_validated, fit, read_measurements, write_calibration,
+};
+use cdpr_report::calibration_report;
+use cdpr_robot::{Robot, Vector3, rounded, shown};
+use cdpr_study::{ErrorModel, InputKind, Study, open_errors, read_text};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// The robot, the measurements and what is sought.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    /// Measurements (CSV with units in its header, or JSON): lengths, poses, tensions, loads, a row each.
+    #[arg(long)]
+    measurements: PathBuf,
+    #[command(flatten)]
+    sought: Sought,
+    /// Standard deviations of the noise, SI units: position=1e-4,rotation=1e-4,length=1e-4,tension=5.
+    ///
+    /// Also displacement, marker, swivel. Lengths without noise are exact.
+    #[arg(long, value_parser = arguments::named)]
+    noise: Option<Named>,
+    /// Errors of sensors that are sought, too, with the standard deviation of a prior or none.
+    ///
+    /// length_offset,drum_scale=0.01,tension_bias=20,tension_gain,swivel_offset,angle_offset,markers,frame,
+    /// frame_scale.
+    #[arg(long, value_name = "ERRORS", value_delimiter = ',')]
+    unknown: Vec<String>,
+    /// Where a marker stands on the platform: x,y,z [m], once for each in their order.
+    #[arg(long = "marker", value_parser = arguments::components::<3>, allow_hyphen_values = true)]
+    markers: Vec<[f64; 3]>,
+    /// How great residuals count: by their squares, or less (outliers).
+    #[arg(long, value_enum, default_value_t = LossName::Squares)]
+    loss: LossName,
+    /// Starts of the search: the robot file, and others at random.
+    #[arg(long, default_value_t = 1)]
+    starts: usize,
+    /// Seed of the random starts.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Keep the values of parameters that the data do not tell, instead of leaving them to their priors.
+    #[arg(long)]
+    only_identifiable: bool,
+    /// Predict each part of the rows by robots calibrated without it, so many parts; 0 for none, as many as
+    /// rows for one at a time.
+    #[arg(long, default_value_t = 5)]
+    folds: usize,
+    #[command(flatten)]
+    preference: Preference,
+    /// Folder for the results; made if missing.
+    #[arg(long)]
+    out: PathBuf,
+    #[command(flatten)]
+    threads: Threads,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// Which parameters are sought, and what is known of them before.
+#[derive(clap::Args)]
+pub(crate) struct Sought {
+    /// Error model with the tolerances: `cdpr-errors/1`, an object as in a study's `error_models`, or a study
+    /// file with --error-model.
+    ///
+    /// Without a model all anchor and exit points, mass and modulus are sought, without prior.
+    #[arg(long)]
+    model: Option<PathBuf>,
+    /// Name of the error model in a study file.
+    #[arg(long, requires = "model")]
+    error_model: Option<String>,
+    /// Seek these parameters or groups without prior, in place of a model: a,b,mass,r, or `none`.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "model")]
+    parameters: Vec<String>,
+    /// Groups of parameters that share one deviation: r, lead.
+    #[arg(long, value_name = "GROUPS", value_delimiter = ',')]
+    share: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum LossName {
+    Squares,
+    Huber,
+    Cauchy,
+}
+
+impl Sought {
+    /// The error model, if there is one.
+    pub(crate) fn prior(&self, robot: &Robot) -> Result<Option<ErrorModel>, ProgramError> {
+        let Some(path) = &self.model else { return Ok(None) };
+        Ok(Some(match &self.error_model {
+            Some(name) => Study::open(path)?.tolerances(name)?,
+            None => open_errors(path, robot)?,
+        }))
+    }
+
+    /// The unknowns that are parameters of the robot.
+    pub(crate) fn unknowns(
+        &self,
+        robot: &Robot,
+        prior: Option<&ErrorModel>,
+    ) -> Result<Unknowns, ProgramError> {
+        let names: Vec<&str> = self.parameters.iter().map(String::as_str).collect();
+        let mut unknowns = match (prior, &names[..]) {
+            (Some(model), _) => Unknowns::of_model(model),
+            (None, []) => Unknowns::usual(robot),
+            (None, ["none"]) => Unknowns::free(robot, &[])?,
+            (None, names) => Unknowns::free(robot, names)?,
+        };
+        for group in &self.share {
+            unknowns.share(robot, group)?;
+        }
+        Ok(unknowns)
+    }
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    settings.threads.start()?;
+    let robot = settings.preference.open_robot(&settings.robot)?;
+    let prior = settings.sought.prior(&robot)?;
+    let path = &settings.measurements;
+    let in_file = ProgramError::in_file(path);
+    let text = read_text(path, InputKind::Measurements)?;
+    let noise = settings.noise.as_ref().map_or(&[][..], |Named(named)| named);
+    let measured = read_measurements(&text, &robot, noise).map_err(&in_file)?;
+    let unknowns = settings.unknowns(&robot, prior.as_ref(), &measured)?;
+    let fit_settings = settings.fit();
+    let folder = begin_calibration(&settings.out)?;
+    let clock = Instant::now();
+    let rows = &measured.rows;
+    let found = patiently("calibrating", || fit(&robot, rows, &unknowns, &fit_settings)).map_err(&in_file)?;
+    let seconds = clock.elapsed().as_secs_f64();
+    let folds = settings.folds.min(rows.len());
+    let predicted: Option<Vec<Difference>> = if folds < 2 {
+        None
+    } else {
+        patiently("predicting", || cross_validated(&robot, rows, &unknowns, &fit_settings, folds)).ok()
+    };
+    let context = Context {
+        nominal: &robot,
+        prior: prior.as_ref(),
+        noise_is_stated: measured.noise_is_stated,
+        predicted: predicted.as_deref(),
+        starts: settings.starts.max(1),
+        rows: rows.len(),
+    };
+    let summary = found.summary(&context, rows);
+    let report = calibration_report(&robot, &summary, &found);
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    write_calibration(&folder, &found, &summary, &context, &name, Some(&report))?;
+    settings.format.print(&summary, |summary| {
+        print(summary, &found);
+        println!("fitted in {seconds:.3} s; results in {}", settings.out.display());
+    })?;
+    Ok(if summary.warnings.is_empty() { Ending::Well } else { Ending::SomethingWrong })
+}
+
+impl Settings {
+    fn unknowns(
+        &self,
+        robot: &Robot,
+        prior: Option<&ErrorModel>,
+        measured: &Measurements,
+    ) -> Result<Unknowns, ProgramError> {
+        let mut unknowns = self.sought.unknowns(robot, prior)?;
+        for text in &self.unknown {
+            let (name, std) = match text.split_once('=') {
+                Some((name, std)) => (name, Some(arguments::payload(std).map_err(ProgramError::Usage)?)),
+                None => (text.as_str(), None),
+            };
+            let Some(error) = SensorError::from_name(name.trim()) else {
+                let names: Vec<_> = SensorError::ALL.iter().map(|error| error.name()).collect();
+                let names = names.join(", ");
+                return Err(ProgramError::Usage(format!("--unknown {name}: expected one of {names}")));
+            };
+            unknowns.add(robot, error, std, measured.markers);
+        }
+        unknowns.set_markers(self.markers.iter().map(|marker| Vector3::from(*marker)).collect());
+        Ok(unknowns)
+    }
+
+    fn fit(&self) -> FitSettings {
+        FitSettings {
+            loss: match self.loss {
+                LossName::Squares => RobustLoss::Squares,
+                LossName::Huber => RobustLoss::Huber,
+                LossName::Cauchy => RobustLoss::Cauchy,
+            },
+            starts: self.starts,
+            seed: self.seed,
+            only_identifiable: self.only_identifiable,
+            ..FitSettings::default()
+        }
+    }
+}
+
+fn print(summary: &CalibrationSummary, found: &Fit) {
+    println!(
+        "{}: {} rows, {} unknowns, chi-square {:.1} with {} degrees of freedom",
+        shown(&summary.robot),
+        summary.rows,
+        found.estimates.len(),
+        summary.chi_square,
+        summary.degrees_of_freedom
+    );
+    let mut rows =
+        table(&["sensor", "numbers", "rms before", "rms after", "after/noise", "predicted", "unit"]);
+    for (name, of) in &summary.residuals {
+        rows.add_row([
+            (*name).to_owned(),
+            of.count.to_string(),
+            format!("{:.3e}", of.rms_before),
+            format!("{:.3e}", of.rms_after),
+            format!("{:.2}", of.standardized_rms_after),
+            of.rms_predicted.map_or_else(|| "-".to_owned(), |rms| format!("{rms:.3e}")),
+            of.unit.to_owned(),
+        ]);
+    }
+    println!("{rows}");
+    let mut rows = table(&["parameter", "before", "after", "std", "moved [prior std]", "identifiable"]);
+    for (name, of) in summary.parameters.iter().chain(&summary.sensors) {
+        rows.add_row([
+            name.clone(),
+            rounded(of.before, 9).to_string(),
+            rounded(of.after, 9).to_string(),
+            of.std.map_or_else(|| "-".to_owned(), |std| format!("{std:.2e}")),
+            of.moved_by_prior_std.map_or_else(|| "-".to_owned(), |moved| format!("{moved:+.2}")),
+            if of.identifiable { "yes" } else { "no" }.to_owned(),
+        ]);
+    }
+    println!("{rows}");
+    if let Some(after) = summary.position_std_after {
+        let before = summary.position_std_before;
+        let before = before.map_or_else(|| "unknown".to_owned(), |std| format!("{:.4} mm", 1e3 * std));
+        println!(
+            "standard deviation of the position, a coordinate: {before} before, {:.4} mm after",
+            1e3 * after
+        );
+    }
+    for combination in summary.not_identifiable.iter().take(10) {
+        let parts = combination.iter().take(5).map(|(name, weight)| format!("{weight:+.2} {name}"));
+        println!("not identifiable: {}", parts.collect::<Vec<_>>().join(" "));
+    }
+    for outlier in summary.outliers.iter().take(10) {
+        println!(
+            "far from the model: line {}, {}: {:.1} standard deviations",
+            outlier.line, outlier.column, outlier.standard_deviations
+        );
+    }
+    for warning in &summary.warnings {
+        println!("warning: {warning}");
+    }
+}

@@ -1,0 +1,163 @@
+//! `cdpr calibrate` as a user meets it.
+
+use crate::common::{cdpr, data_path, text};
+use serde_json::Value;
+use std::path::Path;
+use tempfile::TempDir;
+
+const NOISE: &str = "position=1e-4,rotation=1e-4,length=1e-4";
+
+/// A folder with `measurements.csv` of a campaign of 30 poses.
+fn campaign() -> (TempDir, String) {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("measurements.csv").display().to_string();
+    let poses = folder.path().join("poses.csv");
+    let candidates = std::fs::read_to_string(data_path("calibration/caroca-candidates.csv")).unwrap();
+    let lines: Vec<&str> = candidates.lines().collect();
+    let few: Vec<&str> = lines[1..].iter().step_by(9).copied().collect();
+    std::fs::write(&poses, format!("{}\n{}\n", lines[0], few.join("\n"))).unwrap();
+    let model = data_path("calibration/caroca-tolerances.json");
+    let output = cdpr(&[
+        "calibration",
+        "simulate",
+        &data_path("robots/caroca.json"),
+        "--poses",
+        poses.to_str().unwrap(),
+        "--model",
+        &model,
+        "--noise",
+        NOISE,
+        "--seed",
+        "3",
+        "--out",
+        &path,
+    ]);
+    assert!(output.status.success(), "{}", text(output.stderr));
+    (folder, path)
+}
+
+fn calibrate(measurements: &str, out: &Path, more: &[&str]) -> std::process::Output {
+    let (robot, out) = (data_path("robots/caroca.json"), out.display().to_string());
+    let first = ["calibrate", &robot, "--measurements", measurements, "--out", &out, "--format", "json"];
+    cdpr(&[&first[..], more].concat())
+}
+
+/// The same table with one cell or header changed.
+fn changed(path: &str, change: impl Fn(&mut Vec<Vec<String>>)) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let mut cells: Vec<Vec<String>> =
+        text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
+    change(&mut cells);
+    let lines: Vec<String> = cells.iter().map(|line| line.join(",")).collect();
+    std::fs::write(path, lines.join("\n") + "\n").unwrap();
+}
+
+#[test]
+fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
+    let (folder, path) = campaign();
+    let model = data_path("calibration/caroca-tolerances.json");
+    let out = folder.path().join("out");
+    let output = calibrate(&path, &out, &["--model", &model, "--noise", NOISE]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(output.stderr));
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let summary: Value = serde_json::from_str(&read("summary.json")).unwrap();
+    assert_eq!(printed, summary);
+    let parameter = &summary["parameters"]["a1.x"];
+    for field in ["before", "after", "std"] {
+        assert!(parameter[field].is_f64(), "{parameter}");
+    }
+    assert_eq!(parameter["identifiable"], true);
+    let (chi_square, degrees) =
+        (summary["chi_square"].as_f64().unwrap(), summary["degrees_of_freedom"].as_f64().unwrap());
+    assert!((chi_square / degrees - 1.0).abs() < 0.5);
+    assert!(summary["position_std_after"].as_f64() < summary["position_std_before"].as_f64());
+    assert!(summary["warnings"].as_array().unwrap().is_empty(), "{summary}");
+    assert!(read("report.html").contains("Parameters before and after"));
+    let robot: Value = serde_json::from_str(&read("calibrated.json")).unwrap();
+    assert!(robot["source"].as_str().unwrap().starts_with("calibrated by cdpr"));
+    assert_eq!(robot["cables"][0]["anchor_point"][0], parameter["after"]);
+    let posterior: Value = serde_json::from_str(&read("posterior.json")).unwrap();
+    assert_eq!(posterior["format"], "cdpr-errors/1");
+    assert_eq!(posterior["parameters"].as_array().unwrap().len(), 50);
+
+    // A study with the posterior.
+    let mut study: Value =
+        serde_json::from_str(&std::fs::read_to_string(data_path("calibration/position-after.json")).unwrap())
+            .unwrap();
+    study["robot"] = "calibrated.json".into();
+    study["error_models"]["errors"]["file"] = "posterior.json".into();
+    let file = out.join("study.json");
+    // The folder of the calibration takes no other file: the study stands beside it.
+    let file = file.parent().unwrap().parent().unwrap().join("study.json");
+    study["robot"] = "out/calibrated.json".into();
+    study["error_models"]["errors"]["file"] = "out/posterior.json".into();
+    std::fs::write(&file, study.to_string()).unwrap();
+    let results = folder.path().join("results").display().to_string();
+    let output = cdpr(&[
+        "study",
+        "run",
+        file.to_str().unwrap(),
+        "--out",
+        &results,
+        "--observations",
+        "256",
+        "--quiet",
+    ]);
+    let error = text(output.stderr);
+    assert!(output.status.success(), "{error}");
+
+    // The same folder takes a further calibration, one of a user does not.
+    assert_eq!(calibrate(&path, &out, &["--model", &model, "--noise", NOISE]).status.code(), Some(0));
+    let own = folder.path().join("own");
+    std::fs::create_dir(&own).unwrap();
+    std::fs::write(own.join("summary.json"), "mine").unwrap();
+    let refused = calibrate(&path, &own, &["--model", &model, "--noise", NOISE]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert_eq!(std::fs::read_to_string(own.join("summary.json")).unwrap(), "mine");
+}
+
+#[test]
+fn bad_measurements_are_named_by_line_and_column() {
+    let cases: [(&dyn Fn(&mut Vec<Vec<String>>), &str); 6] = [
+        (&|cells| cells[3][2] = "NaN".to_owned(), "line 4, column l3_m: NaN: expected a finite number"),
+        (&|cells| cells[5][0] = "4100".to_owned(), "line 6, column l1_m: 4100: expected a length in m"),
+        (&|cells| cells[0][1] = "l9_m".to_owned(), "column l9_m: expected one of the 8 cables of the robot"),
+        (&|cells| cells[0][8] = "width_m".to_owned(), "column width_m: expected a name such as x_m"),
+        (&|cells| cells[2].truncate(4), "line 3: 4 cells: expected"),
+        (&|cells| cells[4][3].clear(), "line 5: column l4_m is empty"),
+    ];
+    for (change, words) in cases {
+        let (folder, path) = campaign();
+        changed(&path, change);
+        let output = calibrate(&path, &folder.path().join("out"), &["--noise", NOISE]);
+        let error = text(output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{error}");
+        assert!(error.contains(words), "`{words}` is not in: {error}");
+    }
+    let (folder, path) = campaign();
+    changed(&path, |cells| cells.truncate(5));
+    let error = text(calibrate(&path, &folder.path().join("out"), &["--noise", NOISE]).stderr);
+    assert!(error.contains("56 measurements for 82 unknowns, 32 of them lengths"), "{error}");
+}
+
+#[test]
+fn swapped_columns_and_rows_of_other_poses_are_warned_of() {
+    let model = data_path("calibration/caroca-tolerances.json");
+    let (folder, path) = campaign();
+    changed(&path, |cells| cells[7][8] = (cells[7][8].parse::<f64>().unwrap() + 0.3).to_string());
+    let output = calibrate(&path, &folder.path().join("out"), &["--model", &model, "--noise", NOISE]);
+    assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let warnings = summary["warnings"].to_string();
+    assert!(warnings.contains("line 8 alone makes"), "{warnings}");
+    assert_eq!(summary["outliers"][0]["line"], 8);
+    // The columns of y and z.
+    let (folder, path) = campaign();
+    changed(&path, |cells| cells.iter_mut().for_each(|line| line.swap(9, 10)));
+    changed(&path, |cells| cells[0].swap(9, 10));
+    let output = calibrate(&path, &folder.path().join("out"), &["--model", &model, "--noise", NOISE]);
+    assert_ne!(output.status.code(), Some(0));
+    let all = text(output.stdout) + &text(output.stderr);
+    assert!(all.contains("chi-square is") || all.contains("line "), "{all}");
+}

@@ -1,0 +1,78 @@
+//! Error models from files of their own.
+
+use crate::error::StudyError;
+use crate::file::errors_file::ErrorsFile;
+use crate::file::study_file::InputSpec;
+use crate::fs::input::read_text;
+use crate::kind::InputKind;
+use crate::model::error_model::{ErrorModel, Wrong};
+use cdpr_robot::{Robot, from_json};
+use indexmap::IndexMap;
+use serde_json::Value;
+use std::borrow::Cow;
+use std::path::Path;
+
+/// The text of a study in which error models of the form `{"file": "posterior.json"}` are replaced by those
+/// of these files, beside the study.
+///
+/// # Errors
+/// As [`read_text`]; [`StudyError::Format`] and [`StudyError::Invalid`] for what such a file says.
+pub(crate) fn with_error_files<'t>(text: &'t str, path: &Path) -> Result<Cow<'t, str>, StudyError> {
+    // Text that is no JSON is refused where the study is read.
+    let Ok(mut study) = serde_json::from_str::<Value>(text) else { return Ok(text.into()) };
+    let mut replaced = false;
+    if let Some(models) = study.get_mut("error_models").and_then(Value::as_object_mut) {
+        for model in models.values_mut() {
+            let named = match model.as_object() {
+                Some(fields) if fields.len() == 1 => fields.get("file").and_then(Value::as_str),
+                _ => None,
+            };
+            let Some(named) = named else { continue };
+            let file = path.parent().unwrap_or(Path::new(".")).join(named);
+            let entries = read_entries(&file)?;
+            *model = serde_json::to_value(entries).unwrap_or_default();
+            replaced = true;
+        }
+    }
+    Ok(if replaced { study.to_string().into() } else { text.into() })
+}
+
+/// The entries of an error model in a file of its own: `cdpr-errors/1`, or an object as a study has it in
+/// `error_models`.
+fn read_entries(path: &Path) -> Result<IndexMap<String, InputSpec>, StudyError> {
+    let text = read_text(path, InputKind::Errors)?;
+    let unread = |source| StudyError::Format { path: path.to_owned(), source };
+    let is_errors = serde_json::from_str::<Value>(&text).is_ok_and(|value| value.get("format").is_some());
+    if !is_errors {
+        return from_json(&text).map_err(unread);
+    }
+    let file: ErrorsFile = from_json(&text).map_err(unread)?;
+    file.entries().map_err(|(field, value, expected)| {
+        StudyError::Invalid { path: path.to_owned(), field, value, expected }.placed(&text)
+    })
+}
+
+/// The error model of a file for a robot: `cdpr-errors/1`, or an object as a study has it in `error_models`.
+///
+/// # Errors
+/// As [`read_text`]; [`StudyError::Format`], [`StudyError::Invalid`] and [`StudyError::Statistics`] for what it
+/// says.
+pub fn open_errors(path: &Path, robot: &Robot) -> Result<ErrorModel, StudyError> {
+    let entries = read_entries(path)?;
+    if let Some((key, _)) = entries.iter().find(|(_, spec)| spec.operating_point.is_some()) {
+        return Err(StudyError::Invalid {
+            path: path.to_owned(),
+            field: format!("{key}.operating_point"),
+            value: "given".to_owned(),
+            expected: "an error model without one, as there is no pose and load of a sampling".to_owned(),
+        });
+    }
+    ErrorModel::new(&entries, robot).map_err(|wrong| match wrong {
+        Wrong::Field { field, value, expected } => {
+            StudyError::Invalid { path: path.to_owned(), field, value, expected }
+        }
+        Wrong::Law(source) => {
+            StudyError::Statistics { path: path.to_owned(), field: "error model".to_owned(), source }
+        }
+    })
+}
