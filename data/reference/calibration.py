@@ -2,7 +2,7 @@
 
 Run in the root of the repository, with the program in target/debug: python3 data/reference/calibration.py
 It simulates a campaign (`cdpr calibration simulate`), minimises the same sum of squares with a Jacobian by
-central differences, and writes data/reference/calibration.json.
+differences, and writes data/reference/calibration.json.
 """
 
 import csv
@@ -22,7 +22,7 @@ PROGRAM = os.environ.get("CDPR", "target/debug/cdpr")
 ROBOT = "data/robots/caroca.json"
 MODEL = "data/calibration/caroca-tolerances.json"
 POSES = "data/calibration/caroca-candidates.csv"
-ROWS, NOISE = 24, 1e-4
+ROWS, NOISE, STEP = 24, 1e-4, 0.02
 
 
 def run(*arguments):
@@ -91,13 +91,21 @@ def main():
         apart = (rotation * turn.inv()).as_rotvec()
         return np.concatenate([((position - at) / NOISE).ravel(), (apart / NOISE).ravel(), x])
 
+    def jacobian(x):
+        """By differences over steps of STEP standard deviations, exact to the fourth order."""
+        columns = []
+        for k in range(len(x)):
+            at = lambda steps: residuals(x + steps * STEP * np.eye(len(x))[k])
+            columns.append((8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * STEP))
+        return np.stack(columns, axis=1)
+
     clock = time.perf_counter()
-    found = least_squares(residuals, np.zeros(len(std)), jac="3-point", method="lm", xtol=1e-13, ftol=1e-15, gtol=1e-13)
+    found = least_squares(residuals, np.zeros(len(std)), jac=jacobian, method="lm", xtol=1e-14, ftol=1e-15, gtol=1e-14)
     seconds = time.perf_counter() - clock
     covariance = np.linalg.inv(found.jac.T @ found.jac)
     result = {
         "source": f"data/reference/calibration.py: SciPy {scipy.__version__} least_squares (MINPACK's lmder) around cdpr direct, "
-        "Jacobian by central differences",
+        "Jacobian by differences of the fourth order",
         "robot": ROBOT,
         "model": MODEL,
         "noise": NOISE,

@@ -20,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 
-NOISE = "length=2e-3,tension=3,rotation=5e-3,swivel=2e-2"
+NOISE = "length=5e-3,tension=7,rotation=7e-3,swivel=2e-2"
 
 
 def campaign(path):
@@ -56,8 +56,8 @@ def main():
                 # Their swivel angles count from the vertical, ours from the horizontal.
                 out.writerow(l + t + a + [angle - math.pi / 2 for angle in s])
         arguments = ["calibrate", "data/robots/irma4u.json", "--measurements", table, "--parameters", "none"]
-        arguments += ["--unknown", "length_offset,angle_offset", "--noise", NOISE, "--format", "json"]
-        found = subprocess.run([program, *arguments, "--out", os.path.join(folder, "out")], capture_output=True, text=True)
+        arguments += ["--unknown", "length_offset=0.05,angle_offset", "--starts", "10", "--noise", NOISE, "--format", "json"]
+        found = subprocess.run([program, *arguments, "--out", os.environ.get("OUT", os.path.join(folder, "out"))], capture_output=True, text=True)
         if found.returncode not in (0, 3):
             sys.exit(found.stderr)
         summary = json.loads(found.stdout)

@@ -9,6 +9,7 @@ use crate::campaign::{Quantity, Row};
 use crate::error::CalibrationError;
 use crate::identify::own_parameters;
 use crate::model::{Compared, Model, RowState, State};
+use crate::plausible::check_columns;
 use crate::solve::{Decomposed, Eliminated, reduce, triangle};
 use crate::unknowns::{SensorError, Unknowns};
 use cdpr_robot::{Axis, Parameter, Pose, Robot, Rotation3, Vector3};
@@ -251,6 +252,11 @@ pub fn fit(
 ) -> Result<Fit, CalibrationError> {
     let problem = Problem { model: Model::new(robot, unknowns), rows, settings: *settings };
     problem.check()?;
+    let moved =
+        [SensorError::LengthOffset, SensorError::DrumScale, SensorError::Frame, SensorError::FrameScale];
+    if moved.iter().all(|error| unknowns.sensor(*error).is_none()) {
+        check_columns(robot, rows)?;
+    }
     let (start, first) = problem.begin()?;
     if settings.only_identifiable {
         let gone = problem.untold_inputs(&problem.linearized(&start)?);

@@ -15,6 +15,7 @@ mod fit;
 mod identify;
 mod model;
 mod plan;
+mod plausible;
 mod results;
 mod simulate;
 mod solve;

@@ -53,6 +53,7 @@ pub struct StudyFile {
     ///
     /// A model `{"file": "posterior.json"}` is that of a file beside this one: `cdpr-errors/1`, or an object
     /// as it would stand here.
+    #[schemars(with = "IndexMap<String, ErrorModelForm>")]
     pub error_models: IndexMap<String, IndexMap<String, InputSpec>>,
     /// Samplings by name: all uncertain parameters at once, at points of Sobol's sequence.
     #[serde(default)]
@@ -67,6 +68,26 @@ pub struct StudyFile {
     /// Published figures of the deflection, which are listed beside the computed ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub comparison: Vec<ComparisonSpec>,
+}
+
+/// An error model as a file may have it: where it is read, files are put in their places.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code)]
+enum ErrorModelForm {
+    /// That of another file.
+    File(ErrorModelFile),
+    /// Its entries.
+    Entries(IndexMap<String, InputSpec>),
+}
+
+/// The error model of a file beside the study.
+#[derive(JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code)]
+struct ErrorModelFile {
+    /// Path of the file from here: `cdpr-errors/1`, or an object as a study has it in `error_models`.
+    file: String,
 }
 
 /// Law and steps of a parameter's deviation from its nominal value, in the parameter's SI unit.
