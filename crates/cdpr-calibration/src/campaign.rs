@@ -143,7 +143,8 @@ impl Noise {
     /// Noise by the name of its sensor; `lengths` and `tensions` are understood, too.
     ///
     /// # Errors
-    /// [`crate::CalibrationError::Invalid`] for another name and for a number that is not positive and finite.
+    /// [`crate::CalibrationError::Invalid`] for another name and for a number that is not positive and
+    /// finite.
     pub fn named(named: &[(String, f64)]) -> Result<Self, crate::CalibrationError> {
         let mut noise = Self::default();
         for (name, std) in named {

@@ -172,7 +172,8 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Probability of a chi-square as great as this or greater, if the model is right and the noise as stated.
+    /// Probability of a chi-square as great as this or greater, if the model is right and the noise as
+    /// stated.
     pub fn p_value(&self) -> Option<f64> {
         (self.degrees_of_freedom > 0).then(|| {
             statrs::function::gamma::gamma_ur(

@@ -4,9 +4,9 @@
 //! and the load make the platform rest at a pose, with a force in every cable. With the errors of the sensors
 //!
 //! ```text
-//! L_i = (l_i - o_i - e_i)/(1 + κ_i)               length l read by a winch, offset o, scale κ, noise e   (R1)
-//! y   = (1 + σ) Q (p + R m) + q                   place of P (m = 0) or of a marker m, in the tracker's frame
-//! t   = (1 + γ_i) |F_i| + β_i                     load cell of cable i
+//! L_i = (l_i - o_i - e_i)/(1 + κ_i)               length l read by a winch, offset o, scale κ, noise e  
+//! (R1) y   = (1 + σ) Q (p + R m) + q                   place of P (m = 0) or of a marker m, in the tracker's
+//! frame t   = (1 + γ_i) |F_i| + β_i                     load cell of cable i
 //! ```
 //!
 //! Where lengths have noise, their errors e are unknowns of the row with the residual e/std. Where lengths
@@ -17,8 +17,8 @@
 //! its wrap `π - ψ`, `s = sin ψ`, and arc and lead together of the stretched length a,
 //!
 //! ```text
-//! F0 = -F_i - w Lf up,    Lf = L - a/(1 + ε(T0)),   dF0 = g - w up dLf,   g = -dF_i - Lf dw up           (R2)
-//! dLf (1 + w α·up) = β + α·g,       α = [ r (k - τ (τ·k))/(T0 s) + a ε' τ/(1 + ε) ]/(1 + ε)
+//! F0 = -F_i - w Lf up,    Lf = L - a/(1 + ε(T0)),   dF0 = g - w up dLf,   g = -dF_i - Lf dw up          
+//! (R2) dLf (1 + w α·up) = β + α·g,       α = [ r (k - τ (τ·k))/(T0 s) + a ε' τ/(1 + ε) ]/(1 + ε)
 //! β = dL - [ (π - ψ) dr + dd - r τ·dk/s - a dε/(1 + ε) ]/(1 + ε)
 //! ```
 
@@ -153,8 +153,8 @@ impl<'a> Model<'a> {
                 };
                 if row.readings.len() < n {
                     let reason = format!(
-                        "{} numbers are measured for {n} lengths that are not: expected the lengths l1_m.., or \
-                         more numbers",
+                        "{} numbers are measured for {n} lengths that are not: expected the lengths l1_m.., \
+                         or more numbers",
                         row.readings.len()
                     );
                     return Err(CalibrationError::Incomplete { line: row.line, reason });

@@ -7,10 +7,10 @@
 //! C' = C - C Bᵀ (1 + B C Bᵀ)⁻¹ B C                                                                 (K4)
 //! ```
 //!
-//! D-optimal sets maximise `-½ log2 det C`, A-optimal ones minimise the trace of C; sets for the work minimise
-//! the mean or the greatest of `t C tᵀ` over rows t, which tell how the parameters displace the platform where
-//! it works. A set grows by the pose that gains most. Then each of its poses is exchanged for the candidate
-//! that gains most, until no exchange gains (Fedorov 1972): a local optimum.
+//! D-optimal sets maximise `-½ log2 det C`, A-optimal ones minimise the trace of C; sets for the work
+//! minimise the mean or the greatest of `t C tᵀ` over rows t, which tell how the parameters displace the
+//! platform where it works. A set grows by the pose that gains most. Then each of its poses is exchanged for
+//! the candidate that gains most, until no exchange gains (Fedorov 1972): a local optimum.
 
 use crate::identify::Calibration;
 use nalgebra::{DMatrix, DVector};

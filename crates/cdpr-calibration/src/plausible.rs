@@ -11,8 +11,8 @@ const FAR: f64 = 0.05;
 /// Two columns are swapped if this share of the misfit is left after they are swapped back.
 const LEFT: f64 = 0.2;
 
-/// Compares the lengths with the distances of the points at the measured poses. Sag, pulleys and the errors that
-/// are sought change these by far less than swapped columns.
+/// Compares the lengths with the distances of the points at the measured poses. Sag, pulleys and the errors
+/// that are sought change these by far less than swapped columns.
 ///
 /// # Errors
 /// [`CalibrationError::Column`] naming two columns that fit far better the other way round.

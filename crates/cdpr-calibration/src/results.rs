@@ -93,7 +93,8 @@ pub struct CalibrationSummary {
     pub degrees_of_freedom: usize,
     /// Probability of such a chi-square or a greater one.
     pub p_value: Option<f64>,
-    /// Factor by which standard deviations were multiplied, because no noise is stated: that of the residuals.
+    /// Factor by which standard deviations were multiplied, because no noise is stated: that of the
+    /// residuals.
     pub noise_scale: f64,
     /// Combinations of parameters that the data do not tell, weights in units of their scales.
     pub not_identifiable: Vec<Vec<(String, f64)>>,
@@ -145,8 +146,8 @@ impl Fit {
         (self.chi_square / self.degrees_of_freedom as f64).sqrt()
     }
 
-    /// What is known of the errors of the calibrated robot: parameters that were sought, and those of the prior
-    /// that were not.
+    /// What is known of the errors of the calibrated robot: parameters that were sought, and those of the
+    /// prior that were not.
     pub fn posterior(&self, context: &Context) -> ErrorsFile {
         let parameters = Parameter::of(context.nominal);
         let mut covariance = self.parameter_covariance();
@@ -184,8 +185,8 @@ impl Fit {
         let mut robot = self.robot.clone();
         let before = context.nominal.provenance.source.as_deref().unwrap_or("a robot file");
         robot.provenance.source = Some(format!(
-            "calibrated by cdpr {} with {} rows of {measurements}, {} parameters sought, chi-square {:.1} with {} \
-             degrees of freedom; before: {before}",
+            "calibrated by cdpr {} with {} rows of {measurements}, {} parameters sought, chi-square {:.1} \
+             with {} degrees of freedom; before: {before}",
             env!("CARGO_PKG_VERSION"),
             context.rows,
             self.unknowns.of_parameters(),
@@ -357,7 +358,7 @@ impl Fit {
         }
         if !context.noise_is_stated {
             warnings.push(
-                "no noise is stated: standard deviations follow from the residuals, and the model is not tested"
+                "no noise is stated: standard deviations follow from the residuals, the model is not tested"
                     .to_owned(),
             );
         }
@@ -375,8 +376,8 @@ impl Fit {
         }
         if let Some((column, rms)) = self.worst_column() {
             warnings.push(format!(
-                "column {column} is off by {rms:.1} standard deviations, many times more than the others of its \
-                 kind: columns may be swapped, its unit or sign may be wrong"
+                "column {column} is off by {rms:.1} standard deviations, many times more than the others \
+                 of its kind: columns may be swapped, its unit or sign may be wrong"
             ));
         }
         warnings
@@ -481,7 +482,8 @@ pub fn write_calibration(
     Ok(())
 }
 
-/// Displacement of P of each row, measured less modelled, before and after [m], with the pose: arrows in space.
+/// Displacement of P of each row, measured less modelled, before and after [m], with the pose: arrows in
+/// space.
 pub fn arrows(found: &Fit) -> Vec<([f64; 3], [f64; 3], [f64; 3])> {
     let of = |differences: &[Difference], row: usize| {
         Axis::ALL.map(|axis| {

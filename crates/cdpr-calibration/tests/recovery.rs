@@ -87,8 +87,8 @@ fn the_truth_lies_in_the_stated_regions_as_often_as_stated() {
         }
         let (share, ratio) = (inside as f64 / all as f64, chi / degrees as f64);
         println!(
-            "{}: {campaigns} campaigns, {:.2} % of {all} in their regions, chi-square per degree {ratio:.4}, {stuck} \
-             not converged, {near} steps at most, {:.3} s a campaign",
+            "{}: {campaigns} campaigns, {:.2} % of {all} in their regions, chi-square per degree {ratio:.4}, \
+             {stuck} not converged, {near} steps at most, {:.3} s a campaign",
             case.name,
             100.0 * share,
             seconds / campaigns as f64

@@ -148,7 +148,7 @@ const CASES: [(&str, &str); 100] = [
     ),
     (
         "candidate poses of which none is held",
-        "calibration identify robot.json --grid=0:0:1,0:0:1,9:9:1 --uncertainty a=0.001 --noise lengths=0.001",
+        "calibration identify robot.json --grid=0:0:1,0:0:1,9:9:1 --uncertainty a=1e-3 --noise lengths=1e-3",
     ),
     ("robot of a study not there", "study run study_robot.json"),
     ("unknown field deep in a study", "study run study_law.json"),

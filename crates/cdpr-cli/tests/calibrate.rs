@@ -5,6 +5,9 @@ use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;
 
+/// A change of the cells of a table.
+type Change<'a> = &'a dyn Fn(&mut Vec<Vec<String>>);
+
 const NOISE: &str = "position=1e-4,rotation=1e-4,length=1e-4";
 
 /// A folder with `measurements.csv` of a campaign of 30 poses.
@@ -119,7 +122,7 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
 
 #[test]
 fn bad_measurements_are_named_by_line_and_column() {
-    let cases: [(&dyn Fn(&mut Vec<Vec<String>>), &str); 6] = [
+    let cases: [(Change, &str); 6] = [
         (&|cells| cells[3][2] = "NaN".to_owned(), "line 4, column l3_m: NaN: expected a finite number"),
         (&|cells| cells[5][0] = "4100".to_owned(), "line 6, column l1_m: 4100: expected a length in m"),
         (&|cells| cells[0][1] = "l9_m".to_owned(), "column l9_m: expected one of the 8 cables of the robot"),

@@ -116,7 +116,8 @@ pub(crate) struct PlanSettings {
     /// What is to be exact there: the position with given lengths, or the deflection by the load.
     #[arg(long, value_enum, default_value_t = OfWork::Position)]
     of: OfWork,
-    /// How exact it is to be there, the standard deviation of a coordinate [m]: how many poses does that take?
+    /// How exact it is to be there, the standard deviation of a coordinate [m]: how many poses does that
+    /// take?
     #[arg(long, value_parser = arguments::payload, requires = "work")]
     accuracy: Option<f64>,
     #[command(flatten)]

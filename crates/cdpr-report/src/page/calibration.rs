@@ -6,6 +6,9 @@ use cdpr_robot::{Robot, shown};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::fmt::Write;
 
+/// Content security policy: styles of the page itself, and nothing else.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+
 /// Side of a square drawing [px].
 const SIDE: f64 = 420.0;
 
@@ -41,7 +44,7 @@ pub fn calibration_report(robot: &Robot, summary: &CalibrationSummary, found: &F
             head {
                 meta charset="utf-8";
                 meta http-equiv="Content-Security-Policy"
-                    content="default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+                    content=(POLICY);
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content={ "cdpr " (summary.version) };
@@ -107,7 +110,7 @@ fn in_space(found: &Fit) -> Markup {
                     (PreEscaped(arrow_view(&arrows, axes, longest)))
                 }
                 figcaption {
-                    "Measured less modelled position " (name) ": before (red), after (blue). The longest arrow before is "
+                    "Measured less modelled " (name) ": before (red), after (blue). The longest before is "
                     (numeric(1e3 * longest, 3)) " mm."
                 }
             }
@@ -231,7 +234,7 @@ fn correlations(found: &Fit) -> Markup {
         figure {
             div.drawing role="img" aria-label="Correlations of the unknowns" { (PreEscaped(svg + "</svg>")) }
             figcaption {
-                "Correlations of the first " (n) " unknowns in the order of the table: blue positive, red negative."
+                "Correlations of the first " (n) " unknowns in the order of the table: blue is positive."
             }
         }
     }

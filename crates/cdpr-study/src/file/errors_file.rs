@@ -1,4 +1,5 @@
-//! The errors file, `cdpr-errors/1`: correlated normal deviations of parameters, as a calibration leaves them.
+//! The errors file, `cdpr-errors/1`: correlated normal deviations of parameters, as a calibration leaves
+//! them.
 
 use crate::file::study_file::InputSpec;
 use cdpr_robot::Parameter;

@@ -55,8 +55,8 @@ fn read_entries(path: &Path) -> Result<IndexMap<String, InputSpec>, StudyError> 
 /// The error model of a file for a robot: `cdpr-errors/1`, or an object as a study has it in `error_models`.
 ///
 /// # Errors
-/// As [`read_text`]; [`StudyError::Format`], [`StudyError::Invalid`] and [`StudyError::Statistics`] for what it
-/// says.
+/// As [`read_text`]; [`StudyError::Format`], [`StudyError::Invalid`] and [`StudyError::Statistics`] for what
+/// it says.
 pub fn open_errors(path: &Path, robot: &Robot) -> Result<ErrorModel, StudyError> {
     let entries = read_entries(path)?;
     if let Some((key, _)) = entries.iter().find(|(_, spec)| spec.operating_point.is_some()) {
