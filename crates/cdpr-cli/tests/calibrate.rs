@@ -88,25 +88,12 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     let mut study: Value =
         serde_json::from_str(&std::fs::read_to_string(data_path("calibration/position-after.json")).unwrap())
             .unwrap();
-    study["robot"] = "calibrated.json".into();
-    study["error_models"]["errors"]["file"] = "posterior.json".into();
-    let file = out.join("study.json");
-    // The folder of the calibration takes no other file: the study stands beside it.
-    let file = file.parent().unwrap().parent().unwrap().join("study.json");
+    let file = folder.path().join("study.json");
     study["robot"] = "out/calibrated.json".into();
     study["error_models"]["errors"]["file"] = "out/posterior.json".into();
     std::fs::write(&file, study.to_string()).unwrap();
     let results = folder.path().join("results").display().to_string();
-    let output = cdpr(&[
-        "study",
-        "run",
-        file.to_str().unwrap(),
-        "--out",
-        &results,
-        "--observations",
-        "256",
-        "--quiet",
-    ]);
+    let output = cdpr(&["study", "run", file.to_str().unwrap(), "--out", &results, "--observations", "256"]);
     let error = text(output.stderr);
     assert!(output.status.success(), "{error}");
 
