@@ -1,6 +1,8 @@
 //! Maps of a plane, and workspaces that are not a plane.
 
-use cdpr_assess::{Further, Workspace, WorkspaceRow, WorkspaceSummary, compute_workspace};
+use cdpr_assess::{
+    Further, TiltDirections, Workspace, WorkspaceRow, WorkspaceSummary, WrenchSet, compute_workspace,
+};
 use cdpr_report::{MapQuantity, ReportError, heat_map, tolerance_map};
 use cdpr_robot::{Axis, Matrix3, Robot, Rotation3, Vector3};
 use cdpr_statics::Load;
@@ -11,6 +13,10 @@ fn caroca() -> Robot {
 }
 
 fn summary(robot: &Robot, grid: Grid) -> WorkspaceSummary {
+    summary_with(robot, grid, Further::default())
+}
+
+fn summary_with(robot: &Robot, grid: Grid, further: Further) -> WorkspaceSummary {
     let workspace = Workspace {
         robot,
         grid,
@@ -18,7 +24,7 @@ fn summary(robot: &Robot, grid: Grid) -> WorkspaceSummary {
         load: Load::payload(50.0),
         tolerances: None,
         free: &[],
-        further: Further::default(),
+        further,
     };
     WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap())
 }
@@ -32,16 +38,31 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
     let mut robot = caroca();
     // Maps of natural frequencies need an inertia: that of a box of 0.4 m by 0.3 m by 0.25 m.
     robot.platform.inertia = Some(Matrix3::from_diagonal(&Vector3::new(2.3, 3.3, 3.8)));
-    let summary = summary(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap());
+    let further = Further {
+        capacity: Some(&WrenchSet::of(Vec::new())),
+        distances: true,
+        tilt: Some(TiltDirections { count: 4, accuracy: 0.02 }),
+    };
+    let summary = summary_with(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap(), further);
     let count_held = |of: &dyn Fn(&WorkspaceRow) -> bool| summary.rows.iter().filter(|row| of(row)).count();
     let kept = 63 - count_held(&|row| row.status == "held");
     let anew = 63 - count_held(&|row| row.anew_status == Some("held"));
     assert!(anew > 0 && kept >= anew && kept < 63, "{kept} {anew}");
+    let without = |value: fn(&WorkspaceRow) -> Option<f64>| {
+        summary.rows.iter().filter(|row| value(row).is_none()).count()
+    };
     for quantity in MapQuantity::ALL {
         let (not_held, words) = match quantity {
             MapQuantity::GreatestTensionAnew => (anew, "tensions distributed anew"),
+            MapQuantity::PayloadAnew => (without(|row| row.payload_anew_kg), "tensions distributed anew"),
+            MapQuantity::PayloadKept => (without(|row| row.payload_kept_kg), "lengths kept"),
+            MapQuantity::MarginAnew => (without(|row| row.margin_anew), "distance of the tensions"),
+            MapQuantity::NearestCables => (without(|row| row.nearest_cables_mm), "nearest two cables"),
+            MapQuantity::NearestToPlatform => (without(|row| row.nearest_to_platform_mm), "and platform"),
+            MapQuantity::Tilt => (without(|row| row.tilt_deg), "worst direction"),
             _ => (kept, "lengths kept"),
         };
+        assert!(not_held < 63, "{quantity:?}");
         let svg = heat_map(&robot, &summary, quantity).unwrap();
         // The paper, 63 cells, 128 steps of the colour bar; grey for a cell without value and for the key's
         // bar as a line.
