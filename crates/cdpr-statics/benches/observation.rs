@@ -8,7 +8,8 @@ mod problems;
 use cdpr_robot::{Parameter, Pose, Robot};
 use cdpr_statics::{Load, Observer};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use problems::{caroca, counted, ring, robots, settings};
+use problems::common::robots;
+use problems::{caroca, counted, ring, settings};
 use std::hint::black_box;
 
 /// Rows of deviations: sawtooths through the ranges of Table 3 of Baklouti, Caro, Courteille (CableCon 2017),

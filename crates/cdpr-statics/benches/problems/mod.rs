@@ -2,10 +2,10 @@
 
 #[allow(dead_code)]
 #[path = "../../tests/common.rs"]
-mod common;
+pub(crate) mod common;
 
 use cdpr_robot::Robot;
-pub(crate) use common::{caroca, robots};
+pub(crate) use common::caroca;
 use criterion::Criterion;
 use std::time::Duration;
 
