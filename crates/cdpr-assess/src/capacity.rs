@@ -20,7 +20,7 @@
 use cdpr_robot::{CableEnd, Coordinate, Pose, Robot, Wrench, decimal};
 use cdpr_statics::{
     Blocking, Bound, Equilibrium, FreeSolution, FreeSolutions, Greatest, HeldPose, Limit, Load, Start,
-    StaticsError, direct, greatest_payload, held_at, inverse, inverse_free, tension_margin,
+    StaticsError, direct, greatest_payload, held_at, inverse_free, tension_margin,
 };
 use std::fmt;
 
@@ -149,7 +149,7 @@ pub fn capacity_at(
 ) -> Capacity {
     let set = set.shifted(load.wrench);
     let loaded = |payload: f64, wrench: &Wrench| Load { payload, wrench: *wrench };
-    let wound_up = wound(robot, pose, &Load::none(), free);
+    let wound_up = held_at(robot, pose, &Load::none(), free);
     let anew = |load: &Load, near: &Equilibrium| rest_near(robot, near, load, free);
     let kept = |load: &Load, near: &Equilibrium| {
         let HeldPose { lengths, .. } = wound_up.as_ref().map_err(Clone::clone)?;
@@ -199,20 +199,6 @@ pub fn capacity_at(
 
 /// Lengths and equilibrium at a load.
 type State = Result<(Vec<f64>, Equilibrium), StaticsError>;
-
-/// The lengths that hold the pose under a load.
-pub(crate) fn wound(
-    robot: &Robot,
-    pose: &Pose,
-    load: &Load,
-    free: &[Coordinate],
-) -> Result<HeldPose, StaticsError> {
-    if free.is_empty() {
-        let found = inverse(robot, pose, load, None)?;
-        return Ok(HeldPose { lengths: found.lengths, equilibrium: found.equilibrium });
-    }
-    held_at(robot, pose, load, free)
-}
 
 /// The rest under a load that is nearest to another one, in or out of the limits: the same branch.
 fn rest_near(robot: &Robot, near: &Equilibrium, load: &Load, free: &[Coordinate]) -> State {

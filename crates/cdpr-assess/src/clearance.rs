@@ -13,9 +13,8 @@
 //! cables whose exit or anchor points lie within the thickness of the cables share a point and have no
 //! distance.
 
-use crate::capacity::wound;
 use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
-use cdpr_statics::{DMatrix, DirectProblem, Equilibrium, HeldPose, Load, StaticsError};
+use cdpr_statics::{DMatrix, DirectProblem, Equilibrium, HeldPose, Load, StaticsError, held_at};
 
 /// The least distances at a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,14 +78,14 @@ pub fn clearance_at(
 /// cables than free motions the `free` coordinates are found.
 ///
 /// # Errors
-/// Those of [`cdpr_statics::inverse`] and [`cdpr_statics::held_at`].
+/// Those of [`held_at`].
 pub fn clearance_under(
     robot: &Robot,
     pose: &Pose,
     load: &Load,
     free: &[Coordinate],
 ) -> Result<Clearance, StaticsError> {
-    let HeldPose { lengths, equilibrium } = wound(robot, pose, load, free)?;
+    let HeldPose { lengths, equilibrium } = held_at(robot, pose, load, free)?;
     clearance_at(robot, &lengths, &equilibrium)
 }
 

@@ -12,6 +12,7 @@
 mod campaign;
 mod error;
 mod fit;
+mod fitted;
 mod identify;
 mod model;
 mod plan;
@@ -24,7 +25,8 @@ mod unknowns;
 
 pub use campaign::{Noise, Quantity, Reading, Row};
 pub use error::CalibrationError;
-pub use fit::{Difference, Estimate, Fit, FitSettings, RobustLoss, Untold, cross_validated, fit};
+pub use fit::{cross_validated, fit};
+pub use fitted::{Difference, Estimate, Fit, FitSettings, RobustLoss, UnidentifiableCombination};
 pub use identify::{
     AtWork, Calibration, ChosenPose, Combination, Identifiability, Measurement, ParameterValue,
 };

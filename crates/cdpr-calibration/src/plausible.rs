@@ -60,8 +60,8 @@ pub(crate) fn check_columns(robot: &Robot, rows: &[Row]) -> Result<(), Calibrati
         for j in i + 1..n {
             let (before, after) =
                 (misfit(i, i, own) + misfit(j, j, own), misfit(i, j, own) + misfit(j, i, own));
-            // All columns must fit then: a coordinate with the wrong sign makes those of a symmetric robot look
-            // swapped in pairs.
+            // All columns must fit then: a coordinate with the wrong sign makes those of a symmetric robot
+            // look swapped in pairs.
             let rest = n as f64 * now - before;
             if before > 2.0 * far && rest + after < LEFT * before {
                 return named(Quantity::Length(i).to_string(), Quantity::Length(j).to_string());

@@ -1,7 +1,7 @@
 //! What comes out of a calibration: the robot, what is known of it, a summary, and the folder of all.
 
 use crate::error::CalibrationError;
-use crate::fit::{Difference, Fit};
+use crate::fitted::{Difference, Fit};
 use cdpr_robot::{Axis, Parameter, Robot};
 use cdpr_statics::{DirectProblem, Load};
 use cdpr_study::{ERRORS_FORMAT, ErrorModel, ErrorsFile, ResultsFolder, ResultsOf, StudyError};
@@ -297,7 +297,11 @@ impl Fit {
             degrees_of_freedom: self.degrees_of_freedom,
             p_value,
             noise_scale: scale,
-            not_identifiable: self.untold.iter().map(|untold| untold.weights.clone()).collect(),
+            not_identifiable: self
+                .unidentifiable
+                .iter()
+                .map(|combination| combination.weights.clone())
+                .collect(),
             residuals: self.by_sensor(context.predicted),
             outliers: self
                 .outliers()

@@ -126,8 +126,8 @@ fn other_robots_poses_loads_and_ranges_agree_too() {
 
 #[test]
 fn cables_at_their_limits_and_cables_that_sag_stay_in_the_lanes() {
-    // Robots that are held from all sides have cables at a limit at every pose, and those of the telescope and
-    // of a stadium sag. Deviations are shares of the robot's size.
+    // Robots that are held from all sides have cables at a limit at every pose, and those of the telescope
+    // and of a stadium sag. Deviations are shares of the robot's size.
     let named = |name| Robot::from_json(library::named(library::ROBOTS, name).unwrap().text).unwrap();
     let more = [
         (named("segesta"), Pose::at(0.05, 0.02, 0.5)),

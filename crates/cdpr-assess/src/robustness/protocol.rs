@@ -62,7 +62,8 @@ pub struct Protocol {
     pub region: PoseRegion,
     /// Coordinates of the drawn poses that are found, for a robot with fewer cables than free motions.
     pub free: Vec<Coordinate>,
-    /// The true pose is found if P is this near [m] and the rotation within [`FOUND_ANGLE`](super::FOUND_ANGLE).
+    /// The true pose is found if P is this near [m] and the rotation within
+    /// [`FOUND_ANGLE`](super::FOUND_ANGLE).
     pub found_distance: f64,
     /// Number of stable poses that are collected and solved.
     pub poses: usize,

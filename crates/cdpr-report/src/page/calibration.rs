@@ -31,7 +31,7 @@ pub fn calibration_report(robot: &Robot, summary: &CalibrationSummary, found: &F
         section id="parameters" {
             h2 { "Parameters" }
             (parameters(summary))
-            (untold(summary))
+            (unidentifiable(summary))
         }
         section id="correlations" {
             h2 { "Correlations of what is left" }
@@ -187,7 +187,7 @@ fn parameters(summary: &CalibrationSummary) -> Markup {
     table("Parameters before and after", &head, &rows)
 }
 
-fn untold(summary: &CalibrationSummary) -> Markup {
+fn unidentifiable(summary: &CalibrationSummary) -> Markup {
     html! {
         @if !summary.not_identifiable.is_empty() {
             p { "The data do not tell these combinations:" }

@@ -1,8 +1,8 @@
 //! Deflections of a robot with deviations of its parameters, many at a time.
 //!
-//! Robots with plain cables, stable and taut or sagging, at their limits or not, are observed in the lanes of the vector unit
-//! (`lanes/chain.rs`), each from the tensions of the nominal robot. Any other robot is observed by
-//! [`deflection`], which decides on every failure.
+//! Robots with plain cables, stable and taut or sagging, at their limits or not, are observed in the lanes of
+//! the vector unit (`lanes/chain.rs`), each from the tensions of the nominal robot. Any other robot is
+//! observed by [`deflection`], which decides on every failure.
 
 use crate::error::StaticsError;
 use crate::inverse::inverse;

@@ -63,8 +63,8 @@ impl<'a> Tracker<'a> {
 
     /// Goes to the equilibrium for other lengths [m] and another load, near the current one.
     ///
-    /// Nothing is allocated where Newton's method finds a stable equilibrium without folded cables (up to 32 of
-    /// them with AVX-512, 16 with AVX2). Otherwise [`direct`] searches.
+    /// Nothing is allocated where Newton's method finds a stable equilibrium without folded cables (up to 32
+    /// of them with AVX-512, 16 with AVX2). Otherwise [`direct`] searches.
     ///
     /// # Errors
     /// Those of [`direct`]; the equilibrium is then the one before.

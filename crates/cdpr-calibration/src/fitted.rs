@@ -1,0 +1,191 @@
+//! What is asked of a fit, and what it answers.
+
+use crate::campaign::Quantity;
+use crate::unknowns::Unknowns;
+use cdpr_robot::{Pose, Robot, Rotation3, Vector3};
+use nalgebra::DMatrix;
+
+/// How a residual of several standard deviations counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RobustLoss {
+    /// By its square: least squares, the most exact where all noise is normal.
+    #[default]
+    Squares,
+    /// By its square up to 1.345 standard deviations, then in proportion (Huber 1964).
+    Huber,
+    /// Logarithmically beyond 2.385 standard deviations: outliers hardly count (Cauchy).
+    Cauchy,
+}
+
+impl RobustLoss {
+    pub(crate) fn loss(self, r: f64) -> f64 {
+        match self {
+            Self::Squares => r * r,
+            Self::Huber if r.abs() <= HUBER => r * r,
+            Self::Huber => HUBER * (2.0 * r.abs() - HUBER),
+            Self::Cauchy => CAUCHY * CAUCHY * (r / CAUCHY).powi(2).ln_1p(),
+        }
+    }
+
+    /// `loss'(r)/2r`.
+    pub(crate) fn weight(self, r: f64) -> f64 {
+        match self {
+            Self::Squares => 1.0,
+            Self::Huber => HUBER / r.abs().max(HUBER),
+            Self::Cauchy => 1.0 / (1.0 + (r / CAUCHY).powi(2)),
+        }
+    }
+}
+
+/// 95 % as exact as squares where noise is normal.
+const HUBER: f64 = 1.345;
+
+/// 95 % as exact as squares where noise is normal.
+const CAUCHY: f64 = 2.385;
+
+/// How a fit is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitSettings {
+    /// How great residuals count.
+    pub loss: RobustLoss,
+    /// Starts: the nominal robot, and as many less one at random, a standard deviation of the prior or 1 % of
+    /// the scale away.
+    pub starts: usize,
+    /// Seed of the random starts.
+    pub seed: u64,
+    /// Fix parameters that the data do not tell, instead of leaving them to their priors.
+    pub only_identifiable: bool,
+    /// Steps at most.
+    pub max_steps: usize,
+}
+
+impl Default for FitSettings {
+    fn default() -> Self {
+        Self { loss: RobustLoss::Squares, starts: 1, seed: 1, only_identifiable: false, max_steps: 200 }
+    }
+}
+
+/// A measured number beside the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// Index of the row.
+    pub row: usize,
+    /// Its line in the file.
+    pub line: usize,
+    /// What was measured.
+    pub quantity: Quantity,
+    /// Measured less modelled, in the unit of the quantity.
+    pub difference: f64,
+    /// Standard deviation of the noise.
+    pub std: f64,
+}
+
+impl Difference {
+    /// The difference in standard deviations.
+    pub fn standardized(&self) -> f64 {
+        self.difference / self.std
+    }
+}
+
+/// An unknown with its value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Its name.
+    pub name: String,
+    /// The deviation found.
+    pub value: f64,
+    /// Standard deviation with the prior; `None` without prior for what the data do not tell.
+    pub std: Option<f64>,
+    /// Standard deviation by the data alone; `None` for what they do not tell.
+    pub std_of_data: Option<f64>,
+    /// Standard deviation of the prior.
+    pub prior_std: Option<f64>,
+}
+
+impl Estimate {
+    /// Whether the data alone tell it, more exactly than its prior or its scale.
+    pub fn is_identifiable(&self) -> bool {
+        self.std_of_data.is_some()
+    }
+}
+
+/// A combination of unknowns that the data do not tell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnidentifiableCombination {
+    /// Weights by name, each in units of its scale, the greatest first.
+    pub weights: Vec<(String, f64)>,
+}
+
+/// A calibrated robot with all that is known of it.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The robot with the deviations found.
+    pub robot: Robot,
+    /// What was sought.
+    pub unknowns: Unknowns,
+    /// The value of each unknown: a deviation.
+    pub estimates: Vec<Estimate>,
+    /// The rotation of the tracker's frame.
+    pub frame: Rotation3<f64>,
+    /// Where the tracker sees the base frame [m].
+    pub origin: Vector3<f64>,
+    /// Deviation of each parameter of the robot.
+    pub deviations: Vec<f64>,
+    /// Covariance of the unknowns, with the prior.
+    pub covariance: DMatrix<f64>,
+    /// Combinations that the data do not tell.
+    pub unidentifiable: Vec<UnidentifiableCombination>,
+    /// Sum of the squares of all residuals, priors included.
+    pub chi_square: f64,
+    /// Numbers measured and priors less numbers found.
+    pub degrees_of_freedom: usize,
+    /// Residuals of the nominal robot.
+    pub before: Vec<Difference>,
+    /// Residuals of the calibrated robot.
+    pub after: Vec<Difference>,
+    /// The pose of each row by the nominal robot.
+    pub poses_before: Vec<Pose>,
+    /// The pose of each row by the calibrated robot.
+    pub poses: Vec<Pose>,
+    /// Steps made.
+    pub steps: usize,
+    /// Whether the last step was below 1e-6 standard deviations.
+    pub converged: bool,
+    /// Distance to the minimum by the last linearisation, in standard deviations.
+    pub distance: f64,
+    /// Of all starts, how many ended there.
+    pub same: usize,
+}
+
+impl Fit {
+    /// Probability of a chi-square as great as this or greater, if the model is right and the noise as
+    /// stated.
+    pub fn p_value(&self) -> Option<f64> {
+        (self.degrees_of_freedom > 0).then(|| {
+            statrs::function::gamma::gamma_ur(
+                0.5 * self.degrees_of_freedom as f64,
+                0.5 * self.chi_square.max(f64::MIN_POSITIVE),
+            )
+        })
+    }
+
+    /// Measured numbers that lie more than 4 standard deviations of their noise from the model, the farthest
+    /// first.
+    pub fn outliers(&self) -> Vec<Difference> {
+        const FAR: f64 = 4.0;
+        let far = |difference: &&Difference| difference.standardized().abs() > FAR;
+        let mut outliers: Vec<_> = self.after.iter().filter(far).copied().collect();
+        outliers.sort_by(|a, b| b.standardized().abs().total_cmp(&a.standardized().abs()));
+        outliers
+    }
+
+    /// Covariance of the parameters of the robot, in the order of [`Parameter::of`].
+    pub fn parameter_covariance(&self) -> DMatrix<f64> {
+        let count = self.deviations.len();
+        let mut map = DMatrix::zeros(count, self.unknowns.all.len());
+        for term in &self.unknowns.terms {
+            map[(term.parameter, term.input)] += term.factor;
+        }
+        &map * &self.covariance * map.transpose()
+    }
+}
