@@ -45,6 +45,9 @@ tasks:
                  where a median has grown
   bench-peers    solves the direct model and an observation with cdpr, and with SciPy, Octave and Ceres
                  where these are installed, see docs/PEERS.md
+  statistics TABLE [STUDIES]
+                 measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
+                 choice (of a fitted law)
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
                  panics, hangs or touches a file outside of its folder of results
@@ -67,6 +70,7 @@ fn main() -> ExitCode {
         Some("scaling") => scaling::run(&rest),
         Some("bench") => bench::run(rest),
         Some("bench-peers") => peers::bench(),
+        Some("statistics") => statistics(&rest),
         Some("fuzz") => fuzz::run(&rest),
         Some("attack") => attack::run(),
         Some("gallery") => gallery(),
@@ -120,6 +124,12 @@ fn robustness(mut rest: Vec<String>) -> ExitCode {
     default(&mut rest, "--robot", "data/robots/cogiro.json");
     eprintln!("building the program (a few minutes the first time), then looking for poses");
     cdpr(&["robustness"], &rest)
+}
+
+fn statistics(rest: &[String]) -> ExitCode {
+    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+    let example = ["run", "--release", "-p", "cdpr-sensitivity", "--example", "statistics", "--"];
+    cargo(&[&example, &rest[..]].concat())
 }
 
 fn throughput(rest: &[String]) -> ExitCode {

@@ -30,6 +30,7 @@ fn sampling() -> SamplingSummary {
         bic: aic,
         ks: 0.01,
         p_value: 0.5,
+        probability: 0.5,
     };
     let rms = ValueSummary {
         mean: 1.35,
@@ -66,6 +67,7 @@ fn sampling() -> SamplingSummary {
             fit(Family::Normal, Law::Normal { mean: 1.35, std: 0.1375 }, 25.0),
         ],
         best_fit: Some(Family::Uniform),
+        undecided: false,
         histogram: Some(Histogram {
             edges: vec![1.1, 1.2, 1.3, 1.4, 1.5, 1.6],
             counts: vec![20, 22, 0, 38, 20],

@@ -5,6 +5,7 @@
 //! function has a relative error of 1e-10, which the normal laws here inherit. The standard deviation of a
 //! normal law that is truncated far from its mean loses two or three more digits.
 
+pub mod choice;
 pub mod fit;
 mod likelihood;
 pub(crate) mod normal;

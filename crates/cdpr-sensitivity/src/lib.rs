@@ -7,7 +7,7 @@
 //! | choose the inputs, their laws and steps | [`law`], [`design::input`] |
 //! | choose the points at which the model runs | [`design`] and its modules |
 //! | summarise the output | [`sample::summary`] |
-//! | find the law that the output follows | [`law::fit`] |
+//! | find the law that the output follows | [`law::fit`], [`law::choice`] |
 //! | find the inputs that matter | [`measure::effect`], [`measure::morris`], [`measure::dgsm`] |
 //! | the same by a linear model | [`measure::regression`] |
 //! | share the variance between the inputs and their interactions | [`measure::sobol_indices`] |
@@ -75,7 +75,7 @@ pub use design::sobol::{Sobol, SobolDesign};
 pub use design::{IndependentSample, JointSample, Layout, SampleDesign};
 pub use error::SensitivityError;
 pub use family::Family;
-pub use law::fit::{Fit, best, fit, fit_all, ks_distance};
+pub use law::fit::{DECIDED, Fit, best, fit, fit_all, ks_distance, undecided};
 pub use law::{Law, Support};
 pub use measure::allocation::allocate;
 pub use measure::convergence::{Target, Tightened, convergence, first_tight, until_tight};

@@ -31,11 +31,14 @@ fn print_results(summary: &Summary) {
     let mut rows = table(&["study", "n", "failed", "nominal", "mean", "std", "min", "max", &last]);
     for (name, study) in &summary.studies {
         let counts = [study.observations(), study.failed().values().sum()].map(|count| count.to_string());
-        let Overview { nominal, mean, std, min, max, best_fit } = study.overview();
+        let Overview { nominal, mean, std, min, max, best_fit, undecided } = study.overview();
         let numbers = [nominal, mean, std, min, max].map(|value| value.map(|value| format!("{value:.4}")));
         let last = match (study, best_fit) {
             (StudySummary::Poses(_), _) => "means at the poses".to_owned(),
-            (_, Some(fit)) => format!("{}, p = {:.3}", fit.law, fit.p_value),
+            (_, Some(fit)) => {
+                let doubt = if undecided { " (undecided)" } else { "" };
+                format!("{}{doubt}, p = {:.3}", fit.law, fit.p_value)
+            }
             (_, None) => String::new(),
         };
         let cells = numbers.map(Option::unwrap_or_default).into_iter().chain([last]);

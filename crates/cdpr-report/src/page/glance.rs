@@ -155,7 +155,9 @@ fn overview(summary: &Summary, output: Output) -> Markup {
                     let leading: Vec<_> =
                         dominant(sampling).iter().map(|effect| parameters::symbol(effect.0)).collect();
                     (
-                        sampling.best_fit.map_or_else(String::new, |family| family.to_string()),
+                        sampling.best_fit.map_or_else(String::new, |family| {
+                            format!("{family}{}", if sampling.undecided { " (undecided)" } else { "" })
+                        }),
                         leading.join(", "),
                     )
                 }

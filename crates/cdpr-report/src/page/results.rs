@@ -88,22 +88,28 @@ pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Sec
 fn fits(sampling: &SamplingSummary) -> Markup {
     let least = sampling.fits.iter().map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
     let row = |fit: &FitSummary| -> Vec<Markup> {
-        let preferred = Some(fit.law) == sampling.best_fit;
+        let verdict = match (Some(fit.law) == sampling.best_fit, sampling.undecided) {
+            (true, false) => html! { " " span.verdict.yes { "preferred" } },
+            (true, true) => html! { " (undecided)" },
+            (false, _) => html! {},
+        };
         let fields = text::fields(&fit.parameters);
         let parameters = fields.split_once(": ").map_or(fields.as_str(), |(_, values)| values);
         vec![
-            html! { (fit.law) @if preferred { " " span.verdict.yes { "preferred" } } },
+            html! { (fit.law) (verdict) },
             cell(parameters.replace('_', " ")),
+            numeric(fit.probability, 3),
             numeric(fit.aic - least, 4),
             numeric(fit.ks, 3),
             numeric(fit.p_value, 3),
         ]
     };
     let rows: Vec<_> = sampling.fits.iter().map(row).collect();
-    let caption = "Fitted laws. p comes from a parametric bootstrap; it is only an indication, because \
-                   Sobol' points are not independent.";
+    let caption = "Fitted laws and the probability of each family. The law is undecided unless one has 0.75. p comes \
+                   from a parametric bootstrap. Both are only indications, because Sobol' points are not \
+                   independent.";
     let parameters = format!("Parameters [{}]", sampling.output.unit());
-    let head = ["Law", &parameters, "AIC above the least", "Kolmogorov-Smirnov distance", "p"];
+    let head = ["Law", &parameters, "Probability", "AIC above the least", "Kolmogorov-Smirnov distance", "p"];
     html! { @if !rows.is_empty() { (table(caption, &head, &rows)) } }
 }
 

@@ -31,6 +31,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{SensitivityError, check_range};
 use crate::family::Family;
 use crate::law::Law;
+use crate::law::choice::log_weight;
 use crate::law::likelihood::estimate;
 use crate::sample::random::{Bootstrap, stream};
 use crate::sample::summary::{Sample, check_varies};
@@ -67,6 +68,8 @@ pub struct Fit {
     pub ks_distance: f64,
     /// Probability (F3) of a distance of D or more if the sample was drawn from this family.
     pub p_value: f64,
+    /// Probability of the family among those that were fitted together (see [`crate::law::choice`]).
+    pub probability: f64,
 }
 
 /// Fits one family.
@@ -88,7 +91,8 @@ pub fn fit(sample: &Sample, family: Family, bootstrap: Bootstrap) -> Result<Fit,
     assess(sample, family, distances.iter().map(|row| row[0]))
 }
 
-/// Fits all families that apply and sorts them by ascending [`Fit::aic`].
+/// Fits all families that apply and sorts them by ascending [`Fit::aic`], which is not the order of
+/// [`Fit::probability`].
 ///
 /// Families of positive values are left out if the sample has a value of 0 or less.
 ///
@@ -107,26 +111,41 @@ pub fn fit_all(sample: &Sample, bootstrap: Bootstrap) -> Result<Vec<Fit>, Sensit
         let base = bases.iter().take_while(|&&base| base != family.standard()).count();
         fits.push(assess(sample, family, distances.iter().map(|row| row[base]))?);
     }
+    weigh(&mut fits, sample.sorted());
     fits.sort_by(|one, other| one.aic.total_cmp(&other.aic));
     Ok(fits)
 }
 
-/// Preferred fit: among those whose [`Fit::aic`] lies within 2 of the smallest, the most common law.
-///
-/// The sample supports all of these equally well (K. P. Burnham, D. R. Anderson, *Model selection and
-/// multimodel inference*, 2002, section 2.6). The order of [`Family::ALL`] decides which one is the most
-/// common. The preferred fit of an empty list is `None`.
+/// Probability from which on [`best`] is decided on.
+pub const DECIDED: f64 = 0.75;
+
+/// The most probable fit. That of an empty list is `None`.
 #[must_use]
 pub fn best(fits: &[Fit]) -> Option<&Fit> {
-    let least = fits.iter().map(|fit| fit.aic).reduce(f64::min)?;
-    let supported = || fits.iter().filter(|fit| fit.aic <= least + 2.0);
-    Family::ALL.iter().find_map(|family| supported().find(|fit| fit.family == *family))
+    fits.iter().max_by(|one, other| one.probability.total_cmp(&other.probability))
+}
+
+/// Whether no fit has the probability [`DECIDED`]: the sample does not say which family it comes from.
+#[must_use]
+pub fn undecided(fits: &[Fit]) -> bool {
+    best(fits).is_none_or(|fit| fit.probability < DECIDED)
 }
 
 /// Kolmogorov-Smirnov distance (F2) of a law and a sample.
 #[must_use]
 pub fn ks_distance(law: &Law, sample: &Sample) -> f64 {
     distance(law, sample.sorted())
+}
+
+/// Writes the probabilities of all fits to one sample, Eq. (H4) of [`crate::law::choice`].
+fn weigh(fits: &mut [Fit], sorted: &[f64]) {
+    let weight = |fit: &Fit| log_weight(&fit.law, fit.log_likelihood, sorted);
+    let weights: Vec<f64> = fits.iter().map(weight).collect();
+    let greatest = weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let total: f64 = weights.iter().map(|weight| (weight - greatest).exp()).sum();
+    for (fit, weight) in fits.iter_mut().zip(weights) {
+        fit.probability = (weight - greatest).exp() / total;
+    }
 }
 
 /// Estimates the law and computes its criteria (F1), its distance (F2) and its p-value (F3) from the
@@ -151,6 +170,7 @@ fn assess(
         bic: PARAMETERS * (sorted.len() as f64).ln() - 2.0 * log_likelihood,
         ks_distance,
         p_value: (1 + beyond) as f64 / (1 + resamples) as f64,
+        probability: 1.0,
     })
 }
 

@@ -75,7 +75,7 @@ pub(crate) fn estimate(family: Family, sorted: &[f64]) -> Result<Law, Sensitivit
 }
 
 /// Mean and standard deviation (with n), which are the estimates of a normal law.
-fn moments(values: &[f64]) -> (f64, f64) {
+pub(crate) fn moments(values: &[f64]) -> (f64, f64) {
     let spread = Spread::of(values);
     (spread.mean, (spread.squares / values.len() as f64).sqrt())
 }

@@ -80,6 +80,7 @@ impl StudySummary {
                     min: values.map(|values| values.min),
                     max: values.map(|values| values.max),
                     best_fit: sampling.fits.iter().find(|fit| Some(fit.law) == sampling.best_fit),
+                    undecided: sampling.undecided,
                 }
             }
             Self::Surface(SurfaceSummary { values, .. }) => Overview {
@@ -113,4 +114,6 @@ pub struct Overview<'a> {
     pub max: Option<f64>,
     /// The law that fits best.
     pub best_fit: Option<&'a FitSummary>,
+    /// Whether the observations do not say which law they follow.
+    pub undecided: bool,
 }

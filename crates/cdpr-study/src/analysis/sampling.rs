@@ -10,7 +10,7 @@ use crate::observe::observation::{FITTED, KEPT, Session, Tally, observe_tally};
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{
     Bootstrap, Effects, Family, Fit, Histogram, Law, Sample, SampleDesign, SensitivityError, SobolDesign,
-    Summary, best, fit_all, intervals_of_effects,
+    Summary, best, fit_all, intervals_of_effects, undecided,
 };
 use cdpr_statics::Deflection;
 use indexmap::IndexMap;
@@ -44,9 +44,11 @@ pub struct SamplingSummary {
     pub operating_moduli_gpa: Option<[f64; 2]>,
     /// Fitted laws by ascending AIC; empty where they cannot be fitted.
     pub fits: Vec<FitSummary>,
-    /// Family preferred by AIC: the one of least AIC, or the most common one of those whose AIC is within 2
-    /// of it.
+    /// The most probable family among those fitted.
     pub best_fit: Option<Family>,
+    /// Whether the observations do not say which family they come from: none has a probability of 0.75.
+    #[serde(default)]
+    pub undecided: bool,
     /// Histogram of the output in its unit.
     pub histogram: Option<Histogram>,
     /// The paper's t-Student index by parameter (section 5.2). On Sobol points its significance levels do not
@@ -127,6 +129,9 @@ pub struct FitSummary {
     /// p-value of that distance for fitted parameters, by parametric bootstrap: at least 1/(resamples + 1),
     /// and for independent observations; on Sobol points it is an indication.
     pub p_value: f64,
+    /// Probability of this family among those fitted, for independent observations.
+    #[serde(default)]
+    pub probability: f64,
 }
 
 /// Signed effect of a parameter, in the unit of the output, and its confidence interval.
@@ -155,8 +160,8 @@ impl NominalSummary {
 
 impl From<Fit> for FitSummary {
     fn from(fit: Fit) -> Self {
-        let Fit { family, law, log_likelihood, aic, bic, ks_distance, p_value } = fit;
-        Self { law: family, parameters: law, log_likelihood, aic, bic, ks: ks_distance, p_value }
+        let Fit { family, law, log_likelihood, aic, bic, ks_distance, p_value, probability } = fit;
+        Self { law: family, parameters: law, log_likelihood, aic, bic, ks: ks_distance, p_value, probability }
     }
 }
 
@@ -197,6 +202,7 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
         None => Vec::new(),
     };
     let best_fit = best(&fits).map(|fit| fit.family);
+    let undecided = best_fit.is_some() && undecided(&fits);
     let t_student = tally
         .sums
         .effects(sampling.design.inputs())
@@ -217,6 +223,7 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
         operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
         fits: fits.into_iter().map(FitSummary::from).collect(),
         best_fit,
+        undecided,
         histogram: sample.and_then(|sample| sample.histogram(cdpr_sensitivity::Bins::FreedmanDiaconis).ok()),
         t_student: t_student.unwrap_or_else(|error| {
             note("t_student", error);
@@ -249,6 +256,7 @@ fn unmoved(sampling: &Sampling, tally: &Tally, rounding: f64) -> SamplingSummary
         operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
         fits: Vec::new(),
         best_fit: None,
+        undecided: false,
         histogram: None,
         t_student: IndexMap::new(),
         signed_effects: IndexMap::new(),

@@ -297,7 +297,7 @@ pub enum Statistic {
     Spread,
     /// Greatest minus least value over the mean [%].
     RelativeSpread,
-    /// The fitted law preferred by AIC.
+    /// The fitted law that is most probable.
     BestFit,
     /// The two anchor points with the largest t (largest of their coordinates).
     DominantAnchorPoints,
