@@ -149,7 +149,7 @@ pub struct Fit {
     pub poses: Vec<Pose>,
     /// Steps made.
     pub steps: usize,
-    /// Whether the last step was below 1e-6 standard deviations.
+    /// Whether the search ended within 1e-4 standard deviations of a minimum.
     pub converged: bool,
     /// Distance to the minimum by the last linearisation, in standard deviations.
     pub distance: f64,

@@ -35,6 +35,6 @@ pub use results::{
     CALIBRATED_NAME, CalibrationSummary, Context, OutlierSummary, POSTERIOR_NAME, ParameterSummary,
     SensorSummary, arrows, begin_calibration, write_calibration,
 };
-pub use simulate::{Simulated, drawn, simulate};
+pub use simulate::{Simulated, drawn, drawn_errors, simulate};
 pub use table::{MEASUREMENTS_FORMAT, Measurements, read_measurements, write_measurements};
 pub use unknowns::{SensorError, Unknown, Unknowns};

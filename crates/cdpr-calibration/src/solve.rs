@@ -35,6 +35,11 @@ impl Eliminated {
         Self { rest, own: Some((top, qr.r())) }
     }
 
+    /// What a step of the row's own unknowns alone takes from the sum of its squares.
+    pub(crate) fn gain(&self) -> f64 {
+        self.own.as_ref().map_or(0.0, |(top, _)| top.column(top.ncols() - 1).norm_squared())
+    }
+
     /// The row's own unknowns for a step of the others.
     pub(crate) fn own(&self, step: &DVector<f64>) -> Vec<f64> {
         let Some((top, triangle)) = &self.own else { return Vec::new() };
@@ -113,6 +118,9 @@ pub(crate) struct Decomposed {
     along: DVector<f64>,
 }
 
+/// One but for rounding: the singular value of a combination that its prior alone tells.
+const UNIT: f64 = 0.999;
+
 /// Singular values below this share of the greatest are rounding.
 pub(crate) const ROUNDING: f64 = 1e-12;
 
@@ -125,7 +133,7 @@ impl Decomposed {
 
     /// Whether the data tell combination k: better than its unit, and better than rounding.
     pub(crate) fn tells(&self, k: usize) -> bool {
-        self.values[k] >= 1.0 && self.values[k] > ROUNDING * self.values[0]
+        self.values[k] >= UNIT && self.values[k] > ROUNDING * self.values[0]
     }
 
     /// Damped step over the combinations that the data tell.

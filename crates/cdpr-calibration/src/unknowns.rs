@@ -62,7 +62,7 @@ impl SensorError {
     }
 
     /// The names of its numbers for `n` cables and `markers` markers.
-    fn names(self, n: usize, markers: usize) -> Vec<String> {
+    pub(crate) fn names(self, n: usize, markers: usize) -> Vec<String> {
         let name = self.name();
         let axes = |of: String| Axis::ALL.map(|axis| format!("{of}.{axis}"));
         match self {

@@ -6,3 +6,4 @@ mod common;
 mod identify;
 mod recovery;
 mod reference;
+mod sensors;

@@ -26,6 +26,8 @@ fn campaign(case: &Case, deviations: &[f64], poses: usize, noise: Noise, seed: u
         load: Load::none(),
         noise,
         markers: &[],
+        errors: &[],
+        tension_at: CableEnd::Anchor,
         seed,
     })
     .unwrap()

@@ -307,6 +307,8 @@ fn simulated(settings: &SimulateSettings) -> Result<(), ProgramError> {
         load: settings.load.load(),
         noise,
         markers: &[],
+        errors: &[],
+        tension_at: cdpr_robot::CableEnd::Anchor,
         seed: settings.seed,
     })?;
     let (header, lines) = write_measurements(&rows);

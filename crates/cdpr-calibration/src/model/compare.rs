@@ -1,0 +1,106 @@
+//! A row of measurements beside the model.
+
+use crate::campaign::{Quantity, Row};
+use crate::model::{Model, RowState, Shared};
+use crate::unknowns::SensorError;
+use cdpr_robot::Robot;
+use cdpr_statics::{DirectProblem, StaticsError};
+use nalgebra::{DMatrix, DVector};
+
+/// A row at a state: residuals over standard deviations, and their derivatives.
+pub(crate) struct Compared {
+    pub(crate) quantities: Vec<Quantity>,
+    /// Standard deviation of each.
+    pub(crate) std: Vec<f64>,
+    /// (measured - model)/std.
+    pub(crate) residuals: DVector<f64>,
+    /// Derivatives by the unknowns of all rows.
+    pub(crate) per_unknown: DMatrix<f64>,
+    /// Derivatives by the unknowns of the row.
+    pub(crate) per_own: DMatrix<f64>,
+}
+
+impl Model<'_> {
+    /// The residuals of a row, with their derivatives.
+    pub(crate) fn compare(
+        &self,
+        row: &Row,
+        at: &Shared,
+        state: &RowState,
+        robot: &Robot,
+    ) -> Result<Compared, StaticsError> {
+        let x = &at.x[..];
+        let lengths = self.lengths(state, x);
+        let problem = DirectProblem::new(robot, &lengths, &self.load(row, robot))?;
+        let mut slopes = problem.force_derivatives(&state.loaded)?;
+        self.turn_tilts(robot, &mut slopes);
+        let mut unloaded = None;
+        if let Some(rest) = &state.unloaded {
+            let problem = DirectProblem::new(robot, &lengths, &self.without_load(row, robot))?;
+            let mut slopes = problem.force_derivatives(rest)?;
+            self.turn_tilts(robot, &mut slopes);
+            unloaded = Some((rest, slopes));
+        }
+        let own = state.errors.len();
+        let measured_lengths = if own > 0 && row.lengths.is_some() { own } else { 0 };
+        let count = row.readings.len() + measured_lengths;
+        let mut compared = Compared {
+            quantities: Vec::with_capacity(count),
+            std: Vec::with_capacity(count),
+            residuals: DVector::zeros(count),
+            per_unknown: DMatrix::zeros(count, self.unknowns.all.len()),
+            per_own: DMatrix::zeros(count, own),
+        };
+        for (r, reading) in row.readings.iter().enumerate() {
+            let (value, read) =
+                self.read(reading.quantity, row, robot, at, state, &lengths, &slopes, unloaded.as_ref());
+            let measured =
+                if matches!(reading.quantity, Quantity::Rotation(_)) { 0.0 } else { reading.value };
+            let difference = match reading.quantity {
+                Quantity::Angle(_) | Quantity::Swivel(_) => wrapped(measured - value),
+                _ => measured - value,
+            };
+            compared.quantities.push(reading.quantity);
+            compared.std.push(reading.std);
+            compared.residuals[r] = difference / reading.std;
+            let by = -1.0 / reading.std;
+            let at_models = &read.models;
+            for term in &self.unknowns.terms {
+                if row.mass.is_some() && term.parameter == self.layout.mass() {
+                    continue;
+                }
+                compared.per_unknown[(r, term.input)] += by * term.factor * at_models[term.parameter];
+            }
+            for (unknown, slope) in read.sensors {
+                compared.per_unknown[(r, unknown)] += by * slope;
+            }
+            let first = at_models.len() - lengths.len();
+            for (i, length) in lengths.iter().enumerate() {
+                let stretch = 1.0 + self.of(SensorError::DrumScale, i, x);
+                let per_length = by * at_models[first + i] / stretch;
+                for (error, slope) in [(SensorError::LengthOffset, -1.0), (SensorError::DrumScale, -length)] {
+                    if let Some(index) = self.unknowns.sensor(error) {
+                        compared.per_unknown[(r, index + i)] += per_length * slope;
+                    }
+                }
+                if own > 0 {
+                    compared.per_own[(r, i)] -= per_length;
+                }
+            }
+        }
+        for i in 0..measured_lengths {
+            let r = row.readings.len() + i;
+            let std = row.length_std[i].max(f64::MIN_POSITIVE);
+            compared.quantities.push(Quantity::Length(i));
+            compared.std.push(std);
+            compared.residuals[r] = state.errors[i] / std;
+            compared.per_own[(r, i)] = 1.0 / std;
+        }
+        Ok(compared)
+    }
+}
+
+/// An angle between -π and π.
+fn wrapped(angle: f64) -> f64 {
+    angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
+}
