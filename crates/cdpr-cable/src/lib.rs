@@ -42,14 +42,14 @@ mod weighing;
 pub use cable::Cable;
 pub use catenary::Catenary;
 pub use catenary::compliance::Compliance;
-pub use catenary::spatial::{SpatialCable, SpatialResponse, SpatialSlopes};
+pub use catenary::spatial::{HeldSlopes, SpatialCable, SpatialResponse, SpatialSlopes};
 pub use error::CableError;
 pub use guide::{Entry, Guide};
 pub use law::{ElasticLaw, PiecewiseLaw, Segment};
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen, TangentModulus};
 pub use solve::{
-    HeldCable, HeldSpatialCable, Known, Solution, SpatialTensionSlope, TensionSlope, end_force,
-    end_force_near, least_tension, length_for_tension, length_for_tension_near, spatial_end_force,
+    HeldCable, HeldSpatialCable, Known, Solution, TensionSlope, end_force, end_force_near, least_tension,
+    length_for_tension, length_for_tension_near, spatial_end_force,
 };
 pub use weighing::{Measured, linear_density};

@@ -10,4 +10,4 @@ pub use end_force::{Solution, end_force, end_force_near};
 pub use held::{HeldCable, TensionSlope};
 pub use known::Known;
 pub use length_for_tension::{least_tension, length_for_tension, length_for_tension_near};
-pub use spatial::{HeldSpatialCable, SpatialTensionSlope, spatial_end_force};
+pub use spatial::{HeldSpatialCable, spatial_end_force};

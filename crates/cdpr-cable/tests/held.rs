@@ -112,7 +112,13 @@ fn a_vertical_cable_is_regular() {
                 .abs()
                     < 1e-7
             );
-            assert!(held.tension_slopes().per_end.iter().all(|v| v.iter().all(|v| v.is_finite())));
+            // v_x is odd in x.
+            let slopes = held.tension_slopes();
+            let aside = HeldCable::at_chord_force(&cable, Vector2::new(1e-4, z), sigma).unwrap();
+            let aside = aside.with_tension(held.tension()).unwrap();
+            let slope = aside.force_slope.x / aside.tension_slope() / 1e-4;
+            assert!((slopes.per_end[0].x / slope - 1.0).abs() < 1e-6, "{z} {sigma}");
+            assert!(slopes.per_end[0].y == 0.0 && slopes.per_end[1].iter().all(|v| v.is_finite()));
         }
         // Hanging down from A the cable's whole weight is at A; hanging from B it may be all at B.
         let least = HeldCable::at_least_tension(&cable, end).unwrap().tension();

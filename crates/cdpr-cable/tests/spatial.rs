@@ -169,11 +169,11 @@ proptest! {
         prop_assert!(error < 1e-6 * (second.norm() + held.force_slope.norm() / sigma), "{error:e}");
         let slopes = held.tension_slopes();
         let v = |held: &HeldSpatialCable| held.force_slope / held.tension_slope();
-        prop_assert!((v(&held) - slopes.force_per_tension).norm() < 1e-9 * slopes.force_per_tension.norm());
+        prop_assert!((v(&held) - slopes.value).norm() < 1e-9 * slopes.value.norm());
         let t = held.tension();
         let by_tension = slope(|h| v(&held.with_tension(t + h).unwrap()), 1e-4 * t);
-        let size = slopes.per_tension.norm() + v(&held).norm() / t;
-        prop_assert!((by_tension - slopes.per_tension).norm() < 1e-5 * size);
+        let size = slopes.per_actuation.norm() + v(&held).norm() / t;
+        prop_assert!((by_tension - slopes.per_actuation).norm() < 1e-5 * size);
         let at = |cable: Cable<'static>, end: Vector3<f64>| {
             v(&HeldSpatialCable::at_chord_force(&cable, end, sigma).unwrap().with_tension(t).unwrap())
         };

@@ -26,15 +26,19 @@ fn json_holds_the_numbers_of_the_library() {
         assert!(output.status.success() && output.stderr.is_empty(), "{}", text(output.stderr));
         let json: Value = serde_json::from_slice(&output.stdout).unwrap();
         let keys: Vec<_> = json.as_object().unwrap().keys().map(String::as_str).collect();
-        assert_eq!(keys, ["parameters", "rms_mm", "deflection_mm", "unstrained_lengths", "unit"]);
+        let lists = ["parameters", "rms_mm", "deflection_mm", "unstrained_lengths", "least_stiffness"];
+        assert_eq!(keys, [&lists[..], &["without", "unit"]].concat());
+        assert!(json["without"][0].as_str().unwrap().contains("platform.inertia"));
         assert_eq!(json["unit"], "per SI unit of the parameter");
         let exact = derivatives(&robot, &pose, &[0.0; 8], &Load::payload(50.0)).unwrap();
         let (rms, displacement) = (exact.rms().unwrap(), exact.displacement());
-        let lists: Vec<_> = keys[..4].iter().map(|key| json[key].as_array().unwrap()).collect();
+        let lists: Vec<_> = lists.iter().map(|key| json[key].as_array().unwrap()).collect();
+        let (_, stiffness) = exact.least_stiffness(&robot, &Load::payload(50.0)).unwrap();
         assert!(lists.iter().all(|list| list.len() == 62));
         for (j, parameter) in exact.inputs.parameters.iter().enumerate() {
             assert_eq!(lists[0][j], parameter.to_string());
             assert_eq!(lists[1][j].as_f64(), Some(1e3 * rms[j]));
+            assert_eq!(lists[4][j].as_f64(), Some(stiffness[j]));
             for axis in 0..3 {
                 assert_eq!(lists[2][j][axis].as_f64(), Some(1e3 * displacement[(axis, j)]));
             }
@@ -43,6 +47,21 @@ fn json_holds_the_numbers_of_the_library() {
             assert_eq!(lengths, expected);
         }
     }
+}
+
+#[test]
+fn a_platform_with_inertia_has_derivatives_of_its_frequency() {
+    let (name, pose, load) = ("robots/cogiro.json", Pose::at(1.0, 0.5, 2.0), Load::payload(50.0));
+    let robot = Robot::from_json(&data_text(name)).unwrap();
+    let (_, slopes) = derivatives(&robot, &pose, &[0.0; 8], &load).unwrap().frequency(&robot, &load).unwrap();
+    let at = ["--pose", "1,0.5,2", "--payload", "50"];
+    let output = run(&data(name), &[&at[..], &["--format", "json"]].concat());
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(json.get("without").is_none());
+    for (found, exact) in json["frequency_hz"].as_array().unwrap().iter().zip(&slopes) {
+        assert_eq!(found.as_f64(), Some(*exact));
+    }
+    assert!(text(run(&data(name), &at).stdout).contains("d frequency [mHz]"));
 }
 
 #[test]
@@ -100,7 +119,8 @@ fn the_table_begins_with_what_matters_most() {
         lines[4].contains("youngs_modulus") && lines[4].contains("-12.88879") && lines[4].contains("GPa")
     );
     assert!(!table.contains("-0.00000 "));
-    assert_eq!(lines.len(), 4 + 62 + 1);
+    assert_eq!(lines.len(), 4 + 62 + 2);
+    assert!(lines[67].contains("platform.inertia"));
 }
 
 #[test]

@@ -120,6 +120,8 @@ def test_the_derivatives_are_those_of_the_command_line(caroca, caroca_file):
     same(found.lengths[:, :count].T, printed["unstrained_lengths"])
     assert not found.one_sided.any() and "one_sided" not in printed
     same(found.rms_right, found.rms)
+    same(found.least_stiffness[:count], printed["least_stiffness"])
+    assert numpy.isnan(found.frequency).all(), "CAROCA has no inertia"
 
 
 def test_left_and_right_derivatives_of_cables_on_their_least_tension_differ(caroca):

@@ -54,6 +54,7 @@
 
 mod optimum;
 mod rest;
+mod softest;
 mod winding;
 
 #[cfg(doc)]

@@ -19,7 +19,9 @@ pub(crate) use held::{ABOVE_LEAST, Ends, Held};
 pub use linearization::Linearization;
 pub(crate) use motions::{Motions, Pins, cables_at, is_definite, per_length};
 pub use partials::Inputs;
-pub(crate) use partials::{CableDerivatives, Partials, Reading, read, solve, tensions, wrench};
+pub(crate) use partials::{
+    CableDerivatives, Partials, Reading, Weighed, each_effect_on_weight, read, solve, tensions, wrench,
+};
 pub(crate) use rounding::{FORCES, forces};
 pub use shape::CableShape;
 pub(crate) use spanned::{SpannedCable, SpannedStiffness, Turned, end, to_base};

@@ -23,6 +23,7 @@ mod paths;
 mod pulleys;
 mod reference;
 mod search;
+mod softest;
 mod tangent;
 mod tensions;
 mod tracker;

@@ -7,8 +7,8 @@ use cdpr_statics::{
     wound_lengths,
 };
 use cdpr_study::{
-    Measured, Output, Sampling, SensitivitySpec, SensitivitySummary, Session, Study, StudyError, analyse,
-    compute_surface, observe_into,
+    InputMeasures, Measured, Output, Sampling, SensitivitySpec, SensitivitySummary, Session, Study,
+    StudyError, analyse, compute_surface, observe_into,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -191,8 +191,8 @@ fn left_out(found: &SensitivitySummary) -> Vec<&str> {
 }
 
 #[test]
-fn measures_of_a_frequency_do_without_derivatives_and_those_of_a_position_have_them() {
-    for (output, without) in [("frequency", &["derivatives", "dgsm"][..]), ("position", &["derivatives"])] {
+fn every_output_has_measures_by_derivatives_and_a_nominal_position_has_none() {
+    for (output, without) in [("frequency", &[][..]), ("stiffness", &[]), ("position", &["derivatives"])] {
         for mut study in of_two_robots(output) {
             // Fewer inputs than observations.
             study.file.error_models["all"].shift_remove("b");
@@ -208,6 +208,18 @@ fn measures_of_a_frequency_do_without_derivatives_and_those_of_a_position_have_t
             assert!(sensitivity.notes.iter().all(|note| note.contains("has no derivative")));
             let known = ["t_student", "regression", "rank_regression", "morris", "expansion", "sobol"];
             assert!(known.iter().all(|method| sensitivity.methods.contains_key(*method)));
+            // The linear model of the derivatives and that of the regression name the same greatest share.
+            let greatest = |of: fn(&InputMeasures) -> Option<f64>| {
+                let shares = sensitivity.inputs.iter().filter_map(|input| Some((&input.input, of(input)?)));
+                shares.max_by(|one, other| one.1.total_cmp(&other.1)).map(|(name, _)| name)
+            };
+            if without.is_empty() {
+                assert_eq!(sensitivity.methods["dgsm"].failed, 0);
+                assert_eq!(
+                    greatest(|input| input.derivative_share),
+                    greatest(|input| input.regression_share)
+                );
+            }
         }
     }
 }

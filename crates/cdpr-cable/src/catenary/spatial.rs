@@ -50,6 +50,50 @@ pub struct SpatialSlopes {
     pub per_axis: Matrix3<f64>,
 }
 
+/// A vector that a cable has between held ends, with its derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldSlopes {
+    /// The vector v.
+    pub value: Vector3<f64>,
+    /// By the length, or by the tension where that is given.
+    pub per_actuation: Vector3<f64>,
+    /// By the position of A from D.
+    pub per_end: Matrix3<f64>,
+    /// By the weight per length.
+    pub per_weight: Vector3<f64>,
+    /// By the axial stiffness.
+    pub per_stiffness: Vector3<f64>,
+    /// By the lead.
+    pub per_lead: Vector3<f64>,
+    /// By the radius of the pulley.
+    pub per_radius: Vector3<f64>,
+    /// By the direction in which the cable enters its pulley.
+    pub per_axis: Matrix3<f64>,
+}
+
+impl HeldSlopes {
+    fn mean(&self, other: &Self) -> Self {
+        let vector = |of: fn(&Self) -> Vector3<f64>| 0.5 * (of(self) + of(other));
+        let matrix = |of: fn(&Self) -> Matrix3<f64>| 0.5 * (of(self) + of(other));
+        Self {
+            value: vector(|slopes| slopes.value),
+            per_actuation: vector(|slopes| slopes.per_actuation),
+            per_end: matrix(|slopes| slopes.per_end),
+            per_weight: vector(|slopes| slopes.per_weight),
+            per_stiffness: vector(|slopes| slopes.per_stiffness),
+            per_lead: vector(|slopes| slopes.per_lead),
+            per_radius: vector(|slopes| slopes.per_radius),
+            per_axis: matrix(|slopes| slopes.per_axis),
+        }
+    }
+}
+
+/// Where the horizontal force is a smaller share of the tension, differences with respect to it lose digits.
+const NEARLY_VERTICAL: f64 = 1e-8;
+
+/// The share by which a vertical force is moved aside: its square is rounding.
+const ASIDE: f64 = 1e-7;
+
 /// Horizontal forces below this share of the whole have no direction.
 const VERTICAL: f64 = 1e-20;
 
@@ -82,10 +126,11 @@ pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T;
     }
 }
 
-/// The guide of a cable; its axis is one that may be tilted.
+/// The guide of a cable; the axis of a pulley is one that may be tilted.
 pub(crate) fn guide(cable: &Cable) -> Guide {
     let guide = cable.guide.unwrap_or(Guide { lead: 0.0, radius: 0.0, entry: Entry::Upwards });
-    Guide { entry: Entry::Along(guide.entry.axis()), ..guide }
+    let entry = if guide.radius > 0.0 { Entry::Along(guide.entry.axis()) } else { Entry::Upwards };
+    Guide { entry, ..guide }
 }
 
 /// The horizontal part of a force [N] and its direction, x where it has none.
@@ -131,6 +176,62 @@ impl<'a> SpatialCable<'a> {
             end: end.into(),
             flexibility: Matrix3::from_fn(|i, j| flexibility[i][j]),
             end_per_length: per_length.into(),
+        }
+    }
+
+    /// The force `K d` [N/m] by which the cable answers to a unit motion `d` of A, with its derivatives at
+    /// constant `d`: second derivatives of the force between held ends.
+    ///
+    /// With `K = C⁻¹` and the derivatives ∂ of position and flexibility C at constant force,
+    ///
+    /// ```text
+    /// d(K d) = -K (∂C/∂F dF + ∂C) K d,      dF = K (dA - ∂A)                                     (C28)
+    /// ```
+    ///
+    /// Not a number for a cable that hangs folded in a vertical plane without width.
+    pub fn stiffness_slopes(&self, direction: Vector3<f64>) -> HeldSlopes {
+        let (fx, azimuth) = horizontal(&self.force.into());
+        let plain = self.numbers();
+        if fx > NEARLY_VERTICAL * self.anchor_tension() {
+            return self.stiffness_slopes_at(&plain, self.force, direction);
+        }
+        // The plane of a vertical cable turns at once: what is odd about the vertical is zero.
+        let [one, other] = [ASIDE, -ASIDE].map(|share| {
+            let aside = Vector3::new(azimuth[0], azimuth[1], 0.0) * (share * self.anchor_tension());
+            self.stiffness_slopes_at(&plain, self.force + aside, direction)
+        });
+        one.mean(&other)
+    }
+
+    fn stiffness_slopes_at(
+        &self,
+        plain: &Numbers<f64>,
+        force: Vector3<f64>,
+        direction: Vector3<f64>,
+    ) -> HeldSlopes {
+        const LENGTH: usize = 7;
+        const FORCE: usize = 8;
+        let mut numbers = plain.with_inputs::<11, 0>();
+        numbers.length = Dual::input(plain.length, LENGTH);
+        let inputs = [0, 1, 2].map(|k| Dual::input(force[k], FORCE + k));
+        let found = response(&self.cable, &numbers, &inputs);
+        let entry = |i: usize, j: usize| found.flexibility[i][j];
+        let flexibility = Matrix3::from_fn(|i, j| entry(i, j).value);
+        let stiffness = flexibility.try_inverse().unwrap_or_else(|| Matrix3::repeat(f64::NAN));
+        let value = stiffness * direction;
+        // (C28)
+        let at_force = |k: usize| -stiffness * (Matrix3::from_fn(|i, j| entry(i, j).slopes[k]) * value);
+        let per_end = Matrix3::from_columns(&[0, 1, 2].map(|k| at_force(FORCE + k))) * stiffness;
+        let slope = |k: usize| at_force(k) - per_end * Vector3::from(found.end.map(|end| end.slopes[k]));
+        HeldSlopes {
+            value,
+            per_actuation: slope(LENGTH),
+            per_end,
+            per_weight: slope(0),
+            per_stiffness: slope(1) * (-plain.axial_flexibility * plain.axial_flexibility),
+            per_lead: slope(2),
+            per_radius: slope(3),
+            per_axis: Matrix3::from_columns(&[4, 5, 6].map(slope)),
         }
     }
 

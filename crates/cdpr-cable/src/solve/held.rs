@@ -70,6 +70,10 @@ pub struct TensionSlope {
 /// Share of the chord that stands for the horizontal distance of a vertical cable: far below rounding.
 const VERTICAL: f64 = 1e-20;
 
+/// A cable whose horizontal distance is a smaller share of its chord answers to a motion forwards as one that
+/// is vertical.
+const NEARLY_VERTICAL: f64 = 1e-8;
+
 /// A cable below this chord force, relative to its weight per length times the chord, is nearly vertical and
 /// folded, or has passed its least tension. Its tension at A is within 1e-10 of its weight of that at any
 /// lower chord force, which rounding of the vertical force at B would hide.
@@ -183,10 +187,14 @@ impl<'a> HeldCable<'a> {
         let numbers = self.catenary.cable.numbers(self.catenary.unstrained_length);
         let Numbers { weight_per_length: w, axial_flexibility: flexibility, lead, radius, .. } = numbers;
         let [x, z] = self.end.into();
+        // A motion out of the vertical turns the plane of the cable and is odd; nearby the quotients by fx
+        // lose digits.
+        let sideways = (x <= NEARLY_VERTICAL * self.end.norm())
+            .then(|| Vector2::x() / (self.end.norm() * self.tension_slope()));
         let of = |[v, x, z, w, flexibility, t]: [Vector2<f64>; 6], per_guide| TensionSlope {
             force_per_tension: v,
             per_tension: t,
-            per_end: [x, z],
+            per_end: [sideways.unwrap_or(x), z],
             per_weight: w,
             per_stiffness: flexibility * (-numbers.axial_flexibility * numbers.axial_flexibility),
             per_guide,

@@ -12,7 +12,7 @@
 //! Second derivatives are (C27) differentiated by dual numbers.
 
 use crate::cable::{Cable, Numbers};
-use crate::catenary::spatial::{SpatialCable, guide, horizontal, response};
+use crate::catenary::spatial::{HeldSlopes, SpatialCable, guide, horizontal, response};
 use crate::error::{CableError, SMALLEST, check, check_length};
 use crate::guide::Straight;
 use crate::kernel::{Dual, Field, Real};
@@ -153,28 +153,6 @@ pub struct HeldSpatialCable<'a> {
     pub force_slope: Vector3<f64>,
     /// dL/dσ [m/N], always negative.
     pub length_slope: f64,
-}
-
-/// Second derivatives of a cable between held ends in space: those of `v = dF/dt`, see
-/// [`crate::TensionSlope`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpatialTensionSlope {
-    /// v = dF/dt.
-    pub force_per_tension: Vector3<f64>,
-    /// dv/dt [1/N].
-    pub per_tension: Vector3<f64>,
-    /// dv by the position of A at constant t [1/m].
-    pub per_end: Matrix3<f64>,
-    /// dv/dw [m/N].
-    pub per_weight: Vector3<f64>,
-    /// dv/dEA [1/N].
-    pub per_stiffness: Vector3<f64>,
-    /// dv by the lead [1/m].
-    pub per_lead: Vector3<f64>,
-    /// dv by the radius [1/m].
-    pub per_radius: Vector3<f64>,
-    /// dv by the components of the direction in which the cable enters.
-    pub per_axis: Matrix3<f64>,
 }
 
 /// Inputs of [`HeldSpatialCable::tension_slopes`]: the end, what `Numbers::with_inputs` has, and the tension.
@@ -327,8 +305,8 @@ impl<'a> HeldSpatialCable<'a> {
         (f.dot(force_curvature) + self.force_slope.norm_squared() - slope * slope) / self.tension()
     }
 
-    /// Second derivatives with respect to the tension, the end, the material and the guide.
-    pub fn tension_slopes(&self) -> SpatialTensionSlope {
+    /// The force at A per tension there, dF/dt, with its derivatives, the tension given.
+    pub fn tension_slopes(&self) -> HeldSlopes {
         let (plain, now) = (self.cable.numbers(), self.cable.response());
         let direction = self.cable.force / self.tension();
         let inverse = now.flexibility.try_inverse().unwrap_or_else(Matrix3::zeros);
@@ -352,9 +330,9 @@ impl<'a> HeldSpatialCable<'a> {
         let v = slope.map(|slope| slope / along);
         let column = |k: usize| Vector3::from(v.map(|v| v.slopes[k]));
         let matrix = |first: usize| Matrix3::from_columns(&[0, 1, 2].map(|k| column(first + k)));
-        SpatialTensionSlope {
-            force_per_tension: v.map(|v| v.value).into(),
-            per_tension: column(INPUTS - 1),
+        HeldSlopes {
+            value: v.map(|v| v.value).into(),
+            per_actuation: column(INPUTS - 1),
             per_end: matrix(0),
             per_weight: column(3),
             per_stiffness: column(4) * (-plain.axial_flexibility * plain.axial_flexibility),

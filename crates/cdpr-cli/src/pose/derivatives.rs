@@ -5,14 +5,14 @@ use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
 use cdpr_robot::{Parameter, Robot};
-use cdpr_statics::{Derivatives, OneSided, StaticsError, derivatives_free};
+use cdpr_statics::{Derivatives, Load, OneSided, StaticsError, derivatives_free};
 use serde::Serialize;
 
 pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
     let solve = |robot: &Robot, pose: &_| {
         let offsets = vec![0.0; robot.cables.len()];
-        Slopes::new(robot, &derivatives_free(robot, pose, &offsets, &load, &free.free)?)
+        Slopes::new(robot, &load, &derivatives_free(robot, pose, &offsets, &load, &free.free)?)
     };
     at.answer(solve, Slopes::print)
 }
@@ -34,6 +34,15 @@ struct Slopes {
     deflection_mm: Vec<[f64; 3]>,
     /// Derivative of the unstrained length of each cable [m].
     unstrained_lengths: Vec<Vec<f64>>,
+    /// Derivative of the lowest stiffness with the load [N/m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    least_stiffness: Option<Vec<f64>>,
+    /// Derivative of the lowest natural frequency with the load [Hz].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frequency_hz: Option<Vec<f64>>,
+    /// Why one of these two is missing.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    without: Vec<String>,
     /// Parameters whose left and right derivatives differ.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     one_sided: Vec<TwoSlopes>,
@@ -65,24 +74,42 @@ struct Slope {
     rms_mm: f64,
     deflection_mm: [f64; 3],
     unstrained_lengths: Vec<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    least_stiffness: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frequency_hz: Option<f64>,
 }
 
-/// The derivatives with respect to each parameter, on one side.
-fn slopes(found: &Derivatives) -> Result<Vec<Slope>, StaticsError> {
+/// The derivatives with respect to each parameter, on one side, and why some do not exist.
+fn slopes(
+    robot: &Robot,
+    load: &Load,
+    found: &Derivatives,
+) -> Result<(Vec<Slope>, Vec<String>), StaticsError> {
     let each = found.rms()?.into_iter().enumerate().take(found.inputs.parameters.len());
     let displacement = found.displacement();
-    let slope = |(j, rms): (usize, f64)| Slope {
-        rms_mm: 1e3 * rms,
-        deflection_mm: (1e3 * displacement.column(j)).into(),
-        unstrained_lengths: found.lengths.column(j).iter().copied().collect(),
+    let softest = [found.least_stiffness(robot, load), found.frequency(robot, load)];
+    let softest = softest.map(|found| found.map(|(_, slopes)| slopes));
+    let slope = |(j, rms): (usize, f64)| {
+        let [least_stiffness, frequency_hz] =
+            softest.each_ref().map(|slopes| slopes.as_ref().ok().map(|slopes| slopes[j]));
+        Slope {
+            rms_mm: 1e3 * rms,
+            deflection_mm: (1e3 * displacement.column(j)).into(),
+            unstrained_lengths: found.lengths.column(j).iter().copied().collect(),
+            least_stiffness,
+            frequency_hz,
+        }
     };
-    Ok(each.map(slope).collect())
+    let without = softest.iter().filter_map(|slopes| slopes.as_ref().err()).map(ToString::to_string);
+    Ok((each.map(slope).collect(), without.collect()))
 }
 
 impl Slopes {
-    fn new(robot: &Robot, found: &Derivatives) -> Result<Self, StaticsError> {
+    fn new(robot: &Robot, load: &Load, found: &Derivatives) -> Result<Self, StaticsError> {
         let parameters = &found.inputs.parameters;
-        let (left, right) = (slopes(found)?, slopes(&found.right())?);
+        let (left, without) = slopes(robot, load, found)?;
+        let (right, _) = slopes(robot, load, &found.right())?;
         let of_parameter = found.one_sided.iter().filter(|one| one.column < parameters.len());
         let both = |OneSided { column, cables }: &OneSided| TwoSlopes {
             parameter: parameters[*column].to_string(),
@@ -101,6 +128,9 @@ impl Slopes {
             rms_mm: left.iter().map(|slope| slope.rms_mm).collect(),
             deflection_mm: left.iter().map(|slope| slope.deflection_mm).collect(),
             one_sided: of_parameter.map(both).collect(),
+            least_stiffness: left.iter().map(|slope| slope.least_stiffness).collect(),
+            frequency_hz: left.iter().map(|slope| slope.frequency_hz).collect(),
+            without,
             unstrained_lengths: left.into_iter().map(|slope| slope.unstrained_lengths).collect(),
             unit: "per SI unit of the parameter",
             out_of_limits: OutOfLimits::all(robot, &deflection.lengths, &equilibria),
@@ -119,6 +149,8 @@ impl Slopes {
                 rms_mm: self.rms_mm[index],
                 deflection_mm: self.deflection_mm[index],
                 unstrained_lengths: self.unstrained_lengths[index].clone(),
+                least_stiffness: self.least_stiffness.as_ref().map(|slopes| slopes[index]),
+                frequency_hz: self.frequency_hz.as_ref().map(|slopes| slopes[index]),
             };
             vec![(name, index, slope)]
         };
@@ -127,7 +159,7 @@ impl Slopes {
 
     fn print(&self, heading: &str) {
         println!("{heading}: |dp| = {:.5} mm under the load", self.deflection_rms_mm);
-        let header = [
+        let mut header = vec![
             "parameter",
             "d|dp| [\u{b5}m]",
             "per",
@@ -136,6 +168,8 @@ impl Slopes {
             "d dz [\u{b5}m]",
             "largest dL [mm]",
         ];
+        header.extend(self.least_stiffness.as_ref().map(|_| "d stiffness [N/m]"));
+        header.extend(self.frequency_hz.as_ref().map(|_| "d frequency [mHz]"));
         let units: Vec<_> = self.inputs.iter().map(handy_unit).collect();
         let mut rows = self.rows();
         let size = |(_, index, slope): &(String, usize, Slope)| (slope.rms_mm * units[*index].1).abs();
@@ -147,7 +181,8 @@ impl Slopes {
             let [dx, dy, dz] = slope.deflection_mm.map(micrometres);
             let lengths = slope.unstrained_lengths.iter();
             let largest = lengths.fold(0.0, |size: f64, slope| size.max(slope.abs()));
-            lines.add_row([
+            let softest = [slope.least_stiffness, slope.frequency_hz.map(|slope| 1e3 * slope)];
+            let row = [
                 name,
                 micrometres(slope.rms_mm),
                 unit.to_owned(),
@@ -155,7 +190,9 @@ impl Slopes {
                 dy,
                 dz,
                 format!("{:.5}", 1e3 * largest * step),
-            ]);
+            ];
+            let softest = softest.into_iter().flatten().map(|slope| decimal(slope * step, 4));
+            lines.add_row(row.into_iter().chain(softest));
         }
         println!("{lines}");
         for TwoSlopes { parameter, cables, bounds, .. } in &self.one_sided {
@@ -164,6 +201,7 @@ impl Slopes {
             let cables: Vec<_> = cables.iter().zip(bounds).map(at).collect();
             println!("{parameter}: {} on one side only", cables.join(", "));
         }
+        self.without.iter().for_each(|reason| println!("{reason}"));
         OutOfLimits::print(&self.out_of_limits);
     }
 }
@@ -172,8 +210,9 @@ impl Row for Slopes {
     fn columns(robot: &Robot) -> Vec<String> {
         let parameters = Parameter::of(robot);
         let lengths = (1..=robot.cables.len()).map(|i| format!("length_{i}_m"));
-        let outputs: Vec<_> =
-            ["rms_mm", "dx_mm", "dy_mm", "dz_mm"].map(str::to_owned).into_iter().chain(lengths).collect();
+        let displacement = ["rms_mm", "dx_mm", "dy_mm", "dz_mm"].map(str::to_owned);
+        let softest = ["least_stiffness", "frequency_hz"].map(str::to_owned);
+        let outputs: Vec<_> = displacement.into_iter().chain(lengths).chain(softest).collect();
         let slopes = |parameter| {
             let slope = |output| format!("{output}/{parameter}");
             outputs.iter().map(slope).collect::<Vec<_>>()
@@ -182,10 +221,18 @@ impl Row for Slopes {
     }
 
     fn cells(&self) -> Vec<String> {
-        let rows = self.rms_mm.iter().zip(&self.deflection_mm).zip(&self.unstrained_lengths);
-        let slopes = cells(rows.flat_map(|((rms, dp), lengths)| [rms].into_iter().chain(dp).chain(lengths)));
+        let softest = |slopes: &Option<Vec<f64>>, index: usize| slopes.as_ref().map(|slopes| slopes[index]);
+        let of = |index: usize| {
+            let displacement = [self.rms_mm[index]].into_iter().chain(self.deflection_mm[index]);
+            let lengths = self.unstrained_lengths[index].iter().copied();
+            let softest = [softest(&self.least_stiffness, index), softest(&self.frequency_hz, index)];
+            let softest = softest.map(|slope| slope.map_or_else(String::new, |slope| format!("{slope:?}")));
+            let known: Vec<f64> = displacement.chain(lengths).collect();
+            cells(&known).into_iter().chain(softest)
+        };
+        let slopes = (0..self.parameters.len()).flat_map(of);
         let one_sided: Vec<_> = self.one_sided.iter().map(|both| both.parameter.as_str()).collect();
-        slopes.into_iter().chain([one_sided.join(" ")]).collect()
+        slopes.chain([one_sided.join(" ")]).collect()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

@@ -5,7 +5,7 @@ use crate::robot::Robot;
 use crate::robot::deflection::{Deflection, Given};
 use crate::robot::inverse::coordinates;
 use cdpr_robot::{Parameter, Pose};
-use cdpr_statics::{StaticsError, derivatives_free};
+use cdpr_statics::{Load, StaticsError, derivatives_free};
 use pyo3::prelude::*;
 
 answer! {
@@ -35,6 +35,12 @@ answer! {
         set_points: Py<PyAny>,
         /// Derivatives of the tensions with the load [N per unit], (n, k).
         tensions: Py<PyAny>,
+        /// Derivatives of the lowest stiffness with the load [N/m per unit], (k,); NaN where two motions have
+        /// it.
+        least_stiffness: Py<PyAny>,
+        /// Derivatives of the lowest natural frequency with the load [Hz per unit], (k,); NaN where two
+        /// motions have it, and without inertia of the platform.
+        frequency: Py<PyAny>,
         /// Right derivatives of |dp| [m per unit], (k,).
         rms_right: Py<PyAny>,
         /// Right derivatives of dp [m per unit], (3, k).
@@ -45,6 +51,10 @@ answer! {
         set_points_right: Py<PyAny>,
         /// Right derivatives of the tensions with the load [N per unit], (n, k).
         tensions_right: Py<PyAny>,
+        /// Right derivatives of the lowest stiffness [N/m per unit], (k,).
+        least_stiffness_right: Py<PyAny>,
+        /// Right derivatives of the lowest natural frequency [Hz per unit], (k,).
+        frequency_right: Py<PyAny>,
         /// The deflection itself.
         deflection: Py<Deflection>,
         /// Why there is no answer, None where there is one; None for one case.
@@ -69,10 +79,19 @@ struct Slopes {
     lengths: Vec<f64>,
     set_points: Vec<f64>,
     tensions: Vec<f64>,
+    least_stiffness: Vec<f64>,
+    frequency: Vec<f64>,
 }
 
 impl Slopes {
-    fn new(found: &cdpr_statics::Derivatives) -> Result<Self, StaticsError> {
+    fn new(
+        robot: &cdpr_robot::Robot,
+        load: &Load,
+        found: &cdpr_statics::Derivatives,
+    ) -> Result<Self, StaticsError> {
+        let or_none = |slopes: Result<(f64, Vec<f64>), StaticsError>| {
+            slopes.map_or_else(|_| vec![f64::NAN; found.inputs.count()], |(_, slopes)| slopes)
+        };
         // nalgebra stores matrices column by column.
         Ok(Self {
             rms: found.rms()?,
@@ -80,6 +99,8 @@ impl Slopes {
             lengths: found.lengths.transpose().as_slice().to_vec(),
             set_points: found.set_points.transpose().as_slice().to_vec(),
             tensions: found.loaded.tensions.transpose().as_slice().to_vec(),
+            least_stiffness: or_none(found.least_stiffness(robot, load)),
+            frequency: or_none(found.frequency(robot, load)),
         })
     }
 }
@@ -119,8 +140,8 @@ impl Robot {
             let (pose, load) = (poses.pose(case)?, loads.load(case)?);
             let found = derivatives_free(robot, &pose, &no_offsets, &load, &free)?;
             Ok(Sides {
-                left: Slopes::new(&found)?,
-                right: Slopes::new(&found.right())?,
+                left: Slopes::new(robot, &load, &found)?,
+                right: Slopes::new(robot, &load, &found.right())?,
                 one_sided: found.one_sided.iter().map(|input| input.column).collect(),
                 given: Given::new(robot, found.deflection),
             })
@@ -139,6 +160,8 @@ impl Robot {
         let lengths = |side| numbers(side, &[cables, count], |slopes| &slopes.lengths);
         let set_points = |side| numbers(side, &[cables, count], |slopes| &slopes.set_points);
         let tensions = |side| numbers(side, &[cables, count], |slopes| &slopes.tensions);
+        let least_stiffness = |side| numbers(side, &[count], |slopes| &slopes.least_stiffness);
+        let frequency = |side| numbers(side, &[count], |slopes| &slopes.frequency);
         let deflection = Deflection::new(py, &all.part(|sides| &sides.given), cables)?;
         Ok(Derivatives {
             one_sided: all.array(false, &[count], |sides, out| {
@@ -149,11 +172,15 @@ impl Robot {
             lengths: lengths(&left)?,
             set_points: set_points(&left)?,
             tensions: tensions(&left)?,
+            least_stiffness: least_stiffness(&left)?,
+            frequency: frequency(&left)?,
             rms_right: rms(&right)?,
             displacement_right: displacement(&right)?,
             lengths_right: lengths(&right)?,
             set_points_right: set_points(&right)?,
             tensions_right: tensions(&right)?,
+            least_stiffness_right: least_stiffness(&right)?,
+            frequency_right: frequency(&right)?,
             deflection: Py::new(py, deflection)?,
             reasons: all.reasons(),
             kinds: all.kinds(),

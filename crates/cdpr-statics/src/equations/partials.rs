@@ -42,7 +42,7 @@ use crate::equations::vector;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Load;
-use cdpr_cable::Catenary;
+use cdpr_cable::{Catenary, HeldSlopes};
 use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, TiltAxis, Vector2, Vector3, Vector6};
 use nalgebra::{DMatrix, Matrix6};
 use std::ops::Range;
@@ -243,17 +243,55 @@ impl CableDerivatives {
     /// function of the same inputs.
     pub(crate) fn of_tension_slope(robot: &Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Self {
         let slopes = SpannedCable::of(robot, pose, i, catenary).tension_slopes(catenary, end(robot, pose, i));
+        Self::of_vector(robot, pose, i, &slopes)
+    }
+
+    /// The derivatives of `-K3_i d`, the change of F_i by the motion `d` of its anchor point, in the place of
+    /// those of F_i: `d` is constant.
+    pub(crate) fn of_stiffness(
+        &self,
+        robot: &Robot,
+        pose: &Pose,
+        i: usize,
+        at: &Catenary,
+        d: Vector3<f64>,
+    ) -> Self {
+        let none = Self { force: Vector3::zeros(), surroundings: None, ..self.clone() };
+        if at.is_limp() {
+            return none;
+        }
+        let slopes = SpannedCable::of(robot, pose, i, at).stiffness_slopes(at, d);
+        let mut of_vector = Self::of_vector(robot, pose, i, &slopes);
+        let g = robot.gravity.magnitude();
+        if let Some(around) = of_vector.surroundings.as_mut().filter(|_| g > 0.0) {
+            // (D10) turns `d`, too.
+            let up = robot.gravity.vector() / -g;
+            for (component, unit) in Matrix3::identity().column_iter().enumerate() {
+                let mut column = around.per_gravity.column_mut(component);
+                column += self.stiffness * (unit.cross(&up) / g).cross(&d);
+            }
+        }
+        of_vector
+    }
+
+    /// A vector that acts on the cable, in the place of -F_i.
+    fn of_vector(robot: &Robot, pose: &Pose, i: usize, slopes: &HeldSlopes) -> Self {
         Self {
             arm: robot.anchor_arm(pose, i),
-            force: -slopes.force_per_tension,
+            force: -slopes.value,
             direction: Vector3::zeros(),
             stiffness: slopes.per_end,
             per_density: -slopes.per_weight * robot.gravity.magnitude(),
             per_modulus: -slopes.per_stiffness * robot.cables[i].properties.section,
-            per_actuation: -slopes.per_tension,
+            per_actuation: -slopes.per_actuation,
             surroundings: None,
         }
         .within(robot, pose, i, || ([-slopes.per_lead, -slopes.per_radius], -slopes.per_axis))
+    }
+
+    /// (K3 + K3ᵀ) d.
+    pub(crate) fn resisted_both_ways(&self, d: &Vector3<f64>) -> Vector3<f64> {
+        self.stiffness * d + self.stiffness.transpose() * d
     }
 
     /// The derivatives of the tension `t` [N] that the greatest tension of cable i at its exit point leaves
@@ -335,32 +373,10 @@ impl Partials {
     fn add_weight(&mut self, robot: &Robot, inputs: &Inputs, pose: &Pose, load: &Load) {
         let weight = robot.weight(pose, load.payload).force;
         let center = pose.rotation * robot.platform.center_of_mass;
-        // dF_w = γ dm
-        let per_mass = wrench(&center, &robot.gravity.vector());
-        for (column, parameter) in inputs.parameters.iter().enumerate() {
-            match *parameter {
-                Parameter::Mass => self.balance.set_column(column, &per_mass),
-                // R dc x F_w
-                Parameter::CenterOfMass(axis) => {
-                    let arm = pose.rotation.matrix().column(axis as usize).into();
-                    self.balance.set_column(column, &moment(&arm, &weight));
-                }
-                // dF_w = (m + payload) dγ
-                Parameter::Gravity(axis) => {
-                    let mut force = Vector3::zeros();
-                    force[axis as usize] = robot.platform.mass + load.payload;
-                    let mut column = self.balance.column_mut(column);
-                    column += wrench(&center, &force);
-                }
-                _ => {}
-            }
-        }
-        self.balance.set_column(inputs.payload(), &per_mass);
-        for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
-            // (dφ x R c) x F_w
-            let mut column = self.balance.column_mut(inputs.pose().start + 3 + axis);
-            column += moment(&unit.cross(&center), &weight);
-        }
+        each_effect_on_weight(robot, inputs, pose, load, |column, Weighed { force, turn, .. }| {
+            let mut column = self.balance.column_mut(column);
+            column += wrench(&center, &force) + moment(&turn, &weight);
+        });
     }
 
     /// Moves the columns of the pose out of the partial derivatives: (dG, readings) per (dp, dφ).
@@ -446,6 +462,51 @@ fn each_effect(
             let turn = unit.cross(&cable.arm);
             add(start + 3 + axis, i, -cable.stiffness * turn, turn);
         }
+    }
+}
+
+/// What an input changes of the weight.
+#[derive(Clone, Copy)]
+pub(crate) struct Weighed {
+    /// Of mass and payload together, per unit.
+    pub(crate) mass: f64,
+    /// dF_w [N per unit].
+    pub(crate) force: Vector3<f64>,
+    /// Of the lever R c [m per unit].
+    pub(crate) turn: Vector3<f64>,
+}
+
+/// Gives `add(column, what)` for every input that changes the weight F_w at its lever R c.
+pub(crate) fn each_effect_on_weight(
+    robot: &Robot,
+    inputs: &Inputs,
+    pose: &Pose,
+    load: &Load,
+    mut add: impl FnMut(usize, Weighed),
+) {
+    let none = Weighed { mass: 0.0, force: Vector3::zeros(), turn: Vector3::zeros() };
+    // dF_w = γ dm
+    let heavier = Weighed { mass: 1.0, force: robot.gravity.vector(), ..none };
+    for (column, parameter) in inputs.parameters.iter().enumerate() {
+        match *parameter {
+            Parameter::Mass => add(column, heavier),
+            // R dc
+            Parameter::CenterOfMass(axis) => {
+                add(column, Weighed { turn: pose.rotation.matrix().column(axis as usize).into(), ..none });
+            }
+            // dF_w = (m + payload) dγ
+            Parameter::Gravity(axis) => {
+                let force = Vector3::ith(axis as usize, robot.platform.mass + load.payload);
+                add(column, Weighed { force, ..none });
+            }
+            _ => {}
+        }
+    }
+    add(inputs.payload(), heavier);
+    let center = pose.rotation * robot.platform.center_of_mass;
+    for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
+        // dφ x R c
+        add(inputs.pose().start + 3 + axis, Weighed { turn: unit.cross(&center), ..none });
     }
 }
 

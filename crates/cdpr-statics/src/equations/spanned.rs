@@ -10,8 +10,8 @@ use crate::equations::vector::{dot, wrench};
 use crate::problem::DirectProblem;
 use cdpr_cable::kernel::{Real, Response, closure_of_limp, response};
 use cdpr_cable::{
-    CableError, Catenary, ElasticLaw, Guide, HeldCable, HeldSpatialCable, SpatialCable, SpatialResponse,
-    SpatialSlopes, SpatialTensionSlope, end_force, end_force_near, spatial_end_force,
+    CableError, Catenary, ElasticLaw, Guide, HeldCable, HeldSlopes, HeldSpatialCable, SpatialCable,
+    SpatialResponse, SpatialSlopes, end_force, end_force_near, spatial_end_force,
 };
 use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
 
@@ -250,19 +250,9 @@ impl<'a> SpannedCable<'a, f64> {
 
     /// Second derivatives of the force on the cable, which must fit its points, between its held ends, in the
     /// base frame; `end` [m] leads from its exit to its anchor point in the level frame.
-    pub(crate) fn tension_slopes(&self, catenary: &Catenary<'a>, end: Vector3<f64>) -> SpatialTensionSlope {
+    pub(crate) fn tension_slopes(&self, catenary: &Catenary<'a>, end: Vector3<f64>) -> HeldSlopes {
         if let Some(cable) = self.over_a_pulley(catenary) {
-            let slopes = HeldSpatialCable::of(cable, end).tension_slopes();
-            return SpatialTensionSlope {
-                force_per_tension: self.based(slopes.force_per_tension),
-                per_tension: self.based(slopes.per_tension),
-                per_end: self.based_matrix(&slopes.per_end),
-                per_weight: self.based(slopes.per_weight),
-                per_stiffness: self.based(slopes.per_stiffness),
-                per_lead: self.based(slopes.per_lead),
-                per_radius: self.based(slopes.per_radius),
-                per_axis: self.based_matrix(&slopes.per_axis),
-            };
+            return self.based_slopes(&HeldSpatialCable::of(cable, end).tension_slopes());
         }
         let held = HeldCable::of(*catenary, self.span.end.into());
         let slopes = held.tension_slopes();
@@ -272,9 +262,9 @@ impl<'a> SpannedCable<'a, f64> {
         // v_x/h
         let lateral = 1.0 / (self.span.chord() * held.tension_slope());
         let [per_h, per_z] = slopes.per_end.map(lift);
-        SpatialTensionSlope {
-            force_per_tension: lift(slopes.force_per_tension),
-            per_tension: lift(slopes.per_tension),
+        HeldSlopes {
+            value: lift(slopes.force_per_tension),
+            per_actuation: lift(slopes.per_tension),
             per_end: per_h * forwards.transpose()
                 + per_z * up.transpose()
                 + across * across.transpose() * lateral,
@@ -286,13 +276,37 @@ impl<'a> SpannedCable<'a, f64> {
         }
     }
 
+    /// The force K3 d on the cable by which it answers to the unit motion `d` of its anchor point, with its
+    /// derivatives between held ends, in the base frame.
+    pub(crate) fn stiffness_slopes(&self, catenary: &Catenary<'a>, d: Vector3<f64>) -> HeldSlopes {
+        let d = to_level(self.level, d.into()).into();
+        self.based_slopes(&self.in_space(catenary).stiffness_slopes(d))
+    }
+
     /// The cable in space, in the level frame, if it runs over a pulley: only there do derivatives leave its
     /// plane.
     fn over_a_pulley(&self, catenary: &Catenary<'a>) -> Option<SpatialCable<'a>> {
+        catenary.cable.guide.filter(|guide| guide.radius > 0.0)?;
+        Some(self.in_space(catenary))
+    }
+
+    /// The cable in space, in the level frame.
+    fn in_space(&self, catenary: &Catenary<'a>) -> SpatialCable<'a> {
         let Catenary { cable, unstrained_length, .. } = *catenary;
-        let force = self.span.plane.lift(self.force).into();
-        cable.guide.filter(|guide| guide.radius > 0.0)?;
-        Some(SpatialCable { cable, unstrained_length, force })
+        SpatialCable { cable, unstrained_length, force: self.span.plane.lift(self.force).into() }
+    }
+
+    fn based_slopes(&self, slopes: &HeldSlopes) -> HeldSlopes {
+        HeldSlopes {
+            value: self.based(slopes.value),
+            per_actuation: self.based(slopes.per_actuation),
+            per_end: self.based_matrix(&slopes.per_end),
+            per_weight: self.based(slopes.per_weight),
+            per_stiffness: self.based(slopes.per_stiffness),
+            per_lead: self.based(slopes.per_lead),
+            per_radius: self.based(slopes.per_radius),
+            per_axis: self.based_matrix(&slopes.per_axis),
+        }
     }
 
     fn based(&self, v: Vector3<f64>) -> Vector3<f64> {

@@ -164,43 +164,45 @@ impl<'a> OutputObserver<'a> {
         wound_lengths(self.robot, &self.pose, offsets, self.free).map(Cow::Owned)
     }
 
-    /// Why the output has no exact derivatives, unless it has them.
-    pub(crate) fn no_slopes(&self) -> Option<StaticsError> {
-        let reason = "the program has exact derivatives of displacements only";
-        let refused = StaticsError::NoDerivative { quantity: self.output.label(), reason };
-        (!self.output.is_length()).then_some(refused)
-    }
-
     /// The output of a robot with these deviations in its unit, and its derivatives with respect to the
     /// inputs of an error model.
     ///
     /// # Errors
-    /// [`StaticsError::NoDerivative`] for an output without exact derivatives, and where a length is zero;
-    /// those of the models.
+    /// [`StaticsError::NoDerivative`] where a length is zero or two motions are the softest; those of the
+    /// models.
     pub(crate) fn slopes(
         &self,
         deviations: &[f64],
         errors: &ErrorModel,
     ) -> Result<(f64, Vec<f64>), StaticsError> {
-        if let Some(refused) = self.no_slopes() {
-            return Err(refused);
-        }
         let perturbed = self.robot.perturbed(deviations)?;
-        let (length, slopes) = match self.output {
-            Output::Deflection | Output::Frequency | Output::Stiffness => {
-                let found = self.derivatives(&perturbed)?;
-                (found.deflection.rms(), found.rms()?)
-            }
-            Output::Position => {
-                let (displaced, slopes) = self.displaced_slopes(&perturbed, errors)?;
-                if displaced.norm() <= self.nominal.rounding(self.robot) {
-                    let reason = "it is the length of a displacement, which is zero here";
-                    return Err(StaticsError::NoDerivative { quantity: self.output.label(), reason });
-                }
-                let slopes = displaced.normalize().transpose() * slopes;
-                (displaced.norm(), slopes.as_slice().to_vec())
-            }
+        if self.output == Output::Position {
+            return self.position_slopes(&perturbed, errors);
+        }
+        let found = self.derivatives(&perturbed)?;
+        let ((value, slopes), per_unit) = match self.output {
+            Output::Frequency => (found.frequency(&perturbed.robot, &self.load)?, 1.0),
+            Output::Stiffness => (found.least_stiffness(&perturbed.robot, &self.load)?, 1.0),
+            Output::Deflection | Output::Position => ((found.deflection.rms(), found.rms()?), 1e3),
         };
-        Ok((1e3 * length, errors.gradient(&slopes).into_iter().map(|slope| 1e3 * slope).collect()))
+        Ok((per_unit * value, scaled(per_unit, errors.gradient(&slopes))))
     }
+
+    fn position_slopes(
+        &self,
+        perturbed: &Perturbed,
+        errors: &ErrorModel,
+    ) -> Result<(f64, Vec<f64>), StaticsError> {
+        let (displaced, slopes) = self.displaced_slopes(perturbed, errors)?;
+        if displaced.norm() <= self.nominal.rounding(self.robot) {
+            let reason = "it is the length of a displacement, which is zero here";
+            return Err(StaticsError::NoDerivative { quantity: self.output.label(), reason });
+        }
+        let slopes = displaced.normalize().transpose() * slopes;
+        Ok((1e3 * displaced.norm(), scaled(1e3, errors.gradient(slopes.as_slice()))))
+    }
+}
+
+fn scaled(per_unit: f64, slopes: Vec<f64>) -> Vec<f64> {
+    slopes.into_iter().map(|slope| per_unit * slope).collect()
 }

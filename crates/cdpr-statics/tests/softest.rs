@@ -1,0 +1,206 @@
+//! Derivatives of the lowest natural frequency and of the lowest stiffness against central differences.
+
+use crate::common::{caroca, cogiro, robots};
+use crate::pulleys::{led, tilted};
+use cdpr_robot::{
+    CableProperties, Coordinate, Matrix3, Parameter, Plane, Platform, Pose, Robot, RobotCable, Rotation3,
+    Vector3, Vector6,
+};
+use cdpr_statics::{
+    Derivatives, DirectProblem, Load, StaticsError, deflection_free, derivatives_free, held_at,
+};
+
+/// A robot with the inertia of a ball of the size of its platform, unless it has one.
+fn weighed(robot: Robot) -> Robot {
+    let size = robot.platform_size();
+    let ball = 0.4 * robot.platform.mass * size * size;
+    let inertia = Matrix3::new(1.0, 0.1, 0.0, 0.1, 0.8, -0.05, 0.0, -0.05, 0.9) * ball;
+    let platform = Platform { inertia: robot.platform.inertia.or(Some(inertia)), ..robot.platform };
+    Robot { platform, ..robot }
+}
+
+struct Case {
+    robot: Robot,
+    pose: Pose,
+    payload: f64,
+    free: Vec<Coordinate>,
+}
+
+impl Case {
+    fn of(robot: Robot, pose: Pose, payload: f64) -> Self {
+        // No two motions are alike at an oblique pose.
+        let turn = if robot.plane.is_some() { Vector3::zeros() } else { Vector3::new(4e-3, -6e-3, 3e-3) };
+        Self { robot: weighed(robot), pose: pose.moved(Vector3::zeros(), turn), payload, free: Vec::new() }
+    }
+
+    fn derivatives(&self) -> Result<Derivatives, StaticsError> {
+        let offsets = vec![0.0; self.robot.cables.len()];
+        derivatives_free(&self.robot, &self.pose, &offsets, &Load::payload(self.payload), &self.free)
+    }
+
+    /// Frequency [Hz] and stiffness [N/m], if one input is moved.
+    fn softest(&self, column: usize, step: f64) -> [f64; 2] {
+        let parameters = Parameter::of(&self.robot).len();
+        let mut deviations = vec![0.0; parameters];
+        let (mut payload, mut motion) = (self.payload, Vector6::zeros());
+        match column.checked_sub(parameters) {
+            None => deviations[column] = step,
+            Some(0) => payload += step,
+            Some(k) => motion[k - 1] = step,
+        }
+        let moved = self.robot.perturbed(&deviations).unwrap();
+        let load = Load::payload(payload);
+        let pose = self.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
+        let found = deflection_free(&moved.robot, &pose, &moved.tension_offsets, &load, &self.free).unwrap();
+        let problem = DirectProblem::new(&moved.robot, &found.lengths, &load).unwrap();
+        let frequency = problem.lowest_frequency(&found.loaded.equilibrium).unwrap();
+        [frequency, found.loaded.stability.least_stiffness()]
+    }
+
+    fn step(&self, column: usize) -> f64 {
+        let parameters = Parameter::of(&self.robot);
+        match parameters.get(column) {
+            Some(one @ (Parameter::Mass | Parameter::LinearDensity | Parameter::YoungsModulus)) => {
+                3e-3 * one.nominal(&self.robot)
+            }
+            Some(Parameter::TensionOffset(_)) => 1e-3 * self.robot.platform.mass,
+            Some(Parameter::Tilt(..)) => 1e-3,
+            Some(Parameter::Gravity(_)) => 3e-3,
+            None if column == parameters.len() => 3e-3 * self.robot.platform.mass,
+            _ => 3e-4 * self.robot.platform_size().clamp(0.1, 1.0),
+        }
+    }
+}
+
+/// Six differences, twice extrapolated, of both outputs, and what they leave open.
+fn difference(case: &Case, column: usize, h: f64) -> [(f64, f64); 2] {
+    let slope = |h: f64| {
+        let (up, down) = (case.softest(column, h), case.softest(column, -h));
+        [0, 1].map(|k| (up[k] - down[k]) / (2.0 * h))
+    };
+    let [wide, middle, narrow] = [h, 0.5 * h, 0.25 * h].map(slope);
+    [0, 1].map(|k| {
+        let (once, again) = ((4.0 * middle[k] - wide[k]) / 3.0, (4.0 * narrow[k] - middle[k]) / 3.0);
+        ((16.0 * again - once) / 15.0, (again - once).abs())
+    })
+}
+
+/// How many derivatives of a case the differences tell to 1e-4, and the largest error of these relative to the
+/// greatest change that an input of the same unit makes.
+fn check(case: &Case) -> (usize, f64) {
+    let name = &case.robot.name;
+    let load = Load::payload(case.payload);
+    let found = case.derivatives().unwrap();
+    let softest =
+        [found.frequency(&case.robot, &load).unwrap(), found.least_stiffness(&case.robot, &load).unwrap()];
+    let values = case.softest(0, 0.0);
+    let (mut compared, mut worst) = (0, 0.0_f64);
+    for (k, (value, slopes)) in softest.iter().enumerate() {
+        assert!((value - values[k]).abs() <= 1e-12 * value.abs(), "{name} {k}: {value} {}", values[k]);
+        assert_eq!(slopes.len(), found.inputs.count());
+    }
+    let parameters = &found.inputs.parameters;
+    for column in 0..found.inputs.count() {
+        let held =
+            column > parameters.len() && !case.robot.freedoms().contains(column - parameters.len() - 1);
+        if held || found.one_sided.iter().any(|one| one.column == column) {
+            continue;
+        }
+        let h = case.step(column);
+        let differences = difference(case, column, h);
+        for (k, (difference, open)) in differences.into_iter().enumerate() {
+            let (value, slopes) = &softest[k];
+            let exact = slopes[column];
+            // Eigenvalues are known to the rounding of the greatest stiffness.
+            let rounding = 1e-10 * value.abs() / h;
+            let input = parameters.get(column).map_or_else(|| format!("{column}"), ToString::to_string);
+            let error = (difference - exact).abs();
+            assert!(
+                error <= open + rounding + 1e-7 * exact.abs(),
+                "{name} {input}, {k}: {exact} and not {difference}, error {error:e}, open {open:e}"
+            );
+            if open + rounding <= 1e-4 * exact.abs() {
+                compared += 1;
+                worst = worst.max(error / exact.abs());
+            }
+        }
+    }
+    println!("{name}: {compared} of {} compared, worst {worst:.1e}", 2 * found.inputs.count());
+    (compared, worst)
+}
+
+#[test]
+fn frequency_and_stiffness_of_five_robots_change_as_differences_say() {
+    for (robot, pose) in robots() {
+        let payload = 0.2 * robot.platform.mass;
+        let (compared, _) = check(&Case::of(robot, pose, payload));
+        assert!(compared >= 75, "{compared}");
+    }
+}
+
+#[test]
+fn they_change_over_pulleys_and_on_a_base_that_is_not_level_as_differences_say() {
+    for robot in [led(caroca(), 0.1, 3.0), led(cogiro(), 0.1, 3.0)] {
+        for robot in [robot.clone(), tilted(robot)] {
+            let (compared, _) = check(&Case::of(robot, Pose::at(0.8, -0.5, 1.9), 20.0));
+            assert!(compared >= 75, "{compared}");
+        }
+    }
+}
+
+#[test]
+fn they_change_with_few_cables_as_differences_say() {
+    let mut four = cogiro();
+    four.cables = [0, 2, 4, 6].map(|i| four.cables[i].clone()).to_vec();
+    let rope = CableProperties::linear(1.0, 0.08, 5e4);
+    let cables = [[-3.0, -0.3], [3.0, 0.3]].map(|[x, a]| {
+        RobotCable::between(Vector3::new(x, 0.0, 4.0), Vector3::new(a, 0.0, 0.1), rope.clone())
+    });
+    let platform = Platform::new(8.0, Vector3::new(0.02, 0.0, -0.1));
+    let planar = Robot { plane: Some(Plane::Xz), platform, cables: cables.to_vec(), ..cogiro() };
+    let mut grab = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
+    grab.cables.iter_mut().for_each(|cable| {
+        cable.properties.youngs_modulus = 2e9;
+        cable.properties.linear_density = 1e-3;
+    });
+    let at_grab =
+        Pose { rotation: Rotation3::from_euler_angles(0.0, 0.0, 0.136), ..Pose::at(1.28, -0.19, -0.92) };
+    let [roll, pitch] = [Coordinate::Roll, Coordinate::Pitch];
+    for (robot, pose, free, payload) in [
+        (planar, Pose::at(0.5, 0.0, 1.5), vec![pitch], 2.0),
+        (four, Pose::at(1.0, 0.5, 2.0), vec![roll, pitch], 20.0),
+        (grab, at_grab, vec![roll, pitch], 0.2),
+    ] {
+        // Beside a rest of the platform the search is short.
+        let rest = held_at(&robot, &pose, &Load::none(), &free).unwrap().equilibrium.pose;
+        let (compared, _) = check(&Case { free, ..Case::of(robot, rest, payload) });
+        assert!(compared >= 30, "{compared}");
+    }
+}
+
+#[test]
+fn a_cable_that_hangs_vertically_has_derivatives() {
+    // A point mass below its exit point on one cable, beside three that hold it aside.
+    let rope = CableProperties::linear(1.0, 0.5, 4e4);
+    let exits = [[0.0, 0.0], [3.0, 0.5], [-2.0, 2.0], [-1.5, -2.0]];
+    let cables =
+        exits.map(|[x, y]| RobotCable::between(Vector3::new(x, y, 5.0), Vector3::zeros(), rope.clone()));
+    let platform = Platform { point: true, ..Platform::new(30.0, Vector3::zeros()) };
+    let robot = Robot { platform, cables: cables.to_vec(), ..cogiro() };
+    let case = Case { robot, pose: Pose::at(0.0, 0.0, 2.0), payload: 5.0, free: Vec::new() };
+    let (compared, _) = check(&case);
+    assert!(compared >= 20, "{compared}");
+}
+
+#[test]
+fn two_motions_of_one_frequency_have_no_derivative() {
+    // A point mass on one cable swings in all directions alike.
+    let rope = CableProperties::linear(1.0, 0.5, 4e4);
+    let cable = RobotCable::between(Vector3::new(0.0, 0.0, 5.0), Vector3::zeros(), rope);
+    let platform = Platform { point: true, ..Platform::new(30.0, Vector3::zeros()) };
+    let robot = Robot { platform, cables: vec![cable], ..cogiro() };
+    let free = vec![Coordinate::X, Coordinate::Y];
+    let case = Case { robot, pose: Pose::at(0.0, 0.0, 2.0), payload: 5.0, free };
+    let error = case.derivatives().unwrap().frequency(&case.robot, &Load::payload(5.0)).unwrap_err();
+    assert!(error.to_string().contains("two motions"), "{error}");
+}
