@@ -36,11 +36,19 @@ def test_sobol_indices_of_ishigamis_function_lie_in_their_intervals():
         assert low <= (THIRD if pair == ("x1", "x3") else 0.0) <= high, pair
 
 
-def test_failed_outputs_are_left_out_with_their_block():
+def test_failed_outputs_are_missed_by_the_indices_of_their_input():
     design = SaltelliDesign(ISHIGAMI, 64, seed=3)
     outputs = ishigami(design.rows())
     outputs[7] = numpy.nan
-    assert design.indices(outputs).failed_blocks == 1
+    found = design.indices(outputs)
+    assert found.failed_blocks == 1 and found.reliable
+    assert found.input_blocks == [64, 62, 64]
+
+
+def test_intervals_without_a_seed_are_called_an_indication():
+    design = SaltelliDesign(ISHIGAMI, 64)
+    with pytest.warns(UserWarning, match="indication"):
+        assert not design.indices(ishigami(design.rows())).reliable
 
 
 def test_an_expansion_finds_the_shares_and_predicts():

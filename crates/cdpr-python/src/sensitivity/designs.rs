@@ -8,6 +8,7 @@ use cdpr_sensitivity::{
     student_effects,
 };
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
@@ -160,7 +161,9 @@ impl SaltelliDesign {
         rows(py, &self.design)
     }
 
-    /// Estimates Sobol' indices, with bootstrap intervals, from one output a row, NaN where the model failed.
+    /// Estimates Sobol' indices with intervals from one output a row, NaN where the model failed.
+    ///
+    /// It warns where the intervals do not have their level: without a seed, or with fewer than 64 blocks.
     ///
     /// level: confidence of the intervals.
     /// resamples: number of resamples of the bootstrap.
@@ -177,6 +180,11 @@ impl SaltelliDesign {
         let seed = seed.map_or(Ok(0), |seed| whole("seed", &seed))?;
         let (outputs, bootstrap) = (values(&outputs)?, Bootstrap { resamples, seed });
         let found = run(py, |_| sobol_indices(&self.design, &outputs, bootstrap, level))??;
+        if !found.reliable {
+            let message =
+                c"intervals are an indication: they have their level with a seed, from 64 blocks on";
+            PyErr::warn(py, &py.get_type::<PyUserWarning>(), message, 1)?;
+        }
         let first: Vec<Estimate> = found.inputs.iter().map(|index| index.first).collect();
         let total: Vec<Estimate> = found.inputs.iter().map(|index| index.total).collect();
         let second: Vec<Estimate> = found.pairs.iter().map(|index| index.second).collect();
@@ -192,6 +200,8 @@ impl SaltelliDesign {
             variance: found.variance,
             blocks: found.blocks,
             failed_blocks: found.failed_blocks,
+            input_blocks: found.inputs.iter().map(|index| index.blocks).collect(),
+            reliable: found.reliable,
         })
     }
 }

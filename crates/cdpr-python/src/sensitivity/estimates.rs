@@ -48,10 +48,14 @@ answer! {
         second_interval: Py<PyAny>,
         /// Variance of the output.
         variance: f64,
-        /// Number of blocks that the indices are estimated from.
+        /// Number of blocks of the design.
         blocks: usize,
-        /// Number of blocks left out because an output failed.
+        /// Number of blocks with a failed output.
         failed_blocks: usize,
+        /// Number of blocks behind the indices of each input.
+        input_blocks: Vec<usize>,
+        /// Whether the intervals have their level: with a seed, from 64 blocks on.
+        reliable: bool,
     }
 }
 

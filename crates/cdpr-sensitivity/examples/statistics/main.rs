@@ -6,6 +6,8 @@
 #![allow(clippy::print_stdout)]
 
 mod choice;
+mod functions;
+mod indices;
 
 use cdpr_sensitivity::SensitivityError;
 
@@ -13,7 +15,7 @@ use cdpr_sensitivity::SensitivityError;
 type Table = fn(u64) -> Result<(), SensitivityError>;
 
 fn main() -> Result<(), SensitivityError> {
-    let tables: [(&str, Table); 1] = [("choice", choice::table)];
+    let tables: [(&str, Table); 2] = [("choice", choice::table), ("indices", indices::table)];
     let mut arguments = std::env::args().skip(1);
     let (name, count) = (arguments.next(), arguments.next());
     let Some((_, table)) = tables.iter().find(|(table, _)| Some(*table) == name.as_deref()) else {

@@ -12,14 +12,16 @@
 //! analysis of model output. Design and estimator for the total sensitivity index*, Comput. Phys. Commun. 181
 //! (2010). The order of the rows is that of SALib. The estimator is [`crate::sobol_indices()`].
 //!
-//! A scrambled design takes its blocks in rotation from [`SaltelliDesign::REPLICATES`] independent
-//! scramblings of the sequence. The differences between them show the error of the indices, which a single
-//! sequence does not. The first half of the blocks consists of the first half of each scrambling.
+//! A scrambled design takes every other block from one scrambled sequence, from which the indices are
+//! estimated. The blocks between them come in rotation from [`SaltelliDesign::REPLICATES`] other scramblings.
+//! The differences between these show the error of the indices, which a single sequence does not. The first
+//! half of the blocks consists of the first half of each scrambling.
 //!
 //! The points (a, b) are stored, 16 bytes per input and block, because each of them serves k + 2 rows or
 //! more.
 
 use rand::Rng;
+use rand::seq::SliceRandom;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +45,8 @@ pub enum Order {
 #[derive(Debug, Clone)]
 pub struct SaltelliDesign {
     layout: Layout,
-    /// Sequences of (a, b), used in rotation: the plain one, or all scrambled ones.
+    plain: Sobol,
+    /// Sequences of (a, b): the plain one, or that of the estimate and the replicates.
     sequences: Vec<Sobol>,
     first_index: u32,
     /// Points (a, b) of all blocks.
@@ -52,7 +55,7 @@ pub struct SaltelliDesign {
 }
 
 impl SaltelliDesign {
-    /// Number of independent scramblings of a scrambled design.
+    /// Number of independent scramblings beside that of the estimate.
     pub const REPLICATES: usize = 8;
 
     /// Makes `blocks` blocks from the plain sequence, starting at `first_index`.
@@ -74,8 +77,8 @@ impl SaltelliDesign {
         Self::over(inputs, first_index, blocks, order, None)
     }
 
-    /// Makes `blocks` blocks from the first points of [`SaltelliDesign::REPLICATES`] scrambled sequences in
-    /// rotation.
+    /// Makes `blocks` blocks: half of them from one scrambled sequence, the others from
+    /// [`SaltelliDesign::REPLICATES`] replicates of it.
     ///
     /// # Errors
     /// As [`SaltelliDesign::new`], but point 0 is allowed: scrambled, it is not zero.
@@ -102,7 +105,7 @@ impl SaltelliDesign {
         let plain = radial_sequence(inputs)?;
         let sequences = seed.map_or_else(|| vec![plain.clone()], |seed| scramblings(&plain, seed));
         let pairs = extended(room(blocks, 2 * inputs)?, &sequences, first_index, blocks);
-        Ok(Self { layout, sequences, first_index, pairs, order })
+        Ok(Self { layout, plain, sequences, first_index, pairs, order })
     }
 
     /// Returns this design with another number of blocks. The blocks that both have are the same.
@@ -118,7 +121,7 @@ impl SaltelliDesign {
         pairs.extend_from_slice(known);
         let pairs = extended(pairs, &self.sequences, self.first_index, blocks);
         let layout = Layout { points: blocks * self.block_points(), ..self.layout.clone() };
-        Ok(Self { layout, sequences: self.sequences.clone(), pairs, ..*self })
+        Ok(Self { layout, pairs, ..self.clone() })
     }
 
     /// Index of the first point in the sequence. It is 0 for scrambled sequences.
@@ -127,10 +130,15 @@ impl SaltelliDesign {
         self.first_index
     }
 
-    /// Number of sequences from which the blocks are taken in rotation.
+    /// Whether the design has replicates beside the sequence of the estimate.
     #[must_use]
-    pub fn sequences(&self) -> usize {
-        self.sequences.len()
+    pub fn is_scrambled(&self) -> bool {
+        self.sequences.len() > 1
+    }
+
+    /// Replicate to which a block belongs. The blocks of the estimate have `None`.
+    pub(crate) fn replicate_of(&self, block: usize) -> Option<usize> {
+        place(self.sequences.len(), block).0.checked_sub(1)
     }
 
     /// Number of blocks N.
@@ -158,9 +166,9 @@ impl SampleDesign for SaltelliDesign {
     }
 
     fn replicate(&self, seed: u64) -> Self {
-        let sequences = scramblings(&self.sequences[0], seed);
+        let sequences = scramblings(&self.plain, seed);
         let pairs = extended(Vec::new(), &sequences, self.first_index, self.blocks());
-        Self { layout: self.layout.reseeded(seed), sequences, pairs, ..*self }
+        Self { layout: self.layout.reseeded(seed), sequences, pairs, ..self.clone() }
     }
 
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
@@ -197,11 +205,27 @@ pub(crate) fn radial_sequence(inputs: usize) -> Result<Sobol, SensitivityError> 
     Sobol::new(2 * inputs)
 }
 
-/// Independent scramblings of a sequence.
-fn scramblings(sequence: &Sobol, seed: u64) -> Vec<Sobol> {
-    (0..SaltelliDesign::REPLICATES as u64)
-        .map(|number| sequence.rescrambled(stream(seed, number).next_u64()))
-        .collect()
+/// Independent scramblings of a sequence, each with the inputs on random dimensions of a and of b.
+fn scramblings(plain: &Sobol, seed: u64) -> Vec<Sobol> {
+    let k = plain.dimensions() / 2;
+    let scrambling = |number: u64| {
+        let mut generator = stream(seed, number);
+        let key = generator.next_u64();
+        let (mut a, mut b): (Vec<usize>, Vec<usize>) = ((0..k).collect(), (k..2 * k).collect());
+        a.shuffle(&mut generator);
+        b.shuffle(&mut generator);
+        plain.reordered(a.into_iter().chain(b)).rescrambled(key)
+    };
+    (0..=SaltelliDesign::REPLICATES as u64).map(scrambling).collect()
+}
+
+/// Sequence from which a block is taken, and the index in it.
+fn place(sequences: usize, block: usize) -> (usize, usize) {
+    match (sequences - 1, block / 2) {
+        (0, _) => (0, block),
+        (_, half) if block.is_multiple_of(2) => (0, half),
+        (replicates, half) => (1 + half % replicates, half / replicates),
+    }
 }
 
 /// Reserves memory for the points of this many blocks.
@@ -217,13 +241,13 @@ fn room(blocks: usize, size: usize) -> Result<Vec<f64>, SensitivityError> {
 
 /// Extends known points (a, b) of the first blocks to all blocks.
 fn extended(mut points: Vec<f64>, sequences: &[Sobol], first_index: u32, blocks: usize) -> Vec<f64> {
-    let (size, count, known) = (sequences[0].dimensions(), sequences.len(), points.len());
+    let (size, known) = (sequences[0].dimensions(), points.len());
     let first = known / size;
     points.resize(blocks * size, 0.0);
     points[known..].par_chunks_mut(size).enumerate().for_each(|(offset, point)| {
-        let block = first + offset;
+        let (sequence, index) = place(sequences.len(), first + offset);
         // `check_points` has ensured that the index is below 2^32.
-        let written = sequences[block % count].point(first_index + (block / count) as u32, point);
+        let written = sequences[sequence].point(first_index + index as u32, point);
         debug_assert!(written.is_ok(), "a point has the dimensions of its sequence");
     });
     points

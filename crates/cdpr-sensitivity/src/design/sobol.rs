@@ -78,6 +78,11 @@ impl Sobol {
         Self { seed: Some(seed), ..self.clone() }
     }
 
+    /// Returns the same sequence with its dimensions in another order.
+    pub(crate) fn reordered(&self, order: impl Iterator<Item = usize>) -> Self {
+        Self { directions: order.map(|j| self.directions[j]).collect(), seed: self.seed }
+    }
+
     /// Number of dimensions.
     #[must_use]
     pub fn dimensions(&self) -> usize {

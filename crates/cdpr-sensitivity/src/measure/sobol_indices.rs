@@ -19,17 +19,28 @@
 //!
 //! They agree with the estimators of SALib up to rounding.
 //!
-//! Each index is a quotient of sums over blocks. A bootstrap draws units with replacement, and the interval
-//! is Student's ([`crate::sample::interval`], Eq. (CI2)). On a scrambled design the units are its independent
-//! scramblings. Blocks of one sequence depend on each other, and a bootstrap over them misses the effect.
-//! With 1024 blocks of one sequence, intervals of 95 % held some indices of Morris's 20 inputs in only 53 of
-//! 100 cases, and were sixty times too wide for a linear model. Intervals over scramblings hold all of them
-//! in 95 cases (`tests/global/indices.rs`). A plain sequence has no scramblings, so that its units are the
-//! blocks, as in SALib: such intervals are an indication.
+//! Each index is a quotient of sums over blocks. Those of a scrambled design come from its one sequence of M
+//! blocks, half of all. The R replicates together have as many blocks. With s* the deviation over a bootstrap
+//! of them ([`crate::sample::interval`], Eq. (CI2)), and S' the index of all replicates together, the
+//! interval has the half width
 //!
-//! **A block with a failed observation is left out of all indices** and of the mean, as if the design did not
-//! have it. All indices then remain means over the same blocks. They describe the model where whole blocks do
-//! not fail. If failures depend on the inputs, no estimator can recover the rest.
+//! ```text
+//! max(t_(R-1) √(s*² + (S - S')² / R), 1 / M)                              (V5)
+//! ```
+//!
+//! A scrambled sequence converges at least as 1 / √n, so that one of M blocks is no worse than the mean of R
+//! of M / R. The second term shows directly where it is. The floor 1 / M is the resolution of M blocks:
+//! effects that occur in a smaller share of them are often not seen. The inputs lie on other dimensions of
+//! Sobol's sequence in each scrambling. On the same dimensions, single inputs had intervals that held in 38 %
+//! of the cases, because short and long pieces of two dimensions differ in kind. `cargo xtask statistics
+//! indices` measures all this.
+//!
+//! A plain sequence has no replicates. Its intervals are from a bootstrap over its blocks, as in SALib. They
+//! depend on each other, so that such intervals are an indication: see [`SobolIndices::reliable`].
+//!
+//! **A failed observation is left out of the terms that need it**: that of `ab_i` of the indices of input i
+//! only. The indices describe the model where a, b and `ab_i` do not fail. If failures depend on the inputs,
+//! no estimator can recover the rest.
 
 use std::collections::BTreeMap;
 
@@ -50,6 +61,9 @@ use crate::sample::summary::check_varies;
 pub struct SobolIndex {
     /// Name of the input.
     pub input: String,
+    /// Number of blocks behind both indices: those in which a, b and `ab_i` were observed, and of a scrambled
+    /// design twice those of its smaller half.
+    pub blocks: usize,
     /// First-order index (V2): share of the variance that the input causes alone.
     pub first: Estimate,
     /// Total index (V3): share of the variance in which the input takes part.
@@ -68,9 +82,9 @@ pub struct PairIndex {
 /// Indices of all inputs of a [`SaltelliDesign`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct SobolIndices {
-    /// Number of blocks on which the indices are based.
+    /// Number of blocks of the design.
     pub blocks: usize,
-    /// Number of blocks left out because of a failed observation.
+    /// Number of blocks with a failed observation.
     pub failed_blocks: usize,
     /// Number of failed observations.
     pub failed: usize,
@@ -78,6 +92,9 @@ pub struct SobolIndices {
     pub variance: f64,
     /// Confidence level of the intervals.
     pub level: f64,
+    /// Whether the intervals have this level: those of a scrambled design have, from
+    /// [`SobolIndices::RELIABLE_BLOCKS`] blocks on. Others are an indication.
+    pub reliable: bool,
     /// Indices, one per input in the order of the design.
     pub inputs: Vec<SobolIndex>,
     /// Indices, one per pair (1, 2), (1, 3), .. The list is empty for [`Order::First`].
@@ -85,8 +102,12 @@ pub struct SobolIndices {
 }
 
 impl SobolIndices {
-    /// Least number of whole blocks from which indices are estimated.
+    /// Least number of blocks without a failure from which indices are estimated.
     pub const MIN_BLOCKS: usize = 16;
+
+    /// Least number of blocks of a scrambled design from which the intervals have their level: 64, of which a
+    /// quarter may have failed.
+    pub const RELIABLE_BLOCKS: usize = 48;
 
     /// Width of the widest interval.
     #[must_use]
@@ -106,8 +127,9 @@ impl SobolIndices {
 /// - [`SensitivityError::LengthMismatch`] unless there is one output per row;
 /// - [`SensitivityError::NotFinite`] for a value that is not finite, even in a block with a failed
 ///   observation;
-/// - [`SensitivityError::OutOfRange`] for fewer than [`SobolIndices::MIN_BLOCKS`] whole blocks, for whole
-///   blocks of one scrambling only, or for fewer than two resamples;
+/// - [`SensitivityError::InvalidInput`] with [`SensitivityError::OutOfRange`] for an input with fewer than
+///   [`SobolIndices::MIN_BLOCKS`] blocks ([`SobolIndex::blocks`]);
+/// - [`SensitivityError::OutOfRange`] for fewer than two resamples;
 /// - [`SensitivityError::ConstantSample`] if the outputs a and b of all blocks are equal;
 /// - [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
 pub fn sobol_indices(
@@ -119,50 +141,78 @@ pub fn sobol_indices(
     check_level(level)?;
     check_range("resamples", bootstrap.resamples as u64, 2, u64::MAX)?;
     check_outputs(design, outputs)?;
-    let whole = |(number, block): (usize, &[Option<f64>])| {
-        block.iter().copied().collect::<Option<Vec<f64>>>().map(|block| (number, block))
-    };
-    let blocks: Vec<(usize, Vec<f64>)> =
-        outputs.chunks(design.block_points()).enumerate().filter_map(whole).collect();
-    check_range("whole blocks", blocks.len() as u64, SobolIndices::MIN_BLOCKS as u64, u64::MAX)?;
-    let ends: Vec<f64> = blocks.iter().flat_map(|(_, block)| [block[0], block[block.len() - 1]]).collect();
+    let blocks = || outputs.chunks(design.block_points()).enumerate();
+    let estimates = |number: usize| !design.is_scrambled() || design.replicate_of(number).is_none();
+    let ends = blocks().filter(|(number, _)| estimates(*number));
+    let ends: Vec<f64> = ends.flat_map(|(_, block)| [block[0], block[block.len() - 1]]).flatten().collect();
+    check_range("observed outputs", ends.len() as u64, 2, u64::MAX)?;
     check_varies(&ends)?;
 
-    let values = blocks.iter().flat_map(|(_, block)| block);
-    let mean = values.sum::<f64>() / (blocks.len() * design.block_points()) as f64;
+    let observed = outputs.iter().flatten();
+    let mean = observed.clone().sum::<f64>() / observed.count() as f64;
     let k = design.inputs().len();
-    // With one sequence each block is a unit, with several each sequence.
-    let mut units: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
-    for (number, block) in &blocks {
-        let unit = if design.sequences() > 1 { number % design.sequences() } else { *number };
-        add(units.entry(unit).or_default(), 1, &terms(block, mean, k, design.order()));
+    // Sums of the estimate and of the units that show its error: the replicates, or single blocks.
+    let mut estimate = Sums::default();
+    let mut units: BTreeMap<usize, Sums> = BTreeMap::new();
+    for (number, block) in blocks() {
+        let terms = terms(block, mean, k, design.order());
+        if estimates(number) {
+            estimate.add(1, &terms);
+        }
+        let unit = if design.is_scrambled() { design.replicate_of(number) } else { Some(number) };
+        if let Some(unit) = unit {
+            units.entry(unit).or_default().add(1, &terms);
+        }
     }
-    let units: Vec<Vec<f64>> = units.into_values().collect();
-    let (variance, values) = quotients(&units, &vec![1; units.len()]);
+    let units: Vec<Sums> = units.into_values().collect();
+    let mut pool = Sums::default();
+    units.iter().for_each(|unit| pool.add(1, unit));
+    let count = |i: usize| match design.is_scrambled() {
+        true => 2 * estimate.count(i).min(pool.count(i)),
+        false => estimate.count(i),
+    };
+    for (i, input) in design.inputs().iter().enumerate() {
+        let least = SobolIndices::MIN_BLOCKS as u64;
+        check_range("blocks without a failure", count(i) as u64, least, u64::MAX).map_err(|source| {
+            SensitivityError::InvalidInput { name: input.name.clone(), source: Box::new(source) }
+        })?;
+    }
+    let ((variance, values), (_, pooled)) = (estimate.quotients(), pool.quotients());
     let resampled: Vec<Vec<f64>> = (0..bootstrap.resamples)
         .into_par_iter()
-        .map(|resample| quotients(&units, &multiplicities(units.len(), bootstrap.seed, resample)))
+        .map(|resample| {
+            let mut sums = Sums::default();
+            for (unit, times) in units.iter().zip(multiplicities(units.len(), bootstrap.seed, resample)) {
+                sums.add(times, unit);
+            }
+            sums.quotients()
+        })
         // Drawn units whose outputs a and b are constant up to rounding have no indices.
         .filter(|(resampled, _)| *resampled > 1e-12 * variance)
         .map(|(_, indices)| indices)
         .collect();
     check_range("resamples with a variance", resampled.len() as u64, 2, u64::MAX)?;
-    let estimate = |(index, &value): (usize, &f64)| {
-        let of_resamples: Vec<f64> = resampled.iter().map(|indices| indices[index]).collect();
-        Estimate::of_resamples(value, &of_resamples, units.len(), level)
+    let interval = |(index, &value): (usize, &f64)| {
+        let of_index = resampled.iter().map(|indices| indices[index]);
+        let of_resamples: Vec<f64> = of_index.filter(|value| value.is_finite()).collect();
+        let resolution = 1.0 / estimate.count(index) as f64;
+        let bias = (value - pooled[index]).powi(2) / SaltelliDesign::REPLICATES as f64;
+        Ok(Estimate::of_resamples(value, &of_resamples, bias, units.len(), level)?.at_least(resolution))
     };
-    let estimates: Vec<Estimate> = values.par_iter().enumerate().map(estimate).collect::<Result<_, _>>()?;
+    let estimates: Vec<Estimate> = values.par_iter().enumerate().map(interval).collect::<Result<_, _>>()?;
 
     let name = |i: usize| design.inputs()[i].name.clone();
     let (of_inputs, of_pairs) = estimates.split_at(2 * k);
-    let input = |i| SobolIndex { input: name(i), first: of_inputs[i], total: of_inputs[k + i] };
+    let input =
+        |i| SobolIndex { input: name(i), blocks: count(i), first: of_inputs[i], total: of_inputs[k + i] };
     let pair = |((i, j), &second)| PairIndex { inputs: [name(i), name(j)], second };
     Ok(SobolIndices {
-        blocks: blocks.len(),
-        failed_blocks: design.blocks() - blocks.len(),
+        blocks: design.blocks(),
+        failed_blocks: outputs.chunks(design.block_points()).filter(|block| block.contains(&None)).count(),
         failed: outputs.iter().filter(|output| output.is_none()).count(),
         variance,
         level,
+        reliable: design.is_scrambled() && (0..k).all(|i| count(i) >= SobolIndices::RELIABLE_BLOCKS),
         inputs: (0..k).map(input).collect(),
         pairs: pairs(k).zip(of_pairs).map(pair).collect(),
     })
@@ -173,40 +223,53 @@ fn pairs(k: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..k).flat_map(move |i| (i + 1..k).map(move |j| (i, j)))
 }
 
-/// Terms of one block that (V1) to (V4) average: the number 1, the two terms of V, then those of all `S_i`,
-/// `T_i`, `S_ij`.
-fn terms(block: &[f64], mean: f64, k: usize, order: Order) -> Vec<f64> {
-    let centred: Vec<f64> = block.iter().map(|output| output - mean).collect();
+/// Counts and sums of the terms that (V1) to (V4) average: the two of V, then those of all `S_i`, `T_i`,
+/// `S_ij`.
+#[derive(Default)]
+struct Sums(Vec<[f64; 2]>);
+
+/// Terms of one block. Those that need a failed output are left out.
+fn terms(block: &[Option<f64>], mean: f64, k: usize, order: Order) -> Sums {
+    let centred: Vec<Option<f64>> = block.iter().map(|output| Some((*output)? - mean)).collect();
     let (a, b) = (centred[0], centred[centred.len() - 1]);
     let ab = &centred[1..=k];
-    let first: Vec<f64> = ab.iter().map(|ab| b * (ab - a)).collect();
-    let total = ab.iter().map(|ab| 0.5 * (a - ab) * (a - ab));
-    let mut terms = vec![1.0, 0.5 * (a + b), 0.5 * (a * a + b * b)];
-    terms.extend(first.iter().copied().chain(total));
+    let count = |term: Option<f64>| term.map_or([0.0; 2], |term| [1.0, term]);
+    let both = |power: i32| {
+        let add = |[n, sum]: [f64; 2], x: f64| [n + 1.0, sum + x.powi(power)];
+        [a, b].into_iter().flatten().fold([0.0; 2], add)
+    };
+    let first: Vec<Option<f64>> = ab.iter().map(|ab| Some(b? * ((*ab)? - a?))).collect();
+    let total = ab.iter().map(|ab| Some(0.5 * (a? - (*ab)?).powi(2)));
+    let mut terms = vec![both(1), both(2)];
+    terms.extend(first.iter().copied().chain(total).map(count));
     if order == Order::Second {
         let ba = &centred[k + 1..=2 * k];
-        terms.extend(pairs(k).map(|(i, j)| ba[i] * ab[j] - a * b - first[i] - first[j]));
+        let second = |(i, j): (usize, usize)| Some(ba[i]? * ab[j]? - a? * b? - first[i]? - first[j]?);
+        terms.extend(pairs(k).map(second).map(count));
     }
-    terms
+    Sums(terms)
 }
 
-/// Adds the terms `times` times to sums, which may still be empty.
-fn add(sums: &mut Vec<f64>, times: u32, terms: &[f64]) {
-    sums.resize(terms.len(), 0.0);
-    for (sum, term) in sums.iter_mut().zip(terms) {
-        *sum += f64::from(times) * term;
+impl Sums {
+    /// Adds the sums of others `times` times.
+    fn add(&mut self, times: u32, other: &Self) {
+        self.0.resize(other.0.len(), [0.0; 2]);
+        for (sum, term) in self.0.iter_mut().flatten().zip(other.0.iter().flatten()) {
+            *sum += f64::from(times) * term;
+        }
     }
-}
 
-/// V and the indices, if each unit counts as often as `multiplicities` gives.
-fn quotients(units: &[Vec<f64>], multiplicities: &[u32]) -> (f64, Vec<f64>) {
-    let mut sums = Vec::new();
-    for (unit, &times) in units.iter().zip(multiplicities) {
-        add(&mut sums, times, unit);
+    /// Number of blocks behind an index.
+    fn count(&self, index: usize) -> usize {
+        self.0[2 + index][0] as usize
     }
-    let n = sums[0];
-    let variance = sums[2] / n - (sums[1] / n).powi(2);
-    (variance, sums[3..].iter().map(|sum| sum / n / variance).collect())
+
+    /// V and the indices. An index without terms is NaN.
+    fn quotients(&self) -> (f64, Vec<f64>) {
+        let mean = |[n, sum]: &[f64; 2]| sum / n;
+        let variance = mean(&self.0[1]) - mean(&self.0[0]).powi(2);
+        (variance, self.0[2..].iter().map(|term| mean(term) / variance).collect())
+    }
 }
 
 /// Number of times that each of n units occurs in n random draws.

@@ -52,16 +52,27 @@ impl Estimate {
         Ok(Self::around(spread.mean, student(values.len(), level)? * spread.standard_error()))
     }
 
-    /// Estimate with its interval, Eq. (CI2), from at least two units and two resamples.
+    /// Estimate with its interval, Eq. (CI2), from at least two units and two resamples. `variance` is added
+    /// to that of the resamples.
     pub(crate) fn of_resamples(
         value: f64,
         resampled: &[f64],
+        variance: f64,
         units: usize,
         level: f64,
     ) -> Result<Self, SensitivityError> {
-        let variance = Spread::of(resampled).variance();
         let n = units as f64;
-        Ok(Self::around(value, student(units, level)? * (variance * n / (n - 1.0)).sqrt()))
+        let variance = Spread::of(resampled).variance() * n / (n - 1.0) + variance;
+        Ok(Self::around(value, student(units, level)? * variance.sqrt()))
+    }
+
+    /// The same estimate with an interval that is no shorter than `half` on either side.
+    pub(crate) fn at_least(self, half: f64) -> Self {
+        Self {
+            value: self.value,
+            low: self.low.min(self.value - half),
+            high: self.high.max(self.value + half),
+        }
     }
 
     /// Share of a population, estimated from `count` of `n` independent draws, with its interval (CI3).

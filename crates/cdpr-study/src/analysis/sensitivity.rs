@@ -55,9 +55,13 @@ pub struct MethodSummary {
     pub observations: usize,
     /// Those that failed.
     pub failed: usize,
-    /// Saltelli's blocks left out for a failed observation.
+    /// Saltelli's blocks with a failed observation. It is missed by the indices of one input only, unless it
+    /// is one of the two points on which all inputs of a block rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failed_blocks: Option<usize>,
+    /// Whether the intervals of Sobol' indices have their confidence: they have from 64 blocks on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reliable: Option<bool>,
     /// Share of the variance that a linear model explains.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub r_squared: Option<f64>,
@@ -133,6 +137,9 @@ pub fn measure(
         let clock = Instant::now();
         match method(&run, &mut inputs) {
             Ok(summary) => {
+                if summary.reliable == Some(false) {
+                    notes.push(format!("{name}: too few blocks, the intervals are an indication only"));
+                }
                 methods.insert(
                     name.to_owned(),
                     MethodSummary { seconds: clock.elapsed().as_secs_f64(), ..summary },
@@ -281,7 +288,8 @@ fn sobol(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<d
         [input.sobol_total, input.sobol_total_low, input.sobol_total_high] =
             [index.total.value, index.total.low, index.total.high].map(Some);
     }
-    Ok(MethodSummary { failed_blocks: Some(found.failed_blocks), ..MethodSummary::of(&outputs) })
+    let (failed_blocks, reliable) = (Some(found.failed_blocks), Some(found.reliable));
+    Ok(MethodSummary { failed_blocks, reliable, ..MethodSummary::of(&outputs) })
 }
 
 impl MethodSummary {
