@@ -90,7 +90,7 @@ fn what_acts_only_together_with_others_has_a_total_index_and_no_share_of_its_own
     // Near the corner the deflection is least, but for curvature, where the centre of mass is nominal.
     let expansion = Truncation { norm: 1.0, ..SMALL.expansion };
     let found =
-        of_sampling("geometrical_asymmetric", &SensitivitySpec { saltelli_blocks: 1024, expansion, ..SMALL });
+        of_sampling("geometrical_asymmetric", &SensitivitySpec { saltelli_blocks: 2048, expansion, ..SMALL });
     let center = input(&found, "cog.x");
     assert!(center.derivative_share.unwrap() < 0.001);
     assert!(center.regression_share.unwrap() < 0.02);

@@ -4,8 +4,8 @@ use super::functions::{self, Function, ishigami};
 use crate::common::{rows, uniform};
 use approx::assert_abs_diff_eq;
 use cdpr_sensitivity::{
-    Bootstrap, Input, Law, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolIndices, Steps,
-    convergence, first_tight, observe, sobol_indices,
+    Bootstrap, Estimate, Input, Law, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolIndices,
+    Steps, convergence, derived_seed, first_tight, observe, sobol_indices,
 };
 
 const BOOTSTRAP: Bootstrap = Bootstrap { resamples: 400, seed: 7 };
@@ -132,15 +132,18 @@ fn a_failed_observation_is_missed_by_the_indices_of_its_input_alone() {
 }
 
 #[test]
-fn one_failure_in_twenty_leaves_four_fifths_of_the_blocks_to_each_of_62_inputs() {
+fn one_failure_in_twenty_leaves_most_blocks_to_each_of_62_inputs() {
     let design = SaltelliDesign::scrambled(uniform(62, 0.0, 1.0), 256, Order::First, 1).unwrap();
     let mut outputs = observe(&design, |x| Some(x.iter().sum())).unwrap();
-    (0..outputs.len()).step_by(20).for_each(|index| outputs[index] = None);
+    let fails = |index: &usize| derived_seed(5, *index as u64).is_multiple_of(20);
+    (0..outputs.len()).filter(fails).for_each(|index| outputs[index] = None);
     let found = estimate(&design, &outputs);
-    assert!(found.failed_blocks > 250 && found.reliable, "{}", found.failed_blocks);
-    for input in &found.inputs {
-        assert!(input.blocks >= 205 && input.total.low < 1.0 / 62.0 && 1.0 / 62.0 < input.total.high);
-    }
+    assert!(found.failed_blocks > 240 && found.reliable, "{}", found.failed_blocks);
+    // 86 % of 256 blocks, of which the smaller half counts twice.
+    assert!(found.inputs.iter().all(|input| input.blocks >= 180));
+    let holds = |total: &Estimate| total.low <= 1.0 / 62.0 && 1.0 / 62.0 <= total.high;
+    let held = found.inputs.iter().filter(|input| holds(&input.total)).count();
+    assert!(held >= 56, "{held} of 62");
 }
 
 #[test]
@@ -150,11 +153,11 @@ fn failures_at_random_leave_the_intervals_true() {
     for seed in 0..100 {
         let design = SaltelliDesign::scrambled(function.inputs.clone(), 1024, Order::First, seed).unwrap();
         let mut outputs = outputs(&design, &function);
-        // One in 40: about one block in eight.
+        // One in 40: one block in eight, all of the same half of the blocks.
         let size = outputs.len();
         (seed as usize % 40..size).step_by(40).for_each(|index| outputs[index] = None);
         let found = estimate(&design, &outputs);
-        assert!(found.failed_blocks > 100 && found.inputs.iter().all(|index| index.blocks > 900));
+        assert!(found.failed_blocks > 100 && found.inputs.iter().all(|index| index.blocks >= 768));
         for (held, (index, exact)) in held.iter_mut().zip(found.inputs.iter().zip(&function.total)) {
             *held += usize::from((index.total.low..=index.total.high).contains(exact));
         }
