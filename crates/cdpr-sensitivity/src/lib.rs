@@ -79,14 +79,16 @@ pub use law::fit::{DECIDED, Fit, best, fit, fit_all, ks_distance, undecided};
 pub use law::{Law, Support};
 pub use measure::allocation::allocate;
 pub use measure::convergence::{Target, Tightened, convergence, first_tight, until_tight};
-pub use measure::dgsm::{DerivativeMeasure, DerivativeMeasures, Slopes, dgsm, poincare_constant};
+pub use measure::dgsm::{DerivativeMeasure, DerivativeMeasures, Slopes, dgsm};
 pub use measure::effect::{
     Effect, EffectInterval, EffectSums, Effects, Replicate, effect_intervals, intervals_of_effects,
     student_effects,
 };
+pub use measure::expansion::basis::Polynomials;
 pub use measure::expansion::polynomial::{Power, Truncation};
 pub use measure::expansion::{Expansion, PairShare, Shares, Term, expansion};
 pub use measure::morris::{MorrisEffect, morris_effects};
+pub use measure::poincare::poincare_constant;
 pub use measure::regression::{Coefficient, Regression, rank_correlation, rank_regression, regression};
 pub use measure::sobol_indices::{PairIndex, SobolIndex, SobolIndices, sobol_indices};
 pub use sample::interval::Estimate;

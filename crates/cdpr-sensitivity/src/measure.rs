@@ -7,5 +7,6 @@ pub mod effect;
 pub mod expansion;
 mod least_squares;
 pub mod morris;
+pub mod poincare;
 pub mod regression;
 pub mod sobol_indices;

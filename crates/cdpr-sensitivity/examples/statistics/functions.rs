@@ -23,7 +23,7 @@ pub(crate) fn all() -> Vec<Function> {
     };
     let uniform = |min, max| Law::Uniform { min, max };
     let ranges = |ranges: &[[f64; 2]]| ranges.iter().map(|&[min, max]| uniform(min, max)).collect::<Vec<_>>();
-    let borehole = [
+    let of_borehole = [
         vec![Law::Normal { mean: 0.1, std: 0.016_181_2 }, Law::LogNormal { log_mean: 7.71, log_std: 1.0056 }],
         ranges(&[[63070.0, 115_600.0], [990.0, 1110.0], [63.1, 116.0]]),
         ranges(&[[700.0, 820.0], [1120.0, 1680.0], [9855.0, 12045.0]]),
@@ -45,11 +45,7 @@ pub(crate) fn all() -> Vec<Function> {
         function("Ishigami", vec![uniform(-PI, PI); 3], ishigami),
         function("Ishigami, 5 % fail", vec![uniform(-PI, PI); 3], failing),
         function("Sobol' g", vec![uniform(0.0, 1.0); 8], sobol_g),
-        function("Borehole", borehole.concat(), |x| {
-            let ratio = (x[1] / x[0]).ln();
-            let resistance = ratio * (1.0 + 2.0 * x[6] * x[2] / (ratio * x[0] * x[0] * x[7]) + x[2] / x[4]);
-            Some(2.0 * PI * x[2] * (x[3] - x[5]) / resistance)
-        }),
+        function("Borehole", of_borehole.concat(), |x| Some(borehole(x))),
         function("OTL circuit", ranges(&otl), |x| {
             let (base, gain) = (12.0 * x[1] / (x[0] + x[1]), x[5] * (x[4] + 9.0));
             let parts = (base + 0.74) * gain + 11.35 * x[2];
@@ -80,6 +76,13 @@ pub(crate) fn all() -> Vec<Function> {
             Some(x.iter().enumerate().map(|(i, x)| x / (1.0 + i as f64)).sum())
         }),
     ]
+}
+
+/// Flow of water through a borehole [m³/a].
+pub(crate) fn borehole(x: &[f64]) -> f64 {
+    let ratio = (x[1] / x[0]).ln();
+    let resistance = ratio * (1.0 + 2.0 * x[6] * x[2] / (ratio * x[0] * x[0] * x[7]) + x[2] / x[4]);
+    2.0 * PI * x[2] * (x[3] - x[5]) / resistance
 }
 
 fn ishigami(x: &[f64]) -> Option<f64> {

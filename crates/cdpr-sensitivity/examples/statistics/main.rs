@@ -6,6 +6,7 @@
 #![allow(clippy::print_stdout)]
 
 mod choice;
+mod expansions;
 mod functions;
 mod indices;
 
@@ -15,7 +16,8 @@ use cdpr_sensitivity::SensitivityError;
 type Table = fn(u64) -> Result<(), SensitivityError>;
 
 fn main() -> Result<(), SensitivityError> {
-    let tables: [(&str, Table); 2] = [("choice", choice::table), ("indices", indices::table)];
+    let tables: [(&str, Table); 3] =
+        [("choice", choice::table), ("indices", indices::table), ("expansions", expansions::table)];
     let mut arguments = std::env::args().skip(1);
     let (name, count) = (arguments.next(), arguments.next());
     let Some((_, table)) = tables.iter().find(|(table, _)| Some(*table) == name.as_deref()) else {

@@ -119,6 +119,28 @@ impl Input {
         Some(highest - lowest + 1.0)
     }
 
+    /// Levels of a stepped input and their probabilities. A continuous input has `None`, and so has one with
+    /// more than 2^16 levels that are likely to occur: its steps are negligible.
+    pub(crate) fn weighted_levels(&self) -> Option<Vec<(f64, f64)>> {
+        const MOST: f64 = 65_536.0;
+        const TAIL: f64 = f64::EPSILON;
+        let steps = self.steps?;
+        let (Steps::Nearest { step } | Steps::EqualMass { step }) = steps;
+        let (Support { min, max }, middle) = (self.law.support(), self.law.middle());
+        let of_quantile = |u: f64| ((self.law.quantile(u) - middle) / step).round();
+        let (lowest, highest) = self.grid(step);
+        let (first, last) = (lowest.max(of_quantile(TAIL)), highest.min(of_quantile(1.0 - TAIL)));
+        let level = |k: f64| {
+            let below = |k: f64| self.law.cdf(middle + (k - 0.5) * step);
+            let from = if k == lowest { 0.0 } else { below(k) };
+            let to = if k == highest { 1.0 } else { below(k + 1.0) };
+            let weight = if matches!(steps, Steps::EqualMass { .. }) { 1.0 } else { to - from };
+            (within(middle + k * step, min, max), weight)
+        };
+        let count = last - first + 1.0;
+        (count <= MOST).then(|| (0..count as usize).map(|k| level(first + k as f64)).collect())
+    }
+
     /// Outermost steps `k_min` and `k_max`.
     ///
     /// A remainder of 1e-9 steps counts as rounding of the range: 0.015 / 0.0006 is 25 steps.

@@ -6,30 +6,19 @@
 //! ```text
 //! ν_i = E (∂f/∂x_i)²                                                      (G1)
 //! T_i ≤ C_i ν_i / V                                                       (G2)
-//! uniform:      C = (max - min)² / π²                                     (G3)
-//! normal:       C = std²                                                  (G4)
-//! log-concave:  C = 1 / ρ(median)²,   ρ the density                       (G5)
 //! ```
 //!
-//! - (G2) to (G4): I. M. Sobol', S. Kucherenko, *Derivative based global sensitivity measures and their link
-//!   with global sensitivity indices*, Math. Comput. Simul. 79 (2009).
-//! - (G5): M. Lamboni, B. Iooss, A.-L. Popelin, F. Gamboa, *Derivative-based global sensitivity measures:
-//!   general links with Sobol' indices and numerical tests*, Math. Comput. Simul. 87 (2013).
-//!
-//! (G3) holds for every log-concave law on [min, max] (L. E. Payne, H. F. Weinberger, *An optimal Poincaré
-//! inequality for convex domains*, 1960), and (G4) for every truncation of a normal law (D. Bakry, M. Émery,
-//! *Diffusions hypercontractives*, 1985). The least constant that applies is used. Laws that are not
-//! log-concave have no constant here. The steps of an input are disregarded: C is the constant of the
-//! continuous law.
-
-use std::f64::consts::PI;
+//! I. M. Sobol', S. Kucherenko, *Derivative based global sensitivity measures and their link with global
+//! sensitivity indices*, Math. Comput. Simul. 79 (2009). The constants are the best ones
+//! ([`crate::measure::poincare`]). The steps of an input are disregarded: C is the constant of the continuous
+//! law.
 
 use serde::{Deserialize, Serialize};
 
 use crate::design::IndependentSample;
 use crate::design::input::Input;
 use crate::error::{SensitivityError, check_finite, check_length, check_level, check_range};
-use crate::law::{Law, Support};
+use crate::measure::poincare::poincare_constant;
 use crate::sample::interval::Estimate;
 use crate::sample::summary::{Spread, check_varies};
 
@@ -49,7 +38,7 @@ pub struct DerivativeMeasure {
     pub input: String,
     /// ν (G1) with Student's interval, in the square of the unit of the output per that of the input.
     pub mean_square: Estimate,
-    /// Bound (G2) on the total index, `None` for a law without a known constant.
+    /// Bound (G2) on the total index, `None` for a law without a constant.
     pub total_bound: Option<f64>,
 }
 
@@ -109,29 +98,4 @@ pub fn dgsm<D: IndependentSample>(
         variance,
         inputs: inputs.iter().enumerate().map(measure).collect::<Result<_, _>>()?,
     })
-}
-
-/// Least of the constants (G3) to (G5) that apply to a law. A law that is not log-concave has `None`.
-#[must_use]
-pub fn poincare_constant(law: &Law) -> Option<f64> {
-    let log_concave = match *law {
-        Law::Beta { alpha, beta, .. } => alpha >= 1.0 && beta >= 1.0,
-        Law::Weibull { shape, .. } => shape >= 1.0,
-        Law::LogNormal { .. } => false,
-        Law::Uniform { .. }
-        | Law::Normal { .. }
-        | Law::TruncatedNormal { .. }
-        | Law::Triangular { .. }
-        | Law::Logistic { .. }
-        | Law::Gumbel { .. }
-        | Law::Laplace { .. } => true,
-    };
-    let Support { min, max } = law.support();
-    let on_interval = ((max - min) / PI).powi(2);
-    let of_normal = match *law {
-        Law::Normal { std, .. } | Law::TruncatedNormal { std, .. } => std * std,
-        _ => f64::INFINITY,
-    };
-    let at_median = (-2.0 * law.ln_pdf(law.quantile(0.5))).exp();
-    log_concave.then(|| on_interval.min(of_normal).min(at_median))
 }

@@ -1,7 +1,7 @@
 //! Sparse polynomial chaos expansion: a polynomial model of the output, whose coefficients give all Sobol'
 //! indices.
 //!
-//! With the orthonormal products Ψ of [`crate::measure::expansion::polynomial`],
+//! With products Ψ of the orthonormal polynomials of the inputs ([`crate::measure::expansion::basis`]),
 //!
 //! ```text
 //! y = c_0 + Σ_α c_α Ψ_α(x),   V = Σ c_α²                                  (X1)
@@ -11,10 +11,11 @@
 //! ```
 //!
 //! B. Sudret, *Global sensitivity analysis using polynomial chaos expansions*, Reliab. Eng. Syst. Saf. 93
-//! (2008). The corrected leave-one-out error decides which terms are included and up to which degree (see
-//! `pursuit`). This error is the share of the variance that the model does not predict. The indices are those
+//! (2008). The corrected leave-one-out error decides which terms are included, up to which degree (see
+//! `pursuit`), and whether the polynomials are those of the values of the inputs or of their probabilities. This error is the share of the variance that the model does not predict. The indices are those
 //! of the polynomial model: they are as close to those of the true model as it is.
 
+pub mod basis;
 pub mod polynomial;
 mod pursuit;
 
@@ -25,7 +26,8 @@ use crate::design::IndependentSample;
 use crate::design::input::Input;
 use crate::design::observation::Observed;
 use crate::error::{SensitivityError, check_length, check_range, require};
-use crate::measure::expansion::polynomial::{Power, Truncation, polynomials};
+use crate::measure::expansion::basis::Polynomials;
+use crate::measure::expansion::polynomial::{Power, Truncation};
 use crate::measure::expansion::pursuit::pursue;
 
 /// Largest number of values of candidate terms (terms times outputs): 1 GiB.
@@ -45,6 +47,8 @@ pub struct Term {
 pub struct Expansion {
     /// Inputs, in the order of the design.
     pub inputs: Vec<Input>,
+    /// Orthonormal polynomials of each input.
+    pub polynomials: Vec<Polynomials>,
     /// Number of observations to which the expansion is fitted.
     pub observed: usize,
     /// Number of failed observations.
@@ -99,46 +103,63 @@ pub fn expansion<D: IndependentSample>(
     check_range("interactions", interactions as u64, 1, u64::MAX)?;
     let observed = Observed::new(design, outputs, Expansion::MIN_OUTPUTS)?;
     let inputs = design.inputs();
+    let values = inputs.par_iter().map(|input| Polynomials::new(input, max_degree)).collect();
+    let best = fit(inputs, &observed, values, truncation)?;
+    if !inputs.iter().any(Polynomials::has_choice) {
+        return Ok(best);
+    }
+    let of_probability = |input: &Input| match Polynomials::has_choice(input) {
+        true => Polynomials::of_probability(input, max_degree),
+        false => Polynomials::new(input, max_degree),
+    };
+    let other = fit(inputs, &observed, inputs.par_iter().map(of_probability).collect(), truncation)?;
+    Ok(if other.leave_one_out < best.leave_one_out { other } else { best })
+}
+
+/// Expansion of the degree with the least error, in these polynomials of the inputs.
+fn fit(
+    inputs: &[Input],
+    observed: &Observed,
+    polynomials: Vec<Polynomials>,
+    truncation: Truncation,
+) -> Result<Expansion, SensitivityError> {
     let n = observed.outputs.len();
     // values[input][observation][degree]
-    let of_input = |(input, column): (&Input, &Vec<f64>)| -> Vec<Vec<f64>> {
-        column.iter().map(|&x| polynomials(&input.law, x, max_degree)).collect()
+    let of_input = |(polynomials, column): (&Polynomials, &Vec<f64>)| -> Vec<Vec<f64>> {
+        column.iter().map(|&x| polynomials.values(x)).collect()
     };
-    let values: Vec<_> = inputs.par_iter().zip(&observed.columns).map(of_input).collect();
+    let values: Vec<_> = polynomials.par_iter().zip(&observed.columns).map(of_input).collect();
     let column = |powers: &Vec<Power>| -> Vec<f64> {
         let value = |i: usize| powers.iter().map(|power| values[power.input][i][power.degree]).product();
         (0..n).map(value).collect()
     };
+    // An input of m levels has no polynomials above the degree m - 1.
+    let exists = |power: &Power| power.degree <= polynomials[power.input].degree();
     let limit = MAX_VALUES / n;
-    let fit = |degree| -> Result<Expansion, SensitivityError> {
-        let products =
+    let of_degree = |degree| {
+        let mut products =
             truncation.products(inputs.len(), degree, limit).ok_or(SensitivityError::OutOfRange {
                 field: "candidate terms",
                 value: limit as u64 + 1,
                 minimum: 1,
                 maximum: limit as u64,
             })?;
+        products.retain(|powers| powers.iter().all(exists));
         let columns: Vec<Vec<f64>> = products.par_iter().map(column).collect();
         let found = pursue(&columns, &observed.outputs);
         let term = |(j, coefficient): (usize, f64)| Term { powers: products[j].clone(), coefficient };
-        Ok(Expansion {
-            inputs: inputs.to_vec(),
-            observed: n,
-            failed: observed.failed,
-            degree,
-            mean: found.constant,
-            terms: found.terms.into_iter().map(term).collect(),
-            leave_one_out: found.error,
-        })
+        Ok((degree, found.constant, found.terms.into_iter().map(term).collect::<Vec<_>>(), found.error))
     };
-    let mut best = fit(1)?;
-    for degree in 2..=max_degree {
-        let other = fit(degree)?;
-        if other.leave_one_out < best.leave_one_out {
+    let mut best = of_degree(1)?;
+    for degree in 2..=truncation.max_degree {
+        let other = of_degree(degree)?;
+        if other.3 < best.3 {
             best = other;
         }
     }
-    Ok(best)
+    let (degree, mean, terms, leave_one_out) = best;
+    let (inputs, failed) = (inputs.to_vec(), observed.failed);
+    Ok(Expansion { inputs, polynomials, observed: n, failed, degree, mean, terms, leave_one_out })
 }
 
 impl Expansion {
@@ -191,8 +212,7 @@ impl Expansion {
     /// [`SensitivityError::LengthMismatch`] unless the row has one element per input.
     pub fn predict(&self, row: &[f64]) -> Result<f64, SensitivityError> {
         check_length("row", row.len(), self.inputs.len())?;
-        let of_input = |(input, &x): (&Input, &f64)| polynomials(&input.law, x, self.degree);
-        let values: Vec<_> = self.inputs.iter().zip(row).map(of_input).collect();
+        let values: Vec<_> = self.polynomials.iter().zip(row).map(|(psi, &x)| psi.values(x)).collect();
         let of_term = |term: &Term| {
             let factors = term.powers.iter().map(|power| values[power.input][power.degree]);
             term.coefficient * factors.product::<f64>()

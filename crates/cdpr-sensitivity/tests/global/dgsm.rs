@@ -53,12 +53,11 @@ fn constants_are_those_of_the_literature_and_bound_the_variance_of_the_identity(
     let cases = [
         (Law::Uniform { min, max }, Some(range)),
         (Law::Normal { mean: 0.0, std: 0.7 }, Some(0.49)),
-        (Law::TruncatedNormal { mean: 0.0, std: 0.7, min, max }, Some(0.49)),
-        (Law::TruncatedNormal { mean: 0.0, std: 70.0, min, max }, Some(range)),
         // E. Bobkov: 4 scale², exact for Laplace's law.
         (Law::Laplace { location: 1.0, scale: 0.5 }, Some(1.0)),
         (Law::LogNormal { log_mean: 0.0, log_std: 1.0 }, None),
-        (Law::Beta { alpha: 0.5, beta: 2.0, min, max }, None),
+        (Law::Logistic { location: 0.0, scale: 0.5 }, Some(1.0)),
+        (Law::Gumbel { location: 0.0, scale: 0.5 }, Some(1.0)),
         (Law::Weibull { shape: 0.9, scale: 1.0 }, None),
     ];
     for (law, exact) in cases {
@@ -68,7 +67,21 @@ fn constants_are_those_of_the_literature_and_bound_the_variance_of_the_identity(
             assert_relative_eq!(constant, exact, max_relative = 1e-12);
         }
     }
+    let by_elements = [
+        (Law::TruncatedNormal { mean: 0.0, std: 1.0, min: -40.0, max: 50.0 }, 1.0),
+        (Law::TruncatedNormal { mean: 0.0, std: 7e4, min, max }, range),
+        (Law::Beta { alpha: 1.0, beta: 1.0, min, max }, range),
+        // The eigenfunctions are J0(√λ y) on both sides, 1 - (2 / 3 x²) of Laguerre, exponential tails.
+        (Law::Triangular { min: -1.0, mode: 0.0, max: 1.0 }, 2.404_825_557_695_773_f64.powi(-2)),
+        (Law::Weibull { shape: 2.0, scale: 3.0 }, 9.0 / 4.0),
+    ];
+    for (law, exact) in by_elements {
+        assert_relative_eq!(poincare_constant(&law).unwrap(), exact, max_relative = 3e-6);
+    }
+    let exponential = poincare_constant(&Law::Weibull { shape: 1.0, scale: 1.0 }).unwrap();
+    assert_relative_eq!(exponential, 4.0, max_relative = 1e-3);
     let others = [
+        Law::Beta { alpha: 0.5, beta: 2.0, min, max },
         Law::Triangular { min, mode: 0.0, max },
         Law::Beta { alpha: 2.0, beta: 5.0, min, max },
         Law::Weibull { shape: 2.0, scale: 1.0 },

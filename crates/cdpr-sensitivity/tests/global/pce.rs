@@ -112,16 +112,31 @@ fn normal_and_other_laws_have_polynomials_of_their_own() {
 }
 
 #[test]
-fn a_stepped_input_is_expanded_as_its_law() {
+fn a_stepped_input_is_expanded_in_polynomials_of_its_levels() {
     let law = Law::Uniform { min: -1.0, max: 1.0 };
     let steps = Steps::Nearest { step: 0.04 };
     let inputs = vec![Input::stepped("a", law, steps), Input::continuous("b", law)];
     let design = SobolDesign::scrambled(inputs, 256, 1).unwrap();
     let found = fit(&design, FULL, |x| 2.0 * x[0] + x[1] + x[0] * x[1]);
-    // Exact on the levels; their variance differs from 1/3 by (0.04 / 2)² / 2 of it.
     assert!(found.leave_one_out < 1e-24);
-    let variance = 4.0 / 3.0 + 1.0 / 3.0 + 1.0 / 9.0;
-    assert_relative_eq!(found.indices()[0].closed, 4.0 / 3.0 / variance, max_relative = 1e-10);
+    // 51 levels, of which the two at the ends have half the weight of the others.
+    let levels = (1.0 + 0.5 * 0.04_f64.powi(2)) / 3.0;
+    let variance = 4.0 * levels + 1.0 / 3.0 + levels / 3.0;
+    assert_relative_eq!(found.indices()[0].closed, 4.0 * levels / variance, max_relative = 1e-10);
+}
+
+#[test]
+fn a_sum_of_lognormal_inputs_is_exact_and_a_sum_of_logarithms_is_expanded_in_probabilities() {
+    let law = Law::LogNormal { log_mean: 0.0, log_std: 1.0 };
+    let inputs = vec![Input::continuous("a", law), Input::continuous("b", law)];
+    let design = SobolDesign::scrambled(inputs, 256, 1).unwrap();
+    let sum = fit(&design, FULL, |x| x[0] + x[1]);
+    let exact = 2.0 * 1.0_f64.exp() * 1.0_f64.exp_m1();
+    assert_relative_eq!(sum.variance(), exact, max_relative = 1e-10);
+    assert!(sum.polynomials.iter().all(|polynomials| polynomials.probability.is_none()));
+    let logarithms = fit(&design, FULL, |x| x[0].ln() + x[1].ln());
+    assert!(logarithms.polynomials.iter().all(|polynomials| polynomials.probability == Some(law)));
+    assert_relative_eq!(logarithms.variance(), 2.0, max_relative = 0.05);
 }
 
 #[test]

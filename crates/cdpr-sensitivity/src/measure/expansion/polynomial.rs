@@ -1,26 +1,13 @@
-//! Orthonormal polynomials of the laws, and the products of them from which an expansion chooses.
+//! Products of polynomials from which an expansion chooses.
 //!
 //! ```text
-//! uniform:  ξ = (2 x - min - max) / (max - min),   ψ_n = √(2n + 1) P_n(ξ)                   (Y1)
-//!           (n+1) P_(n+1) = (2n+1) ξ P_n - n P_(n-1)
-//! normal:   ξ = (x - mean) / std,   √(n+1) ψ_(n+1) = ξ ψ_n - √n ψ_(n-1)                     (Y2)
-//! others:   ξ = 2 F(x) - 1,   ψ_n as in (Y1)                                                (Y3)
-//! Ψ_α(x) = Π_i ψ_α_i(ξ_i),   (Σ α_i^q)^(1/q) ≤ p                                            (Y4)
+//! Ψ_α(x) = Π_i ψ_α_i(x_i),   (Σ α_i^q)^(1/q) ≤ p                          (K1)
 //! ```
 //!
-//! - (Y1) and (Y2) are Legendre's and Hermite's polynomials, with a mean square of 1 under their law: D. Xiu,
-//!   G. E. Karniadakis, *The Wiener-Askey polynomial chaos for stochastic differential equations*, SIAM J.
-//!   Sci. Comput. 24 (2002).
-//! - (Y3) is the isoprobabilistic transform to the uniform law.
-//! - (Y4) is the hyperbolic truncation of G. Blatman, B. Sudret, *Adaptive sparse polynomial chaos expansion
-//!   based on least angle regression*, J. Comput. Phys. 230 (2011). A smaller q gives fewer interactions.
-//!
-//! Steps are disregarded: the polynomials of a stepped input are those of its continuous law. Steps of h in a
-//! uniform range R change the mean squares by a relative (h / R)².
+//! (K1) is the hyperbolic truncation of G. Blatman, B. Sudret, *Adaptive sparse polynomial chaos expansion
+//! based on least angle regression*, J. Comput. Phys. 230 (2011). A smaller q gives fewer interactions.
 
 use serde::{Deserialize, Serialize};
-
-use crate::law::Law;
 
 /// Degree of one input in a product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -31,29 +18,7 @@ pub struct Power {
     pub degree: usize,
 }
 
-/// Polynomials `ψ_0` .. `ψ_degree` of a law at x, Eq. (Y1) to (Y3).
-pub(crate) fn polynomials(law: &Law, x: f64, degree: usize) -> Vec<f64> {
-    let (xi, hermite) = match *law {
-        Law::Normal { mean, std } => ((x - mean) / std, true),
-        Law::Uniform { min, max } => ((2.0 * x - min - max) / (max - min), false),
-        _ => (2.0 * law.cdf(x) - 1.0, false),
-    };
-    let mut values = vec![1.0];
-    let (mut before, mut last) = (0.0, 1.0);
-    for n in 0..degree {
-        let m = n as f64;
-        let next = if hermite {
-            (xi * last - m.sqrt() * before) / (m + 1.0).sqrt()
-        } else {
-            ((2.0 * m + 1.0) * xi * last - m * before) / (m + 1.0)
-        };
-        (before, last) = (last, next);
-        values.push(if hermite { next } else { (2.0 * m + 3.0).sqrt() * next });
-    }
-    values
-}
-
-/// Set of products from which an expansion chooses, Eq. (Y4).
+/// Set of products from which an expansion chooses, Eq. (K1).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Truncation {
