@@ -105,8 +105,8 @@ fn fits(sampling: &SamplingSummary) -> Markup {
         ]
     };
     let rows: Vec<_> = sampling.fits.iter().map(row).collect();
-    let caption = "Fitted laws and the probability of each family. The law is undecided unless one has 0.75. p comes \
-                   from a parametric bootstrap. Both are only indications, because Sobol' points are not \
+    let caption = "Fitted laws and the probability of each family. The law is undecided unless one has 0.75. \
+                   p comes from a parametric bootstrap. Both are only indications, because Sobol' points are not \
                    independent.";
     let parameters = format!("Parameters [{}]", sampling.output.unit());
     let head = ["Law", &parameters, "Probability", "AIC above the least", "Kolmogorov-Smirnov distance", "p"];

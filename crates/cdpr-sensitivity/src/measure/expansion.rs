@@ -12,8 +12,9 @@
 //!
 //! B. Sudret, *Global sensitivity analysis using polynomial chaos expansions*, Reliab. Eng. Syst. Saf. 93
 //! (2008). The corrected leave-one-out error decides which terms are included, up to which degree (see
-//! `pursuit`), and whether the polynomials are those of the values of the inputs or of their probabilities. This error is the share of the variance that the model does not predict. The indices are those
-//! of the polynomial model: they are as close to those of the true model as it is.
+//! `pursuit`), and whether the polynomials are those of the values of the inputs or of their probabilities.
+//! This error is the share of the variance that the model does not predict. The indices are those of the
+//! polynomial model: they are as close to those of the true model as it is.
 
 pub mod basis;
 pub mod polynomial;

@@ -1,7 +1,7 @@
 //! Best constants C of Poincaré's inequality `Var g(x) ≤ C E g'(x)²` of the laws.
 //!
-//! 1 / C is the smallest positive eigenvalue λ of `-(ρ g')' = λ ρ g` with `ρ g' = 0` at both ends, ρ being the
-//! density:
+//! 1 / C is the smallest positive eigenvalue λ of `-(ρ g')' = λ ρ g` with `ρ g' = 0` at both ends, where ρ is
+//! the density:
 //!
 //! ```text
 //! uniform:                    C = (max - min)² / π²                       (P1)
@@ -19,7 +19,8 @@
 //! their lengths h,
 //!
 //! ```text
-//! λ ρ(c_i) h_i g_i = ρ(e_(i+1)) (g_i - g_(i+1)) / (c_(i+1) - c_i) + ρ(e_i) (g_i - g_(i-1)) / (c_i - c_(i-1))   (P4)
+//! λ ρ(c_i) h_i g_i = ρ(e_(i+1)) (g_i - g_(i+1)) / (c_(i+1) - c_i)         (P4)
+//!                  + ρ(e_i) (g_i - g_(i-1)) / (c_i - c_(i-1))
 //! ```
 //!
 //! The second eigenvalue is found by bisection with Sturm's count (G. H. Golub, C. F. Van Loan, *Matrix
@@ -55,8 +56,8 @@ fn by_elements(law: &Law) -> f64 {
     let end = |i: usize| min + (max - min) * (0.5 * PI * i as f64 / ELEMENTS as f64).sin().powi(2);
     let ends: Vec<f64> = (0..=ELEMENTS).map(end).collect();
     let nodes: Vec<f64> = ends.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
-    // ρ / (c_(i+1) - c_i) between two nodes, over the masses of the lower and of the upper one. Ratios of ρ do
-    // not underflow where ρ does.
+    // ρ / (c_(i+1) - c_i) between two nodes, over the masses of the lower and of the upper one. Ratios of ρ
+    // do not underflow where ρ does.
     let couplings: Vec<[f64; 2]> = (1..ELEMENTS)
         .map(|i| {
             let over = |node: usize| {
