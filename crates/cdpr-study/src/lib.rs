@@ -70,7 +70,7 @@ pub use file::study_file::{
     AxisSpec, ComparisonSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec,
     Statistic, StudyFile, SurfaceSpec, json_schema,
 };
-pub use file::template::{TEMPLATE_NOTES, template, write_template};
+pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template};
 pub use file::value::Value;
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::input::read_text;

@@ -1,8 +1,9 @@
 //! The measures of sensitivity agree where they should, and one that fails leaves a note.
 
+use cdpr_robot::Robot;
 use cdpr_study::{
     InputMeasures, MEASURES, SensitivitySpec, SensitivitySummary, Session, Study, StudyError, Truncation,
-    measure, observe,
+    measure, observe, template, template_cost,
 };
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -162,4 +163,27 @@ fn invalid_settings_are_refused_with_field_value_and_remedy() {
 fn settings_left_out_are_those_of_the_data_file() {
     let spec = Study::open(path()).unwrap().file.sensitivity.unwrap();
     assert_eq!(spec, SensitivitySpec::default());
+}
+
+#[test]
+fn fewer_observations_shorten_all_measures_and_an_extension_keeps_them() {
+    let robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
+    let text = template(&robot, "cogiro", None, None).unwrap();
+    let cost = template_cost(&robot);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.json");
+    std::fs::write(&path, text).unwrap();
+    let mut study = Study::open(&path).unwrap();
+    let whole = study.file.sensitivity.unwrap();
+    // What the template says of itself is what a run makes.
+    let counts =
+        cost.lines().skip(1).map(|line| line.split_whitespace().next().unwrap().parse::<usize>().unwrap());
+    assert_eq!(counts.sum::<usize>(), study.all_observations().unwrap());
+    study.set_observations(512).unwrap();
+    let short = study.file.sensitivity.unwrap();
+    assert_eq!((whole.saltelli_blocks, short.saltelli_blocks), (128, 32));
+    assert_eq!((whole.morris_blocks, short.morris_blocks), (16, 4));
+    assert_eq!((whole.derivative_points, short.derivative_points), (32, 8));
+    study.extend(4096).unwrap();
+    assert_eq!(study.file.sensitivity, Some(short));
 }

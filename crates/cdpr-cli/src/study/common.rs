@@ -15,6 +15,8 @@ pub(crate) struct RunSettings {
     #[arg(long, default_value = "results")]
     pub(super) out: PathBuf,
     /// Number of observations of each sampling, in place of the file's.
+    ///
+    /// Fewer than the file's shorten the measures of sensitivity in proportion.
     #[arg(long)]
     observations: Option<usize>,
     #[command(flatten)]

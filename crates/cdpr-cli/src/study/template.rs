@@ -3,7 +3,7 @@
 use crate::arguments;
 use crate::error::ProgramError;
 use crate::output::patiently;
-use cdpr_study::{TEMPLATE_NOTES, open_robot, template, write_template};
+use cdpr_study::{TEMPLATE_NOTES, open_robot, template, template_cost, write_template};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -27,14 +27,15 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { robot: path, out, position, payload } = settings;
     let robot = open_robot(path)?;
     let text = |path: &str| patiently("trying poses", || template(&robot, path, *position, *payload));
+    let notes = format!("{TEMPLATE_NOTES}\n\n{}", template_cost(&robot));
     match out {
         Some(out) => {
             write_template(out, path, text)?;
-            println!("{} is a study of {}\n\n{TEMPLATE_NOTES}", out.display(), path.display());
+            println!("{} is a study of {}\n\n{notes}", out.display(), path.display());
         }
         None => {
             println!("{}", text(&path.display().to_string())?.trim_end());
-            eprintln!("{TEMPLATE_NOTES}");
+            eprintln!("{notes}");
         }
     }
     Ok(())

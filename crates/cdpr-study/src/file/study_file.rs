@@ -202,6 +202,16 @@ impl Default for SensitivitySpec {
 }
 
 impl SensitivitySpec {
+    /// Keeps this share of all observations, of blocks a power of two, and no fewer than each measure needs.
+    pub(crate) fn shorten(&mut self, share: f64) {
+        let fewer = |count: usize, least: usize| ((share * count as f64) as usize).max(least.min(count));
+        let power = |count: usize| 1 << count.max(1).ilog2();
+        self.observations = fewer(self.observations, 3);
+        self.saltelli_blocks = power(fewer(self.saltelli_blocks, SobolIndices::MIN_BLOCKS));
+        self.morris_blocks = power(fewer(self.morris_blocks, 2));
+        self.derivative_points = fewer(self.derivative_points, 2);
+    }
+
     /// The first invalid setting: field, value, and what is expected.
     pub(crate) fn invalid(&self) -> Option<(&'static str, String, String)> {
         const MOST: usize = 1 << 20;

@@ -29,6 +29,30 @@ The study runs as it is. Replace by what you know of your robot:
   seed                   the same seed gives the same numbers
 All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE --out results";
 
+// Few enough for any robot, and for Sobol' indices with intervals.
+const OBSERVATIONS: usize = 2048;
+const REPLICATES: usize = 4;
+const SALTELLI_BLOCKS: usize = 128;
+const MORRIS_BLOCKS: usize = 16;
+const DERIVATIVE_POINTS: usize = 32;
+/// Points of each axis of the surface.
+const AXIS: usize = 21;
+
+/// How many observations each part of the template makes, for people.
+pub fn template_cost(robot: &Robot) -> String {
+    let inputs = Parameter::of(robot).len();
+    let parts = [
+        (OBSERVATIONS, "sampling"),
+        (REPLICATES * OBSERVATIONS, "replicates (times the observations of the sampling)"),
+        (SALTELLI_BLOCKS * (inputs + 2), "Sobol' indices (saltelli_blocks times inputs + 2)"),
+        (MORRIS_BLOCKS * (inputs + 1), "Morris's effects (morris_blocks times inputs + 1)"),
+        (DERIVATIVE_POINTS, "exact derivatives (derivative_points), each as long as ten others"),
+        (AXIS * AXIS, "surface (points of x times points of y)"),
+    ];
+    let lines: String = parts.iter().map(|(count, part)| format!("\n  {count:>6}  {part}")).collect();
+    format!("Observations of each part; `--observations N` makes fewer of all but the surface:{lines}")
+}
+
 /// A study file for `robot`, in which `robot_path` names the robot file. Without a position it takes one on
 /// the vertical through the middle of the exit points, with feasible tensions; without a payload it takes a
 /// tenth of the platform's mass [kg].
@@ -92,7 +116,7 @@ pub fn template(
   "robot": {robot_path},
   "payload": {payload:?},
   "seed": 1,
-  "replicates": 4,
+  "replicates": {REPLICATES},
   "confidence": 0.95,
   "bootstrap_resamples": 200,
   "error_models": {{
@@ -111,16 +135,16 @@ pub fn template(
       "title": "All parameters",
       "pose": {{ "position": {position:?} }},
       "error_model": "tolerances",
-      "observations": 2048
+      "observations": {OBSERVATIONS}
     }}
   }},
-  "sensitivity": {{}},
+  "sensitivity": {{ "saltelli_blocks": {SALTELLI_BLOCKS}, "morris_blocks": {MORRIS_BLOCKS}, "derivative_points": {DERIVATIVE_POINTS} }},
   "surfaces": {{
     "modulus_mass": {{
       "title": "E and m alone",
       "pose": {{ "position": {position:?} }},
-      "x": {{ "parameter": "youngs_modulus", "min": -{modulus_half:?}, "max": {modulus_half:?}, "points": 21 }},
-      "y": {{ "parameter": "mass", "min": -{mass_half:?}, "max": {mass_half:?}, "points": 21 }}
+      "x": {{ "parameter": "youngs_modulus", "min": -{modulus_half:?}, "max": {modulus_half:?}, "points": {AXIS} }},
+      "y": {{ "parameter": "mass", "min": -{mass_half:?}, "max": {mass_half:?}, "points": {AXIS} }}
     }}
   }}
 }}

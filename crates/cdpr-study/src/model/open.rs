@@ -82,7 +82,8 @@ impl Study {
         self.validate()
     }
 
-    /// Gives every sampling this number of observations.
+    /// Gives every sampling this number of observations. If the file has more, the measures of sensitivity are
+    /// shortened in proportion.
     ///
     /// # Errors
     /// [`StudyError::Setting`] for fewer than 3.
@@ -91,11 +92,18 @@ impl Study {
             let expected = format!("at least {FEWEST_OBSERVATIONS}");
             return Err(StudyError::setting("observations", observations, expected));
         }
+        let most = self.file.samplings.values().map(|sampling| sampling.observations).max();
+        if let (Some(spec), Some(most)) = (&mut self.file.sensitivity, most)
+            && observations < most
+        {
+            spec.shorten(observations as f64 / most as f64);
+        }
         self.file.samplings.values_mut().for_each(|sampling| sampling.observations = observations);
         self.validate()
     }
 
-    /// Gives every sampling this number of observations, if that is no fewer than it has.
+    /// Gives every sampling this number of observations, if that is no fewer than it has. The measures of
+    /// sensitivity stay what they are.
     ///
     /// # Errors
     /// [`StudyError::Setting`] for fewer.
