@@ -499,6 +499,12 @@ def test_derivatives_and_workspaces_of_four_cables_take_free_coordinates(data):
     )
     difference = (heavier.rms - lighter.rms) / (2 * step)
     assert abs(found.rms[column] - difference) < 1e-3 * abs(difference)
+    deviations = numpy.zeros((2, len(robot.parameters)))
+    deviations[1, found.inputs.index("mass")] = 0.5
+    observed = robot.observe(pose, deviations, payload=5, free=free)
+    assert abs(observed.rms[0] - given.rms) < 1e-9
+    slope = found.rms[found.inputs.index("mass")]
+    assert abs((observed.rms[1] - observed.rms[0]) / 0.5 - slope) < 0.05 * abs(slope)
     space = robot.workspace(x=0.5, y=0.3, z=(1.5, 2.0, 2), payload=5, free=free)
     assert abs(space.rms[1] - given.rms) < 1e-12
     with pytest.raises(cdpr.InputError, match="free is"):

@@ -176,6 +176,7 @@ class Robot:
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
+        free: list[str] | None = None,
     ) -> Observations: ...
     def workspace(
         self,

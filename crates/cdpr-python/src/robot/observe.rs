@@ -2,8 +2,9 @@
 
 use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, run};
 use crate::robot::Robot;
-use cdpr_robot::Parameter;
-use cdpr_statics::{Observation, Observer};
+use crate::robot::inverse::coordinates;
+use cdpr_robot::{Parameter, Vector3};
+use cdpr_statics::{Load, Observer, StaticsError, deflection_free, held_at};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
@@ -37,9 +38,13 @@ impl Robot {
     /// pose: wanted pose under the platform's own weight, (3,) or (7,).
     /// deviations: deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
     /// payload, force, moment: one load for all, as in `deflection`.
+    /// free: names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
+    ///     one with fewer cables than free motions; deviating robots are wound for the pose that it finds,
+    ///     one at a time.
     ///
     /// Raises InputError; for one robot NoSolutionError.
-    #[pyo3(signature = (pose, deviations, *, payload=None, force=None, moment=None))]
+    #[pyo3(signature = (pose, deviations, *, payload=None, force=None, moment=None, free=None))]
+    #[allow(clippy::too_many_arguments)]
     fn observe(
         &self,
         py: Python,
@@ -48,7 +53,9 @@ impl Robot {
         payload: Option<Numbers>,
         force: Option<Numbers>,
         moment: Option<Numbers>,
+        free: Option<Vec<String>>,
     ) -> Answer<Observations> {
+        let free = coordinates(free)?;
         let pose = Rows::poses("pose", &pose)?;
         let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref())?;
         if !loads.cases([&pose])?.single {
@@ -65,17 +72,34 @@ impl Robot {
             )));
         }
         let cases = Cases::of(&[&rows])?;
-        let observer = Observer::new(&self.robot, &pose.pose(0)?, &loads.load(0)?)?;
+        let (wanted, load) = (pose.pose(0)?, loads.load(0)?);
+        let lanes = Observer::new(&self.robot, &wanted, &load)?;
+        let found = match &free[..] {
+            [] => wanted,
+            _ => held_at(&self.robot, &wanted, &Load::none(), &free)?.equilibrium.pose,
+        };
+        let alone = |row: &[f64]| {
+            let moved = self.robot.perturbed(row)?;
+            let deflection = deflection_free(&moved.robot, &found, &moved.tension_offsets, &load, &free)?;
+            Ok(deflection.displacement())
+        };
         let outcomes = run(py, |stop| {
-            let part = |part: &[f64]| {
-                if stop.load(Ordering::Relaxed) { Vec::new() } else { observer.observe_all(part) }
+            let part = |part: &[f64]| -> Vec<Result<Vector3<f64>, StaticsError>> {
+                if stop.load(Ordering::Relaxed) {
+                    Vec::new()
+                } else if free.is_empty() {
+                    let observed = lanes.observe_all(part).into_iter();
+                    observed.map(|robot| robot.map(|robot| robot.displacement)).collect()
+                } else {
+                    part.chunks(parameters).map(alone).collect()
+                }
             };
             rows.all().par_chunks(PART * parameters).flat_map_iter(part).collect::<Vec<_>>()
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
         Ok(Observations {
-            displacement: all.vector(|found| found.displacement.into())?,
-            rms: all.number(Observation::rms)?,
+            displacement: all.vector(|found: &Vector3<f64>| (*found).into())?,
+            rms: all.number(|found: &Vector3<f64>| found.norm())?,
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

@@ -1,4 +1,6 @@
 //! Robots and cables that come with the program: the files of `data/robots` and of `data/cables`.
+//!
+//! Links in the folder of this crate lead to them, so that they are part of it when it is packed.
 
 /// A file of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,7 +15,7 @@ macro_rules! files {
     ($folder:literal: $($name:literal)*) => {
         &[$(LibraryFile {
             name: $name,
-            text: include_str!(concat!("../../../../data/", $folder, "/", $name, ".json")),
+            text: include_str!(concat!("../../data/", $folder, "/", $name, ".json")),
         }),*]
     };
 }

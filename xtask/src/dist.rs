@@ -1,0 +1,155 @@
+//! `cargo xtask dist`: what a release consists of, in `target/dist`.
+//!
+//! The program, a wheel for all Pythons from 3.10 on, the packed crates, the book, the notes of the version
+//! from CHANGELOG.md, and the checksums of all files. A part whose tool is not installed is left out, and the
+//! last lines say so.
+
+use crate::cargo::{cargo_command, root};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// Makes one part in a folder.
+type Part = fn(&Path) -> Outcome;
+
+pub(crate) fn run(rest: &[String]) -> ExitCode {
+    if !rest.is_empty() {
+        eprintln!("error: `cargo xtask dist` is followed by nothing");
+        return ExitCode::FAILURE;
+    }
+    let folder = root().join("target/dist");
+    let parts: [(&str, Part); 5] =
+        [("program", program), ("notes", notes), ("crates", crates), ("wheel", wheel), ("book", book)];
+    let made = fs::remove_dir_all(&folder).or_else(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => Ok(()),
+        _ => Err(error),
+    });
+    if let Err(error) = made.and_then(|()| fs::create_dir_all(&folder)) {
+        eprintln!("error: {}: {error}", folder.display());
+        return ExitCode::FAILURE;
+    }
+    let mut left_out = Vec::new();
+    for (name, make) in parts {
+        eprintln!("{name}");
+        if let Err(error) = make(&folder) {
+            left_out.push(format!("{name}: {error}"));
+        }
+    }
+    if let Err(error) = checksums(&folder) {
+        left_out.push(format!("checksums: {error}"));
+    }
+    eprintln!("\n{} holds what could be made", folder.display());
+    left_out.iter().for_each(|reason| eprintln!("left out: {reason}"));
+    if left_out.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// Runs a command, and fails where it does.
+fn done(command: &mut Command) -> Outcome {
+    let program = command.get_program().display().to_string();
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("`{program}` has failed with {status}").into()),
+        Err(error) => Err(format!("`{program}` cannot be started ({error}): install it").into()),
+    }
+}
+
+/// The program, on Linux with everything linked in, so that it runs on any.
+fn program(folder: &Path) -> Outcome {
+    let host = host()?;
+    let mut build =
+        cargo_command(&["build", "--release", "--locked", "--package", "cdpr-cli", "--target", &host]);
+    // A third smaller, in twice the time.
+    build.env("CARGO_PROFILE_RELEASE_STRIP", "symbols").env("CARGO_PROFILE_RELEASE_LTO", "fat");
+    // On macOS the system's own library is there, and on Windows that of the compiler is linked in.
+    if !host.contains("apple") {
+        build.env("RUSTFLAGS", "-C target-feature=+crt-static");
+    }
+    done(&mut build)?;
+    let suffix = std::env::consts::EXE_SUFFIX;
+    let built = root().join("target").join(&host).join("release").join(format!("cdpr{suffix}"));
+    fs::copy(built, folder.join(format!("cdpr-{host}{suffix}")))?;
+    Ok(())
+}
+
+/// The target of this machine, as the compiler names it.
+fn host() -> Result<String, Box<dyn std::error::Error>> {
+    let found = Command::new("rustc").arg("--version").arg("--verbose").output()?;
+    let text = String::from_utf8(found.stdout)?;
+    let host = text.lines().find_map(|line| line.strip_prefix("host: "));
+    Ok(host.ok_or("`rustc --version --verbose` names no host")?.to_owned())
+}
+
+/// The first section of the changelog.
+fn notes(folder: &Path) -> Outcome {
+    let text = fs::read_to_string(root().join("CHANGELOG.md"))?;
+    let section = text.split("\n## ").nth(1).ok_or("CHANGELOG.md has no section")?;
+    Ok(fs::write(folder.join("NOTES.md"), format!("## {}\n", section.trim_end()))?)
+}
+
+/// The crates as a registry takes them. They name each other by versions, so none is built here.
+fn crates(folder: &Path) -> Outcome {
+    let into = folder.join("crates");
+    let mut package = cargo_command(&["package", "--workspace", "--locked", "--no-verify", "--allow-dirty"]);
+    // What is not published.
+    package.args(["xtask", "cdpr-tests", "cdpr-python"].map(|name| format!("--exclude={name}")));
+    // A folder without packages of other versions.
+    done(package.arg("--target-dir").arg(&into))?;
+    for file in fs::read_dir(into.join("package"))? {
+        let path = file?.path();
+        if let Some(name) = path.file_name().filter(|_| path.extension().is_some_and(|end| end == "crate")) {
+            fs::rename(&path, folder.join(name))?;
+        }
+    }
+    Ok(fs::remove_dir_all(into)?)
+}
+
+/// The wheel, by maturin in an environment of its own: it serves all Pythons from 3.10 on.
+fn wheel(folder: &Path) -> Outcome {
+    let environment = root().join("target/dist-python");
+    let program = |name: &str| {
+        let place = if cfg!(windows) { "Scripts" } else { "bin" };
+        Command::new(environment.join(place).join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
+    };
+    let python = if cfg!(windows) { "python" } else { "python3" };
+    done(Command::new(python).args(["-m", "venv", "--clear"]).arg(&environment))?;
+    done(program("python").args(["-m", "pip", "install", "--quiet", "maturin>=1.9.4,<2"]))?;
+    let manifest = root().join("crates/cdpr-python/Cargo.toml");
+    done(
+        program("maturin")
+            .args(["build", "--locked", "--manifest-path"])
+            .arg(manifest)
+            .arg("--out")
+            .arg(folder),
+    )
+}
+
+fn book(folder: &Path) -> Outcome {
+    done(
+        Command::new("mdbook")
+            .arg("build")
+            .arg(root().join("docs"))
+            .arg("--dest-dir")
+            .arg(folder.join("book")),
+    )
+}
+
+/// The checksums of all files beside them, as `sha256sum --check` reads them.
+fn checksums(folder: &Path) -> Outcome {
+    let mut names = Vec::new();
+    for file in fs::read_dir(folder)? {
+        let file = file?;
+        if file.file_type()?.is_file() {
+            names.push(file.file_name());
+        }
+    }
+    names.sort();
+    let (program, before): (_, &[&str]) =
+        if cfg!(target_os = "macos") { ("shasum", &["-a", "256"]) } else { ("sha256sum", &[]) };
+    let found = Command::new(program).args(before).args(names).current_dir(folder).output()?;
+    if !found.status.success() {
+        return Err(format!("`{program}`: {}", String::from_utf8_lossy(&found.stderr)).into());
+    }
+    Ok(fs::write(folder.join("SHA256SUMS"), found.stdout)?)
+}
