@@ -53,8 +53,8 @@ tasks:
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
                  panics, hangs or touches a file outside of its folder of results
-  dist           makes what a release consists of in target/dist: the program, on Linux one that runs on any, the
-                 wheel, the packed crates, the book, notes and checksums
+  dist           makes what a release consists of in target/dist: the program, on Linux one that runs on
+                 any, the wheel, the packed crates, the book, notes and checksums
   gallery        writes docs/robots.md, a picture and a table for each robot of the library
   schemas        writes the JSON Schemas of the file formats to docs/schemas
   help           prints this text";

@@ -85,8 +85,7 @@ fn difference(case: &Case, column: usize, h: f64) -> [(f64, f64); 2] {
     })
 }
 
-/// How many derivatives of a case the differences tell to 1e-4, and the largest error of these relative to the
-/// greatest change that an input of the same unit makes.
+/// How many derivatives of a case the differences tell to 1e-4, and the largest relative error of these.
 fn check(case: &Case) -> (usize, f64) {
     let name = &case.robot.name;
     let load = Load::payload(case.payload);

@@ -46,7 +46,7 @@ pub fn template_cost(robot: &Robot) -> String {
         (REPLICATES * OBSERVATIONS, "replicates (times the observations of the sampling)"),
         (SALTELLI_BLOCKS * (inputs + 2), "Sobol' indices (saltelli_blocks times inputs + 2)"),
         (MORRIS_BLOCKS * (inputs + 1), "Morris's effects (morris_blocks times inputs + 1)"),
-        (DERIVATIVE_POINTS, "exact derivatives (derivative_points), each as long as ten others"),
+        (DERIVATIVE_POINTS, "exact derivatives (derivative_points)"),
         (AXIS * AXIS, "surface (points of x times points of y)"),
     ];
     let lines: String = parts.iter().map(|(count, part)| format!("\n  {count:>6}  {part}")).collect();
