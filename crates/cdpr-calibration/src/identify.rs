@@ -54,6 +54,30 @@ pub enum Measurement {
     Lengths(f64),
 }
 
+impl Measurement {
+    /// Measurements by the names of their noise: position and rotation together, tensions, lengths.
+    ///
+    /// # Errors
+    /// [`CalibrationError::Invalid`] for another name, and for one of position and rotation alone.
+    pub fn named(named: &[(String, f64)]) -> Result<Vec<Self>, CalibrationError> {
+        let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, value)| *value);
+        const NAMES: [&str; 4] = ["position", "rotation", "tensions", "lengths"];
+        if let Some((name, value)) = named.iter().find(|(name, _)| !NAMES.contains(&name.as_str())) {
+            let expected = format!("one of {}", NAMES.join(", "));
+            return Err(CalibrationError::invalid(format!("noise {name}"), value, expected));
+        }
+        let pose = match (of("position"), of("rotation")) {
+            (Some(position), Some(rotation)) => Some(Self::Pose { position, rotation }),
+            (None, None) => None,
+            (Some(one), None) | (None, Some(one)) => {
+                return Err(CalibrationError::invalid("noise", one, "position and rotation together"));
+            }
+        };
+        let others = [of("tensions").map(Self::Tensions), of("lengths").map(Self::Lengths)];
+        Ok(pose.into_iter().chain(others.into_iter().flatten()).collect())
+    }
+}
+
 /// Poses at which a robot with uncertain parameters is measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {

@@ -7,9 +7,11 @@
 //! | what do measurements of this kind tell at all? | [`Calibration::identify`] |
 //! | which poses should be measured? | [`Calibration::plan`], [`Calibration::best_poses`] |
 //! | what would a campaign read? | [`simulate`] |
+//! | all of a calibration, from a table to a folder of results | [`carry_out`] |
 #![warn(missing_docs)]
 
 mod campaign;
+mod carry_out;
 mod error;
 mod fit;
 mod fitted;
@@ -24,6 +26,7 @@ mod table;
 mod unknowns;
 
 pub use campaign::{Noise, Quantity, Reading, Row};
+pub use carry_out::{Calibrated, Campaign, carry_out};
 pub use error::CalibrationError;
 pub use fit::{cross_validated, fit};
 pub use fitted::{Difference, Estimate, Fit, FitSettings, RobustLoss, UnidentifiableCombination};

@@ -238,6 +238,10 @@ impl Fit {
             }
             let estimates: Vec<_> = inputs.iter().map(|input| &self.estimates[*input]).collect();
             let known = estimates.iter().all(|estimate| estimate.std.is_some());
+            let alone = match estimates[..] {
+                [one] if one.prior_std.is_none() => one.std.map(|std| std * scale),
+                _ => None,
+            };
             let prior_std = prior.as_ref().map(|prior| prior[(index, index)].sqrt()).filter(|std| *std > 0.0);
             let before = parameter.nominal(context.nominal);
             let moved = self.deviations[index];
@@ -247,7 +251,7 @@ impl Fit {
                     unit: parameter.unit(),
                     before,
                     after: before + moved,
-                    std: known.then(|| covariance[(index, index)].max(0.0).sqrt()),
+                    std: alone.or(known.then(|| covariance[(index, index)].max(0.0).sqrt())),
                     prior_std,
                     moved_by_prior_std: prior_std.map(|std| moved / std),
                     identifiable: estimates.iter().all(|estimate| estimate.is_identifiable()),

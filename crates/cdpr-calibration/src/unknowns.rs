@@ -57,8 +57,14 @@ impl SensorError {
     }
 
     /// The one with this name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|error| error.name() == name)
+    ///
+    /// # Errors
+    /// [`CalibrationError::Invalid`] for another name.
+    pub fn from_name(name: &str) -> Result<Self, CalibrationError> {
+        Self::ALL.into_iter().find(|error| error.name() == name).ok_or_else(|| {
+            let names: Vec<_> = Self::ALL.iter().map(|error| error.name()).collect();
+            CalibrationError::invalid("error of sensors", name, format!("one of {}", names.join(", ")))
+        })
     }
 
     /// The names of its numbers for `n` cables and `markers` markers.
@@ -196,6 +202,27 @@ impl Unknowns {
             markers: Vec::new(),
             marker_count: 0,
         })
+    }
+
+    /// The inputs of an error model or, without one, the named parameters or groups, `none` or the usual ones,
+    /// where each of the groups `share` has one deviation.
+    ///
+    /// # Errors
+    /// As [`Unknowns::free`] and [`Unknowns::share`].
+    pub fn sought(
+        robot: &Robot,
+        prior: Option<&ErrorModel>,
+        names: &[&str],
+        share: &[&str],
+    ) -> Result<Self, CalibrationError> {
+        let mut unknowns = match (prior, names) {
+            (Some(model), _) => Self::of_model(model),
+            (None, []) => Self::usual(robot),
+            (None, ["none"]) => Self::free(robot, &[])?,
+            (None, names) => Self::free(robot, names)?,
+        };
+        share.iter().try_for_each(|group| unknowns.share(robot, group))?;
+        Ok(unknowns)
     }
 
     /// Gives all parameters of a group one deviation in common: one unknown with the name of the group.

@@ -102,6 +102,93 @@ fn the_truth_lies_in_the_stated_regions_as_often_as_stated() {
     }
 }
 
+/// How a campaign is made worse than its model.
+#[derive(Clone, Copy, Debug)]
+enum Trouble {
+    /// 5 % of the numbers are off by up to 50 standard deviations; the loss is Cauchy's.
+    Outliers,
+    /// Winches count from elsewhere (20 mm): the offsets are sought, too.
+    Biases,
+    /// The truth is 3 tolerances off in every parameter, which have no prior.
+    FarStart,
+}
+
+#[test]
+fn campaigns_with_outliers_biases_and_far_starts_converge_or_say_that_they_have_not() {
+    let campaigns = campaigns(2);
+    for case in cases() {
+        for trouble in [Trouble::Outliers, Trouble::Biases, Trouble::FarStart] {
+            let (mut inside, mut all, mut converged, mut steps) = (0, 0, 0, 0);
+            let (mut chi, mut degrees) = (0.0, 0);
+            let mut reasons: Vec<String> = Vec::new();
+            for seed in 0..campaigns {
+                let mut random = ChaCha8Rng::seed_from_u64(1000 + seed);
+                let mut truth = truth(&case, 300 + seed);
+                if matches!(trouble, Trouble::FarStart) {
+                    let sign = |t: &f64| 3.0 * f64::signum(*t);
+                    truth = truth.iter().zip(&case.stds).map(|(t, std)| sign(t) * std).collect();
+                }
+                let mut rows = campaign(&case, &truth, 40, EXTERNAL, seed);
+                let mut unknowns = Unknowns::of_model(&case.model());
+                let mut settings = FitSettings::default();
+                match trouble {
+                    Trouble::Outliers => {
+                        settings.loss = RobustLoss::Cauchy;
+                        for reading in rows.iter_mut().flat_map(|row| &mut row.readings) {
+                            let is_off = random.random_range(0.0..1.0) < 0.05;
+                            if is_off && !matches!(reading.quantity, Quantity::Rotation(_)) {
+                                reading.value += reading.std * random.random_range(-50.0..50.0);
+                            }
+                        }
+                    }
+                    Trouble::Biases => {
+                        let n = case.robot.cables.len();
+                        let offset: Vec<f64> = (0..n).map(|_| random.random_range(-0.02..0.02)).collect();
+                        for row in &mut rows {
+                            let lengths = row.lengths.as_mut().unwrap().iter_mut();
+                            lengths.zip(&offset).for_each(|(length, offset)| *length += offset);
+                        }
+                        unknowns.add(&case.robot, SensorError::LengthOffset, None, 0);
+                    }
+                    Trouble::FarStart => {
+                        let parameters = Parameter::of(&case.robot);
+                        let names = parameters.iter().zip(&case.stds).filter(|(_, std)| **std > 0.0);
+                        let names: Vec<String> = names.map(|(p, _)| p.to_string()).collect();
+                        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+                        unknowns = Unknowns::free(&case.robot, &names).unwrap();
+                    }
+                }
+                match fit(&case.robot, &rows, &unknowns, &settings) {
+                    Ok(found) => {
+                        converged += u64::from(found.converged);
+                        steps = steps.max(found.steps);
+                        if !found.converged {
+                            reasons.push(format!("{:.0e} std away", found.distance));
+                        } else {
+                            let covered = covered(&found, &truth);
+                            chi += found.chi_square;
+                            degrees += found.degrees_of_freedom;
+                            inside += covered.iter().filter(|inside| **inside).count();
+                            all += covered.len();
+                        }
+                    }
+                    Err(error) => reasons.push(error.to_string()),
+                }
+            }
+            println!(
+                "{}, {trouble:?}: {converged} of {campaigns} converged, {:.2} % of {all} in their regions, \
+                 chi-square per degree {:.3}, {steps} steps at most; {reasons:?}",
+                case.name,
+                100.0 * inside as f64 / all as f64,
+                chi / degrees as f64
+            );
+            // All end, most at a minimum.
+            assert_eq!(converged as usize + reasons.len(), campaigns as usize);
+            assert!(2 * converged >= campaigns, "{}, {trouble:?}: {reasons:?}", case.name);
+        }
+    }
+}
+
 #[test]
 fn outliers_are_named_and_hardly_count_under_a_robust_loss() {
     let case = &cases()[0];

@@ -68,11 +68,11 @@ fn bad_input_is_named_with_what_would_be_right() {
         (vec![grid, NOISE[0], NOISE[1], "--uncertainty", "a"], "`a`: expected name=number"),
         (
             vec![grid, NOISE[0], "position=1e-4", UNCERTAINTY[0], UNCERTAINTY[1]],
-            "--noise: expected position and rotation together",
+            "--noise is 0.0001: expected position and rotation together",
         ),
         (
             vec![grid, NOISE[0], "force=1", UNCERTAINTY[0], UNCERTAINTY[1]],
-            "--noise force=1: expected one of position",
+            "--noise force is 1: expected one of position",
         ),
         (
             vec![grid, NOISE[0], "lengths=0", UNCERTAINTY[0], UNCERTAINTY[1]],

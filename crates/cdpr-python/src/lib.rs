@@ -7,6 +7,7 @@
 //! `convert::answer`). Cases are computed in parallel without Python's lock (`convert::threads`). What a
 //! model refuses becomes an exception (`convert::error`).
 
+mod calibration;
 mod catenary;
 mod convert;
 mod robot;
@@ -18,6 +19,8 @@ use pyo3::prelude::*;
 /// Native half of the package cdpr.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use crate::calibration::{calibrate, calibration_plan, identify};
     #[pymodule_export]
     use crate::catenary::{Catenary, catenary};
     #[pymodule_export]

@@ -45,11 +45,12 @@ impl Problem<'_> {
             .map(|j| {
                 let unknown = &unknowns.all[j];
                 let std_of_data = of_data(j);
-                let told = unknown.prior.is_some() || std_of_data.is_some();
+                // Without a prior, what a combination that keeps its value adds counts, too.
+                let with_prior = unknown.prior.map(|_| covariance[(j, j)].max(0.0).sqrt());
                 Estimate {
                     name: unknown.name.clone(),
                     value: state.shared.x[j],
-                    std: told.then(|| covariance[(j, j)].max(0.0).sqrt()),
+                    std: with_prior.or(std_of_data),
                     std_of_data,
                     prior_std: unknown.prior.map(|[_, std]| std),
                 }

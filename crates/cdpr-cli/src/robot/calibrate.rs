@@ -4,14 +4,13 @@ use crate::arguments::{self, Format, Named, Preference, Threads};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use cdpr_calibration::{
-    CalibrationSummary, Context, Difference, Fit, FitSettings, Measurements, RobustLoss, SensorError,
-    Unknowns, begin_calibration, cross_validated, fit, read_measurements, write_calibration,
+    Calibrated, CalibrationError, CalibrationSummary, Campaign, Fit, FitSettings, Measurements, RobustLoss,
+    SensorError, Unknowns, carry_out, read_measurements,
 };
 use cdpr_report::calibration_report;
 use cdpr_robot::{Robot, Vector3, rounded, shown};
 use cdpr_study::{ErrorModel, InputKind, Study, open_errors, read_text};
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// The robot, the measurements and what is sought.
 #[derive(clap::Args)]
@@ -109,17 +108,22 @@ impl Sought {
         prior: Option<&ErrorModel>,
     ) -> Result<Unknowns, ProgramError> {
         let names: Vec<&str> = self.parameters.iter().map(String::as_str).collect();
-        let mut unknowns = match (prior, &names[..]) {
-            (Some(model), _) => Unknowns::of_model(model),
-            (None, []) => Unknowns::usual(robot),
-            (None, ["none"]) => Unknowns::free(robot, &[])?,
-            (None, names) => Unknowns::free(robot, names)?,
-        };
-        for group in &self.share {
-            unknowns.share(robot, group)?;
-        }
-        Ok(unknowns)
+        let share: Vec<&str> = self.share.iter().map(String::as_str).collect();
+        Ok(Unknowns::sought(robot, prior, &names, &share)?)
     }
+}
+
+/// Errors of sensors with the standard deviation of a prior, if it is given: `length_offset,drum_scale=0.01`.
+pub(crate) fn sensor_errors(texts: &[String]) -> Result<Vec<(SensorError, Option<f64>)>, ProgramError> {
+    let of = |text: &String| {
+        let (name, std) = match text.split_once('=') {
+            Some((name, std)) => (name, Some(arguments::payload(std).map_err(ProgramError::Usage)?)),
+            None => (text.as_str(), None),
+        };
+        let error = SensorError::from_name(name.trim());
+        Ok((error.map_err(|error| ProgramError::Usage(format!("--unknown: {error}")))?, std))
+    };
+    texts.iter().map(of).collect()
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
@@ -132,30 +136,24 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let noise = settings.noise.as_ref().map_or(&[][..], |Named(named)| named);
     let measured = read_measurements(&text, &robot, noise).map_err(&in_file)?;
     let unknowns = settings.unknowns(&robot, prior.as_ref(), &measured)?;
-    let fit_settings = settings.fit();
-    let folder = begin_calibration(&settings.out)?;
-    let clock = Instant::now();
-    let rows = &measured.rows;
-    let found = patiently("calibrating", || fit(&robot, rows, &unknowns, &fit_settings)).map_err(&in_file)?;
-    let seconds = clock.elapsed().as_secs_f64();
-    let folds = settings.folds.min(rows.len());
-    let predicted: Option<Vec<Difference>> = if folds < 2 {
-        None
-    } else {
-        patiently("predicting", || cross_validated(&robot, rows, &unknowns, &fit_settings, folds)).ok()
-    };
-    let context = Context {
-        nominal: &robot,
-        prior: prior.as_ref(),
-        noise_is_stated: measured.noise_is_stated,
-        predicted: predicted.as_deref(),
-        starts: settings.starts.max(1),
-        rows: rows.len(),
-    };
-    let summary = found.summary(&context, rows);
-    let report = calibration_report(&robot, &summary, &found);
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    write_calibration(&folder, &found, &summary, &context, &name, Some(&report))?;
+    let campaign = Campaign {
+        robot: &robot,
+        prior: prior.as_ref(),
+        unknowns: &unknowns,
+        measured: &measured,
+        name: &name,
+        settings: settings.fit(),
+        folds: settings.folds,
+    };
+    let Calibrated { fit: found, summary, seconds } =
+        patiently("calibrating", || carry_out(&campaign, &settings.out, calibration_report)).map_err(
+            |error| match error {
+                // Of the folder of results.
+                CalibrationError::Study(error) => error.into(),
+                error => in_file(error),
+            },
+        )?;
     settings.format.print(&summary, |summary| {
         print(summary, &found);
         println!("fitted in {seconds:.3} s; results in {}", settings.out.display());
@@ -171,16 +169,7 @@ impl Settings {
         measured: &Measurements,
     ) -> Result<Unknowns, ProgramError> {
         let mut unknowns = self.sought.unknowns(robot, prior)?;
-        for text in &self.unknown {
-            let (name, std) = match text.split_once('=') {
-                Some((name, std)) => (name, Some(arguments::payload(std).map_err(ProgramError::Usage)?)),
-                None => (text.as_str(), None),
-            };
-            let Some(error) = SensorError::from_name(name.trim()) else {
-                let names: Vec<_> = SensorError::ALL.iter().map(|error| error.name()).collect();
-                let names = names.join(", ");
-                return Err(ProgramError::Usage(format!("--unknown {name}: expected one of {names}")));
-            };
+        for (error, std) in sensor_errors(&self.unknown)? {
             unknowns.add(robot, error, std, measured.markers);
         }
         unknowns.set_markers(self.markers.iter().map(|marker| Vector3::from(*marker)).collect());

@@ -4,12 +4,12 @@ use crate::arguments::{self, Format, FreeArguments, LoadArguments, Named, Prefer
 use crate::error::ProgramError;
 use crate::output::{patiently, progress, table};
 use crate::poses;
-use crate::robot::calibrate::Sought;
+use crate::robot::calibrate::{Sought, sensor_errors};
 use cdpr_calibration::{
     AtWork, Calibration, Combination, Criterion, Identifiability, Measurement, Noise, ParameterValue,
-    PosePlan, Quality, Simulated, simulate, write_measurements,
+    PosePlan, Quality, SensorError, Simulated, drawn_errors, simulate, write_measurements,
 };
-use cdpr_robot::{Parameter, Pose, Robot, rounded, shown};
+use cdpr_robot::{CableEnd, Parameter, Pose, Robot, Vector3, rounded, shown};
 use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, Grid, write_text};
 use clap::Subcommand;
@@ -155,6 +155,12 @@ enum OfWork {
     Deflection,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum CellsAt {
+    Platform,
+    Winch,
+}
+
 /// A robot that deviates from its file, and what is measured.
 #[derive(clap::Args)]
 pub(crate) struct SimulateSettings {
@@ -167,6 +173,17 @@ pub(crate) struct SimulateSettings {
     /// Noise of the sensors that are there: position=1e-4,rotation=1e-4,length=1e-4,tension=5.
     #[arg(long, value_parser = arguments::named)]
     noise: Named,
+    /// Errors of the sensors to draw, with their standard deviations: length_offset=0.01,tension_bias=20.
+    ///
+    /// The names are those of `cdpr calibrate --unknown`.
+    #[arg(long, value_name = "ERRORS", value_delimiter = ',')]
+    unknown: Vec<String>,
+    /// Where a marker stands on the platform: x,y,z [m], once for each in their order.
+    #[arg(long = "marker", value_parser = arguments::components::<3>, allow_hyphen_values = true)]
+    markers: Vec<[f64; 3]>,
+    /// Where the load cells sit.
+    #[arg(long, value_enum, default_value_t = CellsAt::Platform)]
+    tension_at: CellsAt,
     #[command(flatten)]
     load: LoadArguments,
     #[command(flatten)]
@@ -299,6 +316,15 @@ fn simulated(settings: &SimulateSettings) -> Result<(), ProgramError> {
     let Named(noise) = &settings.noise;
     let noise = Noise::named(noise)?;
     let deviations = cdpr_calibration::drawn(&model, settings.seed);
+    let markers: Vec<Vector3<f64>> = settings.markers.iter().map(|marker| Vector3::from(*marker)).collect();
+    let errors = sensor_errors(&settings.unknown)?;
+    let sized = |(error, std): (SensorError, Option<f64>)| {
+        let name = error.name();
+        let missing = || ProgramError::Usage(format!("--unknown {name}: expected {name}=STD"));
+        Ok((error, std.ok_or_else(missing)?))
+    };
+    let errors: Vec<_> = errors.into_iter().map(sized).collect::<Result<_, ProgramError>>()?;
+    let errors = drawn_errors(&robot, &errors, markers.len(), settings.seed);
     let rows = simulate(&Simulated {
         nominal: &robot,
         deviations: &deviations,
@@ -306,9 +332,12 @@ fn simulated(settings: &SimulateSettings) -> Result<(), ProgramError> {
         free: &settings.free.free,
         load: settings.load.load(),
         noise,
-        markers: &[],
-        errors: &[],
-        tension_at: cdpr_robot::CableEnd::Anchor,
+        markers: &markers,
+        errors: &errors,
+        tension_at: match settings.tension_at {
+            CellsAt::Platform => CableEnd::Anchor,
+            CellsAt::Winch => CableEnd::Exit,
+        },
         seed: settings.seed,
     })?;
     let (header, lines) = write_measurements(&rows);
@@ -425,21 +454,7 @@ fn print_plan(robot: &Robot, output: &Plan) {
 }
 
 fn measurements(Named(named): &Named) -> Result<Vec<Measurement>, ProgramError> {
-    let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, value)| *value);
-    let pose = match (of("position"), of("rotation")) {
-        (Some(position), Some(rotation)) => Some(Measurement::Pose { position, rotation }),
-        (None, None) => None,
-        _ => return Err(ProgramError::Usage("--noise: expected position and rotation together".to_owned())),
-    };
-    let all = ["position", "rotation", "tensions", "lengths"];
-    if let Some((name, value)) = named.iter().find(|(name, _)| !all.contains(&name.as_str())) {
-        return Err(ProgramError::Usage(format!(
-            "--noise {name}={value}: expected one of {}",
-            all.join(", ")
-        )));
-    }
-    let others = [of("tensions").map(Measurement::Tensions), of("lengths").map(Measurement::Lengths)];
-    Ok(pose.into_iter().chain(others.into_iter().flatten()).collect())
+    Measurement::named(named).map_err(|error| ProgramError::Usage(format!("--{error}")))
 }
 
 /// The results.

@@ -32,7 +32,7 @@ from .errors import CdprError, FileError, InputError, NoSolutionError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from . import study
+    from . import calibration, study
 
 __all__ = [
     "Catenary",
@@ -50,6 +50,7 @@ __all__ = [
     "Stiffness",
     "Workspace",
     "__version__",
+    "calibration",
     "catenary",
     "errors",
     "sensitivity",
@@ -58,9 +59,9 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    # `cdpr.study` is loaded when it is first used: the modules that it needs take longer than all the rest.
-    if name == "study":
+    # These are loaded when they are first used: the modules that they need take longer than all the rest.
+    if name in ("calibration", "study"):
         import importlib
 
-        return importlib.import_module("cdpr.study")
+        return importlib.import_module(f"cdpr.{name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -26,8 +26,11 @@ __all__ = [
     "VERSION",
     "Workspace",
     "begin",
+    "calibrate",
+    "calibration_plan",
     "carry_out",
     "catenary",
+    "identify",
     "make_shard",
     "observations",
     "open_results",
@@ -589,3 +592,41 @@ def observations(
 ) -> tuple[list[str], _Floats, list[str], _Floats, list[str | None]]: ...
 def open_results(out: _Path) -> None: ...
 def status(out: _Path) -> str: ...
+def calibrate(
+    robot: Robot,
+    measurements: _Path,
+    out: _Path,
+    noise: list[tuple[str, float]],
+    model: _Path | None,
+    parameters: list[str],
+    share: list[str],
+    unknown: list[tuple[str, float | None]],
+    markers: Any,
+    loss: str,
+    starts: int,
+    seed: int,
+    only_identifiable: bool,
+    folds: int,
+    threads: int | None,
+) -> str: ...
+def identify(
+    robot: Robot,
+    poses: ArrayLike,
+    uncertainty: list[tuple[str, float]],
+    noise: list[tuple[str, float]],
+    payload: float,
+    free: list[str] | None,
+) -> str: ...
+def calibration_plan(
+    robot: Robot,
+    poses: ArrayLike,
+    uncertainty: list[tuple[str, float]],
+    noise: list[tuple[str, float]],
+    count: int,
+    criterion: str,
+    work: ArrayLike | None,
+    of: str,
+    payload: float,
+    free: list[str] | None,
+    seed: int,
+) -> str: ...

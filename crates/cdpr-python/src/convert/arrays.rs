@@ -203,6 +203,11 @@ impl Rows {
         self.row(case)[0]
     }
 
+    /// Number of rows.
+    pub(crate) fn number(&self) -> usize {
+        self.count.unwrap_or(1)
+    }
+
     /// The pose of a case.
     pub(crate) fn pose(&self, case: usize) -> Result<Pose, StaticsError> {
         let row = self.row(case);

@@ -1,6 +1,7 @@
 //! Exceptions: the classes of `cdpr.errors`, with the sentences of the libraries.
 
 use cdpr_cable::CableError;
+use cdpr_calibration::CalibrationError;
 use cdpr_robot::RobotError;
 use cdpr_sensitivity::SensitivityError;
 use cdpr_statics::StaticsError;
@@ -117,6 +118,19 @@ impl From<SensitivityError> for Raised {
         match error {
             SensitivityError::NotConverged { .. } => Self::NoSolution { kind: "not_converged", message },
             _ => Self::Input(message),
+        }
+    }
+}
+
+impl From<CalibrationError> for Raised {
+    fn from(error: CalibrationError) -> Self {
+        match error {
+            CalibrationError::Study(error) => error.into(),
+            CalibrationError::Statics(error) => error.into(),
+            error @ CalibrationError::Row { .. } => {
+                Self::NoSolution { kind: error.kind(), message: error.to_string() }
+            }
+            error => Self::Input(error.to_string()),
         }
     }
 }

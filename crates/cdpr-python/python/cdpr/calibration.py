@@ -1,0 +1,164 @@
+"""Calibration: from measurements to a better robot, and to the accuracy that is left.
+
+The files are those of `cdpr calibrate`, byte for byte.
+
+>>> import cdpr
+>>> robot = cdpr.Robot.from_file("data/robots/caroca.json")
+>>> summary = cdpr.calibration.calibrate(
+...     robot,
+...     "measurements.csv",
+...     out="calibrated",
+...     model="data/calibration/caroca-tolerances.json",
+...     noise={"position": 1e-4, "rotation": 1e-4, "length": 1e-4},
+... )
+>>> summary["parameters"]["a1.x"]["after"]
+"""
+
+from __future__ import annotations
+
+import json
+from os import PathLike
+from typing import Any, Mapping, Optional, Sequence, Union
+
+from numpy.typing import ArrayLike
+
+from ._core import Robot
+from ._core import calibrate as _calibrate
+from ._core import calibration_plan as _plan
+from ._core import identify as _identify
+
+__all__ = ["calibrate", "calibration_plan", "identify"]
+
+_Path = Union[str, "PathLike[str]"]
+
+
+def calibrate(
+    robot: Robot,
+    measurements: _Path,
+    out: _Path,
+    *,
+    noise: Mapping[str, float] = {},
+    model: Optional[_Path] = None,
+    parameters: Sequence[str] = (),
+    share: Sequence[str] = (),
+    unknown: Mapping[str, Optional[float]] = {},
+    markers: Sequence[Sequence[float]] = (),
+    loss: str = "squares",
+    starts: int = 1,
+    seed: int = 1,
+    only_identifiable: bool = False,
+    folds: int = 5,
+    threads: Optional[int] = None,
+) -> dict[str, Any]:
+    """Fit the parameters of a robot to measurements; write all results to a folder and return the summary.
+
+    measurements: CSV with units in its header, or JSON, as `cdpr calibrate` reads them.
+    out: folder of the results; made if missing.
+    noise: standard deviations of the sensors [SI units]: {"position": 1e-4, "length": 1e-4}.
+    model: file of an error model with the tolerances, the prior; without one all anchor and exit points,
+        mass and modulus are sought without prior.
+    parameters: parameters or groups that are sought without prior, in place of a model.
+    share: groups of parameters with one deviation in common.
+    unknown: errors of sensors that are sought, with the standard deviation of a prior or None:
+        {"length_offset": None, "tension_bias": 20}.
+    markers: places of markers on the platform [m], (k, 3).
+    loss: "squares", "huber" or "cauchy".
+    starts, seed: starts of the search, and the seed of the random ones.
+    only_identifiable: keep the values of parameters that the data do not tell.
+    folds: parts of the rows that are predicted by robots calibrated without them.
+    threads: number of threads; all cores if left out.
+
+    The dictionary is that of `summary.json`. Raises InputError, which names line and column, FileError, and
+    NoSolutionError.
+    """
+    text = _calibrate(
+        robot,
+        measurements,
+        out,
+        list(noise.items()),
+        model,
+        list(parameters),
+        list(share),
+        list(unknown.items()),
+        [tuple(marker) for marker in markers],
+        loss,
+        starts,
+        seed,
+        only_identifiable,
+        folds,
+        threads,
+    )
+    summary: dict[str, Any] = json.loads(text)
+    return summary
+
+
+def identify(
+    robot: Robot,
+    poses: ArrayLike,
+    *,
+    uncertainty: Mapping[str, float],
+    noise: Mapping[str, float],
+    payload: float = 0.0,
+    free: Optional[Sequence[str]] = None,
+) -> dict[str, Any]:
+    """Find the combinations of uncertain parameters that measurements at poses identify.
+
+    poses: (m, 3) or (m, 7); those that the robot does not hold are left out.
+    uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+    noise: {"position": 1e-4, "rotation": 1e-4}, "tensions" [N], "lengths" [m]: what is measured.
+    payload: known mass added at the platform's centre of mass [kg].
+    free: names of the coordinates that are found, for a robot with few cables.
+
+    The dictionary has `poses` (those held), `identifiable` and `unidentifiable` (combinations with
+    `signal_to_noise` and `weights` by parameter) and `remaining`: the standard deviation of each parameter
+    after such measurements over that before. Raises InputError.
+    """
+    free = None if free is None else list(free)
+    text = _identify(robot, poses, list(uncertainty.items()), list(noise.items()), payload, free)
+    found: dict[str, Any] = json.loads(text)
+    return found
+
+
+def calibration_plan(
+    robot: Robot,
+    poses: ArrayLike,
+    *,
+    uncertainty: Mapping[str, float],
+    noise: Mapping[str, float],
+    count: int = 20,
+    criterion: str = "information",
+    work: Optional[ArrayLike] = None,
+    of: str = "position",
+    payload: float = 0.0,
+    free: Optional[Sequence[str]] = None,
+    seed: int = 1,
+) -> dict[str, Any]:
+    """Choose the poses that together leave least uncertainty, beside random and outermost ones.
+
+    poses: candidates, (m, 3) or (m, 7).
+    uncertainty, noise, payload, free: as `identify` takes them.
+    count: number of poses.
+    criterion: "information" (D-optimal), "parameters" (A-optimal), "mean-at-work" or "worst-at-work".
+    work: poses where the robot works, (k, 3) or (k, 7); `of` is what is to be exact there: "position" with
+        given lengths, or "deflection" by the payload.
+    seed: of the random sets.
+
+    The dictionary has `candidates` (those held), `poses`, what the `plan`, `random` sets in the median and
+    the `outermost` poses leave, and `growing`: what the first 1, 2, 3 ... poses leave. Raises InputError.
+    """
+    free = None if free is None else list(free)
+    text = _plan(
+        robot,
+        poses,
+        list(uncertainty.items()),
+        list(noise.items()),
+        count,
+        criterion,
+        work,
+        of,
+        payload,
+        free,
+        seed,
+    )
+    found: dict[str, Any] = json.loads(text)
+    return found

@@ -1,0 +1,207 @@
+//! Calibration, as `cdpr calibrate` and `cdpr calibration` have it. `calibration.py` makes dictionaries of the
+//! answers.
+
+use crate::convert::{Answer, Numbers, Raised, Rows, run, to_json, watched};
+use crate::robot::Robot;
+use crate::robot::inverse::coordinates;
+use cdpr_calibration::{
+    AtWork, Calibration, Campaign, Combination, Criterion, FitSettings, Measurement, Quality, RobustLoss,
+    SensorError, Unknowns, carry_out, read_measurements,
+};
+use cdpr_report::calibration_report;
+use cdpr_robot::{Pose, Vector3};
+use cdpr_statics::Load;
+use cdpr_study::{InputKind, open_errors, read_text, uncertainties};
+use pyo3::prelude::*;
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+
+/// Numbers by name.
+type Named = Vec<(String, f64)>;
+
+/// Fits the parameters of a robot to measurements and writes all results; returns `summary.json`.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn calibrate(
+    py: Python,
+    robot: &Robot,
+    measurements: PathBuf,
+    out: PathBuf,
+    noise: Named,
+    model: Option<PathBuf>,
+    parameters: Vec<String>,
+    share: Vec<String>,
+    unknown: Vec<(String, Option<f64>)>,
+    markers: Vec<[f64; 3]>,
+    loss: &str,
+    starts: usize,
+    seed: u64,
+    only_identifiable: bool,
+    folds: usize,
+    threads: Option<usize>,
+) -> Answer<String> {
+    let robot = &robot.robot;
+    let loss = match loss {
+        "squares" => RobustLoss::Squares,
+        "huber" => RobustLoss::Huber,
+        "cauchy" => RobustLoss::Cauchy,
+        _ => return Err(Raised::Input(format!("loss is {loss}: expected squares, huber or cauchy"))),
+    };
+    let settings = FitSettings { loss, starts, seed, only_identifiable, ..FitSettings::default() };
+    let work = |_: &_| -> Answer<String> {
+        let prior = model.map(|path| open_errors(&path, robot)).transpose()?;
+        let text = read_text(&measurements, InputKind::Measurements)?;
+        let measured = read_measurements(&text, robot, &noise)?;
+        let names: Vec<&str> = parameters.iter().map(String::as_str).collect();
+        let share: Vec<&str> = share.iter().map(String::as_str).collect();
+        let mut unknowns = Unknowns::sought(robot, prior.as_ref(), &names, &share)?;
+        for (name, std) in &unknown {
+            unknowns.add(robot, SensorError::from_name(name)?, *std, measured.markers);
+        }
+        unknowns.set_markers(markers.into_iter().map(Vector3::from).collect());
+        let name = measurements.file_name().map(|name| name.to_string_lossy().into_owned());
+        let campaign = Campaign {
+            robot,
+            prior: prior.as_ref(),
+            unknowns: &unknowns,
+            measured: &measured,
+            name: &name.unwrap_or_default(),
+            settings,
+            folds,
+        };
+        to_json(&carry_out(&campaign, &out, calibration_report)?.summary)
+    };
+    watched(py, threads, |_| Ok(()), work)?
+}
+
+/// What measurements at poses tell of uncertain parameters, as JSON.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn identify(
+    py: Python,
+    robot: &Robot,
+    poses: Numbers,
+    uncertainty: Named,
+    noise: Named,
+    payload: f64,
+    free: Option<Vec<String>>,
+) -> Answer<String> {
+    let poses = Rows::poses("poses", &poses)?;
+    let free = coordinates(free)?;
+    run(py, |_| {
+        let calibration =
+            Calibration::new(&robot.robot, &uncertainties(&robot.robot, &uncertainty)?)?.with_free(&free);
+        let (calibration, held) = measured(calibration, &poses, payload, &noise)?;
+        let found = calibration.identify(0..held.len());
+        let part = |of: &Combination| {
+            let weights: Map<String, Value> =
+                of.weights.iter().map(|of| (of.parameter.to_string(), json!(of.value))).collect();
+            json!({ "signal_to_noise": of.signal_to_noise, "weights": weights })
+        };
+        let remaining: Map<String, Value> =
+            found.remaining.iter().map(|of| (of.parameter.to_string(), json!(of.value))).collect();
+        to_json(&json!({
+            "poses": held.len(),
+            "identifiable": found.identifiable.iter().map(part).collect::<Vec<_>>(),
+            "unidentifiable": found.unidentifiable.iter().map(part).collect::<Vec<_>>(),
+            "remaining": remaining,
+        }))
+    })?
+}
+
+/// The set of candidate poses that leaves least uncertainty, as JSON.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn calibration_plan(
+    py: Python,
+    robot: &Robot,
+    poses: Numbers,
+    uncertainty: Named,
+    noise: Named,
+    count: usize,
+    criterion: &str,
+    work: Option<Numbers>,
+    of: &str,
+    payload: f64,
+    free: Option<Vec<String>>,
+    seed: u64,
+) -> Answer<String> {
+    let poses = Rows::poses("poses", &poses)?;
+    let work = work.as_ref().map(|work| Rows::poses("work", work)).transpose()?;
+    let free = coordinates(free)?;
+    let criterion = match criterion {
+        "information" => Criterion::Information,
+        "parameters" => Criterion::Parameters,
+        "mean-at-work" => Criterion::MeanAtWork,
+        "worst-at-work" => Criterion::WorstAtWork,
+        _ => {
+            let expected = "information, parameters, mean-at-work or worst-at-work";
+            return Err(Raised::Input(format!("criterion is {criterion}: expected {expected}")));
+        }
+    };
+    let of = match of {
+        "position" => AtWork::Position,
+        "deflection" => AtWork::Deflection,
+        _ => return Err(Raised::Input(format!("of is {of}: expected position or deflection"))),
+    };
+    run(py, |_| {
+        let calibration =
+            Calibration::new(&robot.robot, &uncertainties(&robot.robot, &uncertainty)?)?.with_free(&free);
+        let (mut calibration, held) = measured(calibration, &poses, payload, &noise)?;
+        let mut worked = 0;
+        for k in 0..work.as_ref().map_or(0, Rows::number) {
+            let pose = work.as_ref().map(|work| work.pose(k)).transpose()?;
+            let added = pose.map(|pose| calibration.add_work(&pose, &Load::payload(payload), of));
+            worked += usize::from(added.is_some_and(|added| added.is_ok()));
+        }
+        if worked == 0 && matches!(criterion, Criterion::MeanAtWork | Criterion::WorstAtWork) {
+            let message = "work has no pose that the robot holds: expected where the robot works".to_owned();
+            return Err(Raised::Input(message));
+        }
+        let found = calibration.plan(count, criterion, seed);
+        let left = |of: &Quality| {
+            json!({
+                "information_bits": of.information,
+                "parameters": of.parameters,
+                "mean_at_work": of.mean_at_work,
+                "worst_at_work": of.worst_at_work,
+            })
+        };
+        let numbers = |k: &usize| {
+            let Pose { position, .. } = held[*k];
+            [&position.as_slice()[..], &held[*k].quaternion()].concat()
+        };
+        to_json(&json!({
+            "candidates": held.len(),
+            "poses": found.poses.iter().map(numbers).collect::<Vec<_>>(),
+            "plan": left(&found.quality),
+            "random": left(&found.random),
+            "outermost": left(&found.corners),
+            "growing": found.growing.iter().map(left).collect::<Vec<_>>(),
+        }))
+    })?
+}
+
+/// The calibration with all poses that the robot holds, and these poses.
+fn measured(
+    mut calibration: Calibration,
+    poses: &Rows,
+    payload: f64,
+    noise: &Named,
+) -> Answer<(Calibration, Vec<Pose>)> {
+    let measurements = Measurement::named(noise)?;
+    let mut held = Vec::new();
+    let mut reason = None;
+    for k in 0..poses.number() {
+        let pose = poses.pose(k)?;
+        match calibration.add(&pose, &Load::payload(payload), &measurements) {
+            Ok(()) => held.push(pose),
+            Err(error) if error.kind() == "invalid_input" => return Err(error.into()),
+            Err(error) => reason = Some(error),
+        }
+    }
+    match reason {
+        Some(reason) if held.is_empty() => Err(reason.into()),
+        _ => Ok((calibration, held)),
+    }
+}
