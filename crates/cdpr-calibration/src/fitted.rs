@@ -147,6 +147,8 @@ pub struct Fit {
     pub poses_before: Vec<Pose>,
     /// The pose of each row by the calibrated robot.
     pub poses: Vec<Pose>,
+    /// The payload of each row [kg].
+    pub payloads: Vec<f64>,
     /// Steps made.
     pub steps: usize,
     /// Whether the search ended within 1e-4 standard deviations of a minimum.

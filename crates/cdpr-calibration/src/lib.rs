@@ -34,6 +34,8 @@ pub use identify::{
     AtWork, Calibration, ChosenPose, Combination, Identifiability, Measurement, ParameterValue,
 };
 pub use plan::{Criterion, PosePlan, Quality};
+pub use results::patterns::{Split, Trend};
+pub use results::predicted::UncertaintyMap;
 pub use results::{
     CALIBRATED_NAME, CalibrationSummary, Context, OutlierSummary, POSTERIOR_NAME, ParameterSummary,
     SensorSummary, arrows, begin_calibration, write_calibration,

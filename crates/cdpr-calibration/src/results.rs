@@ -1,7 +1,12 @@
 //! What comes out of a calibration: the robot, what is known of it, a summary, and the folder of all.
 
+pub(crate) mod patterns;
+pub(crate) mod predicted;
+
 use crate::error::CalibrationError;
 use crate::fitted::{Difference, Fit};
+use crate::results::patterns::{Split, Trend};
+use crate::results::predicted::{UncertaintyMap, uncertainty_map};
 use cdpr_robot::{Axis, Parameter, Robot};
 use cdpr_statics::{DirectProblem, Load};
 use cdpr_study::{ERRORS_FORMAT, ErrorModel, ErrorsFile, ResultsFolder, ResultsOf, StudyError};
@@ -102,6 +107,13 @@ pub struct CalibrationSummary {
     pub residuals: BTreeMap<&'static str, SensorSummary>,
     /// Measured numbers that are far from the model.
     pub outliers: Vec<OutlierSummary>,
+    /// Clear trends of residuals against place and load.
+    pub trends: Vec<Trend>,
+    /// Variances of means over consecutive rows.
+    pub splits: Vec<Split>,
+    /// Standard deviation of the position over the plane of the measured poses; none with relative lengths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub workspace: Option<UncertaintyMap>,
     /// Mean standard deviation of the position at the poses measured, per coordinate, before [m]; none
     /// without prior.
     pub position_std_before: Option<f64>,
@@ -318,6 +330,10 @@ impl Fit {
                     standard_deviations: of.standardized(),
                 })
                 .collect(),
+            trends: if context.noise_is_stated { self.trends() } else { Vec::new() },
+            splits: self.splits(),
+            workspace: uncertainty_map(self, context.nominal, prior.as_ref(), &covariance)
+                .filter(|_| !relative),
             position_std_before: prior.as_ref().and_then(|prior| std_of(context.nominal, prior)),
             position_std_after: std_of(&self.robot, &covariance),
             steps: self.steps,
@@ -374,6 +390,12 @@ impl Fit {
             warnings.push(format!(
                 "chi-square is {:.1} with {} degrees of freedom: the model, the noise or some rows are wrong",
                 self.chi_square, self.degrees_of_freedom
+            ));
+        }
+        if let Some(Trend { column, against, correlation, .. }) = summary.trends.first() {
+            warnings.push(format!(
+                "the residuals of {column} follow {against} (correlation {correlation:+.2}): the model leaves \
+                 something out"
             ));
         }
         if let Some((line, share)) = self.worst_row() {

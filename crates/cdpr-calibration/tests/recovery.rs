@@ -302,6 +302,8 @@ fn wrong_models_are_noticed() {
     let unknowns = Unknowns::of_model(&case.model());
     let found = fit(&case.robot, &rows, &unknowns, &FitSettings::default()).unwrap();
     assert!(found.p_value().unwrap() < 1e-9 && found.outliers().len() > 30);
+    println!("wrong sign: {:?}", found.trends().first());
+    assert!(found.trends().iter().any(|trend| trend.column == "y_m" && trend.against == "y"));
 }
 
 #[test]

@@ -169,7 +169,7 @@ pub(crate) fn calibration_plan(
         };
         let numbers = |k: &usize| {
             let Pose { position, .. } = held[*k];
-            [&position.as_slice()[..], &held[*k].quaternion()].concat()
+            [position.as_slice(), &held[*k].quaternion()].concat()
         };
         to_json(&json!({
             "candidates": held.len(),

@@ -75,6 +75,7 @@ impl Problem<'_> {
             before,
             after,
             poses_before,
+            payloads: self.rows.iter().map(|row| row.load.payload).collect(),
             poses: state.rows.iter().map(|row| *row.pose()).collect(),
             steps,
             converged: distance < NEAR_ENOUGH,

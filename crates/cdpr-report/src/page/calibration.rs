@@ -1,22 +1,18 @@
 //! The report of a calibration: residuals before and after, parameters, correlations.
 
+mod drawings;
+
+use crate::page::calibration::drawings::{against, correlations, in_space, workspace};
 use crate::page::elements::{STYLE, cell, inert, numeric, table};
-use cdpr_calibration::{CalibrationSummary, Fit, ParameterSummary, arrows};
+use cdpr_calibration::{CalibrationSummary, Fit, ParameterSummary};
 use cdpr_robot::{Robot, shown};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use std::fmt::Write;
 
 /// Content security policy: styles of the page itself, and nothing else.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
 
-/// Side of a square drawing [px].
-const SIDE: f64 = 420.0;
-
-/// Length of the longest arrow, as a share of the drawing.
-const LONGEST: f64 = 0.18;
-
-/// Parameters in the map of correlations at most.
-const MOST_CORRELATED: usize = 80;
+/// Trends in the table at most.
+const MOST_TRENDS: usize = 20;
 
 /// Writes the report of a calibration as the text of an HTML file, which needs no other file and no script.
 pub fn calibration_report(robot: &Robot, summary: &CalibrationSummary, found: &Fit) -> String {
@@ -27,11 +23,21 @@ pub fn calibration_report(robot: &Robot, summary: &CalibrationSummary, found: &F
             (by_sensor(summary))
             (in_space(found))
             (outliers(summary))
+            h3 { "Against place and load" }
+            (trends(summary))
+            (against(found))
+            (splits(summary))
         }
         section id="parameters" {
             h2 { "Parameters" }
             (parameters(summary))
             (unidentifiable(summary))
+        }
+        @if let Some(map) = &summary.workspace {
+            section id="workspace" {
+                h2 { "Position over the workspace" }
+                (workspace(map))
+            }
         }
         section id="correlations" {
             h2 { "Correlations of what is left" }
@@ -94,63 +100,6 @@ fn by_sensor(summary: &CalibrationSummary) -> Markup {
     table("Measured less modelled", &head, &summary.residuals.iter().map(row).collect::<Vec<_>>())
 }
 
-/// Arrows from the modelled towards the measured position, before and after, from above and from the front.
-fn in_space(found: &Fit) -> Markup {
-    let arrows = arrows(found);
-    if arrows.is_empty() {
-        return html! {};
-    }
-    let norm = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
-    let longest = arrows.iter().map(|(_, before, _)| norm(before)).fold(0.0, f64::max);
-    let views = [("from above", [0, 1]), ("from the front", [0, 2])];
-    html! {
-        @for (name, axes) in views {
-            figure {
-                div.drawing role="img" aria-label={ "Residuals of the position " (name) } {
-                    (PreEscaped(arrow_view(&arrows, axes, longest)))
-                }
-                figcaption {
-                    "Measured less modelled " (name) ": before (red), after (blue). The longest before is "
-                    (numeric(1e3 * longest, 3)) " mm."
-                }
-            }
-        }
-    }
-}
-
-type Arrow = ([f64; 3], [f64; 3], [f64; 3]);
-
-fn arrow_view(arrows: &[Arrow], [u, v]: [usize; 2], longest: f64) -> String {
-    let range = |k: usize| {
-        let of = |pick: fn(f64, f64) -> f64, from| arrows.iter().map(|(at, ..)| at[k]).fold(from, pick);
-        (of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY))
-    };
-    let ((least_u, most_u), (least_v, most_v)) = (range(u), range(v));
-    let extent = (most_u - least_u).max(most_v - least_v).max(1e-9);
-    let room = 0.5 * (1.0 - 1.0 / (1.0 + 2.0 * LONGEST));
-    let scale = SIDE * (1.0 - 2.0 * room) / extent;
-    let per_residual = if longest > 0.0 { SIDE * LONGEST / longest } else { 0.0 };
-    let x = |value: f64| SIDE * room + scale * (value - least_u);
-    let y = |value: f64| SIDE * (1.0 - room) - scale * (value - least_v);
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {SIDE} {SIDE}\" width=\"{SIDE}\">\
-         <rect width=\"{SIDE}\" height=\"{SIDE}\" fill=\"white\"/>"
-    );
-    for (at, before, after) in arrows {
-        let (px, py) = (x(at[u]), y(at[v]));
-        for (residual, color) in [(before, "#d55e00"), (after, "#0072b2")] {
-            let (ex, ey) = (px + per_residual * residual[u], py - per_residual * residual[v]);
-            // Writing to a string cannot fail.
-            let _ = write!(
-                svg,
-                "<line x1=\"{px:.1}\" y1=\"{py:.1}\" x2=\"{ex:.1}\" y2=\"{ey:.1}\" stroke=\"{color}\" \
-                 stroke-width=\"1.5\"/><circle cx=\"{ex:.1}\" cy=\"{ey:.1}\" r=\"2\" fill=\"{color}\"/>"
-            );
-        }
-    }
-    svg + "</svg>"
-}
-
 fn outliers(summary: &CalibrationSummary) -> Markup {
     let row = |of: &cdpr_calibration::OutlierSummary| {
         vec![
@@ -165,6 +114,38 @@ fn outliers(summary: &CalibrationSummary) -> Markup {
             (table("Numbers far from the model", &["line", "column", "difference", "in std of the noise"],
                 &summary.outliers.iter().map(row).collect::<Vec<_>>()))
         }
+    }
+}
+
+fn trends(summary: &CalibrationSummary) -> Markup {
+    let row = |of: &cdpr_calibration::Trend| {
+        vec![
+            cell(&of.column),
+            cell(of.against),
+            numeric(of.correlation, 2),
+            numeric(of.standard_deviations, 3),
+        ]
+    };
+    html! {
+        @if !summary.trends.is_empty() {
+            (table("Residuals that follow place or load", &["column", "against", "correlation", "in std"],
+                &summary.trends.iter().take(MOST_TRENDS).map(row).collect::<Vec<_>>()))
+        }
+    }
+}
+
+fn splits(summary: &CalibrationSummary) -> Markup {
+    let Some(first) = summary.splits.first() else { return html! {} };
+    let sensors: Vec<&str> = first.ratio.keys().copied().collect();
+    let head: Vec<&str> = std::iter::once("rows").chain(sensors.iter().copied()).collect();
+    let row = |of: &cdpr_calibration::Split| {
+        let ratios = sensors.iter().map(|sensor| numeric(of.ratio.get(sensor).copied(), 2));
+        std::iter::once(cell(of.rows.to_string())).chain(ratios).collect::<Vec<_>>()
+    };
+    html! {
+        p { "Variance of the mean over consecutive rows, over that of independent rows: far above 1 where errors \
+            change slowly from row to row." }
+        (table("Means of consecutive rows", &head, &summary.splits.iter().map(row).collect::<Vec<_>>()))
     }
 }
 
@@ -197,44 +178,6 @@ fn unidentifiable(summary: &CalibrationSummary) -> Markup {
                         (format!("{weight:+.2} ")) (name) " "
                     } }
                 }
-            }
-        }
-    }
-}
-
-fn correlations(found: &Fit) -> Markup {
-    let n = found.estimates.len().min(MOST_CORRELATED);
-    let side = SIDE / n.max(1) as f64;
-    let std: Vec<f64> = (0..n).map(|k| found.covariance[(k, k)].max(0.0).sqrt()).collect();
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {SIDE} {SIDE}\" width=\"{SIDE}\">\
-         <rect width=\"{SIDE}\" height=\"{SIDE}\" fill=\"white\"/>"
-    );
-    for i in 0..n {
-        for j in 0..n {
-            let product = std[i] * std[j];
-            let correlation = if product > 0.0 { found.covariance[(i, j)] / product } else { 0.0 };
-            if correlation.abs() < 0.02 {
-                continue;
-            }
-            let color = if correlation > 0.0 { "#0072b2" } else { "#d55e00" };
-            let _ = write!(
-                svg,
-                "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{side:.2}\" height=\"{side:.2}\" fill=\"{color}\" \
-                 fill-opacity=\"{:.2}\"><title>{}, {}: {correlation:.2}</title></rect>",
-                j as f64 * side,
-                i as f64 * side,
-                correlation.abs(),
-                found.estimates[i].name,
-                found.estimates[j].name
-            );
-        }
-    }
-    html! {
-        figure {
-            div.drawing role="img" aria-label="Correlations of the unknowns" { (PreEscaped(svg + "</svg>")) }
-            figcaption {
-                "Correlations of the first " (n) " unknowns in the order of the table: blue is positive."
             }
         }
     }

@@ -1,0 +1,125 @@
+//! Patterns of residuals, which noise does not make: a trend against place or load, means of consecutive rows
+//! that do not average out.
+//!
+//! With the residuals ρ of a column and a coordinate u of their rows, the correlation r has, without a trend,
+//! a standard deviation of nearly `1/sqrt(n)`. The mean over m consecutive rows has the variance `σ²/m` if
+//! rows do not depend on each other (Allan 1966): the ratio of the two tells drifts and errors of the model
+//! that change slowly from pose to pose.
+
+use crate::fitted::{Difference, Fit};
+use cdpr_robot::Vector3;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// A trend of the residuals of a column.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Trend {
+    /// The column.
+    pub column: String,
+    /// What it follows: `x`, `y`, `z` of the pose, `distance` from the middle of all poses, or `payload`.
+    pub against: &'static str,
+    /// Correlation, -1 to 1.
+    pub correlation: f64,
+    /// The correlation over its standard deviation without a trend.
+    pub standard_deviations: f64,
+}
+
+/// Means of consecutive rows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Split {
+    /// Rows in each part.
+    pub rows: usize,
+    /// Variance of the means of the parts over what independent rows make of it, by sensor: 1 but for chance.
+    pub ratio: BTreeMap<&'static str, f64>,
+}
+
+/// A trend is named above so many standard deviations.
+const CLEAR: f64 = 5.0;
+
+/// Rows of a column at least for a trend.
+const FEWEST: usize = 8;
+
+/// Parts at least for the variance of their means.
+const FEWEST_PARTS: usize = 4;
+
+impl Fit {
+    /// Clear trends of residuals against place and load, the clearest first.
+    pub fn trends(&self) -> Vec<Trend> {
+        let middle = self.poses.iter().map(|pose| pose.position).sum::<Vector3<f64>>()
+            / self.poses.len().max(1) as f64;
+        let places = |k: usize| {
+            let position = self.poses[k].position;
+            [
+                ("x", position.x),
+                ("y", position.y),
+                ("z", position.z),
+                ("distance", (position - middle).norm()),
+                ("payload", self.payloads[k]),
+            ]
+        };
+        let mut trends = Vec::new();
+        for (column, of) in self.columns() {
+            if of.len() < FEWEST {
+                continue;
+            }
+            for index in 0..5 {
+                let pairs: Vec<_> =
+                    of.iter().map(|of| (places(of.row)[index].1, of.standardized())).collect();
+                let correlation = correlation(&pairs);
+                let standard_deviations = correlation * (pairs.len() as f64).sqrt();
+                if standard_deviations.abs() > CLEAR {
+                    let against = places(of[0].row)[index].0;
+                    let column = column.clone();
+                    trends.push(Trend { column, against, correlation, standard_deviations });
+                }
+            }
+        }
+        trends.sort_by(|a, b| b.standard_deviations.abs().total_cmp(&a.standard_deviations.abs()));
+        trends
+    }
+
+    /// Variances of means over 2, 4, 8 ... consecutive rows.
+    pub fn splits(&self) -> Vec<Split> {
+        let columns = self.columns();
+        let most = columns.values().map(Vec::len).max().unwrap_or(0) / FEWEST_PARTS;
+        let split = |rows: usize| {
+            let mut sums: BTreeMap<&'static str, (f64, f64)> = BTreeMap::new();
+            for of in columns.values().filter(|of| of.len() / rows >= FEWEST_PARTS) {
+                let values: Vec<f64> = of.iter().map(Difference::standardized).collect();
+                let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+                let means: Vec<f64> = values.chunks_exact(rows).map(mean).collect();
+                let expected = variance(&values) / rows as f64;
+                let sum = sums.entry(of[0].quantity.sensor()).or_default();
+                sum.0 += variance(&means);
+                sum.1 += expected;
+            }
+            let ratio = sums.into_iter().filter(|(_, sum)| sum.1 > 0.0);
+            Split { rows, ratio: ratio.map(|(sensor, sum)| (sensor, sum.0 / sum.1)).collect() }
+        };
+        (1..).map(|power| 1 << power).take_while(|rows| *rows <= most).map(split).collect()
+    }
+
+    /// The residuals of each column in the order of the rows.
+    fn columns(&self) -> BTreeMap<String, Vec<Difference>> {
+        let mut columns: BTreeMap<String, Vec<Difference>> = BTreeMap::new();
+        for of in &self.after {
+            columns.entry(of.quantity.to_string()).or_default().push(*of);
+        }
+        columns
+    }
+}
+
+fn variance(values: &[f64]) -> f64 {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0)
+}
+
+/// Correlation of pairs; zero where one of the two does not vary.
+fn correlation(pairs: &[(f64, f64)]) -> f64 {
+    let count = pairs.len() as f64;
+    let (u, v) = pairs.iter().fold((0.0, 0.0), |sum, pair| (sum.0 + pair.0 / count, sum.1 + pair.1 / count));
+    let of = |f: &dyn Fn(f64, f64) -> f64| pairs.iter().map(|pair| f(pair.0 - u, pair.1 - v)).sum::<f64>();
+    let product = (of(&|u, _| u * u) * of(&|_, v| v * v)).sqrt();
+    if product > 1e-12 * count { of(&|u, v| u * v) / product } else { 0.0 }
+}
