@@ -68,6 +68,7 @@ use cdpr_robot::{Coordinate, Matrix6xX, Pose, Robot, Vector3};
 use nalgebra::{DMatrix, Matrix3xX};
 pub use optimum::AtBound;
 use rest::Rest;
+use softest::AtRest;
 pub use winding::OneSided;
 use winding::{SetPoints, Winding};
 
@@ -257,6 +258,32 @@ impl Derivatives {
             return Err(StaticsError::NoDerivative { quantity: "the norm of the deflection", reason });
         }
         Ok((dp.normalize().transpose() * self.displacement()).as_slice().to_vec())
+    }
+
+    /// The lowest natural frequency [Hz] of `robot` under `load`, those of these derivatives, and its
+    /// derivatives [Hz per unit], one for each input: see [`DirectProblem::lowest_frequency`].
+    ///
+    /// # Errors
+    /// Those of [`DirectProblem::modes`]; [`StaticsError::NoDerivative`] where two motions have the lowest
+    /// frequency or nothing resists any, and for a cable that hangs folded without width.
+    pub fn frequency(&self, robot: &Robot, load: &Load) -> Result<(f64, Vec<f64>), StaticsError> {
+        self.at_rest(robot, load).frequency()
+    }
+
+    /// The lowest stiffness [N/m] of `robot` under `load`, those of these derivatives, and its derivatives
+    /// [N/m per unit], one for each input: see [`crate::Stability::least_stiffness`].
+    ///
+    /// # Errors
+    /// [`StaticsError::NoDerivative`] where two motions have the lowest stiffness or nothing resists any, and
+    /// for a cable that hangs folded without width.
+    pub fn least_stiffness(&self, robot: &Robot, load: &Load) -> Result<(f64, Vec<f64>), StaticsError> {
+        self.at_rest(robot, load).least_stiffness()
+    }
+
+    fn at_rest<'a>(&'a self, robot: &'a Robot, load: &'a Load) -> AtRest<'a> {
+        let Deflection { loaded: found, lengths, .. } = &self.deflection;
+        let (length_slopes, pose_slopes) = (&self.lengths, &self.loaded.pose);
+        AtRest { robot, load, inputs: &self.inputs, found, lengths, length_slopes, pose_slopes }
     }
 
     /// Variance of |dp| from that of each parameter (squared SI units), to first order:

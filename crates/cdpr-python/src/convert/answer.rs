@@ -53,13 +53,14 @@ pub(crate) fn fields<'py>(answer: &Bound<'py, PyAny>, names: &[&str]) -> PyResul
 
 /// Summarises an answer: `<cdpr.Deflection displacement (40, 3), rms (40,), ..., reasons [40]>`.
 ///
-/// Arrays show their shapes, lists their lengths; fields that are None are left out.
+/// Arrays show their shapes, lists their lengths; fields that are None are left out, and right derivatives, which
+/// are shaped as the left ones.
 pub(crate) fn summary(answer: &Bound<PyAny>, names: &[&str]) -> PyResult<String> {
     let class = answer.get_type();
     let module = class.module()?.to_string();
     let mut parts = Vec::new();
     for (name, value) in names.iter().zip(fields(answer, names)?) {
-        let shown = if value.is_none() {
+        let shown = if value.is_none() || name.ends_with("_right") {
             continue;
         } else if value.get_type().module()? == *module {
             value.get_type().name()?.to_string()

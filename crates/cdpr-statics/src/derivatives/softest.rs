@@ -18,13 +18,13 @@
 //! All inputs change these directly and through pose, lengths and forces of the equilibrium. The derivatives
 //! of `K3_i v_i`, second derivatives of the catenary, are (C28) of `cdpr_cable`.
 
-use super::Derivatives;
-use crate::equations::{CableDerivatives, Reading, Weighed, each_effect_on_weight, read};
+use crate::direct::DirectSolution;
+use crate::equations::{CableDerivatives, Inputs, Reading, Weighed, each_effect_on_weight, read};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
-use crate::state::Load;
-use cdpr_robot::{Parameter, Robot, Vector3};
-use nalgebra::RowDVector;
+use crate::state::{Equilibrium, Load};
+use cdpr_robot::{Matrix6xX, Parameter, Robot, Vector3};
+use nalgebra::{DMatrix, RowDVector};
 use std::f64::consts::TAU;
 
 /// Two eigenvalues that differ by less than this share are one: neither has a derivative then.
@@ -37,17 +37,25 @@ struct Softest {
     rotation: Vector3<f64>,
 }
 
-impl Derivatives {
-    /// The lowest natural frequency [Hz] under `load`, the load of these derivatives, and its derivatives
-    /// [Hz per unit], one for each input: see [`DirectProblem::lowest_frequency`].
-    ///
-    /// # Errors
-    /// Those of [`DirectProblem::modes`]; [`StaticsError::NoDerivative`] where two motions have the lowest
-    /// frequency or nothing resists any, and for a cable that hangs folded without width.
-    pub fn frequency(&self, robot: &Robot, load: &Load) -> Result<(f64, Vec<f64>), StaticsError> {
+/// An equilibrium with the derivatives of what moves it; columns are inputs.
+pub(super) struct AtRest<'a> {
+    pub(super) robot: &'a Robot,
+    pub(super) load: &'a Load,
+    pub(super) inputs: &'a Inputs,
+    pub(super) found: &'a DirectSolution,
+    pub(super) lengths: &'a [f64],
+    /// Derivatives of the lengths, n x count.
+    pub(super) length_slopes: &'a DMatrix<f64>,
+    /// Derivatives of the pose, 6 x count.
+    pub(super) pose_slopes: &'a Matrix6xX<f64>,
+}
+
+impl AtRest<'_> {
+    /// The lowest natural frequency [Hz] and its derivatives.
+    pub(super) fn frequency(&self) -> Result<(f64, Vec<f64>), StaticsError> {
         const QUANTITY: &str = "the lowest natural frequency";
-        let problem = DirectProblem::new(robot, &self.deflection.lengths, load)?;
-        let modes = problem.modes(&self.deflection.loaded.equilibrium)?;
+        let problem = DirectProblem::new(self.robot, self.lengths, self.load)?;
+        let modes = problem.modes(&self.found.equilibrium)?;
         let mut resisted = modes.iter().filter(|mode| mode.frequency > 0.0);
         let square = |frequency: f64| (TAU * frequency).powi(2);
         let lowest = resisted.next().map(|mode| Softest {
@@ -58,23 +66,18 @@ impl Derivatives {
         let next = resisted.next().map(|mode| square(mode.frequency));
         let softest = single(lowest, next, QUANTITY)?;
         let mut slopes = self.energy(&problem, &softest);
-        slopes -= softest.value * self.inertia(robot, load, &softest);
+        slopes -= softest.value * self.inertia(&softest);
         let frequency = softest.value.sqrt() / TAU;
         // λ = (2π f)²
         slopes /= 2.0 * TAU * TAU * frequency;
         finite(slopes, QUANTITY).map(|slopes| (frequency, slopes))
     }
 
-    /// The lowest stiffness [N/m] under `load`, the load of these derivatives, and its derivatives
-    /// [N/m per unit], one for each input: see [`crate::Stability::least_stiffness`].
-    ///
-    /// # Errors
-    /// [`StaticsError::NoDerivative`] where two motions have the lowest stiffness or nothing resists any, and
-    /// for a cable that hangs folded without width.
-    pub fn least_stiffness(&self, robot: &Robot, load: &Load) -> Result<(f64, Vec<f64>), StaticsError> {
+    /// The lowest stiffness [N/m] and its derivatives.
+    pub(super) fn least_stiffness(&self) -> Result<(f64, Vec<f64>), StaticsError> {
         const QUANTITY: &str = "the lowest stiffness";
-        let problem = DirectProblem::new(robot, &self.deflection.lengths, load)?;
-        let modes = self.deflection.loaded.stability.modes();
+        let problem = DirectProblem::new(self.robot, self.lengths, self.load)?;
+        let modes = self.found.stability.modes();
         let mut resisted = modes.iter();
         let lowest = resisted.next().map(|mode| Softest {
             value: mode.stiffness,
@@ -86,16 +89,15 @@ impl Derivatives {
         let mut slopes = self.energy(&problem, &softest);
         let length = problem.characteristic_length();
         let per_length = 2.0 * softest.value * length * softest.rotation.norm_squared();
-        slopes -= per_length * self.characteristic_length(robot);
+        slopes -= per_length * self.characteristic_length();
         finite(slopes, QUANTITY).map(|slopes| (softest.value, slopes))
     }
 
     /// Derivatives of `vᵀ K v`, (D13).
     fn energy(&self, problem: &DirectProblem, softest: &Softest) -> RowDVector<f64> {
         let Softest { translation, rotation: turn, .. } = *softest;
-        let robot = problem.robot;
-        let equilibrium = &self.deflection.loaded.equilibrium;
-        let (pose, forces) = (&equilibrium.pose, &equilibrium.cable_forces);
+        let Self { robot, inputs, load, .. } = *self;
+        let Equilibrium { pose, cable_forces: forces } = &self.found.equilibrium;
         let moved = |cable: &CableDerivatives| translation + turn.cross(&cable.arm);
         let twice = |v: &Vector3<f64>| turn.cross(&turn.cross(v));
         let cables = CableDerivatives::all(problem, pose, forces);
@@ -113,31 +115,31 @@ impl Derivatives {
         // These vectors are -K3_i v_i.
         let of_stiffness =
             |cable: &CableDerivatives| Reading { per_force: -moved(cable), per_arm: Vector3::zeros() };
-        let partials =
-            read(&self.inputs, pose, &cables, of_forces) + read(&self.inputs, pose, &along, of_stiffness);
+        let partials = read(inputs, pose, &cables, of_forces) + read(inputs, pose, &along, of_stiffness);
         let mut slopes = partials.row_sum();
-        let weight = robot.weight(pose, problem.load.payload).force;
+        let weight = robot.weight(pose, load.payload).force;
         let center = pose.rotation * robot.platform.center_of_mass;
-        each_effect_on_weight(robot, &self.inputs, pose, &problem.load, |column, of: Weighed| {
+        each_effect_on_weight(robot, inputs, pose, load, |column, of: Weighed| {
             slopes[column] -= of.force.dot(&twice(&center)) + weight.dot(&twice(&of.turn));
         });
         self.follow(&mut slopes);
         for (i, (cable, along)) in cables.iter().zip(&along).enumerate() {
             let per_length = of_forces(cable).per_force.dot(&cable.per_actuation)
                 + of_stiffness(along).per_force.dot(&along.per_actuation);
-            slopes += per_length * self.lengths.row(i);
+            slopes += per_length * self.length_slopes.row(i);
         }
         slopes
     }
 
     /// Derivatives of `vᵀ M v`, (D13).
-    fn inertia(&self, robot: &Robot, load: &Load, softest: &Softest) -> RowDVector<f64> {
+    fn inertia(&self, softest: &Softest) -> RowDVector<f64> {
         let Softest { translation, rotation: turn, .. } = *softest;
-        let pose = &self.deflection.loaded.equilibrium.pose;
+        let Self { robot, inputs, load, .. } = *self;
+        let pose = &self.found.equilibrium.pose;
         let mass = robot.platform.mass + load.payload;
         let velocity = translation + turn.cross(&(pose.rotation * robot.platform.center_of_mass));
         let mut slopes = self.zeros();
-        each_effect_on_weight(robot, &self.inputs, pose, load, |column, of: Weighed| {
+        each_effect_on_weight(robot, inputs, pose, load, |column, of: Weighed| {
             slopes[column] +=
                 of.mass * velocity.norm_squared() + 2.0 * mass * velocity.dot(&turn.cross(&of.turn));
         });
@@ -145,7 +147,7 @@ impl Derivatives {
             let momentum = pose.rotation * (inertia * (pose.rotation.inverse() * turn));
             // d(R J Rᵀ) = [dφ] R J Rᵀ - R J Rᵀ [dφ]
             let per_turn = 2.0 * momentum.cross(&turn);
-            let first = self.inputs.pose().start + 3;
+            let first = inputs.pose().start + 3;
             (0..3).for_each(|axis| slopes[first + axis] += per_turn[axis]);
         }
         self.follow(&mut slopes);
@@ -153,11 +155,11 @@ impl Derivatives {
     }
 
     /// Derivatives of the characteristic length ℓ.
-    fn characteristic_length(&self, robot: &Robot) -> RowDVector<f64> {
-        let (size, lengths) = (robot.platform_size(), &self.deflection.lengths);
+    fn characteristic_length(&self) -> RowDVector<f64> {
+        let (robot, size, lengths) = (self.robot, self.robot.platform_size(), self.lengths);
         let longest = (0..lengths.len()).max_by(|i, j| lengths[*i].total_cmp(&lengths[*j]));
         if let Some(longest) = longest.filter(|longest| 1e-3 * lengths[*longest] > size) {
-            return 1e-3 * self.lengths.row(longest);
+            return 1e-3 * self.length_slopes.row(longest);
         }
         let mut slopes = self.zeros();
         for (column, parameter) in self.inputs.parameters.iter().enumerate() {
@@ -177,7 +179,7 @@ impl Derivatives {
         let columns = self.inputs.pose();
         let per_motion = slopes.columns(columns.start, columns.len()).into_owned();
         slopes.columns_mut(columns.start, columns.len()).fill(0.0);
-        *slopes += per_motion * &self.loaded.pose;
+        *slopes += per_motion * self.pose_slopes;
     }
 }
 
