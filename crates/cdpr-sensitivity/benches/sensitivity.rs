@@ -39,8 +39,7 @@ fn indices(group: &mut BenchmarkGroup<'_, WallTime>, blocks: usize) -> Result<()
     let sum = |x: &[f64]| Some(x.iter().sum());
     let outputs = observe(&design, sum)?;
     let found = sobol_indices(&design, &outputs, bootstrap, 0.95)?;
-    // An additive model: the indices add up to 1. With 128 points a scrambling the variance is known to some
-    // percent.
+    // An additive model: the indices add up to 1, but for the errors of the estimates.
     let sum_of_totals = found.inputs.iter().map(|index| index.total.value).sum::<f64>();
     assert!((sum_of_totals - 1.0).abs() < 0.05, "{sum_of_totals}");
     let holding = |index: &&SobolIndex| (index.total.low..=index.total.high).contains(&(1.0 / INPUTS as f64));
