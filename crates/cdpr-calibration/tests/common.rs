@@ -1,5 +1,6 @@
 //! Robots of several tests, and poses that they hold.
 
+use cdpr_calibration::Noise;
 use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3};
 use cdpr_statics::{Load, inverse_free};
 use cdpr_study::ErrorModel;
@@ -129,3 +130,14 @@ pub(crate) fn cases() -> [Case; 5] {
         ),
     ]
 }
+
+/// Pose by a tracker, lengths by the winches.
+pub(crate) const EXTERNAL: Noise = Noise {
+    position: Some(1e-4),
+    rotation: Some(1e-4),
+    length: Some(1e-4),
+    tension: None,
+    displacement: None,
+    marker: None,
+    swivel: None,
+};

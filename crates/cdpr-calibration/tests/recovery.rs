@@ -1,6 +1,6 @@
 //! Synthetic campaigns whose truth is known.
 
-use crate::common::{Case, cases};
+use crate::common::{Case, EXTERNAL, cases};
 use cdpr_calibration::{
     Fit, FitSettings, Noise, Quantity, RobustLoss, Row, SensorError, Simulated, Unknowns, fit, simulate,
 };
@@ -32,17 +32,6 @@ fn campaign(case: &Case, deviations: &[f64], poses: usize, noise: Noise, seed: u
     })
     .unwrap()
 }
-
-/// Pose by a tracker, lengths by the winches.
-const EXTERNAL: Noise = Noise {
-    position: Some(1e-4),
-    rotation: Some(1e-4),
-    length: Some(1e-4),
-    tension: None,
-    displacement: None,
-    marker: None,
-    swivel: None,
-};
 
 /// Campaigns with each robot: all of the record by `CDPR_CAMPAIGNS=200`.
 fn campaigns(few: u64) -> u64 {

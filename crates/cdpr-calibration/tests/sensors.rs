@@ -1,6 +1,6 @@
 //! Every kind of sensor and of its errors, with simulated campaigns of differing robots.
 
-use crate::common::{Case, cases};
+use crate::common::{Case, EXTERNAL, cases};
 use cdpr_calibration::{
     Estimate, Fit, FitSettings, Noise, Quantity, Reading, Row, SensorError, Simulated, Unknowns, drawn,
     drawn_errors, fit, simulate,
@@ -111,16 +111,6 @@ fn check(name: &str, robots: &[&str], of: impl Fn(&Case, u64) -> Outcome) {
         assert!((chi / degrees - 1.0).abs() < 4.0 * (2.0 / degrees).sqrt(), "{name}, {}: {chi}", case.name);
     }
 }
-
-const EXTERNAL: Noise = Noise {
-    position: Some(1e-4),
-    rotation: Some(1e-4),
-    length: Some(1e-4),
-    tension: None,
-    displacement: None,
-    marker: None,
-    swivel: None,
-};
 
 /// A load under which a robot moves visibly.
 fn heavy(case: &Case) -> Load {

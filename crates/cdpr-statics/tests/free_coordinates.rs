@@ -188,8 +188,9 @@ fn outputs(
     ]
 }
 
-#[test]
-fn derivatives_with_free_coordinates_are_central_differences() {
+/// A planar robot on two cables, four cables of CoGiRo, and GRAB with cables that yield and have a weight; each
+/// with a pose, its free coordinates and a payload [kg].
+pub(crate) fn with_few_cables() -> [(Robot, Pose, Vec<Coordinate>, f64); 3] {
     let points = [[[-3.0, 0.0, 4.0], [-0.3, 0.0, 0.1]], [[3.0, 0.0, 4.0], [0.3, 0.0, 0.1]]];
     let platform = Platform::new(8.0, Vector3::new(0.02, 0.0, -0.1));
     let rope = CableProperties::linear(1.0, 0.08, 5e4);
@@ -197,7 +198,6 @@ fn derivatives_with_free_coordinates_are_central_differences() {
     let mut four = cogiro();
     four.cables = [0, 2, 4, 6].map(|i| four.cables[i].clone()).to_vec();
     let mut grab = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
-    // Cables that yield, and have a weight.
     grab.cables.iter_mut().for_each(|cable| {
         cable.properties.youngs_modulus = 2e9;
         cable.properties.linear_density = 1e-3;
@@ -205,14 +205,24 @@ fn derivatives_with_free_coordinates_are_central_differences() {
     let at_grab =
         Pose { rotation: Rotation3::from_euler_angles(0.0, 0.0, 0.136), ..Pose::at(1.28, -0.19, -0.92) };
     let [roll, pitch] = [Coordinate::Roll, Coordinate::Pitch];
+    [
+        (planar, Pose::at(0.5, 0.0, 1.5), vec![pitch], 2.0),
+        (four, Pose::at(1.0, 0.5, 2.0), vec![roll, pitch], 20.0),
+        (grab, at_grab, vec![roll, pitch], 0.2),
+    ]
+}
+
+#[test]
+fn derivatives_with_free_coordinates_are_central_differences() {
+    let [planar, four, grab] = with_few_cables();
     let cases = [
-        (planar.clone(), Pose::at(0.5, 0.0, 1.5), vec![pitch], vec![0.0; 2], 2.0),
-        (planar, Pose::at(0.5, 0.0, 1.5), vec![pitch], vec![3.0, -2.0], 2.0),
-        (four.clone(), Pose::at(1.0, 0.5, 2.0), vec![roll, pitch], vec![0.0; 4], 20.0),
-        (four, Pose::at(1.0, 0.5, 2.0), vec![roll, pitch], vec![5.0, -3.0, 8.0, 2.0], 20.0),
-        (grab, at_grab, vec![roll, pitch], vec![0.0; 4], 0.2),
+        (planar.clone(), vec![0.0; 2]),
+        (planar, vec![3.0, -2.0]),
+        (four.clone(), vec![0.0; 4]),
+        (four, vec![5.0, -3.0, 8.0, 2.0]),
+        (grab, vec![0.0; 4]),
     ];
-    for (robot, pose, free, offsets, payload) in cases {
+    for ((robot, pose, free, payload), offsets) in cases {
         let load = Load::payload(payload);
         // Beside a rest of the platform the search is short.
         let turn = if robot.plane.is_some() { Vector3::zeros() } else { Vector3::new(4e-3, -6e-3, 3e-3) };

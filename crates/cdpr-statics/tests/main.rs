@@ -4,6 +4,7 @@
 
 mod any_robot;
 mod common;
+mod derivative_invariants;
 mod derivatives;
 mod drawn;
 mod elastic_law;

@@ -1,10 +1,10 @@
 //! Derivatives of the lowest natural frequency and of the lowest stiffness against central differences.
 
 use crate::common::{caroca, cogiro, robots};
+use crate::free_coordinates::with_few_cables;
 use crate::pulleys::{led, tilted};
 use cdpr_robot::{
-    CableProperties, Coordinate, Matrix3, Parameter, Plane, Platform, Pose, Robot, RobotCable, Rotation3,
-    Vector3, Vector6,
+    CableProperties, Coordinate, Matrix3, Parameter, Platform, Pose, Robot, RobotCable, Vector3, Vector6,
 };
 use cdpr_statics::{
     Derivatives, DirectProblem, Load, StaticsError, deflection_free, derivatives_free, held_at,
@@ -149,27 +149,7 @@ fn they_change_over_pulleys_and_on_a_base_that_is_not_level_as_differences_say()
 
 #[test]
 fn they_change_with_few_cables_as_differences_say() {
-    let mut four = cogiro();
-    four.cables = [0, 2, 4, 6].map(|i| four.cables[i].clone()).to_vec();
-    let rope = CableProperties::linear(1.0, 0.08, 5e4);
-    let cables = [[-3.0, -0.3], [3.0, 0.3]].map(|[x, a]| {
-        RobotCable::between(Vector3::new(x, 0.0, 4.0), Vector3::new(a, 0.0, 0.1), rope.clone())
-    });
-    let platform = Platform::new(8.0, Vector3::new(0.02, 0.0, -0.1));
-    let planar = Robot { plane: Some(Plane::Xz), platform, cables: cables.to_vec(), ..cogiro() };
-    let mut grab = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
-    grab.cables.iter_mut().for_each(|cable| {
-        cable.properties.youngs_modulus = 2e9;
-        cable.properties.linear_density = 1e-3;
-    });
-    let at_grab =
-        Pose { rotation: Rotation3::from_euler_angles(0.0, 0.0, 0.136), ..Pose::at(1.28, -0.19, -0.92) };
-    let [roll, pitch] = [Coordinate::Roll, Coordinate::Pitch];
-    for (robot, pose, free, payload) in [
-        (planar, Pose::at(0.5, 0.0, 1.5), vec![pitch], 2.0),
-        (four, Pose::at(1.0, 0.5, 2.0), vec![roll, pitch], 20.0),
-        (grab, at_grab, vec![roll, pitch], 0.2),
-    ] {
+    for (robot, pose, free, payload) in with_few_cables() {
         // Beside a rest of the platform the search is short.
         let rest = held_at(&robot, &pose, &Load::none(), &free).unwrap().equilibrium.pose;
         let (compared, _) = check(&Case { free, ..Case::of(robot, rest, payload) });

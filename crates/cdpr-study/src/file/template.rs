@@ -69,8 +69,8 @@ pub fn template(
     let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
     if cables < freedoms {
         let expected = format!(
-            "a cable for each of the {freedoms} free motions; a study of this robot has names in `free`, which \
-             are yours to choose"
+            "a cable for each of the {freedoms} free motions; a study of this robot has names in `free`, \
+             which are yours to choose"
         );
         return Err(StudyError::setting("cables", format!("a list of {cables}"), expected));
     }
@@ -138,13 +138,17 @@ pub fn template(
       "observations": {OBSERVATIONS}
     }}
   }},
-  "sensitivity": {{ "saltelli_blocks": {SALTELLI_BLOCKS}, "morris_blocks": {MORRIS_BLOCKS}, "derivative_points": {DERIVATIVE_POINTS} }},
+  "sensitivity": {{
+    "saltelli_blocks": {SALTELLI_BLOCKS},
+    "morris_blocks": {MORRIS_BLOCKS},
+    "derivative_points": {DERIVATIVE_POINTS}
+  }},
   "surfaces": {{
     "modulus_mass": {{
       "title": "E and m alone",
       "pose": {{ "position": {position:?} }},
-      "x": {{ "parameter": "youngs_modulus", "min": -{modulus_half:?}, "max": {modulus_half:?}, "points": {AXIS} }},
-      "y": {{ "parameter": "mass", "min": -{mass_half:?}, "max": {mass_half:?}, "points": {AXIS} }}
+      "x": {{ "parameter": "youngs_modulus", "min": -{widest_e:?}, "max": {widest_e:?}, "points": {AXIS} }},
+      "y": {{ "parameter": "mass", "min": -{widest_m:?}, "max": {widest_m:?}, "points": {AXIS} }}
     }}
   }}
 }}
@@ -156,8 +160,8 @@ pub fn template(
         exits = uniform(0.005),
         center = uniform(0.01),
         offsets = uniform(two_digits(0.01 * tension)),
-        modulus_half = modulus,
-        mass_half = mass,
+        widest_e = modulus,
+        widest_m = mass,
     ))
 }
 
