@@ -48,8 +48,8 @@ tasks:
                  where these are installed, see docs/PEERS.md
   statistics TABLE [STUDIES]
                  measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
-                 choice (of a fitted law), indices (of Sobol')
-                 or expansions
+                 choice (of a fitted law), indices (of Sobol'), expansions
+                 or given (estimators of tables)
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
                  panics, hangs or touches a file outside of its folder of results

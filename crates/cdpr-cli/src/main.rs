@@ -131,6 +131,15 @@ enum Command {
     /// Write the report of a study: one HTML file with all figures that opens offline.
     #[command(after_help = "Example: cdpr report results")]
     Report(study::report::Settings),
+    /// Analyse a table of inputs and outputs, wherever it comes from: which inputs matter, and how.
+    ///
+    /// A table is CSV, Parquet (if built with it) or a folder of results. Rows without a number in an input are
+    /// left out, those without one in an output are failed observations of it; both are named.
+    #[command(after_help = "Examples:
+  cdpr analyse data/tables/ishigami.csv
+  cdpr analyse results --table mechanical --limit 'rms_mm<1.4' --out analysis
+  cdpr analyse measurements.csv --input 'temperature,load*' --output error_mm --format json")]
+    Analyse(study::analyse::Settings),
     /// Find which tolerances to tighten so that an error stays below a limit, and by how much.
     #[command(
         after_help = "Example: cdpr tolerances data/studies/caroca.json --sampling geometrical_asymmetric \
@@ -199,6 +208,7 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Modulus(settings) => cable::modulus::run(&settings)?,
         Command::Tolerances(settings) => study::tolerances::run(&settings)?,
         Command::Report(settings) => study::report::run(&settings)?,
+        Command::Analyse(settings) => return study::analyse::run(&settings),
         Command::Export(settings) => pose::export::run(&settings)?,
         Command::Import(settings) => return robot::import::run(&settings),
         Command::Robots(settings) => robot::library::run(&settings)?,

@@ -1,5 +1,6 @@
 //! Commands about studies: `cdpr study ...`, and those that read a study or its results.
 
+pub(crate) mod analyse;
 mod carry_out;
 mod common;
 mod print;

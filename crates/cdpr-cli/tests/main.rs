@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod analyse;
 mod bad_input;
 mod book;
 mod calibrate;

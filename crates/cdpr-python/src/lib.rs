@@ -42,6 +42,8 @@ mod _core {
     #[pymodule_export]
     use crate::robot::workspace::Workspace;
     #[pymodule_export]
+    use crate::sensitivity::analysis::analyse;
+    #[pymodule_export]
     use crate::sensitivity::designs::{MorrisDesign, SaltelliDesign, SobolDesign};
     #[pymodule_export]
     use crate::sensitivity::estimates::{Effects, Expansion, MorrisEffects, SobolIndices};

@@ -56,4 +56,4 @@ pub use figure::robustness::{found_poses, success_share};
 pub use figure::shares::shares;
 pub use figure::signed_effects::signed_effects;
 pub use figure::surface::surface;
-pub use page::{calibration_report, report, report_with};
+pub use page::{analysis_report, calibration_report, report, report_with};

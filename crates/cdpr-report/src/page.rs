@@ -6,6 +6,7 @@
 //! content security policy allows the two scripts by their hashes, and forbids all other scripts and every
 //! connection.
 
+mod analysis;
 mod calibration;
 mod comparison;
 mod elements;
@@ -16,6 +17,7 @@ mod robot;
 mod run;
 mod setup;
 
+pub use analysis::analysis_report;
 pub use calibration::calibration_report;
 
 use crate::draw::figures;

@@ -12,6 +12,7 @@
 //! | the same by a linear model | [`measure::regression`] |
 //! | share the variance between the inputs and their interactions | [`measure::sobol_indices`] |
 //! | the same from any independent sample | [`measure::expansion`] |
+//! | analyse a table that was not made by a design of this crate | [`given`] |
 //! | tighten tolerances until a limit holds | [`measure::allocation`] |
 //! | judge the accuracy and the number of runs | [`sample::interval`], [`measure::convergence`] |
 //!
@@ -59,6 +60,7 @@ struct Readme;
 pub mod design;
 pub mod error;
 mod family;
+pub mod given;
 pub mod law;
 pub mod measure;
 pub mod sample;
@@ -75,9 +77,20 @@ pub use design::sobol::{Sobol, SobolDesign};
 pub use design::{IndependentSample, JointSample, Layout, SampleDesign};
 pub use error::SensitivityError;
 pub use family::Family;
+pub use given::analysis::{
+    Analyser, Analysis, CorrelatedPair, InputAnalysis, InputAtLimit, Limit, LimitFailures,
+};
+pub use given::data::GivenData;
+pub use given::delta::{Delta, delta};
+pub use given::expansion::{GivenExpansion, given_expansion};
+pub use given::halves::{Half, halves};
+pub use given::hsic::{Dependence, Rows, dependence, dependence_of_event};
+pub use given::pawn::{Pawn, pawn};
+pub use given::rank::rank_indices;
 pub use law::fit::{DECIDED, Fit, best, fit, fit_all, ks_distance, undecided};
 pub use law::{Law, Support};
 pub use measure::allocation::allocate;
+pub use measure::bracket::{Bracket, brackets};
 pub use measure::convergence::{Target, Tightened, convergence, first_tight, until_tight};
 pub use measure::dgsm::{DerivativeMeasure, DerivativeMeasures, Slopes, dgsm};
 pub use measure::effect::{

@@ -1,6 +1,7 @@
 //! Measures of sensitivity. Each estimator has a module and takes the type of design that it can interpret.
 
 pub mod allocation;
+pub mod bracket;
 pub mod convergence;
 pub mod dgsm;
 pub mod effect;

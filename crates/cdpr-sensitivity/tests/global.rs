@@ -1,7 +1,8 @@
 //! Global sensitivity: designs and estimators on functions whose indices are known.
 
+mod brackets;
 mod dgsm;
-mod functions;
+pub(crate) mod functions;
 mod indices;
 mod morris;
 mod pce;

@@ -6,6 +6,7 @@ mod common;
 mod design;
 mod effect;
 mod fit;
+mod given;
 mod global;
 mod law;
 mod sobol;

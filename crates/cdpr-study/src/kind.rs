@@ -29,6 +29,8 @@ pub enum InputKind {
     Cases,
     /// A table or summary in a folder of results.
     Results,
+    /// A table to be analysed.
+    Table,
     /// A block of observations.
     Block,
 }
@@ -45,7 +47,7 @@ impl InputKind {
                     32
                 }
                 Self::Record => 64,
-                Self::Results => 256,
+                Self::Results | Self::Table => 256,
             }
     }
 }
@@ -78,6 +80,7 @@ impl fmt::Display for InputKind {
             Self::Poses => "a list of poses",
             Self::Cases => "a file of cases",
             Self::Results => "a file of results",
+            Self::Table => "a table",
             Self::Block => "a block",
         })
     }

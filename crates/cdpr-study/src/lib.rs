@@ -40,6 +40,7 @@ mod analysis;
 mod error;
 mod file;
 mod fs;
+mod given;
 mod kind;
 mod model;
 mod names;
@@ -59,7 +60,10 @@ pub use analysis::sampling::{
 pub use analysis::sensitivity::{Agreement, MethodSummary, SensitivitySummary, measure};
 pub use analysis::summary::Summary;
 pub use analysis::surface::{SurfaceResult, SurfaceSummary, SurfaceValues, compute_surface};
-pub use cdpr_sensitivity::{Estimate, Family, Truncation};
+pub use cdpr_sensitivity::{
+    Analyser, Analysis, Delta, Dependence, Estimate, Family, InputAnalysis, Limit as OutputLimit, Pawn,
+    Truncation,
+};
 pub use error::StudyError;
 pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema};
 pub use file::errors_file::{ERRORS_FORMAT, ErrorsFile, errors_schema};
@@ -76,6 +80,9 @@ pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::input::read_text;
 pub use fs::manifest::ResultsOf;
 pub use fs::owned::{Access, ResultsFolder, write_text};
+pub use given::{
+    BadCell, GivenTable, TableAnalysis, TableRequest, analyse_table, open_table, write_analysis,
+};
 pub use indexmap::IndexMap;
 pub use kind::InputKind;
 pub use model::cable_law::open_law;

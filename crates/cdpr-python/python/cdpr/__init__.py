@@ -32,7 +32,8 @@ from .errors import CdprError, FileError, InputError, NoSolutionError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from . import calibration, study
+    from . import analysis, calibration, study
+    from .analysis import analyse
 
 __all__ = [
     "Catenary",
@@ -50,6 +51,8 @@ __all__ = [
     "Stiffness",
     "Workspace",
     "__version__",
+    "analyse",
+    "analysis",
     "calibration",
     "catenary",
     "errors",
@@ -60,8 +63,12 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     # These are loaded when they are first used: the modules that they need take longer than all the rest.
-    if name in ("calibration", "study"):
+    if name in ("analysis", "calibration", "study"):
         import importlib
 
         return importlib.import_module(f"cdpr.{name}")
+    if name == "analyse":
+        from .analysis import analyse
+
+        return analyse
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

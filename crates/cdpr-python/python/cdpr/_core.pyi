@@ -569,6 +569,15 @@ class Expansion:
     def total(self) -> _Floats: ...
     def predict(self, rows: ArrayLike) -> _Floats: ...
 
+def analyse(
+    rows: ArrayLike,
+    outputs: ArrayLike,
+    names: list[str],
+    limit: tuple[str, float] | None,
+    level: float,
+    seed: int,
+    dependence_rows: int,
+) -> str: ...
 def begin(
     study: _Path,
     out: _Path,

@@ -3,13 +3,10 @@
 mod drawings;
 
 use crate::page::calibration::drawings::{against, correlations, in_space, workspace};
-use crate::page::elements::{STYLE, cell, inert, numeric, table};
+use crate::page::elements::{cell, numeric, plain_page, table};
 use cdpr_calibration::{CalibrationSummary, Fit, ParameterSummary};
 use cdpr_robot::{Robot, shown};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
-
-/// Content security policy: styles of the page itself, and nothing else.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+use maud::{Markup, html};
 
 /// Trends in the table at most.
 const MOST_TRENDS: usize = 20;
@@ -44,26 +41,7 @@ pub fn calibration_report(robot: &Robot, summary: &CalibrationSummary, found: &F
             (correlations(found))
         }
     };
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy"
-                    content=(POLICY);
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                meta name="generator" content={ "cdpr " (summary.version) };
-                title { "Calibration of " (shown(&summary.robot)) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body { div.page { main id="content" {
-                (inert(&body))
-                footer { "Written by cdpr " (summary.version) "." }
-            } } }
-        }
-    };
-    page.into_string()
+    plain_page(&format!("Calibration of {}", shown(&summary.robot)), summary.version, &body)
 }
 
 fn head(robot: &Robot, summary: &CalibrationSummary, found: &Fit) -> Markup {

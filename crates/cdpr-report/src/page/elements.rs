@@ -3,7 +3,7 @@
 use crate::text;
 use cdpr_robot::shown_lines;
 use cdpr_study::Figure;
-use maud::{Markup, PreEscaped, html};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::borrow::Cow;
 
 /// Style of every page.
@@ -12,6 +12,32 @@ pub(crate) const STYLE: &str = include_str!("page.css");
 /// Part of a page in which no character of a name is obeyed.
 pub(crate) fn inert(part: &Markup) -> PreEscaped<Cow<'_, str>> {
     PreEscaped(shown_lines(&part.0))
+}
+
+/// Content security policy of pages without scripts: styles of the page itself, and nothing else.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+
+/// The text of an HTML file without scripts that needs no other file.
+pub(crate) fn plain_page(title: &str, version: &str, body: &Markup) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta name="generator" content={ "cdpr " (version) };
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body { div.page { main id="content" {
+                (inert(body))
+                footer { "Written by cdpr " (version) "." }
+            } } }
+        }
+    };
+    page.into_string()
 }
 
 /// Section of the report.

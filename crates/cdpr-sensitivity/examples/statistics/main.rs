@@ -8,6 +8,7 @@
 mod choice;
 mod expansions;
 mod functions;
+mod given;
 mod indices;
 
 use cdpr_sensitivity::SensitivityError;
@@ -16,8 +17,12 @@ use cdpr_sensitivity::SensitivityError;
 type Table = fn(u64) -> Result<(), SensitivityError>;
 
 fn main() -> Result<(), SensitivityError> {
-    let tables: [(&str, Table); 3] =
-        [("choice", choice::table), ("indices", indices::table), ("expansions", expansions::table)];
+    let tables: [(&str, Table); 4] = [
+        ("choice", choice::table),
+        ("indices", indices::table),
+        ("expansions", expansions::table),
+        ("given", given::table),
+    ];
     let mut arguments = std::env::args().skip(1);
     let (name, count) = (arguments.next(), arguments.next());
     let Some((_, table)) = tables.iter().find(|(table, _)| Some(*table) == name.as_deref()) else {

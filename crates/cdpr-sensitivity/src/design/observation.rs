@@ -43,7 +43,8 @@ pub(crate) fn check_outputs(
     observed.try_for_each(|(index, value)| check_finite("outputs", index, value))
 }
 
-/// Observations of a design that gave an output.
+/// Observations that gave an output.
+#[derive(Debug, Clone)]
 pub(crate) struct Observed {
     /// Values of each input, one per observation.
     pub(crate) columns: Vec<Vec<f64>>,
@@ -60,9 +61,7 @@ impl Observed {
         minimum: usize,
     ) -> Result<Self, SensitivityError> {
         check_outputs(design, outputs)?;
-        let values: Vec<f64> = outputs.iter().copied().flatten().collect();
-        check_range("observed outputs", values.len() as u64, minimum as u64, u64::MAX)?;
-        check_varies(&values)?;
+        let values = observed(outputs, minimum)?;
         let mut columns = vec![Vec::with_capacity(values.len()); design.inputs().len()];
         let mut row = vec![0.0; columns.len()];
         for index in (0..outputs.len()).filter(|&index| outputs[index].is_some()) {
@@ -73,4 +72,31 @@ impl Observed {
         }
         Ok(Self { columns, failed: outputs.len() - values.len(), outputs: values })
     }
+
+    /// The same of columns that hold a value for each output, all of which are finite.
+    pub(crate) fn of_columns(
+        columns: &[Vec<f64>],
+        outputs: &[Option<f64>],
+        minimum: usize,
+    ) -> Result<Self, SensitivityError> {
+        let values = observed(outputs, minimum)?;
+        let select = |column: &Vec<f64>| {
+            column
+                .iter()
+                .zip(outputs)
+                .filter(|(_, output)| output.is_some())
+                .map(|(value, _)| *value)
+                .collect()
+        };
+        let columns = columns.iter().map(select).collect();
+        Ok(Self { columns, failed: outputs.len() - values.len(), outputs: values })
+    }
+}
+
+/// The outputs that were observed: at least `minimum`, and not all equal.
+fn observed(outputs: &[Option<f64>], minimum: usize) -> Result<Vec<f64>, SensitivityError> {
+    let values: Vec<f64> = outputs.iter().copied().flatten().collect();
+    check_range("observed outputs", values.len() as u64, minimum as u64, u64::MAX)?;
+    check_varies(&values)?;
+    Ok(values)
 }

@@ -72,15 +72,8 @@ pub fn dgsm<D: IndependentSample>(
     level: f64,
 ) -> Result<DerivativeMeasures, SensitivityError> {
     check_level(level)?;
-    check_length("slopes", slopes.len(), design.points())?;
+    checked(design, slopes)?;
     let inputs = design.inputs();
-    for (index, Slopes { output, gradient }) in
-        slopes.iter().enumerate().filter_map(|(index, slopes)| Some((index, slopes.as_ref()?)))
-    {
-        check_length("gradient", gradient.len(), inputs.len())?;
-        gradient.iter().try_for_each(|&slope| check_finite("gradient", index, slope))?;
-        check_finite("outputs", index, *output)?;
-    }
     let observed: Vec<&Slopes> = slopes.iter().flatten().collect();
     check_range("observed outputs", observed.len() as u64, 2, u64::MAX)?;
     let outputs: Vec<f64> = observed.iter().map(|slopes| slopes.output).collect();
@@ -98,4 +91,20 @@ pub fn dgsm<D: IndependentSample>(
         variance,
         inputs: inputs.iter().enumerate().map(measure).collect::<Result<_, _>>()?,
     })
+}
+
+/// Checks that there is one element per row, with one finite derivative per input.
+pub(crate) fn checked<D: IndependentSample>(
+    design: &D,
+    slopes: &[Option<Slopes>],
+) -> Result<(), SensitivityError> {
+    check_length("slopes", slopes.len(), design.points())?;
+    for (index, Slopes { output, gradient }) in
+        slopes.iter().enumerate().filter_map(|(index, slopes)| Some((index, slopes.as_ref()?)))
+    {
+        check_length("gradient", gradient.len(), design.inputs().len())?;
+        gradient.iter().try_for_each(|&slope| check_finite("gradient", index, slope))?;
+        check_finite("outputs", index, *output)?;
+    }
+    Ok(())
 }

@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 use crate::design::IndependentSample;
 use crate::design::input::Input;
 use crate::design::observation::Observed;
-use crate::error::{SensitivityError, check_length, check_range, require};
+use crate::error::{SensitivityError, check_length};
 use crate::measure::expansion::basis::Polynomials;
 use crate::measure::expansion::polynomial::{Power, Truncation};
 use crate::measure::expansion::pursuit::pursue;
@@ -98,10 +98,8 @@ pub fn expansion<D: IndependentSample>(
     outputs: &[Option<f64>],
     truncation: Truncation,
 ) -> Result<Expansion, SensitivityError> {
-    let Truncation { max_degree, norm, interactions } = truncation;
-    require(norm > 0.0 && norm <= 1.0, "norm", norm, "a number above 0, at most 1")?;
-    check_range("degree", max_degree as u64, 1, Expansion::MAX_DEGREE as u64)?;
-    check_range("interactions", interactions as u64, 1, u64::MAX)?;
+    let max_degree = truncation.max_degree;
+    truncation.check()?;
     let observed = Observed::new(design, outputs, Expansion::MIN_OUTPUTS)?;
     let inputs = design.inputs();
     let values = inputs.par_iter().map(|input| Polynomials::new(input, max_degree)).collect();
@@ -124,12 +122,33 @@ fn fit(
     polynomials: Vec<Polynomials>,
     truncation: Truncation,
 ) -> Result<Expansion, SensitivityError> {
-    let n = observed.outputs.len();
+    let Found { degree, mean, terms, leave_one_out } =
+        search(&observed.columns, &observed.outputs, &polynomials, truncation)?;
+    let (inputs, failed, observed) = (inputs.to_vec(), observed.failed, observed.outputs.len());
+    Ok(Expansion { inputs, polynomials, observed, failed, degree, mean, terms, leave_one_out })
+}
+
+/// What [`search`] finds, as an [`Expansion`] has it.
+pub(crate) struct Found {
+    pub(crate) degree: usize,
+    pub(crate) mean: f64,
+    pub(crate) terms: Vec<Term>,
+    pub(crate) leave_one_out: f64,
+}
+
+/// The terms of the degree with the least error, in these polynomials of columns of values.
+pub(crate) fn search(
+    columns: &[Vec<f64>],
+    outputs: &[f64],
+    polynomials: &[Polynomials],
+    truncation: Truncation,
+) -> Result<Found, SensitivityError> {
+    let n = outputs.len();
     // values[input][observation][degree]
     let of_input = |(polynomials, column): (&Polynomials, &Vec<f64>)| -> Vec<Vec<f64>> {
         column.iter().map(|&x| polynomials.values(x)).collect()
     };
-    let values: Vec<_> = polynomials.par_iter().zip(&observed.columns).map(of_input).collect();
+    let values: Vec<_> = polynomials.par_iter().zip(columns).map(of_input).collect();
     let column = |powers: &Vec<Power>| -> Vec<f64> {
         let value = |i: usize| powers.iter().map(|power| values[power.input][i][power.degree]).product();
         (0..n).map(value).collect()
@@ -139,7 +158,7 @@ fn fit(
     let limit = MAX_VALUES / n;
     let of_degree = |degree| {
         let mut products =
-            truncation.products(inputs.len(), degree, limit).ok_or(SensitivityError::OutOfRange {
+            truncation.products(columns.len(), degree, limit).ok_or(SensitivityError::OutOfRange {
                 field: "candidate terms",
                 value: limit as u64 + 1,
                 minimum: 1,
@@ -147,27 +166,43 @@ fn fit(
             })?;
         products.retain(|powers| powers.iter().all(exists));
         let columns: Vec<Vec<f64>> = products.par_iter().map(column).collect();
-        let found = pursue(&columns, &observed.outputs);
+        let found = pursue(&columns, outputs);
         let term = |(j, coefficient): (usize, f64)| Term { powers: products[j].clone(), coefficient };
-        Ok((degree, found.constant, found.terms.into_iter().map(term).collect::<Vec<_>>(), found.error))
+        let terms = found.terms.into_iter().map(term).collect();
+        Ok(Found { degree, mean: found.constant, terms, leave_one_out: found.error })
     };
     let mut best = of_degree(1)?;
     for degree in 2..=truncation.max_degree {
         let other = of_degree(degree)?;
-        if other.3 < best.3 {
+        if other.leave_one_out < best.leave_one_out {
             best = other;
         }
     }
-    let (degree, mean, terms, leave_one_out) = best;
-    let (inputs, failed) = (inputs.to_vec(), observed.failed);
-    Ok(Expansion { inputs, polynomials, observed: n, failed, degree, mean, terms, leave_one_out })
+    Ok(best)
+}
+
+/// Shares (X3), (X4) of a group of inputs in the variance of terms.
+pub(crate) fn shares(terms: &[Term], group: &[usize]) -> Shares {
+    let variance: f64 = terms.iter().map(|term| term.coefficient * term.coefficient).sum();
+    let (mut closed, mut total) = (0.0, 0.0);
+    for term in terms {
+        let share = term.coefficient * term.coefficient / variance;
+        let member = |power: &Power| group.contains(&power.input);
+        if term.powers.iter().all(member) {
+            closed += share;
+        }
+        if term.powers.iter().any(member) {
+            total += share;
+        }
+    }
+    Shares { closed, total }
 }
 
 impl Expansion {
     /// Least number of outputs that an expansion is fitted to.
     pub const MIN_OUTPUTS: usize = 10;
     /// Largest degree of an expansion.
-    pub const MAX_DEGREE: usize = 100;
+    pub const MAX_DEGREE: usize = Truncation::MAX_DEGREE;
 
     /// Variance V of the expansion, Eq. (X1), in the square of the unit of the output.
     #[must_use]
@@ -178,7 +213,7 @@ impl Expansion {
     /// Indices of each input in the order of the design. All are 0 if no term improves on the mean.
     #[must_use]
     pub fn indices(&self) -> Vec<Shares> {
-        (0..self.inputs.len()).map(|input| self.shares(&[input])).collect()
+        (0..self.inputs.len()).map(|input| shares(&self.terms, &[input])).collect()
     }
 
     /// Index (X2) of each pair of inputs that occurs in a term, in ascending order of the inputs.
@@ -204,7 +239,7 @@ impl Expansion {
             let found = self.inputs.iter().position(|input| input.name == *name);
             found.ok_or_else(|| SensitivityError::UnknownInput { name: (*name).to_owned() })
         };
-        Ok(self.shares(&names.iter().map(index).collect::<Result<Vec<_>, _>>()?))
+        Ok(shares(&self.terms, &names.iter().map(index).collect::<Result<Vec<_>, _>>()?))
     }
 
     /// Predicts the output by the expansion (X1) at a row of values of the inputs.
@@ -219,22 +254,5 @@ impl Expansion {
             term.coefficient * factors.product::<f64>()
         };
         Ok(self.mean + self.terms.iter().map(of_term).sum::<f64>())
-    }
-
-    /// Shares of a group of inputs, Eq. (X3) and (X4).
-    fn shares(&self, group: &[usize]) -> Shares {
-        let variance = self.variance();
-        let (mut closed, mut total) = (0.0, 0.0);
-        for term in &self.terms {
-            let share = term.coefficient * term.coefficient / variance;
-            let member = |power: &Power| group.contains(&power.input);
-            if term.powers.iter().all(member) {
-                closed += share;
-            }
-            if term.powers.iter().any(member) {
-                total += share;
-            }
-        }
-        Shares { closed, total }
     }
 }

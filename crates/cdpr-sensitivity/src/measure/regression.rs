@@ -23,9 +23,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::design::JointSample;
-use crate::design::input::Input;
 use crate::design::observation::Observed;
-use crate::error::SensitivityError;
+use crate::error::{SensitivityError, check_range};
 use crate::measure::least_squares::least_squares;
 use crate::sample::summary::Spread;
 
@@ -68,7 +67,7 @@ pub fn regression<D: JointSample>(
     design: &D,
     outputs: &[Option<f64>],
 ) -> Result<Regression, SensitivityError> {
-    of_observed(design, outputs, |values| values)
+    of_design(design, outputs, Of::Values)
 }
 
 /// Coefficients of ranks (SRRC, PRCC), from one output per row, `None` for a failed observation.
@@ -79,7 +78,7 @@ pub fn rank_regression<D: JointSample>(
     design: &D,
     outputs: &[Option<f64>],
 ) -> Result<Regression, SensitivityError> {
-    of_observed(design, outputs, |values| ranks(&values))
+    of_design(design, outputs, Of::Ranks)
 }
 
 /// Spearman's rank correlation of two lists of equal length, or `None` if the values of one are constant.
@@ -90,24 +89,44 @@ pub fn rank_correlation(one: &[f64], other: &[f64]) -> Option<f64> {
     Some(products / (one.len() as f64 - 1.0))
 }
 
-fn of_observed<D: JointSample>(
+fn of_design<D: JointSample>(
     design: &D,
     outputs: &[Option<f64>],
-    transform: impl Fn(Vec<f64>) -> Vec<f64>,
+    of: Of,
 ) -> Result<Regression, SensitivityError> {
-    let inputs = design.inputs();
-    let observed = Observed::new(design, outputs, inputs.len() + 2)?;
-    let collinear = |i: usize| SensitivityError::Collinear { input: inputs[i].name.clone() };
+    let names: Vec<&str> = design.inputs().iter().map(|input| input.name.as_str()).collect();
+    of_observed(&names, Observed::new(design, outputs, names.len() + 2)?, of)
+}
+
+/// What the linear model is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Of {
+    Values,
+    Ranks,
+}
+
+/// Coefficients of the inputs of these names, from at least two more outputs than there are inputs.
+pub(crate) fn of_observed(
+    names: &[&str],
+    observed: Observed,
+    of: Of,
+) -> Result<Regression, SensitivityError> {
+    check_range("observed outputs", observed.outputs.len() as u64, names.len() as u64 + 2, u64::MAX)?;
+    let transform = |values: Vec<f64>| match of {
+        Of::Values => values,
+        Of::Ranks => ranks(&values),
+    };
+    let collinear = |i: usize| SensitivityError::Collinear { input: names[i].to_owned() };
     let standard = |(i, values)| standardised(transform(values)).ok_or_else(|| collinear(i));
     let columns: Vec<_> = observed.columns.into_iter().enumerate().map(standard).collect::<Result<_, _>>()?;
     let (n, value) = (observed.outputs.len(), observed.outputs[0]);
     let y = standardised(transform(observed.outputs))
         .ok_or(SensitivityError::ConstantSample { value, count: n })?;
     let fit = least_squares(&columns, &y).map_err(collinear)?;
-    let coefficient = |((input, &beta), gram): ((&Input, &f64), &f64)| {
+    let coefficient = |((name, &beta), gram): ((&&str, &f64), &f64)| {
         let scale = (beta * beta + fit.residual_squares * gram).sqrt();
         Coefficient {
-            input: input.name.clone(),
+            input: (*name).to_owned(),
             standardised: beta,
             share: beta * beta,
             partial: if scale > 0.0 { beta / scale } else { 0.0 },
@@ -117,12 +136,12 @@ fn of_observed<D: JointSample>(
         observed: n,
         failed: observed.failed,
         r_squared: 1.0 - fit.residual_squares / (n as f64 - 1.0),
-        inputs: inputs.iter().zip(&fit.coefficients).zip(&fit.inverse_gram).map(coefficient).collect(),
+        inputs: names.iter().zip(&fit.coefficients).zip(&fit.inverse_gram).map(coefficient).collect(),
     })
 }
 
 /// Standardises values to mean 0 and deviation 1. Constant values give `None`.
-fn standardised(mut values: Vec<f64>) -> Option<Vec<f64>> {
+pub(crate) fn standardised(mut values: Vec<f64>) -> Option<Vec<f64>> {
     let spread = Spread::of(&values);
     let std = spread.std();
     for value in &mut values {
@@ -132,7 +151,7 @@ fn standardised(mut values: Vec<f64>) -> Option<Vec<f64>> {
 }
 
 /// Ranks of values, starting at 1.
-fn ranks(values: &[f64]) -> Vec<f64> {
+pub(crate) fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_unstable_by(|&i, &j| values[i].total_cmp(&values[j]));
     let mut ranks = vec![0.0; values.len()];

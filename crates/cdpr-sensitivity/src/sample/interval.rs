@@ -48,8 +48,9 @@ impl Estimate {
 
     /// Mean of at least two values with its interval, Eq. (CI1).
     pub(crate) fn of_mean(values: &[f64], level: f64) -> Result<Self, SensitivityError> {
+        check_range("independent values", values.len() as u64, 2, u64::MAX)?;
         let spread = Spread::of(values);
-        Ok(Self::around(spread.mean, student(values.len(), level)? * spread.standard_error()))
+        Ok(Self::around(spread.mean, student(values.len() as f64 - 1.0, level)? * spread.standard_error()))
     }
 
     /// Estimate with its interval, Eq. (CI2), from at least two units and two resamples. `variance` is added
@@ -63,7 +64,18 @@ impl Estimate {
     ) -> Result<Self, SensitivityError> {
         let n = units as f64;
         let variance = Spread::of(resampled).variance() * n / (n - 1.0) + variance;
-        Ok(Self::around(value, student(units, level)? * variance.sqrt()))
+        check_range("independent values", units as u64, 2, u64::MAX)?;
+        Self::of_variance(value, variance, n - 1.0, level)
+    }
+
+    /// Estimate of a known variance with Student's interval of so many degrees of freedom.
+    pub(crate) fn of_variance(
+        value: f64,
+        variance: f64,
+        freedoms: f64,
+        level: f64,
+    ) -> Result<Self, SensitivityError> {
+        Ok(Self::around(value, student(freedoms, level)? * variance.sqrt()))
     }
 
     /// The same estimate with an interval that is no shorter than `half` on either side.
@@ -123,15 +135,14 @@ impl Estimate {
     }
 }
 
-/// Student's factor for n values.
-fn student(n: usize, level: f64) -> Result<f64, SensitivityError> {
-    check_range("independent values", n as u64, 2, u64::MAX)?;
+/// Student's factor of so many degrees of freedom.
+fn student(freedoms: f64, level: f64) -> Result<f64, SensitivityError> {
     let wrong = |_| SensitivityError::InvalidParameter {
         field: "level",
         value: level,
         expected: "a confidence level",
     };
-    Ok(StudentsT::new(0.0, 1.0, n as f64 - 1.0).map_err(wrong)?.inverse_cdf(0.5 * (1.0 + level)))
+    Ok(StudentsT::new(0.0, 1.0, freedoms).map_err(wrong)?.inverse_cdf(0.5 * (1.0 + level)))
 }
 
 #[cfg(test)]

@@ -31,6 +31,8 @@ pub enum ResultsOf {
     Robustness,
     /// A calibration.
     Calibration,
+    /// The analysis of a table.
+    Analysis,
     /// Figures alone.
     Figures,
 }
@@ -43,6 +45,7 @@ impl ResultsOf {
             Self::Workspace => "a workspace",
             Self::Robustness => "the robustness of the direct model",
             Self::Calibration => "a calibration",
+            Self::Analysis => "the analysis of a table",
             Self::Figures => "figures",
         }
     }

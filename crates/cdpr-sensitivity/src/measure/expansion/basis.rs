@@ -80,6 +80,12 @@ impl Polynomials {
         }
     }
 
+    /// Polynomials of the values of a sample, each of the same weight.
+    pub(crate) fn of_values(values: &[f64], degree: usize) -> Self {
+        let nodes: Vec<(f64, f64)> = values.iter().map(|&x| (x, 1.0)).collect();
+        stieltjes(&nodes, degree)
+    }
+
     /// Largest degree of a polynomial that is not 0 throughout.
     pub(crate) fn degree(&self) -> usize {
         self.b.len()

@@ -9,6 +9,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::{SensitivityError, check_range, require};
+
 /// Degree of one input in a product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Power {
@@ -31,6 +33,17 @@ pub struct Truncation {
 }
 
 impl Truncation {
+    /// Largest degree of an expansion.
+    pub(crate) const MAX_DEGREE: usize = 100;
+
+    /// Checks degree, norm and interactions.
+    pub(crate) fn check(&self) -> Result<(), SensitivityError> {
+        let Self { max_degree, norm, interactions } = *self;
+        require(norm > 0.0 && norm <= 1.0, "norm", norm, "a number above 0, at most 1")?;
+        check_range("degree", max_degree as u64, 1, Self::MAX_DEGREE as u64)?;
+        check_range("interactions", interactions as u64, 1, u64::MAX)
+    }
+
     /// Products up to this degree without the constant one, or `None` if there are more than `limit`.
     pub(crate) fn products(&self, inputs: usize, degree: usize, limit: usize) -> Option<Vec<Vec<Power>>> {
         let mut products: Vec<Vec<Power>> = vec![vec![]];

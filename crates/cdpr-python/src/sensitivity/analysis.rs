@@ -1,0 +1,59 @@
+//! The analysis of a table that was not made by a design.
+
+use crate::convert::{Answer, Array, Numbers, Raised, run, to_json};
+use cdpr_sensitivity::{Analyser, Analysis, GivenData, Limit};
+use pyo3::prelude::*;
+use serde::Serialize;
+
+/// The analysis of an output, and the number of rows that are left out.
+#[derive(Serialize)]
+struct Found {
+    left_out: usize,
+    #[serde(flatten)]
+    analysis: Analysis,
+}
+
+/// Analyses rows of inputs, (n, k), and their outputs, (n,): the analysis as JSON.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn analyse(
+    py: Python,
+    rows: Numbers,
+    outputs: Numbers,
+    names: Vec<String>,
+    limit: Option<(String, f64)>,
+    level: f64,
+    seed: u64,
+    dependence_rows: usize,
+) -> Answer<String> {
+    let (x, y) = (Array::new("X", &rows)?, Array::new("Y", &outputs)?);
+    let k = names.len();
+    if x.shape.len() != 2 || x.shape[1] != k || y.shape[..] != x.shape[..1] {
+        let (x, y) = (x.shape, y.shape);
+        return Err(Raised::Input(format!(
+            "X has the shape {x:?} and Y {y:?}: expected (n, {k}) and (n,), a name for each column"
+        )));
+    }
+    let limit = limit.map(|(sign, value)| match sign.as_str() {
+        "<" => Ok(Limit::Below(value)),
+        "<=" => Ok(Limit::AtMost(value)),
+        ">" => Ok(Limit::Above(value)),
+        ">=" => Ok(Limit::AtLeast(value)),
+        sign => Err(Raised::Input(format!("limit has the sign `{sign}`: expected <, <=, > or >="))),
+    });
+    let limit = limit.transpose()?;
+    let found = run(py, |_| {
+        let complete: Vec<usize> = (0..y.values.len())
+            .filter(|row| x.values[row * k..(row + 1) * k].iter().all(|value| value.is_finite()))
+            .collect();
+        let column = |input: usize| complete.iter().map(|row| x.values[row * k + input]).collect();
+        let outputs = complete.iter().map(|&row| Some(y.values[row]).filter(|value| value.is_finite()));
+        let data = GivenData::new(names, (0..k).map(column).collect(), outputs.collect())?;
+        let analysis = Analyser { level, seed, dependence_rows, limit }.analyse(&data)?;
+        Ok::<_, cdpr_sensitivity::SensitivityError>(Found {
+            left_out: y.values.len() - complete.len(),
+            analysis,
+        })
+    })?;
+    to_json(&found?)
+}

@@ -1,0 +1,190 @@
+//! The report of the analysis of a table: what each output says, with scatter plots and a cobweb.
+
+mod drawings;
+
+use crate::page::analysis::drawings::{cobweb, scatter};
+use crate::page::elements::{cell, numeric, plain_page, table};
+use crate::text;
+use cdpr_robot::shown;
+use cdpr_study::{Analysis, Dependence, GivenTable, InputAnalysis, TableAnalysis};
+use maud::{Markup, html};
+
+/// Inputs with a scatter plot, and axes of a cobweb, at most.
+const DRAWN: usize = 9;
+
+/// Writes the report of an analysis as the text of an HTML file, which needs no other file and no script.
+///
+/// The table is the one that was analysed.
+pub fn analysis_report(table: &GivenTable, found: &TableAnalysis) -> String {
+    let name = std::path::Path::new(&found.table).file_name().map(|name| name.to_string_lossy().into_owned());
+    let title = format!("Analysis of {}", shown(&name.unwrap_or_else(|| found.table.clone())));
+    let body = html! {
+        header {
+            h1 { (title) }
+            p {
+                (found.rows) " rows, " (found.inputs.len()) " inputs, " (found.outputs.len()) " outputs"
+                @if found.left_out > 0 { "; " (found.left_out) " rows are left out: an input has no number" }
+                "."
+            }
+            @if found.bad_cells > 0 {
+                p.note {
+                    (found.bad_cells) " cells hold no number"
+                    @for bad in &found.first_bad_cells {
+                        "; row " (bad.row) ", " code { (bad.column) }
+                    }
+                    "."
+                }
+            }
+        }
+        @for (number, (name, analysis)) in found.outputs.iter().enumerate() {
+            section id={ "output" (number + 1) } {
+                h2 { (name) }
+                (summary(name, analysis))
+                (measures(analysis))
+                @if analysis.limit.is_some() { (at_limit(analysis)) }
+                @for note in &analysis.notes { p.note { (note) "." } }
+                @let drawn = leading(analysis).into_iter().take(DRAWN).collect::<Vec<_>>();
+                @if let Some(y) = column(table, name) {
+                    @for input in &drawn {
+                        @if let Some(x) = column(table, &input.input) { (scatter(&input.input, x, name, y, analysis)) }
+                    }
+                    @let axes = drawn.iter().map(|input| input.input.as_str());
+                    @let axes = axes.filter_map(|axis| Some((axis, column(table, axis)?)));
+                    (cobweb(&axes.collect::<Vec<_>>(), (name, y), analysis))
+                }
+            }
+        }
+    };
+    plain_page(&title, env!("CARGO_PKG_VERSION"), &body)
+}
+
+fn column<'a>(table: &'a GivenTable, name: &str) -> Option<&'a [f64]> {
+    table.columns.iter().find(|(known, _)| known == name).map(|(_, values)| values.as_slice())
+}
+
+/// Inputs by their dependence, the strongest first.
+fn leading(analysis: &Analysis) -> Vec<&InputAnalysis> {
+    let mut inputs: Vec<&InputAnalysis> = analysis.inputs.iter().collect();
+    let strength = |input: &InputAnalysis| input.dependence.map_or(0.0, |dependence| dependence.r_squared);
+    inputs.sort_by(|one, other| strength(other).total_cmp(&strength(one)));
+    inputs
+}
+
+fn summary(name: &str, analysis: &Analysis) -> Markup {
+    let of = &analysis.summary;
+    let [low, median, high] = analysis.quantiles;
+    let head = ["values", "failed", "mean", "deviation", "least", "5 %", "median", "95 %", "greatest"];
+    let numbers = [of.mean, of.std, of.min, low, median, high, of.max];
+    let row: Vec<Markup> = [cell(of.count.to_string()), cell(of.failed.to_string())]
+        .into_iter()
+        .chain(numbers.map(|value| numeric(value, 5)))
+        .collect();
+    html! {
+        (table(&format!("Values of {name}"), &head, &[row]))
+        @if let Some(family) = analysis.best_fit {
+            p {
+                "Of the fitted laws, the " (family) " one is the most probable"
+                @if analysis.undecided { "; the values do not decide for it" }
+                "."
+            }
+        }
+    }
+}
+
+fn measures(analysis: &Analysis) -> Markup {
+    let head = [
+        "input",
+        "effect",
+        "t",
+        "SRC",
+        "SRRC",
+        "S by ranks",
+        "S, expansion",
+        "T, expansion",
+        "HSIC R\u{b2}",
+        "p",
+        "PAWN",
+        "noise",
+        "\u{3b4}",
+        "noise",
+    ];
+    let estimate = |estimate: Option<cdpr_study::Estimate>| match estimate {
+        Some(of) => html! { (numeric(of.value, 3)) " \u{b1} " (numeric(0.5 * of.width(), 2)) },
+        None => numeric(None, 3),
+    };
+    let row = |input: &&InputAnalysis| {
+        vec![
+            cell(&input.input),
+            numeric(input.half.effect, 3),
+            numeric(input.half.student, 3),
+            numeric(input.standardised, 3),
+            numeric(input.rank_standardised, 3),
+            estimate(input.first),
+            numeric(input.shares.map(|shares| shares.closed), 3),
+            numeric(input.shares.map(|shares| shares.total), 3),
+            numeric(input.dependence.map(|dependence| dependence.r_squared), 3),
+            p_value(input.dependence),
+            numeric(input.pawn.map(|pawn| pawn.median), 3),
+            numeric(input.pawn.map(|pawn| pawn.noise), 2),
+            estimate(input.delta.map(|delta| delta.delta)),
+            numeric(input.delta.map(|delta| delta.noise), 2),
+        ]
+    };
+    let rows: Vec<Vec<Markup>> = leading(analysis).iter().map(row).collect();
+    let percent = |share: f64| text::digits(100.0 * share, 3);
+    html! {
+        (table("Measures of each input", &head, &rows))
+        p {
+            @if let Some(share) = analysis.r_squared {
+                "A linear model explains " (percent(share)) " % of the variance. "
+            }
+            @if let Some(expansion) = &analysis.expansion {
+                "The polynomial model has " (expansion.terms.len()) " terms up to the degree "
+                    (expansion.degree) " and does not predict " (percent(expansion.leave_one_out)) " %. "
+            }
+            "An effect is the mean of the upper half of an input's values less that of the lower half. Values \
+             below the noise beside them are as large without an effect in one table of twenty."
+        }
+    }
+}
+
+fn p_value(dependence: Option<Dependence>) -> Markup {
+    match dependence {
+        Some(Dependence { p_value, .. }) if p_value < 1e-4 => cell("< 0.0001"),
+        Some(Dependence { p_value, .. }) => numeric(p_value, 2),
+        None => numeric(None, 2),
+    }
+}
+
+fn at_limit(analysis: &Analysis) -> Markup {
+    let Some(failures) = &analysis.limit else { return html! {} };
+    let head = ["input", "target R\u{b2}", "p", "conditional R\u{b2}", "p", "place of the failures"];
+    let row = |input: &&InputAnalysis| {
+        let at = input.limit?;
+        Some(vec![
+            cell(&input.input),
+            numeric(at.target.r_squared, 3),
+            p_value(Some(at.target)),
+            numeric(at.conditional.map(|dependence| dependence.r_squared), 3),
+            p_value(at.conditional),
+            numeric(at.place, 2),
+        ])
+    };
+    let mut inputs: Vec<&InputAnalysis> = analysis.inputs.iter().collect();
+    let strength = |input: &InputAnalysis| input.limit.map_or(0.0, |at| at.target.r_squared);
+    inputs.sort_by(|one, other| strength(other).total_cmp(&strength(one)));
+    let rows: Vec<Vec<Markup>> = inputs.iter().filter_map(row).collect();
+    html! {
+        p {
+            (failures.count) " values fail the limit (" (text::fields(&failures.limit)) "): "
+            (text::digits(100.0 * failures.share.value, 3)) " %, with 95 % confidence between "
+            (text::digits(100.0 * failures.share.low, 3)) " % and "
+            (text::digits(100.0 * failures.share.high, 3)) " % for independent rows."
+        }
+        @if !rows.is_empty() {
+            (table("What makes the limit fail", &head, &rows))
+            p { "The place is the share of all values of an input below the median of those that fail: 0.5 \
+                 without a relation, near 1 where large values fail." }
+        }
+    }
+}

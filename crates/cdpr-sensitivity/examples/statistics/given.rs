@@ -1,0 +1,116 @@
+//! Estimators of tables: how often intervals of the first-order index hold it, and how often tests and levels
+//! of noise are passed without an effect.
+
+use cdpr_sensitivity::{
+    Bootstrap, GivenData, Order, RandomDesign, Rows, SaltelliDesign, SensitivityError, delta, dependence,
+    dependence_of_event, observe, pawn, rank_indices, sobol_indices,
+};
+
+use crate::functions::{Function, all};
+
+/// Blocks behind the values that count as true.
+const TRUE_BLOCKS: usize = 1 << 18;
+
+/// Prints, for each function, coverage and errors on independent rows; then, on outputs dealt to the rows at
+/// random, how often each test finds an effect.
+pub(crate) fn table(studies: u64) -> Result<(), SensitivityError> {
+    println!("{studies} studies each of independent random rows. S by ranks: share of the intervals of 95 %");
+    println!(
+        "that hold the index [%], mean and least over the inputs; largest root mean square error; largest"
+    );
+    println!("mean error; mean half width over the root mean square error");
+    println!("{:22}{:>7}{:>20}{:>10}{:>10}{:>7}", "function", "rows", "held", "error", "bias", "width");
+    for function in all() {
+        let exact = exact(&function)?;
+        for rows in [50, 200, 1000] {
+            ranks(&function, &exact, rows, studies)?;
+        }
+    }
+    println!();
+    println!("outputs dealt to the rows at random: share found above the level of 5 % (1 %) [%]");
+    println!(
+        "{:22}{:>7}{:>20}{:>20}{:>10}{:>10}",
+        "function", "rows", "dependence", "of an event", "PAWN", "delta"
+    );
+    for function in
+        all().into_iter().filter(|function| function.inputs.len() <= 10 && !function.name.contains("fail"))
+    {
+        for rows in [20, 50, 200] {
+            levels(&function, rows, studies)?;
+        }
+    }
+    Ok(())
+}
+
+fn exact(function: &Function) -> Result<Vec<f64>, SensitivityError> {
+    let design = SaltelliDesign::scrambled(function.inputs.clone(), TRUE_BLOCKS, Order::First, u64::MAX)?;
+    let outputs = observe(&design, function.model)?;
+    let found = sobol_indices(&design, &outputs, Bootstrap { resamples: 2, seed: 1 }, 0.95)?;
+    Ok(found.inputs.iter().map(|input| input.first.value).collect())
+}
+
+fn data(function: &Function, rows: usize, seed: u64) -> Result<GivenData, SensitivityError> {
+    let design = RandomDesign::new(function.inputs.clone(), rows, seed)?;
+    GivenData::of_design(&design, &observe(&design, function.model)?)
+}
+
+fn ranks(function: &Function, exact: &[f64], rows: usize, studies: u64) -> Result<(), SensitivityError> {
+    let of_study = |seed| rank_indices(&data(function, rows, seed)?, 0.95, seed);
+    let found = (0..studies).map(of_study).collect::<Result<Vec<_>, _>>()?;
+    let [mut mean, mut least, mut error, mut bias, mut width] = [0.0, 100.0_f64, 0.0, 0.0, 0.0];
+    for (i, exact) in exact.iter().enumerate() {
+        let average = |f: &dyn Fn(&cdpr_sensitivity::Estimate) -> f64| {
+            found.iter().map(|found| f(&found[i])).sum::<f64>() / studies as f64
+        };
+        let held = 100.0 * average(&|e| f64::from(e.low <= *exact && *exact <= e.high));
+        let rms = average(&|e| (e.value - exact).powi(2)).sqrt();
+        let off = average(&|e| e.value - exact);
+        mean += held / found[0].len() as f64;
+        least = least.min(held);
+        if rms > error {
+            (error, width) = (rms, average(&|e| 0.5 * e.width()) / rms);
+        }
+        if off.abs() > f64::abs(bias) {
+            bias = off;
+        }
+    }
+    let held = format!("{mean:.1} {least:.1}");
+    println!("{:22}{rows:>7}{held:>20}{error:>10.4}{bias:>10.4}{width:>7.1}", function.name);
+    Ok(())
+}
+
+fn levels(function: &Function, rows: usize, studies: u64) -> Result<(), SensitivityError> {
+    let [mut five, mut one, mut event_five, mut event_one, mut noisy, mut noisy_delta] = [0.0; 6];
+    for seed in 0..studies {
+        let table = data(function, rows, seed)?;
+        // Outputs of other rows.
+        let other = data(function, rows, seed + (1 << 40))?;
+        let dealt =
+            GivenData::new(vec!["x".to_owned()], vec![table.columns()[0].clone()], other.outputs().to_vec())?;
+        let share = 100.0 / studies as f64;
+        let count = |sum: &mut f64, counts: bool| *sum += if counts { share } else { 0.0 };
+        let limits = Rows { most: 2000, seed };
+        let p = dependence(&dealt, limits)?[0].p_value;
+        count(&mut five, p <= 0.05);
+        count(&mut one, p <= 0.01);
+        let values: Vec<f64> = dealt.outputs().iter().copied().map(|y| y.unwrap_or(f64::INFINITY)).collect();
+        let mut sorted = values.clone();
+        sorted.sort_by(f64::total_cmp);
+        let happens: Vec<bool> = values.iter().map(|y| *y > sorted[rows * 4 / 5]).collect();
+        let p = dependence_of_event(dealt.columns(), &happens, limits).map_or(1.0, |found| found[0].p_value);
+        count(&mut event_five, p <= 0.05);
+        count(&mut event_one, p <= 0.01);
+        let found = pawn(&dealt, seed)?[0];
+        count(&mut noisy, found.median > found.noise);
+        let found = delta(&dealt, Bootstrap { resamples: 30, seed }, 0.95)?[0];
+        count(&mut noisy_delta, found.delta.value > found.noise);
+    }
+    let both = |five: f64, one: f64| format!("{five:.1} ({one:.1})");
+    println!(
+        "{:22}{rows:>7}{:>20}{:>20}{noisy:>10.1}{noisy_delta:>10.1}",
+        function.name,
+        both(five, one),
+        both(event_five, event_one)
+    );
+    Ok(())
+}

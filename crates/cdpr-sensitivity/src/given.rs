@@ -1,0 +1,23 @@
+//! Estimators that need no more than a table: rows of inputs, and one output a row.
+//!
+//! The rows may come from anywhere: measurements, another program, an earlier study. Only their inputs are
+//! assumed to be independent of each other where a module says so.
+//!
+//! | question | module |
+//! |---|---|
+//! | which share of the variance does an input cause alone? | [`rank`] |
+//! | does the output depend on an input at all, and with which certainty? | [`hsic`] |
+//! | which input makes a limit fail? | [`hsic`], by an event |
+//! | how much does an input move the distribution of the output? | [`pawn`], [`delta`] |
+//! | which share does it cause, and take part in, by a polynomial model? | [`expansion`] |
+//! | which way does it act? | [`halves`] |
+//! | all of these and regression beside each other | [`analysis`] |
+
+pub mod analysis;
+pub mod data;
+pub mod delta;
+pub mod expansion;
+pub mod halves;
+pub mod hsic;
+pub mod pawn;
+pub mod rank;

@@ -1,0 +1,210 @@
+//! Estimators of tables on functions and laws whose values are known.
+
+use crate::common::unit;
+use crate::global::functions;
+use cdpr_sensitivity::{
+    Analyser, Bootstrap, GivenData, Input, Law, Limit, RandomDesign, Rows, SampleDesign, SensitivityError,
+    delta, dependence, dependence_of_event, given_expansion, halves, observe, pawn, rank_indices,
+};
+
+fn table(
+    inputs: Vec<Input>,
+    rows: usize,
+    seed: u64,
+    model: impl Fn(&[f64]) -> Option<f64> + Sync,
+) -> GivenData {
+    let design = RandomDesign::new(inputs, rows, seed).unwrap();
+    GivenData::of_design(&design, &observe(&design, model).unwrap()).unwrap()
+}
+
+fn normal(count: usize) -> Vec<Input> {
+    (0..count)
+        .map(|i| Input::continuous(format!("x{}", i + 1), Law::Normal { mean: 0.0, std: 1.0 }))
+        .collect()
+}
+
+#[test]
+fn indices_by_ranks_are_within_four_of_their_deviations_of_the_known_ones() {
+    for function in functions::all() {
+        let data = table(function.inputs.clone(), 4000, 7, |x| Some((function.model)(x)));
+        for (estimate, exact) in rank_indices(&data, 0.95, 1).unwrap().iter().zip(&function.first) {
+            // Half of an interval of 95 % is two deviations.
+            let off = (estimate.value - exact).abs() / (0.25 * estimate.width());
+            assert!(off < 4.0, "{}: {estimate:?} {exact}", function.name);
+            assert!(estimate.width() < 0.15, "{}: {estimate:?}", function.name);
+        }
+    }
+}
+
+#[test]
+fn intervals_by_ranks_hold_the_index_as_often_as_their_level() {
+    let ishigami = functions::ishigami();
+    let (mut held, mut all) = (0, 0);
+    for seed in 0..200 {
+        let data = table(ishigami.inputs.clone(), 200, seed, |x| Some((ishigami.model)(x)));
+        for (estimate, exact) in rank_indices(&data, 0.95, seed).unwrap().iter().zip(&ishigami.first) {
+            held += usize::from(estimate.low <= *exact && *exact <= estimate.high);
+            all += 1;
+        }
+    }
+    // 95 % of 600 with a standard deviation of 0.9 %.
+    assert!(held as f64 / f64::from(all) > 0.92, "{held} of {all}");
+}
+
+#[test]
+fn a_dependence_without_a_trend_is_found_and_independence_is_not() {
+    // x1 acts by its square, x2 on the scatter only, x3 not at all.
+    let data = table(normal(4), 400, 3, |x| Some(x[0] * x[0] + (1.0 + x[1].abs()) * 0.3 * x[3]));
+    let found = dependence(&data, Rows { most: 1000, seed: 1 }).unwrap();
+    assert!(found[0].p_value < 1e-10 && found[3].p_value < 0.01 && found[2].p_value > 0.01, "{found:?}");
+    assert!(found[0].r_squared > 5.0 * found[2].r_squared, "{found:?}");
+    // A trend is not what it is: the halves see nothing.
+    assert!(halves(&data).unwrap()[0].student < 3.0);
+}
+
+#[test]
+fn a_dependence_is_the_same_for_all_units_and_without_a_variance_none() {
+    let data = table(unit(2), 100, 5, |x| Some(x[0]));
+    let rows = Rows { most: 1000, seed: 1 };
+    let one = dependence(&data, rows).unwrap();
+    let scaled = |k: usize| data.columns()[k].iter().map(|x| 1e3 * x - 7.0).collect::<Vec<f64>>();
+    let columns = vec![scaled(0), vec![2.0; 100]];
+    let outputs = data.outputs().iter().map(|y| y.map(|y| -1e-6 * y)).collect();
+    let other = GivenData::new(vec!["a".to_owned(), "b".to_owned()], columns, outputs).unwrap();
+    let other = dependence(&other, rows).unwrap();
+    assert!((one[0].r_squared - other[0].r_squared).abs() < 1e-9, "{one:?} {other:?}");
+    assert_eq!((other[1].r_squared, other[1].p_value), (0.0, 1.0));
+    // The output is the input.
+    assert!((one[0].r_squared - 1.0).abs() < 1e-9, "{one:?}");
+}
+
+#[test]
+fn tests_of_independence_hold_their_level() {
+    let studies = 400;
+    let mut beyond = [0; 2];
+    for seed in 0..studies {
+        let data = table(normal(2), 50, seed, |x| Some(x[1].exp()));
+        let rows = Rows { most: 1000, seed };
+        beyond[0] += usize::from(dependence(&data, rows).unwrap()[0].p_value < 0.05);
+        let happens: Vec<bool> = data.outputs().iter().map(|y| y.is_some_and(|y| y > 2.0)).collect();
+        let event = dependence_of_event(data.columns(), &happens, rows).unwrap();
+        beyond[1] += usize::from(event[0].p_value < 0.05);
+    }
+    // 5 % of 400 is 20 with a standard deviation of 4.4.
+    assert!(beyond.iter().all(|beyond| (7..=37).contains(beyond)), "{beyond:?}");
+}
+
+#[test]
+fn the_input_that_makes_a_limit_fail_is_found_with_its_side() {
+    // Only large x1 fail; x2 moves the values that fail.
+    let data = table(unit(3), 1000, 9, |x| Some(if x[0] > 0.9 { 10.0 + x[1] } else { 0.1 * x[2] }));
+    let analyser = Analyser { limit: Some(Limit::Below(5.0)), ..Analyser::new(1) };
+    let found = analyser.analyse(&data).unwrap();
+    let limit = found.limit.unwrap();
+    assert!(limit.share.low < 0.1 && 0.1 < limit.share.high, "{limit:?}");
+    let at = |i: usize| found.inputs[i].limit.unwrap();
+    assert!(at(0).target.p_value < 1e-10 && at(0).place > 0.9, "{:?}", at(0));
+    assert!(at(1).target.p_value > 0.001 && at(1).conditional.unwrap().p_value < 1e-10, "{:?}", at(1));
+    assert!(at(2).target.p_value > 0.001 && at(2).conditional.unwrap().p_value > 0.001, "{:?}", at(2));
+}
+
+#[test]
+fn delta_and_pawn_of_a_normal_sum_are_those_by_quadrature() {
+    // y = 2 x1 + x2: y given x1 is normal about 2 x1 with the deviation 1, y has the deviation √5.
+    let law = |mean: f64, std: f64| Law::Normal { mean, std };
+    let whole = law(0.0, 5.0_f64.sqrt());
+    let steps = |n: usize, half: f64| (0..n).map(move |k| half * (2.0 * (k as f64 + 0.5) / n as f64 - 1.0));
+    let distances = |slope: f64, rest: f64| {
+        let given = |x: f64| {
+            let part = law(slope * x, rest);
+            let area: f64 =
+                steps(2000, 15.0).map(|y| (part.ln_pdf(y).exp() - whole.ln_pdf(y).exp()).abs() * 0.015).sum();
+            let reach = steps(2000, 15.0).map(|y| (part.cdf(y) - whole.cdf(y)).abs()).fold(0.0, f64::max);
+            (0.5 * area, reach)
+        };
+        let probabilities = steps(200, 0.5).map(|u| u + 0.5);
+        let all: Vec<(f64, f64)> =
+            probabilities.map(|u| given(Law::Normal { mean: 0.0, std: 1.0 }.quantile(u))).collect();
+        let mut reach: Vec<f64> = all.iter().map(|found| found.1).collect();
+        reach.sort_by(f64::total_cmp);
+        (all.iter().map(|found| found.0).sum::<f64>() / 200.0, reach[100])
+    };
+    let data = table(normal(3), 5000, 2, |x| Some(2.0 * x[0] + x[1]));
+    let found = delta(&data, Bootstrap { resamples: 20, seed: 1 }, 0.95).unwrap();
+    let by_pawn = pawn(&data, 1).unwrap();
+    for (input, (slope, rest)) in [(2.0, 1.0), (1.0, 2.0)].into_iter().enumerate() {
+        let (exact, reach) = distances(slope, rest);
+        let value = found[input].delta.value;
+        assert!((value - exact).abs() < 0.03, "input {input}: {value} {exact}");
+        assert!((by_pawn[input].median - reach).abs() < 0.04, "{:?} {reach}", by_pawn[input]);
+        assert!(value > 3.0 * found[input].noise && by_pawn[input].median > 2.0 * by_pawn[input].noise);
+    }
+    assert!(
+        found[2].delta.value < 1.5 * found[2].noise && by_pawn[2].median < 1.5 * by_pawn[2].noise,
+        "{found:?}"
+    );
+}
+
+#[test]
+fn the_expansion_of_a_table_has_the_known_indices_without_knowing_the_laws() {
+    // Lognormal inputs: y is a polynomial of degree 2 of values with long tails.
+    let law = Law::LogNormal { log_mean: 0.0, log_std: 0.5 };
+    let inputs = (0..3).map(|i| Input::continuous(format!("x{i}"), law)).collect();
+    let data = table(inputs, 500, 4, |x| Some(x[0] + x[0] * x[1]));
+    let truncation = cdpr_sensitivity::Truncation { max_degree: 3, norm: 1.0, interactions: 2 };
+    let found = given_expansion(&data, truncation).unwrap();
+    assert!(!found.of_ranks && found.leave_one_out < 1e-10, "{}", found.leave_one_out);
+    // Mean m and variance v of each input: x1 alone (1 + m)² v, x2 alone m² v, both v².
+    let (m, v) = (law.mean(), law.std().powi(2));
+    let (one, two, both) = ((1.0 + m).powi(2) * v, m * m * v, v * v);
+    let whole = one + two + both;
+    // The shares are those of the laws of the sample, whose variance has an error of some percent.
+    assert!((found.shares(0).closed - one / whole).abs() < 0.05, "{:?}", found.shares(0));
+    assert!((found.shares(1).total - (two + both) / whole).abs() < 0.05, "{:?}", found.shares(1));
+    assert!(found.shares(2).total < 1e-20, "{:?}", found.shares(2));
+
+    // A function of the logarithm has no polynomial in values.
+    let inputs = vec![Input::continuous("x", Law::LogNormal { log_mean: 0.0, log_std: 2.0 })];
+    let data = table(inputs, 300, 4, |x| Some((2.0 * x[0].ln()).sin()));
+    assert!(given_expansion(&data, truncation).unwrap().of_ranks);
+}
+
+#[test]
+fn an_analysis_is_the_same_on_any_number_of_threads_and_names_what_it_lacks() {
+    let data = table(unit(2), 25, 1, |x| Some(x[0]).filter(|_| x[1] < 0.9));
+    let analyse = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| Analyser::new(3).analyse(&data)).unwrap()
+    };
+    let found = analyse(1);
+    assert_eq!(found, analyse(4));
+    assert!(found.notes.iter().any(|note| note.starts_with("first-order indices")), "{:?}", found.notes);
+    assert!(found.inputs[0].first.is_none() && found.inputs[0].standardised.is_some_and(|src| src > 0.99));
+    let constant = GivenData::new(vec!["x".to_owned()], vec![vec![1.0; 9]], vec![Some(2.0); 9]).unwrap();
+    let error = Analyser::new(3).analyse(&constant).unwrap_err();
+    assert!(matches!(error, SensitivityError::ConstantSample { count: 9, .. }), "{error}");
+    let wrong = GivenData::new(vec!["x".to_owned()], vec![vec![f64::NAN; 3]], vec![None; 3]).unwrap_err();
+    assert!(wrong.to_string().contains("row[0] = NaN"), "{wrong}");
+}
+
+#[test]
+fn correlated_inputs_are_named_and_constant_ones_have_no_effect() {
+    let design = RandomDesign::new(unit(2), 300, 8).unwrap();
+    let mut row = [0.0; 2];
+    let (mut columns, mut outputs) = (vec![vec![], vec![], vec![]], vec![]);
+    for index in 0..design.points() {
+        design.row(index, &mut row).unwrap();
+        columns[0].push(row[0]);
+        columns[1].push(row[0] + 0.1 * row[1]);
+        columns[2].push(4.0);
+        outputs.push(Some(row[0] + 0.3 * row[1]));
+    }
+    let names = ["a", "b", "c"].map(str::to_owned).to_vec();
+    let found = Analyser::new(1).analyse(&GivenData::new(names, columns, outputs).unwrap()).unwrap();
+    let pair = found.most_correlated.unwrap();
+    assert_eq!(pair.inputs, ["a", "b"]);
+    assert!(pair.rank_correlation > 0.95 && found.notes.iter().any(|note| note.contains("correlated")));
+    let constant = &found.inputs[2];
+    assert_eq!((constant.standardised, constant.dependence.unwrap().p_value), (Some(0.0), 1.0));
+    assert!(constant.half.effect == 0.0 && constant.shares.unwrap().total == 0.0);
+}

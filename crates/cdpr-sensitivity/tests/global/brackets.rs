@@ -1,0 +1,107 @@
+//! Bounds of Sobol' indices by derivatives hold the indices that are known.
+
+use crate::global::functions::{self, Function};
+use cdpr_sensitivity::{Bracket, IndependentSample, Input, Law, RandomDesign, Slopes, SobolDesign, brackets};
+
+/// Outputs with central differences.
+fn slopes<D: IndependentSample>(design: &D, model: &(impl Fn(&[f64]) -> f64 + Sync)) -> Vec<Option<Slopes>> {
+    let at = |index: usize| {
+        let mut row = vec![0.0; design.inputs().len()];
+        design.row(index, &mut row).unwrap();
+        let gradient = (0..row.len())
+            .map(|i| {
+                let x = row[i];
+                let h = 1e-6 * design.inputs()[i].law.std();
+                row[i] = x + h;
+                let above = model(&row);
+                row[i] = x - h;
+                let below = model(&row);
+                row[i] = x;
+                (above - below) / (2.0 * h)
+            })
+            .collect();
+        Some(Slopes { output: model(&row), gradient })
+    };
+    (0..design.points()).map(at).collect()
+}
+
+fn of_function(function: &Function, points: usize, seed: u64) -> Vec<Bracket> {
+    let design = SobolDesign::scrambled(function.inputs.clone(), points, seed).unwrap();
+    brackets(&design, &slopes(&design, &function.model), 0.95, seed).unwrap()
+}
+
+#[test]
+fn bounds_hold_the_indices_of_functions_and_those_of_a_linear_one_are_narrow() {
+    for function in functions::all() {
+        let found = of_function(&function, 1024, 1);
+        for (i, bracket) in found.iter().enumerate() {
+            let (first, total) = (function.first[i], function.total[i]);
+            let name = format!("{} {}: {bracket:?} {first} {total}", function.name, bracket.input);
+            assert!(bracket.first_lower.low <= first, "{name}");
+            assert!(bracket.total_lower.low <= total && total <= bracket.total_upper.high, "{name}");
+            assert!(bracket.total_lower.value <= bracket.total_upper.value + 1e-9, "{name}");
+        }
+    }
+    // ν is 1.216 times the share: the eigenfunctions beyond the first take most of the rest away.
+    for (bracket, share) in of_function(&functions::linear(), 64, 1).iter().zip(functions::linear().total) {
+        assert!(bracket.total_lower.value > 0.999 * share - 1e-9, "{bracket:?} {share}");
+        assert!(bracket.total_upper.value < share + 0.002, "{bracket:?} {share}");
+    }
+}
+
+#[test]
+fn intervals_hold_the_bounds_for_independent_rows() {
+    // 200 studies of few rows: the index lies between the outer ends almost always.
+    let function = functions::ishigami();
+    let mut outside = 0;
+    for seed in 0..200 {
+        let design = RandomDesign::new(function.inputs.clone(), 100, seed).unwrap();
+        let found = brackets(&design, &slopes(&design, &function.model), 0.95, seed).unwrap();
+        for (bracket, total) in found.iter().zip(&function.total) {
+            outside += usize::from(bracket.total_lower.low > *total || bracket.total_upper.high < *total);
+        }
+    }
+    // 600 brackets; each end is outside in 2.5 % at most where the bound is exact.
+    assert!(outside < 40, "{outside} of 600");
+}
+
+#[test]
+fn every_law_has_bounds() {
+    let laws = [
+        Law::Normal { mean: 1.0, std: 2.0 },
+        Law::Triangular { min: 0.0, mode: 1.0, max: 3.0 },
+        Law::LogNormal { log_mean: 0.0, log_std: 0.5 },
+        Law::Beta { alpha: 2.0, beta: 5.0, min: -1.0, max: 1.0 },
+    ];
+    let inputs: Vec<Input> =
+        laws.iter().enumerate().map(|(i, law)| Input::continuous(format!("x{i}"), *law)).collect();
+    let design = SobolDesign::scrambled(inputs.clone(), 512, 3).unwrap();
+    let weights = [1.0, -2.0, 3.0, 0.5];
+    let linear = |x: &[f64]| x.iter().zip(weights).map(|(x, w)| w * x).sum::<f64>();
+    let found = brackets(&design, &slopes(&design, &linear), 0.95, 1).unwrap();
+    let parts: Vec<f64> = laws.iter().zip(weights).map(|(law, w)| (w * law.std()).powi(2)).collect();
+    let variance: f64 = parts.iter().sum();
+    for (bracket, part) in found.iter().zip(parts) {
+        let share = part / variance;
+        // The lower bounds of all others leave no more to an input than its share.
+        assert!((bracket.total_lower.value - share).abs() < 1e-6, "{bracket:?} {share}");
+        assert!((bracket.total_upper.value - share).abs() < 1e-6, "{bracket:?} {share}");
+    }
+    // A product: no input acts alone.
+    let product = |x: &[f64]| (x[0] - laws[0].mean()) * (x[2] - laws[2].mean());
+    for bracket in &brackets(&design, &slopes(&design, &product), 0.95, 1).unwrap()[..3] {
+        assert!(bracket.first_lower.value < 0.05, "{bracket:?}");
+        let total = if bracket.input == "x1" { 0.0 } else { 1.0 };
+        assert!(bracket.total_lower.low <= total && total <= bracket.total_upper.high + 1e-9, "{bracket:?}");
+        assert!(bracket.input == "x1" || bracket.total_lower.value > 0.8, "{bracket:?}");
+    }
+}
+
+#[test]
+fn few_rows_and_constant_outputs_are_refused() {
+    let design = RandomDesign::new(functions::linear().inputs, 39, 1).unwrap();
+    let found = brackets(&design, &slopes(&design, &functions::linear().model), 0.95, 1);
+    assert!(found.unwrap_err().to_string().contains("expected 40"));
+    let design = RandomDesign::new(functions::linear().inputs, 50, 1).unwrap();
+    assert!(brackets(&design, &slopes(&design, &|_: &[f64]| 1.0), 0.95, 1).is_err());
+}

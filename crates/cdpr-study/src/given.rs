@@ -1,0 +1,14 @@
+//! Tables that somebody has: read from CSV, Parquet or a folder of results, and analysed without a design.
+
+mod analyse;
+mod columns;
+mod csv;
+mod open;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod write;
+
+pub use analyse::{TableAnalysis, TableRequest, analyse_table};
+pub use columns::{BadCell, GivenTable};
+pub use open::open_table;
+pub use write::write_analysis;
