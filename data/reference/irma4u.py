@@ -2,73 +2,158 @@
 
 python3 data/reference/irma4u.py ws_selfcalibration_27_final.mat [ws_selfcalibration_8_final.mat]
 
-The files are those of github.com/fzoffoli/UACDPR_SelfCalibration (campaigns of March 2025): `cable_length_meas`
-(4 x n, m), `tau_zero` with `loadcell_meas` (4 x n, N), `epsilon_meas` (3 x n, roll, pitch, yaw, rad) and
-`swivel_meas` (4 x n, rad). Poses are not measured. Offsets of the four lengths and of the three angles are sought
-(`cdpr calibrate`), and the residuals of each sensor are printed beside what the authors report for their own
-method: the initial pose to 7.3 mm and 2.2 degrees (27 poses), 10.5 mm and 1.4 degrees (8 poses).
+The files are those of github.com/fzoffoli/UACDPR_SelfCalibration (campaigns of March 2025):
+`cable_length_meas` (4 x n, m), `tau_zero` with `loadcell_meas` (4 x n, N), `epsilon_meas` (3 x n, Tait-Bryan
+angles of Rx Ry Rz, rad) and `swivel_meas` (4 x n, rad). Poses are not measured. Two fits are made by
+`cdpr calibrate`:
 
-A CSV with the columns l1..l4, t1..t4, roll, pitch, yaw, s1..s4 in these units is taken, too. It needs SciPy for
-.mat files, and the program in target/debug or in the variable CDPR.
+- offsets: lengths count from the homing; offsets of the lengths (50 mm) and of the three angles are sought;
+- relative: as the authors weigh it. Lengths, swivel angles and yaw count from anywhere; 10 mm, 10 N,
+  2 degrees, 1 degree.
+
+Printed are the residuals of each sensor, and how far the first pose lies from the one that the authors take
+as true, `zeta_0_real`, which their pose estimation makes of the lengths and angles: beside the distance of
+their own self-calibration in the same file (7.3 mm for 27 poses, 10.5 mm for 8).
+
+A CSV with the columns l1..l4, t1..t4, roll, pitch, yaw, s1..s4 in these units is taken, too. It needs SciPy
+for .mat files, and the program in target/debug or in the variable CDPR.
 """
 
 import csv
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
+import warnings
 
-NOISE = "length=5e-3,tension=7,rotation=7e-3,swivel=2e-2"
+ROBOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../robots/irma4u.json")
+
+NOWHERE = "angle_offset.roll=-1e-9:1e-9,angle_offset.pitch=-1e-9:1e-9"
+
+FITS = {
+    "offsets": [
+        "--unknown",
+        "length_offset=0.05,angle_offset",
+        "--noise",
+        "length=5e-3,tension=7,rotation=7e-3,swivel=2e-2",
+    ],
+    "relative": [
+        *["--unknown", "length_offset,swivel_offset,angle_offset", "--bounds", NOWHERE],
+        *["--noise", "length=1e-2,tension=10,rotation=0.0349,swivel=0.01745"],
+    ],
+}
 
 
 def campaign(path):
-    """Lengths, tensions, angles and swivel angles, a row for each pose."""
+    """Lengths, tensions, angles and swivel angles, a row for each pose; the authors' poses and distance."""
     if path.endswith(".csv"):
         with open(path) as file:
             rows = list(csv.DictReader(file))
         pick = lambda names: [[float(row[name]) for name in names] for row in rows]
         cables = lambda letter: [f"{letter}{i}" for i in range(1, 5)]
-        return pick(cables("l")), pick(cables("t")), pick(["roll", "pitch", "yaw"]), pick(cables("s"))
+        return (pick(cables("l")), pick(cables("t")), pick(["roll", "pitch", "yaw"]), pick(cables("s"))), None
     from scipy.io import loadmat
 
-    data = loadmat(path, squeeze_me=True)
-    lengths, angles, swivels = (data[name].T.tolist() for name in ("cable_length_meas", "epsilon_meas", "swivel_meas"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of an object without a name
+        data = loadmat(path, squeeze_me=True)
+    lengths, angles, swivels = (
+        data[name].T.tolist() for name in ("cable_length_meas", "epsilon_meas", "swivel_meas")
+    )
     tensions = data["loadcell_meas"].T.tolist()
     if len(tensions) == len(lengths) - 1:
         tensions = [data["tau_zero"].ravel().tolist(), *tensions]
-    return lengths, tensions, angles, swivels
+    theirs = None
+    if "zeta_0_real" in data:
+        theirs = data["zeta_0_real"].tolist()[:3], float(data["InitialPositionErrorNorm"])
+    return (lengths, tensions, angles, swivels), theirs
+
+
+def roll_pitch_yaw(a, b, c):
+    """The angles of Rz Ry Rx that turn as Rx(a) Ry(b) Rz(c) does."""
+    (sa, sb, sc), (ca, cb, cc) = ([f(angle) for angle in (a, b, c)] for f in (math.sin, math.cos))
+    first, second, third = cb * cc, ca * sc + sa * sb * cc, sa * sc - ca * sb * cc
+    return [math.atan2(ca * sb * sc + sa * cc, ca * cb), math.asin(-third), math.atan2(second, first)]
+
+
+def table(columns, path):
+    lengths, tensions, angles, swivels = columns
+    cables = range(1, 5)
+    with open(path, "w", newline="") as file:
+        out = csv.writer(file)
+        head = (
+            [f"l{i}_m" for i in cables]
+            + [f"t{i}_winch_n" for i in cables]
+            + ["roll_rad", "pitch_rad", "yaw_rad"]
+        )
+        out.writerow(head + [f"swivel{i}_rad" for i in cables])
+        for l, t, a, s in zip(lengths, tensions, angles, swivels):
+            # Their swivel angles count from the vertical, ours from the horizontal.
+            out.writerow(l + t + roll_pitch_yaw(*a) + [angle - math.pi / 2 for angle in s])
+
+
+def rms(values):
+    return math.sqrt(sum(value * value for value in values) / len(values))
+
+
+def residuals(path):
+    """Measured less modelled, by column."""
+    columns = {}
+    with open(path) as file:
+        for row in csv.DictReader(file):
+            name = re.sub(r"[1-4]?(_winch)?_(m|n|rad)$", "", row["column"])
+            columns.setdefault((name, row["unit"]), []).append((float(row["before"]), float(row["after"])))
+    return columns
 
 
 def main():
     program = os.environ.get("CDPR", "target/debug/cdpr")
     for path in sys.argv[1:] or sys.exit(__doc__):
-        lengths, tensions, angles, swivels = campaign(path)
+        columns, theirs = campaign(path)
         folder = tempfile.mkdtemp()
-        table = os.path.join(folder, "measurements.csv")
-        cables = range(1, 5)
-        with open(table, "w", newline="") as file:
-            out = csv.writer(file)
-            head = [f"l{i}_m" for i in cables] + [f"t{i}_winch_n" for i in cables] + ["roll_rad", "pitch_rad", "yaw_rad"]
-            out.writerow(head + [f"swivel{i}_rad" for i in cables])
-            for l, t, a, s in zip(lengths, tensions, angles, swivels):
-                # Their swivel angles count from the vertical, ours from the horizontal.
-                out.writerow(l + t + a + [angle - math.pi / 2 for angle in s])
-        arguments = ["calibrate", "data/robots/irma4u.json", "--measurements", table, "--parameters", "none"]
-        arguments += ["--unknown", "length_offset=0.05,angle_offset", "--starts", "10", "--noise", NOISE, "--format", "json"]
-        found = subprocess.run([program, *arguments, "--out", os.environ.get("OUT", os.path.join(folder, "out"))], capture_output=True, text=True)
-        if found.returncode not in (0, 3):
-            sys.exit(found.stderr)
-        summary = json.loads(found.stdout)
-        print(f"{os.path.basename(path)}: {summary['rows']} poses; the authors: initial pose to 7.3 mm (27), 10.5 mm (8)")
-        for sensor, of in summary["residuals"].items():
-            scale, unit = {"m": (1e3, "mm"), "rad": (180 / math.pi, "deg"), "N": (1, "N")}[of["unit"]]
-            before, after = scale * of["rms_before"], scale * of["rms_after"]
-            print(f"  {sensor:10s} {of['count']:4d} numbers, rms {before:8.3f} -> {after:8.3f} {unit}")
-        for name, of in summary["sensors"].items():
-            std = "-" if of["std"] is None else f"{of['std']:.2e}"
-            print(f"  {name:20s} {of['after']:+.5f} {of['unit']}, std {std}")
+        measurements = os.path.join(folder, "measurements.csv")
+        table(columns, measurements)
+        for name, arguments in FITS.items():
+            out = os.path.join(folder, name)
+            command = [
+                program,
+                "calibrate",
+                ROBOT,
+                "--measurements",
+                measurements,
+                "--parameters",
+                "none",
+                "--out",
+                out,
+            ]
+            found = subprocess.run(
+                [*command, *arguments, "--starts", "10", "--format", "json"], capture_output=True, text=True
+            )
+            if found.returncode not in (0, 3):
+                sys.exit(found.stderr)
+            summary = json.loads(found.stdout)
+            chi, degrees = summary["chi_square"], summary["degrees_of_freedom"]
+            title = f"{os.path.basename(path)}, {name}: {summary['rows']} poses"
+            print(f"{title}, chi-square {chi:.1f} with {degrees} degrees of freedom")
+            for (column, unit), pairs in residuals(os.path.join(out, "residuals.csv")).items():
+                scale, unit = {"m": (1e3, "mm"), "rad": (180 / math.pi, "deg"), "N": (1, "N")}[unit]
+                before, after = (scale * rms(side) for side in zip(*pairs))
+                print(f"  {column:10s} {len(pairs):4d} numbers, rms {before:8.3f} -> {after:8.3f} {unit}")
+            if theirs:
+                with open(os.path.join(out, "poses.csv")) as file:
+                    first = next(csv.DictReader(file))
+                place = [float(first[axis]) for axis in ("x_m", "y_m", "z_m")]
+                distance = math.dist(place, theirs[0])
+                print(
+                    f"  first pose {1e3 * distance:.1f} mm from zeta_0_real, the authors' {1e3 * theirs[1]:.1f} mm"
+                )
+            if name == "offsets":
+                for sensor, of in summary["sensors"].items():
+                    std = "-" if of["std"] is None else f"{of['std']:.2e}"
+                    print(f"  {sensor:20s} {of['after']:+.5f} {of['unit']}, std {std}")
 
 
 main()

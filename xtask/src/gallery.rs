@@ -4,7 +4,8 @@
 //! with fewer cables than free motions is drawn with straight cables at the pose that `cdpr inverse --free`
 //! finds.
 
-use crate::cargo::{cdpr_command, root};
+use crate::answer::{answer, number, output, parsed, write};
+use crate::cargo::root;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -215,31 +216,6 @@ fn range(tensions: &Value) -> Result<String, String> {
     Ok(format!("{least:.1} N to {greatest:.1} N"))
 }
 
-/// What a command answers as JSON, with one of these exit codes.
-fn answer(arguments: &[&str], codes: &[i32]) -> Result<Value, String> {
-    parsed(&output(&[arguments, &["--format", "json"]].concat(), codes)?)
-}
-
-fn output(arguments: &[&str], codes: &[i32]) -> Result<String, String> {
-    let output = cdpr_command(arguments).output().map_err(|error| format!("cannot start cargo: {error}"))?;
-    if !output.status.code().is_some_and(|code| codes.contains(&code)) {
-        return Err(format!("cdpr {}: {}", arguments.join(" "), String::from_utf8_lossy(&output.stderr)));
-    }
-    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
-}
-
-fn parsed(text: &str) -> Result<Value, String> {
-    serde_json::from_str(text).map_err(|error| error.to_string())
-}
-
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    std::fs::write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))
-}
-
 fn text(value: &Value) -> &str {
     value.as_str().unwrap_or_default()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or(f64::NAN)
 }

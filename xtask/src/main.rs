@@ -4,9 +4,11 @@
 
 #![allow(clippy::print_stderr)]
 
+mod answer;
 mod attack;
 mod bench;
 mod cable;
+mod calibration;
 mod cargo;
 mod dist;
 mod fuzz;
@@ -50,6 +52,11 @@ tasks:
                  measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
                  choice (of a fitted law), indices (of Sobol'), expansions
                  or given (estimators of tables)
+  calibration PART [CAMPAIGNS | FILES]
+                 prints the figures of calibration in docs/VALIDATION.md and docs/calibration.md; PART is
+                 recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,
+                 circle (the whole example, with its pictures and copies of its results) or irma4u (a
+                 user's copy of its campaigns)
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
                  panics, hangs or touches a file outside of its folder of results
@@ -75,6 +82,7 @@ fn main() -> ExitCode {
         Some("bench") => bench::run(rest),
         Some("bench-peers") => peers::bench(),
         Some("statistics") => statistics(&rest),
+        Some("calibration") => calibration::run(&rest),
         Some("fuzz") => fuzz::run(&rest),
         Some("attack") => attack::run(),
         Some("dist") => dist::run(&rest),

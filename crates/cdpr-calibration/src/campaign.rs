@@ -2,6 +2,7 @@
 
 use cdpr_robot::{Axis, CableEnd, Rotation3};
 use cdpr_statics::Load;
+use nalgebra::DMatrix;
 use std::fmt;
 
 /// A quantity that a sensor reads.
@@ -37,6 +38,14 @@ impl Quantity {
             Self::Tension(..) => "tension",
             Self::Swivel(_) => "swivel",
             Self::Length(_) => "length",
+        }
+    }
+
+    /// The cable that it is about.
+    pub(crate) fn cable(self) -> Option<usize> {
+        match self {
+            Self::Length(i) | Self::Tension(i, _) | Self::Swivel(i) => Some(i),
+            _ => None,
         }
     }
 
@@ -94,6 +103,9 @@ pub struct Row {
     pub rotation: Option<Rotation3<f64>>,
     /// All other readings.
     pub readings: Vec<Reading>,
+    /// Covariances of the noise of two quantities, in the product of their units; zero where left out, and
+    /// without effect where one of the two is not there.
+    pub covariances: Vec<(Quantity, Quantity, f64)>,
 }
 
 impl Row {
@@ -107,7 +119,40 @@ impl Row {
             length_std: Vec::new(),
             rotation: None,
             readings: Vec::new(),
+            covariances: Vec::new(),
         }
+    }
+
+    /// The numbers with noise, in the order of the residuals, with their standard deviations.
+    fn noisy(&self) -> Vec<(Quantity, f64)> {
+        let lengths = self.length_std.iter().enumerate().filter(|(_, std)| **std > 0.0);
+        let lengths = lengths.map(|(i, std)| (Quantity::Length(i), *std));
+        self.readings.iter().map(|reading| (reading.quantity, reading.std)).chain(lengths).collect()
+    }
+
+    /// Triangular factor `C` of the correlation `C Cᵀ` of the numbers with noise; `None` where they do not
+    /// depend on each other, or where the matrix is not positive definite.
+    pub(crate) fn correlation_factor(&self) -> Option<DMatrix<f64>> {
+        let noisy = self.noisy();
+        let find = |quantity: Quantity| noisy.iter().position(|(own, _)| *own == quantity);
+        let mut matrix = DMatrix::identity(noisy.len(), noisy.len());
+        for (one, other, covariance) in &self.covariances {
+            if let (Some(i), Some(j)) = (find(*one), find(*other)) {
+                let correlation = covariance / (noisy[i].1 * noisy[j].1);
+                (matrix[(i, j)], matrix[(j, i)]) = (correlation, correlation);
+            }
+        }
+        if matrix.is_identity(0.0) { None } else { Some(matrix.cholesky()?.unpack()) }
+    }
+
+    /// Whether the covariances make a positive definite matrix with the standard deviations.
+    pub(crate) fn is_covariance_valid(&self) -> bool {
+        let noisy = self.noisy();
+        let is_there = |quantity: &Quantity| noisy.iter().any(|(own, _)| own == quantity);
+        let count = |(one, other, value): &&(Quantity, Quantity, f64)| {
+            *value != 0.0 && is_there(one) && is_there(other)
+        };
+        self.covariances.iter().filter(count).count() == 0 || self.correlation_factor().is_some()
     }
 
     /// The number that a sensor has read of this quantity.

@@ -3,7 +3,8 @@
 use crate::error::CalibrationError;
 use crate::fit::{cross_validated, fit};
 use crate::fitted::{Difference, Fit, FitSettings};
-use crate::results::{CalibrationSummary, Context, begin_calibration, write_calibration};
+use crate::results::folder::{begin_calibration, write_calibration};
+use crate::results::summary::{CalibrationSummary, Context};
 use crate::table::Measurements;
 use crate::unknowns::Unknowns;
 use cdpr_robot::Robot;

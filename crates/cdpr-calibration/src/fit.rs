@@ -15,7 +15,7 @@ use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
 use crate::fitted::{Difference, Fit, FitSettings};
 use crate::model::{Model, Shared, State};
-use crate::plausible::check_columns;
+use crate::plausible::{check_columns, check_signs};
 use crate::unknowns::{SensorError, Unknowns};
 use cdpr_robot::{Robot, Vector3};
 
@@ -32,18 +32,24 @@ pub fn fit(
 ) -> Result<Fit, CalibrationError> {
     let problem = Problem { model: Model::new(robot, unknowns), rows, settings: *settings };
     problem.check()?;
+    if unknowns.sensor(SensorError::LengthOffset).is_none() {
+        check_signs(rows)?;
+    }
     let moved =
         [SensorError::LengthOffset, SensorError::DrumScale, SensorError::Frame, SensorError::FrameScale];
     if moved.iter().all(|error| unknowns.sensor(*error).is_none()) {
         check_columns(robot, rows)?;
     }
     let (start, first) = problem.begin()?;
+    let without = |gone: &[usize]| {
+        let mut kept = unknowns.clone();
+        kept.remove(gone);
+        fit(robot, rows, &kept, settings)
+    };
     if settings.only_identifiable {
         let gone = problem.unidentifiable_inputs(&problem.settled(start.clone())?.1);
         if !gone.is_empty() {
-            let mut kept = unknowns.clone();
-            kept.remove(&gone);
-            return fit(robot, rows, &kept, &FitSettings { only_identifiable: false, ..*settings });
+            return without(&gone);
         }
     }
     let mut best = problem.search(start, settings.max_steps)?;
@@ -54,6 +60,13 @@ pub fn fit(
         ends.push(found.at.cost);
         if found.at.cost < best.at.cost {
             best = found;
+        }
+    }
+    if settings.only_identifiable {
+        // At the minimum the data may tell less than where the search began.
+        let gone = problem.unidentifiable_inputs(&best.at);
+        if !gone.is_empty() {
+            return without(&gone);
         }
     }
     let same = ends.iter().filter(|cost| **cost <= best.at.cost * (1.0 + 1e-6) + 1e-6).count();

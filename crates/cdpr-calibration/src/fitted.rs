@@ -147,6 +147,8 @@ pub struct Fit {
     pub poses_before: Vec<Pose>,
     /// The pose of each row by the calibrated robot.
     pub poses: Vec<Pose>,
+    /// The line of each row in the file.
+    pub lines: Vec<usize>,
     /// The payload of each row [kg].
     pub payloads: Vec<f64>,
     /// Steps made.

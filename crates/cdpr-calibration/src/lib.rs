@@ -34,12 +34,11 @@ pub use identify::{
     AtWork, Calibration, ChosenPose, Combination, Identifiability, Measurement, ParameterValue,
 };
 pub use plan::{Criterion, PosePlan, Quality};
+pub use results::arrows;
+pub use results::folder::{CALIBRATED_NAME, POSTERIOR_NAME, begin_calibration, write_calibration};
 pub use results::patterns::{Split, Trend};
 pub use results::predicted::UncertaintyMap;
-pub use results::{
-    CALIBRATED_NAME, CalibrationSummary, Context, OutlierSummary, POSTERIOR_NAME, ParameterSummary,
-    SensorSummary, arrows, begin_calibration, write_calibration,
-};
+pub use results::summary::{CalibrationSummary, Context, OutlierSummary, ParameterSummary, SensorSummary};
 pub use simulate::{Simulated, drawn, drawn_errors, simulate};
 pub use table::{MEASUREMENTS_FORMAT, Measurements, read_measurements, write_measurements};
 pub use unknowns::{SensorError, Unknown, Unknowns};

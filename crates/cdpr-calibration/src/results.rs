@@ -1,153 +1,20 @@
 //! What comes out of a calibration: the robot, what is known of it, a summary, and the folder of all.
 
+pub(crate) mod folder;
 pub(crate) mod patterns;
 pub(crate) mod predicted;
+pub(crate) mod summary;
+mod warnings;
 
-use crate::error::CalibrationError;
 use crate::fitted::{Difference, Fit};
-use crate::results::patterns::{Split, Trend};
-use crate::results::predicted::{UncertaintyMap, uncertainty_map};
-use cdpr_robot::{Axis, Parameter, Robot};
+use crate::results::predicted::uncertainty_map;
+use crate::results::summary::{CalibrationSummary, Context, OutlierSummary, ParameterSummary, SensorSummary};
+use cdpr_robot::{Axis, Parameter, Robot, UnitQuaternion};
 use cdpr_statics::{DirectProblem, Load};
-use cdpr_study::{ERRORS_FORMAT, ErrorModel, ErrorsFile, ResultsFolder, ResultsOf, StudyError};
+use cdpr_study::{ERRORS_FORMAT, ErrorModel, ErrorsFile};
 use indexmap::IndexMap;
 use nalgebra::DMatrix;
-use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::Path;
-
-/// Name of the calibrated robot in a folder of results.
-pub const CALIBRATED_NAME: &str = "calibrated.json";
-
-/// Name of what is known of its errors.
-pub const POSTERIOR_NAME: &str = "posterior.json";
-
-const SUMMARY_NAME: &str = "summary.json";
-
-const RESIDUALS_NAME: &str = "residuals.csv";
-
-const REPORT_NAME: &str = "report.html";
-
-/// A parameter before and after, in its SI unit.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ParameterSummary {
-    /// SI unit.
-    pub unit: &'static str,
-    /// Value in the robot file; of a tilt or an error of a sensor, zero.
-    pub before: f64,
-    /// Value found.
-    pub after: f64,
-    /// Standard deviation of what is left; none for what neither data nor a prior tell.
-    pub std: Option<f64>,
-    /// Standard deviation before.
-    pub prior_std: Option<f64>,
-    /// The change in standard deviations before.
-    pub moved_by_prior_std: Option<f64>,
-    /// Whether the data alone tell it: more exactly than the prior or, without one, than to its own size.
-    pub identifiable: bool,
-}
-
-/// Residuals of the sensors of one kind.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct SensorSummary {
-    /// SI unit.
-    pub unit: &'static str,
-    /// Numbers measured.
-    pub count: usize,
-    /// Root mean square of measured less modelled, with the robot file.
-    pub rms_before: f64,
-    /// With the calibrated robot.
-    pub rms_after: f64,
-    /// With the calibrated robot, in standard deviations of the noise.
-    pub standardized_rms_after: f64,
-    /// Root mean square of errors of prediction, with robots calibrated without the rows predicted.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rms_predicted: Option<f64>,
-}
-
-/// A measured number far from the model.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct OutlierSummary {
-    /// Line in the file of measurements.
-    pub line: usize,
-    /// Column.
-    pub column: String,
-    /// Measured less modelled.
-    pub difference: f64,
-    /// In standard deviations of the noise.
-    pub standard_deviations: f64,
-}
-
-/// A summary of a calibration.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct CalibrationSummary {
-    /// Name of the robot.
-    pub robot: String,
-    /// Version of the program.
-    pub version: &'static str,
-    /// Rows of measurements.
-    pub rows: usize,
-    /// The parameters by name.
-    pub parameters: IndexMap<String, ParameterSummary>,
-    /// Errors of sensors by name.
-    #[serde(skip_serializing_if = "IndexMap::is_empty")]
-    pub sensors: IndexMap<String, ParameterSummary>,
-    /// Sum of squares of all residuals in standard deviations, priors included.
-    pub chi_square: f64,
-    /// Its expectation, if model and noise are right.
-    pub degrees_of_freedom: usize,
-    /// Probability of such a chi-square or a greater one.
-    pub p_value: Option<f64>,
-    /// Factor by which standard deviations were multiplied, because no noise is stated: that of the
-    /// residuals.
-    pub noise_scale: f64,
-    /// Combinations of parameters that the data do not tell, weights in units of their scales.
-    pub not_identifiable: Vec<Vec<(String, f64)>>,
-    /// Residuals by sensor.
-    pub residuals: BTreeMap<&'static str, SensorSummary>,
-    /// Measured numbers that are far from the model.
-    pub outliers: Vec<OutlierSummary>,
-    /// Clear trends of residuals against place and load.
-    pub trends: Vec<Trend>,
-    /// Variances of means over consecutive rows.
-    pub splits: Vec<Split>,
-    /// Standard deviation of the position over the plane of the measured poses; none with relative lengths.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub workspace: Option<UncertaintyMap>,
-    /// Mean standard deviation of the position at the poses measured, per coordinate, before [m]; none
-    /// without prior.
-    pub position_std_before: Option<f64>,
-    /// The same after [m].
-    pub position_std_after: Option<f64>,
-    /// Steps of the search.
-    pub steps: usize,
-    /// Whether it ended at a minimum.
-    pub converged: bool,
-    /// Starts, and how many of them ended there.
-    pub starts: [usize; 2],
-    /// What is odd about the result, a sentence each.
-    pub warnings: Vec<String>,
-}
-
-/// What a summary takes besides the fit.
-#[derive(Clone, Copy, Debug)]
-pub struct Context<'a> {
-    /// The robot before.
-    pub nominal: &'a Robot,
-    /// The error model before, if there is one.
-    pub prior: Option<&'a ErrorModel>,
-    /// Whether the noise of any sensor is stated; if not, it is that of the residuals.
-    pub noise_is_stated: bool,
-    /// Errors of prediction, if they were computed.
-    pub predicted: Option<&'a [Difference]>,
-    /// Starts of the search.
-    pub starts: usize,
-    /// Number of rows.
-    pub rows: usize,
-}
-
-/// Chances below this are named: the model or the noise is wrong.
-const UNLIKELY: f64 = 1e-4;
 
 impl Fit {
     /// Factor of all standard deviations: 1, or where no noise is stated that of the residuals.
@@ -167,7 +34,10 @@ impl Fit {
         let sought: Vec<usize> = self.unknowns.terms.iter().map(|term| term.parameter).collect();
         let mut is_there: Vec<bool> = (0..parameters.len()).map(|p| sought.contains(&p)).collect();
         if let Some(prior) = context.prior {
-            let gone = |name: &String| !self.unknowns.all.iter().any(|unknown| unknown.name == *name);
+            let gone = |name: &String| {
+                let is_sought = self.unknowns.all.iter().any(|unknown| unknown.name == *name);
+                !is_sought && !self.unknowns.shared.contains(name)
+            };
             for (input, of) in prior.inputs.iter().enumerate().filter(|(_, of)| gone(&of.name)) {
                 // Inputs that were not sought keep their laws.
                 let terms: Vec<_> = prior.terms.iter().filter(|term| term.input == input).collect();
@@ -276,10 +146,10 @@ impl Fit {
                 self.unknowns.sensors.iter().map(|(_, other)| *other).filter(|other| other > first).min();
             for k in *first..next.unwrap_or(self.estimates.len()) {
                 let estimate = &self.estimates[k];
-                let rotation = UnitVector::of(self.frame);
+                let rotation = UnitQuaternion::from_rotation_matrix(&self.frame).scaled_axis();
                 let after = match (*error, k - first) {
                     (crate::SensorError::Frame, at @ 0..3) => self.origin[at],
-                    (crate::SensorError::Frame, at) => rotation.0[at - 3],
+                    (crate::SensorError::Frame, at) => rotation[at - 3],
                     _ => estimate.value,
                 };
                 sensors.insert(
@@ -370,90 +240,6 @@ impl Fit {
         }
         sensors
     }
-
-    /// Sentences about what is odd.
-    fn warnings(&self, summary: &CalibrationSummary, context: &Context) -> Vec<String> {
-        let mut warnings = Vec::new();
-        if !self.converged {
-            warnings.push(format!(
-                "the search ended {:.1e} standard deviations from the minimum after {} steps",
-                self.distance, self.steps
-            ));
-        }
-        if !context.noise_is_stated {
-            warnings.push(
-                "no noise is stated: standard deviations follow from the residuals, the model is not tested"
-                    .to_owned(),
-            );
-        }
-        if summary.p_value.is_some_and(|p| p < UNLIKELY) {
-            warnings.push(format!(
-                "chi-square is {:.1} with {} degrees of freedom: the model, the noise or some rows are wrong",
-                self.chi_square, self.degrees_of_freedom
-            ));
-        }
-        if let Some(Trend { column, against, correlation, .. }) = summary.trends.first() {
-            warnings.push(format!(
-                "the residuals of {column} follow {against} (correlation {correlation:+.2}): the model leaves \
-                 something out"
-            ));
-        }
-        if let Some((line, share)) = self.worst_row() {
-            warnings.push(format!(
-                "line {line} alone makes {:.0} % of the sum of squares: it may be of another robot or pose",
-                100.0 * share
-            ));
-        }
-        if let Some((column, rms)) = self.worst_column() {
-            warnings.push(format!(
-                "column {column} is off by {rms:.1} standard deviations, many times more than the others \
-                 of its kind: columns may be swapped, its unit or sign may be wrong"
-            ));
-        }
-        warnings
-    }
-
-    /// The line with most of the sum of squares, if that is far more than its share.
-    fn worst_row(&self) -> Option<(usize, f64)> {
-        let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
-        for of in &self.after {
-            *sums.entry(of.line).or_insert(0.0) += of.standardized().powi(2);
-        }
-        let total: f64 = sums.values().sum();
-        let (line, sum) = sums.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let rows = self.poses.len() as f64;
-        let numbers = self.after.len() as f64 / rows;
-        (rows > 2.0 && sum > 0.5 * total && sum > 10.0 * numbers).then_some((line, sum / total))
-    }
-
-    /// The column that fits by far worst among the same sensors, before the fit spreads its error.
-    fn worst_column(&self) -> Option<(String, f64)> {
-        let mut sums: BTreeMap<String, (&'static str, f64, usize)> = BTreeMap::new();
-        for of in &self.after {
-            let entry = sums.entry(of.quantity.to_string()).or_insert((of.quantity.sensor(), 0.0, 0));
-            entry.1 += of.standardized().powi(2);
-            entry.2 += 1;
-        }
-        let rms: Vec<(String, &str, f64)> = sums
-            .into_iter()
-            .map(|(name, (sensor, sum, count))| (name, sensor, (sum / count as f64).sqrt()))
-            .collect();
-        let (name, sensor, worst) = rms.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
-        let mut others: Vec<f64> =
-            rms.iter().filter(|of| of.1 == *sensor && of.0 != *name).map(|of| of.2).collect();
-        others.sort_by(f64::total_cmp);
-        let median = *others.get(others.len() / 2)?;
-        (*worst > 5.0 && *worst > 3.0 * median).then(|| (name.clone(), *worst))
-    }
-}
-
-/// The rotation vector of a frame.
-struct UnitVector([f64; 3]);
-
-impl UnitVector {
-    fn of(rotation: cdpr_robot::Rotation3<f64>) -> Self {
-        Self(cdpr_robot::UnitQuaternion::from_rotation_matrix(&rotation).scaled_axis().into())
-    }
 }
 
 /// Covariance of the parameters by an error model.
@@ -463,53 +249,6 @@ fn prior_covariance(model: &ErrorModel, count: usize) -> DMatrix<f64> {
         map[(term.parameter, term.input)] += term.factor * model.inputs[term.input].law.std();
     }
     &map * map.transpose()
-}
-
-/// Makes a folder for a calibration, or takes one of an earlier calibration: before anything is computed.
-///
-/// # Errors
-/// As [`ResultsFolder::begin`].
-pub fn begin_calibration(folder: &Path) -> Result<ResultsFolder, StudyError> {
-    let names = [CALIBRATED_NAME, POSTERIOR_NAME, SUMMARY_NAME, RESIDUALS_NAME, REPORT_NAME];
-    ResultsFolder::begin(folder, ResultsOf::Calibration, |name| names.contains(&name))
-}
-
-/// Writes `calibrated.json`, `posterior.json`, `residuals.csv`, `report.html` and, last of all,
-/// `summary.json`.
-///
-/// # Errors
-/// As [`ResultsFolder::claim`].
-pub fn write_calibration(
-    folder: &ResultsFolder,
-    found: &Fit,
-    summary: &CalibrationSummary,
-    context: &Context,
-    measurements: &str,
-    report: Option<&str>,
-) -> Result<(), CalibrationError> {
-    folder.remove(SUMMARY_NAME)?;
-    let robot = found.calibrated(context, measurements).to_json() + "\n";
-    folder.write(CALIBRATED_NAME, robot.as_bytes())?;
-    folder.write_json(POSTERIOR_NAME, &found.posterior(context))?;
-    let header =
-        ["line", "column", "unit", "before", "after", "std", "standardized_after"].map(str::to_owned);
-    let rows = found.before.iter().zip(&found.after).map(|(before, after)| {
-        vec![
-            after.line.to_string(),
-            after.quantity.to_string(),
-            after.quantity.unit().to_owned(),
-            before.difference.to_string(),
-            after.difference.to_string(),
-            after.std.to_string(),
-            after.standardized().to_string(),
-        ]
-    });
-    folder.write_csv(RESIDUALS_NAME, header.to_vec(), rows)?;
-    if let Some(report) = report {
-        folder.write(REPORT_NAME, report.as_bytes())?;
-    }
-    folder.conclude(SUMMARY_NAME, summary, &[])?;
-    Ok(())
 }
 
 /// Displacement of P of each row, measured less modelled, before and after [m], with the pose: arrows in

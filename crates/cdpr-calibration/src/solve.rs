@@ -81,7 +81,7 @@ pub(crate) fn triangle(above: DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64
 /// Singular values of a matrix, from the greatest to the least, with its left vectors in columns and its
 /// right vectors in rows. All are zero for a matrix that is not finite.
 pub(crate) struct Svd {
-    left: DMatrix<f64>,
+    pub(crate) left: DMatrix<f64>,
     pub(crate) values: DVector<f64>,
     pub(crate) vectors: DMatrix<f64>,
 }

@@ -10,39 +10,22 @@
 //! | `dx_m`, `dy_m`, `dz_m` | displacement of P by the load |
 //! | `swivel1_deg` ... | swivel angles of pulleys |
 //! | `payload_kg`, `mass_kg`, `fx_n` ... `mz_nm` | the known load: added mass, mass of the platform, force, moment |
-//! | `std_` before one of these | its standard deviation in this row |
+//! | `std_` before one of these | its standard deviation in this row; of an orientation `std_rx_rad` ... |
+//! | `cov_x_m_y_m` | covariance of two of these in this row |
 //!
-//! Lengths may be in `m` or `mm`, angles in `deg` or `rad`, forces in `n` or `kn`.
+//! The JSON form has the same names, and null for what was not measured. Lengths may be in `m` or `mm`, angles in `deg` or `rad`, forces in `n` or `kn`.
 
-use crate::campaign::{Noise, Quantity, Reading, Row};
+mod columns;
+mod row;
+
+use crate::campaign::{Noise, Quantity, Row};
 use crate::error::CalibrationError;
-use cdpr_robot::{Axis, CableEnd, Robot, from_json, rotation_in_order};
-use cdpr_statics::Load;
+use crate::table::columns::{Column, Named, columns, covariance_of};
+use crate::table::row::{Stated, row};
+use cdpr_robot::{Robot, from_json};
 use csv::{ReaderBuilder, StringRecord, Trim};
 use serde::Deserialize;
 use std::collections::BTreeMap;
-
-/// What a column holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Column {
-    Reading(Quantity),
-    /// Component of a quaternion (w, x, y, z).
-    Quaternion(usize),
-    Payload,
-    Mass,
-    /// Component of the load: force, then moment.
-    Wrench(usize),
-}
-
-/// A column with the factor to SI units.
-#[derive(Clone, Debug)]
-struct Named {
-    name: String,
-    column: Column,
-    factor: f64,
-    /// Whether it is the standard deviation of the quantity.
-    is_std: bool,
-}
 
 /// Measurements with what is known of their noise.
 #[derive(Clone, Debug)]
@@ -62,7 +45,7 @@ struct JsonForm {
     format: String,
     #[serde(default)]
     noise: BTreeMap<String, f64>,
-    rows: Vec<BTreeMap<String, f64>>,
+    rows: Vec<BTreeMap<String, Option<f64>>>,
 }
 
 /// Name and version of the JSON form.
@@ -87,7 +70,9 @@ pub fn read_measurements(
         let mut names: Vec<String> = form.rows.iter().flat_map(|row| row.keys().cloned()).collect();
         names.sort();
         names.dedup();
-        let cell = |row: &BTreeMap<String, f64>, name| row.get(name).map(f64::to_string).unwrap_or_default();
+        let cell = |row: &BTreeMap<String, Option<f64>>, name| {
+            row.get(name).copied().flatten().map(|number| number.to_string()).unwrap_or_default()
+        };
         let cells = form.rows.iter().enumerate();
         let cells =
             cells.map(|(k, row)| (k + 1, names.iter().map(|name| cell(row, name)).collect())).collect();
@@ -100,7 +85,16 @@ pub fn read_measurements(
         (header, cells, noise.to_vec())
     };
     let columns = columns(&header, robot)?;
-    let noise = Noise::named(&noise)?;
+    let (covariances, stds): (Vec<_>, Vec<_>) =
+        noise.into_iter().partition(|(name, _)| name.starts_with("cov_"));
+    let covariances = covariances.into_iter().map(|(name, value)| {
+        let expected = "two quantities that are measured, cov_x_m_y_m";
+        let (one, other, factor) = covariance_of(&name)
+            .ok_or_else(|| CalibrationError::invalid(format!("noise {name}"), value, expected))?;
+        Ok((one, other, value * factor))
+    });
+    let covariances = covariances.collect::<Result<_, CalibrationError>>()?;
+    let noise = Stated { stds: Noise::named(&stds)?, covariances };
     let rows: Vec<Row> = cells
         .iter()
         .map(|(line, cells): &(usize, Vec<String>)| row(*line, cells, &columns, robot, &noise))
@@ -110,8 +104,8 @@ pub fn read_measurements(
     }
     let is_stated = |named: &Named| match named.column {
         Column::Reading(Quantity::Length(_)) => false,
-        Column::Reading(quantity) => named.is_std || noise.of(quantity).is_some(),
-        Column::Quaternion(_) => noise.rotation.is_some(),
+        Column::Reading(quantity) => named.is_std || noise.stds.of(quantity).is_some(),
+        Column::Quaternion(_) => noise.stds.rotation.is_some(),
         _ => false,
     };
     let markers = columns.iter().filter_map(|named| match named.column {
@@ -159,244 +153,6 @@ fn lines(text: &str) -> Result<(Vec<String>, Vec<(usize, Vec<String>)>), Calibra
         cells.push((line, values));
     }
     Ok((header.unwrap_or_default(), cells))
-}
-
-fn columns(header: &[String], robot: &Robot) -> Result<Vec<Named>, CalibrationError> {
-    let mut columns: Vec<Named> = Vec::new();
-    for name in header {
-        let wrong =
-            |expected: &str| CalibrationError::Column { column: name.clone(), expected: expected.to_owned() };
-        let expected = "a name such as x_m, qw, roll_deg, l1_m, t1_n, t1_winch_n, marker1_x_m, dx_m, \
-                        swivel1_deg, payload_kg, mass_kg, fx_n, mx_nm or std_x_m";
-        let (is_std, base) = name.strip_prefix("std_").map_or((false, name.as_str()), |base| (true, base));
-        let (column, factor) = column(&base.to_ascii_lowercase()).ok_or_else(|| wrong(expected))?;
-        let cable = match column {
-            Column::Reading(Quantity::Length(i) | Quantity::Tension(i, _) | Quantity::Swivel(i)) => Some(i),
-            _ => None,
-        };
-        let n = robot.cables.len();
-        if cable.is_some_and(|i| i >= n) {
-            return Err(wrong(&format!("one of the {n} cables of the robot")));
-        }
-        if let Column::Reading(Quantity::Swivel(i)) = column
-            && robot.cables[i].pulley.is_none()
-        {
-            return Err(wrong("a cable with a pulley in the robot file"));
-        }
-        if is_std && !matches!(column, Column::Reading(_)) {
-            return Err(wrong("a quantity that is measured behind std_"));
-        }
-        if columns.iter().any(|other| other.column == column && other.is_std == is_std) {
-            return Err(wrong("each quantity once"));
-        }
-        columns.push(Named { name: name.clone(), column, factor, is_std });
-    }
-    let has = |column| columns.iter().any(|named| named.column == column && !named.is_std);
-    let lengths: Vec<usize> =
-        (0..robot.cables.len()).filter(|i| !has(Column::Reading(Quantity::Length(*i)))).collect();
-    if let Some(missing) = lengths.first().filter(|_| lengths.len() < robot.cables.len()) {
-        let expected = "lengths of all cables, or of none".to_owned();
-        return Err(CalibrationError::Column { column: format!("l{}_m is missing", missing + 1), expected });
-    }
-    let quaternion = (0..4).filter(|k| has(Column::Quaternion(*k))).count();
-    if !matches!(quaternion, 0 | 4) {
-        let expected = "all of qw, qx, qy, qz".to_owned();
-        return Err(CalibrationError::Column {
-            column: "a part of the quaternion is missing".to_owned(),
-            expected,
-        });
-    }
-    Ok(columns)
-}
-
-/// A column by its name without `std_`.
-fn column(name: &str) -> Option<(Column, f64)> {
-    if let Some(k) = ["qw", "qx", "qy", "qz"].iter().position(|own| *own == name) {
-        return Some((Column::Quaternion(k), 1.0));
-    }
-    let (base, unit) = name.rsplit_once('_')?;
-    let length = match unit {
-        "m" => Some(1.0),
-        "mm" => Some(1e-3),
-        _ => None,
-    };
-    let force = match unit {
-        "n" => Some(1.0),
-        "kn" => Some(1e3),
-        _ => None,
-    };
-    let angle = match unit {
-        "rad" => Some(1.0),
-        "deg" => Some(1f64.to_radians()),
-        _ => None,
-    };
-    let axis = |letter: &str| Axis::from_letter(letter);
-    let numbered = |word: &str| base.strip_prefix(word)?.parse::<usize>().ok()?.checked_sub(1);
-    let of = |quantity: Quantity, factor: Option<f64>| Some((Column::Reading(quantity), factor?));
-    if let Some(axis) = axis(base) {
-        return of(Quantity::Position(axis), length);
-    }
-    if let Some(k) = ["roll", "pitch", "yaw"].iter().position(|own| *own == base) {
-        return of(Quantity::Angle(k), angle);
-    }
-    if let Some(axis) = base.strip_prefix('d').and_then(axis) {
-        return of(Quantity::Displacement(axis), length);
-    }
-    if let Some(axis) = base.strip_prefix('f').and_then(axis) {
-        return Some((Column::Wrench(axis.index()), force?));
-    }
-    if let Some(axis) = base.strip_prefix('m').and_then(axis) {
-        return (unit == "nm").then_some((Column::Wrench(3 + axis.index()), 1.0));
-    }
-    if unit == "kg" {
-        let column = match base {
-            "payload" => Column::Payload,
-            "mass" => Column::Mass,
-            _ => return None,
-        };
-        return Some((column, 1.0));
-    }
-    if let Some(i) = base.strip_suffix("_winch").and_then(|base| base.strip_prefix('t')) {
-        return of(Quantity::Tension(i.parse::<usize>().ok()?.checked_sub(1)?, CableEnd::Exit), force);
-    }
-    if let Some((marker, letter)) = base.split_once('_') {
-        let k = marker.strip_prefix("marker")?.parse::<usize>().ok()?.checked_sub(1)?;
-        return of(Quantity::Marker(k, axis(letter)?), length);
-    }
-    if let Some(i) = numbered("swivel") {
-        return of(Quantity::Swivel(i), angle);
-    }
-    if let Some(i) = numbered("l") {
-        return of(Quantity::Length(i), length);
-    }
-    of(Quantity::Tension(numbered("t")?, CableEnd::Anchor), force)
-}
-
-fn row(
-    line: usize,
-    cells: &[String],
-    columns: &[Named],
-    robot: &Robot,
-    noise: &Noise,
-) -> Result<Row, CalibrationError> {
-    let cell_error = |named: &Named, value: &str, expected: &str| CalibrationError::Cell {
-        line,
-        column: named.name.clone(),
-        value: value.to_owned(),
-        expected: expected.to_owned(),
-    };
-    let mut values: Vec<Option<f64>> = Vec::with_capacity(columns.len());
-    for (named, text) in columns.iter().zip(cells) {
-        let value = match text.as_str() {
-            "" => None,
-            text => {
-                let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-                Some(number.ok_or_else(|| cell_error(named, text, "a finite number, or an empty cell"))?)
-            }
-        };
-        values.push(value.map(|value| value * named.factor));
-    }
-    let find = |column: Column, is_std: bool| {
-        let found = columns.iter().position(|named| named.column == column && named.is_std == is_std)?;
-        values[found].map(|value| (value, &columns[found]))
-    };
-    let std_of = |quantity: Quantity| -> Result<Option<f64>, CalibrationError> {
-        match find(Column::Reading(quantity), true) {
-            Some((std, _)) if std > 0.0 => Ok(Some(std)),
-            Some((std, named)) => Err(cell_error(named, &std.to_string(), "a positive standard deviation")),
-            None => Ok(noise.of(quantity)),
-        }
-    };
-    let mut load = Load::none();
-    load.payload = find(Column::Payload, false).map_or(0.0, |(value, _)| value);
-    for k in 0..3 {
-        load.wrench.force[k] = find(Column::Wrench(k), false).map_or(0.0, |(value, _)| value);
-        load.wrench.moment[k] = find(Column::Wrench(3 + k), false).map_or(0.0, |(value, _)| value);
-    }
-    let mut row = Row::new(line, load);
-    row.mass = find(Column::Mass, false).map(|(value, _)| value);
-    if let Some((mass, named)) = find(Column::Mass, false).filter(|(mass, _)| *mass <= 0.0) {
-        return Err(cell_error(named, &mass.to_string(), "a mass above zero [kg]"));
-    }
-    // Lengths
-    let lengths: Vec<_> =
-        (0..robot.cables.len()).map(|i| find(Column::Reading(Quantity::Length(i)), false)).collect();
-    let given = lengths.iter().flatten().count();
-    if given > 0 {
-        if let Some(i) = lengths.iter().position(Option::is_none) {
-            let reason = format!("column l{}_m is empty: expected all lengths, or none", i + 1);
-            return Err(CalibrationError::Incomplete { line, reason });
-        }
-        let values: Vec<f64> = lengths.iter().flatten().map(|(value, _)| *value).collect();
-        let widest = LONGEST * crate::unknowns::size(robot);
-        for (value, named) in lengths.iter().flatten() {
-            if value.abs() > widest {
-                let expected = format!("a length in m; the robot is {:.3} m wide", widest / LONGEST);
-                return Err(cell_error(named, &value.to_string(), &expected));
-            }
-        }
-        row.lengths = Some(values);
-        let std = |i| std_of(Quantity::Length(i));
-        let stds: Vec<_> = (0..robot.cables.len()).map(std).collect::<Result<_, _>>()?;
-        row.length_std = stds.into_iter().map(|std| std.unwrap_or(0.0)).collect();
-        if row.length_std.contains(&0.0) {
-            let exact = Noise::exact(Quantity::Length(0));
-            let noisy = row.length_std.iter().any(|std| *std > 0.0);
-            row.length_std.iter_mut().filter(|std| noisy && **std == 0.0).for_each(|std| *std = exact);
-        }
-    }
-    // Orientation
-    let quaternion: Vec<_> = (0..4).filter_map(|k| find(Column::Quaternion(k), false)).collect();
-    match quaternion[..] {
-        [] => {}
-        [(w, named), (x, _), (y, _), (z, _)] => {
-            let rotation = rotation_in_order([w, x, y, z])
-                .map_err(|error| cell_error(named, &w.to_string(), &error.to_string()))?;
-            row.rotation = Some(rotation);
-            let std = noise.rotation.unwrap_or(Noise::exact(Quantity::Rotation(Axis::X)));
-            let reading = |axis| Reading { quantity: Quantity::Rotation(axis), value: 0.0, std };
-            row.readings.extend(Axis::ALL.map(reading));
-        }
-        _ => {
-            let reason = "a part of qw, qx, qy, qz is empty: expected all or none".to_owned();
-            return Err(CalibrationError::Incomplete { line, reason });
-        }
-    }
-    // Everything else
-    for (named, value) in columns.iter().zip(&values) {
-        let (Column::Reading(quantity), Some(value), false) = (named.column, value, named.is_std) else {
-            continue;
-        };
-        let far = FARTHEST * crate::unknowns::size(robot);
-        let is_length =
-            matches!(quantity, Quantity::Position(_) | Quantity::Marker(..) | Quantity::Displacement(_));
-        if is_length && (value - anywhere(robot, quantity)).abs() > far {
-            let expected = format!("a place in m; the robot is {:.3} m wide", far / FARTHEST);
-            return Err(cell_error(named, &value.to_string(), &expected));
-        }
-        if matches!(quantity, Quantity::Angle(_)) && value.abs() > std::f64::consts::TAU {
-            return Err(cell_error(named, &value.to_string(), "an angle of at most a full turn"));
-        }
-        if !matches!(quantity, Quantity::Length(_)) {
-            let std = std_of(quantity)?.unwrap_or(Noise::exact(quantity));
-            row.readings.push(Reading { quantity, value: *value, std });
-        }
-    }
-    Ok(row)
-}
-
-/// Lengths of so many widths of a robot must be in another unit.
-const LONGEST: f64 = 30.0;
-
-/// Places so many widths away must be in another unit; a tracker may stand beside the robot.
-const FARTHEST: f64 = 30.0;
-
-/// A coordinate within the robot, for a place in its base frame.
-fn anywhere(robot: &Robot, quantity: Quantity) -> f64 {
-    match quantity {
-        Quantity::Position(axis) | Quantity::Marker(_, axis) => robot.cables[0].exit_point[axis.index()],
-        _ => 0.0,
-    }
 }
 
 /// The rows as CSV, as [`read_measurements`] reads them.

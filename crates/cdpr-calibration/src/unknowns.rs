@@ -138,6 +138,8 @@ pub struct Unknowns {
     pub(crate) markers: Vec<Vector3<f64>>,
     /// Markers whose places are sought.
     pub(crate) marker_count: usize,
+    /// Inputs that have a deviation in common with others, by the names that they had.
+    pub(crate) shared: Vec<String>,
 }
 
 impl Unknowns {
@@ -149,12 +151,17 @@ impl Unknowns {
             prior: Some([input.law.mean(), input.law.std()]),
             bounds: [f64::NEG_INFINITY, f64::INFINITY],
         };
+        Self { all: model.inputs.iter().map(unknown).collect(), terms: model.terms.clone(), ..Self::none() }
+    }
+
+    fn none() -> Self {
         Self {
-            all: model.inputs.iter().map(unknown).collect(),
-            terms: model.terms.clone(),
+            all: Vec::new(),
+            terms: Vec::new(),
             sensors: Vec::new(),
             markers: Vec::new(),
             marker_count: 0,
+            shared: Vec::new(),
         }
     }
 
@@ -171,13 +178,7 @@ impl Unknowns {
             let expected = format!("parameters of the robot ({})", Parameter::NAMES);
             return Err(CalibrationError::invalid("unknown", name, expected));
         }
-        let mut unknowns = Self {
-            all: Vec::new(),
-            terms: Vec::new(),
-            sensors: Vec::new(),
-            markers: Vec::new(),
-            marker_count: 0,
-        };
+        let mut unknowns = Self::none();
         for (index, parameter) in parameters.iter().enumerate() {
             if names.iter().any(|name| is(parameter, name)) {
                 unknowns.terms.push(Term { input: unknowns.all.len(), parameter: index, factor: 1.0 });
@@ -195,13 +196,7 @@ impl Unknowns {
     /// The parameters that are sought if nothing is said: anchor and exit points, mass and modulus.
     pub fn usual(robot: &Robot) -> Self {
         // Every robot has these.
-        Self::free(robot, &["a", "b", "mass", "youngs_modulus"]).unwrap_or_else(|_| Self {
-            all: Vec::new(),
-            terms: Vec::new(),
-            sensors: Vec::new(),
-            markers: Vec::new(),
-            marker_count: 0,
-        })
+        Self::free(robot, &["a", "b", "mass", "youngs_modulus"]).unwrap_or_else(|_| Self::none())
     }
 
     /// The inputs of an error model or, without one, the named parameters or groups, `none` or the usual ones,
@@ -225,30 +220,75 @@ impl Unknowns {
         Ok(unknowns)
     }
 
-    /// Gives all parameters of a group one deviation in common: one unknown with the name of the group.
+    /// Gives parameters one deviation in common: those of a group, `r`, or of a list of names and groups,
+    /// `r1+r2`. They become one unknown of that name, with the prior of the first.
     ///
     /// # Errors
-    /// [`CalibrationError::Invalid`] where no unknown is of the group.
+    /// [`CalibrationError::Invalid`] where a name of the list is not sought.
     pub fn share(&mut self, robot: &Robot, group: &str) -> Result<(), CalibrationError> {
-        let parameters = Parameter::of(robot);
-        let of_group: Vec<usize> = self
-            .terms
-            .iter()
-            .filter(|term| parameters[term.parameter].group() == group)
-            .map(|term| term.input)
-            .collect();
-        let Some(first) = of_group.first().copied() else {
-            return Err(CalibrationError::invalid("share", group, "a group of parameters that are sought"));
-        };
-        let gone: Vec<usize> = of_group[1..].iter().copied().filter(|input| *input != first).collect();
+        let mut inputs = Vec::new();
+        for name in group.split('+') {
+            let of_name = self.inputs(robot, name.trim());
+            if of_name.is_empty() {
+                let expected = "parameters that are sought, or groups of them: r, or r1+r2";
+                return Err(CalibrationError::invalid("share", group, expected));
+            }
+            inputs.extend(of_name);
+        }
+        inputs.sort_unstable();
+        inputs.dedup();
+        let (first, gone) = (inputs[0], &inputs[1..]);
+        self.shared.extend(inputs.iter().map(|input| self.all[*input].name.clone()));
         group.clone_into(&mut self.all[first].name);
         for term in &mut self.terms {
-            if of_group.contains(&term.input) {
+            if inputs.contains(&term.input) {
                 term.input = first;
             }
         }
-        self.remove(&gone);
+        self.remove(gone);
         Ok(())
+    }
+
+    /// Keeps unknowns within bounds: deviations of a parameter or group, or an error of the sensors or one
+    /// number of it.
+    ///
+    /// # Errors
+    /// [`CalibrationError::Invalid`] where nothing of this name is sought, and for bounds in the wrong order.
+    pub fn bound(&mut self, robot: &Robot, name: &str, bounds: [f64; 2]) -> Result<(), CalibrationError> {
+        if bounds[0].is_nan() || bounds[1].is_nan() || bounds[0] >= bounds[1] {
+            let given = format!("{}:{}", bounds[0], bounds[1]);
+            return Err(CalibrationError::invalid(format!("bounds of {name}"), given, "least:greatest"));
+        }
+        let mut inputs = self.inputs(robot, name);
+        if let Ok(error) = SensorError::from_name(name)
+            && let Some(first) = self.sensor(error)
+        {
+            inputs.extend(first..first + error.names(robot.cables.len(), self.marker_count).len());
+        }
+        inputs.extend(self.all.iter().position(|unknown| unknown.name == name));
+        if inputs.is_empty() {
+            return Err(CalibrationError::invalid("bounds", name, "the name of something that is sought"));
+        }
+        for input in inputs {
+            let own = &mut self.all[input].bounds;
+            *own = [own[0].max(bounds[0]), own[1].min(bounds[1])];
+        }
+        Ok(())
+    }
+
+    /// The inputs that move a parameter or a group.
+    fn inputs(&self, robot: &Robot, name: &str) -> Vec<usize> {
+        let parameters = Parameter::of(robot);
+        let is = |p: &Parameter| p.group() == name || p.to_string() == name;
+        self.terms.iter().filter(|term| is(&parameters[term.parameter])).map(|term| term.input).collect()
+    }
+
+    /// Values within their bounds.
+    pub(crate) fn within(&self, mut x: Vec<f64>) -> Vec<f64> {
+        for (x, unknown) in x.iter_mut().zip(&self.all) {
+            *x = x.clamp(unknown.bounds[0], unknown.bounds[1]);
+        }
+        x
     }
 
     /// Adds an error of the sensors, with a prior about zero of that standard deviation if there is one.

@@ -1,7 +1,7 @@
 //! Robots of several tests, and poses that they hold.
 
-use cdpr_calibration::Noise;
-use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3};
+use cdpr_calibration::{Noise, Simulated};
+use cdpr_robot::{CableEnd, Coordinate, Parameter, Pose, Robot, Vector3};
 use cdpr_statics::{Load, inverse_free};
 use cdpr_study::ErrorModel;
 
@@ -47,6 +47,28 @@ impl Case {
 
     pub(crate) fn model(&self) -> ErrorModel {
         ErrorModel::normal(&self.robot, &self.stds)
+    }
+
+    /// A campaign without load and without errors of sensors.
+    pub(crate) fn simulated<'a>(
+        &'a self,
+        deviations: &'a [f64],
+        poses: &'a [Pose],
+        noise: Noise,
+        seed: u64,
+    ) -> Simulated<'a> {
+        Simulated {
+            nominal: &self.robot,
+            deviations,
+            poses,
+            free: &self.free,
+            load: Load::none(),
+            noise,
+            markers: &[],
+            errors: &[],
+            tension_at: CableEnd::Anchor,
+            seed,
+        }
     }
 
     /// Poses over the region, by a Halton sequence: position and small rotations.

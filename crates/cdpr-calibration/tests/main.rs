@@ -7,3 +7,6 @@ mod identify;
 mod recovery;
 mod reference;
 mod sensors;
+mod speed;
+mod tables;
+mod wrong_models;

@@ -7,7 +7,6 @@ use cdpr_calibration::{
 };
 use cdpr_robot::{CableEnd, Parameter, Vector3};
 use cdpr_statics::Load;
-use std::time::Instant;
 
 /// A campaign with errors of the sensors.
 struct Campaign<'a> {
@@ -38,16 +37,11 @@ impl<'a> Campaign<'a> {
         let truth = drawn(&case.model(), seed);
         let errors = drawn_errors(&case.robot, self.errors, self.markers.len(), seed);
         let mut rows = simulate(&Simulated {
-            nominal: &case.robot,
-            deviations: &truth,
-            poses: &case.poses(self.poses),
-            free: &case.free,
             load: self.load,
-            noise: self.noise,
             markers: self.markers,
             errors: &errors,
             tension_at: self.at,
-            seed,
+            ..case.simulated(&truth, &case.poses(self.poses), self.noise, seed)
         })
         .unwrap();
         change(&mut rows);
@@ -202,35 +196,4 @@ fn lengths_and_tensions_alone_tell_the_robot_and_their_errors() {
     check("self-calibration", &["CAROCA", "CoGiRo", "IPAnema", "FAST"], |case, seed| {
         Campaign { errors: &errors, poses: 60, ..Campaign::of(case, noise) }.run(seed, |_| {})
     });
-}
-
-#[test]
-fn five_hundred_rows_without_poses_take_few_steps() {
-    let noise = Noise { length: Some(2e-4), tension: Some(1.0), ..Noise::default() };
-    for case in cases().iter().filter(|case| case.name != "GRAB") {
-        let rows = simulate(&Simulated {
-            nominal: &case.robot,
-            deviations: &drawn(&case.model(), 4),
-            poses: &case.poses(500),
-            free: &case.free,
-            load: Load::none(),
-            noise,
-            markers: &[],
-            errors: &[],
-            tension_at: CableEnd::Anchor,
-            seed: 1,
-        })
-        .unwrap();
-        let clock = Instant::now();
-        let found = fit(&case.robot, &rows, &Unknowns::usual(&case.robot), &FitSettings::default()).unwrap();
-        println!(
-            "{}: {} rows, {} unknowns, {} steps in {:.2} s",
-            case.name,
-            rows.len(),
-            found.estimates.len(),
-            found.steps,
-            clock.elapsed().as_secs_f64()
-        );
-        assert!(found.converged && found.steps <= 10 && found.p_value().unwrap() > 1e-3);
-    }
 }

@@ -109,12 +109,26 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
 
 #[test]
 fn bad_measurements_are_named_by_line_and_column() {
-    let cases: [(Change, &str); 6] = [
+    let cases: [(Change, &str); 16] = [
         (&|cells| cells[3][2] = "NaN".to_owned(), "line 4, column l3_m: NaN: expected a finite number"),
         (&|cells| cells[5][0] = "4100".to_owned(), "line 6, column l1_m: 4100: expected a length in m"),
         (&|cells| cells[0][1] = "l9_m".to_owned(), "column l9_m: expected one of the 8 cables of the robot"),
         (&|cells| cells[0][8] = "width_m".to_owned(), "column width_m: expected a name such as x_m"),
         (&|cells| cells[2].truncate(4), "line 3: 4 cells: expected"),
+        (&|cells| cells[3][9] = "inf".to_owned(), "line 4, column y_m: inf: expected a finite number"),
+        (&|cells| cells[3][9] = "1197.5".to_owned(), "line 4, column y_m: 1197.5: expected a place in m"),
+        (&|cells| cells[0][9] = "x_mm".to_owned(), "column x_mm: expected each quantity once"),
+        (&|cells| cells[6][2] = "-3".to_owned(), "line 7, column l3_m: -3: expected a length above zero"),
+        (&|cells| cells[6][11] = "5".to_owned(), "line 7, column qw: 5: expected the quaternion"),
+        (&|cells| cells[0][0] = "l1_mm".to_owned(), "column l1_m: expected lengths near the distances"),
+        (&|cells| cells.truncate(1), "measurements is empty: expected a row for each pose below a header"),
+        (&|cells| cells.clear(), "measurements is empty: expected a row for each pose below a header"),
+        // Lengths of another pose, and of a smaller robot.
+        (&|cells| (0..8).for_each(|k| cells[11][k] = cells[21][k].clone()), "line 12, column l"),
+        (
+            &|cells| cells[11][..8].iter_mut().for_each(scale),
+            "of its points at the measured pose: the row may be of",
+        ),
         (&|cells| cells[4][3].clear(), "line 5: column l4_m is empty"),
     ];
     for (change, words) in cases {
@@ -129,6 +143,36 @@ fn bad_measurements_are_named_by_line_and_column() {
     changed(&path, |cells| cells.truncate(5));
     let error = text(calibrate(&path, &folder.path().join("out"), &["--noise", NOISE]).stderr);
     assert!(error.contains("56 measurements for 82 unknowns, 32 of them lengths"), "{error}");
+}
+
+fn scale(cell: &mut String) {
+    *cell = (0.5 * cell.parse::<f64>().unwrap()).to_string();
+}
+
+#[test]
+fn what_cannot_be_written_and_settings_that_cannot_be_meant_are_refused() {
+    let (folder, path) = campaign();
+    let out = folder.path().join("out");
+    for (more, words) in [
+        (&["--noise", "position=0"][..], "noise position is 0: expected a finite, positive"),
+        (&["--noise", "tensoin=1"], "noise tensoin is 1: expected one of position"),
+        (&["--noise", "cov_x_m_y=1"], "noise cov_x_m_y is 1: expected two quantities"),
+        (&["--noise", NOISE, "--share", "r"], "share is r: expected parameters that are sought"),
+        (&["--noise", NOISE, "--bounds", "mass=1"], "`mass=1`: expected name=least:greatest"),
+        (&["--noise", NOISE, "--bounds", "lead=0:1"], "bounds is lead: expected the name of something"),
+        (&["--noise", NOISE, "--unknown", "drum"], "error of sensors is drum: expected one of"),
+    ] {
+        let output = calibrate(&path, &out, more);
+        let error = text(output.stderr);
+        assert!(!output.status.success() && error.contains(words), "`{words}` is not in: {error}");
+    }
+    // A file stands where the folder should be made: it stays as it is.
+    let before = std::fs::read_to_string(&path).unwrap();
+    let output = calibrate(&path, Path::new(&path), &["--noise", NOISE]);
+    let error = text(output.stderr);
+    assert!(output.status.code() == Some(1) && error.contains("cannot write"), "{error}");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), before);
+    assert!(!out.join("summary.json").exists());
 }
 
 #[test]

@@ -32,6 +32,7 @@ pub(crate) fn calibrate(
     parameters: Vec<String>,
     share: Vec<String>,
     unknown: Vec<(String, Option<f64>)>,
+    bounds: Vec<(String, [f64; 2])>,
     markers: Vec<[f64; 3]>,
     loss: &str,
     starts: usize,
@@ -57,6 +58,9 @@ pub(crate) fn calibrate(
         let mut unknowns = Unknowns::sought(robot, prior.as_ref(), &names, &share)?;
         for (name, std) in &unknown {
             unknowns.add(robot, SensorError::from_name(name)?, *std, measured.markers);
+        }
+        for (name, bounds) in &bounds {
+            unknowns.bound(robot, name, *bounds)?;
         }
         unknowns.set_markers(markers.into_iter().map(Vector3::from).collect());
         let name = measurements.file_name().map(|name| name.to_string_lossy().into_owned());

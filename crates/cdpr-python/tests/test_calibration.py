@@ -1,11 +1,14 @@
 """Calibrations give the files of `cdpr calibrate`, and plans the poses of `cdpr calibration plan`."""
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy
 import pytest
-from conftest import answer, command
+from conftest import answer, command, program
 
 import cdpr
 
@@ -43,7 +46,7 @@ def test_files_are_those_of_the_program(caroca, caroca_file, measurements, model
     arguments = ["--measurements", measurements, "--model", model, "--noise", noise, "--out", theirs]
     printed = answer("calibrate", caroca_file, *arguments)
     assert summary == printed == json.loads((ours / "summary.json").read_text())
-    for name in ("calibrated.json", "posterior.json", "residuals.csv", "report.html"):
+    for name in ("calibrated.json", "posterior.json", "residuals.csv", "poses.csv", "report.html"):
         assert (ours / name).read_bytes() == (theirs / name).read_bytes(), name
     robot = cdpr.Robot.from_file(ours / "calibrated.json")
     assert robot.parameters["a1.x"] == summary["parameters"]["a1.x"]["after"]
@@ -61,6 +64,21 @@ def test_errors_of_sensors_are_sought(caroca, measurements, model, tmp_path):
     found = cdpr.calibration.calibrate(caroca, moved, tmp_path / "out", **sought)
     offset = found["sensors"]["length_offset1"]
     assert abs(offset["after"] - 0.25) < 5 * offset["std"] + 1e-6
+
+
+def test_bounds_hold_and_groups_move_together(caroca, measurements, tmp_path):
+    sought = {
+        "noise": NOISE,
+        "parameters": ["a", "b", "mass"],
+        "share": ["b1.z+b2.z"],
+        "bounds": {"mass": (-1e-3, 1e-3)},
+    }
+    found = cdpr.calibration.calibrate(caroca, measurements, tmp_path / "out", **sought)["parameters"]
+    moved = [found[name]["after"] - found[name]["before"] for name in ("b1.z", "b2.z", "mass")]
+    assert moved[0] == pytest.approx(moved[1], abs=1e-12) and abs(moved[2]) <= 1e-3
+    sought["share"] = ["b1.z+r1"]
+    with pytest.raises(cdpr.InputError, match=r"share is b1.z\+r1: expected parameters that are sought"):
+        cdpr.calibration.calibrate(caroca, measurements, tmp_path / "out", **sought)
 
 
 def test_what_is_wrong_is_named(caroca, measurements, tmp_path):
@@ -95,3 +113,88 @@ def test_plans_are_those_of_the_program(caroca, caroca_file, candidates):
     assert numpy.array(found["poses"]) == pytest.approx(numpy.array(theirs["poses"]), abs=1e-12)
     with pytest.raises(cdpr.InputError, match="work has no pose"):
         cdpr.calibration.calibration_plan(caroca, candidates, criterion="mean-at-work", **known)
+
+
+def test_irma4u_is_read_as_its_authors_write_it(data, tmp_path):
+    """A simulated campaign in the form of the authors' files: their angles are those of Rx Ry Rz."""
+    grid, measured = tmp_path / "poses.csv", tmp_path / "measured.csv"
+    places = [(x, y, z) for x in (-0.4, 0.0, 0.4) for y in (-0.4, 0.0, 0.4) for z in (0.6, 0.9, 1.2)]
+    grid.write_text("\n".join(["x_m,y_m,z_m", *[",".join(map(str, place)) for place in places]]) + "\n")
+    model = tmp_path / "model.json"
+    model.write_text('{"mass": {"law": {"normal": {"mean": 0, "std": 1e-6}}}}')
+    noise = "rotation=7e-3,length=1e-4,tension=7,swivel=2e-2"
+    arguments = [
+        "--poses",
+        grid,
+        "--free",
+        "roll,pitch",
+        "--tension-at",
+        "winch",
+        "--seed",
+        "1",
+        "--model",
+        model,
+    ]
+    arguments += ["--noise", noise, "--unknown", "length_offset=0.01", "--out", measured]
+    done = command("calibration", "simulate", str(data / "robots" / "irma4u.json"), *arguments)
+    assert done.returncode == 0, done.stderr
+    rows = [
+        dict(zip(lines[0], cells))
+        for lines in [[line.split(",") for line in measured.read_text().splitlines()]]
+        for cells in lines[1:]
+    ]
+    theirs = []
+    for row in rows:
+        w, x, y, z = (float(row[name]) for name in ("qw", "qx", "qy", "qz"))
+        # R = Rx(a) Ry(b) Rz(c): the first row of R and the last column.
+        first = (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y))
+        last = (2 * (y * z - w * x), 1 - 2 * (x * x + y * y))
+        angles = (
+            numpy.arctan2(-last[0], last[1]),
+            numpy.arcsin(first[2]),
+            numpy.arctan2(-first[1], first[0]),
+        )
+        lengths, tensions = (
+            [float(row[f"{name}{i}{unit}"]) for i in range(1, 5)]
+            for name, unit in (("l", "_m"), ("t", "_winch_n"))
+        )
+        swivels = [float(row[f"swivel{i}_rad"]) + numpy.pi / 2 for i in range(1, 5)]
+        theirs.append([*lengths, *tensions, *angles, *swivels])
+    table = numpy.array(theirs)
+    names = [f"{letter}{i}" for letter in "lt" for i in range(1, 5)] + ["roll", "pitch", "yaw"]
+    names += [f"s{i}" for i in range(1, 5)]
+    numpy.savetxt(
+        tmp_path / "campaign.csv", table, delimiter=",", header=",".join(names), comments="", fmt="%.17g"
+    )
+    files = [tmp_path / "campaign.csv"]
+    try:
+        from scipy.io import savemat
+    except ImportError:
+        pass
+    else:
+        parts = {
+            "cable_length_meas": table[:, :4].T,
+            "tau_zero": table[0, 4:8],
+            "loadcell_meas": table[1:, 4:8].T,
+        }
+        parts |= {"epsilon_meas": table[:, 8:11].T, "swivel_meas": table[:, 11:].T}
+        savemat(tmp_path / "campaign.mat", parts)
+        files.append(tmp_path / "campaign.mat")
+    script = data / "reference" / "irma4u.py"
+    answers = []
+    for file in files:
+        done = subprocess.run(
+            [sys.executable, script, file],
+            capture_output=True,
+            text=True,
+            env={**os.environ, "CDPR": program()},
+        )
+        assert done.returncode == 0, done.stderr
+        answers.append(done.stdout.replace(file.name, ""))
+    assert all(of == answers[0] for of in answers)
+    after = {
+        line.split()[0]: float(line.split()[-2]) for line in answers[0].splitlines() if " numbers, " in line
+    }
+    # The last fit weighs as the authors do; the noise is that of the sensors in both.
+    for name, unit, std in (("t", 1, 7), ("roll", 57.3, 7e-3), ("swivel", 57.3, 2e-2)):
+        assert 0.5 * unit * std < after[name] < 1.3 * unit * std, answers[0]

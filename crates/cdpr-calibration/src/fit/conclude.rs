@@ -61,7 +61,7 @@ impl Problem<'_> {
         let told = (0..count).filter(|k| whole.tells(*k)).count();
         let priors: Vec<_> = self.priors(&state.shared.x).map(|(_, r, _)| r * r).collect();
         let chi_square =
-            after.iter().map(|of| of.standardized().powi(2)).sum::<f64>() + priors.iter().sum::<f64>();
+            compared.iter().map(|of| of.residuals.norm_squared()).sum::<f64>() + priors.iter().sum::<f64>();
         Ok(Fit {
             robot,
             estimates,
@@ -75,6 +75,7 @@ impl Problem<'_> {
             before,
             after,
             poses_before,
+            lines: self.rows.iter().map(|row| row.line).collect(),
             payloads: self.rows.iter().map(|row| row.load.payload).collect(),
             poses: state.rows.iter().map(|row| *row.pose()).collect(),
             steps,
@@ -90,7 +91,13 @@ impl Problem<'_> {
         let count = self.model.unknowns.all.len();
         let decomposed = self.decomposed(at, &vec![0.0; count], false);
         let rows = unidentifiable(&decomposed, self.model.unknowns.of_parameters());
-        rows.row_iter().map(|row| row.transpose().iamax()).collect()
+        // A combination of errors of sensors alone has no parameter to fix.
+        let has_parameter = |row: &DVector<f64>| row.amax() > 1e-6;
+        let rows = rows.row_iter().map(|row| row.transpose()).filter(has_parameter);
+        let mut inputs: Vec<usize> = rows.map(|row| row.iamax()).collect();
+        inputs.sort_unstable();
+        inputs.dedup();
+        inputs
     }
 
     fn unidentifiable(&self, data: &Decomposed) -> Vec<UnidentifiableCombination> {

@@ -59,7 +59,7 @@ impl Problem<'_> {
                     row,
                     line,
                     quantity: of.quantities[r],
-                    difference: of.residuals[r] * of.std[r],
+                    difference: of.standardized[r] * of.std[r],
                     std: of.std[r],
                 })
                 .collect::<Vec<_>>()

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 impl Problem<'_> {
     /// The state of the nominal robot, with its residuals.
     pub(super) fn begin(&self) -> Result<(State, Seen), CalibrationError> {
-        let x = self.winches();
+        let x = self.model.unknowns.within(self.winches());
         let rows: Vec<RowState> =
             self.rows.par_iter().map(|row| self.model.begin(row, &x)).collect::<Result<_, _>>()?;
         let shared = Shared { x, frame: Rotation3::identity(), origin: Vector3::zeros() };
@@ -130,10 +130,11 @@ impl Problem<'_> {
         let draw = |unknown: &Unknown| {
             let normal: f64 = random.sample(StandardNormal);
             let share = if unknown.prior.is_some() { 1.0 } else { 0.01 };
-            (share * unknown.scale * normal).clamp(unknown.bounds[0], unknown.bounds[1])
+            share * unknown.scale * normal
         };
         let drawn = self.model.unknowns.all.iter().map(draw);
-        let x: Vec<f64> = self.winches().iter().zip(drawn).map(|(at, drawn)| at + drawn).collect();
+        let x = self.winches().iter().zip(drawn).map(|(at, drawn)| at + drawn).collect();
+        let x = self.model.unknowns.within(x);
         let rows: Result<Vec<RowState>, _> =
             self.rows.par_iter().map(|row| self.model.begin(row, &x)).collect();
         let shared = Shared { x, frame: Rotation3::identity(), origin: Vector3::zeros() };

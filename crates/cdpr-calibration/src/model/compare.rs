@@ -13,6 +13,8 @@ pub(crate) struct Compared {
     /// Standard deviation of each.
     pub(crate) std: Vec<f64>,
     /// (measured - model)/std.
+    pub(crate) standardized: DVector<f64>,
+    /// The same or, where the noise of some depends on others, the combinations that do not.
     pub(crate) residuals: DVector<f64>,
     /// Derivatives by the unknowns of all rows.
     pub(crate) per_unknown: DMatrix<f64>,
@@ -47,6 +49,7 @@ impl Model<'_> {
         let mut compared = Compared {
             quantities: Vec::with_capacity(count),
             std: Vec::with_capacity(count),
+            standardized: DVector::zeros(count),
             residuals: DVector::zeros(count),
             per_unknown: DMatrix::zeros(count, self.unknowns.all.len()),
             per_own: DMatrix::zeros(count, own),
@@ -95,6 +98,12 @@ impl Model<'_> {
             compared.std.push(std);
             compared.residuals[r] = state.errors[i] / std;
             compared.per_own[(r, i)] = 1.0 / std;
+        }
+        compared.standardized = compared.residuals.clone();
+        if let Some(factor) = row.correlation_factor() {
+            factor.solve_lower_triangular_mut(&mut compared.residuals);
+            factor.solve_lower_triangular_mut(&mut compared.per_unknown);
+            factor.solve_lower_triangular_mut(&mut compared.per_own);
         }
         Ok(compared)
     }

@@ -1,14 +1,21 @@
 //! Patterns of residuals, which noise does not make: a trend against place or load, means of consecutive rows
 //! that do not average out.
 //!
-//! With the residuals ρ of a column and a coordinate u of their rows, the correlation r has, without a trend,
-//! a standard deviation of nearly `1/sqrt(n)`. The mean over m consecutive rows has the variance `σ²/m` if
+//! With the residuals ρ of a column and a coordinate u of their rows, artanh of the correlation r has, without
+//! a trend, a standard deviation of nearly `1/sqrt(n - 3)` (Fisher 1921). The mean over m consecutive rows has the variance `σ²/m` if
 //! rows do not depend on each other (Allan 1966): the ratio of the two tells drifts and errors of the model
 //! that change slowly from pose to pose.
+//!
+//! What is left of a wrong model is mostly curved, because the parameters take what is straight. Of the n
+//! residuals of a column, polynomials of second degree in the place explain the share R². By chance alone
+//! `(R²/k)/((1 - R²)/(n - k - 1))` has the law F(k, n - k - 1), with k terms besides the constant.
 
 use crate::fitted::{Difference, Fit};
+use crate::solve::Svd;
 use cdpr_robot::Vector3;
+use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, FisherSnedecor, Normal};
 use std::collections::BTreeMap;
 
 /// A trend of the residuals of a column.
@@ -16,11 +23,13 @@ use std::collections::BTreeMap;
 pub struct Trend {
     /// The column.
     pub column: String,
-    /// What it follows: `x`, `y`, `z` of the pose, `distance` from the middle of all poses, or `payload`.
+    /// What it follows: `x`, `y`, `z` of the pose, `distance` from the middle of all poses, `payload`, or
+    /// `place`, a polynomial of second degree in x, y, z.
     pub against: &'static str,
-    /// Correlation, -1 to 1.
+    /// Correlation, -1 to 1; with a polynomial 0 to 1.
     pub correlation: f64,
-    /// The correlation over its standard deviation without a trend.
+    /// Its artanh over the standard deviation of that without a trend; of a polynomial, that of a normal law with
+    /// the same probability.
     pub standard_deviations: f64,
 }
 
@@ -36,19 +45,29 @@ pub struct Split {
 /// A trend is named above so many standard deviations.
 const CLEAR: f64 = 5.0;
 
+/// A correlation that leaves nothing.
+const ALL: f64 = 1.0 - 1e-12;
+
 /// Rows of a column at least for a trend.
 const FEWEST: usize = 8;
+
+/// Rows of a column at least for a polynomial in the place.
+const FEWEST_CURVED: usize = 20;
+
+/// The least probability that is told from zero.
+const LEAST_PROBABILITY: f64 = 1e-300;
 
 /// Parts at least for the variance of their means.
 const FEWEST_PARTS: usize = 4;
 
 impl Fit {
-    /// Clear trends of residuals against place and load, the clearest first.
+    /// Clear trends of residuals against place and load, the clearest first. The places are those of the
+    /// nominal robot: a wrong sensor moves the others.
     pub fn trends(&self) -> Vec<Trend> {
-        let middle = self.poses.iter().map(|pose| pose.position).sum::<Vector3<f64>>()
-            / self.poses.len().max(1) as f64;
+        let poses = &self.poses_before;
+        let middle = poses.iter().map(|pose| pose.position).sum::<Vector3<f64>>() / poses.len().max(1) as f64;
         let places = |k: usize| {
-            let position = self.poses[k].position;
+            let position = poses[k].position;
             [
                 ("x", position.x),
                 ("y", position.y),
@@ -66,12 +85,19 @@ impl Fit {
                 let pairs: Vec<_> =
                     of.iter().map(|of| (places(of.row)[index].1, of.standardized())).collect();
                 let correlation = correlation(&pairs);
-                let standard_deviations = correlation * (pairs.len() as f64).sqrt();
+                let standard_deviations =
+                    correlation.clamp(-ALL, ALL).atanh() * (pairs.len() as f64 - 3.0).sqrt();
                 if standard_deviations.abs() > CLEAR {
                     let against = places(of[0].row)[index].0;
                     let column = column.clone();
                     trends.push(Trend { column, against, correlation, standard_deviations });
                 }
+            }
+            let offsets: Vec<_> = of.iter().map(|of| poses[of.row].position - middle).collect();
+            if let Some((correlation, standard_deviations)) = curved(&of, &offsets)
+                && standard_deviations > CLEAR
+            {
+                trends.push(Trend { column, against: "place", correlation, standard_deviations });
             }
         }
         trends.sort_by(|a, b| b.standard_deviations.abs().total_cmp(&a.standard_deviations.abs()));
@@ -107,6 +133,33 @@ impl Fit {
         }
         columns
     }
+}
+
+/// Multiple correlation of residuals with polynomials of second degree in the place, and how unlikely it is.
+fn curved(of: &[Difference], offsets: &[Vector3<f64>]) -> Option<(f64, f64)> {
+    if of.len() < FEWEST_CURVED {
+        return None;
+    }
+    let extent = offsets.iter().fold(Vector3::zeros(), |most: Vector3<f64>, offset| most.sup(&offset.abs()));
+    let terms = |offset: &Vector3<f64>| {
+        let [x, y, z] = [0, 1, 2].map(|k| if extent[k] > 0.0 { offset[k] / extent[k] } else { 0.0 });
+        [1.0, x, y, z, x * x, y * y, z * z, x * y, y * z, z * x]
+    };
+    let terms: Vec<_> = offsets.iter().map(terms).collect();
+    let svd = Svd::of(&DMatrix::from_fn(terms.len(), terms[0].len(), |k, j| terms[k][j]));
+    let values = DVector::from_iterator(of.len(), of.iter().map(Difference::standardized));
+    let rank = svd.values.iter().filter(|value| **value > 1e-6 * svd.values[0]).count();
+    let explained = (0..rank).map(|k| svd.left.column(k).dot(&values).powi(2)).sum::<f64>();
+    let whole = values.norm_squared() - values.sum().powi(2) / values.len() as f64;
+    let left = (values.norm_squared() - explained).max(0.0);
+    if rank < 2 || whole <= 0.0 {
+        return None;
+    }
+    let (k, free) = ((rank - 1) as f64, (of.len() - rank) as f64);
+    let ratio = ((whole - left).max(0.0) / k) / (left / free).max(f64::MIN_POSITIVE);
+    let chance = FisherSnedecor::new(k, free).ok()?.sf(ratio).max(LEAST_PROBABILITY);
+    let normal = Normal::standard().inverse_cdf(0.5 * chance);
+    Some(((1.0 - left / whole).max(0.0).sqrt(), -normal))
 }
 
 fn variance(values: &[f64]) -> f64 {

@@ -24,7 +24,8 @@ pub(crate) struct Settings {
     sought: Sought,
     /// Standard deviations of the noise, SI units: position=1e-4,rotation=1e-4,length=1e-4,tension=5.
     ///
-    /// Also displacement, marker, swivel. Lengths without noise are exact.
+    /// Also displacement, marker, swivel, and covariances of two columns, cov_x_m_y_m=5e-9. Lengths without
+    /// noise are exact.
     #[arg(long, value_parser = arguments::named)]
     noise: Option<Named>,
     /// Errors of sensors that are sought, too, with the standard deviation of a prior or none.
@@ -36,6 +37,9 @@ pub(crate) struct Settings {
     /// Where a marker stands on the platform: x,y,z [m], once for each in their order.
     #[arg(long = "marker", value_parser = arguments::components::<3>, allow_hyphen_values = true)]
     markers: Vec<[f64; 3]>,
+    /// Least and greatest deviation of a parameter or group, or of an error of a sensor: mass=-2:2,r=-1e-3:1e-3.
+    #[arg(long, value_delimiter = ',', value_parser = bounds, allow_hyphen_values = true)]
+    bounds: Vec<(String, [f64; 2])>,
     /// How great residuals count: by their squares, or less (outliers).
     #[arg(long, value_enum, default_value_t = LossName::Squares)]
     loss: LossName,
@@ -79,7 +83,7 @@ pub(crate) struct Sought {
     /// Seek these parameters or groups without prior, in place of a model: a,b,mass,r, or `none`.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "model")]
     parameters: Vec<String>,
-    /// Groups of parameters that share one deviation: r, lead.
+    /// Parameters that share one deviation: groups, r, or lists, r1+r2,r3+r4.
     #[arg(long, value_name = "GROUPS", value_delimiter = ',')]
     share: Vec<String>,
 }
@@ -111,6 +115,15 @@ impl Sought {
         let share: Vec<&str> = self.share.iter().map(String::as_str).collect();
         Ok(Unknowns::sought(robot, prior, &names, &share)?)
     }
+}
+
+/// `name=least:greatest`.
+fn bounds(text: &str) -> Result<(String, [f64; 2]), String> {
+    let wrong = || format!("`{text}`: expected name=least:greatest");
+    let (name, range) = text.split_once('=').ok_or_else(wrong)?;
+    let (least, greatest) = range.split_once(':').ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
+    Ok((name.trim().to_owned(), [number(least)?, number(greatest)?]))
 }
 
 /// Errors of sensors with the standard deviation of a prior, if it is given: `length_offset,drum_scale=0.01`.
@@ -172,6 +185,9 @@ impl Settings {
         for (error, std) in sensor_errors(&self.unknown)? {
             unknowns.add(robot, error, std, measured.markers);
         }
+        for (name, bounds) in &self.bounds {
+            unknowns.bound(robot, name, *bounds)?;
+        }
         unknowns.set_markers(self.markers.iter().map(|marker| Vector3::from(*marker)).collect());
         Ok(unknowns)
     }
@@ -226,6 +242,10 @@ fn print(summary: &CalibrationSummary, found: &Fit) {
         ]);
     }
     println!("{rows}");
+    let [starts, same] = summary.starts;
+    if starts > 1 {
+        println!("{same} of {starts} starts ended at the least sum of squares");
+    }
     if let Some(after) = summary.position_std_after {
         let before = summary.position_std_before;
         let before = before.map_or_else(|| "unknown".to_owned(), |std| format!("{:.4} mm", 1e3 * std));

@@ -610,6 +610,7 @@ def calibrate(
     parameters: list[str],
     share: list[str],
     unknown: list[tuple[str, float | None]],
+    bounds: list[tuple[str, tuple[float, float]]],
     markers: Any,
     loss: str,
     starts: int,

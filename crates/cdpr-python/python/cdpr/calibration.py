@@ -42,6 +42,7 @@ def calibrate(
     parameters: Sequence[str] = (),
     share: Sequence[str] = (),
     unknown: Mapping[str, Optional[float]] = {},
+    bounds: Mapping[str, tuple[float, float]] = {},
     markers: Sequence[Sequence[float]] = (),
     loss: str = "squares",
     starts: int = 1,
@@ -54,13 +55,15 @@ def calibrate(
 
     measurements: CSV with units in its header, or JSON, as `cdpr calibrate` reads them.
     out: folder of the results; made if missing.
-    noise: standard deviations of the sensors [SI units]: {"position": 1e-4, "length": 1e-4}.
+    noise: standard deviations of the sensors [SI units]: {"position": 1e-4, "length": 1e-4}, and covariances
+        of two columns: {"cov_x_m_y_m": 5e-9}.
     model: file of an error model with the tolerances, the prior; without one all anchor and exit points,
         mass and modulus are sought without prior.
     parameters: parameters or groups that are sought without prior, in place of a model.
-    share: groups of parameters with one deviation in common.
+    share: parameters with one deviation in common: groups, "r", or lists, "r1+r2".
     unknown: errors of sensors that are sought, with the standard deviation of a prior or None:
         {"length_offset": None, "tension_bias": 20}.
+    bounds: least and greatest deviation of what is sought: {"mass": (-2, 2)}.
     markers: places of markers on the platform [m], (k, 3).
     loss: "squares", "huber" or "cauchy".
     starts, seed: starts of the search, and the seed of the random ones.
@@ -80,6 +83,7 @@ def calibrate(
         list(parameters),
         list(share),
         list(unknown.items()),
+        [(name, (float(least), float(most))) for name, (least, most) in bounds.items()],
         [tuple(marker) for marker in markers],
         loss,
         starts,

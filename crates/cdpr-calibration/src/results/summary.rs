@@ -1,0 +1,128 @@
+//! The summary of a calibration, and what it takes besides the fit.
+
+use crate::fitted::Difference;
+use crate::results::patterns::{Split, Trend};
+use crate::results::predicted::UncertaintyMap;
+use cdpr_robot::Robot;
+use cdpr_study::ErrorModel;
+use indexmap::IndexMap;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// A parameter before and after, in its SI unit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ParameterSummary {
+    /// SI unit.
+    pub unit: &'static str,
+    /// Value in the robot file; of a tilt or an error of a sensor, zero.
+    pub before: f64,
+    /// Value found.
+    pub after: f64,
+    /// Standard deviation of what is left; none for what neither data nor a prior tell.
+    pub std: Option<f64>,
+    /// Standard deviation before.
+    pub prior_std: Option<f64>,
+    /// The change in standard deviations before.
+    pub moved_by_prior_std: Option<f64>,
+    /// Whether the data alone tell it: more exactly than the prior or, without one, than to its own size.
+    pub identifiable: bool,
+}
+
+/// Residuals of the sensors of one kind.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SensorSummary {
+    /// SI unit.
+    pub unit: &'static str,
+    /// Numbers measured.
+    pub count: usize,
+    /// Root mean square of measured less modelled, with the robot file.
+    pub rms_before: f64,
+    /// With the calibrated robot.
+    pub rms_after: f64,
+    /// With the calibrated robot, in standard deviations of the noise.
+    pub standardized_rms_after: f64,
+    /// Root mean square of errors of prediction, with robots calibrated without the rows predicted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rms_predicted: Option<f64>,
+}
+
+/// A measured number far from the model.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OutlierSummary {
+    /// Line in the file of measurements.
+    pub line: usize,
+    /// Column.
+    pub column: String,
+    /// Measured less modelled.
+    pub difference: f64,
+    /// In standard deviations of the noise.
+    pub standard_deviations: f64,
+}
+
+/// A summary of a calibration.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CalibrationSummary {
+    /// Name of the robot.
+    pub robot: String,
+    /// Version of the program.
+    pub version: &'static str,
+    /// Rows of measurements.
+    pub rows: usize,
+    /// The parameters by name.
+    pub parameters: IndexMap<String, ParameterSummary>,
+    /// Errors of sensors by name.
+    #[serde(skip_serializing_if = "IndexMap::is_empty")]
+    pub sensors: IndexMap<String, ParameterSummary>,
+    /// Sum of squares of all residuals in standard deviations, priors included.
+    pub chi_square: f64,
+    /// Its expectation, if model and noise are right.
+    pub degrees_of_freedom: usize,
+    /// Probability of such a chi-square or a greater one.
+    pub p_value: Option<f64>,
+    /// Factor by which standard deviations were multiplied, because no noise is stated: that of the
+    /// residuals.
+    pub noise_scale: f64,
+    /// Combinations of parameters that the data do not tell, weights in units of their scales.
+    pub not_identifiable: Vec<Vec<(String, f64)>>,
+    /// Residuals by sensor.
+    pub residuals: BTreeMap<&'static str, SensorSummary>,
+    /// Measured numbers that are far from the model.
+    pub outliers: Vec<OutlierSummary>,
+    /// Clear trends of residuals against place and load.
+    pub trends: Vec<Trend>,
+    /// Variances of means over consecutive rows.
+    pub splits: Vec<Split>,
+    /// Standard deviation of the position over the plane of the measured poses; none with relative lengths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub workspace: Option<UncertaintyMap>,
+    /// Mean standard deviation of the position at the poses measured, per coordinate, before [m]; none
+    /// without prior.
+    pub position_std_before: Option<f64>,
+    /// The same after [m].
+    pub position_std_after: Option<f64>,
+    /// Steps of the search.
+    pub steps: usize,
+    /// Whether it ended at a minimum.
+    pub converged: bool,
+    /// Starts, and how many of them ended there.
+    pub starts: [usize; 2],
+    /// What is odd about the result, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// What a summary takes besides the fit.
+#[derive(Clone, Copy, Debug)]
+pub struct Context<'a> {
+    /// The robot before.
+    pub nominal: &'a Robot,
+    /// The error model before, if there is one.
+    pub prior: Option<&'a ErrorModel>,
+    /// Whether the noise of any sensor is stated; if not, it is that of the residuals.
+    pub noise_is_stated: bool,
+    /// Errors of prediction, if they were computed.
+    pub predicted: Option<&'a [Difference]>,
+    /// Starts of the search.
+    pub starts: usize,
+    /// Number of rows.
+    pub rows: usize,
+}

@@ -1,0 +1,94 @@
+//! What is odd about a calibration.
+
+use crate::fitted::Fit;
+use crate::results::patterns::Trend;
+use crate::results::summary::{CalibrationSummary, Context};
+use std::collections::BTreeMap;
+
+/// Chances below this are named: the model or the noise is wrong.
+const UNLIKELY: f64 = 1e-4;
+
+impl Fit {
+    /// Sentences about what is odd.
+    pub(super) fn warnings(&self, summary: &CalibrationSummary, context: &Context) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if !self.converged {
+            warnings.push(format!(
+                "the search ended {:.1e} standard deviations from the minimum after {} steps",
+                self.distance, self.steps
+            ));
+        }
+        for (unknown, estimate) in self.unknowns.all.iter().zip(&self.estimates) {
+            if unknown.bounds.contains(&estimate.value) {
+                warnings.push(format!(
+                    "{} ends at its bound, a deviation of {}: it counts as known there",
+                    estimate.name, estimate.value
+                ));
+            }
+        }
+        if !context.noise_is_stated {
+            warnings.push(
+                "no noise is stated: standard deviations follow from the residuals, the model is not tested"
+                    .to_owned(),
+            );
+        }
+        if summary.p_value.is_some_and(|p| p < UNLIKELY) {
+            warnings.push(format!(
+                "chi-square is {:.1} with {} degrees of freedom: the model, the noise or some rows are wrong",
+                self.chi_square, self.degrees_of_freedom
+            ));
+        }
+        if let Some(Trend { column, against, correlation, .. }) = summary.trends.first() {
+            warnings.push(format!(
+                "the residuals of {column} follow {against} (correlation {correlation:+.2}): the model leaves \
+                 something out"
+            ));
+        }
+        if let Some((line, share)) = self.worst_row() {
+            warnings.push(format!(
+                "line {line} alone makes {:.0} % of the sum of squares: it may be of another robot or pose",
+                100.0 * share
+            ));
+        }
+        if let Some((column, rms)) = self.worst_column() {
+            warnings.push(format!(
+                "column {column} is off by {rms:.1} standard deviations, many times more than the others \
+                 of its kind: columns may be swapped, its unit or sign may be wrong"
+            ));
+        }
+        warnings
+    }
+
+    /// The line with most of the sum of squares, if that is far more than its share.
+    fn worst_row(&self) -> Option<(usize, f64)> {
+        let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+        for of in &self.after {
+            *sums.entry(of.line).or_insert(0.0) += of.standardized().powi(2);
+        }
+        let total: f64 = sums.values().sum();
+        let (line, sum) = sums.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let rows = self.poses.len() as f64;
+        let numbers = self.after.len() as f64 / rows;
+        (rows > 2.0 && sum > 0.5 * total && sum > 10.0 * numbers).then_some((line, sum / total))
+    }
+
+    /// The column that fits by far worst among the same sensors, before the fit spreads its error.
+    fn worst_column(&self) -> Option<(String, f64)> {
+        let mut sums: BTreeMap<String, (&'static str, f64, usize)> = BTreeMap::new();
+        for of in &self.after {
+            let entry = sums.entry(of.quantity.to_string()).or_insert((of.quantity.sensor(), 0.0, 0));
+            entry.1 += of.standardized().powi(2);
+            entry.2 += 1;
+        }
+        let rms: Vec<(String, &str, f64)> = sums
+            .into_iter()
+            .map(|(name, (sensor, sum, count))| (name, sensor, (sum / count as f64).sqrt()))
+            .collect();
+        let (name, sensor, worst) = rms.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
+        let mut others: Vec<f64> =
+            rms.iter().filter(|of| of.1 == *sensor && of.0 != *name).map(|of| of.2).collect();
+        others.sort_by(f64::total_cmp);
+        let median = *others.get(others.len() / 2)?;
+        (*worst > 5.0 && *worst > 3.0 * median).then(|| (name.clone(), *worst))
+    }
+}

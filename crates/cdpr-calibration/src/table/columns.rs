@@ -1,0 +1,167 @@
+//! The columns of a table of measurements by their names.
+
+use crate::campaign::Quantity;
+use crate::error::CalibrationError;
+use cdpr_robot::{Axis, CableEnd, Robot};
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Column {
+    Reading(Quantity),
+    /// Covariance of the noise of two quantities.
+    Covariance(Quantity, Quantity),
+    /// Component of a quaternion (w, x, y, z).
+    Quaternion(usize),
+    Payload,
+    Mass,
+    /// Component of the load: force, then moment.
+    Wrench(usize),
+}
+
+/// A column with the factor to SI units.
+#[derive(Clone, Debug)]
+pub(super) struct Named {
+    pub(super) name: String,
+    pub(super) column: Column,
+    pub(super) factor: f64,
+    /// Whether it is the standard deviation of the quantity.
+    pub(super) is_std: bool,
+}
+
+/// The columns of a header.
+pub(super) fn columns(header: &[String], robot: &Robot) -> Result<Vec<Named>, CalibrationError> {
+    let mut columns: Vec<Named> = Vec::new();
+    for name in header {
+        let wrong =
+            |expected: &str| CalibrationError::Column { column: name.clone(), expected: expected.to_owned() };
+        let expected = "a name such as x_m, qw, roll_deg, l1_m, t1_n, t1_winch_n, marker1_x_m, dx_m, \
+                        swivel1_deg, payload_kg, mass_kg, fx_n, mx_nm, std_x_m or cov_x_m_y_m";
+        let lower = name.to_ascii_lowercase();
+        let (is_std, base) = lower.strip_prefix("std_").map_or((false, lower.as_str()), |base| (true, base));
+        let (column, factor) = covariance(base).or_else(|| column(base)).ok_or_else(|| {
+            let is_one_cell = header.len() == 1 && name.contains([';', '\t']);
+            wrong(if is_one_cell { "cells separated by commas" } else { expected })
+        })?;
+        if !is_std && matches!(column, Column::Reading(Quantity::Rotation(_))) {
+            return Err(wrong("qw, qx, qy, qz; std_ and cov_ go before rx_rad"));
+        }
+        let cable = match column {
+            Column::Reading(quantity) => quantity.cable(),
+            Column::Covariance(one, other) => one.cable().max(other.cable()),
+            _ => None,
+        };
+        let n = robot.cables.len();
+        if cable.is_some_and(|i| i >= n) {
+            return Err(wrong(&format!("one of the {n} cables of the robot")));
+        }
+        if let Column::Reading(Quantity::Swivel(i)) = column
+            && robot.cables[i].pulley.is_none()
+        {
+            return Err(wrong("a cable with a pulley in the robot file"));
+        }
+        if is_std && !matches!(column, Column::Reading(_)) {
+            return Err(wrong("a quantity that is measured behind std_"));
+        }
+        if columns.iter().any(|other| other.column == column && other.is_std == is_std) {
+            return Err(wrong("each quantity once"));
+        }
+        columns.push(Named { name: name.clone(), column, factor, is_std });
+    }
+    let has = |column| columns.iter().any(|named| named.column == column && !named.is_std);
+    let lengths: Vec<usize> =
+        (0..robot.cables.len()).filter(|i| !has(Column::Reading(Quantity::Length(*i)))).collect();
+    if let Some(missing) = lengths.first().filter(|_| lengths.len() < robot.cables.len()) {
+        let expected = "lengths of all cables, or of none".to_owned();
+        return Err(CalibrationError::Column { column: format!("l{}_m is missing", missing + 1), expected });
+    }
+    let quaternion = (0..4).filter(|k| has(Column::Quaternion(*k))).count();
+    if !matches!(quaternion, 0 | 4) {
+        let expected = "all of qw, qx, qy, qz".to_owned();
+        return Err(CalibrationError::Column {
+            column: "a part of the quaternion is missing".to_owned(),
+            expected,
+        });
+    }
+    Ok(columns)
+}
+
+/// A covariance by its name, `cov_x_m_y_m`.
+fn covariance(name: &str) -> Option<(Column, f64)> {
+    let (one, other, factor) = covariance_of(name)?;
+    Some((Column::Covariance(one, other), factor))
+}
+
+/// The two quantities of the name of a covariance, `cov_x_m_y_m`, and its factor to SI units.
+pub(super) fn covariance_of(name: &str) -> Option<(Quantity, Quantity, f64)> {
+    let pair = name.strip_prefix("cov_")?;
+    pair.match_indices('_').find_map(|(at, _)| match (column(&pair[..at])?, column(&pair[at + 1..])?) {
+        ((Column::Reading(one), by), (Column::Reading(other), per)) => Some((one, other, by * per)),
+        _ => None,
+    })
+}
+
+/// A column by its name without `std_`.
+fn column(name: &str) -> Option<(Column, f64)> {
+    if let Some(k) = ["qw", "qx", "qy", "qz"].iter().position(|own| *own == name) {
+        return Some((Column::Quaternion(k), 1.0));
+    }
+    let (base, unit) = name.rsplit_once('_')?;
+    let length = match unit {
+        "m" => Some(1.0),
+        "mm" => Some(1e-3),
+        _ => None,
+    };
+    let force = match unit {
+        "n" => Some(1.0),
+        "kn" => Some(1e3),
+        _ => None,
+    };
+    let angle = match unit {
+        "rad" => Some(1.0),
+        "deg" => Some(1f64.to_radians()),
+        _ => None,
+    };
+    let axis = |letter: &str| Axis::from_letter(letter);
+    let numbered = |word: &str| base.strip_prefix(word)?.parse::<usize>().ok()?.checked_sub(1);
+    let of = |quantity: Quantity, factor: Option<f64>| Some((Column::Reading(quantity), factor?));
+    if let Some(axis) = axis(base) {
+        return of(Quantity::Position(axis), length);
+    }
+    if let Some(k) = ["roll", "pitch", "yaw"].iter().position(|own| *own == base) {
+        return of(Quantity::Angle(k), angle);
+    }
+    if let Some(axis) = base.strip_prefix('r').and_then(axis) {
+        return of(Quantity::Rotation(axis), angle);
+    }
+    if let Some(axis) = base.strip_prefix('d').and_then(axis) {
+        return of(Quantity::Displacement(axis), length);
+    }
+    if let Some(axis) = base.strip_prefix('f').and_then(axis) {
+        return Some((Column::Wrench(axis.index()), force?));
+    }
+    if let Some(axis) = base.strip_prefix('m').and_then(axis) {
+        return (unit == "nm").then_some((Column::Wrench(3 + axis.index()), 1.0));
+    }
+    if unit == "kg" {
+        let column = match base {
+            "payload" => Column::Payload,
+            "mass" => Column::Mass,
+            _ => return None,
+        };
+        return Some((column, 1.0));
+    }
+    if let Some(i) = base.strip_suffix("_winch").and_then(|base| base.strip_prefix('t')) {
+        return of(Quantity::Tension(i.parse::<usize>().ok()?.checked_sub(1)?, CableEnd::Exit), force);
+    }
+    if let Some((marker, letter)) = base.split_once('_') {
+        let k = marker.strip_prefix("marker")?.parse::<usize>().ok()?.checked_sub(1)?;
+        return of(Quantity::Marker(k, axis(letter)?), length);
+    }
+    if let Some(i) = numbered("swivel") {
+        return of(Quantity::Swivel(i), angle);
+    }
+    if let Some(i) = numbered("l") {
+        return of(Quantity::Length(i), length);
+    }
+    of(Quantity::Tension(numbered("t")?, CableEnd::Anchor), force)
+}

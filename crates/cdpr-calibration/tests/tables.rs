@@ -1,0 +1,234 @@
+//! Tables of measurements, and what is sought in them: noise that depends on other noise, groups, bounds.
+
+use crate::common::{Case, EXTERNAL, caroca, cases};
+use cdpr_calibration::{
+    Fit, FitSettings, Measurements, Noise, Quantity, Row, Unknowns, carry_out, cross_validated, drawn, fit,
+    read_measurements, simulate,
+};
+use cdpr_robot::{Axis, Parameter, Robot};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
+
+fn campaign(case: &Case, poses: usize, noise: Noise, seed: u64) -> Vec<Row> {
+    simulate(&case.simulated(&drawn(&case.model(), seed), &case.poses(poses), noise, seed)).unwrap()
+}
+
+fn fitted(case: &Case, rows: &[Row]) -> Fit {
+    fit(&case.robot, rows, &Unknowns::of_model(&case.model()), &FitSettings::default()).unwrap()
+}
+
+/// Noise of x and y with the correlation 0.98, whose difference is therefore known far better.
+#[test]
+fn covariances_of_noise_count() {
+    const CORRELATION: f64 = 0.98;
+    let case = &cases()[0];
+    let quiet = Noise { position: Some(1e-9), rotation: Some(1e-4), length: None, ..Noise::default() };
+    let mut rows = campaign(case, 60, quiet, 5);
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    for row in &mut rows {
+        let [u, v]: [f64; 2] = [0; 2].map(|_| random.sample(StandardNormal));
+        let noise = [u, CORRELATION * u + (1.0 - CORRELATION.powi(2)).sqrt() * v, 0.0];
+        for reading in &mut row.readings {
+            if let Quantity::Position(axis) = reading.quantity {
+                reading.value += 1e-3 * noise[axis.index()];
+                reading.std = if axis == Axis::Z { 1e-4 } else { 1e-3 };
+            }
+        }
+    }
+    let without = fitted(case, &rows);
+    let [x, y] = [Axis::X, Axis::Y].map(Quantity::Position);
+    rows.iter_mut().for_each(|row| row.covariances = vec![(y, x, CORRELATION * 1e-6)]);
+    let with = fitted(case, &rows);
+    let ratio = with.chi_square / with.degrees_of_freedom as f64;
+    let std = |fit: &Fit| fit.estimates.iter().map(|of| of.std.unwrap().ln()).sum::<f64>();
+    println!(
+        "chi-square per degree {ratio:.3} with covariances, {:.3} without; stds smaller by {:.3}",
+        without.chi_square / without.degrees_of_freedom as f64,
+        ((std(&with) - std(&without)) / with.estimates.len() as f64).exp()
+    );
+    // z has no noise: its 60 numbers, a sixth of all, add nothing.
+    let degrees = with.degrees_of_freedom as f64;
+    assert!(ratio < 1.0 && ratio > 1.0 - 60.0 / degrees - 4.0 * (2.0 / degrees).sqrt(), "{ratio}");
+    assert!(std(&with) < std(&without));
+    // What is printed of a number is its own residual, not that of a combination.
+    let of = |fit: &Fit| fit.before.iter().map(|of| of.difference).collect::<Vec<_>>();
+    assert_eq!(of(&with), of(&without));
+}
+
+fn read(text: &str, noise: &[(&str, f64)]) -> Measurements {
+    let noise: Vec<_> = noise.iter().map(|(name, std)| ((*name).to_owned(), *std)).collect();
+    read_measurements(text, &caroca(), &noise).unwrap()
+}
+
+#[test]
+fn covariances_are_read_by_row_and_for_all_rows() {
+    let noise = [("position", 1e-4), ("rotation", 1e-4)];
+    let all = [&noise[..], &[("cov_x_m_y_m", 5e-9)]].concat();
+    let stated = read("x_m,y_m,z_m\n1,2,1\n1,1,2\n", &all);
+    let by_row = read("x_mm,y_m,z_m,cov_y_mm_x_m\n1000,2,1,5e-6\n1000,1,2,5e-6\n", &noise);
+    let [x, y] = [Axis::X, Axis::Y].map(Quantity::Position);
+    for (one, other) in stated.rows.iter().zip(&by_row.rows) {
+        assert_eq!(one.covariances, [(x, y, 5e-9)]);
+        assert_eq!(other.covariances, [(y, x, 5e-9)]);
+    }
+    let json = r#"{"format": "cdpr-measurements/1", "noise": {"position": 1e-4, "cov_x_m_y_m": -5e-9},
+        "rows": [{"x_m": 1, "y_m": 2, "z_m": null}]}"#;
+    let found = read(json, &[]);
+    assert_eq!(found.rows[0].covariances, [(x, y, -5e-9)]);
+    assert_eq!(found.rows[0].readings.len(), 2);
+    let turned = "qw,qx,qy,qz,std_rx_rad,cov_rx_rad_ry_rad\n1,0,0,0,2e-4,1e-8\n";
+    let found = read(turned, &noise);
+    assert_eq!(found.rows[0].readings.iter().map(|of| of.std).collect::<Vec<_>>(), [2e-4, 1e-4, 1e-4]);
+    assert_eq!(found.rows[0].covariances.len(), 1);
+    for (text, words) in [
+        ("x_m,y_m,cov_x_m_y_m\n1,2,2e-8\n", "line 2: the covariances make no positive definite matrix"),
+        ("x_m,y_m,cov_x_m_why\n1,2,0\n", "column cov_x_m_why: expected a name"),
+        ("x_m,y_m,rx_rad\n1,2,0\n", "column rx_rad: expected qw, qx, qy, qz"),
+        ("x_m;y_m\n1;2\n", "column x_m;y_m: expected cells separated by commas"),
+        ("x_m,l1_m,l2_m\n1,2,2\n", "column l3_m is missing: expected lengths of all cables"),
+        ("x_m,std_x_m\n1,-1\n", "line 2, column std_x_m: -1: expected a positive standard deviation"),
+    ] {
+        let noise: Vec<_> = noise.iter().map(|(name, std)| ((*name).to_owned(), *std)).collect();
+        let error = read_measurements(text, &caroca(), &noise).unwrap_err().to_string();
+        assert!(error.contains(words), "`{words}` is not in: {error}");
+    }
+}
+
+#[test]
+fn pulleys_in_a_block_have_one_radius_and_one_uncertainty() {
+    let case = &cases()[2];
+    let model = case.model();
+    let rows = campaign(case, 30, EXTERNAL, 8);
+    let mut unknowns = Unknowns::of_model(&model);
+    let before = unknowns.all.len();
+    unknowns.share(&case.robot, "r1+r2+r3+r4").unwrap();
+    unknowns.share(&case.robot, "r5+r6+r7+r8").unwrap();
+    assert_eq!(unknowns.all.len(), before - 6);
+    let found = fit(&case.robot, &rows, &unknowns, &FitSettings::default()).unwrap();
+    let parameters = Parameter::of(&case.robot);
+    let at = |name: &str| parameters.iter().position(|p| p.to_string() == name).unwrap();
+    let covariance = found.parameter_covariance();
+    let deviation = |name| found.deviations[at(name)];
+    assert!(deviation("r1") != 0.0 && (deviation("r1") - deviation("r4")).abs() < 1e-15);
+    assert!((deviation("r1") - deviation("r5")).abs() > 1e-9);
+    let (one, other) = (at("r1"), at("r4"));
+    let variance = covariance[(one, one)];
+    assert!((covariance[(one, other)] / variance - 1.0).abs() < 1e-9);
+
+    // The posterior has this variance alone: the prior of the other pulleys of the block is used up.
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let campaign = cdpr_calibration::Campaign {
+        robot: &case.robot,
+        prior: Some(&model),
+        unknowns: &unknowns,
+        measured: &Measurements { rows, noise_is_stated: true, markers: 0 },
+        name: "measurements.csv",
+        settings: FitSettings::default(),
+        folds: 0,
+    };
+    carry_out(&campaign, &out, |_, _, _| String::new()).unwrap();
+    let posterior: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(out.join("posterior.json")).unwrap()).unwrap();
+    let names: Vec<&str> =
+        posterior["parameters"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    let k = names.iter().position(|name| *name == "r4").unwrap();
+    let left = posterior["covariance"][k][k].as_f64().unwrap();
+    assert!((left / variance - 1.0).abs() < 1e-9, "{left} {variance}");
+
+    let poses = std::fs::read_to_string(out.join("poses.csv")).unwrap();
+    assert_eq!(poses.lines().count(), 31);
+    let first: Vec<f64> =
+        poses.lines().nth(1).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+    assert_eq!(first[1..4], *found.poses[0].position.as_slice());
+    let error = unknowns.share(&case.robot, "r1+lead").unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "share is r1+lead: expected parameters that are sought, or groups of them: r, or r1+r2"
+    );
+}
+
+/// A robot that is 5 kg heavier than its file, with a mass that may deviate by 1 kg.
+#[test]
+fn bounds_hold_and_are_named() {
+    let case = &cases()[0];
+    let mut truth = vec![0.0; case.stds.len()];
+    let robot: &Robot = &case.robot;
+    let mass = Parameter::of(robot).iter().position(|p| *p == Parameter::Mass).unwrap();
+    truth[mass] = 5.0;
+    let noise = Noise { tension: Some(1.0), ..EXTERNAL };
+    let rows = simulate(&case.simulated(&truth, &case.poses(20), noise, 1)).unwrap();
+    let with = |bounds: Option<[f64; 2]>| {
+        let mut unknowns = Unknowns::free(robot, &["mass"]).unwrap();
+        bounds.iter().for_each(|bounds| unknowns.bound(robot, "mass", *bounds).unwrap());
+        fit(robot, &rows, &unknowns, &FitSettings::default()).unwrap()
+    };
+    let (free, bound) = (with(None), with(Some([-1.0, 1.0])));
+    let of = &free.estimates[0];
+    assert!((of.value - 5.0).abs() < 4.0 * of.std.unwrap(), "{}", of.value);
+    assert_eq!(bound.estimates[0].value, 1.0);
+    assert!(bound.chi_square > 2.0 * free.chi_square);
+    // A start outside of the bounds is moved into them.
+    let inside = with(Some([4.0, 6.0]));
+    assert!((inside.estimates[0].value - of.value).abs() < 1e-6);
+    let mut unknowns = Unknowns::free(robot, &["mass"]).unwrap();
+    let wrong = unknowns.bound(robot, "mass", [1.0, -1.0]).unwrap_err().to_string();
+    assert_eq!(wrong, "bounds of mass is 1:-1: expected least:greatest");
+    let wrong = unknowns.bound(robot, "r", [-1.0, 1.0]).unwrap_err().to_string();
+    assert_eq!(wrong, "bounds is r: expected the name of something that is sought");
+}
+
+#[test]
+fn a_row_is_predicted_by_the_others_alone() {
+    let case = &cases()[1];
+    let mut rows = campaign(case, 20, EXTERNAL, 2);
+    let unknowns = Unknowns::of_model(&case.model());
+    let settings = FitSettings::default();
+    let clean = cross_validated(&case.robot, &rows, &unknowns, &settings, 20).unwrap();
+    // Six numbers of each row, each predicted once.
+    assert_eq!(clean.len(), 20 * 6);
+    rows[7].readings[0].value += 1e-3;
+    let with = cross_validated(&case.robot, &rows, &unknowns, &settings, 20).unwrap();
+    let of = |all: &[cdpr_calibration::Difference]| {
+        let is = |of: &&cdpr_calibration::Difference| {
+            of.row == 0 && of.line == 8 && of.quantity == Quantity::Position(Axis::X)
+        };
+        all.iter().find(is).unwrap().difference
+    };
+    // The millimetre appears whole in the row that has it, as if it were not in the fit.
+    assert!((of(&with) - of(&clean) - 1e-3).abs() < 1e-12, "{} {}", of(&with), of(&clean));
+}
+
+#[test]
+fn starts_from_elsewhere_end_at_the_same_robot() {
+    let case = &cases()[1];
+    let rows = campaign(case, 20, EXTERNAL, 3);
+    let unknowns = Unknowns::of_model(&case.model());
+    let with = |starts| {
+        let settings = FitSettings { starts, ..FitSettings::default() };
+        fit(&case.robot, &rows, &unknowns, &settings).unwrap()
+    };
+    let (one, four) = (with(1), with(4));
+    assert_eq!((one.same, four.same), (1, 4));
+    for (one, other) in one.estimates.iter().zip(&four.estimates) {
+        assert!((one.value - other.value).abs() < 1e-4 * one.std.unwrap());
+    }
+}
+
+#[test]
+fn only_identifiable_parameters_move_and_the_others_keep_their_laws() {
+    let case = &cases()[1];
+    let rows = campaign(case, 20, EXTERNAL, 4);
+    let unknowns = Unknowns::of_model(&case.model());
+    let settings = FitSettings { only_identifiable: true, ..FitSettings::default() };
+    let found = fit(&case.robot, &rows, &unknowns, &settings).unwrap();
+    assert!(found.unidentifiable.is_empty() && found.estimates.len() < unknowns.all.len());
+    let parameters = Parameter::of(&case.robot);
+    for (index, parameter) in parameters.iter().enumerate() {
+        let is_sought = found.estimates.iter().any(|of| of.name == parameter.to_string());
+        assert_eq!(found.deviations[index] != 0.0, is_sought, "{parameter}");
+    }
+    // Each of them is told by the data alone.
+    assert!(found.estimates.iter().all(cdpr_calibration::Estimate::is_identifiable));
+}

@@ -1,0 +1,216 @@
+//! `cdpr calibration plan`: the poses to measure.
+
+use crate::arguments::{self, Format, FreeArguments, LoadArguments, Preference};
+use crate::error::ProgramError;
+use crate::output::{patiently, table};
+use crate::poses;
+use crate::robot::calibration::candidates::{Candidates, Known, add};
+use cdpr_calibration::{AtWork, Calibration, Criterion, PosePlan, Quality};
+use cdpr_robot::{Pose, Robot, rounded, shown};
+use cdpr_study::{Grid, write_text};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// The robot, the candidates, and what is to be exact.
+#[derive(clap::Args)]
+pub(crate) struct PlanSettings {
+    /// Robot file (JSON, `cdpr-robot/1`).
+    robot: PathBuf,
+    #[command(flatten)]
+    candidates: Candidates,
+    #[command(flatten)]
+    known: Known,
+    /// Number of poses.
+    #[arg(long, default_value_t = 20)]
+    count: usize,
+    /// What the set is to be best in.
+    #[arg(long, value_enum, default_value_t = CriterionName::Information)]
+    criterion: CriterionName,
+    /// Positions where the robot works, min:max:points of each axis.
+    #[arg(long, value_parser = arguments::grid, allow_hyphen_values = true)]
+    work: Option<Grid>,
+    /// What is to be exact there: the position with given lengths, or the deflection by the load.
+    #[arg(long, value_enum, default_value_t = OfWork::Position)]
+    of: OfWork,
+    /// How exact it is to be there, the standard deviation of a coordinate [m]: how many poses does that
+    /// take?
+    #[arg(long, value_parser = arguments::payload, requires = "work")]
+    accuracy: Option<f64>,
+    #[command(flatten)]
+    load: LoadArguments,
+    #[command(flatten)]
+    free: FreeArguments,
+    #[command(flatten)]
+    preference: Preference,
+    /// Seed of the random sets beside it.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// File for the poses (CSV), as --poses reads them.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum CriterionName {
+    /// Information about all parameters together (D-optimal).
+    Information,
+    /// Mean variance of the parameters (A-optimal).
+    Parameters,
+    /// Mean variance where the robot works.
+    MeanAtWork,
+    /// Greatest variance where the robot works (G-optimal).
+    WorstAtWork,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum OfWork {
+    Position,
+    Deflection,
+}
+
+pub(super) fn plan(settings: &PlanSettings) -> Result<(), ProgramError> {
+    let robot = settings.preference.open_robot(&settings.robot)?;
+    let candidates = settings.candidates.read()?;
+    let measurements = settings.known.measurements()?;
+    let uncertainties = settings.known.deviations(&robot)?;
+    let criterion = match settings.criterion {
+        CriterionName::Information => Criterion::Information,
+        CriterionName::Parameters => Criterion::Parameters,
+        CriterionName::MeanAtWork => Criterion::MeanAtWork,
+        CriterionName::WorstAtWork => Criterion::WorstAtWork,
+    };
+    let at_work = matches!(criterion, Criterion::MeanAtWork | Criterion::WorstAtWork);
+    if at_work && settings.work.is_none() {
+        return Err(ProgramError::Usage(
+            "--criterion at work: expected --work, where the robot works".to_owned(),
+        ));
+    }
+    let mut calibration = Calibration::new(&robot, &uncertainties)?.with_free(&settings.free.free);
+    let load = settings.load.load();
+    let (poses, refused) = add(&mut calibration, candidates, &load, &measurements)?;
+    let of = match settings.of {
+        OfWork::Position => AtWork::Position,
+        OfWork::Deflection => AtWork::Deflection,
+    };
+    let work = settings.work.map(|grid| grid.poses()).unwrap_or_default();
+    let worked = work.iter().filter(|pose| calibration.add_work(pose, &load, of).is_ok()).count();
+    if at_work && worked == 0 {
+        return Err(ProgramError::NoPoseHeld { reasons: "none of --work is held".to_owned() });
+    }
+    let found = patiently("choosing poses", || calibration.plan(settings.count, criterion, settings.seed));
+    if let Some(out) = &settings.out {
+        let lines: Vec<String> = found
+            .poses
+            .iter()
+            .map(|pose| poses::pose_numbers(&poses[*pose]).map(|number| number.to_string()).join(","))
+            .collect();
+        write_text(out, &format!("{}\n{}\n", poses::COLUMNS.join(","), lines.join("\n")), "x_m,y_m,z_m")?;
+    }
+    let output = Plan::new(&poses, refused, found, settings.accuracy);
+    Ok(settings.format.print(&output, |output| print_plan(&robot, output))?)
+}
+
+/// A plan as it is printed.
+#[derive(Serialize)]
+struct Plan {
+    /// Poses that the robot holds.
+    candidates: usize,
+    refused: BTreeMap<&'static str, usize>,
+    /// x, y, z [m], qw, qx, qy, qz.
+    poses: Vec<[f64; 7]>,
+    plan: Left,
+    random: Left,
+    outermost: Left,
+    /// With the first 1, 2, 3, ... poses of a set that grows one by one.
+    growing: Vec<Left>,
+    /// Poses that reach the accuracy; none where more are needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    needed: Option<Option<usize>>,
+}
+
+/// What a set of poses leaves.
+#[derive(Clone, Copy, Serialize)]
+struct Left {
+    information_bits: f64,
+    parameters: f64,
+    mean_at_work: Option<f64>,
+    worst_at_work: Option<f64>,
+}
+
+impl From<Quality> for Left {
+    fn from(of: Quality) -> Self {
+        let Quality { information, parameters, mean_at_work, worst_at_work } = of;
+        Self { information_bits: information, parameters, mean_at_work, worst_at_work }
+    }
+}
+
+impl Plan {
+    fn new(
+        poses: &[Pose],
+        refused: BTreeMap<&'static str, usize>,
+        found: PosePlan,
+        accuracy: Option<f64>,
+    ) -> Self {
+        let needed = accuracy.map(|accuracy| {
+            let reached = |of: &Quality| of.mean_at_work.is_some_and(|std| std <= accuracy);
+            found.growing.iter().position(reached).map(|k| k + 1)
+        });
+        Self {
+            candidates: poses.len(),
+            refused,
+            poses: found.poses.iter().map(|pose| poses::pose_numbers(&poses[*pose])).collect(),
+            plan: found.quality.into(),
+            random: found.random.into(),
+            outermost: found.corners.into(),
+            growing: found.growing.into_iter().map(Left::from).collect(),
+            needed,
+        }
+    }
+}
+
+fn print_plan(robot: &Robot, output: &Plan) {
+    let count = output.poses.len();
+    println!("{}: {count} of {} poses", shown(&robot.name), output.candidates);
+    for (reason, count) in &output.refused {
+        println!("{count} poses left out: {reason}");
+    }
+    let mut rows = table(&[
+        "set of poses",
+        "information [bit]",
+        "std of parameters left [%]",
+        "mean std at work [mm]",
+        "worst [mm]",
+    ]);
+    let millimetres =
+        |std: Option<f64>| std.map_or_else(|| "-".to_owned(), |std| format!("{:.4}", 1e3 * std));
+    let mut add = |name: String, of: &Left| {
+        rows.add_row([
+            name,
+            format!("{:.2}", of.information_bits),
+            format!("{:.2}", 100.0 * of.parameters),
+            millimetres(of.mean_at_work),
+            millimetres(of.worst_at_work),
+        ]);
+    };
+    add("planned".to_owned(), &output.plan);
+    add("random, median".to_owned(), &output.random);
+    add("outermost".to_owned(), &output.outermost);
+    for (k, of) in output.growing.iter().enumerate().filter(|(k, _)| (k + 1).is_power_of_two()) {
+        add(format!("growing, {}", k + 1), of);
+    }
+    println!("{rows}");
+    match output.needed {
+        Some(Some(needed)) => println!("{needed} poses reach the accuracy"),
+        Some(None) => println!("{count} poses do not reach the accuracy"),
+        None => {}
+    }
+    let mut rows = table(&["x, y, z [m], qw, qx, qy, qz"]);
+    for pose in &output.poses {
+        rows.add_row([pose.map(|number| rounded(number, 6).to_string()).join(", ")]);
+    }
+    println!("{rows}");
+}
