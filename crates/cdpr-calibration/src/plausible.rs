@@ -27,7 +27,8 @@ const LEFT: f64 = 0.2;
 /// [`CalibrationError::Cell`] naming line and column.
 pub(crate) fn check_signs(rows: &[Row]) -> Result<(), CalibrationError> {
     for row in rows {
-        for (i, length) in row.lengths.iter().flatten().enumerate().filter(|(_, length)| **length <= 0.0) {
+        let mut lengths = row.lengths.iter().flatten().enumerate();
+        if let Some((i, length)) = lengths.find(|(_, length)| **length <= 0.0) {
             let expected = "a length above zero, or offsets of the winches that are sought, length_offset";
             return Err(cell(row, i, *length, expected.to_owned()));
         }
