@@ -16,6 +16,7 @@ mod gallery;
 mod led;
 mod peers;
 mod scaling;
+mod throughput;
 
 use cargo::{cargo, cdpr, root};
 use std::path::Path;
@@ -38,6 +39,10 @@ tasks:
   throughput [--observations N] [--threads N]
                  runs a sampling of the paper's size or larger, without tables, and prints time, memory and
                  results in one line (N = 1000000)
+  throughput --all [NAME]
+                 prints the time of an observation on one thread, the share of the scalar models and of
+                 failures, for the robots and poses of data/benchmarks/throughput.json, or those whose names
+                 contain NAME
   scaling [--observations N]
                  runs the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads, see
                  docs/PERFORMANCE.md
@@ -146,6 +151,11 @@ fn statistics(rest: &[String]) -> ExitCode {
 }
 
 fn throughput(rest: &[String]) -> ExitCode {
+    match rest {
+        [all] if all == "--all" => return throughput::run(None),
+        [all, name] if all == "--all" => return throughput::run(Some(&name.to_lowercase())),
+        _ => {}
+    }
     let study = root().join("data/studies/caroca.json").display().to_string();
     cdpr(&["study", "throughput", &study, "--sampling", "mechanical"], rest)
 }

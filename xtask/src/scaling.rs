@@ -19,11 +19,14 @@ const GROWTH: f64 = 1.1;
 /// The line that `cdpr study throughput` prints.
 #[derive(Debug, Deserialize, Serialize)]
 struct Run {
+    sampling: String,
     observations: u64,
     failed: u64,
+    scalar: Value,
     threads: u64,
     wall_s: f64,
     us_per_observation_core: f64,
+    us_without_analysis: f64,
     /// `None` where the system does not say.
     peak_memory_mib: Option<f64>,
     rms_mm: Value,
@@ -132,11 +135,14 @@ mod tests {
 
     fn run(observations: u64, mib: f64) -> Run {
         Run {
+            sampling: "mechanical".to_owned(),
             observations,
             failed: 0,
+            scalar: Value::Null,
             threads: 1,
             wall_s: 1.0,
             us_per_observation_core: 1.0,
+            us_without_analysis: 1.0,
             peak_memory_mib: Some(mib),
             rms_mm: Value::Null,
         }

@@ -53,6 +53,7 @@ fn sampling() -> SamplingSummary {
         quaternion: [1.0, 0.0, 0.0, 0.0],
         observations: 101,
         failed: [("infeasible_tension".to_owned(), 1)].into(),
+        scalar: Default::default(),
         values: Some(rms),
         nominal: NominalSummary {
             displacement_mm: [0.0, 0.0, -1.33],

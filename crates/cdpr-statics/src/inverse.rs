@@ -155,6 +155,37 @@ impl<'a> InversePath<'a> {
     }
 }
 
+/// The optimum of a robot at a pose, from which those of robots that differ from it are found.
+#[derive(Clone, Debug)]
+pub(crate) struct Branch(Answered);
+
+impl Branch {
+    /// The inverse model of `robot` at `pose` under its own weight, as [`inverse`] answers it.
+    ///
+    /// # Errors
+    /// Those of [`inverse`].
+    pub(crate) fn of(robot: &Robot, pose: &Pose) -> Result<(InverseSolution, Self), StaticsError> {
+        let none = Load::none();
+        let question = Question::of_whole_pose(robot, pose, &none, None)?;
+        let optimum = search(&question)?;
+        let branch = Self(Answered::new(&question, &optimum));
+        Ok((InverseSolution::new(&question, optimum)?, branch))
+    }
+
+    /// The inverse model of a robot that differs a little: the local minimum of (I1) to which Newton's method
+    /// leads from this one, or else the one that [`inverse`] finds.
+    ///
+    /// # Errors
+    /// Those of [`inverse`].
+    pub(crate) fn nearby(&self, robot: &Robot, pose: &Pose) -> Result<InverseSolution, StaticsError> {
+        let none = Load::none();
+        let question = Question::of_whole_pose(robot, pose, &none, None)?;
+        let near = self.0.corrected(&question, &mut 0).or_else(|| self.0.optimised(&question));
+        let optimum = near.map_or_else(|| search(&question), |point| Ok(point.optimum()))?;
+        InverseSolution::new(&question, optimum)
+    }
+}
+
 impl InverseSolution {
     fn new(question: &Question, optimum: Optimum) -> Result<Self, StaticsError> {
         let Optimum { catenaries, tensions, active, multipliers, iterations, stationarity, .. } = optimum;

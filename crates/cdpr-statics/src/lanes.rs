@@ -7,8 +7,10 @@ mod chain;
 mod level;
 mod newton;
 mod observer;
+mod reason;
 mod simd;
 mod tracker;
 
 pub use observer::{Observation, Observer};
+pub use reason::ScalarReason;
 pub use tracker::Tracker;

@@ -68,7 +68,7 @@ pub use inverse::{
     Blocking, FreeSolution, FreeSolutions, Greatest, HeldPose, InversePath, InverseSolution, PathSolution,
     greatest_payload, held_at, inverse, inverse_free, lengths_for_tensions, limits_at, tension_margin,
 };
-pub use lanes::{Observation, Observer, Tracker};
+pub use lanes::{Observation, Observer, ScalarReason, Tracker};
 pub use loading::{
     CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes, PoseStiffness,
     Unloading, deflection, deflection_free, deflection_from, deflections, follow, load_cycle, modes_at,

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod any_lanes;
 mod any_robot;
 mod common;
 mod derivative_invariants;

@@ -89,7 +89,7 @@ pub use model::cable_law::open_law;
 pub use model::error_model::{ErrorModel, Term, uncertainties};
 pub use model::errors::open_errors;
 pub use model::grid::{Grid, frame};
-pub use model::observed::{Failure, Measured, Observed};
+pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarCount};
 pub use model::observer::OutputObserver;
 pub use model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis};
 pub use names::{REPORT_MARK, REPORT_NAME, ROBOT_NAME, STUDY_NAME};

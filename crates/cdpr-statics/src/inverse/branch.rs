@@ -101,13 +101,26 @@ impl Answered {
         (pose, load, references.map(|(from, to)| change(*from, *to)).collect())
     }
 
-    /// The optimum of a question nearby, if it is on the same branch.
-    fn corrected<'a>(&self, question: &Question<'a>, iterations: &mut usize) -> Option<Point<'a>> {
+    /// The optimum of a question nearby to which Newton's method with a merit function leads; it may be on
+    /// another branch.
+    pub(super) fn optimised<'a>(&self, question: &Question<'a>) -> Option<Point<'a>> {
+        let mut point = self.start(question)?;
+        point.optimise().then_some(point)
+    }
+
+    /// The cables as they are here, at the ends of a question nearby.
+    fn start<'a>(&self, question: &Question<'a>) -> Option<Point<'a>> {
         let each = self.chord_forces.iter().zip(&self.limits).enumerate();
         let strands = each.map(|(i, (force, limit))| Strand::near(question, i, *force, *limit));
         let mut point = Point::of(question, strands.collect::<Result<Vec<_>, _>>().ok()?);
         point.multipliers = self.multipliers;
         point.multipliers.fixed_rows_mut::<3>(3).scale_mut(point.arm);
+        Some(point)
+    }
+
+    /// The optimum of a question nearby, if it is on the same branch.
+    pub(super) fn corrected<'a>(&self, question: &Question<'a>, iterations: &mut usize) -> Option<Point<'a>> {
+        let mut point = self.start(question)?;
         let (mut error_before, mut greatest) = (f64::INFINITY, GREATEST_CHANGE);
         loop {
             let (error, size) = (point.residual().norm().max(point.stationarity()), point.size());

@@ -71,9 +71,10 @@ pub(crate) struct Shared {
 
 /// The answer for every robot.
 pub(crate) struct Outcome<S: Simd> {
-    /// Lanes with an answer: converged to rounding, stable, no cable folded, all tensions within
-    /// their limits.
-    pub(crate) valid: Mask<S>,
+    /// The lanes that passed each link: tensions that are nearest to their reference, no cable folded and
+    /// limits that do not exclude each other, lengths, and an equilibrium without and with the load that is
+    /// stable and converged to rounding.
+    pub(crate) passed: [Mask<S>; 5],
     /// dp [m].
     pub(crate) displacement: Lanes3<S>,
     pub(crate) unloaded: LaneResidual<S>,
@@ -84,9 +85,17 @@ pub(crate) struct Outcome<S: Simd> {
 /// last one at the wanted pose.
 const LAST_CHANGE: f64 = 1e-7;
 
+/// The same for a change of a cable's force, relative to its own tension, which may be a small part of the
+/// sum. What is left of it is of second order: for a cable near its least tension 1e-12 of its length.
+const LAST_OWN_CHANGE: f64 = 1e-6;
+
 /// The same for tensions that are still to be offset: their error then changes no position by more than 1e-12
 /// m.
 const LAST_DISTRIBUTION: f64 = 1e-9;
+
+/// Greatest -t/L dL/dt of a cable. It is 1/EA of the tension for a straight cable and grows without bound
+/// towards the least tension of a span; a level cable has 8 at 1.001 times that tension, a steep one less.
+const STEEPEST: f64 = 2.0;
 
 /// Iterations for the tensions, whose limits may change on the way.
 const MAX_DISTRIBUTIONS: usize = 20;
@@ -103,22 +112,23 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome
         spans.push(cable.span(&robots.position));
     }
     let mut set_points = offsets;
-    let within = distribute(robots, multipliers, &mut set_points, &spans, shared);
+    let (converged, sound) = distribute(robots, multipliers, &mut set_points, &spans, shared);
     let mut platform = LinearizedPlatform::new(zero, spans.len());
     let held = hold(robots, &mut platform, &set_points, &spans, shared);
 
     let own = PlatformLoad { weight: robots.weight, force: [zero; 3] };
     robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
-    let (standing, unloaded) = robots.settle(&own, &mut platform, &shared.scale, within & held);
+    let (standing, unloaded) = robots.settle(&own, &mut platform, &shared.scale, converged & sound & held);
     let stood = robots.position;
 
     let load = PlatformLoad { weight: own.weight + payload.weight, force: payload.force };
     // The first step follows the linearisation at hand.
     let added = payload.wrench(&robots.center);
     platform.gradient = six(|k| platform.gradient[k] - added[k]);
-    let (valid, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
+    let (answered, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
     // Eq. (4)
-    Outcome { valid, displacement: three(|k| robots.position[k] - stood[k]), unloaded, loaded }
+    let displacement = three(|k| robots.position[k] - stood[k]);
+    Outcome { passed: [converged, sound, held, standing, answered], displacement, unloaded, loaded }
 }
 
 impl<S: Simd> LaneCable<S> {
@@ -225,6 +235,14 @@ impl<S: Simd> HeldCable<S> {
         }
     }
 
+    /// Where the tension falls as cable is paid out, and is not next to the least one that the span demands,
+    /// at which the scalar models hold the cable.
+    #[inline(always)]
+    fn is_taut(&self, cable: &LaneCable<S>) -> Mask<S> {
+        let zero = self.delta.all(0.0);
+        self.delta.less_or_equal(zero) & (-(self.delta * self.tension)).less_or_equal(cable.length * STEEPEST)
+    }
+
     /// Changes the tension by `dt` where `going`. Returns the largest relative change made.
     #[inline(always)]
     fn change(&self, cable: &mut LaneCable<S>, dt: Lanes<S>, going: Mask<S>, shared: &Shared) -> Lanes<S> {
@@ -242,7 +260,7 @@ impl<S: Simd> HeldCable<S> {
 
 /// The tensions nearest to their reference at the wanted pose, equations (L2) and (L3); `offsets` are added
 /// to them and become set-points, towards which cables make a first step. Returns the lanes where they were
-/// found.
+/// found, and those where no cable is folded and no limits exclude each other.
 ///
 /// A cable that is held at a limit of its tension has a known dt and drops out of the matrix. Which ones are
 /// held is known of the nominal robot; where the optimum of a lane says otherwise, that lane goes on.
@@ -253,7 +271,7 @@ fn distribute<S: Simd>(
     offsets: &mut [Lanes<S>],
     spans: &[Span<Lanes<S>>],
     shared: &Shared,
-) -> Mask<S> {
+) -> (Mask<S>, Mask<S>) {
     let zero = robots.weight.all(0.0);
     let last_change = zero.all(LAST_DISTRIBUTION);
     let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
@@ -321,6 +339,7 @@ fn distribute<S: Simd>(
                 let set_point = set_point.less_or_equal(greatest).select(set_point, greatest);
                 let sound = zero.less_or_equal(cable.force[0])
                     & held.slackness.less_or_equal(zero.all(FOLDED))
+                    & held.is_taut(cable)
                     & least.less_or_equal(greatest);
                 within = within & (sound | !last);
                 *offset = last.select(set_point, *offset);
@@ -333,7 +352,7 @@ fn distribute<S: Simd>(
             break;
         }
     }
-    within & !going
+    (!going, within)
 }
 
 /// Lengths that give the tensions `set_points` at the wanted pose, and the cables linearised there. Returns
@@ -350,12 +369,19 @@ fn hold<S: Simd>(
     let mut all = zero.less_or_equal(zero);
     let cables = robots.cables.iter_mut().zip(&mut platform.cables);
     for ((span, set_point), (cable, linearized)) in spans.iter().zip(set_points).zip(cables) {
-        let mut going = all;
+        let (mut going, mut taut) = (all, all);
         for _ in 0..MAX_ITERATIONS {
             let response = cable.response();
             let held = HeldCable::new(cable, span, &response);
+            taut = (!going & taut) | (going & held.is_taut(cable));
             linearized.replace(&LinearizedCable::new(span, cable.force, &response), going);
-            let moved = held.change(cable, *set_point - held.tension, going, shared);
+            let dt = *set_point - held.tension;
+            let own = (dt / held.tension).abs() + (held.alpha + held.beta * dt).abs();
+            // t/L dL/dt grows without bound towards the least tension, and with it what a step leaves.
+            let steepness = held.delta.abs() * held.tension * (1.0 / (10.0 * shared.scale.size));
+            let longer = (held.gamma + held.delta * dt).abs() * steepness * (1.0 / shared.scale.size);
+            let own = (own * (LAST_CHANGE / LAST_OWN_CHANGE)).max(longer);
+            let moved = held.change(cable, dt, going, shared).max(own);
             going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
             if !going.any() {
                 break;
@@ -364,7 +390,7 @@ fn hold<S: Simd>(
         // The last change closes the cable to rounding.
         linearized.predicted = cable.force;
         // A root with a cable of negative length is invalid.
-        all = all & !going & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
+        all = all & !going & taut & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
     }
     all
 }

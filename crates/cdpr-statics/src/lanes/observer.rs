@@ -2,17 +2,22 @@
 //!
 //! Robots with plain cables, stable and taut or sagging, at their limits or not, are observed in the lanes of
 //! the vector unit (`lanes/chain.rs`), each from the tensions of the nominal robot. Any other robot is
-//! observed by [`deflection`], which decides on every failure.
+//! observed by the scalar models, which decide on every failure.
+//!
+//! Where the sum of squares of the inverse model has several local minima, a perturbed robot is observed in
+//! the one that it shares with the nominal robot, as long as it exists. [`deflection`] of the same robot may
+//! find another.
 
 use crate::error::StaticsError;
-use crate::inverse::inverse;
+use crate::inverse::{Branch, InverseSolution};
 use crate::lanes::algebra::{six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::{ChainStart, Choice, Shared, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale, in_lanes};
+use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
-use crate::loading::deflection;
+use crate::loading::{deflection, deflection_near};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
 use cdpr_cable::kernel::Field;
@@ -30,6 +35,8 @@ pub struct Observation {
     pub unloaded: Residual,
     /// Residuals of the equilibrium with the load added.
     pub loaded: Residual,
+    /// Why the scalar models found it; `None` for one found in lanes.
+    pub scalar: Option<ScalarReason>,
 }
 
 impl Observation {
@@ -46,8 +53,10 @@ pub struct Observer<'a> {
     pose: Pose,
     load: Load,
     parameters: usize,
-    /// What the lanes start from; `None` where they would find nothing.
-    nominal: Option<Nominal>,
+    /// The inverse model of the nominal robot; `None` where it has no answer.
+    branch: Option<Branch>,
+    /// What the lanes start from, or why they would find nothing.
+    nominal: Result<Nominal, ScalarReason>,
 }
 
 /// The nominal robot at the wanted pose.
@@ -68,7 +77,9 @@ impl<'a> Observer<'a> {
         robot.validate()?;
         load.validate()?;
         let parameters = ParameterLayout::of(robot).count();
-        Ok(Self { robot, pose: *pose, load: *load, parameters, nominal: Nominal::new(robot, pose, load) })
+        let (solution, branch) = Branch::of(robot, pose).ok().unzip();
+        let nominal = Nominal::new(robot, pose, load, solution);
+        Ok(Self { robot, pose: *pose, load: *load, parameters, branch, nominal })
     }
 
     /// Deflection of the robot with `deviations` added to its parameters, in the order of [`Parameter::of`].
@@ -77,11 +88,16 @@ impl<'a> Observer<'a> {
     /// [`StaticsError`] says why this robot has no deflection.
     pub fn observe(&self, deviations: &[f64]) -> Result<Observation, StaticsError> {
         let perturbed = self.robot.perturbed(deviations)?;
-        let deflection = deflection(&perturbed.robot, &self.pose, &perturbed.tension_offsets, &self.load)?;
+        let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
+        let deflection = match &self.branch {
+            Some(branch) => deflection_near(branch, robot, &self.pose, offsets, &self.load)?,
+            None => deflection(robot, &self.pose, offsets, &self.load)?,
+        };
         Ok(Observation {
             displacement: deflection.displacement(),
             unloaded: deflection.unloaded.report.residual,
             loaded: deflection.loaded.report.residual,
+            scalar: Some(ScalarReason::OneByOne),
         })
     }
 
@@ -89,25 +105,32 @@ impl<'a> Observer<'a> {
     /// other.
     ///
     /// An answer depends on its own row alone, to the last digit, and agrees with [`Observer::observe`] to
-    /// rounding. An incomplete last row is a failure.
+    /// rounding. [`Observation::scalar`] says which ones were left to it, and why. An incomplete last row is a
+    /// failure.
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Observation, StaticsError>> {
         let rows = deviations.chunks_exact(self.parameters);
         let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
         let in_lanes =
             dispatch(Batch { observer: self, deviations: &deviations[..rows.len() * self.parameters] });
+        let alone = |row: &[f64], why| Ok(Observation { scalar: Some(why), ..self.observe(row)? });
         let outcomes =
-            in_lanes.into_iter().zip(rows).map(|(found, row)| found.map_or_else(|| self.observe(row), Ok));
+            in_lanes.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)));
         outcomes.chain(incomplete.map(|row| self.observe(row))).collect()
     }
 }
 
 impl Nominal {
-    fn new(robot: &Robot, pose: &Pose, load: &Load) -> Option<Self> {
-        // A moment has no potential: pivots do not show whether its equilibria are stable.
-        if load.wrench.moment != Vector3::zeros() || !in_lanes(robot) {
-            return None;
+    fn new(
+        robot: &Robot,
+        pose: &Pose,
+        load: &Load,
+        solution: Option<InverseSolution>,
+    ) -> Result<Self, ScalarReason> {
+        match ScalarReason::of_all(robot, load) {
+            Some(why) => return Err(why),
+            None => debug_assert!(in_lanes(robot)),
         }
-        let solution = inverse(robot, pose, &Load::none(), None).ok()?;
+        let solution = solution.ok_or(ScalarReason::NominalRobot)?;
         let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let reference = robot.reference();
@@ -126,7 +149,7 @@ impl Nominal {
                 rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
             },
         };
-        Some(Self {
+        Ok(Self {
             equilibrium: solution.equilibrium,
             lengths: solution.lengths,
             multipliers: solution.multipliers,
@@ -142,32 +165,46 @@ struct Batch<'a> {
 }
 
 impl WithSimd for Batch<'_> {
-    type Output = Vec<Option<Observation>>;
+    type Output = Vec<Result<Observation, ScalarReason>>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Observer { robot, pose, load, parameters, nominal } = self.observer;
+        let Observer { robot, pose, load, parameters, nominal, .. } = self.observer;
         let rows = self.deviations.len() / parameters;
-        let Some(nominal) = nominal else { return vec![None; rows] };
+        let nominal = match nominal {
+            Ok(nominal) => nominal,
+            Err(why) => return vec![Err(*why); rows],
+        };
         let mut found = Vec::with_capacity(rows);
         for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows { simd, rows, parameters: *parameters };
             let (start, level, sound) = rows.robots(robot, pose, load, nominal);
             let outcome = observe(start, &nominal.shared);
-            let valid = (outcome.valid & sound).to_array();
+            let [converged, unfolded, held, standing, answered] = outcome.passed;
+            let passed = [
+                (sound, ScalarReason::InvalidRobot),
+                (converged, ScalarReason::Tensions),
+                (unfolded, ScalarReason::Folded),
+                (held, ScalarReason::Lengths),
+                (standing, ScalarReason::Unloaded),
+                (answered, ScalarReason::Loaded),
+            ];
+            let passed = passed.map(|(lanes, why)| (lanes.to_array(), why));
             let displacement = match &level {
                 None => outcome.displacement,
                 Some(level) => level.to_base(&outcome.displacement),
             };
             let displacement = displacement.map(Lanes::to_array);
             let (unloaded, loaded) = (norms(&outcome.unloaded), norms(&outcome.loaded));
-            found.extend((0..count).map(|lane| {
-                valid[lane].then(|| Observation {
+            found.extend((0..count).map(|lane| match passed.iter().find(|(lanes, _)| !lanes[lane]) {
+                Some((_, why)) => Err(*why),
+                None => Ok(Observation {
                     displacement: Vector3::from_fn(|k, _| displacement[k][lane]),
                     unloaded: unloaded[lane],
                     loaded: loaded[lane],
-                })
+                    scalar: None,
+                }),
             }));
         }
         found
@@ -332,7 +369,7 @@ mod tests {
                 let scalar = Batch { observer, deviations: &deviations }.with_simd(Scalar);
                 let widest = dispatch(Batch { observer, deviations: &deviations });
                 assert_eq!(scalar, widest);
-                assert!(scalar.iter().filter(|found| found.is_some()).count() > 90);
+                assert!(scalar.iter().filter(|found| found.is_ok()).count() > 90);
             }
         }
     }

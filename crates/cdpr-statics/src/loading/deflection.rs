@@ -7,7 +7,7 @@
 use crate::direct::{DirectSolution, Start, direct};
 use crate::equations::FORCES;
 use crate::error::StaticsError;
-use crate::inverse::{HeldPose, InverseSolution, held_at, inverse, lengths_for_tensions, limits_at};
+use crate::inverse::{Branch, HeldPose, InverseSolution, held_at, inverse, lengths_for_tensions, limits_at};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, rounding_of_closure};
 use cdpr_robot::{Coordinate, Pose, Robot, TensionLimits, Vector3, Wrench};
@@ -92,6 +92,23 @@ pub fn deflection(
     deflection_from(robot, lengths, load, &held)
 }
 
+/// [`deflection`] of a robot that differs a little from the one whose inverse model is known.
+///
+/// # Errors
+/// Those of [`deflection`].
+pub(crate) fn deflection_near(
+    branch: &Branch,
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+    load: &Load,
+) -> Result<Deflection, StaticsError> {
+    check_offsets(robot, tension_offsets)?;
+    let wanted = branch.nearby(robot, pose)?;
+    let Wound { lengths, held, .. } = wind_from(robot, pose, tension_offsets, wanted)?;
+    deflection_from(robot, lengths, load, &held)
+}
+
 /// As [`deflection`], for a robot with fewer cables than free motions: the `free` coordinates of the pose are
 /// found. Set-points that are not offset are not kept within the limits.
 ///
@@ -153,7 +170,16 @@ pub fn wound_lengths(
 /// Winds the cables for `pose`.
 pub(crate) fn wind(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Result<Wound, StaticsError> {
     check_offsets(robot, tension_offsets)?;
-    let wanted = inverse(robot, pose, &Load::none(), None)?;
+    wind_from(robot, pose, tension_offsets, inverse(robot, pose, &Load::none(), None)?)
+}
+
+/// Winds the cables for `pose` with the answer of the inverse model at hand.
+fn wind_from(
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+    wanted: InverseSolution,
+) -> Result<Wound, StaticsError> {
     let limits = limits_at(robot, pose)?;
     let set_points = offset(&wanted.tensions, tension_offsets, &limits);
     let HeldPose { lengths, equilibrium: held } = lengths_for_tensions(robot, pose, &set_points)?;

@@ -5,6 +5,7 @@ use crate::error::StudyError;
 use crate::file::output::Output;
 use crate::model::designs::replicate_name;
 use crate::model::nominal::too_much;
+use crate::model::observed::ScalarCount;
 use crate::model::study::Sampling;
 use crate::observe::observation::{FITTED, KEPT, Session, Tally, observe_tally};
 use cdpr_robot::Robot;
@@ -33,6 +34,9 @@ pub struct SamplingSummary {
     pub observations: usize,
     /// Failed observations by kind.
     pub failed: BTreeMap<String, usize>,
+    /// Observations by the scalar models, and why; absent in results of earlier versions.
+    #[serde(default)]
+    pub scalar: ScalarCount,
     /// Summary of the output; absent if fewer than two observations succeeded.
     #[serde(rename = "rms_mm")]
     pub values: Option<ValueSummary>,
@@ -216,6 +220,7 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
         quaternion: sampling.pose.quaternion(),
         observations: sampling.design.points(),
         failed: tally.failed.clone(),
+        scalar: tally.scalar.clone(),
         values: moments
             .zip(sample.as_ref())
             .and_then(|(all, sample)| ValueSummary::new(&all, sample, sampling.nominal_value).ok()),
@@ -251,6 +256,7 @@ fn unmoved(sampling: &Sampling, tally: &Tally, rounding: f64) -> SamplingSummary
         quaternion: sampling.pose.quaternion(),
         observations: sampling.design.points(),
         failed: tally.failed.clone(),
+        scalar: tally.scalar.clone(),
         values: Some(ValueSummary::ZERO),
         nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
         operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),

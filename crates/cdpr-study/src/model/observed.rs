@@ -2,7 +2,8 @@
 
 use crate::file::output::Output;
 use cdpr_robot::Vector3;
-use cdpr_statics::StaticsError;
+use cdpr_statics::{ScalarReason, StaticsError};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// What was observed of a robot, or the reason of its failure.
@@ -10,7 +11,16 @@ pub type Observed = Result<Measured, Failure>;
 
 /// What was observed of a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Measured {
+pub struct Measured {
+    /// What was observed.
+    pub quantity: MeasuredQuantity,
+    /// Why the scalar models observed it, and not the lanes of the vector unit.
+    pub scalar: Option<ScalarReason>,
+}
+
+/// An output of a robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MeasuredQuantity {
     /// A displacement [m], whose length is the output.
     Displacement(Vector3<f64>),
     /// The output in its unit.
@@ -20,21 +30,23 @@ pub enum Measured {
 impl Measured {
     /// The output in its unit.
     pub fn value(&self) -> f64 {
-        match self {
-            Self::Displacement(displacement) => 1e3 * displacement.norm(),
-            Self::Number(number) => *number,
+        match &self.quantity {
+            MeasuredQuantity::Displacement(displacement) => 1e3 * displacement.norm(),
+            MeasuredQuantity::Number(number) => *number,
         }
     }
 
     /// Its cells in tables, under [`Output::columns`].
     pub fn cells(&self) -> impl Iterator<Item = f64> {
-        let displacement = match self {
-            Self::Displacement(displacement) => Some(1e3 * displacement),
-            Self::Number(_) => None,
+        let displacement = match &self.quantity {
+            MeasuredQuantity::Displacement(displacement) => Some(1e3 * displacement),
+            MeasuredQuantity::Number(_) => None,
         };
         displacement.into_iter().flat_map(<[f64; 3]>::from).chain([self.value()])
     }
+}
 
+impl MeasuredQuantity {
     /// Its numbers in blocks.
     pub(crate) fn numbers(&self) -> &[f64] {
         match self {
@@ -47,11 +59,12 @@ impl Measured {
 impl Output {
     /// What stands for a failed observation where there has to be a number.
     pub fn nothing(self) -> Measured {
-        if self.is_length() {
-            Measured::Displacement(Vector3::repeat(f64::NAN))
+        let quantity = if self.is_length() {
+            MeasuredQuantity::Displacement(Vector3::repeat(f64::NAN))
         } else {
-            Measured::Number(f64::NAN)
-        }
+            MeasuredQuantity::Number(f64::NAN)
+        };
+        Measured { quantity, scalar: None }
     }
 }
 
@@ -93,4 +106,35 @@ pub(crate) fn count_failed<'a>(kinds: impl Iterator<Item = &'a str>) -> BTreeMap
         *failed.entry(kind.to_owned()).or_default() += 1;
     }
     failed
+}
+
+/// Observations with an answer of the scalar models, and why the lanes of the vector unit did not give it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ScalarCount {
+    /// Number of all.
+    pub count: usize,
+    /// Number of each reason.
+    pub why: BTreeMap<String, usize>,
+}
+
+impl ScalarCount {
+    pub(crate) fn of(outcomes: &[Observed]) -> Self {
+        let mut counted = Self::default();
+        for why in outcomes.iter().flatten().filter_map(|measured| measured.scalar) {
+            counted.add(why.name(), 1);
+        }
+        counted
+    }
+
+    pub(crate) fn merge(&mut self, other: &Self) {
+        other.why.iter().for_each(|(why, count)| self.add(why, *count));
+    }
+
+    fn add(&mut self, why: &str, count: usize) {
+        self.count += count;
+        match self.why.get_mut(why) {
+            Some(known) => *known += count,
+            None => drop(self.why.insert(why.to_owned(), count)),
+        }
+    }
 }

@@ -5,11 +5,11 @@
 
 use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
-use crate::model::observed::Measured;
+use crate::model::observed::{Measured, MeasuredQuantity};
 use cdpr_robot::{Coordinate, Parameter, Perturbed, Pose, Robot, Vector3};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observer, Start, StaticsError, deflection_free,
-    derivatives_free, direct, held_at, wound_lengths,
+    Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, Observer, ScalarReason, Start,
+    StaticsError, deflection_free, derivatives_free, direct, held_at, wound_lengths,
 };
 use std::borrow::Cow;
 
@@ -64,16 +64,18 @@ impl<'a> OutputObserver<'a> {
     /// Observes any number of robots: `deviations` has a row of all parameters for each, one after the other.
     /// A robot without the output is an error with the reason.
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Measured, StaticsError>> {
-        if self.output == Output::Deflection {
-            let displacements = self.displacements(deviations).into_iter();
-            return displacements.map(|found| found.map(Measured::Displacement)).collect();
+        if self.output == Output::Deflection && self.free.is_empty() {
+            let outcomes = self.lanes.observe_all(deviations).into_iter();
+            return outcomes.map(|found| found.map(Measured::from)).collect();
         }
+        let why = if self.free.is_empty() { ScalarReason::Output } else { ScalarReason::FreeCoordinates };
         let observed = |row: &[f64]| {
             let perturbed = self.robot.perturbed(row)?;
-            if self.output == Output::Position {
-                return self.displaced(&perturbed).map(Measured::Displacement);
-            }
-            self.of_deflection(&perturbed.robot, &self.deflection(&perturbed)?)
+            let quantity = match self.output {
+                Output::Position => MeasuredQuantity::Displacement(self.displaced(&perturbed)?),
+                _ => self.of_deflection(&perturbed.robot, &self.deflection(&perturbed)?)?.quantity,
+            };
+            Ok(Measured { quantity, scalar: Some(why) })
         };
         self.rows(deviations).map(observed).collect()
     }
@@ -106,14 +108,15 @@ impl<'a> OutputObserver<'a> {
 
     /// The output of a robot that is deflected by the load; not its position.
     fn of_deflection(&self, robot: &Robot, found: &Deflection) -> Result<Measured, StaticsError> {
-        Ok(match self.output {
-            Output::Deflection | Output::Position => Measured::Displacement(found.displacement()),
-            Output::Stiffness => Measured::Number(found.loaded.stability.least_stiffness()),
+        let quantity = match self.output {
+            Output::Deflection | Output::Position => MeasuredQuantity::Displacement(found.displacement()),
+            Output::Stiffness => MeasuredQuantity::Number(found.loaded.stability.least_stiffness()),
             Output::Frequency => {
                 let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
-                Measured::Number(problem.lowest_frequency(&found.loaded.equilibrium)?)
+                MeasuredQuantity::Number(problem.lowest_frequency(&found.loaded.equilibrium)?)
             }
-        })
+        };
+        Ok(Measured { quantity, scalar: Some(ScalarReason::OneByOne) })
     }
 
     /// Displacement of P [m] of a robot without the load that is given the nominal robot's lengths, from
@@ -200,6 +203,12 @@ impl<'a> OutputObserver<'a> {
         }
         let slopes = displaced.normalize().transpose() * slopes;
         Ok((1e3 * displaced.norm(), scaled(1e3, errors.gradient(slopes.as_slice()))))
+    }
+}
+
+impl From<Observation> for Measured {
+    fn from(found: Observation) -> Self {
+        Self { quantity: MeasuredQuantity::Displacement(found.displacement), scalar: found.scalar }
     }
 }
 

@@ -14,7 +14,7 @@
 use crate::error::StudyError;
 use crate::file::output::Output;
 use crate::model::designs::{OWN, Points};
-use crate::model::observed::{Failure, Observed, count_failed, failures, value_of};
+use crate::model::observed::{Failure, Observed, ScalarCount, count_failed, failures, value_of};
 use crate::model::study::Sampling;
 use crate::store::block::{BLOCK, blocks};
 use crate::store::blocks::{BlockId, Blocks};
@@ -73,6 +73,8 @@ pub struct Tally {
     pub sums: EffectSums,
     /// Number of failed observations by kind of failure; the usual kinds are always listed.
     pub failed: BTreeMap<String, usize>,
+    /// Observations of the scalar models.
+    pub scalar: ScalarCount,
     /// Output of the first [`KEPT`] observations, `None` where one failed.
     pub first_values: Vec<Option<f64>>,
 }
@@ -82,6 +84,7 @@ impl Tally {
         Self {
             sums: EffectSums::new(sampling.design.inputs(), sampling.nominal_value),
             failed: count_failed(std::iter::empty()),
+            scalar: ScalarCount::default(),
             first_values: Vec::new(),
         }
     }
@@ -95,6 +98,7 @@ impl Tally {
             tally.first_values.push(value);
         }
         tally.failed = count_failed(failures(&part.outcomes));
+        tally.scalar = ScalarCount::of(&part.outcomes);
         tally
     }
 
@@ -104,6 +108,7 @@ impl Tally {
         for (kind, count) in &next.failed {
             *self.failed.entry(kind.clone()).or_default() += count;
         }
+        self.scalar.merge(&next.scalar);
         let room = KEPT.saturating_sub(self.first_values.len()).min(next.first_values.len());
         self.first_values.extend_from_slice(&next.first_values[..room]);
     }

@@ -1,23 +1,25 @@
-//! The file of a block, `cdpr-block/1`: the observations at consecutive indices of a design. The inputs are
+//! The file of a block, `cdpr-block/2`: the observations at consecutive indices of a design. The inputs are
 //! not in it, because they follow from the design.
 //!
 //! ```text
-//! cdpr-block/1 CHECKSUM        BLAKE3, in hexadecimal digits, of all that follows this line
+//! cdpr-block/2 CHECKSUM        BLAKE3, in hexadecimal digits, of all that follows this line
 //! {"version":.., "study":.., "sampling":.., "design":.., "first":.., "observations":.., "failed":{..}}
 //! dx dy dz ...                 displacement [m] of each observation as little-endian 64-bit floats; NaN
 //!                              where it failed; of an output that is no length one number in its unit
 //! [[index, kind, reason], ...] failed observations, counted from the first of the block
+//! [[index, count, why], ...]   runs of observations by the scalar models, and why lanes did not make them
 //! ```
 
 use crate::file::output::Output;
-use crate::model::observed::{Failure, Measured, Observed};
+use crate::model::observed::{Failure, Measured, MeasuredQuantity, Observed};
 use cdpr_robot::Vector3;
+use cdpr_statics::ScalarReason;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Name and version of the format.
-pub(crate) const BLOCK_FORMAT: &str = "cdpr-block/1";
+pub(crate) const BLOCK_FORMAT: &str = "cdpr-block/2";
 
 /// Observations of a block, except the last one of a design: the unit of work, of saving and of summing.
 pub const BLOCK: usize = 16_384;
@@ -72,7 +74,7 @@ pub(crate) fn encode(header: &BlockHeader, outcomes: &[Observed]) -> Result<Vec<
     body.push(b'\n');
     let none = header.output.nothing();
     for measured in outcomes.iter().map(|outcome| outcome.as_ref().unwrap_or(&none)) {
-        measured.numbers().iter().for_each(|value| body.extend_from_slice(&value.to_le_bytes()));
+        measured.quantity.numbers().iter().for_each(|value| body.extend_from_slice(&value.to_le_bytes()));
     }
     let failures: Vec<(usize, &str, &str)> = outcomes
         .iter()
@@ -82,6 +84,8 @@ pub(crate) fn encode(header: &BlockHeader, outcomes: &[Observed]) -> Result<Vec<
         })
         .collect();
     serde_json::to_writer(&mut body, &failures)?;
+    body.push(b'\n');
+    serde_json::to_writer(&mut body, &scalar_runs(outcomes))?;
     let mut file = format!("{BLOCK_FORMAT} {}\n", blake3::hash(&body)).into_bytes();
     file.append(&mut body);
     Ok(file)
@@ -100,15 +104,29 @@ pub(crate) fn decode(file: &[u8]) -> Result<(BlockHeader, Vec<Observed>), String
     }
     let (header, payload) = line(body).ok_or("no header in it")?;
     let header: BlockHeader = serde_json::from_slice(header).map_err(|error| format!("header: {error}"))?;
-    let each = NUMBER * header.output.nothing().numbers().len();
+    let nothing = header.output.nothing().quantity;
+    let each = NUMBER * nothing.numbers().len();
     let bytes = header.observations.checked_mul(each).filter(|bytes| *bytes <= payload.len());
-    let (measured, failures) = payload.split_at(bytes.ok_or("fewer observations than its header says")?);
+    let (measured, rest) = payload.split_at(bytes.ok_or("fewer observations than its header says")?);
+    let (failures, runs) = line(rest).ok_or("it ends before the reasons of the scalar models")?;
     let number = |bytes: &[u8], k: usize| float(&bytes[NUMBER * k..NUMBER * (k + 1)]);
-    let one = |bytes| match header.output.nothing() {
-        Measured::Displacement(_) => Measured::Displacement(Vector3::from_fn(|k, _| number(bytes, k))),
-        Measured::Number(_) => Measured::Number(number(bytes, 0)),
+    let one = |bytes| match nothing {
+        MeasuredQuantity::Displacement(_) => {
+            MeasuredQuantity::Displacement(Vector3::from_fn(|k, _| number(bytes, k)))
+        }
+        MeasuredQuantity::Number(_) => MeasuredQuantity::Number(number(bytes, 0)),
     };
-    let mut outcomes: Vec<Observed> = measured.chunks_exact(each).map(|bytes| Ok(one(bytes))).collect();
+    let all = measured.chunks_exact(each);
+    let mut outcomes: Vec<Observed> =
+        all.map(|bytes| Ok(Measured { quantity: one(bytes), scalar: None })).collect();
+    let runs: Vec<(usize, usize, String)> =
+        serde_json::from_slice(runs).map_err(|error| format!("scalar models: {error}"))?;
+    for (first, count, why) in runs {
+        let why = ScalarReason::named(&why).ok_or_else(|| format!("`{why}` is no reason"))?;
+        let end = first.checked_add(count).filter(|end| *end <= outcomes.len());
+        let end = end.ok_or_else(|| format!("{count} after observation {first} are more than there are"))?;
+        outcomes[first..end].iter_mut().flatten().for_each(|measured| measured.scalar = Some(why));
+    }
     let failures: Vec<(usize, String, String)> =
         serde_json::from_slice(failures).map_err(|error| format!("failures: {error}"))?;
     for (k, kind, reason) in failures {
@@ -116,6 +134,19 @@ pub(crate) fn decode(file: &[u8]) -> Result<(BlockHeader, Vec<Observed>), String
         *outcome = Err(Failure { kind, reason });
     }
     Ok((header, outcomes))
+}
+
+/// Runs of observations by the scalar models for the same reason: the first, how many, and the reason.
+fn scalar_runs(outcomes: &[Observed]) -> Vec<(usize, usize, &'static str)> {
+    let mut runs: Vec<(usize, usize, &str)> = Vec::new();
+    for (k, outcome) in outcomes.iter().enumerate() {
+        let Some(why) = outcome.as_ref().ok().and_then(|measured| measured.scalar) else { continue };
+        match runs.last_mut() {
+            Some((first, count, last)) if *first + *count == k && *last == why.name() => *count += 1,
+            _ => runs.push((k, 1, why.name())),
+        }
+    }
+    runs
 }
 
 /// The header at the start of a block's file; `None` for a file that is no block, and an error for the
@@ -153,12 +184,15 @@ mod tests {
             failed: [("infeasible_tension".to_owned(), 1)].into(),
         };
         let numbers = [Vector3::new(1.5e-3, -0.0, 5e-324), Vector3::new(-1e300, 0.1, 1.0 / 3.0)];
-        let [first, last] = numbers.map(|vector| Ok(Measured::Displacement(vector)));
+        let whys = [None, Some(ScalarReason::Folded)];
+        let [first, last] = [0, 1]
+            .map(|k| Ok(Measured { quantity: MeasuredQuantity::Displacement(numbers[k]), scalar: whys[k] }));
         (header, vec![first, Err(failure), last])
     }
 
     fn bits(outcomes: &[Observed]) -> Vec<Result<Vec<u64>, Failure>> {
-        let bits = |measured: &Measured| measured.numbers().iter().map(|value| value.to_bits()).collect();
+        let bits =
+            |measured: &Measured| measured.quantity.numbers().iter().map(|value| value.to_bits()).collect();
         outcomes.iter().map(|outcome| outcome.as_ref().map(bits).map_err(Clone::clone)).collect()
     }
 
@@ -168,8 +202,13 @@ mod tests {
         let (read_header, read) = decode(&encode(&header, &outcomes).unwrap()).unwrap();
         assert_eq!(read_header, header);
         assert_eq!(bits(&read), bits(&outcomes));
+        assert_eq!(read[2].as_ref().unwrap().scalar, Some(ScalarReason::Folded));
+        assert_eq!(read[0].as_ref().unwrap().scalar, None);
         let header = BlockHeader { output: Output::Frequency, ..header };
-        let numbers = [Ok(Measured::Number(1.0 / 3.0)), outcomes[1].clone(), Ok(Measured::Number(-0.0))];
+        let number = |value| {
+            Ok(Measured { quantity: MeasuredQuantity::Number(value), scalar: Some(ScalarReason::Output) })
+        };
+        let numbers = [number(1.0 / 3.0), outcomes[1].clone(), number(-0.0)];
         let file = encode(&header, &numbers).unwrap();
         assert_eq!(bits(&decode(&file).unwrap().1), bits(&numbers));
     }

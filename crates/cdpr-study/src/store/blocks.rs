@@ -322,8 +322,6 @@ mod tests {
     use super::*;
     use crate::fs::atomic::AtomicFile;
     use crate::fs::manifest::ResultsOf;
-    use crate::model::observed::Measured;
-    use cdpr_robot::Vector3;
     use std::fs;
     use std::io::Write;
 
@@ -346,7 +344,7 @@ mod tests {
         let id = BlockId { sampling: "mechanical", design: "sampling", number: 0 };
         for (observations, stays) in [(2, false), (2, true), (1, true), (3, false)] {
             fs::write(&summary, "of all blocks").unwrap();
-            blocks.write(&id, &vec![Ok(Measured::Displacement(Vector3::zeros())); observations]).unwrap();
+            blocks.write(&id, &vec![Ok(Output::Deflection.nothing()); observations]).unwrap();
             assert_eq!(summary.exists(), stays, "{observations} observations");
             assert!(blocks.read(&id).unwrap().len() >= observations);
         }

@@ -1,0 +1,98 @@
+//! Why a robot is left to the scalar models.
+
+use crate::state::Load;
+use cdpr_robot::{Robot, Vector3};
+
+/// Why an observation is made by the scalar models and not in the lanes of the vector unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ScalarReason {
+    /// It was asked for alone.
+    OneByOne,
+    /// Another output than a displacement was asked for.
+    Output,
+    /// Coordinates of the pose are free.
+    FreeCoordinates,
+    /// There are fewer cables than free motions, or the platform is a point or moves in a plane.
+    FewCables,
+    /// Cables run over pulleys.
+    Pulleys,
+    /// Cables have leads behind their exit points.
+    Leads,
+    /// Cables have an elastic law.
+    Laws,
+    /// The load has a moment.
+    Moment,
+    /// The nominal robot has no tensions at the pose.
+    NominalRobot,
+    /// The parameters of the perturbed robot are out of their ranges.
+    InvalidRobot,
+    /// The tensions nearest to their reference were not found: a cable may hang at the least tension that its
+    /// length allows.
+    Tensions,
+    /// A cable is folded, or the limits of its tension exclude each other.
+    Folded,
+    /// The lengths for the set-points were not found.
+    Lengths,
+    /// No stable equilibrium without the load was found.
+    Unloaded,
+    /// No stable equilibrium with the load was found.
+    Loaded,
+}
+
+impl ScalarReason {
+    /// All reasons with their names in files.
+    const NAMES: [(Self, &'static str); 15] = [
+        (Self::OneByOne, "one_by_one"),
+        (Self::Output, "output"),
+        (Self::FreeCoordinates, "free_coordinates"),
+        (Self::FewCables, "few_cables"),
+        (Self::Pulleys, "pulleys"),
+        (Self::Leads, "leads"),
+        (Self::Laws, "laws"),
+        (Self::Moment, "moment"),
+        (Self::NominalRobot, "nominal_robot"),
+        (Self::InvalidRobot, "invalid_robot"),
+        (Self::Tensions, "tensions"),
+        (Self::Folded, "folded"),
+        (Self::Lengths, "lengths"),
+        (Self::Unloaded, "unloaded"),
+        (Self::Loaded, "loaded"),
+    ];
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(reason, _)| *reason == self).map_or("", |(_, name)| name)
+    }
+
+    /// The reason of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::NAMES.iter().find(|(_, known)| *known == name).map(|(reason, _)| *reason)
+    }
+
+    /// Why all robots like this one under this load are left to the scalar models, if they are.
+    pub(crate) fn of_all(robot: &Robot, load: &Load) -> Option<Self> {
+        let some = |property: fn(&cdpr_robot::RobotCable) -> bool| robot.cables.iter().any(property);
+        let reasons = [
+            (!robot.freedoms().are_all() || !robot.is_fully_actuated(), Self::FewCables),
+            (some(|cable| cable.pulley.is_some_and(|pulley| pulley.radius != 0.0)), Self::Pulleys),
+            (some(|cable| cable.lead != 0.0), Self::Leads),
+            (!robot.is_linear(), Self::Laws),
+            // A moment has no potential: pivots do not show whether its equilibria are stable.
+            (load.wrench.moment != Vector3::zeros(), Self::Moment),
+        ];
+        reasons.into_iter().find(|(holds, _)| *holds).map(|(_, reason)| reason)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ScalarReason;
+
+    #[test]
+    fn each_reason_has_a_name_of_its_own() {
+        for (reason, name) in ScalarReason::NAMES {
+            assert_eq!((reason.name(), ScalarReason::named(name)), (name, Some(reason)));
+        }
+        assert_eq!(ScalarReason::NAMES[14].0 as usize, 14, "the last reason is the last of the list");
+    }
+}

@@ -1,0 +1,174 @@
+//! Lanes over random robots, poses, loads and deviations: the answers of the scalar models.
+
+use cdpr_robot::{
+    CableEnd, CableProperties, OwnLimits, Parameter, Platform, Pose, Robot, RobotCable, Rotation3,
+    TensionLimits, TensionReference, Vector3,
+};
+use cdpr_statics::{Load, Observer, ScalarReason, inverse};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// Random robots; `CDPR_CASES` takes the place of this number.
+const CASES: u64 = 2_000;
+
+/// Perturbed ones of each.
+const ROWS: usize = 8;
+
+/// Largest distance of the two displacements, relative to the longest cable.
+const AGREEMENT: f64 = 1e-11;
+
+/// A robot at a pose that it holds, its load and rows of deviations.
+struct Case {
+    robot: Robot,
+    pose: Pose,
+    load: Load,
+    rows: Vec<f64>,
+    longest: f64,
+}
+
+fn log_uniform(rng: &mut ChaCha8Rng, from: f64, to: f64) -> f64 {
+    from * (to / from).powf(rng.random::<f64>())
+}
+
+fn in_cube(rng: &mut ChaCha8Rng) -> Vector3<f64> {
+    Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0))
+}
+
+/// Robots of 1 m to 300 m with 6 to 16 cables, suspended or held from all sides, level or not; straight cables
+/// and such that weigh more than the platform; with limits and preferred tensions that are active or not.
+/// `None` where the robot cannot be held.
+fn case(seed: u64) -> Option<Case> {
+    let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+    let n = rng.random_range(6..=16);
+    let size = log_uniform(rng, 1.0, 300.0);
+    let platform = size * log_uniform(rng, 0.02, 0.3);
+    let mass = log_uniform(rng, 0.1, 100.0) * size;
+    let weight = mass * 9.81;
+    let suspended = rng.random_bool(0.6);
+    let density = log_uniform(rng, 1e-5, 1.0) * mass / (size * f64::from(n));
+    let modulus = weight / log_uniform(rng, 1e-6, 1e-2) / 1e-5;
+    let properties = CableProperties::linear(1e-5, density, modulus);
+    let cables: Vec<_> = (0..n)
+        .map(|_| {
+            let mut exit_point = in_cube(rng) * (0.5 * size);
+            if suspended {
+                exit_point.z = 0.5 * size * rng.random_range(0.9..1.1);
+            }
+            RobotCable::between(exit_point, in_cube(rng) * (0.5 * platform), properties.clone())
+        })
+        .collect();
+    let gravity = match rng.random_bool(0.2) {
+        true => (in_cube(rng) * 3.0 - Vector3::z() * 9.2).into(),
+        false => 9.81.into(),
+    };
+    let max_at = if rng.random_bool(0.5) { CableEnd::Anchor } else { CableEnd::Exit };
+    let tension_reference = match rng.random_range(0..4) {
+        0 => Some(TensionReference::MID),
+        1 => Some(TensionReference::All(weight * log_uniform(rng, 0.05, 2.0))),
+        _ => None,
+    };
+    let mut robot = Robot {
+        name: format!("random robot {seed}"),
+        provenance: Default::default(),
+        gravity,
+        platform: Platform::new(mass, in_cube(rng) * (0.2 * platform)),
+        tension_limits: TensionLimits {
+            min: weight * log_uniform(rng, 1e-4, 0.1),
+            max: weight * log_uniform(rng, 1.0, 10.0),
+        },
+        max_at,
+        plane: None,
+        tension_reference,
+        cables,
+    };
+    let pose = Pose {
+        position: in_cube(rng) * (0.2 * size),
+        rotation: Rotation3::new(in_cube(rng) * rng.random_range(0.0..0.3)),
+    };
+    let tensions = inverse(&robot, &pose, &Load::none(), None).ok()?.tensions;
+    // Limits close to the tensions of some cables, on both sides of them.
+    for (cable, tension) in robot.cables.iter_mut().zip(&tensions) {
+        let near = tension * rng.random_range(0.9..1.1);
+        match rng.random_range(0..12) {
+            0 => cable.tension_limits = OwnLimits { min: Some(near), ..OwnLimits::default() },
+            1 => cable.tension_limits = OwnLimits { max: Some(near), ..OwnLimits::default() },
+            _ => {}
+        }
+    }
+    robot.validate().ok()?;
+    let payload = if rng.random_bool(0.7) { mass * rng.random_range(0.0..0.5) } else { 0.0 };
+    let mut load = Load::payload(payload);
+    load.wrench.force = in_cube(rng) * (weight * log_uniform(rng, 1e-3, 0.3));
+    let longest = (0..robot.cables.len()).map(|i| robot.span(&pose, i).norm()).fold(0.0, f64::max);
+    let shift = platform * log_uniform(rng, 1e-4, 1e-2);
+    let half = |parameter: &Parameter| match parameter {
+        Parameter::Mass => 0.05 * mass,
+        Parameter::LinearDensity => 0.1 * density,
+        Parameter::YoungsModulus => 0.2 * modulus,
+        Parameter::TensionOffset(_) => 0.01 * weight,
+        Parameter::Gravity(_) => 0.05,
+        _ => shift,
+    };
+    let half: Vec<f64> = Parameter::of(&robot).iter().map(half).collect();
+    let rows = (0..ROWS * half.len()).map(|k| half[k % half.len()] * rng.random_range(-1.0..1.0)).collect();
+    Some(Case { robot, pose, load, rows, longest })
+}
+
+/// What became of each perturbed robot, with the distance between both answers.
+fn outcomes(seed: u64) -> Vec<(String, f64)> {
+    let Some(Case { robot, pose, load, rows, longest }) = case(seed) else {
+        return vec![("not held".to_owned(), 0.0)];
+    };
+    let observer = Observer::new(&robot, &pose, &load).unwrap();
+    let found = observer.observe_all(&rows);
+    let compared = |(row, found): (&[f64], &Result<_, _>)| {
+        let found: &cdpr_statics::Observation = match found {
+            Ok(found) => found,
+            Err(error) => return (format!("failed: {}", cdpr_statics::StaticsError::kind(error)), 0.0),
+        };
+        if let Some(why) = found.scalar {
+            assert_ne!(why, ScalarReason::OneByOne);
+            return (format!("scalar: {}", why.name()), 0.0);
+        }
+        match observer.observe(row) {
+            Ok(alone) => {
+                let error = (found.displacement - alone.displacement).norm() / longest;
+                if error > AGREEMENT {
+                    let [ours, theirs] = [found, &alone].map(|found| found.displacement.transpose());
+                    println!("{}: {error:.1e}: {ours:?} in lanes, {theirs:?} alone", robot.name);
+                    return ("DIFFERENT".to_owned(), error);
+                }
+                ("lanes".to_owned(), error)
+            }
+            Err(error) => {
+                println!("{}: in lanes only: {error}", robot.name);
+                ("LANES ONLY".to_owned(), 0.0)
+            }
+        }
+    };
+    rows.chunks(Parameter::of(&robot).len()).zip(&found).map(compared).collect()
+}
+
+#[test]
+fn lanes_answer_as_the_scalar_models_do_for_any_robot() {
+    let cases = std::env::var("CDPR_CASES").map_or(CASES, |cases| cases.parse().unwrap());
+    let all: Vec<_> = (0..cases).into_par_iter().flat_map_iter(outcomes).collect();
+    let mut counts = BTreeMap::<&str, u64>::new();
+    for (outcome, _) in &all {
+        *counts.entry(outcome).or_default() += 1;
+    }
+    let mut errors: Vec<f64> =
+        all.iter().filter(|(what, _)| what == "lanes").map(|(_, error)| *error).collect();
+    errors.sort_by(f64::total_cmp);
+    println!("{cases} random robots, {ROWS} perturbed ones of each:");
+    for (outcome, count) in &counts {
+        println!("{count:8} {outcome}");
+    }
+    let quantile = |q: f64| errors[((errors.len() - 1) as f64 * q) as usize];
+    println!("differences: {:.1e} {:.1e} {:.1e}", quantile(0.5), quantile(0.999), quantile(1.0));
+    let of = |outcome: &str| counts.get(outcome).copied().unwrap_or_default();
+    assert!(of("lanes") > cases / 3, "{counts:?}");
+    assert_eq!(of("DIFFERENT") + of("LANES ONLY"), 0);
+}
