@@ -3,6 +3,7 @@
 
 use crate::answer::{answer, number, output, parsed, write};
 use crate::cargo::root;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Noise of the tracker and of the winches.
@@ -64,6 +65,12 @@ pub(crate) fn run() -> Result<(), String> {
         1e3 * number(&summary["position_std_after"]),
         1e3 * number(&summary["residuals"]["position"]["rms_predicted"])
     );
+    for name in ["before", "after"] {
+        let map = summary["workspace"][name].as_array().ok_or("no map")?;
+        let of = || map.iter().filter_map(Value::as_f64).map(|std| 1e3 * std);
+        let (least, greatest) = (of().fold(f64::INFINITY, f64::min), of().fold(0.0, f64::max));
+        println!("position over the workspace, {name}: {least:.4} mm to {greatest:.4} mm");
+    }
     pictures(&target.join("calibrated/report.html"))?;
     for name in ["calibrated", "posterior"] {
         copy(
