@@ -56,7 +56,7 @@ tasks:
   statistics TABLE [STUDIES]
                  measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
                  choice (of a fitted law), indices (of Sobol'), expansions
-                 or given (estimators of tables)
+                 given (estimators of tables) or brackets (bounds by derivatives)
   calibration PART [CAMPAIGNS | FILES]
                  prints the figures of calibration in docs/VALIDATION.md and docs/calibration.md; PART is
                  recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,

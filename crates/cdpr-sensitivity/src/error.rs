@@ -111,12 +111,6 @@ pub enum SensitivityError {
         /// Observations below the middle.
         below: usize,
     },
-    /// Trajectories need the levels 0 and 1, where the law of an input is infinite.
-    #[error("input `{name}` is unbounded, so that its levels 0 and 1 are infinite: use radial points")]
-    UnboundedLevels {
-        /// Name of the input.
-        name: String,
-    },
     /// A matrix is not a correlation matrix.
     #[error("correlation[{row}][{column}] = {value}: expected {expected}")]
     NotACorrelation {

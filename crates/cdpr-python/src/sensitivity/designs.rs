@@ -42,10 +42,12 @@ pub(crate) struct SaltelliDesign {
     design: cdpr_sensitivity::SaltelliDesign,
 }
 
-/// Radial blocks of k + 1 rows for Morris's elementary effects, on points of the scrambled Sobol sequence.
+/// Blocks of k + 1 rows for Morris's elementary effects: radial ones on points of the scrambled Sobol sequence,
+/// or trajectories.
 ///
 /// blocks: number of blocks, at least 2.
-/// seed: seed of the scrambling.
+/// seed: seed of the scrambling or of the trajectories.
+/// levels: levels of the trajectories, an even number; None for radial blocks.
 #[pyclass(frozen, module = "cdpr.sensitivity")]
 pub(crate) struct MorrisDesign {
     design: cdpr_sensitivity::MorrisDesign,
@@ -209,10 +211,20 @@ impl SaltelliDesign {
 #[pymethods]
 impl MorrisDesign {
     #[new]
-    #[pyo3(signature = (inputs, blocks, *, seed))]
-    fn new(py: Python, inputs: &Bound<PyDict>, blocks: Bound<PyAny>, seed: Bound<PyAny>) -> Answer<Self> {
+    #[pyo3(signature = (inputs, blocks, *, seed, levels=None))]
+    fn new(
+        py: Python,
+        inputs: &Bound<PyDict>,
+        blocks: Bound<PyAny>,
+        seed: Bound<PyAny>,
+        levels: Option<Bound<PyAny>>,
+    ) -> Answer<Self> {
         let (inputs, blocks, seed) = (laws(inputs)?, whole("blocks", &blocks)?, whole("seed", &seed)?);
-        let design = run(py, |_| cdpr_sensitivity::MorrisDesign::radial(inputs, blocks, seed))?;
+        let levels: Option<u32> = levels.map(|levels| whole("levels", &levels)).transpose()?;
+        let design = run(py, |_| match levels {
+            Some(levels) => cdpr_sensitivity::MorrisDesign::trajectories(inputs, blocks, levels, seed),
+            None => cdpr_sensitivity::MorrisDesign::radial(inputs, blocks, seed),
+        })?;
         Ok(Self { design: design? })
     }
 
@@ -220,6 +232,7 @@ impl MorrisDesign {
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> Answer<Made<'py>> {
         let settings = PyDict::new(py);
         settings.set_item("seed", self.design.seed())?;
+        settings.set_item("levels", self.design.levels())?;
         made(py, &self.design, self.design.blocks(), settings)
     }
 

@@ -5,6 +5,7 @@
 //! ```
 #![allow(clippy::print_stdout)]
 
+mod brackets;
 mod choice;
 mod expansions;
 mod functions;
@@ -17,11 +18,12 @@ use cdpr_sensitivity::SensitivityError;
 type Table = fn(u64) -> Result<(), SensitivityError>;
 
 fn main() -> Result<(), SensitivityError> {
-    let tables: [(&str, Table); 4] = [
+    let tables: [(&str, Table); 5] = [
         ("choice", choice::table),
         ("indices", indices::table),
         ("expansions", expansions::table),
         ("given", given::table),
+        ("brackets", brackets::table),
     ];
     let mut arguments = std::env::args().skip(1);
     let (name, count) = (arguments.next(), arguments.next());

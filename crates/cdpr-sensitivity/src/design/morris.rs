@@ -2,7 +2,9 @@
 //!
 //! *Trajectories*: the first point lies on a grid of p levels 0, 1/(p - 1), .. 1 (p even). From there each
 //! input is moved once, in random order, by p / (2 (p - 1)): M. D. Morris, *Factorial sampling plans for
-//! preliminary computational experiments*, Technometrics 33 (1991).
+//! preliminary computational experiments*, Technometrics 33 (1991). The levels 0 and 1 of an unbounded law are
+//! infinite: such an input has the middles 1/(2 p), 3/(2 p), .. of p equal parts and moves by 1/2. An effect is
+//! per probability in either case, so that all inputs remain comparable.
 //!
 //! *Radial blocks*: from a point of Sobol's sequence each input is moved alone, to its value in another
 //! point: F. Campolongo, A. Saltelli, J. Cariboni, *From screening to quantitative sensitivity analysis*,
@@ -38,8 +40,7 @@ impl MorrisDesign {
     /// # Errors
     /// - [`SensitivityError::InvalidInput`] for an invalid input;
     /// - [`SensitivityError::OutOfRange`] for no input or fewer than two trajectories;
-    /// - [`SensitivityError::InvalidParameter`] for a number of levels that is odd or zero;
-    /// - [`SensitivityError::UnboundedLevels`] for an input whose law is infinite at level 0 or 1.
+    /// - [`SensitivityError::InvalidParameter`] for a number of levels that is odd or zero.
     pub fn trajectories(
         inputs: Vec<Input>,
         trajectories: usize,
@@ -50,10 +51,6 @@ impl MorrisDesign {
         let layout = layout(inputs, trajectories, seed)?;
         let even = levels > 0 && levels.is_multiple_of(2);
         require(even, "levels", f64::from(levels), "an even number from 2 on")?;
-        let unbounded = |input: &&Input| !input.law.support().is_bounded();
-        if let Some(input) = layout.inputs.iter().find(unbounded) {
-            return Err(SensitivityError::UnboundedLevels { name: input.name.clone() });
-        }
         Ok(Self { layout, plan: Plan::Trajectories { levels, seed } })
     }
 
@@ -67,6 +64,15 @@ impl MorrisDesign {
         let layout = layout(inputs, blocks, seed)?;
         let sequence = radial_sequence(layout.inputs.len())?.rescrambled(seed);
         Ok(Self { layout, plan: Plan::Radial(sequence) })
+    }
+
+    /// Number of levels of trajectories, `None` for radial blocks.
+    #[must_use]
+    pub fn levels(&self) -> Option<u32> {
+        match self.plan {
+            Plan::Trajectories { levels, .. } => Some(levels),
+            Plan::Radial(_) => None,
+        }
     }
 
     /// Number of trajectories or radial blocks.
@@ -114,7 +120,10 @@ impl SampleDesign for MorrisDesign {
                 order.shuffle(&mut generator);
                 for (moved, &input) in order.iter().enumerate() {
                     let level = ends[input][usize::from(moved < row)];
-                    point[input] = f64::from(level) / f64::from(levels - 1);
+                    point[input] = match self.layout.inputs[input].law.support().is_bounded() {
+                        true => f64::from(level) / f64::from(levels - 1),
+                        false => (f64::from(level) + 0.5) / f64::from(*levels),
+                    };
                 }
             }
             Plan::Radial(sequence) => {

@@ -158,10 +158,21 @@ fn the_effect_of_a_stepped_input_is_over_what_its_value_has_moved() {
 }
 
 #[test]
-fn unbounded_inputs_have_radial_points_and_no_levels() {
-    let normal = vec![Input::continuous("x", Law::Normal { mean: 2.0, std: 0.1 })];
-    let error = MorrisDesign::trajectories(normal.clone(), 4, 4, 1).unwrap_err();
-    assert_eq!(error, SensitivityError::UnboundedLevels { name: "x".into() });
+fn unbounded_inputs_have_radial_points_or_trajectories_on_the_middles_of_parts() {
+    let law = Law::Normal { mean: 2.0, std: 0.1 };
+    let normal = vec![Input::continuous("x", law)];
+    let walk = MorrisDesign::trajectories([normal.clone(), unit(1)].concat(), 64, 4, 1).unwrap();
+    let levels = [0.125, 0.375, 0.625, 0.875].map(|u| law.quantile(u));
+    for row in rows(&walk, 1) {
+        assert!(levels.iter().any(|level| (row[0] - level).abs() < 1e-12), "{row:?}");
+        assert!([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].iter().any(|level| (row[1] - level).abs() < 1e-12));
+    }
+    // Per probability, a linear effect is the difference of quantiles half a probability apart, times two.
+    let found = effects(&walk, |x| x[0] + x[1]);
+    let steps = [levels[2] - levels[0], levels[3] - levels[1]];
+    assert!((steps[0] - steps[1]).abs() < 1e-9);
+    assert_relative_eq!(found[0].mean, 2.0 * steps[0], max_relative = 1e-6);
+    assert_relative_eq!(found[1].mean, 1.0, epsilon = 1e-12);
     let found = effects(&MorrisDesign::radial(normal, 64, 1).unwrap(), |x| x[0]);
     assert!(found[0].mean > 0.25 && found[0].mean.is_finite());
 }
