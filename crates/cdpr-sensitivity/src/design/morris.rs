@@ -2,9 +2,9 @@
 //!
 //! *Trajectories*: the first point lies on a grid of p levels 0, 1/(p - 1), .. 1 (p even). From there each
 //! input is moved once, in random order, by p / (2 (p - 1)): M. D. Morris, *Factorial sampling plans for
-//! preliminary computational experiments*, Technometrics 33 (1991). The levels 0 and 1 of an unbounded law are
-//! infinite: such an input has the middles 1/(2 p), 3/(2 p), .. of p equal parts and moves by 1/2. An effect is
-//! per probability in either case, so that all inputs remain comparable.
+//! preliminary computational experiments*, Technometrics 33 (1991). The levels 0 and 1 of an unbounded law
+//! are infinite: such an input has the middles 1/(2 p), 3/(2 p), .. of p equal parts and moves by 1/2. An
+//! effect is per probability in either case, so that all inputs remain comparable.
 //!
 //! *Radial blocks*: from a point of Sobol's sequence each input is moved alone, to its value in another
 //! point: F. Campolongo, A. Saltelli, J. Cariboni, *From screening to quantitative sensitivity analysis*,

@@ -170,8 +170,8 @@ impl Analyser {
     /// Whatever cannot be computed from it is left out, with the reason among the notes.
     ///
     /// # Errors
-    /// [`SensitivityError::OutOfRange`] for fewer than two outputs, [`SensitivityError::ConstantSample`] if all
-    /// are equal, [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
+    /// [`SensitivityError::OutOfRange`] for fewer than two outputs, [`SensitivityError::ConstantSample`] if
+    /// all are equal, [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
     pub fn analyse(&self, data: &GivenData) -> Result<Analysis, SensitivityError> {
         check_level(self.level)?;
         let observed = data.observed(2)?;

@@ -12,8 +12,8 @@
 //!   between 0 (independent) and 1 and has no unit. It stays the same where the output is replaced by a
 //!   monotonic function of it, but for the smoothing.
 //! - The sum over parts, its correction (B2) by the mean over bootstrap resamples of the rows, and (B3):
-//!   E. Plischke, E. Borgonovo, C. L. Smith, *Global sensitivity measures from given data*, Eur. J. Oper. Res.
-//!   226 (2013). Densities are Gaussian sums of Silverman's width, on a grid.
+//!   E. Plischke, E. Borgonovo, C. L. Smith, *Global sensitivity measures from given data*, Eur. J. Oper.
+//!   Res. 226 (2013). Densities are Gaussian sums of Silverman's width, on a grid.
 //! - The sum is above 0 without an effect, too; (B2) takes a part of this away. The level that 95 of 100
 //!   inputs without an effect stay below is estimated by outputs dealt to the rows at random.
 

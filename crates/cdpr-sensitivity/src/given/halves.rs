@@ -30,8 +30,8 @@ pub struct Half {
 /// Effects of all inputs.
 ///
 /// # Errors
-/// [`SensitivityError::OutOfRange`] for fewer than two outputs, [`SensitivityError::ConstantSample`] if all are
-/// equal.
+/// [`SensitivityError::OutOfRange`] for fewer than two outputs, [`SensitivityError::ConstantSample`] if all
+/// are equal.
 pub fn halves(data: &GivenData) -> Result<Vec<Half>, SensitivityError> {
     Ok(of_observed(&data.observed(2)?))
 }

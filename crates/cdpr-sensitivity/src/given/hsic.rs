@@ -13,8 +13,8 @@
 //! - (D1) is 0 for infinitely many rows if and only if input and output are independent, whatever the form
 //!   of the dependence: A. Gretton, O. Bousquet, A. Smola, B. Schölkopf, *Measuring statistical dependence
 //!   with Hilbert-Schmidt norms* (2005).
-//! - (D2), from 0 to 1 without a unit: S. Da Veiga, *Global sensitivity analysis with dependence measures*, J.
-//!   Stat. Comput. Simul. 85 (2015). It is biased upwards by about m / tr of the two: judge by p.
+//! - (D2), from 0 to 1 without a unit: S. Da Veiga, *Global sensitivity analysis with dependence measures*,
+//!   J. Stat. Comput. Simul. 85 (2015). It is biased upwards by about m / tr of the two: judge by p.
 //! - (D3) are the exact moments of the statistic if the outputs are dealt to the rows at random: F.
 //!   Kazi-Aoual, S. Hitier, R. Sabatier, J.-D. Lebreton, *Refined approximations to permutation tests for
 //!   multivariate inference*, Comput. Stat. Data Anal. 20 (1995). With

@@ -9,8 +9,8 @@
 //!
 //! F. Pianosi, T. Wagener, *Distribution-based sensitivity analysis from a generic input-output sample*,
 //! Environ. Model. Softw. 108 (2018). It lies between 0 and 1 and has no unit. It is not 0 without an effect:
-//! a part of few rows has a distribution function of its own. The level that 95 of 100 inputs without an effect
-//! stay below is therefore estimated by random parts of the same sizes.
+//! a part of few rows has a distribution function of its own. The level that 95 of 100 inputs without an
+//! effect stay below is therefore estimated by random parts of the same sizes.
 
 use rand::seq::SliceRandom;
 use rayon::prelude::*;

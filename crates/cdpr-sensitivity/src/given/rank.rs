@@ -18,7 +18,8 @@
 //!   neighbours share an output, and from two places apart on only the part is left that x itself causes. The
 //!   bootstrap fails for statistics of ranks: Z. Lin, F. Han, *On the failure of the bootstrap for
 //!   Chatterjee's rank correlation*, Biometrika 111 (2024). (K5) allows for few rows; (1 - S)² / n is the
-//!   variance without an effect. `cargo xtask statistics given` counts how often the intervals hold the index.
+//!   variance without an effect. `cargo xtask statistics given` counts how often the intervals hold the
+//!   index.
 //!
 //! The inputs must be independent of each other: what a correlated input causes is counted for both. Rows of
 //! equal values of an input are put into random order. No unit.

@@ -1,7 +1,7 @@
 //! Bounds of Sobol' indices on both sides, from outputs and their derivatives.
 //!
-//! With `e_n` the eigenfunctions of Poincaré's inequality for the law of input i, their eigenvalues `λ_n`, and
-//! ψ the orthonormal polynomials of an input whose eigenfunctions have no closed form,
+//! With `e_n` the eigenfunctions of Poincaré's inequality for the law of input i, their eigenvalues `λ_n`,
+//! and ψ the orthonormal polynomials of an input whose eigenfunctions have no closed form,
 //!
 //! ```text
 //! uniform:  e_n = √2 cos(n π u),   λ_n = (n π / (max - min))²,   u = (x - min) / (max - min)      (J1)
@@ -14,14 +14,14 @@
 //! ```
 //!
 //! - (J2), (J3): O. Roustant, F. Gamboa, B. Iooss, *Parseval inequalities and lower bounds for variance-based
-//!   sensitivity indices*, Electron. J. Stat. 14 (2020). Each c² is a share of the variance that input i causes,
-//!   and different ones do not overlap.
+//!   sensitivity indices*, Electron. J. Stat. 14 (2020). Each c² is a share of the variance that input i
+//!   causes, and different ones do not overlap.
 //! - (J4): the part of f that depends on `x_i` is a sum over the `e_n`, the derivative has the same sum with
 //!   weights `λ_n`. What (J3) knows to be at n > 1 has used more of ν than its share. For one input without
 //!   any known part this is the bound of `dgsm`. (J5): the closed index of all other inputs is at least the
 //!   sum of their first-order indices.
-//! - Derivatives of models that are nearly linear vary little. Their mean is therefore separated, E (b e_n') = b
-//!   E e_n' being known, and in the variance likewise the square of the linear part.
+//! - Derivatives of models that are nearly linear vary little. Their mean is therefore separated, E (b e_n')
+//!   = b E e_n' being known, and in the variance likewise the square of the linear part.
 //! - A square of an estimate is too large by its variance, which is subtracted. Intervals are those of a
 //!   jackknife over 20 groups of rows (B. Efron, C. Stein, *The jackknife estimate of variance*, 1981) for
 //!   independent rows; those of a scrambled sequence scatter less.
@@ -64,7 +64,8 @@ const POLYNOMIALS: usize = 2;
 /// Groups of rows of the jackknife.
 const GROUPS: usize = 20;
 
-/// Estimates the bounds from the output and gradient at each row of a design, `None` for a failed observation.
+/// Estimates the bounds from the output and gradient at each row of a design, `None` for a failed
+/// observation.
 ///
 /// The intervals have the confidence `level` in (0, 1). The seed deals the rows to the groups of the
 /// jackknife.

@@ -49,8 +49,8 @@ const NAMED: usize = 10;
 /// this output.
 ///
 /// # Errors
-/// [`StudyError::Invalid`] for a name that no column of numbers has, an input that is an output, no input or no
-/// output; [`StudyError::Statistics`] with the column for outputs that are constant or too few.
+/// [`StudyError::Invalid`] for a name that no column of numbers has, an input that is an output, no input or
+/// no output; [`StudyError::Statistics`] with the column for outputs that are constant or too few.
 pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<TableAnalysis, StudyError> {
     let limited: Vec<String> = request.limits.iter().map(|(name, _)| name.clone()).collect();
     let mut outputs = table.named("output", &request.outputs)?;

@@ -11,13 +11,13 @@ use std::path::{Path, PathBuf};
 /// Ending of the tables of a folder that hold measures instead of observations.
 const MEASURES: &str = "_sensitivity";
 
-/// Reads a table: CSV, Parquet, or a folder of results with the name of one of its tables (the only one if left
-/// out).
+/// Reads a table: CSV, Parquet, or a folder of results with the name of one of its tables (the only one if
+/// left out).
 ///
 /// # Errors
-/// [`StudyError::Read`], [`StudyError::NotRegular`], [`StudyError::TooLarge`]; [`StudyError::FolderBusy`] where
-/// a process writes into the folder; [`StudyError::Invalid`] for lines of different lengths, equal names, a
-/// folder without such a table, and for Parquet without its feature.
+/// [`StudyError::Read`], [`StudyError::NotRegular`], [`StudyError::TooLarge`]; [`StudyError::FolderBusy`]
+/// where a process writes into the folder; [`StudyError::Invalid`] for lines of different lengths, equal
+/// names, a folder without such a table, and for Parquet without its feature.
 pub fn open_table(path: &Path, name: Option<&str>) -> Result<GivenTable, StudyError> {
     if path.is_dir() {
         let _lock = hold_still(path)?;
