@@ -155,8 +155,13 @@ impl Case {
         for (path, value) in [(folder.join(&robot_file), &robot), (path.clone(), &study)] {
             fs::write(&path, format!("{value:#}\n")).map_err(in_file(path.display()))?;
         }
-        let mut command = cdpr_command(&["study", "throughput", &path.display().to_string()]);
-        command.args(["--sampling", "all", "--threads", "1"]);
+        (0..self.poses.len()).map(|pose| self.line(&path, pose)).collect()
+    }
+
+    /// Observes the study at one pose.
+    fn line(&self, study: &Path, pose: usize) -> Result<Line, String> {
+        let mut command = cdpr_command(&["study", "throughput", &study.display().to_string()]);
+        command.args(["--sampling", &format!("all/{pose:04}"), "--threads", "1"]);
         command.args(["--observations", &self.observations.to_string()]);
         let output = command.stderr(Stdio::inherit()).output();
         let output = output.map_err(|error| format!("cannot start cargo: {error}"))?;
@@ -164,7 +169,7 @@ impl Case {
             return Err(format!("{}: `cdpr study throughput` has failed ({})", self.name, output.status));
         }
         let text = String::from_utf8_lossy(&output.stdout);
-        text.lines().map(|line| serde_json::from_str(line).map_err(in_file(line))).collect()
+        serde_json::from_str(&text).map_err(in_file(text.trim()))
     }
 }
 

@@ -51,7 +51,7 @@ or, built with the feature `mpi`: mpirun -n 4 cdpr study run ....")]
     },
     /// Measure how fast one sampling of a study runs.
     ///
-    /// Nothing is written; time, memory and results are printed as JSON, a line for each pose of the sampling.
+    /// Nothing is written; time, memory and results are printed as JSON.
     #[command(after_help = "Example: cdpr study throughput data/studies/caroca.json --sampling mechanical \
                       --observations 1000000")]
     Throughput {

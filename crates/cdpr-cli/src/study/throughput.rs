@@ -1,9 +1,9 @@
-//! `cdpr study throughput`: how fast a sampling runs, in one line of JSON for each of its poses.
+//! `cdpr study throughput`: how fast a sampling runs, in one line of JSON.
 
 use crate::arguments::{Preference, Threads};
 use crate::error::ProgramError;
 use crate::output::progress;
-use cdpr_study::{Session, Study, analyse, observe};
+use cdpr_study::{Session, analyse, observe};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -21,17 +21,7 @@ pub(crate) fn run(
     // The intervals of replicates and the measures of sensitivity are observations of their own.
     study.file.replicates = 0;
     study.file.sensitivity = None;
-    let at_its_poses = format!("{sampling}/");
-    let names: Vec<String> = study.sampling_names().filter(|name| name.starts_with(&at_its_poses)).collect();
-    if names.is_empty() {
-        return measure(&study, sampling, observations);
-    }
-    names.iter().try_for_each(|name| measure(&study, name, observations))
-}
-
-/// Observes the sampling of that name, at one pose.
-fn measure(study: &Study, name: &str, observations: usize) -> Result<(), ProgramError> {
-    let sampling = study.sampling(name)?;
+    let sampling = study.sampling(sampling)?;
     let clock = Instant::now();
     let bar = progress(observations, "observations");
     let tick = |done: usize| bar.inc(done as u64);
@@ -45,7 +35,7 @@ fn measure(study: &Study, name: &str, observations: usize) -> Result<(), Program
     let each = |seconds: f64| 1e6 * seconds * threads as f64 / observations as f64;
     let values = summary.values.map(|values| json!({ "mean": values.mean, "std": values.std }));
     let line = json!({
-        "sampling": name,
+        "sampling": sampling.name,
         "observations": observations,
         "failed": summary.failed.values().sum::<usize>(),
         "scalar": summary.scalar,
