@@ -4,7 +4,8 @@
 //! tetrahedra in a box. Where a simplex has positions of both kinds, the boundary crosses its edges, and each
 //! crossing is found by bisection (marching simplices: Allgower, Gnutzmann, *Simplicial pivoting for mesh
 //! generation of implicitly defined surfaces*, Computer Aided Geometric Design 8, 1991). Then every edge of
-//! the boundary is divided, and its middle moved at right angles to where the region ends. A denser grid is
+//! the boundary is divided, and its middle moved at right angles to where the region ends, which is near as a
+//! rule and looked for nearby first. A denser grid is
 //! not needed for that; what is smaller than a cell of the grid, a hole or an island, is not seen. The region
 //! is taken to end where the grid does.
 //!
@@ -53,6 +54,22 @@ impl Boundary {
         }
         file
     }
+
+    /// The triangles of a binary STL file [m], as [`Boundary::stl`] writes it; `None` for another text.
+    pub(crate) fn triangles_of(stl: &[u8]) -> Option<Vec<[Vector3<f64>; 3]>> {
+        let (head, rest) = stl.split_at_checked(84)?;
+        let count = u32::from_le_bytes(head[80..].try_into().ok()?) as usize;
+        let of_face = |face: &[u8]| {
+            let numbers = face[12..48].chunks_exact(4).map(|bytes| bytes.try_into().map(f32::from_le_bytes));
+            let numbers: Vec<f64> =
+                numbers.map(|number| number.map(f64::from)).collect::<Result<_, _>>().ok()?;
+            numbers
+                .iter()
+                .all(|number| number.is_finite())
+                .then(|| [0, 3, 6].map(|k| Vector3::new(numbers[k], numbers[k + 1], numbers[k + 2])))
+        };
+        if rest.len() == 50 * count { rest.chunks_exact(50).map(of_face).collect() } else { None }
+    }
 }
 
 /// Bisections of a crossing.
@@ -60,6 +77,9 @@ const BISECTIONS: i32 = 12;
 
 /// How far the middle of an edge is moved at most, over its length: as far as a right-angled corner goes.
 const REACH: f64 = 0.6;
+
+/// Shares of that way within which the end of the region is looked for, one after the other.
+const NEARER: [f64; 4] = [1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0];
 
 /// How often edges are divided, in a plane and in a box.
 const DIVISIONS: [usize; 2] = [3, 1];
@@ -85,8 +105,11 @@ pub(crate) fn boundary(
     }
     let asked = AtomicUsize::new(0);
     let ends = coordinates.each_ref().map(|axis| [axis[0], axis[axis.len() - 1]]);
+    let spacing = axes.iter().map(|k| (ends[*k][1] - ends[*k][0]) / (coordinates[*k].len() - 1) as f64);
+    let accuracy = spacing.fold(0.0, f64::max) * 0.5_f64.powi(BISECTIONS);
     let region = Region {
         coordinates,
+        accuracy,
         axes: &axes,
         inside: &|position| {
             let within = (0..3).all(|k| ends[k][0] <= position[k] && position[k] <= ends[k][1]);
@@ -107,11 +130,9 @@ pub(crate) fn boundary(
         return Err(StudyError::Stopped);
     }
     let [.., before, measure] = measures[..] else { return Err(StudyError::Stopped) };
-    let spacing = axes.iter().map(|k| (ends[*k][1] - ends[*k][0]) / (coordinates[*k].len() - 1) as f64);
-    let open = spacing.fold(0.0, f64::max) * 0.5_f64.powi(BISECTIONS + 1);
     Ok(Boundary {
         measure,
-        error: (measure - before).abs() + open * mesh.size(),
+        error: (measure - before).abs() + 0.5 * accuracy * mesh.size(),
         polygons: if axes.len() == 2 { mesh.polygons() } else { Vec::new() },
         triangles: if axes.len() == 3 { mesh.triangles() } else { Vec::new() },
         evaluations: asked.into_inner(),
@@ -120,6 +141,8 @@ pub(crate) fn boundary(
 
 struct Region<'a> {
     coordinates: &'a [Vec<f64>; 3],
+    /// Length at which a bisection ends [m].
+    accuracy: f64,
     /// Axes with more than one point.
     axes: &'a [usize],
     inside: &'a (dyn Fn(&Vector3<f64>) -> bool + Sync),
@@ -199,20 +222,20 @@ impl Region<'_> {
             if self.is_beyond(o) && is_inside(&self.clamped(o)) {
                 return to;
             }
-            from.lerp(&to, self.last(|share| from.lerp(&to, share)))
+            self.last(from, to)
         };
         Mesh { points: edges.par_iter().map(crossing).collect(), faces }
     }
 
-    /// The share of a way, from a position inside to one outside, at which the region ends.
-    fn last(&self, way: impl Fn(f64) -> Vector3<f64>) -> f64 {
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..BISECTIONS {
+    /// Where the region ends on the way from a position inside to one outside.
+    fn last(&self, inside: Vector3<f64>, outside: Vector3<f64>) -> Vector3<f64> {
+        let (mut low, mut high) = (inside, outside);
+        while (high - low).norm() > self.accuracy {
             let middle = 0.5 * (low + high);
-            if (self.inside)(&way(middle)) { low = middle } else { high = middle }
+            if (self.inside)(&middle) { low = middle } else { high = middle }
         }
         // At the end of the grid, the first position is the last.
-        if low == 0.0 { 0.0 } else { 0.5 * (low + high) }
+        if low == inside { low } else { 0.5 * (low + high) }
     }
 
     /// The triangles or tetrahedra of a cell, whose first node is given.
@@ -284,15 +307,17 @@ impl Region<'_> {
     /// it does not end so near.
     fn moved(&self, point: Vector3<f64>, normal: &Vector3<f64>, reach: f64) -> Vector3<f64> {
         let Some(normal) = normal.try_normalize(0.0) else { return point };
-        let far = |sign: f64| point + sign * reach * normal;
-        let (from, to) = match (self.inside)(&point) {
-            true => (point, far(1.0)),
-            false => (far(-1.0), point),
-        };
-        if !(self.inside)(&from) || (self.inside)(&to) {
-            return point;
+        let is_inside = (self.inside)(&point);
+        let way = if is_inside { reach * normal } else { -reach * normal };
+        let mut near = point;
+        for share in NEARER {
+            let far = point + share * way;
+            if (self.inside)(&far) != is_inside {
+                return if is_inside { self.last(near, far) } else { self.last(far, near) };
+            }
+            near = far;
         }
-        from.lerp(&to, self.last(|share| from.lerp(&to, share)))
+        point
     }
 }
 
@@ -408,7 +433,12 @@ mod tests {
         assert!((ball.measure - exact).abs() < ball.error && ball.error < 0.05 * exact);
         let area: Vector3<f64> = ball.triangles.iter().map(|[p, q, r]| (q - p).cross(&(r - p))).sum();
         assert!(area.norm() < 1e-12, "the mesh is closed");
-        assert_eq!(ball.stl().len(), 84 + 50 * ball.triangles.len());
+        let read = Boundary::triangles_of(&ball.stl()).unwrap();
+        let ends = read.iter().flatten().zip(ball.triangles.iter().flatten());
+        assert!(read.len() == ball.triangles.len() && ends.into_iter().all(|(p, q)| (p - q).norm() < 1e-6));
+        assert!(
+            Boundary::triangles_of(&ball.stl()[1..]).is_none() && Boundary::triangles_of(b"solid").is_none()
+        );
     }
 
     #[test]

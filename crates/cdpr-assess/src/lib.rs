@@ -7,6 +7,7 @@
 //! | What can it carry at a pose, how far are the limits of tension? | [`capacity_at`] |
 //! | How near do cables come to each other and to the platform? | [`clearance_at`] |
 //! | How far may it tilt there? | [`tilt_at`] |
+//! | What happens along a path of poses, and how uncertain is it? | [`Path`] |
 //! | Which tolerances have to be tightened for a limit on deflection or position? | [`tolerance_budget`] |
 //! | How often does the direct model find the true pose from a wrong start? | [`run_robustness`] |
 //! | Which values of a robot file look wrong? | [`inspect`] |
@@ -16,6 +17,7 @@ mod capacity;
 mod clearance;
 mod error;
 mod inspection;
+mod path;
 mod robustness;
 mod tilt;
 mod tolerance;
@@ -27,6 +29,7 @@ pub use capacity::{Block, Capacity, Figure, WrenchSet, capacity_at};
 pub use clearance::{CableDistance, Clearance, PlatformDistance, clearance_at, clearance_under};
 pub use error::AssessError;
 pub use inspection::{Finding, Severity, inspect};
+pub use path::{Bands, Path, PathPose};
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, Outcome, PoseRegion, Protocol, ProtocolSummary, Published,
     Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread, StartOffset,
@@ -38,4 +41,5 @@ pub use workspace::{
     Anew, BoundarySummary, Dominant, Further, HELD, Held, TiltDirections, Way, Workspace, WorkspacePose,
     WorkspaceRow, WorkspaceSummary, compute_workspace, workspace_boundary,
 };
+pub use write::{FoundRegion, read_region};
 pub use write::{begin_robustness, begin_workspace, write_robustness, write_workspace};

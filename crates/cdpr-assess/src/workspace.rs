@@ -12,10 +12,10 @@ use crate::boundary::{Boundary, boundary};
 use crate::capacity::{Capacity, WrenchSet, capacity_at};
 use crate::clearance::{Clearance, clearance_under};
 use crate::tilt::{Tilt, tilt_at};
-use cdpr_robot::{Axis, Coordinate, Parameter, Pose, Robot, Rotation3, Vector3};
+use cdpr_robot::{Axis, Coordinate, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, Limit, Load, OutOfLimits, StaticsError, deflection_free,
-    derivatives_free, held_at, inverse, out_of_limits, tension_margin,
+    derivatives_free, held_at, inverse, is_held, out_of_limits,
 };
 use cdpr_study::{ErrorModel, Grid, StudyError};
 use rayon::prelude::*;
@@ -199,11 +199,8 @@ pub fn workspace_boundary(
     check(workspace)?;
     let Workspace { robot, rotation, grid, ref load, free, .. } = *workspace;
     // Quicker than the inverse model to say no.
-    let has_tensions = |pose: &Pose, load: &Load| match tension_margin(robot, pose, load) {
-        Ok(found) => found.value >= 0.0,
-        Err(error) => matches!(error, StaticsError::InverseNotConverged { .. }),
-    };
-    let is_held = |position: &Vector3<f64>| {
+    let has_tensions = |pose: &Pose, load: &Load| is_held(robot, pose, load).unwrap_or(false);
+    let is_inside = |position: &Vector3<f64>| {
         let pose = Pose { position: *position, rotation };
         match (way, free) {
             (Way::Anew, []) => has_tensions(&pose, load),
@@ -216,7 +213,7 @@ pub fn workspace_boundary(
             }),
         }
     };
-    boundary(&Axis::ALL.map(|axis| grid.axis(axis).coordinates()), &is_held, stop)
+    boundary(&Axis::ALL.map(|axis| grid.axis(axis).coordinates()), &is_inside, stop)
 }
 
 /// The tensions at the platform that bear the load, distributed anew [N].
@@ -256,14 +253,8 @@ fn check(workspace: &Workspace) -> Result<(), StudyError> {
         );
         return Err(StudyError::setting("free", format!("[{}]", names.join(", ")), expected));
     }
-    let parameters = Parameter::of(robot).len();
-    if let Some(model) = tolerances.filter(|model| model.parameters() != parameters) {
-        let expected = format!("one for the {parameters} parameters of {}", robot.name);
-        return Err(StudyError::setting(
-            "error model",
-            format!("for {} parameters", model.parameters()),
-            expected,
-        ));
+    if let Some(model) = tolerances {
+        model.check(robot)?;
     }
     if further.tilt.is_some() && !free.is_empty() {
         let named = free.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
@@ -319,9 +310,8 @@ impl Held {
 
 impl Dominant {
     fn of(found: &Derivatives, model: &ErrorModel) -> Option<Self> {
-        let slopes = model.gradient(&found.rms().ok()?);
-        let parts = slopes.iter().zip(&model.inputs).map(|(slope, input)| (slope * input.law.std()).powi(2));
-        let parts: Vec<f64> = parts.collect();
+        let slopes = found.rms().ok()?;
+        let parts = model.variances(&slopes);
         let variance: f64 = parts.iter().sum();
         let (input, part) = parts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
         (variance > 0.0).then(|| Self { input, share: part / variance, std: variance.sqrt() })

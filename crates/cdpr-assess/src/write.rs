@@ -3,8 +3,9 @@
 use crate::boundary::Boundary;
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::workspace::WorkspaceSummary;
-use cdpr_robot::Pose;
+use cdpr_robot::{Pose, Vector3};
 use cdpr_study::{ResultsFolder, ResultsOf, StudyError};
+use serde::Deserialize;
 use std::path::Path;
 
 const WORKSPACE: &str = "workspace.json";
@@ -77,6 +78,78 @@ fn write_boundary(folder: &ResultsFolder, boundary: &Boundary) -> Result<(), Stu
         closed.map(move |p| vec![(k + 1).to_string(), p.x.to_string(), p.y.to_string(), p.z.to_string()])
     });
     folder.write_csv(POLYGONS, header, points).map(|_| ())
+}
+
+/// The region of a workspace in which the platform is held, as a folder of results has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundRegion {
+    /// Name of the robot.
+    pub robot: String,
+    /// How the load is borne: `anew` or `kept`.
+    pub way: String,
+    /// Mass added at the platform's centre of mass [kg].
+    pub payload: f64,
+    /// Area [m²] of polygons, volume [m³] of triangles.
+    pub measure: f64,
+    /// Closed polygons [m].
+    pub polygons: Vec<Vec<Vector3<f64>>>,
+    /// Triangles [m].
+    pub triangles: Vec<[Vector3<f64>; 3]>,
+}
+
+/// Reads the boundary of a workspace from its folder.
+///
+/// # Errors
+/// [`StudyError::Read`] for a folder that is none of a workspace; [`StudyError::Setting`] for a workspace without
+/// a boundary, and for a file that is not as it was written.
+pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
+    #[derive(Deserialize)]
+    struct Summary {
+        robot: String,
+        payload: f64,
+        boundary: Option<Region>,
+    }
+    #[derive(Deserialize)]
+    struct Region {
+        way: String,
+        measure: f64,
+        unit: String,
+    }
+    let read = |name: &str| {
+        let path = folder.join(name);
+        std::fs::read(&path).map_err(|source| StudyError::Read { path, source })
+    };
+    let wrong = |name: &str, value: String, expected: &str| {
+        StudyError::setting(folder.join(name).display().to_string(), value, expected)
+    };
+    let summary: Summary = serde_json::from_slice(&read(WORKSPACE)?)
+        .map_err(|error| wrong(WORKSPACE, error.to_string(), "the summary of a workspace"))?;
+    let expected = "a workspace with its boundary: cdpr workspace --boundary";
+    let Region { way, measure, unit } =
+        summary.boundary.ok_or_else(|| wrong(WORKSPACE, "without a boundary".to_owned(), expected))?;
+    let (mut polygons, mut triangles) = (Vec::new(), Vec::new());
+    if unit == "m2" {
+        let text = read(POLYGONS)?;
+        let mut reader = csv::Reader::from_reader(&text[..]);
+        let mut last = 0;
+        for row in reader.deserialize() {
+            let (polygon, x, y, z): (usize, f64, f64, f64) =
+                row.map_err(|error| wrong(POLYGONS, error.to_string(), "rows of polygon,x,y,z"))?;
+            if polygon != last {
+                polygons.push(Vec::new());
+            }
+            last = polygon;
+            polygons
+                .last_mut()
+                .into_iter()
+                .for_each(|points: &mut Vec<_>| points.push(Vector3::new(x, y, z)));
+        }
+    } else {
+        let mesh = Boundary::triangles_of(&read(MESH)?);
+        triangles = mesh.ok_or_else(|| wrong(MESH, "of another form".to_owned(), "a binary STL file"))?;
+    }
+    let Summary { robot, payload, .. } = summary;
+    Ok(FoundRegion { robot, way, payload, measure, polygons, triangles })
 }
 
 /// Makes a folder for the robustness of the direct model, or takes one of an earlier run.

@@ -298,9 +298,7 @@ fn the_platform_is_held_at_the_tilt_reached_and_not_beyond() {
 
 #[test]
 fn the_boundary_runs_between_what_is_held_and_what_is_not() {
-    let mut robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
-    // Of cables without weight the margin is a linear program, which takes less time.
-    robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density = 0.0);
+    let robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
     let axis = |min, max, points| GridAxis { min, max, points };
     let plane =
         |points| Grid::new([axis(-8.0, 8.0, points), axis(-6.0, 6.0, points), axis(1.0, 1.0, 1)]).unwrap();

@@ -6,9 +6,9 @@ use crate::error::ProgramError;
 use cdpr_assess::PoseRegion;
 use cdpr_robot::{Coordinate, Robot, TensionReference, Wrench};
 use cdpr_statics::Load;
-use cdpr_study::{Grid, GridAxis, Study, open_robot, open_robot_in_any_unit};
+use cdpr_study::{ErrorModel, Grid, GridAxis, Study, open_robot, open_robot_in_any_unit};
 use serde::Serialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How the results are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -213,6 +213,31 @@ pub(crate) fn named(text: &str) -> Result<Named, String> {
     match named.iter().enumerate().find(again) {
         Some((_, (name, _))) => Err(format!("`{name}` is given twice: expected each name once")),
         None => Ok(Named(named)),
+    }
+}
+
+/// The error model whose effects are wanted.
+#[derive(clap::Args)]
+pub(crate) struct ErrorModelArguments {
+    /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5.
+    #[arg(long, value_parser = named)]
+    uncertainty: Option<Named>,
+    /// Study file whose error model gives the standard deviations.
+    #[arg(long, conflicts_with = "uncertainty", requires = "error_model")]
+    study: Option<PathBuf>,
+    /// Name of the study's error model.
+    #[arg(long, requires = "study")]
+    error_model: Option<String>,
+}
+
+impl ErrorModelArguments {
+    /// The error model of a robot, if one was given.
+    pub(crate) fn model(&self, robot: &Robot) -> Result<Option<ErrorModel>, ProgramError> {
+        if let (Some(path), Some(name)) = (&self.study, &self.error_model) {
+            return Ok(Some(Study::open(path)?.tolerances(name)?));
+        }
+        let deviations = self.uncertainty.as_ref().map(|named| uncertainties(robot, named)).transpose()?;
+        Ok(deviations.map(|deviations| ErrorModel::normal(robot, &deviations)))
     }
 }
 

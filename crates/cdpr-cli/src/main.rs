@@ -19,7 +19,7 @@ mod wrenches;
 use clap::{CommandFactory, Parser, Subcommand};
 use error::ProgramError;
 use output::Ending;
-use pose::at_pose::{RobotAtFreePose, RobotAtPose};
+use pose::at_pose::RobotAtFreePose;
 use std::process::ExitCode;
 
 /// Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
@@ -59,9 +59,11 @@ enum Command {
   cdpr capacity data/robots/caroca.json --pose 0,0,1.75 --payload 50 --wrench-box 50,50,50,10,10,10")]
     Capacity(pose::capacity::Settings),
     /// Print lengths, tensions, sag, deflection, stiffness and frequency along a path of poses.
-    #[command(after_help = "Example: cdpr path data/robots/caroca.json --poses data/poses/caroca.csv \
-                      --payload 50 > path.csv")]
-    Path(RobotAtPose),
+    #[command(after_help = "Examples:
+  cdpr path data/robots/caroca.json --poses data/poses/caroca.csv --payload 50 > path.csv
+  cdpr path data/robots/caroca.json --poses data/poses/caroca.csv --payload 50 \
+                      --uncertainty a=0.002,b=0.005,mass=0.5 --figure path.svg")]
+    Path(pose::path::Settings),
     /// Map where the cables hold the platform, and how far it gives there, over a plane or a box.
     #[command(after_help = "Examples:
   cdpr workspace data/robots/caroca.json --plane z=1.75 --grid 41x41 --payload 50 --out workspace

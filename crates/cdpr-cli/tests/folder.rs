@@ -184,6 +184,46 @@ fn a_users_own_files_among_tables_and_blocks_survive_every_run() {
 }
 
 #[test]
+fn a_report_shows_the_region_of_a_workspace_of_its_robot() {
+    let bench = bench();
+    bench.run("out", &[]);
+    let map = |robot: &str, place: &str, more: &[&str]| {
+        let output =
+            cdpr_in(&bench.path("."), &[&["workspace", robot, place, "--out", "map"], more].concat());
+        assert!(output.status.success(), "{}", text(output.stderr));
+    };
+    let region = || {
+        let asked = report(&bench, &["out", "--out", "report.html", "--workspace", "map"]);
+        assert_eq!(asked, (Some(0), String::new()));
+        let page = std::fs::read_to_string(bench.path("report.html")).unwrap();
+        let data = page.split_once(r#"id="data">"#).unwrap().1.split_once("</script>").unwrap().0;
+        serde_json::from_str::<serde_json::Value>(data).unwrap()["region"].clone()
+    };
+    let count = |value: &serde_json::Value| value.as_array().unwrap().len();
+    map("robot.json", "--plane=z=1.75", &["--grid", "7x7", "--boundary"]);
+    let plane = region();
+    assert!(count(&plane["lines"]) == 1 && count(&plane["lines"][0]) > 50, "{plane}");
+    let corners = plane["points"].as_array().unwrap();
+    assert!(corners.iter().all(|point| point[2] == 1.75 && point[0].as_f64().unwrap().abs() < 3.6));
+    map("robot.json", "--box=-3.4:3.4:5,-1.9:1.9:4,0.5:2.5:3", &["--boundary"]);
+    let space = region();
+    assert!(count(&space["triangles"]) > 100 && count(&space["lines"]) == 0, "{space}");
+    let last = count(&space["points"]) as u64;
+    let triangles =
+        space["triangles"].as_array().unwrap().iter().flat_map(|corners| corners.as_array().unwrap());
+    assert!(triangles.clone().all(|corner| corner.as_u64().unwrap() < last));
+
+    map("robot.json", "--plane=z=1.75", &["--grid", "3x3"]);
+    let asked = |folder: &str| report(&bench, &["out", "--out", "report.html", "--workspace", folder]);
+    let (code, message) = asked("map");
+    assert!(code == Some(1) && message.contains("a workspace with its boundary"), "{message}");
+    map("cogiro", "--plane=z=1.5", &["--grid", "5x5", "--boundary"]);
+    let (code, message) = asked("map");
+    assert!(code == Some(1) && message.contains("the robot of the workspace is CoGiRo"), "{message}");
+    assert_eq!(asked("out").0, Some(1));
+}
+
+#[test]
 fn a_report_is_written_over_a_report_and_nothing_else() {
     let bench = bench();
     bench.run("out", &[]);

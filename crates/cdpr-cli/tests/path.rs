@@ -92,6 +92,53 @@ fn the_frequency_of_a_path_without_load_is_that_of_the_modes() {
 }
 
 #[test]
+fn the_standard_deviations_of_a_path_are_those_of_the_derivatives() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("path.csv");
+    for (robot, from, way) in PATHS {
+        let (poses, file) = poses(from, way);
+        std::fs::write(&path, file).unwrap();
+        let robot = data_path(robot);
+        let figure = folder.path().join("path.svg");
+        let errors = ["--payload", "5", "--uncertainty", "a=0.001,b=0.002,mass=0.5"];
+        let files = ["--poses", path.to_str().unwrap(), "--figure", figure.to_str().unwrap()];
+        let arguments = [&["path", &robot], &errors[..], &files[..]].concat();
+        let rows = answered(cdpr(&arguments));
+        let rows: Vec<std::collections::HashMap<String, String>> =
+            csv::Reader::from_reader(rows.as_bytes()).deserialize().map(Result::unwrap).collect();
+        assert_eq!(rows.len(), poses.len());
+        for (row, pose) in rows.iter().zip(&poses).step_by(3) {
+            let ask = ["derivatives", &robot, "--pose", pose, "--payload", "5", "--format", "json"];
+            let found: Value = serde_json::from_str(&answered(cdpr(&ask))).unwrap();
+            let names = found["parameters"].as_array().unwrap();
+            let std = |slope: &dyn Fn(usize) -> f64| {
+                let deviation = |name: &str| match name.split('.').next().unwrap() {
+                    "mass" => 0.5,
+                    name if name.starts_with('a') => 0.001,
+                    name if name.starts_with('b') => 0.002,
+                    _ => 0.0,
+                };
+                let part = |k: usize| (slope(k) * deviation(names[k].as_str().unwrap())).powi(2);
+                (0..names.len()).map(part).sum::<f64>().sqrt()
+            };
+            let same = |name: &str, expected: f64| {
+                let on_path: f64 = row[name].parse().unwrap();
+                assert!((on_path / expected - 1.0).abs() < 1e-5, "{robot} {name}: {on_path} {expected}");
+            };
+            same("std_rms_mm", std(&|k| found["rms_mm"][k].as_f64().unwrap()));
+            same("std_dz_mm", std(&|k| found["deflection_mm"][k][2].as_f64().unwrap()));
+            same("std_length_2_m", std(&|k| found["unstrained_lengths"][k][1].as_f64().unwrap()));
+        }
+        // Drawn again over itself, but over nothing else.
+        assert!(std::fs::read_to_string(&figure).unwrap().contains("along a path of 7 poses"));
+        answered(cdpr(&arguments));
+        std::fs::write(&figure, "<svg>mine</svg>").unwrap();
+        assert_eq!(cdpr(&arguments).status.code(), Some(1));
+        assert_eq!(std::fs::read_to_string(&figure).unwrap(), "<svg>mine</svg>");
+    }
+}
+
+#[test]
 fn a_pose_that_is_not_held_is_a_row_with_its_reason() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("path.csv");

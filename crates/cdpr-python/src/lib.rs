@@ -26,6 +26,8 @@ mod _core {
     #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]
+    use crate::robot::capacity::Capacity;
+    #[pymodule_export]
     use crate::robot::deflection::Deflection;
     #[pymodule_export]
     use crate::robot::derivatives::Derivatives;

@@ -2,6 +2,7 @@
 //!
 //! Each model is a method in a file of the folder.
 
+pub(crate) mod capacity;
 pub(crate) mod deflection;
 pub(crate) mod derivatives;
 pub(crate) mod direct;

@@ -126,7 +126,7 @@ pub(crate) fn carry_out(
             stop: &|| stop.load(Ordering::Relaxed),
         };
         let Run { results, figures } = cdpr_study::run(&study, &blocks, format, &draw, watcher)?;
-        let page = report_with(&results, &figures).map_err(|error| Raised::Input(error.to_string()))?;
+        let page = report_with(&results, &figures, None).map_err(|error| Raised::Input(error.to_string()))?;
         blocks.results()?.write(REPORT_NAME, page.as_bytes())?;
         Ok(())
     })??;

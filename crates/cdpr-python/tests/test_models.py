@@ -109,6 +109,25 @@ def test_the_stiffness_is_that_of_the_command_line(caroca, caroca_file):
     assert found.characteristic_length == printed["characteristic_length"]
 
 
+def test_the_capacity_is_that_of_the_command_line(caroca, caroca_file):
+    flags = ["--payload=50", "--wrench=100,0,0,0,0,0", "--wrench=0,0,-200,0,0,0", "--tilt=4"]
+    printed = answer("capacity", caroca_file, f"--pose={words(TURNED)}", *flags)
+    wrenches = [[100, 0, 0, 0, 0, 0], [0, 0, -200, 0, 0, 0]]
+    found = caroca.capacity(TURNED, payload=50, wrenches=wrenches, tilt=4)
+    for kind in ("payload", "margin"):
+        for way in ("anew", "kept"):
+            assert getattr(found, f"{kind}_{way}") == printed[kind][way]["value"]
+    assert found.payload_kept_slack == printed["payload_kept_slack"]["value"]
+    assert found.nearest_cables == printed["nearest_cables"]["distance"]
+    assert found.nearest_to_platform == printed["nearest_to_platform"]["distance"]
+    reached = numpy.degrees(found.tilt) - [towards["angle_deg"] for towards in printed["tilt"]]
+    assert numpy.abs(reached).max() <= 0.01 + 1e-9
+    block = printed["margin"]["anew"]["blocking"][0]
+    assert f"cable {block['cable']} at its {block['limit']}" in found.blocked_by.split(" | ")[3]
+    with pytest.raises(cdpr.InputError, match="wrenches has the shape"):
+        caroca.capacity(TURNED, wrenches=[1, 2, 3])
+
+
 def test_the_derivatives_are_those_of_the_command_line(caroca, caroca_file):
     printed = answer("derivatives", caroca_file, f"--pose={words(TURNED)}", "--payload=50")
     found = caroca.derivatives(TURNED, payload=50)
@@ -354,6 +373,7 @@ def answers(robot):
         yield robot.deflection(poses, payload=50)
         yield robot.stiffness(poses, payload=50)
         yield robot.derivatives(poses, payload=50)
+        yield robot.capacity(poses, payload=50, tilt=2)
     yield robot.direct([LENGTHS, LENGTHS], force=[20, 0, -30])
     yield robot.observe(POSE, numpy.zeros((2, 62)), payload=50)
     yield robot.workspace(x=(-9, 0, 2), y=0, z=1.75, payload=50, uncertainty={"a": 0.002})

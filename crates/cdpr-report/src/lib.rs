@@ -16,6 +16,7 @@
 //! | | the dominant tolerance over a plane | [`tolerance_map`] |
 //! | | all maps of a plane or of the layers of a box | [`workspace_maps`] |
 //! | | results of a sampling at many poses over the workspace | [`pose_maps`] |
+//! | | tensions, deflection, stiffness along a path, with bands of uncertainty | [`path_view`] |
 //! | | answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
 //! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
@@ -49,6 +50,7 @@ pub use error::ReportError;
 pub use figure::cycle::{Cycle, CycleBranch, cycle};
 pub use figure::heat_map::{MapQuantity, heat_map, tolerance_map, workspace_maps};
 pub use figure::histogram::histogram;
+pub use figure::path::{PATH_MARK, path_view};
 pub use figure::points::{NamedSampling, Points, point_effects};
 pub use figure::pose_map::{NamedMap, pose_maps};
 pub use figure::robot_view::robot_view;

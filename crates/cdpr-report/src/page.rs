@@ -26,6 +26,7 @@ use crate::page::elements::{STYLE, Section, inert};
 use crate::scene::Scene;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use cdpr_assess::FoundRegion;
 use cdpr_robot::{shown, shown_lines};
 use cdpr_study::{Figure, Results};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -40,6 +41,7 @@ const PLOTLY: &str = include_str!("../vendor/plotly/plotly-gl3d.min.js");
 struct Data<'a> {
     robot: Option<&'a Scene>,
     surfaces: Vec<results::SpaceSurface>,
+    region: Option<robot::RegionInSpace>,
 }
 
 /// Writes the report of a study as the text of an HTML file.
@@ -49,20 +51,34 @@ struct Data<'a> {
 /// # Errors
 /// [`ReportError::Drawing`] if the data of the page cannot be written as JSON.
 pub fn report(results: &Results) -> Result<String, ReportError> {
-    report_with(results, &figures(results))
+    report_with(results, &figures(results), None)
 }
 
-/// Writes the report of a study with figures that [`crate::draw()`] has drawn already.
+/// Writes the report of a study with figures that [`crate::draw()`] has drawn already, and with the region of
+/// a workspace of its robot.
 ///
 /// # Errors
-/// As [`report`].
-pub fn report_with(results: &Results, figures: &[Figure]) -> Result<String, ReportError> {
+/// As [`report`]; [`ReportError::Invalid`] for the region of another robot.
+pub fn report_with(
+    results: &Results,
+    figures: &[Figure],
+    region: Option<&FoundRegion>,
+) -> Result<String, ReportError> {
+    let name = &results.study.robot.name;
+    if let Some(region) = region.filter(|region| region.robot != *name) {
+        let expected = "the robot of the study";
+        return Err(ReportError::invalid("the robot of the workspace", &region.robot, expected));
+    }
     let scene = Scene::new(&results.study);
-    let data = Data { robot: scene.as_ref().ok(), surfaces: results::in_space(results) };
+    let data = Data {
+        robot: scene.as_ref().ok(),
+        surfaces: results::in_space(results),
+        region: region.map(robot::RegionInSpace::new),
+    };
     let json =
         serde_json::to_string(&data).map_err(|error| ReportError::Drawing { reason: error.to_string() })?;
     let sections: Vec<Section> = [
-        Some(robot::section(&results.study.robot, &scene)),
+        Some(robot::section(&results.study.robot, &scene, region)),
         Some(setup::section(results)),
         results::distributions(results, figures),
         results::surfaces(results, figures),

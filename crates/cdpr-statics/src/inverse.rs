@@ -42,7 +42,7 @@ use branch::Answered;
 use cdpr_cable::Catenary;
 use cdpr_robot::{Pose, Robot, Vector6};
 use cdpr_tension::Bound;
-use feasible::search;
+use feasible::{holds, search};
 pub use free::{FreeSolution, FreeSolutions, held_at, inverse_free};
 pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub use limits::limits_at;
@@ -91,6 +91,18 @@ pub fn inverse(
 ) -> Result<InverseSolution, StaticsError> {
     let question = Question::of_whole_pose(robot, pose, load, reference)?;
     InverseSolution::new(&question, search(&question)?)
+}
+
+/// Whether tensions within the limits hold the platform at `pose` under its weight and `load`, as far as the
+/// search from the tensions of straight cables tells.
+///
+/// A yes is certain. A no is given much sooner than by [`inverse`], which tries other starts before it calls a
+/// pose infeasible: cables that sag may hold a pose with tensions far from those of straight ones.
+///
+/// # Errors
+/// Those of [`inverse`] but [`StaticsError::NoTensions`] and [`StaticsError::InverseNotConverged`].
+pub fn is_held(robot: &Robot, pose: &Pose, load: &Load) -> Result<bool, StaticsError> {
+    holds(&Question::of_whole_pose(robot, pose, load, None)?)
 }
 
 /// The inverse model along a path: each pose is answered on the branch of the one before.

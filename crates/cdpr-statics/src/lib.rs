@@ -50,6 +50,7 @@ mod error;
 mod inverse;
 mod lanes;
 mod loading;
+mod out_of_limits;
 mod problem;
 mod state;
 
@@ -66,7 +67,8 @@ pub use equations::{CableShape, Inputs, Linearization};
 pub use error::{Blocked, StaticsError};
 pub use inverse::{
     Blocking, FreeSolution, FreeSolutions, Greatest, HeldPose, InversePath, InverseSolution, PathSolution,
-    greatest_payload, held_at, inverse, inverse_free, lengths_for_tensions, limits_at, tension_margin,
+    greatest_payload, held_at, inverse, inverse_free, is_held, lengths_for_tensions, limits_at,
+    tension_margin,
 };
 pub use lanes::{Observation, Observer, ScalarReason, Tracker};
 pub use loading::{
@@ -74,8 +76,9 @@ pub use loading::{
     Unloading, deflection, deflection_free, deflection_from, deflections, follow, load_cycle, modes_at,
     stiffness_at, wound_lengths,
 };
+pub use out_of_limits::{Limit, OutOfLimits, out_of_limits};
 pub use problem::{DirectProblem, check_lengths};
-pub use state::{Equilibrium, Limit, Load, OutOfLimits, Residual, out_of_limits};
+pub use state::{Equilibrium, Load, Residual};
 
 pub use cdpr_robot::{Matrix6xX, Vector2, Vector3, Vector6};
 pub use cdpr_tension::Bound;

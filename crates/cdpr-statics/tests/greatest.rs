@@ -1,7 +1,10 @@
 //! The greatest payload and the margin of tensions are where the inverse model ends.
 
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
-use cdpr_statics::{Bound, Load, StaticsError, greatest_payload, inverse, tension_margin};
+use cdpr_statics::{Bound, Load, StaticsError, greatest_payload, inverse, is_held, tension_margin};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::time::Instant;
 
 fn robot(name: &str) -> Robot {
     let path = format!("{}/../../data/robots/{name}.json", env!("CARGO_MANIFEST_DIR"));
@@ -84,4 +87,45 @@ fn a_pose_that_no_pull_can_hold_is_refused() {
     let robot = robot("cogiro");
     let error = greatest_payload(&robot, &Pose::at(12.0, 0.0, 2.0), &Wrench::zero()).unwrap_err();
     assert!(matches!(error, StaticsError::NoTensions { .. }), "{error}");
+}
+
+/// `CDPR_CASES=2000 cargo test -p cdpr-statics --test integration whether_a_pose -- --nocapture`
+#[test]
+fn whether_a_pose_is_held_is_what_the_inverse_model_finds() {
+    let cases = std::env::var("CDPR_CASES").map_or(60, |count| count.parse().unwrap());
+    let robots = ["caroca", "cogiro", "ipanema-3", "fast", "segesta", "nist-robocrane", "hrpcables"];
+    for name in robots {
+        let robot = robot(name);
+        let mut rng = ChaCha8Rng::seed_from_u64(7);
+        let exits: Vec<_> = robot.cables.iter().map(|cable| cable.exit_point).collect();
+        let [low, high] = [f64::min, f64::max]
+            .map(|ext| exits.iter().fold(exits[0], |corner, exit| corner.zip_map(exit, ext)));
+        let wide = (high - low).max();
+        let (mut counts, mut times) = ([[0; 2]; 2], [0.0; 2]);
+        for _ in 0..cases {
+            let mut position = low.zip_map(&high, |low, high| rng.random_range(low..=high));
+            position.z = rng.random_range(high.z - 0.5 * wide..=high.z);
+            let tilt = Vector3::from_fn(|_, _| rng.random_range(-0.15..0.15));
+            let pose = Pose::at(position.x, position.y, position.z).moved(Vector3::zeros(), tilt);
+            let load = Load::payload(0.1 * robot.platform.mass);
+            let clock = Instant::now();
+            let quick = is_held(&robot, &pose, &load).unwrap_or(false);
+            times[0] += clock.elapsed().as_secs_f64();
+            let clock = Instant::now();
+            let held = match inverse(&robot, &pose, &load, None) {
+                Ok(_) | Err(StaticsError::InverseNotConverged { .. }) => true,
+                Err(_) => false,
+            };
+            times[1] += clock.elapsed().as_secs_f64();
+            counts[usize::from(held)][usize::from(quick)] += 1;
+        }
+        let [[none, wrong], [missed, found]] = counts;
+        let [quick, whole] = times.map(|time: f64| 1e6 * time / f64::from(cases));
+        println!(
+            "{name}: {found} held, {none} not; {missed} held ones not found, {wrong} wrong; \
+             {quick:.0} us a pose, the inverse model {whole:.0} us"
+        );
+        assert_eq!(wrong, 0, "{name}");
+        assert!(missed <= (found + missed) / 50, "{name}");
+    }
 }

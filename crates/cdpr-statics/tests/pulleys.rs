@@ -56,14 +56,13 @@ fn equilibria_over_pulleys_match_arithmetic_of_20_digits() {
         let solution = direct(&robot, &lengths, &load, Start::Pose(&start)).unwrap();
         let motion = expected.motion_to(&solution.equilibrium.pose);
         let (position, angle) = (motion.fixed_rows::<3>(0).norm(), motion.fixed_rows::<3>(3).norm());
-        let tensions: Vec<f64> = case["cables"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|cable| number(&cable["tension_at_anchor"]))
-            .collect();
-        let errors = solution.equilibrium.tensions();
-        let worst = errors.iter().zip(&tensions).map(|(t, e)| (t / e - 1.0).abs()).fold(0.0, f64::max);
+        let of_cables = |name: &str| -> Vec<f64> {
+            case["cables"].as_array().unwrap().iter().map(|cable| number(&cable[name])).collect()
+        };
+        let [tensions, exits] = ["tension_at_anchor", "tension_at_pulley"].map(of_cables);
+        let found = [solution.equilibrium.tensions(), solution.equilibrium.exit_tensions(&robot, &lengths)];
+        let both = found.iter().flatten().zip(tensions.iter().chain(&exits));
+        let worst = both.map(|(t, e)| (t / e - 1.0).abs()).fold(0.0, f64::max);
         let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
         let exact = Matrix6::from_fn(|i, j| number(&case["stiffness"][i][j]));
         let stiffness = *problem.linearize(&solution.equilibrium).unwrap().stiffness();

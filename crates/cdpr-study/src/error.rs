@@ -64,7 +64,14 @@ pub enum StudyError {
         near: String,
     },
     /// A file could not be written, or a folder could not be made.
-    #[error("cannot write {path}: {source}: expected a place where files can be made")]
+    #[error(
+        "cannot write {path}: {source}: expected {}",
+        if source.kind() == std::io::ErrorKind::AlreadyExists {
+            "a name that no file has yet"
+        } else {
+            "a place where files can be made"
+        }
+    )]
     Write {
         /// The file or folder.
         path: PathBuf,

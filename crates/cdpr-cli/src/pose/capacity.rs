@@ -7,11 +7,11 @@ use crate::output::{Ending, table};
 use crate::pose::at_pose::{Failure, RobotAtPose, Row};
 use crate::wrenches::WrenchArguments;
 use cdpr_assess::{
-    Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, Tilt, TiltTowards, WrenchSet,
-    capacity_at, clearance_under, tilt_at,
+    Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
+    clearance_under, tilt_at,
 };
-use cdpr_robot::Robot;
-use cdpr_statics::{Limit, StaticsError};
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{Limit, Load, StaticsError, tension_margin};
 use serde::Serialize;
 
 /// The robot, its poses, and the wrenches.
@@ -43,7 +43,9 @@ pub(crate) fn run(Settings { at, free, set, tilt }: &Settings) -> Result<Ending,
         let clearance = clearance_under(robot, pose, &load, &free.free).ok();
         let tilted = |count: &u16| tilt_at(robot, pose, &load, (*count).into(), TILT_ACCURACY.to_radians());
         let tilt = tilt.as_ref().map(tilted).transpose()?;
-        Ok(Answer::new(found, clearance, tilt.as_ref(), &set))
+        let ends = tilt.iter().flat_map(|tilt| &tilt.directions);
+        let tilt = ends.map(|towards| Towards::new(robot, pose, &load, towards)).collect();
+        Ok(Answer::new(found, clearance, tilt, &set))
     };
     at.answer(solve, Answer::print)
 }
@@ -73,20 +75,22 @@ struct Towards {
     /// The direction in which the upward axis leans, from x to y.
     azimuth_deg: f64,
     angle_deg: f64,
-    /// The limit that ends it; absent where none does below a right angle.
+    /// The limit next to the tensions there; absent where nothing ends it below a right angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     blocking: Option<Blocking>,
 }
 
 impl Towards {
-    fn new(TiltTowards { azimuth, angle, blocking }: &TiltTowards) -> Self {
+    fn new(robot: &Robot, pose: &Pose, load: &Load, towards: &TiltTowards) -> Self {
+        let margin = (!towards.is_free()).then(|| tension_margin(robot, &towards.of(robot, pose), load).ok());
+        let blocking = margin.flatten().and_then(|margin| margin.blocking.first().copied());
         let blocking = blocking.map(|found| Blocking {
             cable: found.index + 1,
             limit: bound_name(found.bound),
             value: found.limit,
             gain: None,
         });
-        Self { azimuth_deg: azimuth.to_degrees(), angle_deg: angle.to_degrees(), blocking }
+        Self { azimuth_deg: towards.azimuth.to_degrees(), angle_deg: towards.angle.to_degrees(), blocking }
     }
 }
 
@@ -235,7 +239,7 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(found: Capacity, clearance: Option<Clearance>, tilt: Option<&Tilt>, set: &WrenchSet) -> Self {
+    fn new(found: Capacity, clearance: Option<Clearance>, tilt: Vec<Towards>, set: &WrenchSet) -> Self {
         let shown = |figure| Shown::new(figure, set);
         let (cables, platform) = clearance.map_or((None, None), |found| (found.cables, found.platform));
         Self {
@@ -246,7 +250,7 @@ impl Answer {
                 .map(|CableDistance { distance, pair }| NearCables { distance, cables: pair.map(|i| i + 1) }),
             nearest_to_platform: platform
                 .map(|PlatformDistance { distance, cable }| NearPlatform { distance, cable: cable + 1 }),
-            tilt: tilt.map(|tilt| tilt.directions.iter().map(Towards::new).collect()).unwrap_or_default(),
+            tilt,
         }
     }
 

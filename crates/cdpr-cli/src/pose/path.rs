@@ -1,17 +1,51 @@
 //! `cdpr path`: what a robot does along a path of poses.
 
 use crate::answer::OutOfLimits;
+use crate::arguments::ErrorModelArguments;
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
-use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{Deflection, DirectProblem, InversePath, Load, StaticsError, deflection_from};
+use cdpr_assess::{Bands, Path, PathPose};
+use cdpr_report::{PATH_MARK, path_view};
+use cdpr_robot::Robot;
+use cdpr_statics::Deflection;
+use cdpr_study::write_text;
 use serde::Serialize;
+use std::path::PathBuf;
 
-pub(crate) fn run(at: &RobotAtPose) -> Result<Ending, ProgramError> {
+/// The robot, its poses, and what is uncertain.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtPose,
+    #[command(flatten)]
+    errors: ErrorModelArguments,
+    /// File for a figure of the path (SVG), with bands of two standard deviations if an error model is given.
+    #[arg(long, value_name = "FILE")]
+    figure: Option<PathBuf>,
+}
+
+pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, ProgramError> {
     let (robot, load) = (at.robot()?, at.load.load());
-    let mut path = InversePath::new(&robot);
-    at.answer_in_order(&robot, |pose| Passed::new(&robot, &mut path, pose, &load))
+    let model = errors.model(&robot)?;
+    let mut path = Path::new(&robot, load, model.as_ref())?;
+    let mut passed = Vec::new();
+    let mut solve = |pose: &_| {
+        let found = path.solve(pose);
+        if figure.is_some() {
+            passed.push(found.clone().ok());
+        }
+        found
+    };
+    let ending = if model.is_some() {
+        at.answer_in_order(&robot, |pose| Ok(Banded(Passed::new(&robot, solve(pose)?))))?
+    } else {
+        at.answer_in_order(&robot, |pose| Ok(Passed::new(&robot, solve(pose)?)))?
+    };
+    if let Some(file) = figure {
+        write_text(file, &path_view(&robot, &load, &passed)?, PATH_MARK)?;
+    }
+    Ok(ending)
 }
 
 /// A pose of a path, in SI units unless a name says otherwise.
@@ -35,32 +69,33 @@ struct Passed {
     lowest_frequency_hz: Option<f64>,
     /// Numbers, from 1, of the cables that are slack with the load.
     slack_cables: Vec<usize>,
+    /// Standard deviations, in SI units; absent without an error model, `null` without derivatives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    standard_deviations: Option<Bands>,
     /// Tensions without and with the load.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
 }
 
 impl Passed {
-    fn new(robot: &Robot, path: &mut InversePath, pose: &Pose, load: &Load) -> Result<Self, StaticsError> {
-        let found = path.solve(pose, &Load::none(), None)?;
-        let wanted = found.solution;
-        let Deflection { lengths, unloaded, loaded } =
-            deflection_from(robot, wanted.lengths, load, &wanted.equilibrium)?;
-        let dp = 1e3 * (loaded.equilibrium.pose.position - unloaded.equilibrium.pose.position);
-        let problem = DirectProblem::new(robot, &lengths, load)?;
-        Ok(Self {
-            jump: found.jump,
-            tensions: wanted.tensions,
-            exit_tensions: unloaded.equilibrium.exit_tensions(robot, &lengths),
-            sags: DirectProblem::new(robot, &lengths, &Load::none())?.sags(&unloaded.equilibrium)?,
+    fn new(robot: &Robot, found: PathPose) -> Self {
+        let PathPose { jump, tensions, exit_tensions, sags, deflection, lowest_frequency, bands } = found;
+        let dp = 1e3 * deflection.displacement();
+        let Deflection { lengths, unloaded, loaded } = deflection;
+        Self {
+            jump,
+            tensions,
+            exit_tensions,
+            sags,
             deflection_mm: dp.into(),
             rms_mm: dp.norm(),
             least_stiffness: loaded.stability.least_stiffness(),
-            lowest_frequency_hz: problem.lowest_frequency(&loaded.equilibrium).ok(),
+            lowest_frequency_hz: lowest_frequency,
             slack_cables: loaded.report.slack.iter().map(|i| i + 1).collect(),
+            standard_deviations: bands,
             out_of_limits: OutOfLimits::all(robot, &lengths, &[&unloaded.equilibrium, &loaded.equilibrium]),
             lengths,
-        })
+        }
     }
 }
 
@@ -87,5 +122,39 @@ impl Row for Passed {
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
+    }
+}
+
+/// A pose of a path with its standard deviations in the table.
+#[derive(Serialize)]
+#[serde(transparent)]
+struct Banded(Passed);
+
+impl Row for Banded {
+    fn columns(robot: &Robot) -> Vec<String> {
+        let of_cables = [("std_length", "m"), ("std_tension", "n")];
+        let of_cables =
+            of_cables.into_iter().flat_map(|(name, unit)| numbered(name, unit, robot.cables.len()));
+        let of_platform = ["dx_mm", "dy_mm", "dz_mm", "rms_mm", "least_stiffness", "lowest_frequency_hz"];
+        let platform = of_platform.into_iter().map(|name| format!("std_{name}"));
+        Passed::columns(robot).into_iter().chain(of_cables).chain(platform).collect()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let Self(passed) = self;
+        let Some(bands) = &passed.standard_deviations else {
+            let empty = vec![String::new(); 2 * passed.lengths.len() + 6];
+            return passed.cells().into_iter().chain(empty).collect();
+        };
+        let Bands { lengths, tensions, displacement, rms, least_stiffness, lowest_frequency } = bands;
+        let displacement = displacement.map(|std| 1e3 * std);
+        let numbers = cells(lengths.iter().chain(tensions).chain(&displacement));
+        let others = [rms.map(|std| 1e3 * std), *least_stiffness, *lowest_frequency];
+        let others = others.map(|std| std.map(|std| format!("{std:?}")).unwrap_or_default());
+        passed.cells().into_iter().chain(numbers).chain(others).collect()
+    }
+
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        self.0.out_of_limits()
     }
 }

@@ -1,6 +1,8 @@
 //! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::arguments::{self, Format, FreeArguments, LoadArguments, Named, Preference, Threads};
+use crate::arguments::{
+    self, ErrorModelArguments, Format, FreeArguments, LoadArguments, Preference, Threads,
+};
 use crate::error::ProgramError;
 use crate::output::{Ending, drawn, patiently, progress, table};
 use crate::poses::{self, Angles};
@@ -10,8 +12,8 @@ use cdpr_assess::{
     compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_report::workspace_maps;
-use cdpr_robot::{Axis, Robot, Rotation3, shown};
-use cdpr_study::{ErrorModel, Extremes, Grid, Study};
+use cdpr_robot::{Axis, Rotation3, shown};
+use cdpr_study::{Extremes, Grid};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -44,15 +46,8 @@ pub(crate) struct Settings {
     load: LoadArguments,
     #[command(flatten)]
     preference: Preference,
-    /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5.
-    #[arg(long, value_parser = arguments::named)]
-    uncertainty: Option<Named>,
-    /// Study file whose error model gives the standard deviations.
-    #[arg(long, conflicts_with = "uncertainty", requires = "error_model")]
-    study: Option<PathBuf>,
-    /// Name of the study's error model.
-    #[arg(long, requires = "study")]
-    error_model: Option<String>,
+    #[command(flatten)]
+    errors: ErrorModelArguments,
     #[command(flatten)]
     further: FurtherArguments,
     /// Folder for the results; made if missing.
@@ -140,7 +135,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         }
         (None, None) => return Err(ProgramError::Usage("expected --plane or --box".to_owned())),
     };
-    let tolerances = settings.tolerances(&robot)?;
+    let tolerances = settings.errors.model(&robot)?;
     if settings.further.set.are_given() && !settings.further.capacity {
         let usage =
             "--wrench, --wrenches and --wrench-box: expected with --capacity, whose figures they change";
@@ -184,17 +179,6 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         println!("{} poses in {seconds:.2} s; results in {}", poses.len(), settings.out.display());
     })?;
     Ok(if summary.too_much > 0 { Ending::SomethingWrong } else { Ending::Well })
-}
-
-impl Settings {
-    fn tolerances(&self, robot: &Robot) -> Result<Option<ErrorModel>, ProgramError> {
-        if let (Some(path), Some(name)) = (&self.study, &self.error_model) {
-            return Ok(Some(Study::open(path)?.tolerances(name)?));
-        }
-        let named = self.uncertainty.as_ref();
-        let deviations = named.map(|named| arguments::uncertainties(robot, named)).transpose()?;
-        Ok(deviations.map(|deviations| ErrorModel::normal(robot, &deviations)))
-    }
 }
 
 fn print(summary: &WorkspaceSummary) {

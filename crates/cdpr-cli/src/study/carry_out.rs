@@ -72,7 +72,7 @@ pub(super) fn whole(
     progress.finish_and_clear();
     let timings = results.timings.clone().unwrap_or_default();
     common.format.print(&results.summary, |summary| print::print(summary, &timings))?;
-    let page = report_with(&results, &figures)?;
+    let page = report_with(&results, &figures, None)?;
     let path = blocks.results()?.write(REPORT_NAME, page.as_bytes())?;
     if common.format == Format::Text {
         println!("\nresults in {}\nreport in {}", out.display(), path.display());

@@ -3,7 +3,8 @@
 use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::patiently;
-use cdpr_report::report;
+use cdpr_assess::read_region;
+use cdpr_report::{figures, report_with};
 use cdpr_study::{REPORT_MARK, Results, write_text};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -16,6 +17,9 @@ pub(crate) struct Settings {
     /// File for the report; `report.html` in the folder if left out.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Folder that `cdpr workspace --boundary` has written for the robot: its region is drawn around the robot.
+    #[arg(long, value_name = "FOLDER")]
+    workspace: Option<PathBuf>,
     /// How the path of the report is printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -27,10 +31,11 @@ struct Written {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let Settings { folder, out, format } = settings;
+    let Settings { folder, out, workspace, format } = settings;
     let (results, page) = patiently("drawing the report", || -> Result<_, ProgramError> {
         let results = Results::read(folder)?;
-        let page = report(&results)?;
+        let region = workspace.as_deref().map(read_region).transpose()?;
+        let page = report_with(&results, &figures(&results), region.as_ref())?;
         Ok((results, page))
     })?;
     let path = match out {

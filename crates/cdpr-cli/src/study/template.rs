@@ -1,6 +1,6 @@
 //! `cdpr study new`: a first study of a robot.
 
-use crate::arguments;
+use crate::arguments::{self, FreeArguments};
 use crate::error::ProgramError;
 use crate::output::patiently;
 use cdpr_study::{TEMPLATE_NOTES, open_robot, template, template_cost, write_template};
@@ -21,12 +21,15 @@ pub(crate) struct Settings {
     /// Payload, whose effect is the deflection [kg]; if left out, a tenth of the platform's mass.
     #[arg(long, value_parser = arguments::payload, allow_hyphen_values = true)]
     payload: Option<f64>,
+    #[command(flatten)]
+    free: FreeArguments,
 }
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let Settings { robot: path, out, position, payload } = settings;
+    let Settings { robot: path, out, position, payload, free } = settings;
     let robot = open_robot(path)?;
-    let text = |path: &str| patiently("trying poses", || template(&robot, path, *position, *payload));
+    let text =
+        |path: &str| patiently("trying poses", || template(&robot, path, *position, *payload, &free.free));
     let notes = format!("{TEMPLATE_NOTES}\n\n{}", template_cost(&robot));
     match out {
         Some(out) => {

@@ -16,6 +16,7 @@ an answer raises.
 from . import errors, sensitivity
 from ._core import (
     VERSION as __version__,
+    Capacity,
     Catenary,
     Deflection,
     Derivatives,
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from .analysis import analyse
 
 __all__ = [
+    "Capacity",
     "Catenary",
     "CdprError",
     "Deflection",

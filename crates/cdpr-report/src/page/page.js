@@ -121,6 +121,19 @@
       });
     }
 
+    // The region in which the platform is held.
+    function region() {
+      if (!data.region || !byId("region").checked) return [];
+      const { points, lines, triangles } = data.region;
+      const corners = (k) => triangles.map((triangle) => triangle[k]);
+      const along = lines.flatMap((line) => [...line.map((k) => points[k]), [null, null, null]]);
+      const [x, y, z] = columns(triangles.length > 0 ? points : along);
+      return triangles.length > 0
+        ? [{ type: "mesh3d", x, y, z, i: corners(0), j: corners(1), k: corners(2), color: BLUE, opacity: 0.2,
+          hoverinfo: "skip" }]
+        : [{ type: "scatter3d", mode: "lines", x, y, z, line: { color: BLUE, width: 5 }, hoverinfo: "skip" }];
+    }
+
     function traces() {
       const pose = poses[byId("pose").value];
       const loaded = document.querySelector("input[name=state]:checked").value === "loaded";
@@ -183,6 +196,7 @@
           [`reference point P<br>${metres(state.position)}`,
             `centre of mass G<br>${metres(state.center_of_mass)}`],
           { marker: { size: 4, color: BLUE, symbol: ["cross", "circle"] } }),
+        ...region(),
       ];
     }
 
@@ -221,6 +235,7 @@
       redrawn();
     });
     controls.addEventListener("submit", (event) => event.preventDefault());
+    byId("region")?.addEventListener("input", redrawn);
   }
 
   for (const { name, x, y, z, labels, output } of data.surfaces) {

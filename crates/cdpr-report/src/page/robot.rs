@@ -3,19 +3,53 @@
 use crate::page::elements::{Section, cell, numeric, table};
 use crate::scene::{Scene, ScenePose};
 use crate::text;
-use cdpr_robot::Robot;
+use cdpr_assess::FoundRegion;
+use cdpr_robot::{Robot, Vector3};
 use cdpr_study::StudyError;
 use maud::{Markup, html};
+use serde::Serialize;
+use std::collections::HashMap;
 
-pub(crate) fn section(robot: &Robot, scene: &Result<Scene, StudyError>) -> Section {
+/// The region that is held, as the page draws it: points [m], and lines or triangles between them.
+#[derive(Serialize)]
+pub(crate) struct RegionInSpace {
+    points: Vec<[f32; 3]>,
+    /// Indices of the points of closed lines.
+    lines: Vec<Vec<usize>>,
+    /// Indices of the corners of triangles.
+    triangles: Vec<[usize; 3]>,
+}
+
+impl RegionInSpace {
+    pub(crate) fn new(region: &FoundRegion) -> Self {
+        let (mut points, mut known) = (Vec::new(), HashMap::new());
+        let mut index = |point: &Vector3<f64>| {
+            // To a tenth of a millimetre.
+            let place: [i64; 3] = point.map(|x| (1e4 * x).round() as i64).into();
+            *known.entry(place).or_insert_with(|| {
+                points.push(place.map(|x| (1e-4 * x as f64) as f32));
+                points.len() - 1
+            })
+        };
+        let lines = region.polygons.iter().map(|line| line.iter().map(&mut index).collect()).collect();
+        let triangles = region.triangles.iter().map(|corners| corners.each_ref().map(&mut index)).collect();
+        Self { points, lines, triangles }
+    }
+}
+
+pub(crate) fn section(
+    robot: &Robot,
+    scene: &Result<Scene, StudyError>,
+    region: Option<&FoundRegion>,
+) -> Section {
     let body = match scene {
-        Ok(scene) => html! { (view(robot, scene)) (cables(scene)) },
+        Ok(scene) => html! { (view(robot, scene, region)) (cables(scene)) },
         Err(error) => html! { p.note { "The robot cannot be drawn: " (error) "." } },
     };
     Section::new("robot", "The robot", body)
 }
 
-fn view(robot: &Robot, scene: &Scene) -> Markup {
+fn view(robot: &Robot, scene: &Scene, region: Option<&FoundRegion>) -> Markup {
     let alt = format!(
         "{} in three dimensions with its {} sagging cables; the tables below hold its numbers",
         robot.name,
@@ -38,6 +72,9 @@ fn view(robot: &Robot, scene: &Scene) -> Markup {
                 label { "Deflection drawn " output id="motion-times" for="motion" { "\u{d7}1" }
                     input type="range" id="motion" min="0" max="9" step="1" value="0"; }
             }
+            @if region.is_some() {
+                form.controls { label { input type="checkbox" id="region" checked; " region held" } }
+            }
             div.plot id="plot-robot" role="img" aria-label=(alt) tabindex="0" {}
             noscript { p.note { "Only the view in space needs JavaScript." } }
             figcaption {
@@ -46,6 +83,13 @@ fn view(robot: &Robot, scene: &Scene) -> Markup {
                 "Drag to "
                 "rotate; click, then wheel or pinch to zoom; with the "
                 "keyboard: arrows, + and \u{2212}."
+                @if let Some(region) = region {
+                    " The region in which tensions within the limits hold the platform with "
+                    (text::digits(region.payload, 4)) " kg, "
+                    (if region.way == "kept" { "with its lengths kept" } else { "tensions distributed anew" })
+                    ", has " (text::digits(region.measure, 4))
+                    (if region.triangles.is_empty() { " m\u{b2}." } else { " m\u{b3}." })
+                }
             }
         }
     }

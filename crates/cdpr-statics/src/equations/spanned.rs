@@ -8,6 +8,7 @@
 use crate::equations::cable::{CablePlane, LinearizedCable, Span, between};
 use crate::equations::vector::{dot, wrench};
 use crate::problem::DirectProblem;
+use crate::state::Equilibrium;
 use cdpr_cable::kernel::{Real, Response, closure_of_limp, response};
 use cdpr_cable::{
     CableError, Catenary, ElasticLaw, Guide, HeldCable, HeldSlopes, HeldSpatialCable, SpatialCable,
@@ -501,11 +502,29 @@ impl<'a> DirectProblem<'a> {
     /// Cable i in its vertical plane, with the force (fx, fz) [N] at a pose.
     #[inline]
     pub(crate) fn catenary_at(&self, pose: &Pose, i: usize, force: Vector2<f64>) -> Catenary<'a> {
-        let catenary = self.catenary(i, force);
-        if !catenary.cable.leaves_its_plane() {
-            return catenary;
-        }
-        let plane = SpannedCable::of(self.robot, pose, i, &catenary).span.plane;
-        Catenary { cable: catenary.cable.turned(plane.azimuth), ..catenary }
+        in_its_plane(self.robot, pose, i, self.catenary(i, force))
+    }
+}
+
+/// Cable i of a robot at a pose, its pulley seen in the plane that it hangs in.
+#[inline]
+fn in_its_plane<'a>(robot: &Robot, pose: &Pose, i: usize, catenary: Catenary<'a>) -> Catenary<'a> {
+    if !catenary.cable.leaves_its_plane() {
+        return catenary;
+    }
+    let plane = SpannedCable::of(robot, pose, i, &catenary).span.plane;
+    Catenary { cable: catenary.cable.turned(plane.azimuth), ..catenary }
+}
+
+impl Equilibrium {
+    /// Tension of every cable at its exit point [N], for the robot and unstrained lengths [m] that it is an
+    /// equilibrium of; over a pulley where the cable leaves it.
+    pub fn exit_tensions(&self, robot: &Robot, lengths: &[f64]) -> Vec<f64> {
+        let each = self.cable_forces.iter().zip(lengths).enumerate();
+        each.map(|(i, (force, length))| {
+            let catenary = Catenary { cable: robot.cable(i), unstrained_length: *length, force: *force };
+            in_its_plane(robot, &self.pose, i, catenary).exit_tension()
+        })
+        .collect()
     }
 }

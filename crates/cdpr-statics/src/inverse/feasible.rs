@@ -26,6 +26,11 @@ use cdpr_tension::{Bound, BoxProblem, BoxUnknown};
 /// A residual below this, relative to wrench and tensions, balances.
 pub(super) const BALANCED: f64 = 1e-8;
 
+/// Least share of the residual that a step gains: down to rounding; and where a balance is near enough to be
+/// told from none, because steps towards one gain nearly all of it.
+const LEAST_GAIN: f64 = 1e-9;
+const CLEAR_GAIN: f64 = 1e-3;
+
 /// The optimum: of cables that sag little from the first start that leads to one, else the best of all
 /// starts.
 pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
@@ -40,7 +45,7 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
     let mut iterations = nearest.iterations;
     for (k, tensions) in starts(question, straight).iter().enumerate() {
         let mut point = Point::new(question, tensions)?;
-        let found = point.balance() && point.optimise();
+        let found = point.balance(LEAST_GAIN) && point.optimise();
         iterations += point.iterations;
         if found {
             if best.as_ref().is_none_or(|best| point.objective() < (1.0 - 1e-12) * best.objective()) {
@@ -57,6 +62,11 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
         Some(best) => Ok(Optimum { iterations, ..best.optimum() }),
         None => Err(nearest.refusal(question, STARTS, iterations, false)),
     }
+}
+
+/// Whether tensions within the limits that hold the pose are found from those of straight cables alone.
+pub(super) fn holds(question: &Question) -> Result<bool, StaticsError> {
+    Ok(Point::new(question, &straight(question))?.balance(CLEAR_GAIN))
 }
 
 /// Tensions of the optimum for cables along their chords, or the nearest to a balance.
@@ -100,8 +110,9 @@ fn starts(question: &Question, straight: Vec<f64>) -> [Vec<f64>; STARTS - 1] {
 }
 
 impl Point<'_> {
-    /// Makes the residual of the balance least, and forgets the multipliers. Returns whether it balances.
-    fn balance(&mut self) -> bool {
+    /// Makes the residual of the balance least, and forgets the multipliers, until a step gains less than a
+    /// share of it. Returns whether it balances.
+    fn balance(&mut self, least_gain: f64) -> bool {
         const MAX_ITERATIONS: usize = 60;
         self.multipliers = Vector6::zeros();
         let mut damping = 1e-6;
@@ -130,7 +141,7 @@ impl Point<'_> {
                     self.set(moved, rows);
                     residual = next;
                     damping = (0.1 * damping).max(1e-9);
-                    if gained <= 1e-9 * residual {
+                    if gained <= least_gain * residual {
                         return residual <= BALANCED * self.size();
                     }
                 }

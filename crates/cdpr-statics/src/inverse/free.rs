@@ -22,8 +22,9 @@ use super::question::Question;
 use super::{HeldPose, inverse};
 use crate::direct::Stability;
 use crate::error::StaticsError;
+use crate::out_of_limits::out_of_limits;
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, Residual, out_of_limits};
+use crate::state::{Equilibrium, Load, Residual};
 use cdpr_robot::{Coordinate, Plane, Pose, Robot, Rotation3, Vector3, Vector6};
 use nalgebra::{DMatrix, DVector};
 

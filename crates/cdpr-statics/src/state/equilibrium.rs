@@ -1,7 +1,6 @@
 //! An equilibrium: a pose with the forces of its cables.
 
-use cdpr_cable::Catenary;
-use cdpr_robot::{Pose, Robot, Vector2};
+use cdpr_robot::{Pose, Vector2};
 
 /// A pose with the force on every cable at its anchor point.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,15 +16,5 @@ impl Equilibrium {
     /// Tension of every cable at the platform [N].
     pub fn tensions(&self) -> Vec<f64> {
         self.cable_forces.iter().map(Vector2::norm).collect()
-    }
-
-    /// Tension of every cable at its exit point [N], for the robot and unstrained lengths [m] that it is an
-    /// equilibrium of.
-    pub fn exit_tensions(&self, robot: &Robot, lengths: &[f64]) -> Vec<f64> {
-        let each = self.cable_forces.iter().zip(lengths).enumerate();
-        each.map(|(i, (force, length))| {
-            Catenary { cable: robot.cable(i), unstrained_length: *length, force: *force }.exit_tension()
-        })
-        .collect()
     }
 }

@@ -4,8 +4,8 @@ use crate::error::StudyError;
 use crate::fs::atomic::write_new;
 use crate::fs::files::named_file;
 use cdpr_robot::library::ROBOTS;
-use cdpr_robot::{Parameter, Pose, Robot, Vector3, rounded};
-use cdpr_statics::{Load, deflection};
+use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3, rounded};
+use cdpr_statics::{Load, deflection_free};
 use std::path::Path;
 
 /// What the fields of a study file mean, for people; the format itself has no comments.
@@ -22,82 +22,130 @@ The study runs as it is. Replace by what you know of your robot:
                          triangular {min, mode, max}, beta
     steps                optional: {nearest: {step: 0.001}} rounds values to steps of 1 mm
   samplings              all parameters vary at once: pose (position [m]; quaternion [w, x, y, z] or
-                         rpy_deg) or poses (a list or a grid), error model, observations
+                         rpy_deg) or poses (a list or a grid), error model, observations;
+                         free: coordinates of the pose that are found, for a robot with fewer cables than free
+                         motions
   surfaces               two parameters vary over a grid, all others are as in the robot file
   replicates             scrambled samplings behind the intervals of signed effects
   sensitivity            all measures of sensitivity; without it the study is faster
   seed                   the same seed gives the same numbers
 All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE --out results";
 
-// Few enough for any robot, and for Sobol' indices with intervals.
-const OBSERVATIONS: usize = 2048;
-const REPLICATES: usize = 4;
+/// How many observations a template makes: few enough for any robot, and for Sobol' indices with intervals. With
+/// free coordinates each takes thousands of times as long, and the measures of sensitivity are left out.
+struct Size {
+    observations: usize,
+    replicates: usize,
+    has_sensitivity: bool,
+    /// Points of each axis of the surface.
+    axis: usize,
+}
+
+impl Size {
+    fn of(robot: &Robot) -> Self {
+        if robot.is_fully_actuated() {
+            Self { observations: 2048, replicates: 4, has_sensitivity: true, axis: 21 }
+        } else {
+            Self { observations: 64, replicates: 0, has_sensitivity: false, axis: 3 }
+        }
+    }
+}
+
 const SALTELLI_BLOCKS: usize = 128;
 const MORRIS_BLOCKS: usize = 16;
 const DERIVATIVE_POINTS: usize = 32;
-/// Points of each axis of the surface.
-const AXIS: usize = 21;
 
 /// How many observations each part of the template makes, for people.
 pub fn template_cost(robot: &Robot) -> String {
     let inputs = Parameter::of(robot).len();
+    let Size { observations, replicates, has_sensitivity, axis } = Size::of(robot);
+    let part = |count: usize, wanted: bool, part: &str| {
+        if wanted { format!("\n  {count:>6}  {part}") } else { String::new() }
+    };
     let parts = [
-        (OBSERVATIONS, "sampling"),
-        (REPLICATES * OBSERVATIONS, "replicates (times the observations of the sampling)"),
-        (SALTELLI_BLOCKS * (inputs + 2), "Sobol' indices (saltelli_blocks times inputs + 2)"),
-        (MORRIS_BLOCKS * (inputs + 1), "Morris's effects (morris_blocks times inputs + 1)"),
-        (DERIVATIVE_POINTS, "exact derivatives (derivative_points)"),
-        (AXIS * AXIS, "surface (points of x times points of y)"),
+        part(observations, true, "sampling"),
+        part(
+            replicates * observations,
+            replicates > 0,
+            "replicates (times the observations of the sampling)",
+        ),
+        part(
+            SALTELLI_BLOCKS * (inputs + 2),
+            has_sensitivity,
+            "Sobol' indices (saltelli_blocks times inputs + 2)",
+        ),
+        part(
+            MORRIS_BLOCKS * (inputs + 1),
+            has_sensitivity,
+            "Morris's effects (morris_blocks times inputs + 1)",
+        ),
+        part(DERIVATIVE_POINTS, has_sensitivity, "exact derivatives (derivative_points)"),
+        part(axis * axis, true, "surface (points of x times points of y)"),
     ];
-    let lines: String = parts.iter().map(|(count, part)| format!("\n  {count:>6}  {part}")).collect();
+    let lines = parts.concat();
     format!("Observations of each part; `--observations N` makes fewer of all but the surface:{lines}")
 }
 
 /// A study file for `robot`, in which `robot_path` names the robot file. Without a position it takes one on
 /// the vertical through the middle of the exit points, with feasible tensions; without a payload it takes a
-/// tenth of the platform's mass [kg].
+/// tenth of the platform's mass [kg]. For a robot with fewer cables than free motions, `free` names the
+/// coordinates that are found; where it is empty, they are as many of roll, pitch, yaw, z, y, x as it takes.
 ///
 /// # Errors
-/// [`StudyError::Setting`] for a robot with fewer cables than free motions, for a position without feasible
-/// tensions under the payload, or if no position was found.
+/// [`StudyError::Setting`] for another number of free coordinates than cables are missing, for a position
+/// without feasible tensions under the payload, or if no position was found.
 pub fn template(
     robot: &Robot,
     robot_path: &str,
     position: Option<[f64; 3]>,
     payload: Option<f64>,
+    free: &[Coordinate],
 ) -> Result<String, StudyError> {
-    let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
-    if cables < freedoms {
-        let expected = format!(
-            "a cable for each of the {freedoms} free motions; a study of this robot has names in `free`, \
-             which are yours to choose"
-        );
-        return Err(StudyError::setting("cables", format!("a list of {cables}"), expected));
-    }
+    let free = free_coordinates(robot, free)?;
     let payload = payload.unwrap_or_else(|| two_digits(0.1 * robot.platform.mass));
-    let held = |position: &[f64; 3]| tension(robot, *position, payload);
-    let (position, tension) = match position {
+    let held = |position: &[f64; 3]| rest(robot, *position, payload, &free);
+    let (pose, tension) = match position {
         Some(position) => match held(&position) {
-            Ok(tension) => (position, tension),
+            Ok(found) => found,
             Err(error) => {
                 let expected = format!("a position that the robot holds with {payload} kg: {error}");
                 return Err(StudyError::setting("position", format!("{position:?}"), expected));
             }
         },
-        None => candidates(robot)
+        None => candidates(robot, !free.is_empty())
             .into_iter()
-            .find_map(|position| Some((position, held(&position).ok()?)))
+            .find_map(|position| held(&position).ok())
             .ok_or_else(|| {
                 let expected =
                     "x,y,z [m], because the robot holds none of the positions tried between its exit points";
                 StudyError::setting("position", "missing", expected)
             })?,
     };
+    let pose = described(&pose, !free.is_empty());
+    let Size { observations, replicates, has_sensitivity, axis } = Size::of(robot);
+    let sensitivity = if has_sensitivity {
+        format!(
+            r#"
+  "sensitivity": {{
+    "saltelli_blocks": {SALTELLI_BLOCKS},
+    "morris_blocks": {MORRIS_BLOCKS},
+    "derivative_points": {DERIVATIVE_POINTS}
+  }},"#
+        )
+    } else {
+        String::new()
+    };
     let cable = &robot.cables[0].properties;
     let [mass, density] = [robot.platform.mass, cable.linear_density].map(|value| two_digits(0.05 * value));
     let modulus = two_digits(0.1 * cable.youngs_modulus);
     let uniform =
         |half: f64| format!(r#"{{ "law": {{ "uniform": {{ "min": -{half:?}, "max": {half:?} }} }} }}"#);
+    // Cables without weight have none that could vary.
+    let density = if density > 0.0 {
+        format!("\n      \"linear_density\": {},", uniform(density))
+    } else {
+        String::new()
+    };
     let parameters = Parameter::of(robot);
     let has = |group: &str| parameters.iter().any(|parameter| parameter.group() == group);
     let further: String = [("r", 0.0005), ("lead", 0.05), ("tilt", 0.01), ("gravity", 0.05)]
@@ -105,6 +153,9 @@ pub fn template(
         .filter(|(group, _)| has(group))
         .map(|(group, half)| format!(",\n      \"{group}\": {}", uniform(half)))
         .collect();
+    let names: Vec<_> = free.iter().map(|name| format!("\"{name}\"")).collect();
+    let free =
+        if free.is_empty() { String::new() } else { format!("\n      \"free\": [{}],", names.join(", ")) };
     let quoted = |text: &str| serde_json::Value::from(text).to_string();
     let [name, robot_path] =
         [format!("Static deflection of {}", robot.name), robot_path.to_owned()].map(|text| quoted(&text));
@@ -116,13 +167,12 @@ pub fn template(
   "robot": {robot_path},
   "payload": {payload:?},
   "seed": 1,
-  "replicates": {REPLICATES},
+  "replicates": {replicates},
   "confidence": 0.95,
   "bootstrap_resamples": 200,
   "error_models": {{
     "tolerances": {{
-      "mass": {mass},
-      "linear_density": {density},
+      "mass": {mass},{density}
       "youngs_modulus": {modulus},
       "a": {anchors},
       "b": {exits},
@@ -133,28 +183,22 @@ pub fn template(
   "samplings": {{
     "all": {{
       "title": "All parameters",
-      "pose": {{ "position": {position:?} }},
+      "pose": {pose},{free}
       "error_model": "tolerances",
-      "observations": {OBSERVATIONS}
+      "observations": {observations}
     }}
-  }},
-  "sensitivity": {{
-    "saltelli_blocks": {SALTELLI_BLOCKS},
-    "morris_blocks": {MORRIS_BLOCKS},
-    "derivative_points": {DERIVATIVE_POINTS}
-  }},
+  }},{sensitivity}
   "surfaces": {{
     "modulus_mass": {{
       "title": "E and m alone",
-      "pose": {{ "position": {position:?} }},
-      "x": {{ "parameter": "youngs_modulus", "min": -{widest_e:?}, "max": {widest_e:?}, "points": {AXIS} }},
-      "y": {{ "parameter": "mass", "min": -{widest_m:?}, "max": {widest_m:?}, "points": {AXIS} }}
+      "pose": {pose},{free}
+      "x": {{ "parameter": "youngs_modulus", "min": -{widest_e:?}, "max": {widest_e:?}, "points": {axis} }},
+      "y": {{ "parameter": "mass", "min": -{widest_m:?}, "max": {widest_m:?}, "points": {axis} }}
     }}
   }}
 }}
 "#,
         mass = uniform(mass),
-        density = uniform(density),
         modulus = uniform(modulus),
         anchors = uniform(0.002),
         exits = uniform(0.005),
@@ -191,8 +235,8 @@ pub fn write_template(
 
 /// Positions above each other in the middle of the exit points, between the lowest and the highest of these;
 /// below them where all exit points have the same height. The intervals are halved, and their ends are left
-/// out.
-fn candidates(robot: &Robot) -> Vec<[f64; 3]> {
+/// out. A platform of few cables is put beside the middle, where a symmetrical robot holds it in many ways.
+fn candidates(robot: &Robot, is_few: bool) -> Vec<[f64; 3]> {
     let exits = || robot.cables.iter().map(|cable| cable.exit_point);
     let middle = exits().sum::<Vector3<f64>>() / robot.cables.len() as f64;
     let extent = |axis: usize| {
@@ -200,23 +244,65 @@ fn candidates(robot: &Robot) -> Vec<[f64; 3]> {
         (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
     };
     let ((x_min, x_max), (mut low, high)) = (extent(0), extent(2));
+    let beside = if is_few { 0.1 * (x_max - x_min) } else { 0.0 };
+    let [x, y] = [middle.x + beside, middle.y + 0.6 * beside];
     if high - low < 0.2 * (x_max - x_min) {
         low = high - 0.5 * (x_max - x_min);
     }
     let shares = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
     // To a centimetre: what users see, they change.
     let centimetres = |value: f64| rounded(value, 2);
-    shares.map(|share| [middle.x, middle.y, low + share * (high - low)].map(centimetres)).into()
+    shares.map(|share| [x, y, low + share * (high - low)].map(centimetres)).into()
 }
 
-/// Mean tension [N] of the nominal robot at a position, if tensions are feasible with and without the payload
-/// [kg].
-fn tension(robot: &Robot, position: [f64; 3], payload: f64) -> Result<f64, cdpr_statics::StaticsError> {
+/// The coordinates that are found: those that are named, else the angles first.
+fn free_coordinates(robot: &Robot, named: &[Coordinate]) -> Result<Vec<Coordinate>, StudyError> {
+    use Coordinate::{Pitch, Roll, X, Y, Yaw, Z};
+    let freedoms = robot.freedoms();
+    let (cables, count) = (robot.cables.len(), freedoms.count());
+    let missing = count.saturating_sub(cables);
+    if named.is_empty() {
+        let free = [Roll, Pitch, Yaw, Z, Y, X].into_iter().filter(|name| freedoms.contains(name.component()));
+        return Ok(free.take(missing).collect());
+    }
+    if named.len() != missing {
+        let named: Vec<_> = named.iter().map(ToString::to_string).collect();
+        let expected =
+            format!("{missing} of x, y, z, roll, pitch, yaw, for {cables} cables and {count} free motions");
+        return Err(StudyError::setting("free", format!("[{}]", named.join(", ")), expected));
+    }
+    Ok(named.to_vec())
+}
+
+/// A pose as a study file has it; level, or to a thousandth of a degree. Where coordinates are found, all
+/// observations find them near those of the nominal robot at rest.
+fn described(pose: &Pose, is_found: bool) -> String {
+    let position = if is_found { pose.position.map(|x| rounded(x, 4)) } else { pose.position };
+    let position: [f64; 3] = position.into();
+    if !is_found {
+        return format!("{{ \"position\": {position:?} }}");
+    }
+    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+    let angles = [roll, pitch, yaw].map(|angle| rounded(angle.to_degrees(), 3));
+    format!("{{ \"position\": {position:?}, \"rpy_deg\": {angles:?} }}")
+}
+
+/// Where the nominal robot rests at a position, and its mean tension [N], if tensions are feasible with and
+/// without the payload [kg].
+fn rest(
+    robot: &Robot,
+    position: [f64; 3],
+    payload: f64,
+    free: &[Coordinate],
+) -> Result<(Pose, f64), cdpr_statics::StaticsError> {
     let [x, y, z] = position;
     let offsets = vec![0.0; robot.cables.len()];
-    let found = deflection(robot, &Pose::at(x, y, z), &offsets, &Load::payload(payload))?;
+    let found = deflection_free(robot, &Pose::at(x, y, z), &offsets, &Load::payload(payload), free)?;
     let tensions = found.unloaded.equilibrium.tensions();
-    Ok(tensions.iter().sum::<f64>() / tensions.len() as f64)
+    let mean = tensions.iter().sum::<f64>() / tensions.len() as f64;
+    // Only what is free has moved.
+    let pose = if free.is_empty() { Pose::at(x, y, z) } else { found.unloaded.equilibrium.pose };
+    Ok((pose, mean))
 }
 
 /// To two digits.
@@ -236,16 +322,14 @@ mod tests {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             let robot = open_robot(&path).unwrap();
-            let text = template(&robot, path.to_str().unwrap(), None, None);
-            if !robot.is_fully_actuated() {
-                let refused = text.unwrap_err().to_string();
-                assert!(refused.contains("a list of 4") && refused.contains("6 free motions"), "{refused}");
-                continue;
-            }
-            let text = text.unwrap();
+            let text = template(&robot, path.to_str().unwrap(), None, None, &[]).unwrap();
+            assert_eq!(text.contains("\"free\": [\"roll\", \"pitch\"]"), robot.cables.len() == 4);
+            let refused =
+                template(&robot, "robot.json", None, None, &[Coordinate::Yaw]).unwrap_err().to_string();
+            assert!(refused.starts_with("free is [yaw]: expected "), "{refused}");
             let study = Study::from_json(&text, &folder.join("my-study.json")).unwrap();
             assert_eq!(study.robot, robot);
-            assert!(study.file.sensitivity.is_some());
+            assert_eq!(study.file.sensitivity.is_some(), robot.is_fully_actuated());
         }
     }
 
@@ -253,8 +337,9 @@ mod tests {
     fn a_position_out_of_reach_is_refused_with_the_reason() {
         let robot =
             open_robot(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots/caroca.json")));
-        let error =
-            template(&robot.unwrap(), "caroca.json", Some([0.0, 0.0, 9.0]), None).unwrap_err().to_string();
+        let error = template(&robot.unwrap(), "caroca.json", Some([0.0, 0.0, 9.0]), None, &[])
+            .unwrap_err()
+            .to_string();
         assert!(
             error.starts_with("position is [0.0, 0.0, 9.0]: expected a position that the robot holds"),
             "{error}"

@@ -193,6 +193,19 @@ impl ErrorModel {
         self.parameters.len()
     }
 
+    /// Checks that it is one for the parameters of `robot`.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`].
+    pub fn check(&self, robot: &Robot) -> Result<(), StudyError> {
+        let (given, expected) = (self.parameters(), Parameter::of(robot).len());
+        if given == expected {
+            return Ok(());
+        }
+        let expected = format!("one for the {expected} parameters of {}", robot.name);
+        Err(StudyError::setting("error model", format!("for {given} parameters"), expected))
+    }
+
     /// Equation (M1): the deviation of each parameter for each of `rows`, vectors one after the other.
     pub fn deviations(&self, rows: &[f64]) -> Vec<f64> {
         let inputs = self.inputs.len();
@@ -213,6 +226,13 @@ impl ErrorModel {
             gradient[*input] += factor * slopes[*parameter];
         }
         gradient
+    }
+
+    /// The variance that each input adds to a quantity with these derivatives with respect to the parameters,
+    /// to first order.
+    pub fn variances(&self, slopes: &[f64]) -> Vec<f64> {
+        let each = self.gradient(slopes).into_iter().zip(&self.inputs);
+        each.map(|(slope, input)| (slope * input.law.std()).powi(2)).collect()
     }
 
     /// Whether tension set-points deviate.

@@ -1,6 +1,6 @@
 //! Tensions that a cable is not to have: what is named about an answer, whichever model gave it.
 
-use crate::state::equilibrium::Equilibrium;
+use crate::state::Equilibrium;
 use cdpr_robot::{CableEnd, Robot, TensionLimits, decimal};
 use std::fmt;
 

@@ -1,0 +1,131 @@
+//! What a robot does along a path of poses, and how uncertain that is.
+//!
+//! The lengths hold each pose under the platform's own weight, on the branch of the pose before
+//! ([`cdpr_statics::InversePath`]); then the load comes onto the platform with the lengths kept. Standard
+//! deviations follow to first order from the exact derivatives q' of a quantity q and independent inputs θ_j of
+//! an error model,
+//!
+//! ```text
+//! std(q)² = sum (dq/dθ_j)² var(θ_j)                                                                 (W5)
+//! ```
+//!
+//! with the mean of both squares where left and right derivatives differ.
+
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{
+    Deflection, Derivatives, DirectProblem, InversePath, Load, StaticsError, deflection_from, derivatives,
+};
+use cdpr_study::{ErrorModel, StudyError};
+use serde::Serialize;
+
+/// A pose of a path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathPose {
+    /// Whether the lengths may jump here.
+    pub jump: bool,
+    /// Tension of every cable at the platform without the load [N]; exactly the limit where one is active.
+    pub tensions: Vec<f64>,
+    /// Tension of every cable at its exit point without the load [N].
+    pub exit_tensions: Vec<f64>,
+    /// Greatest distance of each cable across its chord without the load [m].
+    pub sags: Vec<f64>,
+    /// The lengths, and the equilibria without and with the load.
+    pub deflection: Deflection,
+    /// Lowest natural frequency with the load [Hz]; `None` for a robot that lacks `platform.inertia`.
+    pub lowest_frequency: Option<f64>,
+    /// Standard deviations; `None` without an error model, and where the pose has no derivatives on this branch.
+    pub bands: Option<Bands>,
+}
+
+/// Standard deviations at a pose, (W5). `None` stands for what has no derivative.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Bands {
+    /// Of the unstrained lengths [m].
+    pub lengths: Vec<f64>,
+    /// Of the tensions at the platform without the load [N].
+    pub tensions: Vec<f64>,
+    /// Of dp under the load [m].
+    pub displacement: [f64; 3],
+    /// Of |dp| [m].
+    pub rms: Option<f64>,
+    /// Of the stiffness of the softest motion with the load [N/m].
+    pub least_stiffness: Option<f64>,
+    /// Of the lowest natural frequency with the load [Hz].
+    pub lowest_frequency: Option<f64>,
+}
+
+/// A robot on its way along a path.
+#[derive(Clone, Debug)]
+pub struct Path<'a> {
+    robot: &'a Robot,
+    load: Load,
+    model: Option<&'a ErrorModel>,
+    lengths: InversePath<'a>,
+}
+
+/// Lengths that differ by less than this share are on one branch.
+const SAME_BRANCH: f64 = 1e-9;
+
+impl<'a> Path<'a> {
+    /// A path that has yet to begin.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] for an error model of another robot.
+    pub fn new(robot: &'a Robot, load: Load, model: Option<&'a ErrorModel>) -> Result<Self, StudyError> {
+        model.map(|model| model.check(robot)).transpose()?;
+        Ok(Self { robot, load, model, lengths: InversePath::new(robot) })
+    }
+
+    /// The next pose.
+    ///
+    /// # Errors
+    /// Those of [`InversePath::solve`] and of [`deflection_from`]. The path goes on from the last pose that has
+    /// an answer.
+    pub fn solve(&mut self, pose: &Pose) -> Result<PathPose, StaticsError> {
+        let Self { robot, load, .. } = *self;
+        let found = self.lengths.solve(pose, &Load::none(), None)?;
+        let wanted = found.solution;
+        let deflection = deflection_from(robot, wanted.lengths, &load, &wanted.equilibrium)?;
+        let Deflection { lengths, unloaded, loaded } = &deflection;
+        let problem = DirectProblem::new(robot, lengths, &load)?;
+        Ok(PathPose {
+            jump: found.jump,
+            tensions: wanted.tensions,
+            exit_tensions: unloaded.equilibrium.exit_tensions(robot, lengths),
+            sags: DirectProblem::new(robot, lengths, &Load::none())?.sags(&unloaded.equilibrium)?,
+            lowest_frequency: problem.lowest_frequency(&loaded.equilibrium).ok(),
+            bands: self.model.and_then(|model| Bands::new(robot, pose, &load, model, lengths)),
+            deflection,
+        })
+    }
+}
+
+impl Bands {
+    fn new(robot: &Robot, pose: &Pose, load: &Load, model: &ErrorModel, lengths: &[f64]) -> Option<Self> {
+        let left = derivatives(robot, pose, &vec![0.0; lengths.len()], load).ok()?;
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_BRANCH * b;
+        if !left.deflection.lengths.iter().zip(lengths).all(near) {
+            return None;
+        }
+        let right = left.right();
+        let std = |slopes: &dyn Fn(&Derivatives) -> Option<Vec<f64>>| {
+            let variance = |side| Some(model.variances(&slopes(side)?).iter().sum::<f64>());
+            Some((0.5 * (variance(&left)? + variance(&right)?)).sqrt())
+        };
+        let row = |of: &dyn Fn(&Derivatives, usize) -> f64| {
+            std(&|side| Some((0..side.lengths.ncols()).map(|column| of(side, column)).collect()))
+        };
+        let of_cables = |of: &dyn Fn(&Derivatives, usize, usize) -> f64| -> Option<Vec<f64>> {
+            (0..lengths.len()).map(|i| row(&|side, k| of(side, i, k))).collect()
+        };
+        let moved = |i| row(&|side: &Derivatives, k| side.loaded.pose[(i, k)] - side.unloaded.pose[(i, k)]);
+        Some(Self {
+            lengths: of_cables(&|side, i, k| side.lengths[(i, k)])?,
+            tensions: of_cables(&|side, i, k| side.unloaded.tensions[(i, k)])?,
+            displacement: [moved(0)?, moved(1)?, moved(2)?],
+            rms: std(&|side| side.rms().ok()),
+            least_stiffness: std(&|side| Some(side.least_stiffness(robot, load).ok()?.1)),
+            lowest_frequency: std(&|side| Some(side.frequency(robot, load).ok()?.1)),
+        })
+    }
+}
