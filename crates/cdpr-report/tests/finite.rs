@@ -78,7 +78,7 @@ fn check(what: &str, change: &dyn Fn(&mut Value, &mut Value)) -> Value {
     let blocks = begin(&out, &study, Existing::Refuse).unwrap();
     let watcher = Watcher { begin: &|_| (), tick: &|_| (), warn: &|_| (), note: &|_| (), stop: &|| false };
     let Run { results, figures } = run(&study, &blocks, Some(TableFormat::Csv), &draw, watcher).unwrap();
-    let page = report_with(&results, &figures).unwrap();
+    let page = report_with(&results, &figures, None).unwrap();
     blocks.results().unwrap().write(REPORT_NAME, page.as_bytes()).unwrap();
     assert_finite(what, &format!("{:?}", results.summary));
     assert_finite(what, &format!("{:?} {:?}", results.poses, results.surfaces));
