@@ -138,7 +138,7 @@ fn a_template_has_a_law_for_every_parameter_of_the_robot() {
         }
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("robot.json"), robot.to_json()).unwrap();
-        let text = template(&robot, "robot.json", None, None).unwrap();
+        let text = template(&robot, "robot.json", None, None, &[]).unwrap();
         let study = Study::from_json(&text, &folder.path().join("study.json")).unwrap();
         let sampling = study.sampling("all").unwrap();
         assert_eq!(sampling.errors.inputs.len(), Parameter::of(&robot).len());

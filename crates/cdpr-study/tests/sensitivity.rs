@@ -168,7 +168,7 @@ fn settings_left_out_are_those_of_the_data_file() {
 #[test]
 fn fewer_observations_shorten_all_measures_and_an_extension_keeps_them() {
     let robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
-    let text = template(&robot, "cogiro", None, None).unwrap();
+    let text = template(&robot, "cogiro", None, None, &[]).unwrap();
     let cost = template_cost(&robot);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("study.json");
