@@ -100,7 +100,7 @@ pub struct FoundRegion {
 /// Reads the boundary of a workspace from its folder.
 ///
 /// # Errors
-/// [`StudyError::Read`] for a folder that is none of a workspace; [`StudyError::Setting`] for a workspace without
+/// [`StudyError::Read`] for a folder that is none of a workspace; [`StudyError::Invalid`] for a workspace without
 /// a boundary, and for a file that is not as it was written.
 pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
     #[derive(Deserialize)]
@@ -119,14 +119,17 @@ pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
         let path = folder.join(name);
         std::fs::read(&path).map_err(|source| StudyError::Read { path, source })
     };
-    let wrong = |name: &str, value: String, expected: &str| {
-        StudyError::setting(folder.join(name).display().to_string(), value, expected)
+    let wrong = |name: &str, field: &str, value: String, expected: &str| StudyError::Invalid {
+        path: folder.join(name),
+        field: field.to_owned(),
+        value,
+        expected: expected.to_owned(),
     };
     let summary: Summary = serde_json::from_slice(&read(WORKSPACE)?)
-        .map_err(|error| wrong(WORKSPACE, error.to_string(), "the summary of a workspace"))?;
-    let expected = "a workspace with its boundary: cdpr workspace --boundary";
-    let Region { way, measure, unit } =
-        summary.boundary.ok_or_else(|| wrong(WORKSPACE, "without a boundary".to_owned(), expected))?;
+        .map_err(|error| wrong(WORKSPACE, "the file", error.to_string(), "the summary of a workspace"))?;
+    let expected = "that of a workspace with --boundary";
+    let missing = || wrong(WORKSPACE, "boundary", "null".to_owned(), expected);
+    let Region { way, measure, unit } = summary.boundary.ok_or_else(missing)?;
     let (mut polygons, mut triangles) = (Vec::new(), Vec::new());
     if unit == "m2" {
         let text = read(POLYGONS)?;
@@ -134,7 +137,7 @@ pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
         let mut last = 0;
         for row in reader.deserialize() {
             let (polygon, x, y, z): (usize, f64, f64, f64) =
-                row.map_err(|error| wrong(POLYGONS, error.to_string(), "rows of polygon,x,y,z"))?;
+                row.map_err(|error| wrong(POLYGONS, "a row", error.to_string(), "polygon,x,y,z"))?;
             if polygon != last {
                 polygons.push(Vec::new());
             }
@@ -146,7 +149,8 @@ pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
         }
     } else {
         let mesh = Boundary::triangles_of(&read(MESH)?);
-        triangles = mesh.ok_or_else(|| wrong(MESH, "of another form".to_owned(), "a binary STL file"))?;
+        triangles =
+            mesh.ok_or_else(|| wrong(MESH, "the file", "of another form".to_owned(), "a binary STL file"))?;
     }
     let Summary { robot, payload, .. } = summary;
     Ok(FoundRegion { robot, way, payload, measure, polygons, triangles })

@@ -216,7 +216,10 @@ fn a_report_shows_the_region_of_a_workspace_of_its_robot() {
     map("robot.json", "--plane=z=1.75", &["--grid", "3x3"]);
     let asked = |folder: &str| report(&bench, &["out", "--out", "report.html", "--workspace", folder]);
     let (code, message) = asked("map");
-    assert!(code == Some(1) && message.contains("a workspace with its boundary"), "{message}");
+    assert!(
+        code == Some(1) && message.contains("workspace.json: boundary is null: expected that of"),
+        "{message}"
+    );
     map("cogiro", "--plane=z=1.5", &["--grid", "5x5", "--boundary"]);
     let (code, message) = asked("map");
     assert!(code == Some(1) && message.contains("the robot of the workspace is CoGiRo"), "{message}");

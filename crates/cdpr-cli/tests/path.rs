@@ -135,6 +135,7 @@ fn the_standard_deviations_of_a_path_are_those_of_the_derivatives() {
         std::fs::write(&figure, "<svg>mine</svg>").unwrap();
         assert_eq!(cdpr(&arguments).status.code(), Some(1));
         assert_eq!(std::fs::read_to_string(&figure).unwrap(), "<svg>mine</svg>");
+        std::fs::remove_file(&figure).unwrap();
     }
 }
 

@@ -30,6 +30,9 @@ const GREATEST_CHANGE: f64 = 0.5;
 /// Ratio of one change to that before: an upper bound.
 const CONTRACTION: f64 = 0.5;
 
+/// Changes that contract so often are rounding.
+const MAX_ITERATIONS: usize = 60;
+
 /// A question and its optimum, from which others are followed.
 #[derive(Clone, Debug)]
 pub(super) struct Answered {
@@ -122,7 +125,7 @@ impl Answered {
     pub(super) fn corrected<'a>(&self, question: &Question<'a>, iterations: &mut usize) -> Option<Point<'a>> {
         let mut point = self.start(question)?;
         let (mut error_before, mut greatest) = (f64::INFINITY, GREATEST_CHANGE);
-        loop {
+        for _ in 0..MAX_ITERATIONS {
             let (error, size) = (point.residual().norm().max(point.stationarity()), point.size());
             let nearly = error <= NEARLY_ROUNDING * size;
             if (error <= ROUNDING * size || (nearly && error >= 0.5 * error_before))
@@ -145,6 +148,8 @@ impl Answered {
             point.set(moved, rows);
             point.multipliers = multipliers;
         }
+        // All cables at limits that do not balance have nothing left to change.
+        None
     }
 }
 

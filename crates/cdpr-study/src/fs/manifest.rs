@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 const MANIFEST_FORMAT: &str = "cdpr-results/1";
 
 /// Endings of the files that runs write.
-const ENDINGS: [&str; 5] = ["csv", "parquet", "svg", "json", "html"];
+const ENDINGS: [&str; 6] = ["csv", "parquet", "svg", "stl", "json", "html"];
 
 /// What the results in a folder are of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
