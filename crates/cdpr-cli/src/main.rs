@@ -102,7 +102,7 @@ enum Command {
     /// Compute the exact derivatives of lengths and deflection with respect to every parameter of a robot.
     #[command(after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 \
                       --format json")]
-    Derivatives(RobotAtFreePose),
+    Derivatives(pose::derivatives::Settings),
     /// Put a payload on a robot and take it off again, with the hysteresis of its cables.
     ///
     /// The hysteresis is that of a load-elongation record, of a law, or of the laws in the robot file.

@@ -1,6 +1,6 @@
 //! `cdpr calibrate` as a user meets it.
 
-use crate::common::{cdpr, data_path, text};
+use crate::common::{answered, cdpr, data_path, text};
 use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;
@@ -96,6 +96,27 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     let output = cdpr(&["study", "run", file.to_str().unwrap(), "--out", &results, "--observations", "256"]);
     let error = text(output.stderr);
     assert!(output.status.success(), "{error}");
+
+    // Derivatives with the posterior: g' C g, correlations included.
+    let (calibrated, study) = (out.join("calibrated.json"), file.display().to_string());
+    let at = ["--pose", "0.3,0.2,1.5", "--payload", "50", "--format", "json"];
+    let errors = ["--study", &study, "--error-model", "errors"];
+    let asked = [&["derivatives", calibrated.to_str().unwrap()], &at[..], &errors[..]].concat();
+    let found: Value = serde_json::from_str(&answered(cdpr(&asked))).unwrap();
+    let names = found["parameters"].as_array().unwrap();
+    let slope = |name: &Value| {
+        found["rms_mm"][names.iter().position(|known| known == name).unwrap()].as_f64().unwrap()
+    };
+    let slopes: Vec<f64> = posterior["parameters"].as_array().unwrap().iter().map(slope).collect();
+    let row = |row: &Value| -> f64 {
+        row.as_array().unwrap().iter().zip(&slopes).map(|(c, g)| c.as_f64().unwrap() * g).sum()
+    };
+    let covariance = posterior["covariance"].as_array().unwrap();
+    let variance: f64 = covariance.iter().zip(&slopes).map(|(c, g)| row(c) * g).sum();
+    let std = found["uncertainty"]["std_mm"].as_f64().unwrap();
+    assert!((std / variance.sqrt() - 1.0).abs() < 1e-6, "{std} {}", variance.sqrt());
+    let shares = found["uncertainty"]["shares"].as_object().unwrap().values();
+    assert!((shares.map(|share| share.as_f64().unwrap()).sum::<f64>() - 1.0).abs() < 1e-9);
 
     // The same folder takes a further calibration, one of a user does not.
     assert_eq!(calibrate(&path, &out, &["--model", &model, "--noise", NOISE]).status.code(), Some(0));

@@ -74,7 +74,8 @@ def test_bounds_hold_and_groups_move_together(caroca, measurements, tmp_path):
     }
     found = cdpr.calibration.calibrate(caroca, measurements, tmp_path / "out", **sought)["parameters"]
     moved = [found[name]["after"] - found[name]["before"] for name in ("b1.z", "b2.z", "mass")]
-    assert moved[0] == pytest.approx(moved[1], abs=1e-12) and abs(moved[2]) <= 1e-3
+    # Differences of masses near 180 kg are rounded.
+    assert moved[0] == pytest.approx(moved[1], abs=1e-12) and abs(moved[2]) <= 1e-3 + 1e-12
     sought["share"] = ["b1.z+r1"]
     with pytest.raises(cdpr.InputError, match=r"share is b1.z\+r1: expected parameters that are sought"):
         cdpr.calibration.calibrate(caroca, measurements, tmp_path / "out", **sought)

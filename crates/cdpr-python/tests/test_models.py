@@ -123,7 +123,7 @@ def test_the_capacity_is_that_of_the_command_line(caroca, caroca_file):
     reached = numpy.degrees(found.tilt) - [towards["angle_deg"] for towards in printed["tilt"]]
     assert numpy.abs(reached).max() <= 0.01 + 1e-9
     block = printed["margin"]["anew"]["blocking"][0]
-    assert f"cable {block['cable']} at its {block['limit']}" in found.blocked_by.split(" | ")[3]
+    assert f"cable {block['cable']} at its {block['limit']}" in found.blocked_by[3]
     with pytest.raises(cdpr.InputError, match="wrenches has the shape"):
         caroca.capacity(TURNED, wrenches=[1, 2, 3])
 

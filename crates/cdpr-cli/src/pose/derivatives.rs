@@ -1,20 +1,72 @@
 //! `cdpr derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
 use crate::answer::{OutOfLimits, bound_name, decimal};
+use crate::arguments::ErrorModelArguments;
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
 use cdpr_robot::{Parameter, Robot};
 use cdpr_statics::{Derivatives, Load, OneSided, StaticsError, derivatives_free};
+use cdpr_study::ErrorModel;
+use indexmap::IndexMap;
 use serde::Serialize;
 
-pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {
+/// The robot, its poses, and what is uncertain.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtFreePose,
+    #[command(flatten)]
+    errors: ErrorModelArguments,
+}
+
+pub(crate) fn run(
+    Settings { at: RobotAtFreePose { at, free }, errors }: &Settings,
+) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
+    let robot = at.robot()?;
+    let model = errors.model(&robot)?;
+    model.as_ref().map(|model| model.check(&robot)).transpose()?;
     let solve = |robot: &Robot, pose: &_| {
         let offsets = vec![0.0; robot.cables.len()];
-        Slopes::new(robot, &load, &derivatives_free(robot, pose, &offsets, &load, &free.free)?)
+        let found = derivatives_free(robot, pose, &offsets, &load, &free.free)?;
+        let mut slopes = Slopes::new(robot, &load, &found)?;
+        slopes.uncertainty = model.as_ref().map(|model| Uncertainty::new(model, &found)).transpose()?;
+        Ok(slopes)
     };
     at.answer(solve, Slopes::print)
+}
+
+/// What an error model makes of |dp|, to first order.
+#[derive(Serialize)]
+struct Uncertainty {
+    /// Standard deviation of |dp|.
+    std_mm: f64,
+    /// The share of each cause in its variance, the largest first.
+    shares: IndexMap<String, f64>,
+}
+
+/// Causes that a table names.
+const NAMED: usize = 5;
+
+impl Uncertainty {
+    fn new(model: &ErrorModel, found: &Derivatives) -> Result<Self, StaticsError> {
+        let [left, right] = [found.rms()?, found.right().rms()?].map(|slopes| model.variances(&slopes));
+        let parts: Vec<f64> = left.iter().zip(&right).map(|(left, right)| 0.5 * (left + right)).collect();
+        let variance: f64 = parts.iter().sum();
+        let share = |part: f64| if variance > 0.0 { part / variance } else { 0.0 };
+        let causes = model.inputs.iter().zip(&parts);
+        let mut shares: IndexMap<_, _> =
+            causes.map(|(input, part)| (input.name.clone(), share(*part))).collect();
+        shares.sort_by(|_, one, _, other| other.total_cmp(one));
+        Ok(Self { std_mm: 1e3 * variance.sqrt(), shares })
+    }
+
+    fn print(&self) {
+        let named = self.shares.iter().take(NAMED);
+        let named: Vec<_> = named.map(|(name, share)| format!("{name} {:.1} %", 100.0 * share)).collect();
+        println!("standard deviation of |dp|: {:.5} mm; {}", self.std_mm, named.join(", "));
+    }
 }
 
 /// Derivatives with respect to each parameter; the outer lists are in the order of the parameters.
@@ -47,6 +99,9 @@ struct Slopes {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     one_sided: Vec<TwoSlopes>,
     unit: &'static str,
+    /// Absent without an error model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    uncertainty: Option<Uncertainty>,
     /// Tensions of the nominal robot, without and with the load.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
@@ -133,6 +188,7 @@ impl Slopes {
             without,
             unstrained_lengths: left.into_iter().map(|slope| slope.unstrained_lengths).collect(),
             unit: "per SI unit of the parameter",
+            uncertainty: None,
             out_of_limits: OutOfLimits::all(robot, &deflection.lengths, &equilibria),
         })
     }
@@ -202,6 +258,7 @@ impl Slopes {
             println!("{parameter}: {} on one side only", cables.join(", "));
         }
         self.without.iter().for_each(|reason| println!("{reason}"));
+        self.uncertainty.iter().for_each(Uncertainty::print);
         OutOfLimits::print(&self.out_of_limits);
     }
 }

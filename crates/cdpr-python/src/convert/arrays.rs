@@ -405,6 +405,18 @@ impl<'py, 'a, T> Columns<'py, 'a, T> {
         Ok(if shape.is_empty() { array.call_method0("item")?.unbind() } else { array.into_any().unbind() })
     }
 
+    /// A list of words for each case, `None` where there is no answer; a list of these unless there is a single
+    /// case.
+    pub(crate) fn lists(&self, list: impl Fn(&T) -> Vec<String>) -> PyResult<Py<PyAny>> {
+        let lists: Vec<Option<Vec<String>>> = self.rows.iter().map(|row| row.map(&list)).collect();
+        let object = if self.single {
+            lists[0].as_deref().into_pyobject(self.py)?.into_any()
+        } else {
+            lists.into_pyobject(self.py)?
+        };
+        Ok(object.unbind())
+    }
+
     /// A word for each case, `None` where there is no answer; a list unless there is a single case.
     pub(crate) fn words(&self, word: impl Fn(&T) -> String) -> PyResult<Py<PyAny>> {
         let words: Vec<Option<String>> = self.rows.iter().map(|row| row.map(&word)).collect();

@@ -26,7 +26,7 @@ answer! {
         margin_anew: Py<PyAny>,
         /// Distance of the tensions from the nearest limit [N].
         margin_kept: Py<PyAny>,
-        /// What blocks each of these five, in words, or why it does not exist.
+        /// What blocks each of these five, in words, or why it does not exist; a list of five.
         blocked_by: Py<PyAny>,
         /// Distance of the surfaces of the nearest two cables [m].
         nearest_cables: Py<PyAny>,
@@ -125,7 +125,7 @@ impl Robot {
                 Ok(figure) => figure.blocked_by(),
                 Err(error) => error.to_string(),
             };
-            found.figures.each_ref().map(words).join(" | ")
+            found.figures.iter().map(words).collect()
         };
         Ok(Capacity {
             payload_anew: figure(0)?,
@@ -133,7 +133,7 @@ impl Robot {
             payload_kept_slack: figure(2)?,
             margin_anew: figure(3)?,
             margin_kept: figure(4)?,
-            blocked_by: all.words(words)?,
+            blocked_by: all.lists(words)?,
             nearest_cables: all.number(|found| {
                 found.clearance.as_ref().and_then(|near| near.cables).map_or(f64::NAN, |near| near.distance)
             })?,
