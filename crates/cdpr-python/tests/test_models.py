@@ -395,6 +395,8 @@ def check_same(one, other):
     for name, value in fields(one).items():
         if type(value).__module__.startswith("cdpr"):
             check_same(value, getattr(other, name))
+        elif isinstance(value, list):
+            assert value == getattr(other, name), name
         else:
             numpy.testing.assert_array_equal(value, getattr(other, name), name)
 
@@ -407,7 +409,7 @@ def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
         check_same(answer, copy.deepcopy(answer))
         assert repr(answer).startswith(f"<{type(answer).__module__}.{type(answer).__name__} ")
         assert len(repr(answer)) < 400
-    assert classes == {"Catenary", "InverseSolution", "Deflection", "Stiffness", "Derivatives",
+    assert classes == {"Capacity", "Catenary", "InverseSolution", "Deflection", "Stiffness", "Derivatives",
                        "DirectSolution", "Observations", "Workspace", "Effects", "SobolIndices",
                        "MorrisEffects"}
     found = caroca.deflection([POSE, POSE], payload=50)
