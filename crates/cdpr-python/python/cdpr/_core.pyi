@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "Capacity",
     "Catenary",
     "Deflection",
     "Derivatives",
@@ -25,6 +26,7 @@ __all__ = [
     "Stiffness",
     "VERSION",
     "Workspace",
+    "analyse",
     "begin",
     "calibrate",
     "calibration_plan",
