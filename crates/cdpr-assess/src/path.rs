@@ -1,9 +1,9 @@
 //! What a robot does along a path of poses, and how uncertain that is.
 //!
 //! The lengths hold each pose under the platform's own weight, on the branch of the pose before
-//! ([`cdpr_statics::InversePath`]); then the load comes onto the platform with the lengths kept. Standard
-//! deviations follow to first order from the exact derivatives q' of a quantity q and independent inputs θ_j of
-//! an error model,
+//! ([`cdpr_statics::InversePath`]); then the load comes onto the platform with the lengths kept. The standard
+//! deviation of a quantity q follows, to first order, from its exact derivatives with respect to the
+//! independent inputs θ_j of an error model,
 //!
 //! ```text
 //! std(q)² = sum (dq/dθ_j)² var(θ_j)                                                                 (W5)
@@ -33,7 +33,8 @@ pub struct PathPose {
     pub deflection: Deflection,
     /// Lowest natural frequency with the load [Hz]; `None` for a robot that lacks `platform.inertia`.
     pub lowest_frequency: Option<f64>,
-    /// Standard deviations; `None` without an error model, and where the pose has no derivatives on this branch.
+    /// Standard deviations; `None` without an error model, and where the pose has no derivatives on this
+    /// branch.
     pub bands: Option<Bands>,
 }
 
@@ -79,8 +80,8 @@ impl<'a> Path<'a> {
     /// The next pose.
     ///
     /// # Errors
-    /// Those of [`InversePath::solve`] and of [`deflection_from`]. The path goes on from the last pose that has
-    /// an answer.
+    /// Those of [`InversePath::solve`] and of [`deflection_from`]. The path goes on from the last pose with an
+    /// answer.
     pub fn solve(&mut self, pose: &Pose) -> Result<PathPose, StaticsError> {
         let Self { robot, load, .. } = *self;
         let found = self.lengths.solve(pose, &Load::none(), None)?;

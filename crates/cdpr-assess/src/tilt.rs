@@ -6,11 +6,11 @@
 //! R(α) = exp(α e_z x d(θ)) R,      d = (cos θ, sin θ, 0) in the level frame                         (W3)
 //! ```
 //!
-//! so that its upward axis leans towards θ. α grows in steps of 15° while tensions within the limits, distributed
-//! anew, hold the platform ([`cdpr_statics::is_held`]); bisections find where they end. A gap that lies between
-//! two steps is not seen. The orientation workspace of cable-driven robots is defined so by Gouttefarde, Merlet,
-//! Daney (*Wrench-feasible workspace of parallel cable-driven mechanisms*, ICRA 2007), as the orientations at a
-//! position that are wrench-feasible.
+//! so that its upward axis leans towards θ. α grows in steps of 15° while tensions within the limits,
+//! distributed anew, hold the platform ([`cdpr_statics::is_held`]); then bisection finds the angle at which
+//! they end. A gap that lies between two steps is not seen. The orientation workspace of cable-driven robots
+//! is defined so by Gouttefarde, Merlet, Daney (*Wrench-feasible workspace of parallel cable-driven
+//! mechanisms*, ICRA 2007), as the orientations at a position that are wrench-feasible.
 
 use cdpr_robot::{Matrix3, Plane, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{Load, StaticsError, inverse, is_held};

@@ -1,5 +1,5 @@
-//! Whether lengths and poses of a table belong together: columns that were swapped, a column in another unit or with another sign,
-//! a row of another robot.
+//! Whether lengths and poses of a table belong together: columns that were swapped, a column in another unit
+//! or with another sign, a row of another robot.
 
 use crate::campaign::{Quantity, Row};
 use crate::error::CalibrationError;

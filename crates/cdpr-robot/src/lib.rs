@@ -33,7 +33,6 @@ mod limits;
 mod number;
 mod parameter;
 mod pose;
-mod quaternion;
 mod robot;
 mod shown;
 mod wrench;
@@ -52,8 +51,8 @@ pub use limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionRefe
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
 pub use number::{decimal, rounded};
 pub use parameter::{Parameter, ParameterLayout, Perturbed, TiltAxis, deviations};
+pub use pose::quaternion::{QuaternionError, rotation_by_angles, rotation_in_order, rotation_of};
 pub use pose::{Pose, orthonormalized};
-pub use quaternion::{QuaternionError, rotation_by_angles, rotation_in_order, rotation_of};
 pub use robot::provenance::{Grade, Provenance};
 pub use robot::{CableProperties, Platform, Pulley, Robot, RobotCable};
 pub use shown::{shown, shown_lines};

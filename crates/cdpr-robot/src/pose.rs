@@ -1,5 +1,7 @@
 //! Pose of the platform.
 
+pub(crate) mod quaternion;
+
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3, Vector6};
 
 /// Position and orientation of the platform frame in the base frame.

@@ -96,8 +96,8 @@ pub fn inverse(
 /// Whether tensions within the limits hold the platform at `pose` under its weight and `load`, as far as the
 /// search from the tensions of straight cables tells.
 ///
-/// A yes is certain. A no is given much sooner than by [`inverse`], which tries other starts before it calls a
-/// pose infeasible: cables that sag may hold a pose with tensions far from those of straight ones.
+/// A yes is certain. A no comes much sooner than from [`inverse`], which tries other starts before it calls
+/// a pose infeasible: cables that sag may hold a pose with tensions far from those of straight ones.
 ///
 /// # Errors
 /// Those of [`inverse`] but [`StaticsError::NoTensions`] and [`StaticsError::InverseNotConverged`].

@@ -2,7 +2,8 @@
 //! that do not average out.
 //!
 //! With the residuals ρ of a column and a coordinate u of their rows, artanh of the correlation r has, without
-//! a trend, a standard deviation of nearly `1/sqrt(n - 3)` (Fisher 1921). The mean over m consecutive rows has the variance `σ²/m` if
+//! a trend, a standard deviation of nearly `1/sqrt(n - 3)` (Fisher 1921). The mean over m consecutive rows
+//! has the variance `σ²/m` if
 //! rows do not depend on each other (Allan 1966): the ratio of the two tells drifts and errors of the model
 //! that change slowly from pose to pose.
 //!

@@ -405,7 +405,7 @@ impl<'py, 'a, T> Columns<'py, 'a, T> {
         Ok(if shape.is_empty() { array.call_method0("item")?.unbind() } else { array.into_any().unbind() })
     }
 
-    /// A list of words for each case, `None` where there is no answer; a list of these unless there is a single
+    /// A list of words for each case, `None` where there is no answer; a list of these unless there is one
     /// case.
     pub(crate) fn lists(&self, list: impl Fn(&T) -> Vec<String>) -> PyResult<Py<PyAny>> {
         let lists: Vec<Option<Vec<String>>> = self.rows.iter().map(|row| row.map(&list)).collect();
