@@ -40,3 +40,13 @@ pub(crate) fn cargo_command(arguments: &[&str]) -> Command {
     command.args(subcommand).arg("--manifest-path").arg(root().join("Cargo.toml")).args(rest);
     command
 }
+
+/// Runs a command, and fails where it does.
+pub(crate) fn done(command: &mut Command) -> Result<(), Box<dyn std::error::Error>> {
+    let program = command.get_program().display().to_string();
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("`{program}` has failed with {status}").into()),
+        Err(error) => Err(format!("`{program}` cannot be started ({error}): install it").into()),
+    }
+}

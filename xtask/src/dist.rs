@@ -4,7 +4,7 @@
 //! from CHANGELOG.md, and the checksums of all files. A part whose tool is not installed is left out, and the
 //! last lines say so.
 
-use crate::cargo::{cargo_command, root};
+use crate::cargo::{cargo_command, done, root};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -43,16 +43,6 @@ pub(crate) fn run(rest: &[String]) -> ExitCode {
     eprintln!("\n{} holds what could be made", folder.display());
     left_out.iter().for_each(|reason| eprintln!("left out: {reason}"));
     if left_out.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-/// Runs a command, and fails where it does.
-fn done(command: &mut Command) -> Outcome {
-    let program = command.get_program().display().to_string();
-    match command.status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(format!("`{program}` has failed with {status}").into()),
-        Err(error) => Err(format!("`{program}` cannot be started ({error}): install it").into()),
-    }
 }
 
 /// The program, on Linux with everything linked in, so that it runs on any.

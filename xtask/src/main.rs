@@ -17,6 +17,7 @@ mod led;
 mod peers;
 mod scaling;
 mod throughput;
+mod web;
 
 use cargo::{cargo, cdpr, root};
 use std::path::Path;
@@ -67,6 +68,8 @@ tasks:
                  panics, hangs or touches a file outside of its folder of results
   dist           makes what a release consists of in target/dist: the program, on Linux one that runs on
                  any, the wheel, the packed crates, the book, notes and checksums
+  web [--check]  makes the module and the page of `cdpr explore` in crates/cdpr-web/dist, or says whether these
+                 are of the sources as they are
   gallery        writes docs/robots.md, a picture and a table for each robot of the library
   schemas        writes the JSON Schemas of the file formats to docs/schemas
   help           prints this text";
@@ -91,6 +94,7 @@ fn main() -> ExitCode {
         Some("fuzz") => fuzz::run(&rest),
         Some("attack") => attack::run(),
         Some("dist") => dist::run(&rest),
+        Some("web") => web::run(&rest),
         Some("gallery") => gallery(),
         Some("schemas") => schemas(),
         Some("help" | "--help" | "-h") => {

@@ -67,6 +67,8 @@ pub(crate) enum ProgramError {
     Ranks { expected: usize, found: usize },
     #[error("cannot wait for Ctrl-C: {0}")]
     Signals(#[from] ctrlc::Error),
+    #[error("cannot open {path} in a browser: {reason}; it is written, and any browser opens it")]
+    Browser { path: PathBuf, reason: String },
     #[error("cannot write JSON: {0}")]
     Json(#[from] serde_json::Error),
 }

@@ -71,6 +71,13 @@ enum Command {
                       --uncertainty a=0.002,b=0.002
   cdpr workspace data/robots/cogiro.json --plane z=1.5 --capacity --distances --tilt --boundary")]
     Workspace(robot::workspace::Settings),
+    /// Write a page on which a robot computes in the browser: move it, load it, see which tolerance matters.
+    ///
+    /// One HTML file that needs neither an installation nor a connection, with the robot and these models.
+    #[command(after_help = "Examples:
+  cdpr explore data/robots/cogiro.json --open
+  cdpr explore data/studies/caroca.json --out caroca.html")]
+    Explore(robot::explore::Settings),
     /// List everything that is odd about a robot file.
     #[command(after_help = "Example: cdpr check data/robots/cogiro.json")]
     Check(robot::check::Settings),
@@ -210,6 +217,7 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Modulus(settings) => cable::modulus::run(&settings)?,
         Command::Tolerances(settings) => study::tolerances::run(&settings)?,
         Command::Report(settings) => study::report::run(&settings)?,
+        Command::Explore(settings) => robot::explore::run(&settings)?,
         Command::Analyse(settings) => return study::analyse::run(&settings),
         Command::Export(settings) => pose::export::run(&settings)?,
         Command::Import(settings) => return robot::import::run(&settings),

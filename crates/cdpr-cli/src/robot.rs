@@ -3,6 +3,7 @@
 pub(crate) mod calibrate;
 pub(crate) mod calibration;
 pub(crate) mod check;
+pub(crate) mod explore;
 pub(crate) mod import;
 pub(crate) mod library;
 pub(crate) mod robustness;

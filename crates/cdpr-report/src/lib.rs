@@ -39,6 +39,7 @@
 mod draw;
 mod drawing;
 mod error;
+mod explorer;
 mod figure;
 mod page;
 mod parameters;
@@ -47,6 +48,7 @@ mod text;
 
 pub use draw::{draw, figures};
 pub use error::ReportError;
+pub use explorer::{EXPLORER_MARK, Explored, explored_study, explorer};
 pub use figure::cycle::{Cycle, CycleBranch, cycle};
 pub use figure::heat_map::{MapQuantity, heat_map, tolerance_map, workspace_maps};
 pub use figure::histogram::histogram;

@@ -55,7 +55,7 @@ pub use analysis::measures::{InputMeasures, MEASURES, Measure, Quantity};
 pub use analysis::part::{Overview, StudySummary};
 pub use analysis::poses::{HELD, PoseRow, PosesResult, PosesSummary, observe_poses};
 pub use analysis::sampling::{
-    FitSummary, NominalSummary, SamplingSummary, SignedEffect, ValueSummary, analyse,
+    FitSummary, NominalSummary, SamplingSummary, SignedEffect, ValueSummary, analyse, effects_of_replicates,
 };
 pub use analysis::sensitivity::{Agreement, MethodSummary, SensitivitySummary, measure};
 pub use analysis::summary::Summary;
@@ -93,7 +93,7 @@ pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarC
 pub use model::observer::OutputObserver;
 pub use model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis};
 pub use names::{REPORT_MARK, REPORT_NAME, ROBOT_NAME, STUDY_NAME};
-pub use observe::observation::{FITTED, KEPT, Part, Session, Tally, observe, observe_into, observe_rows};
+pub use observe::observation::{FITTED, KEPT, Part, Session, Tally, observe, observe_into, observe_replicate, observe_rows};
 pub use observe::plan::{BlockMaker, Plan, observe_shard};
 pub use observe::shard::Shard;
 pub use observe::status::{

@@ -3,14 +3,13 @@
 use crate::analysis::sensitivity::{SensitivitySummary, measure};
 use crate::error::StudyError;
 use crate::file::output::Output;
-use crate::model::designs::replicate_name;
 use crate::model::nominal::too_much;
 use crate::model::observed::ScalarCount;
 use crate::model::study::Sampling;
-use crate::observe::observation::{FITTED, KEPT, Session, Tally, observe_tally};
+use crate::observe::observation::{FITTED, KEPT, Session, Tally, observe_replicate};
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{
-    Bootstrap, Effects, Family, Fit, Histogram, Law, Sample, SampleDesign, SensitivityError, SobolDesign,
+    Bootstrap, EffectInterval, Effects, Family, Fit, Histogram, Law, Sample, SampleDesign, SensitivityError, SobolDesign,
     Summary, best, fit_all, intervals_of_effects, undecided,
 };
 use cdpr_statics::Deflection;
@@ -278,6 +277,12 @@ fn unmoved(sampling: &Sampling, tally: &Tally, rounding: f64) -> SamplingSummary
 }
 
 impl ValueSummary {
+    /// Of all observations of a tally; `None` if fewer than two of them succeeded.
+    pub fn of(sampling: &Sampling, tally: &Tally) -> Option<Self> {
+        let moments = tally.sums.outputs().summary().ok()?;
+        Self::new(&moments, &Sample::new(&tally.first_values).ok()?, sampling.nominal_value).ok()
+    }
+
     /// Of a robot without any change.
     const ZERO: Self = Self {
         mean: 0.0,
@@ -313,28 +318,28 @@ fn signed_effects(
     sampling: &Sampling,
     session: &Session,
 ) -> Result<Result<IndexMap<String, SignedEffect>, SensitivityError>, StudyError> {
-    let settings = &sampling.study.file;
-    let numbers = 1..=settings.replicates;
-    let designs: Vec<SobolDesign> = numbers.clone().map(|number| sampling.replicate(number)).collect();
-    if designs.is_empty() {
+    let replicates = sampling.study.file.replicates;
+    if replicates == 0 {
         return Ok(Ok(IndexMap::new()));
     }
-    let tallies: Vec<Tally> = numbers
-        .zip(&designs)
-        .map(|(number, design)| observe_tally(sampling, (&replicate_name(number), design), session))
-        .collect::<Result<_, _>>()?;
-    let intervals = || {
-        let effects: Vec<Effects> = designs
-            .iter()
-            .zip(&tallies)
-            .map(|(design, tally)| tally.sums.effects(design.inputs()))
-            .collect::<Result<_, _>>()?;
-        let designs: Vec<&SobolDesign> = designs.iter().collect();
-        let intervals = intervals_of_effects(&designs, &effects, settings.confidence)?;
-        let named = intervals
-            .into_iter()
-            .map(|e| (e.input, SignedEffect { effect: e.effect, low: e.low, high: e.high }));
-        Ok(named.collect())
-    };
-    Ok(intervals())
+    let tallies = (1..=replicates).map(|number| observe_replicate(sampling, number, session));
+    let tallies: Vec<Tally> = tallies.collect::<Result<_, _>>()?;
+    let effects = tallies.iter().map(|tally| tally.sums.effects(sampling.design.inputs()));
+    Ok(effects.collect::<Result<Vec<_>, _>>().and_then(|effects| effects_of_replicates(sampling, &effects)))
+}
+
+/// Signed effects with their intervals, from the effects in each scrambled replicate of a sampling, the first
+/// of them replicate 1.
+///
+/// # Errors
+/// As [`intervals_of_effects`].
+pub fn effects_of_replicates(
+    sampling: &Sampling,
+    effects: &[Effects],
+) -> Result<IndexMap<String, SignedEffect>, SensitivityError> {
+    let designs: Vec<SobolDesign> = (1..=effects.len()).map(|number| sampling.replicate(number)).collect();
+    let designs: Vec<&SobolDesign> = designs.iter().collect();
+    let intervals = intervals_of_effects(&designs, effects, sampling.study.file.confidence)?;
+    let named = |e: EffectInterval| (e.input, SignedEffect { effect: e.effect, low: e.low, high: e.high });
+    Ok(intervals.into_iter().map(named).collect())
 }

@@ -12,7 +12,7 @@ use crate::model::nominal::Nominals;
 use crate::model::prepare::FEWEST_OBSERVATIONS;
 use crate::model::study::Study;
 use crate::names::BLOCKS_NAME;
-use cdpr_robot::{Coordinate, RobotError, TensionReference, from_json};
+use cdpr_robot::{Coordinate, Robot, RobotError, TensionReference, from_json};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -26,7 +26,7 @@ const MOST_CONFIDENCE: f64 = 0.999_999;
 const LONGEST_NAME: usize = 200;
 
 /// Observations of a sampling in all its designs at all its poses: their blocks are 240 GB.
-const MOST_OBSERVATIONS: usize = 10_000_000_000;
+const MOST_OBSERVATIONS: u64 = 10_000_000_000;
 
 /// Observations behind an expansion times uncertain parameters, which are held in memory together.
 const MOST_ENTRIES: usize = 1 << 24;
@@ -58,17 +58,32 @@ impl Study {
         Ok(study)
     }
 
+    /// Checks a study of a robot that is at hand, whatever robot the study names. No file is opened for it
+    /// unless an error model is in one.
+    ///
+    /// # Errors
+    /// As [`Study::open`].
+    pub fn of_robot(file: StudyFile, robot: Robot, path: &Path) -> Result<Self, StudyError> {
+        let study = Self::of(file, robot, path);
+        study.validate()?;
+        Ok(study)
+    }
+
     /// A study and its robot whose values together are not checked yet: enough to know them by their hash.
     pub(crate) fn unchecked(text: &str, path: &Path) -> Result<Self, StudyError> {
         let file: StudyFile = from_json(text).map_err(|source| {
             let other = other_kind(path, text, InputKind::Study);
             other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
         })?;
-        let mut robot = open_robot_from(path.parent().unwrap_or(Path::new(".")), &file.robot)?;
+        let robot = open_robot_from(path.parent().unwrap_or(Path::new(".")), &file.robot)?;
+        Ok(Self::of(file, robot, path))
+    }
+
+    fn of(file: StudyFile, mut robot: Robot, path: &Path) -> Self {
         if let Some(reference) = &file.tension_reference {
             robot.tension_reference = Some(reference.clone());
         }
-        Ok(Self { path: path.to_owned(), file, robot, nominals: Nominals::default() })
+        Self { path: path.to_owned(), file, robot, nominals: Nominals::default() }
     }
 
     /// Gives the inverse model other tensions to prefer.
@@ -264,7 +279,7 @@ impl Study {
         let set = self.poses(name, spec)?;
         let field = |field: &str| format!("samplings.{name}.{field}");
         let observations = self.observations(name)?;
-        if observations > MOST_OBSERVATIONS {
+        if observations as u64 > MOST_OBSERVATIONS {
             let expected = format!("at most {MOST_OBSERVATIONS} with all replicates, measures and poses");
             return Err(self.invalid(&field("observations"), observations, &expected));
         }

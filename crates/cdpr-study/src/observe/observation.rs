@@ -13,7 +13,7 @@
 
 use crate::error::StudyError;
 use crate::file::output::Output;
-use crate::model::designs::{OWN, Points};
+use crate::model::designs::{OWN, Points, replicate_name};
 use crate::model::observed::{Failure, Observed, ScalarCount, count_failed, failures, value_of};
 use crate::model::study::Sampling;
 use crate::store::block::{BLOCK, blocks};
@@ -147,8 +147,16 @@ pub fn observe_into<T: Send>(
     Ok(whole)
 }
 
+/// [`observe`] for a scrambled replicate of the sampling's design, by its number from 1.
+///
+/// # Errors
+/// As [`observe`].
+pub fn observe_replicate(sampling: &Sampling, number: usize, session: &Session) -> Result<Tally, StudyError> {
+    observe_tally(sampling, (&replicate_name(number), &sampling.replicate(number)), session)
+}
+
 /// [`observe`] for another design over the same inputs, with the name of its blocks.
-pub(crate) fn observe_tally(
+fn observe_tally(
     sampling: &Sampling,
     design: (&str, &dyn Points),
     session: &Session,

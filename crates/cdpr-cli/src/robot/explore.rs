@@ -1,0 +1,73 @@
+//! `cdpr explore`: a robot that computes in the browser, as one HTML file.
+
+use crate::arguments::Format;
+use crate::error::ProgramError;
+use crate::output::patiently;
+use cdpr_report::{EXPLORER_MARK, Explored, explored_study, explorer};
+use cdpr_robot::Robot;
+use cdpr_study::{InputKind, Results, Study, StudyError, open_robot, write_text};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// What is explored, and the file.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Robot file, name of a robot of the library, study file, or folder of results.
+    #[arg(value_name = "ROBOT|STUDY|RESULTS", default_value = "caroca")]
+    input: PathBuf,
+    /// File for the page; NAME-explorer.html in the current folder if left out.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Open the page in the browser.
+    #[arg(long)]
+    open: bool,
+    /// How the path of the page is printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Serialize)]
+struct Written {
+    explorer: String,
+}
+
+/// A robot, and the study of it that comes first.
+struct Input {
+    robot: Robot,
+    study: Option<Study>,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let Settings { input, out, open, format } = settings;
+    let Input { robot, study } = patiently("reading the robot", || read(input))?;
+    let file = input.to_string_lossy();
+    let explored = Explored {
+        name: &robot.name,
+        file: &file,
+        robot: &robot.to_json(),
+        study: study.as_ref().map(explored_study),
+    };
+    let page = explorer(&explored, env!("CARGO_PKG_VERSION"))?;
+    let path = out.clone().unwrap_or_else(|| {
+        let stem = input.file_stem().map_or_else(|| "robot".into(), |stem| stem.to_string_lossy());
+        PathBuf::from(format!("{stem}-explorer.html"))
+    });
+    write_text(&path, &page, EXPLORER_MARK)?;
+    if *open {
+        opener::open(&path).map_err(|error| ProgramError::Browser { path: path.clone(), reason: error.to_string() })?;
+    }
+    let written = Written { explorer: path.to_string_lossy().into_owned() };
+    Ok(format.print(&written, |written| println!("explorer in {}", written.explorer))?)
+}
+
+fn read(path: &Path) -> Result<Input, StudyError> {
+    let of_study = |study: Study| Input { robot: study.robot.clone(), study: Some(study) };
+    if path.is_dir() {
+        return Ok(of_study(Results::read(path)?.study));
+    }
+    match open_robot(path) {
+        Ok(robot) => Ok(Input { robot, study: None }),
+        Err(StudyError::OtherKind { found: InputKind::Study, .. }) => Ok(of_study(Study::open(path)?)),
+        Err(error) => Err(error),
+    }
+}

@@ -1,0 +1,13 @@
+//! Where the platform stands on given lengths.
+
+use crate::answers::failure::Failure;
+use crate::answers::state::State;
+use crate::question::Stand;
+use cdpr_robot::Robot;
+use cdpr_statics::{Start, direct};
+
+pub(crate) fn stand(robot: &Robot, given: &Stand) -> Result<State, Failure> {
+    let (start, load) = (given.start.pose()?, given.load.load());
+    let found = direct(robot, &given.lengths, &load, Start::Pose(&start))?;
+    State::new(robot, &given.lengths, &load, &found)
+}

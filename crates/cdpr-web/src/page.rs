@@ -1,0 +1,16 @@
+//! The products of `cargo xtask web`: what a page needs besides a robot.
+
+/// The module with the vector unit of WebAssembly, packed by gzip.
+pub const MODULE: &[u8] = include_bytes!("../dist/cdpr_web.wasm.gz");
+
+/// The module without it, for browsers before 2023.
+pub const SCALAR_MODULE: &[u8] = include_bytes!("../dist/cdpr_web_scalar.wasm.gz");
+
+/// The script of the page, which defines `cdprExplorer`.
+pub const SCRIPT: &str = include_str!("../dist/explorer.js");
+
+/// The script of the workers that compute.
+pub const WORKER: &str = include_str!("../dist/worker.js");
+
+/// The style of the page.
+pub const STYLE: &str = include_str!("../dist/explorer.css");

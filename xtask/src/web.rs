@@ -1,0 +1,161 @@
+//! `cargo xtask web`: the module and the page of `cdpr explore`, in `crates/cdpr-web/dist`.
+//!
+//! The products are kept in the tree, so that nobody needs their tools to build `cdpr`. `SOURCES` beside them
+//! has the checksum of what they were made of; `cargo xtask web --check` says where it is another one by now.
+//!
+//! It takes the target `wasm32-unknown-unknown` of the compiler, npm, and wasm-bindgen in the version of
+//! Cargo.lock, which is installed below `target`. The module is made twice: with the vector unit of
+//! WebAssembly, and without it for old browsers.
+
+use crate::cargo::{cargo_command, done, root};
+use sha2::{Digest, Sha256};
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+type Outcome<T = ()> = Result<T, Box<dyn Error>>;
+
+const TARGET: &str = "wasm32-unknown-unknown";
+
+/// The modules, and the features of the processor that they ask for.
+const MODULES: [(&str, &str); 2] = [("cdpr_web", "+simd128"), ("cdpr_web_scalar", "-simd128")];
+
+/// What the products are made of, in the workspace.
+const SOURCES: [&str; 10] = [
+    "crates/cdpr-cable/src",
+    "crates/cdpr-robot/src",
+    "crates/cdpr-tension/src",
+    "crates/cdpr-statics/src",
+    "crates/cdpr-sensitivity/src",
+    "crates/cdpr-study/src",
+    "crates/cdpr-web/src",
+    "crates/cdpr-web/page",
+    "crates/cdpr-web/Cargo.toml",
+    "data/robots",
+];
+
+/// Folders of the page that tools make.
+const MADE: [&str; 2] = ["node_modules", "pkg"];
+
+pub(crate) fn run(rest: &[String]) -> ExitCode {
+    let done = match rest {
+        [] => make(),
+        [check] if check == "--check" => check_sources(),
+        _ => Err("`cargo xtask web` is followed by nothing or by --check".into()),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn make() -> Outcome {
+    let (page, dist) = (web().join("page"), web().join("dist"));
+    // Of the sources as they are now, whatever changes while they are compiled.
+    let sources = checksum()?;
+    has_target()?;
+    let wasm_bindgen = wasm_bindgen()?;
+    fs::create_dir_all(&dist)?;
+    for (name, feature) in MODULES {
+        eprintln!("module {name}");
+        let target = root().join("target/web").join(name);
+        let mut build = cargo_command(&["build", "--locked", "--package", "cdpr-web", "--profile", "web"]);
+        build.args(["--target", TARGET, "--target-dir"]).arg(&target);
+        done(build.env("RUSTFLAGS", format!("-C target-feature={feature}")))?;
+        let mut bind = Command::new(&wasm_bindgen);
+        bind.args(["--target", "web", "--no-typescript", "--out-dir"]).arg(page.join("pkg"));
+        done(bind.args(["--out-name", name]).arg(target.join(TARGET).join("web/cdpr_web.wasm")))?;
+        let module = page.join("pkg").join(format!("{name}_bg.wasm"));
+        let packed = Command::new("gzip").args(["-9", "--no-name", "--stdout"]).arg(module).output()?;
+        if !packed.status.success() {
+            return Err("gzip has failed".into());
+        }
+        fs::write(dist.join(format!("{name}.wasm.gz")), packed.stdout)?;
+    }
+    eprintln!("page");
+    done(Command::new("npm").args(["ci", "--no-audit", "--no-fund"]).current_dir(&page))?;
+    done(Command::new("npm").args(["run", "build"]).current_dir(&page))?;
+    fs::write(dist.join("SOURCES"), format!("{sources}\n"))?;
+    for file in fs::read_dir(&dist)? {
+        let file = file?;
+        eprintln!("{:>9} bytes  {}", file.metadata()?.len(), file.file_name().display());
+    }
+    Ok(())
+}
+
+/// Says where the products are not those of the sources: a warning, because the models may agree nevertheless.
+fn check_sources() -> Outcome {
+    let (known, now) = (fs::read_to_string(web().join("dist/SOURCES"))?, checksum()?);
+    if known.trim() != now {
+        eprintln!("warning: crates/cdpr-web/dist was made of other sources: run `cargo xtask web`");
+    }
+    Ok(())
+}
+
+fn web() -> PathBuf {
+    root().join("crates/cdpr-web")
+}
+
+/// Finds the standard library of the target, or has rustup install it.
+fn has_target() -> Outcome {
+    let found = Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]).output()?;
+    if Path::new(String::from_utf8(found.stdout)?.trim()).is_dir() {
+        return Ok(());
+    }
+    eprintln!("installing the target {TARGET}");
+    done(Command::new("rustup").args(["target", "add", TARGET])).map_err(|error| {
+        format!("the compiler has no target {TARGET}: {error}; CONTRIBUTING.md says what else does it").into()
+    })
+}
+
+/// wasm-bindgen in the version of Cargo.lock, below `target`.
+fn wasm_bindgen() -> Outcome<PathBuf> {
+    let lock = fs::read_to_string(root().join("Cargo.lock"))?;
+    let entry = lock.split("name = \"wasm-bindgen\"\nversion = \"").nth(1);
+    let version = entry.and_then(|rest| rest.split('"').next()).ok_or("Cargo.lock has no wasm-bindgen")?;
+    let tools = root().join("target/web/tools");
+    let program = tools.join("bin").join(format!("wasm-bindgen{}", std::env::consts::EXE_SUFFIX));
+    let known = Command::new(&program).arg("--version").output();
+    if !known.is_ok_and(|known| String::from_utf8_lossy(&known.stdout).trim().ends_with(version)) {
+        // By cargo itself: the package is none of this workspace's.
+        let mut install = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()));
+        install.args(["install", "wasm-bindgen-cli", "--version", version, "--force", "--root"]);
+        done(install.arg(&tools))?;
+    }
+    Ok(program)
+}
+
+/// The checksum of all sources, with their names.
+fn checksum() -> Outcome<String> {
+    let mut files = Vec::new();
+    for source in SOURCES {
+        collect(&root().join(source), &mut files)?;
+    }
+    files.sort();
+    let mut hasher = Sha256::new();
+    for file in files {
+        let name = file.strip_prefix(root())?.to_string_lossy().replace('\\', "/");
+        let content = fs::read(&file)?;
+        hasher.update(format!("{name}\n{}\n", content.len()));
+        hasher.update(content);
+    }
+    Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Outcome {
+    if !path.is_dir() {
+        files.push(path.to_owned());
+        return Ok(());
+    }
+    for entry in fs::read_dir(path)? {
+        let entry = entry?;
+        if !MADE.iter().any(|made| entry.file_name() == *made) {
+            collect(&entry.path(), files)?;
+        }
+    }
+    Ok(())
+}
