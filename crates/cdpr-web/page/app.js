@@ -1,19 +1,15 @@
 // The page of a robot: ties state, engine, view and panels together.
 
 import { roundUp } from "./charts/scale.js";
-import { effectBars } from "./charts/effects.js";
-import { histogram } from "./charts/histogram.js";
-import { heatMap } from "./charts/map.js";
-import { changedName, stem, studyName } from "./commands.js";
-import { button, h, setText } from "./dom.js";
-import { cablesCsv, download, framed, observationsCsv } from "./export.js";
+import { h, setText } from "./dom.js";
 import { digits, entryWords, point, short, withUnit } from "./format.js";
 import { extents } from "./geometry.js";
+import { layout } from "./layout.js";
 import { loadOf, Mechanics, poseOf } from "./mechanics.js";
 import { Moves } from "./moves.js";
-import { DARK, LIGHT, PAPER } from "./palette.js";
+import { DARK, LIGHT } from "./palette.js";
 import { cablesPanel } from "./panels/cables.js";
-import { chartsPanel, effectsTitle, histogramTitle, sentence } from "./panels/charts.js";
+import { chartsPanel, sentence } from "./panels/charts.js";
 import { commandsPanel } from "./panels/commands.js";
 import { filesPanel } from "./panels/files.js";
 import { loadPanel } from "./panels/load.js";
@@ -21,10 +17,10 @@ import { chosenMotion, motionsPanel } from "./panels/motions.js";
 import { numbersPanel } from "./panels/numbers.js";
 import { numbers, pinPoses, pinsPanel } from "./panels/pins.js";
 import { posePanel } from "./panels/pose.js";
-import { mapTitle, quantityOf, slicePanel, slicePixels } from "./panels/slice.js";
+import { slicePanel, slicePixels } from "./panels/slice.js";
 import { stagePanel } from "./panels/stage.js";
 import { tolerancesPanel } from "./panels/tolerances.js";
-import { changedRobot, isChanged, shares, studyOf, tolerances } from "./robot.js";
+import { changedRobot, isChanged, shares, tolerances } from "./robot.js";
 import { Sampling } from "./sampling.js";
 import { Slicing } from "./slicing.js";
 import { decode, encode, initial, restore, Store } from "./state.js";
@@ -61,7 +57,10 @@ export class App {
     this.store = new Store(state);
     this.mechanics = new Mechanics(engine, this.store, () => this.#mechanicsChanged());
     this.sampling = new Sampling(engine, robot.study, () => this.refresh());
-    this.slicing = new Slicing(engine, robot, () => { this.#drawSlice(); this.refresh(); });
+    this.slicing = new Slicing(engine, robot, () => {
+      this.#drawSlice();
+      this.refresh();
+    });
     this.moves = new Moves(this);
     this.dark = matchMedia("(prefers-color-scheme: dark)");
     this.less = matchMedia("(prefers-reduced-motion: reduce)");
@@ -74,11 +73,17 @@ export class App {
     this.#ask({ restart: true });
   }
 
-  get palette() { return this.dark.matches ? DARK : LIGHT; }
+  get palette() {
+    return this.dark.matches ? DARK : LIGHT;
+  }
 
-  get reduced() { return this.less.matches; }
+  get reduced() {
+    return this.less.matches;
+  }
 
-  getState() { return structuredClone(this.store.state); }
+  getState() {
+    return structuredClone(this.store.state);
+  }
 
   setState(saved) {
     const { state } = restore(saved, this.first);
@@ -107,11 +112,11 @@ export class App {
   }
 
   /** The factor of the deflection: the one that is set, or one that makes it an eighth of the robot. */
-  deflectionFactor() {
+  get deflectionFactor() {
     const { deflection } = this.store.state.view;
     const rms = this.mechanics.picture?.rms;
     if (deflection > 0) return deflection;
-    return rms > 0 ? Math.max(1, roundUp(0.06 * this.size / rms)) : 1;
+    return rms > 0 ? Math.max(1, roundUp((0.06 * this.size) / rms)) : 1;
   }
 
   /** The tolerance with the largest share of the variance, in words. */
@@ -150,43 +155,11 @@ export class App {
       return `${name} is no JSON: ${error.message}`;
     }
     const { state, refused } = restore(saved, this.first);
-    if (saved?.format !== state.format) return `${name} is no state of this page: its format is ${String(saved?.format)}, not ${state.format}`;
+    if (saved?.format !== state.format)
+      return `${name} is no state of this page: its format is ${String(saved?.format)}, not ${state.format}`;
     this.jumpTo(state);
     const other = saved.robot && saved.robot !== this.robot.name ? ` It was saved for ${saved.robot}.` : "";
     return `${name} is open.${other}${refused.length > 0 ? ` Left out: ${refused.join(", ")}.` : ""}`;
-  }
-
-  canSave(kind) {
-    return {
-      png: Boolean(this.view), histogram: this.sampling.sample?.summary.count > 1, effects: Boolean(this.sampling.effects), map: Boolean(this.slicing.plane),
-      csv: Boolean(this.mechanics.picture), observations: this.sampling.sample?.summary.count > 1, study: Boolean(this.robot.study),
-    }[kind] ?? true;
-  }
-
-  /** Saves a file of a kind; returns what is to be said about it. */
-  save(kind) {
-    const { state } = this.store;
-    const name = stem(this.name);
-    const { sample, effects } = this.sampling;
-    const json = (value) => `${JSON.stringify(value, null, 2)}\n`;
-    const robotFile = isChanged(state.changes) ? changedName(this.name) : `${name}.json`;
-    const files = {
-      histogram: () => [`${name}-histogram.svg`, histogram(sample.summary, { width: 640, height: 300, nominal: sample.nominal, title: histogramTitle(sample) }, PAPER), "image/svg+xml"],
-      effects: () => [`${name}-effects.svg`, effectBars(effects.inputs, { width: 640, title: effectsTitle(effects) }, PAPER), "image/svg+xml"],
-      map: () => {
-        const quantity = quantityOf(state.slice.quantity);
-        return [`${name}-slice.svg`, heatMap(this.slicing.plane, this.slicing.cells, quantity, { width: 640, here: null, title: mapTitle(this.slicing, quantity) }, PAPER), "image/svg+xml"];
-      },
-      csv: () => [`${name}-cables.csv`, cablesCsv(this.mechanics.picture, this.robot.limits), "text/csv"],
-      observations: () => [`${name}-observations.csv`, observationsCsv(sample), "text/csv"],
-      robot: () => [robotFile, json(changedRobot(this.file, { ...state.changes, reference: null })), "application/json"],
-      study: () => [studyName(this.name).replaceAll("'", ""), json(studyOf(this.robot.study, state, { robot: isChanged(state.changes) ? robotFile : this.name })), "application/json"],
-      state: () => [`${name}-state.json`, json(state), "application/json"],
-    };
-    if (kind === "png") return this.#savePicture(`${name}.png`);
-    const [file, content, type] = files[kind]();
-    download(file, content, type);
-    return `${file} is saved.`;
   }
 
   dispose() {
@@ -197,56 +170,64 @@ export class App {
     this.view?.dispose();
     this.dark.removeEventListener("change", this.#repaint);
     this.less.removeEventListener("change", this.#redraw);
+    this.element.removeEventListener("keydown", this.#keys);
     this.element.replaceChildren();
     this.element.classList.remove("cdprx");
   }
 
   #build() {
-    const { store, robot } = this;
-    this.undo = button("Undo", () => store.undo(), { title: "Ctrl+Z" });
-    this.redo = button("Redo", () => store.redo(), { title: "Ctrl+Shift+Z" });
-    this.live = h("p", { class: "visually-hidden", role: "status", "aria-live": "polite" });
     this.stage = stagePanel(this);
     this.charts = chartsPanel(this);
     this.motions = motionsPanel(this);
     const figures = numbersPanel(this);
-    const side = [posePanel(this), loadPanel(this), tolerancesPanel(this), slicePanel(this), cablesPanel(this), this.motions, pinsPanel(this)];
-    if (!this.embedded) side.push(commandsPanel(this), filesPanel(this));
-    else side.push(commandsPanel(this));
+    const side = [posePanel, loadPanel, tolerancesPanel, slicePanel, cablesPanel].map((make) => make(this));
+    side.push(this.motions, pinsPanel(this), commandsPanel(this));
+    if (!this.embedded) side.push(filesPanel(this));
     this.panels = [this.stage, figures, this.charts, ...side];
-    const source = robot.source ? h("details", { class: "source" }, h("summary", {}, "Source"), h("p", {}, robot.source)) : null;
-    const note = this.refused.length > 0 ? h("p", { class: "failure" }, `Left out of the saved state: ${this.refused.join(", ")}.`) : null;
-    this.element.classList.add("cdprx");
-    this.element.replaceChildren(
-      h("header", { class: "head" }, h("h1", { text: robot.name }),
-        h("p", { class: "kind" }, `${robot.cables} cables, ${digits(robot.mass, 3)} kg, ${short(this.size, 3)} across`),
-        source, h("div", { class: "buttons" }, this.undo, this.redo, button("Start again", () => this.jumpTo(this.first)))),
-      h("main", { class: "main" }, note, this.stage.element, figures.element, this.charts.element),
-      h("aside", { class: "side", "aria-label": "Controls" }, ...side.map((panel) => panel.element)), this.live);
-    this.element.addEventListener("keydown", (event) => this.#keys(event));
+    Object.assign(this, layout(this, { stage: this.stage, figures, charts: this.charts, side }));
+    this.element.addEventListener("keydown", this.#keys);
     try {
-      this.view = new View(this.stage.surface, robot, { grab: (phase, pose) => this.moves.grab(phase, pose), goto: (position) => this.moves.goto(position) });
+      this.view = new View(this.stage.surface, this.robot, {
+        grab: (phase, pose) => this.moves.grab(phase, pose),
+        goto: (position) => this.moves.goto(position),
+      });
     } catch (error) {
       this.view = null;
-      this.stage.surface.append(h("p", { class: "failure" }, `No 3D view: this browser gives no WebGL (${error.message}). All numbers are there without it.`));
+      const reason = `No 3D view: this browser gives no WebGL (${error.message}). All numbers are there without it.`;
+      this.stage.surface.append(h("p", { class: "failure", text: reason }));
     }
   }
 
-  #keys(event) {
-    if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || event.target.matches("input[type=number], textarea")) return;
+  #keys = (event) => {
+    if (
+      !(event.ctrlKey || event.metaKey) ||
+      event.key.toLowerCase() !== "z" ||
+      event.target.matches("input[type=number], textarea")
+    )
+      return;
     event.preventDefault();
     if (event.shiftKey) this.store.redo();
     else this.store.undo();
-  }
+  };
 
   #changed(now, before, stepped) {
     if (now.changes !== before.changes) this.#newRobot();
     if (stepped) this.mechanics.jump = null;
-    const same = ["position", "rpy_deg", "lengths", "payload", "force", "moment", "free", "way", "changes"].every((field) => now[field] === before[field]);
+    const same = [
+      "position",
+      "rpy_deg",
+      "lengths",
+      "payload",
+      "force",
+      "moment",
+      "free",
+      "way",
+      "changes",
+    ].every((field) => now[field] === before[field]);
     if (same) {
       this.#draw();
       this.#ask({ mechanics: false });
-    } else this.#ask({ restart: stepped || (now.changes !== before.changes) });
+    } else this.#ask({ restart: stepped || now.changes !== before.changes });
   }
 
   #newRobot() {
@@ -273,7 +254,9 @@ export class App {
     const key = JSON.stringify([lengths, load, loaded.pose, this.version]);
     if (key === this.#modesKey) return;
     this.#asked = true;
-    const { answers: [answer] } = await this.engine.ask("modes", [{ modes: { lengths, load, start: loaded.pose } }]);
+    const {
+      answers: [answer],
+    } = await this.engine.ask("modes", [{ modes: { lengths, load, start: loaded.pose } }]);
     this.#asked = false;
     this.#modesKey = key;
     this.modes = answer.ok ?? this.modes;
@@ -301,13 +284,25 @@ export class App {
     const { state } = this.store;
     const force = state.force.map((value, k) => value + pull.force[k]);
     const size = Math.hypot(...force);
-    const length = 0.22 * this.size * size / (size + this.robot.mass * 9.81);
+    const length = (0.22 * this.size * size) / (size + this.robot.mass * 9.81);
     this.view.show({
-      loaded: picture.loaded, unloaded: picture.unloaded, rotation: picture.rotation, wanted: failure ? failure.wanted : null, faded: Boolean(failure),
+      loaded: picture.loaded,
+      unloaded: picture.unloaded,
+      rotation: picture.rotation,
+      wanted: failure ? failure.wanted : null,
+      faded: Boolean(failure),
       handle: state.way === "anew" ? (state.free.length > 0 ? picture.unloaded?.pose : poseOf(state)) : null,
-      sag: state.view.sag, range: this.range, selected: this.selected, deflection: this.deflectionFactor(), ghost: state.view.ghost, names: state.view.names,
-      motion: chosenMotion(this, picture.loaded), still: this.reduced, force: size > 0 ? force.map((value) => value / size * length) : null,
-      jump, pins: pinPoses(state),
+      sag: state.view.sag,
+      range: this.range,
+      selected: this.selected,
+      deflection: this.deflectionFactor,
+      ghost: state.view.ghost,
+      names: state.view.names,
+      motion: chosenMotion(this, picture.loaded),
+      still: this.reduced,
+      force: size > 0 ? force.map((value) => (value / size) * length) : null,
+      jump,
+      pins: pinPoses(state),
     });
   }
 
@@ -347,15 +342,13 @@ export class App {
     const { picture, failure } = this.mechanics;
     if (failure || !picture) return failure ? `Not held here: ${failure.reason}` : "";
     const known = numbers(this);
-    return `Platform at ${point(picture.loaded.pose.slice(0, 3))}. Deflection ${short(picture.rms)}. Tensions ${digits(known.tensions[0])} to ${withUnit(known.tensions[1], "N")}. `
-      + `Least stiffness ${withUnit(known.stiffness, "N/m")}. ${sentence(this)}`;
-  }
-
-  #savePicture(file) {
-    const { picture } = this.mechanics;
-    const lines = [this.robot.name];
-    if (picture) lines.push(`platform at ${point(picture.loaded.pose.slice(0, 3))}, deflection ${short(picture.rms)}, drawn × ${digits(this.deflectionFactor(), 3)}, sag × ${digits(this.store.state.view.sag, 3)}`);
-    framed(this.view.snapshot(), { range: this.range, lines, palette: this.palette }).toBlob((blob) => download(file, blob, "image/png"));
-    return `${file} is saved.`;
+    const [least, greatest] = known.tensions;
+    return [
+      `Platform at ${point(picture.loaded.pose.slice(0, 3))}.`,
+      `Deflection ${short(picture.rms)}.`,
+      `Tensions ${digits(least)} to ${withUnit(greatest, "N")}.`,
+      `Least stiffness ${withUnit(known.stiffness, "N/m")}.`,
+      sentence(this),
+    ].join(" ");
   }
 }

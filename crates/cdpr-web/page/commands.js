@@ -17,22 +17,48 @@ export function commands({ state, file, lengths, pose, slice, hasModes }) {
   const load = loadOptions(state);
   const reference = referenceOptions(state);
   const list = [];
-  const add = (title, words, more = []) => list.push({ title, text: ["cdpr", ...words].join(" "), needs: [...needs, ...more] });
+  const add = (title, words, more = []) =>
+    list.push({ title, text: ["cdpr", ...words].join(" "), needs: [...needs, ...more] });
   if (state.way === "anew") {
     add("Deflection, tensions and residuals", ["deflection", robot, ...wanted, ...load, ...reference]);
-    add("Stiffness with tensions that also bear the load", ["stiffness", robot, ...wanted, ...load, ...reference]);
+    add("Stiffness with tensions that also bear the load", [
+      "stiffness",
+      robot,
+      ...wanted,
+      ...load,
+      ...reference,
+    ]);
   } else if (lengths !== null) {
-    add("Where the platform stands on these lengths", ["direct", robot, ...lengthOptions(lengths),
-      ...poseOptions("start", pose.position, pose.rpy_deg), ...load]);
+    add("Where the platform stands on these lengths", [
+      "direct",
+      robot,
+      ...lengthOptions(lengths),
+      ...poseOptions("start", pose.position, pose.rpy_deg),
+      ...load,
+    ]);
   }
   if (hasModes && lengths !== null) {
-    add("Natural modes on these lengths", ["modes", robot, ...lengthOptions(lengths),
-      ...poseOptions("start", pose.position, []), ...load]);
+    add("Natural modes on these lengths", [
+      "modes",
+      robot,
+      ...lengthOptions(lengths),
+      ...poseOptions("start", pose.position, []),
+      ...load,
+    ]);
   }
-  add("Histogram and effects", ["study", "run", studyName(file), "--out", "results"], ["study"]);
+  add("Histogram and effects", ["study", "run", quote(studyName(file)), "--out", "results"], ["study"]);
   if (slice) {
-    add("The slice", ["workspace", robot, ...boxOptions(slice), ...rpyOptions(state.rpy_deg), ...freeOptions(state), ...load,
-      ...reference, "--out", "workspace"]);
+    add("The slice", [
+      "workspace",
+      robot,
+      ...boxOptions(slice),
+      ...rpyOptions(state.rpy_deg),
+      ...freeOptions(state),
+      ...load,
+      ...reference,
+      "--out",
+      "workspace",
+    ]);
   }
   return list;
 }
@@ -44,7 +70,7 @@ export function changedName(file) {
 
 /** The name of the file of the study on screen. */
 export function studyName(file) {
-  return quote(`${stem(file)}-study.json`);
+  return `${stem(file)}-study.json`;
 }
 
 /** A word that a shell takes as it is. */

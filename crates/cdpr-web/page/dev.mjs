@@ -14,9 +14,12 @@ const dist = await mkdtemp(path.join(tmpdir(), "cdprx-"));
 await bundle({ out: dist, mock });
 const read = (name) => readFile(path.join(dist, name), "utf8");
 // The smallest module stands for the real one, where the engine is the stand-in.
-const module = mock ? Buffer.from([0, 97, 115, 109, 1, 0, 0, 0]) : await readFile(path.join(here, "pkg/cdpr_web_bg.wasm"));
+const module = mock
+  ? Buffer.from([0, 97, 115, 109, 1, 0, 0, 0])
+  : await readFile(path.join(here, "pkg/cdpr_web_bg.wasm"));
 const script = (text) => text.replaceAll("</script", "<\\/script");
-const policy = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; style-src 'unsafe-inline'; img-src data: blob:; worker-src blob:; connect-src 'none'";
+const policy =
+  "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; style-src 'unsafe-inline'; img-src data: blob:; worker-src blob:; connect-src 'none'";
 const page = `<!doctype html>
 <html lang="en">
 <head>

@@ -52,8 +52,12 @@ export function numberField({ label, unit = "", step = "any", min, max, hint, ch
     else input.reportValidity();
   };
   input.addEventListener("change", tell);
-  const element = h("div", { class: "field" },
-    h("label", { for: id }, label, unit ? h("span", { class: "unit" }, ` [${unit}]`) : null), input);
+  const element = h(
+    "div",
+    { class: "field" },
+    h("label", { for: id }, label, unit ? h("span", { class: "unit" }, ` [${unit}]`) : null),
+    input,
+  );
   return { element, input, set: (value) => setValue(input, value) };
 }
 
@@ -66,7 +70,12 @@ export function slider({ label, unit = "", scale, digits = 4, min, max, input, c
   const id = unique("slider");
   const range = h("input", { id, type: "range", min: 0, max: 1000, step: 1 });
   const typed = h("input", {
-    type: "number", step: "any", min, max, inputmode: "decimal", "aria-label": unit ? `${label} [${unit}]` : label,
+    type: "number",
+    step: "any",
+    min,
+    max,
+    inputmode: "decimal",
+    "aria-label": unit ? `${label} [${unit}]` : label,
   });
   const show = (value) => {
     range.setAttribute("aria-valuetext", `${Number(value.toPrecision(digits))} ${unit}`.trim());
@@ -83,8 +92,13 @@ export function slider({ label, unit = "", scale, digits = 4, min, max, input, c
     input(typed.valueAsNumber);
     commit();
   });
-  const element = h("div", { class: "slider" },
-    h("label", { for: id }, label, unit ? h("span", { class: "unit" }, ` [${unit}]`) : null), range, typed);
+  const element = h(
+    "div",
+    { class: "slider" },
+    h("label", { for: id }, label, unit ? h("span", { class: "unit" }, ` [${unit}]`) : null),
+    range,
+    typed,
+  );
   const set = (value) => {
     setValue(typed, Number(value.toPrecision(digits)));
     if (document.activeElement !== range) range.value = String(Math.round(1000 * scale.from(value)));
@@ -128,11 +142,21 @@ export function button(text, press, properties = {}) {
  */
 export function choice(legend, options, choose) {
   const name = unique("choice");
-  const inputs = options.map(([value, , hint]) => h("input", {
-    type: "radio", name, value, title: hint, onchange: () => choose(value),
-  }));
-  const element = h("fieldset", { class: "choice" }, h("legend", {}, legend),
-    ...inputs.map((input, k) => h("label", { title: options[k][2] }, input, h("span", {}, options[k][1]))));
+  const inputs = options.map(([value, , hint]) =>
+    h("input", {
+      type: "radio",
+      name,
+      value,
+      title: hint,
+      onchange: () => choose(value),
+    }),
+  );
+  const element = h(
+    "fieldset",
+    { class: "choice" },
+    h("legend", {}, legend),
+    ...inputs.map((input, k) => h("label", { title: options[k][2] }, input, h("span", {}, options[k][1]))),
+  );
   const set = (value) => {
     for (const input of inputs) input.checked = input.value === value;
   };
@@ -142,8 +166,11 @@ export function choice(legend, options, choose) {
 /** A list to choose from. */
 export function select(label, options, choose) {
   const id = unique("select");
-  const box = h("select", { id, onchange: () => choose(box.value) },
-    ...options.map(([value, text]) => h("option", { value }, text)));
+  const box = h(
+    "select",
+    { id, onchange: () => choose(box.value) },
+    ...options.map(([value, text]) => h("option", { value }, text)),
+  );
   const element = h("div", { class: "field" }, h("label", { for: id }, label), box);
   return { element, box, set: (value) => setValue(box, value) };
 }
@@ -152,5 +179,10 @@ export function select(label, options, choose) {
 export function check(label, toggle, hint) {
   const input = h("input", { type: "checkbox", onchange: () => toggle(input.checked) });
   const element = h("label", { class: "check", title: hint }, input, h("span", {}, label));
-  return { element, set: (value) => { input.checked = value; } };
+  return {
+    element,
+    set: (value) => {
+      input.checked = value;
+    },
+  };
 }

@@ -38,7 +38,9 @@ export class Engine {
     for (let k = 0; k < count; k++) this.#start(makeWorker(), module, k);
   }
 
-  get workers() { return this.#workers.length; }
+  get workers() {
+    return this.#workers.length;
+  }
 
   /** The robot of all questions from now on, as the text of a robot file. */
   setRobot(text) {
@@ -68,7 +70,13 @@ export class Engine {
     return new Promise((resolve) => {
       const order = ORDER.indexOf(lane);
       const task = {
-        lane, order, generation: this.#generation(lane), asks, resolve, version: this.#version, robot: this.#robot,
+        lane,
+        order,
+        generation: this.#generation(lane),
+        asks,
+        resolve,
+        version: this.#version,
+        robot: this.#robot,
       };
       const place = this.#queue.findIndex((other) => other.order > order);
       this.#queue.splice(place < 0 ? this.#queue.length : place, 0, task);
@@ -84,7 +92,9 @@ export class Engine {
     this.#queue = [];
   }
 
-  #generation(lane) { return this.#generations.get(lane) ?? 0; }
+  #generation(lane) {
+    return this.#generations.get(lane) ?? 0;
+  }
 
   #start(worker, module, index) {
     const entry = { worker, ready: false, task: null, version: -1, index };
@@ -119,7 +129,10 @@ export class Engine {
       entry.version = task.version;
       this.#next += 1;
       entry.worker.postMessage({
-        id: this.#next, version: task.version, robot: known ? undefined : task.robot, asks: task.asks,
+        id: this.#next,
+        version: task.version,
+        robot: known ? undefined : task.robot,
+        asks: task.asks,
       });
     }
   }

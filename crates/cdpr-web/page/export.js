@@ -20,10 +20,22 @@ export function download(name, content, type) {
  * @param {Array<{min: number, max: number}>} limits those of the robot [N]
  */
 export function cablesCsv({ loaded, unloaded, limits: here }, limits) {
-  const head = "cable,unstrained_length_m,tension_n,exit_tension_n,tension_without_load_n,least_tension_n,greatest_tension_n,sag_m,slack,limit";
+  const head =
+    "cable,unstrained_length_m,tension_n,exit_tension_n,tension_without_load_n,least_tension_n,greatest_tension_n,sag_m,slack,limit";
   const lines = loaded.cables.map((cable, k) => {
     const [min, max] = here?.[k] ?? [limits[k].min, limits[k].max];
-    return [k + 1, cable.length, cable.tension, cable.exit_tension, unloaded?.cables[k].tension ?? "", min, max, cable.sag, cable.slack, cable.limit ?? ""].join(",");
+    return [
+      k + 1,
+      cable.length,
+      cable.tension,
+      cable.exit_tension,
+      unloaded?.cables[k].tension ?? "",
+      min,
+      max,
+      cable.sag,
+      cable.slack,
+      cable.limit ?? "",
+    ].join(",");
   });
   return `${[head, ...lines].join("\n")}\n`;
 }

@@ -1,6 +1,13 @@
 // Numbers and names as a reader sees them.
 
-const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"]];
+const PREFIXES = [
+  [1e9, "G"],
+  [1e6, "M"],
+  [1e3, "k"],
+  [1, ""],
+  [1e-3, "m"],
+  [1e-6, "µ"],
+];
 
 /** A number with so many significant digits, without an exponent between 1e-4 and 1e6. */
 export function digits(value, count = 4) {
@@ -46,9 +53,17 @@ export function parameterWords(name) {
   const [, letters, number, , axis] = name.match(/^([a-z_]+?)(\d*)(\.([a-z]))?$/) ?? [];
   const where = axis ? ` ${AXES[axis] ?? axis}` : "";
   const words = {
-    a: "anchor point", b: "exit point", cog: "centre of mass", dt: "tension set-point", r: "pulley radius",
-    lead: "lead", tilt: "pulley tilt", gravity: "gravity", mass: "platform mass",
-    linear_density: "cable density", youngs_modulus: "cable modulus",
+    a: "anchor point",
+    b: "exit point",
+    cog: "centre of mass",
+    dt: "tension set-point",
+    r: "pulley radius",
+    lead: "lead",
+    tilt: "pulley tilt",
+    gravity: "gravity",
+    mass: "platform mass",
+    linear_density: "cable density",
+    youngs_modulus: "cable modulus",
   }[letters];
   return words ? `${words}${number ? ` ${number}` : ""}${where}` : name;
 }
@@ -56,17 +71,29 @@ export function parameterWords(name) {
 /** An entry of an error model in words. */
 export function entryWords(entry) {
   const groups = {
-    a: "anchor points", b: "exit points", cog: "centre of mass", dt: "tension set-points", r: "pulley radii",
-    lead: "leads", tilt: "pulley tilts", gravity: "gravity", mass: "platform mass",
-    linear_density: "cable density", youngs_modulus: "cable modulus",
+    a: "anchor points",
+    b: "exit points",
+    cog: "centre of mass",
+    dt: "tension set-points",
+    r: "pulley radii",
+    lead: "leads",
+    tilt: "pulley tilts",
+    gravity: "gravity",
+    mass: "platform mass",
+    linear_density: "cable density",
+    youngs_modulus: "cable modulus",
   };
   return groups[entry] ?? parameterWords(entry);
 }
 
 /** How many of a unit of the interface one SI unit has, and its name: 1000 mm to a metre. */
 export function shownUnit(unit) {
-  return { m: [1e3, "mm"], Pa: [1e-9, "GPa"], rad: [180 / Math.PI, "degrees"], "kg/m": [1e3, "g/m"] }[unit]
-    ?? [1, unit];
+  return (
+    { m: [1e3, "mm"], Pa: [1e-9, "GPa"], rad: [180 / Math.PI, "degrees"], "kg/m": [1e3, "g/m"] }[unit] ?? [
+      1,
+      unit,
+    ]
+  );
 }
 
 /** Text that may stand in SVG or HTML. */
@@ -76,8 +103,10 @@ export function escape(text) {
 }
 
 const KINDS = {
-  turning_point: "the equilibrium ended at a turning point", bifurcation: "the equilibrium became unstable at a bifurcation",
-  overstrained: "a cable was stretched too far", step_limit: "the way could not be followed in the allowed steps",
+  turning_point: "the equilibrium ended at a turning point",
+  bifurcation: "the equilibrium became unstable at a bifurcation",
+  overstrained: "a cable was stretched too far",
+  step_limit: "the way could not be followed in the allowed steps",
 };
 
 /** How an equilibrium was lost, in words. */

@@ -33,16 +33,24 @@ export function bodyPoints(anchors, size) {
   const arms = anchors.map((anchor) => anchor.map((value, k) => value - middle[k]));
   const reach = Math.max(...arms.map((arm) => Math.hypot(...arm)));
   if (reach < 1e-9 * size) return null;
-  const first = unit(arms.reduce((best, arm) => Math.hypot(...arm) > Math.hypot(...best) ? arm : best));
+  const first = unit(arms.reduce((best, arm) => (Math.hypot(...arm) > Math.hypot(...best) ? arm : best)));
   const across = arms.map((arm) => sub(arm, first, dot(arm, first)));
-  const widest = across.reduce((best, arm) => Math.hypot(...arm) > Math.hypot(...best) ? arm : best);
+  const widest = across.reduce((best, arm) => (Math.hypot(...arm) > Math.hypot(...best) ? arm : best));
   const flat = Math.hypot(...widest) < 0.02 * reach;
   const second = flat ? unit(sub(leastAxis(first), first, dot(leastAxis(first), first))) : unit(widest);
   const third = cross(first, second);
   const height = Math.max(...arms.map((arm) => Math.abs(dot(arm, third))));
   let points = anchors;
-  if (flat) points = points.flatMap((anchor) => [sub(anchor, second, 0.06 * reach), sub(anchor, second, -0.06 * reach)]);
-  if (height < 0.02 * reach) points = points.flatMap((anchor) => [sub(anchor, third, 0.05 * reach), sub(anchor, third, -0.05 * reach)]);
+  if (flat)
+    points = points.flatMap((anchor) => [
+      sub(anchor, second, 0.06 * reach),
+      sub(anchor, second, -0.06 * reach),
+    ]);
+  if (height < 0.02 * reach)
+    points = points.flatMap((anchor) => [
+      sub(anchor, third, 0.05 * reach),
+      sub(anchor, third, -0.05 * reach),
+    ]);
   return points;
 }
 
@@ -56,7 +64,7 @@ export function exaggerated(points, factor) {
   const chord = [0, 1, 2].map((k) => points[last + k] - points[k]);
   const square = dot(chord, chord) || 1;
   return points.map((value, i) => {
-    const base = i - i % 3;
+    const base = i - (i % 3);
     const t = [0, 1, 2].reduce((sum, k) => sum + (points[base + k] - points[k]) * chord[k], 0) / square;
     const onChord = points[i % 3] + t * chord[i % 3];
     return onChord + factor * (value - onChord);
@@ -80,26 +88,36 @@ export function anchorsAt(pose, anchors) {
 /** Points of a cable whose anchor point has moved by `step`, the nearer to it the more. */
 export function followed(points, step) {
   const count = points.length / 3 - 1;
-  return points.map((value, i) => value + step[i % 3] * Math.floor(i / 3) / count);
+  return points.map((value, i) => value + (step[i % 3] * Math.floor(i / 3)) / count);
 }
 
 /** A motion of unit size, scaled so that its fastest point moves by `reach` [m]. */
 export function amplitude({ translation, rotation }, anchors, pose, reach) {
   const arms = anchors.map((anchor) => turned(pose.slice(3), anchor));
-  const speeds = [...arms, [0, 0, 0]].map((arm) => Math.hypot(...cross(rotation, arm).map((value, k) => value + translation[k])));
+  const speeds = [...arms, [0, 0, 0]].map((arm) =>
+    Math.hypot(...cross(rotation, arm).map((value, k) => value + translation[k])),
+  );
   const fastest = Math.max(...speeds);
   return fastest > 0 ? reach / fastest : 0;
 }
 
-function dot(a, b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+function dot(a, b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
-function sub(a, b, factor) { return a.map((value, k) => value - factor * b[k]); }
+function sub(a, b, factor) {
+  return a.map((value, k) => value - factor * b[k]);
+}
 
-function unit(a) { return a.map((value) => value / Math.hypot(...a)); }
+function unit(a) {
+  return a.map((value) => value / Math.hypot(...a));
+}
 
-function cross(a, b) { return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]; }
+function cross(a, b) {
+  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
 
 function leastAxis(a) {
-  const least = a.reduce((best, value, k) => Math.abs(value) < Math.abs(a[best]) ? k : best, 0);
-  return [0, 1, 2].map((k) => k === least ? 1 : 0);
+  const least = a.reduce((best, value, k) => (Math.abs(value) < Math.abs(a[best]) ? k : best), 0);
+  return [0, 1, 2].map((k) => (k === least ? 1 : 0));
 }

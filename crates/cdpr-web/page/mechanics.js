@@ -79,7 +79,10 @@ export class Mechanics {
 
   async #hold(state) {
     const pose = poseOf(state);
-    const { answers: [answer], milliseconds } = await this.engine.ask("pose", [{ hold: { pose, load: loadOf(state), free: state.free } }]);
+    const {
+      answers: [answer],
+      milliseconds,
+    } = await this.engine.ask("pose", [{ hold: { pose, load: loadOf(state), free: state.free } }]);
     if (answer.error) return this.#fail(answer.error, pose);
     this.failure = null;
     this.picture = { ...answer.ok, milliseconds, way: "anew" };
@@ -89,23 +92,38 @@ export class Mechanics {
   // The lengths are kept: from where the platform is, lengths and load change to those of the state.
   async #follow(state) {
     const load = loadOf(state);
-    for (const part of ["force", "moment"]) load[part] = load[part].map((value, k) => value + this.pull[part][k]);
+    for (const part of ["force", "moment"])
+      load[part] = load[part].map((value, k) => value + this.pull[part][k]);
     const { lengths } = state;
     const anchor = this.#anchor;
     const start = anchor?.pose ?? poseOf(state);
     const free = { stand: { lengths, load: NONE, start: this.picture?.unloaded?.pose ?? start } };
-    const ask = anchor ? { wind: { lengths: [anchor.lengths, lengths], load: [anchor.load, load], start } }
+    const ask = anchor
+      ? { wind: { lengths: [anchor.lengths, lengths], load: [anchor.load, load], start } }
       : { stand: { lengths, load, start } };
-    const { answers: [answer, alone], milliseconds } = await this.engine.ask("pose", [ask, free]);
+    const {
+      answers: [answer, alone],
+      milliseconds,
+    } = await this.engine.ask("pose", [ask, free]);
     if (answer.error) return this.#fail(answer.error, null);
     const way = answer.ok;
     if (anchor && way.jumps.length > 0) this.#mark(way);
     const found = anchor ? way.state : way;
-    if (!found) return this.#fail({ kind: way.jumps.at(-1)?.kind ?? "lost", reason: way.reason ?? "the equilibrium is lost" }, null);
+    if (!found)
+      return this.#fail(
+        { kind: way.jumps.at(-1)?.kind ?? "lost", reason: way.reason ?? "the equilibrium is lost" },
+        null,
+      );
     this.failure = null;
     const unloaded = alone.ok ?? null;
     this.picture = {
-      loaded: found, unloaded, lengths, limits: this.picture?.limits ?? null, milliseconds, way: "kept", ...between(unloaded, found),
+      loaded: found,
+      unloaded,
+      lengths,
+      limits: this.picture?.limits ?? null,
+      milliseconds,
+      way: "kept",
+      ...between(unloaded, found),
     };
     this.#anchor = { lengths, load, pose: found.pose };
     if (this.store.state.way === "kept") this.store.set(placeOf(found.pose), { quiet: true });
@@ -114,8 +132,12 @@ export class Mechanics {
   #mark({ jumps, path }) {
     const { before, after, kind, share } = jumps.at(-1);
     this.jump = {
-      kind, share, count: jumps.length, path,
-      before: before.pose.slice(0, 3), after: after?.pose.slice(0, 3) ?? null,
+      kind,
+      share,
+      count: jumps.length,
+      path,
+      before: before.pose.slice(0, 3),
+      after: after?.pose.slice(0, 3) ?? null,
       lengths: before.cables.map((cable) => cable.length),
     };
   }
@@ -128,5 +150,9 @@ export class Mechanics {
 function between(unloaded, loaded) {
   if (!unloaded) return { displacement: null, rms: null, rotation: null };
   const displacement = [0, 1, 2].map((k) => loaded.pose[k] - unloaded.pose[k]);
-  return { displacement, rms: Math.hypot(...displacement), rotation: vectorBetween(unloaded.pose.slice(3), loaded.pose.slice(3)) };
+  return {
+    displacement,
+    rms: Math.hypot(...displacement),
+    rotation: vectorBetween(unloaded.pose.slice(3), loaded.pose.slice(3)),
+  };
 }

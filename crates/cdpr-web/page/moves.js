@@ -7,7 +7,12 @@ const ANGLES = ["roll", "pitch", "yaw"];
 
 /** Keys that move the platform: axis of the base frame and direction. */
 export const KEYS = {
-  ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowDown: [1, -1], ArrowUp: [1, 1], PageDown: [2, -1], PageUp: [2, 1],
+  ArrowLeft: [0, -1],
+  ArrowRight: [0, 1],
+  ArrowDown: [1, -1],
+  ArrowUp: [1, 1],
+  PageDown: [2, -1],
+  PageUp: [2, 1],
 };
 
 export class Moves {
@@ -32,12 +37,17 @@ export class Moves {
     if (state.way === "kept") {
       const name = turn ? "moment" : "force";
       const step = (turn ? this.newtons * this.app.arm : this.newtons) * factor;
-      store.set({ [name]: state[name].map((value, k) => k === axis ? rounded(value + sign * step, 6) : value) }, { commit: true });
+      store.set(
+        { [name]: state[name].map((value, k) => (k === axis ? rounded(value + sign * step, 6) : value)) },
+        { commit: true },
+      );
     } else if (turn) {
       const angles = turnedAngles(state.rpy_deg, axis, sign * this.degrees * factor);
       store.set({ rpy_deg: angles.map((angle) => rounded(angle, 5)) }, { commit: true });
     } else {
-      const position = state.position.map((value, k) => k === axis ? rounded(value + sign * this.step * factor, 6) : value);
+      const position = state.position.map((value, k) =>
+        k === axis ? rounded(value + sign * this.step * factor, 6) : value,
+      );
       store.set({ position }, { commit: true });
     }
   }
@@ -58,7 +68,10 @@ export class Moves {
       const { position, rpy_deg } = placeOf(pose);
       const decimals = Math.max(0, 4 - Math.floor(Math.log10(size)));
       if (phase === "move") {
-        store.set({ position: position.map((value) => rounded(value, decimals)), rpy_deg: rpy_deg.map((value) => rounded(value, 2)) });
+        store.set({
+          position: position.map((value) => rounded(value, decimals)),
+          rpy_deg: rpy_deg.map((value) => rounded(value, 2)),
+        });
       }
       if (phase === "end") store.commit();
       return;
@@ -70,9 +83,11 @@ export class Moves {
   // The hand pulls with a force in proportion to its way from where it took the platform.
   #pull(pose) {
     const { mechanics, size, arm } = this.app;
-    const stiffness = 10 * this.newtons / (0.05 * size);
+    const stiffness = (10 * this.newtons) / (0.05 * size);
     mechanics.pull.force = [0, 1, 2].map((k) => rounded((pose[k] - this.taken[k]) * stiffness, 3));
-    mechanics.pull.moment = vectorBetween(this.taken.slice(3), pose.slice(3)).map((angle) => rounded(angle * 10 * this.newtons * arm, 3));
+    mechanics.pull.moment = vectorBetween(this.taken.slice(3), pose.slice(3)).map((angle) =>
+      rounded(angle * 10 * this.newtons * arm, 3),
+    );
     mechanics.update();
   }
 
@@ -82,14 +97,18 @@ export class Moves {
     mechanics.pull = { force: [0, 0, 0], moment: [0, 0, 0] };
     if (this.keepForce) {
       const { state } = store;
-      store.set({
-        force: state.force.map((value, k) => rounded(value + force[k], 3)), moment: state.moment.map((value, k) => rounded(value + moment[k], 3)),
-      }, { commit: true });
+      store.set(
+        {
+          force: state.force.map((value, k) => rounded(value + force[k], 3)),
+          moment: state.moment.map((value, k) => rounded(value + moment[k], 3)),
+        },
+        { commit: true },
+      );
     } else mechanics.update();
   }
 }
 
 // A round force of about a twentieth of the platform's weight.
 function niceForce(mass) {
-  return Number((10 ** Math.round(Math.log10(mass * 9.81 / 20))).toPrecision(1));
+  return Number((10 ** Math.round(Math.log10((mass * 9.81) / 20))).toPrecision(1));
 }

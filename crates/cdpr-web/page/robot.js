@@ -50,8 +50,12 @@ export function widthWords({ law }) {
 /** An entry of an error model with all its deviations times a factor. */
 export function scaled(entry, factor) {
   const [[kind, numbers]] = Object.entries(entry.law);
-  const law = Object.fromEntries(Object.entries(numbers).map(([name, value]) =>
-    [name, name === "alpha" || name === "beta" ? value : value * factor]));
+  const law = Object.fromEntries(
+    Object.entries(numbers).map(([name, value]) => [
+      name,
+      name === "alpha" || name === "beta" ? value : value * factor,
+    ]),
+  );
   return { ...entry, law: { [kind]: law } };
 }
 
@@ -69,16 +73,24 @@ export function studyOf(study, state, { robot, observations = state.observations
     .map(([name, entry, factor]) => [name, factor === 1 ? entry : scaled(entry, factor)]);
   const { name, seed, replicates, confidence, bootstrap_resamples } = study;
   return {
-    format: study.format, name, source: "Written by the live robot of cdpr.", robot, payload: state.payload, seed,
+    format: study.format,
+    name,
+    source: "Written by the live robot of cdpr.",
+    robot,
+    payload: state.payload,
+    seed,
     ...(state.changes.reference === null ? {} : { tension_reference: state.changes.reference }),
-    replicates, confidence, bootstrap_resamples,
+    replicates,
+    confidence,
+    bootstrap_resamples,
     error_models: { tolerances: Object.fromEntries(entries) },
     samplings: {
       all: {
         title: sampling.title,
         pose: { position: state.position, quaternion: quaternion(state.rpy_deg) },
         ...(state.free.length > 0 ? { free: state.free } : {}),
-        error_model: "tolerances", observations,
+        error_model: "tolerances",
+        observations,
       },
     },
   };
@@ -99,6 +111,7 @@ export function shares(effects, entries) {
     sums.set(entry, (sums.get(entry) ?? 0) + part);
   }
   const total = [...sums.values()].reduce((sum, part) => sum + part, 0);
-  return [...sums].map(([entry, part]) => ({ entry, share: total > 0 ? part / total : 0 }))
+  return [...sums]
+    .map(([entry, part]) => ({ entry, share: total > 0 ? part / total : 0 }))
     .sort((a, b) => b.share - a.share);
 }

@@ -4,9 +4,14 @@ const RADIANS = Math.PI / 180;
 
 /** The quaternion of roll, pitch and yaw [degrees], with w >= 0. */
 export function quaternion([roll, pitch, yaw]) {
-  const [cr, sr] = half(roll), [cp, sp] = half(pitch), [cy, sy] = half(yaw);
+  const [cr, sr] = half(roll),
+    [cp, sp] = half(pitch),
+    [cy, sy] = half(yaw);
   const q = [
-    cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy,
+    cr * cp * cy + sr * sp * sy,
+    sr * cp * cy - cr * sp * sy,
+    cr * sp * cy + sr * cp * sy,
+    cr * cp * sy - sr * sp * cy,
   ];
   return q[0] < 0 ? q.map((component) => -component) : q;
 }
@@ -15,7 +20,8 @@ export function quaternion([roll, pitch, yaw]) {
 export function angles([w, x, y, z]) {
   const sine = Math.min(1, Math.max(-1, 2 * (w * y - z * x)));
   return [
-    Math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)), Math.asin(sine),
+    Math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
+    Math.asin(sine),
     Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
   ].map((angle) => angle / RADIANS);
 }
@@ -23,8 +29,10 @@ export function angles([w, x, y, z]) {
 /** The product of two quaternions: first `b`, then `a`. */
 export function product([aw, ax, ay, az], [bw, bx, by, bz]) {
   return [
-    aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
-    aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw,
+    aw * bw - ax * bx - ay * by - az * bz,
+    aw * bx + ax * bw + ay * bz - az * by,
+    aw * by - ax * bz + ay * bw + az * bx,
+    aw * bz + ax * by - ay * bx + az * bw,
   ];
 }
 
@@ -40,13 +48,15 @@ export function fromVector(vector) {
 export function vectorBetween(a, b) {
   const [w, ...v] = product(b, [a[0], -a[1], -a[2], -a[3]]);
   const sine = Math.hypot(...v);
-  const factor = sine > 0 ? 2 * Math.atan2(sine, Math.abs(w)) / sine : 2;
+  const factor = sine > 0 ? (2 * Math.atan2(sine, Math.abs(w))) / sine : 2;
   return v.map((value) => (w < 0 ? -factor : factor) * value);
 }
 
 /** A vector, turned by a unit quaternion. */
 export function turned([w, x, y, z], [a, b, c]) {
-  const u = 2 * (y * c - z * b), v = 2 * (z * a - x * c), s = 2 * (x * b - y * a);
+  const u = 2 * (y * c - z * b),
+    v = 2 * (z * a - x * c),
+    s = 2 * (x * b - y * a);
   return [a + w * u + y * s - z * v, b + w * v + z * u - x * s, c + w * s + x * v - y * u];
 }
 
@@ -71,5 +81,5 @@ export function placeOf(pose) {
 }
 
 function half(degrees) {
-  return [Math.cos(degrees * RADIANS / 2), Math.sin(degrees * RADIANS / 2)];
+  return [Math.cos((degrees * RADIANS) / 2), Math.sin((degrees * RADIANS) / 2)];
 }

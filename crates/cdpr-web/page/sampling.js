@@ -38,9 +38,13 @@ export class Sampling {
   }
 
   /** Whether what is shown is of the state on screen. */
-  get current() { return this.sample?.key === this.#wanted?.key && !this.sample?.coarse; }
+  get current() {
+    return this.sample?.key === this.#wanted?.key && !this.sample?.coarse;
+  }
 
-  dispose() { clearTimeout(this.#timer); }
+  dispose() {
+    clearTimeout(this.#timer);
+  }
 
   async #run() {
     this.busy = true;
@@ -59,7 +63,9 @@ export class Sampling {
   }
 
   #pause() {
-    return new Promise((resolve) => { this.#timer = setTimeout(resolve, REST); });
+    return new Promise((resolve) => {
+      this.#timer = setTimeout(resolve, REST);
+    });
   }
 
   #text(state, observations) {
@@ -69,8 +75,15 @@ export class Sampling {
   // All in one batch of one worker: it returns soon, and a newer pose waits for nothing else.
   async #coarse({ key, state }) {
     if (this.#nothing(key, state)) return false;
-    const asks = [this.#text(state, Math.min(COARSE, state.observations)), ...observe(0, 1, 2), { effects: "batch" }];
-    const { answers: [set, first, , , effects], milliseconds } = await this.engine.ask("observe", asks);
+    const asks = [
+      this.#text(state, Math.min(COARSE, state.observations)),
+      ...observe(0, 1, 2),
+      { effects: "batch" },
+    ];
+    const {
+      answers: [set, first, , , effects],
+      milliseconds,
+    } = await this.engine.ask("observe", asks);
     if (!this.#take(key, set, first, milliseconds, true)) return false;
     if (effects.ok) this.effects = { ...effects.ok, coarse: true, key };
     this.told();
@@ -82,7 +95,9 @@ export class Sampling {
     const text = this.#text(state, state.observations);
     const ask = (replicate) => this.engine.ask("observe", [text, ...observe(replicate)]);
     const begin = performance.now();
-    const { answers: [set, first] } = await ask(0);
+    const {
+      answers: [set, first],
+    } = await ask(0);
     if (!this.#take(key, set, first, performance.now() - begin, false)) return;
     this.told();
     if (this.#wanted.key !== key) return;
@@ -91,19 +106,27 @@ export class Sampling {
     const of = parts.map(({ answers: [, part] }) => part.ok?.effects).filter(Boolean);
     if (of.length < 2) {
       this.effects = null;
-      this.failure = parts.map(({ answers: [, part] }) => part.error).find(Boolean)
-        ?? { kind: "too_few", reason: "too few observations have a deflection" };
+      this.failure = parts.map(({ answers: [, part] }) => part.error).find(Boolean) ?? {
+        kind: "too_few",
+        reason: "too few observations have a deflection",
+      };
       return;
     }
-    const { answers: [, effects] } = await this.engine.ask("observe", [text, { effects: { of } }]);
+    const {
+      answers: [, effects],
+    } = await this.engine.ask("observe", [text, { effects: { of } }]);
     if (effects.ok) this.effects = { ...effects.ok, coarse: false, key };
     else this.failure = effects.error;
   }
 
   #nothing(key, state) {
     const factors = Object.keys(tolerances(this.study)).map((entry) => state.tolerances[entry] ?? 1);
-    const reason = state.payload === 0 ? "there is no payload, so there is no deflection to observe: set a payload"
-      : factors.every((factor) => factor === 0) ? "all tolerances are zero, so nothing deviates" : null;
+    const reason =
+      state.payload === 0
+        ? "there is no payload, so there is no deflection to observe: set a payload"
+        : factors.every((factor) => factor === 0)
+          ? "all tolerances are zero, so nothing deviates"
+          : null;
     if (reason === null) return false;
     this.failure = { kind: "nothing", reason };
     this.sample = null;
@@ -122,7 +145,13 @@ export class Sampling {
     this.failure = null;
     const { values_mm, failed, nominal_mm } = observed.ok;
     this.sample = {
-      summary: summary(values_mm), nominal: nominal_mm, failed, milliseconds, coarse, key, observations: values_mm.length,
+      summary: summary(values_mm),
+      nominal: nominal_mm,
+      failed,
+      milliseconds,
+      coarse,
+      key,
+      observations: values_mm.length,
     };
     return true;
   }

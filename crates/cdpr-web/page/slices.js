@@ -5,8 +5,10 @@ export const SLICE_AXES = { x: ["y", "z"], y: ["x", "z"], z: ["x", "y"] };
 
 /** Quantities of a slice: field of the answer, words, unit. */
 export const QUANTITIES = [
-  ["deflection_mm", "deflection", "mm"], ["least_stiffness", "least stiffness", "N/m"],
-  ["tension_min", "least tension", "N"], ["tension_max", "greatest tension", "N"],
+  ["deflection_mm", "deflection", "mm"],
+  ["least_stiffness", "least stiffness", "N/m"],
+  ["tension_min", "least tension", "N"],
+  ["tension_max", "greatest tension", "N"],
 ];
 
 const INDEX = { x: 0, y: 1, z: 2 };
@@ -25,7 +27,7 @@ export function plane({ normal, at, cells }, exits, floor) {
   });
   const longest = Math.max(...ranges.map(([min, max]) => max - min), 1e-9);
   const [u, v] = ranges.map(([min, max]) => {
-    const count = Math.max(2, Math.round((max - min) / longest * (cells - 1)) + 1);
+    const count = Math.max(2, Math.round(((max - min) / longest) * (cells - 1)) + 1);
     return max - min < 1e-9 * longest ? [tidy(min), tidy(min), 1] : [tidy(min), tidy(max), count];
   });
   return { normal, at: tidy(at), u, v };
@@ -40,16 +42,22 @@ export function reach(normal, exits, floor) {
 
 /** An empty picture of a plane, with a cell for each position; `state` is 0 unknown, 1 held, 2 not held. */
 export function emptyCells({ u: [, , columns], v: [, , rows] }) {
-  const values = Object.fromEntries(QUANTITIES.map(([field]) => [field, new Float64Array(columns * rows).fill(NaN)]));
+  const values = Object.fromEntries(
+    QUANTITIES.map(([field]) => [field, new Float64Array(columns * rows).fill(NaN)]),
+  );
   return { columns, rows, held: new Uint8Array(columns * rows), values, reasons: {}, done: 0 };
 }
 
 /** Puts the answer for the rows from `first` on into the cells. Positions that are not held have no values. */
 export function fill(cells, first, answer) {
   const offset = first * cells.columns;
-  answer.held.forEach((held, k) => { cells.held[offset + k] = held ? 1 : 2; });
+  answer.held.forEach((held, k) => {
+    cells.held[offset + k] = held ? 1 : 2;
+  });
   for (const [field] of QUANTITIES) {
-    answer[field].forEach((value, k) => { cells.values[field][offset + k] = answer.held[k] ? value ?? NaN : NaN; });
+    answer[field].forEach((value, k) => {
+      cells.values[field][offset + k] = answer.held[k] ? (value ?? NaN) : NaN;
+    });
   }
   for (const [kind, count] of Object.entries(answer.reasons ?? {})) {
     cells.reasons[kind] = (cells.reasons[kind] ?? 0) + count;
@@ -72,7 +80,7 @@ export function rowOrder(rows) {
 
 /** The base-frame position of the cell in a column and row. */
 export function positionOf({ normal, at, u, v }, column, row) {
-  const place = ([min, max, count], k) => count > 1 ? tidy(min + (max - min) * k / (count - 1)) : min;
+  const place = ([min, max, count], k) => (count > 1 ? tidy(min + ((max - min) * k) / (count - 1)) : min);
   const position = [0, 0, 0];
   position[INDEX[normal]] = at;
   position[INDEX[SLICE_AXES[normal][0]]] = place(u, column);
@@ -82,7 +90,8 @@ export function positionOf({ normal, at, u, v }, column, row) {
 
 /** The least and greatest finite value, or null where there is none. */
 export function extent(values) {
-  let min = Infinity, max = -Infinity;
+  let min = Infinity,
+    max = -Infinity;
   for (const value of values) {
     if (value < min) min = value;
     if (value > max) max = value;
@@ -94,7 +103,8 @@ export function extent(values) {
 export function extreme(cells, field, sign) {
   let best = null;
   cells.values[field].forEach((value, k) => {
-    if (Number.isFinite(value) && (best === null || sign * value > sign * cells.values[field][best])) best = k;
+    if (Number.isFinite(value) && (best === null || sign * value > sign * cells.values[field][best]))
+      best = k;
   });
   return best === null ? null : [best % cells.columns, Math.floor(best / cells.columns)];
 }

@@ -79,7 +79,9 @@ export function decode(hash) {
   if (text === undefined) return null;
   try {
     const binary = atob(text.replaceAll("-", "+").replaceAll("_", "/"));
-    const saved = JSON.parse(new TextDecoder().decode(Uint8Array.from(binary, (letter) => letter.charCodeAt(0))));
+    const saved = JSON.parse(
+      new TextDecoder().decode(Uint8Array.from(binary, (letter) => letter.charCodeAt(0))),
+    );
     return saved !== null && typeof saved === "object" && !Array.isArray(saved) ? saved : null;
   } catch {
     return null;
@@ -120,16 +122,26 @@ export class Store {
     this.#kept = this.state;
   }
 
-  get canUndo() { return this.#past.length > 0; }
+  get canUndo() {
+    return this.#past.length > 0;
+  }
 
-  get canRedo() { return this.#future.length > 0; }
+  get canRedo() {
+    return this.#future.length > 0;
+  }
 
-  undo() { this.#step(this.#past, this.#future); }
+  undo() {
+    this.#step(this.#past, this.#future);
+  }
 
-  redo() { this.#step(this.#future, this.#past); }
+  redo() {
+    this.#step(this.#future, this.#past);
+  }
 
   /** @param {function(object, object, boolean): void} listener state, state before, whether it is undo or redo */
-  listen(listener) { this.#listeners.add(listener); }
+  listen(listener) {
+    this.#listeners.add(listener);
+  }
 
   #step(from, to) {
     if (from.length === 0) return;
@@ -151,7 +163,8 @@ function alike(value, first, field) {
   if (field === "way") return value === "anew" || value === "kept";
   if (Array.isArray(first)) {
     if (!Array.isArray(value)) return false;
-    return field === "free" ? value.every((name) => typeof name === "string")
+    return field === "free"
+      ? value.every((name) => typeof name === "string")
       : value.length === first.length && numbers(value);
   }
   if (typeof first === "number") return Number.isFinite(value);
@@ -163,6 +176,10 @@ function numbers(list) {
 }
 
 function known(value, first) {
-  return Object.fromEntries(Object.entries(value).filter(([name, inner]) =>
-    name in first && (first[name] === null || inner === null || typeof inner === typeof first[name])));
+  return Object.fromEntries(
+    Object.entries(value).filter(
+      ([name, inner]) =>
+        name in first && (first[name] === null || inner === null || typeof inner === typeof first[name]),
+    ),
+  );
 }

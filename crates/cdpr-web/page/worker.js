@@ -43,7 +43,14 @@ function answer({ version: wanted, robot, asks }) {
 
 // The question for the effects of the replicates that this batch has observed.
 function effectsOf(answers) {
-  return { effects: { of: answers.slice(2).map((answer) => answer.ok?.effects).filter(Boolean) } };
+  return {
+    effects: {
+      of: answers
+        .slice(2)
+        .map((answer) => answer.ok?.effects)
+        .filter(Boolean),
+    },
+  };
 }
 
 function one(ask) {

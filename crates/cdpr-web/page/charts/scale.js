@@ -7,7 +7,8 @@ export function ticks(min, max, count = 5) {
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = power * ([1, 2, 5].find((factor) => factor * power >= raw * 0.999) ?? 10);
   const list = [];
-  for (let k = Math.ceil(min / step - 1e-9); k * step <= max + 1e-9 * step; k++) list.push(Number((k * step).toPrecision(12)));
+  for (let k = Math.ceil(min / step - 1e-9); k * step <= max + 1e-9 * step; k++)
+    list.push(Number((k * step).toPrecision(12)));
   return list;
 }
 
@@ -25,15 +26,43 @@ export function map([a, b], [c, d]) {
 }
 
 // Viridis and magma (Stéfan van der Walt, Nathaniel Smith, 2015, CC0), at ten equal steps.
-const VIRIDIS = ["440154", "482878", "3e4a89", "31688e", "26828e", "1f9e89", "35b779", "6ece58", "b5de2b", "fde725"];
-const MAGMA = ["1d1147", "3b0f70", "641a80", "8c2981", "b73779", "de4968", "f7705c", "fe9f6d", "fecf92", "fcfdbf"];
+const VIRIDIS = [
+  "440154",
+  "482878",
+  "3e4a89",
+  "31688e",
+  "26828e",
+  "1f9e89",
+  "35b779",
+  "6ece58",
+  "b5de2b",
+  "fde725",
+];
+const MAGMA = [
+  "1d1147",
+  "3b0f70",
+  "641a80",
+  "8c2981",
+  "b73779",
+  "de4968",
+  "f7705c",
+  "fe9f6d",
+  "fecf92",
+  "fcfdbf",
+];
 
 export const viridis = interpolate(VIRIDIS);
 export const magma = interpolate(MAGMA);
 
 /** A colour [0 to 1, sRGB] as CSS has it. */
 export function css([r, g, b]) {
-  return `#${[r, g, b].map((part) => Math.round(255 * part).toString(16).padStart(2, "0")).join("")}`;
+  return `#${[r, g, b]
+    .map((part) =>
+      Math.round(255 * part)
+        .toString(16)
+        .padStart(2, "0"),
+    )
+    .join("")}`;
 }
 
 /** Stops of a gradient for SVG and CSS. */

@@ -13,8 +13,16 @@ export function summary(values) {
   let squares = 0;
   for (const value of sorted) squares += (value - mean) ** 2;
   return {
-    count, failed: values.length - count, mean, std: count > 1 ? Math.sqrt(squares / (count - 1)) : 0,
-    min: sorted[0], max: sorted[count - 1], q05: quantile(sorted, 0.05), q50: quantile(sorted, 0.5), q95: quantile(sorted, 0.95), sorted,
+    count,
+    failed: values.length - count,
+    mean,
+    std: count > 1 ? Math.sqrt(squares / (count - 1)) : 0,
+    min: sorted[0],
+    max: sorted[count - 1],
+    q05: quantile(sorted, 0.05),
+    q50: quantile(sorted, 0.5),
+    q95: quantile(sorted, 0.95),
+    sorted,
   };
 }
 
@@ -28,10 +36,11 @@ export function quantile(sorted, p) {
 
 /** Bins by the rule of Freedman and Diaconis (1981), 5 to 60 of them. */
 export function bins({ sorted, min, max }) {
-  const width = 2 * (quantile(sorted, 0.75) - quantile(sorted, 0.25)) / Math.cbrt(sorted.length);
+  const width = (2 * (quantile(sorted, 0.75) - quantile(sorted, 0.25))) / Math.cbrt(sorted.length);
   if (!(max > min) || !(width > 0)) return { edges: [min, max], counts: [sorted.length] };
   const count = Math.min(60, Math.max(5, Math.ceil((max - min) / width)));
   const counts = new Array(count).fill(0);
-  for (const value of sorted) counts[Math.min(count - 1, Math.floor((value - min) / (max - min) * count))] += 1;
-  return { edges: Array.from({ length: count + 1 }, (_, k) => min + (max - min) * k / count), counts };
+  for (const value of sorted)
+    counts[Math.min(count - 1, Math.floor(((value - min) / (max - min)) * count))] += 1;
+  return { edges: Array.from({ length: count + 1 }, (_, k) => min + ((max - min) * k) / count), counts };
 }

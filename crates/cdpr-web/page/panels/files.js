@@ -1,17 +1,19 @@
 // Links and files: the state, pictures, tables, the robot and the study.
 
 import { button, h } from "../dom.js";
+import { FILES, save } from "../saving.js";
 import { panel } from "./panel.js";
-
-const SAVES = [
-  ["png", "Picture of the view (PNG)"], ["histogram", "Histogram (SVG)"], ["effects", "Effects (SVG)"], ["map", "Slice (SVG)"], ["csv", "Table of the cables (CSV)"],
-  ["observations", "Observations (CSV)"], ["robot", "Robot (JSON)"], ["study", "Study (JSON)"], ["state", "State of this page (JSON)"],
-];
 
 /** @param {object} app */
 export function filesPanel(app) {
   const told = h("p", { class: "hint", role: "status" });
-  const input = h("input", { type: "file", accept: ".json,application/json", class: "visually-hidden", tabindex: "-1", "aria-hidden": "true" });
+  const input = h("input", {
+    type: "file",
+    accept: ".json,application/json",
+    class: "visually-hidden",
+    tabindex: "-1",
+    "aria-hidden": "true",
+  });
   input.addEventListener("change", async () => {
     const [file] = input.files;
     if (file) told.textContent = app.open(await file.text(), file.name);
@@ -25,9 +27,23 @@ export function filesPanel(app) {
       told.textContent = `Copy the address of this page: ${app.link()}`;
     }
   });
-  const saves = SAVES.map(([kind, words]) => button(words, () => { told.textContent = app.save(kind); }, { "data-kind": kind }));
-  return panel("Link, files and pictures", { update() {
-    for (const one of saves) one.disabled = !app.canSave(one.dataset.kind);
-  } }, h("div", { class: "buttons" }, app.embedded ? null : link, button("Open a saved state …", () => input.click())), input,
-  h("h3", { text: "Save" }), h("div", { class: "buttons" }, ...saves), told);
+  const saves = Object.entries(FILES).map(([kind, { words }]) => [
+    kind,
+    button(words, () => {
+      told.textContent = save(app, kind);
+    }),
+  ]);
+  const open = button("Open a saved state …", () => input.click());
+  const update = () => {
+    for (const [kind, one] of saves) one.disabled = !FILES[kind].ready(app);
+  };
+  return panel(
+    "Link, files and pictures",
+    { update },
+    h("div", { class: "buttons" }, link, open),
+    input,
+    h("h3", { text: "Save" }),
+    h("div", { class: "buttons" }, ...saves.map(([, one]) => one)),
+    told,
+  );
 }

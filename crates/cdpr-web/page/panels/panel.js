@@ -9,7 +9,12 @@ import { h } from "../dom.js";
  * @returns {{element: HTMLDetailsElement, update: function(): void}}
  */
 export function panel(title, { open = false, update }, ...children) {
-  const element = h("details", { class: "panel", open }, h("summary", {}, h("h2", { text: title })), h("div", { class: "inside" }, ...children));
+  const element = h(
+    "details",
+    { class: "panel", open },
+    h("summary", {}, h("h2", { text: title })),
+    h("div", { class: "inside" }, ...children),
+  );
   element.addEventListener("toggle", () => element.open && update());
   return { element, update: () => element.open && update() };
 }

@@ -9,25 +9,56 @@ import { panel } from "./panel.js";
 /** @param {object} app */
 export function slicePanel(app) {
   const { store, robot, slicing, moves } = app;
-  const change = (patch, commit = true) => store.set({ slice: { ...store.state.slice, ...patch } }, { commit });
+  const change = (patch, commit = true) =>
+    store.set({ slice: { ...store.state.slice, ...patch } }, { commit });
   const shown = check("show a slice of the workspace", (value) => change({ shown: value }));
-  const normal = choice("plane across", [["x", "x"], ["y", "y"], ["z", "z"]], (value) => {
-    change({ normal: value, at: store.state.position["xyz".indexOf(value)], shown: true });
-  });
-  const quantity = select("quantity", QUANTITIES.map(([field, words]) => [field, words]), (value) => change({ quantity: value }));
-  const cells = select("positions along the longer side", ["17", "33", "65"].map((n) => [n, n]), (value) => change({ cells: Number(value) }));
+  const normal = choice(
+    "plane across",
+    [
+      ["x", "x"],
+      ["y", "y"],
+      ["z", "z"],
+    ],
+    (value) => {
+      change({ normal: value, at: store.state.position["xyz".indexOf(value)], shown: true });
+    },
+  );
+  const quantity = select(
+    "quantity",
+    QUANTITIES.map(([field, words]) => [field, words]),
+    (value) => change({ quantity: value }),
+  );
+  const cells = select(
+    "positions along the longer side",
+    ["17", "33", "65"].map((n) => [n, n]),
+    (value) => change({ cells: Number(value) }),
+  );
   let axis = "";
   let at = null;
   const place = h("div", {});
-  const picture = h("div", { class: "map", tabindex: "0", role: "group", "aria-label": "Map of the slice. Arrow keys move the platform to the next position, Home to the worst." });
+  const picture = h("div", {
+    class: "map",
+    tabindex: "0",
+    role: "group",
+    "aria-label": "Map of the slice. Arrow keys move the platform to the next position, Home to the worst.",
+  });
   const note = h("p", { class: "hint" });
-  const buttons = h("div", { class: "buttons" },
-    button("Go to the greatest", () => go(1)), button("Go to the least", () => go(-1)),
-    button("Plane through the platform", () => change({ at: store.state.position["xyz".indexOf(store.state.slice.normal)], shown: true })));
+  const buttons = h(
+    "div",
+    { class: "buttons" },
+    button("Go to the greatest", () => go(1)),
+    button("Go to the least", () => go(-1)),
+    button("Plane through the platform", () =>
+      change({ at: store.state.position["xyz".indexOf(store.state.slice.normal)], shown: true }),
+    ),
+  );
   picture.addEventListener("click", (event) => {
     if (!slicing.plane) return;
     const box = picture.firstElementChild.getBoundingClientRect();
-    const cell = cellAt(slicing.plane, app.mapWidth, [(event.clientX - box.left) * app.mapWidth / box.width, (event.clientY - box.top) * app.mapWidth / box.width]);
+    const cell = cellAt(slicing.plane, app.mapWidth, [
+      ((event.clientX - box.left) * app.mapWidth) / box.width,
+      ((event.clientY - box.top) * app.mapWidth) / box.width,
+    ]);
     if (cell) moves.goto(positionOf(slicing.plane, ...cell));
   });
   picture.addEventListener("keydown", (event) => {
@@ -37,8 +68,17 @@ export function slicePanel(app) {
     else return;
     event.preventDefault();
   });
-  return panel("Slice of the workspace", { update },
-    shown.element, h("div", { class: "row" }, normal.element, quantity.element), place, cells.element, picture, buttons, note);
+  return panel(
+    "Slice of the workspace",
+    { update },
+    shown.element,
+    h("div", { class: "row" }, normal.element, quantity.element),
+    place,
+    cells.element,
+    picture,
+    buttons,
+    note,
+  );
 
   function update() {
     const { slice, position } = store.state;
@@ -49,8 +89,11 @@ export function slicePanel(app) {
     if (axis !== slice.normal) {
       axis = slice.normal;
       at = slider({
-        label: `${axis} of the plane`, unit: "m", scale: linear(...reach(axis, robot.exits, slicing.floor)),
-        input: (value) => change({ at: value, shown: true }, false), commit: () => store.commit(),
+        label: `${axis} of the plane`,
+        unit: "m",
+        scale: linear(...reach(axis, robot.exits, slicing.floor)),
+        input: (value) => change({ at: value, shown: true }, false),
+        commit: () => store.commit(),
       });
       place.replaceChildren(at.element);
     }
@@ -59,7 +102,13 @@ export function slicePanel(app) {
     if (!slicing.plane) return void setText(note, slicing.failure?.reason ?? "");
     const chosen = quantityOf(slice.quantity);
     const here = SLICE_AXES[slice.normal].map((name) => position["xyz".indexOf(name)]);
-    picture.innerHTML = heatMap(slicing.plane, slicing.cells, chosen, { width: app.mapWidth, here, title: mapTitle(slicing, chosen) }, app.palette);
+    picture.innerHTML = heatMap(
+      slicing.plane,
+      slicing.cells,
+      chosen,
+      { width: app.mapWidth, here, title: mapTitle(slicing, chosen) },
+      app.palette,
+    );
     setText(note, told());
   }
 
@@ -67,9 +116,13 @@ export function slicePanel(app) {
     if (slicing.failure) return `The slice failed: ${slicing.failure.reason}.`;
     const { held, reasons, done } = slicing.cells;
     const count = held.filter((state) => state === 1).length;
-    const why = Object.entries(reasons).map(([kind, n]) => `${n} ${kind.replaceAll("_", " ")}`).join(", ");
-    return `${done} of ${held.length} positions computed, ${count} held${why ? `; not held (grey): ${why}` : ""}.`
-      + " Click or tap on a position to go there. Deflection is with the lengths kept.";
+    const why = Object.entries(reasons)
+      .map(([kind, n]) => `${n} ${kind.replaceAll("_", " ")}`)
+      .join(", ");
+    return (
+      `${done} of ${held.length} positions computed, ${count} held${why ? `; not held (grey): ${why}` : ""}.` +
+      " Click or tap on a position to go there. Deflection is with the lengths kept."
+    );
   }
 
   function go(sign) {
@@ -80,7 +133,8 @@ export function slicePanel(app) {
   function walk([du, dv]) {
     const { u, v, normal: across } = slicing.plane;
     const [first, second] = SLICE_AXES[across].map((name) => store.state.position["xyz".indexOf(name)]);
-    const nearest = ([min, max, count], value, step) => Math.min(count - 1, Math.max(0, Math.round((value - min) / (max - min) * (count - 1)) + step));
+    const nearest = ([min, max, count], value, step) =>
+      Math.min(count - 1, Math.max(0, Math.round(((value - min) / (max - min)) * (count - 1)) + step));
     moves.goto(positionOf(slicing.plane, nearest(u, first, du), nearest(v, second, dv)));
   }
 }

@@ -11,25 +11,48 @@ const COUNTS = [512, 2048, 8192, 20000];
 export function tolerancesPanel(app) {
   const { store, robot, sampling } = app;
   if (!robot.study) {
-    return panel("Tolerances", { open: true, update() {} }, h("p", { class: "note" }, `No study of this robot: ${robot.start_reason ?? "it has no template"}.`));
+    return panel(
+      "Tolerances",
+      { open: true, update() {} },
+      h("p", { class: "note" }, `No study of this robot: ${robot.start_reason ?? "it has no template"}.`),
+    );
   }
   const entries = Object.entries(tolerances(robot.study));
   const sliders = entries.map(([name, entry]) => {
     const [factor, unit] = shownUnit(unitOf(robot, name, entry));
     const nominal = width(entry) * factor;
     const one = slider({
-      label: `${entryWords(name)}, ${widthWords(entry)}`, unit, scale: linear(0, 3 * nominal), min: 0,
-      input: (value) => store.set({ tolerances: { ...store.state.tolerances, [name]: value / nominal } }), commit: () => store.commit(),
+      label: `${entryWords(name)}, ${widthWords(entry)}`,
+      unit,
+      scale: linear(0, 3 * nominal),
+      min: 0,
+      input: (value) => store.set({ tolerances: { ...store.state.tolerances, [name]: value / nominal } }),
+      commit: () => store.commit(),
     });
-    const share = h("span", { class: "share", title: "share of the variance of the deflection here, of effects squared" });
+    const share = h("span", {
+      class: "share",
+      title: "share of the variance of the deflection here, of effects squared",
+    });
     one.element.append(share);
     return { name, nominal, share, ...one };
   });
-  const count = select("observations", COUNTS.map((n) => [String(n), String(n)]), (value) => store.set({ observations: Number(value) }, { commit: true }));
-  return panel("Tolerances", { open: true, update },
-    h("p", { class: "hint" }, "How far each parameter may be off. The template's tolerances are assumptions: put in what you know."),
-    ...sliders.map((one) => one.element), count.element,
-    button("As in the template", () => store.set({ tolerances: {} }, { commit: true })));
+  const count = select(
+    "observations",
+    COUNTS.map((n) => [String(n), String(n)]),
+    (value) => store.set({ observations: Number(value) }, { commit: true }),
+  );
+  return panel(
+    "Tolerances",
+    { open: true, update },
+    h(
+      "p",
+      { class: "hint" },
+      "How far each parameter may be off. The template's tolerances are assumptions: put in what you know.",
+    ),
+    ...sliders.map((one) => one.element),
+    count.element,
+    button("As in the template", () => store.set({ tolerances: {} }, { commit: true })),
+  );
 
   function update() {
     const found = sampling.effects ? shares(sampling.effects.inputs, tolerances(robot.study)) : [];

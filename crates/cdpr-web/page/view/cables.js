@@ -12,8 +12,19 @@ export class Cables {
    */
   constructor(parent, count) {
     const capacity = 80 * count;
-    this.casing = new Segments(parent, capacity, { color: 0x000000, linewidth: 4.6, opacity: 0.35, depthWrite: false });
-    this.marks = new Segments(parent, capacity, { color: 0xffffff, vertexColors: true, linewidth: 9, opacity: 0.75, depthWrite: false });
+    this.casing = new Segments(parent, capacity, {
+      color: 0x000000,
+      linewidth: 4.6,
+      opacity: 0.35,
+      depthWrite: false,
+    });
+    this.marks = new Segments(parent, capacity, {
+      color: 0xffffff,
+      vertexColors: true,
+      linewidth: 9,
+      opacity: 0.75,
+      depthWrite: false,
+    });
     this.lines = new Segments(parent, capacity, { color: 0xffffff, vertexColors: true, linewidth: 3 });
     this.wheels = new Segments(parent, capacity, { color: 0xffffff, linewidth: 2 });
     this.lines.object.renderOrder = 2;

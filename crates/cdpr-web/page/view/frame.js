@@ -23,11 +23,15 @@ export class Frame {
     order.forEach((k, j) => this.lines.line([...exits[k], ...exits[order[(j + 1) % order.length]]]));
     this.lines.done();
     const cell = roundUp(box.size / 12);
-    const count = 2 * Math.ceil(0.75 * box.size / cell);
+    const count = 2 * Math.ceil((0.75 * box.size) / cell);
     this.cell = cell;
     this.grid = new GridHelper(count * cell, count);
     this.grid.rotation.x = Math.PI / 2;
-    this.grid.position.set(Math.round(box.middle[0] / cell) * cell, Math.round(box.middle[1] / cell) * cell, box.floor - 1e-4 * box.size);
+    this.grid.position.set(
+      Math.round(box.middle[0] / cell) * cell,
+      Math.round(box.middle[1] / cell) * cell,
+      box.floor - 1e-4 * box.size,
+    );
     this.group.add(this.grid);
   }
 
@@ -59,7 +63,8 @@ export class Names {
       const label = this.labels[k];
       const seen = scratch.z < 1 && Math.abs(scratch.x) < 1 && Math.abs(scratch.y) < 1;
       label.style.display = seen ? "" : "none";
-      if (seen) label.style.transform = `translate(${((scratch.x + 1) / 2 * width + 5).toFixed(1)}px,${((1 - scratch.y) / 2 * height - 18).toFixed(1)}px)`;
+      if (seen)
+        label.style.transform = `translate(${(((scratch.x + 1) / 2) * width + 5).toFixed(1)}px,${(((1 - scratch.y) / 2) * height - 18).toFixed(1)}px)`;
     });
   }
 }

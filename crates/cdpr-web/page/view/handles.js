@@ -41,7 +41,9 @@ export class Handles {
     if (!shown) return;
     this.controls.setMode(mode);
     const names = mode === "translate" ? FIELDS : ["roll", "pitch", "yaw"];
-    FIELDS.forEach((axis, k) => { this.controls[`show${axis.toUpperCase()}`] = !this.held.includes(names[k]); });
+    FIELDS.forEach((axis, k) => {
+      this.controls[`show${axis.toUpperCase()}`] = !this.held.includes(names[k]);
+    });
   }
 
   /** Where the proxy is, as a pose. */

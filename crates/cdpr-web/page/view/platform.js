@@ -1,7 +1,15 @@
 // The platform: the hull of its anchor points, the ghost without load, the outline of an exaggerated motion.
 
 import {
-  DoubleSide, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, SphereGeometry,
+  DoubleSide,
+  EdgesGeometry,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  SphereGeometry,
 } from "three";
 import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
 import { Vector3 } from "three";
@@ -15,13 +23,30 @@ export class Platform {
    */
   constructor(parent, { anchors, center_of_mass }, size) {
     const points = bodyPoints(anchors, size);
-    const geometry = points ? new ConvexGeometry(points.map((point) => new Vector3(...point))) : new SphereGeometry(0.012 * size, 24, 16);
-    const edges = points ? new EdgesGeometry(geometry, 12) : new EdgesGeometry(new SphereGeometry(0.012 * size, 10, 6), 1);
+    const geometry = points
+      ? new ConvexGeometry(points.map((point) => new Vector3(...point)))
+      : new SphereGeometry(0.012 * size, 24, 16);
+    const edges = points
+      ? new EdgesGeometry(geometry, 12)
+      : new EdgesGeometry(new SphereGeometry(0.012 * size, 10, 6), 1);
     this.reach = points ? Math.max(...points.map((point) => Math.hypot(...point))) : 0.012 * size;
     this.body = new Group();
-    this.surface = new Mesh(geometry, new MeshLambertMaterial({ transparent: true, opacity: 0.82, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+    this.surface = new Mesh(
+      geometry,
+      new MeshLambertMaterial({
+        transparent: true,
+        opacity: 0.82,
+        side: DoubleSide,
+        polygonOffset: true,
+        polygonOffsetFactor: 1,
+        polygonOffsetUnits: 1,
+      }),
+    );
     this.rim = outline(edges);
-    const mass = new Mesh(new SphereGeometry(0.06 * this.reach, 16, 12), new MeshBasicMaterial({ depthTest: false, transparent: true }));
+    const mass = new Mesh(
+      new SphereGeometry(0.06 * this.reach, 16, 12),
+      new MeshBasicMaterial({ depthTest: false, transparent: true }),
+    );
     mass.position.set(...center_of_mass);
     mass.renderOrder = 5;
     this.mass = mass;

@@ -1,6 +1,16 @@
 // The 3D view: scene, camera, and the loop that draws only when something has changed or moves.
 
-import { AmbientLight, DirectionalLight, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, Color } from "three";
+import {
+  AmbientLight,
+  DirectionalLight,
+  PerspectiveCamera,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+  Color,
+} from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { amplitude, anchorsAt, extents, moved } from "../geometry.js";
 import { Arrow } from "./arrow.js";
@@ -88,7 +98,9 @@ export class View {
   }
 
   /** Draws at the next frame. */
-  invalidate() { this.#needed = true; }
+  invalidate() {
+    this.#needed = true;
+  }
 
   /** @param {Picture} picture */
   show(picture) {
@@ -101,16 +113,26 @@ export class View {
     const step = unloaded ? loaded.pose.slice(0, 3).map((value, k) => value - unloaded.pose[k]) : [0, 0, 0];
     const { size } = this.box;
     const thickness = Math.max(0.0022 * size, 0.03 * this.platform.reach);
-    this.arrow.draw(unloaded && !faded ? unloaded.pose.slice(0, 3) : null, step.map((value) => deflection * value), thickness);
-    const tip = unloaded && !faded && deflection > 1
-      ? moved(unloaded.pose, { translation: step, rotation: picture.rotation ?? [0, 0, 0] }, deflection) : null;
+    this.arrow.draw(
+      unloaded && !faded ? unloaded.pose.slice(0, 3) : null,
+      step.map((value) => deflection * value),
+      thickness,
+    );
+    const tip =
+      unloaded && !faded && deflection > 1
+        ? moved(unloaded.pose, { translation: step, rotation: picture.rotation ?? [0, 0, 0] }, deflection)
+        : null;
     place(this.platform.tip, tip);
     this.force.draw(force ? loaded.center_of_mass : null, force ?? [0, 0, 0], thickness);
-    this.jump.draw(jump?.after ? jump.before : null, jump?.after ? jump.after.map((value, k) => value - jump.before[k]) : [0, 0, 0], thickness);
+    this.jump.draw(
+      jump?.after ? jump.before : null,
+      jump?.after ? jump.after.map((value, k) => value - jump.before[k]) : [0, 0, 0],
+      thickness,
+    );
     this.trace.clear();
     if (jump?.path) this.trace.line(jump.path.flat());
     this.trace.done();
-    this.handles.follow(wanted ?? (picture.handle ?? loaded.pose));
+    this.handles.follow(wanted ?? picture.handle ?? loaded.pose);
     this.#pose(0);
     this.invalidate();
   }
@@ -174,10 +196,10 @@ export class View {
     const back = direction.normalize();
     const right = new Vector3().crossVectors(this.camera.up, back).normalize();
     const up = new Vector3().crossVectors(back, right);
-    const tangent = 0.96 * Math.tan(this.camera.fov * Math.PI / 360);
+    const tangent = 0.96 * Math.tan((this.camera.fov * Math.PI) / 360);
     let distance = 0;
     for (let k = 0; k < 8; k++) {
-      const corner = new Vector3(...[0, 1, 2].map((axis) => (k >> axis & 1 ? max : min)[axis])).sub(center);
+      const corner = new Vector3(...[0, 1, 2].map((axis) => ((k >> axis) & 1 ? max : min)[axis])).sub(center);
       const across = Math.max(Math.abs(corner.dot(right)) / this.camera.aspect, Math.abs(corner.dot(up)));
       distance = Math.max(distance, across / tangent + corner.dot(back));
     }
@@ -191,7 +213,7 @@ export class View {
     this.#frame = requestAnimationFrame(this.#loop);
     const picture = this.picture;
     if (picture?.motion && !picture.still && !picture.faded) {
-      this.#pose(Math.sin(2 * Math.PI * performance.now() / 1000 / PERIOD));
+      this.#pose(Math.sin((2 * Math.PI * performance.now()) / 1000 / PERIOD));
       this.#needed = true;
     }
     if (!this.#needed) return;
@@ -209,9 +231,16 @@ export class View {
     let { pose } = loaded;
     let steps = null;
     if (motion && !faded) {
-      const reach = amplitude(motion, this.robot.anchors, pose, Math.max(0.03 * this.box.size, 0.35 * this.platform.reach));
+      const reach = amplitude(
+        motion,
+        this.robot.anchors,
+        pose,
+        Math.max(0.03 * this.box.size, 0.35 * this.platform.reach),
+      );
       pose = moved(pose, motion, reach * (still ? 1 : phase));
-      steps = anchorsAt(pose, this.robot.anchors).map((anchor, i) => anchor.map((value, k) => value - loaded.anchors[i][k]));
+      steps = anchorsAt(pose, this.robot.anchors).map((anchor, i) =>
+        anchor.map((value, k) => value - loaded.anchors[i][k]),
+      );
       if (still) place(this.platform.ghost, loaded.pose);
     }
     place(this.platform.body, pose);
@@ -231,13 +260,18 @@ export class View {
   // A click on the slice goes there; a drag turns the view.
   #listen() {
     let down = null;
-    this.surface.addEventListener("pointerdown", (event) => { down = [event.clientX, event.clientY]; });
+    this.surface.addEventListener("pointerdown", (event) => {
+      down = [event.clientX, event.clientY];
+    });
     this.surface.addEventListener("pointerup", (event) => {
       const still = down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4;
       down = null;
       if (!still || this.handles.taken || this.handles.controls.axis || !this.slice.mesh.visible) return;
       const box = this.surface.getBoundingClientRect();
-      const at = new Vector2((event.clientX - box.left) / box.width * 2 - 1, 1 - (event.clientY - box.top) / box.height * 2);
+      const at = new Vector2(
+        ((event.clientX - box.left) / box.width) * 2 - 1,
+        1 - ((event.clientY - box.top) / box.height) * 2,
+      );
       this.#pick.setFromCamera(at, this.camera);
       const [hit] = this.#pick.intersectObject(this.slice.mesh);
       if (hit) this.hooks.goto(hit.point.toArray());
