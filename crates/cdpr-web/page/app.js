@@ -1,0 +1,354 @@
+// The page of a robot: ties state, engine, view and panels together.
+
+import { roundUp } from "./charts/scale.js";
+import { h, setText } from "./dom.js";
+import { digits, entryWords, point, short, withUnit } from "./format.js";
+import { extents } from "./geometry.js";
+import { layout } from "./layout.js";
+import { loadOf, Mechanics, poseOf } from "./mechanics.js";
+import { Moves } from "./moves.js";
+import { DARK, LIGHT } from "./palette.js";
+import { cablesPanel } from "./panels/cables.js";
+import { chartsPanel, sentence } from "./panels/charts.js";
+import { commandsPanel } from "./panels/commands.js";
+import { filesPanel } from "./panels/files.js";
+import { loadPanel } from "./panels/load.js";
+import { chosenMotion, motionsPanel } from "./panels/motions.js";
+import { numbersPanel } from "./panels/numbers.js";
+import { numbers, pinPoses, pinsPanel } from "./panels/pins.js";
+import { posePanel } from "./panels/pose.js";
+import { slicePanel, slicePixels } from "./panels/slice.js";
+import { stagePanel } from "./panels/stage.js";
+import { tolerancesPanel } from "./panels/tolerances.js";
+import { changedRobot, isChanged, shares, tolerances } from "./robot.js";
+import { Sampling } from "./sampling.js";
+import { Slicing } from "./slicing.js";
+import { decode, encode, initial, restore, Store } from "./state.js";
+import { View } from "./view/scene.js";
+
+const SETTLED = 500;
+
+export class App {
+  mapWidth = 380;
+  selected = null;
+  range = 1;
+  modes = null;
+  modesFailure = null;
+  version = 0;
+  #modesKey = "";
+  #asked = false;
+  #settle = 0;
+  #told = "";
+  #queued = false;
+
+  /**
+   * @param {HTMLElement} element
+   * @param {{engine: import("./engine.js").Engine, robot: object, file: object, name: string, saved: object|null,
+   *   embedded: boolean}} options `robot`: answer to `describe`; `file`: the robot file
+   */
+  constructor(element, { engine, robot, file, name, saved, embedded }) {
+    Object.assign(this, { element, engine, robot, file, name, embedded });
+    const box = extents(robot.exits);
+    this.size = box.size;
+    this.arm = Math.max(...robot.anchors.map((anchor) => Math.hypot(...anchor)), 0.01 * box.size);
+    this.first = initial(robot);
+    const { state, refused } = restore(saved ?? (embedded ? null : decode(location.hash)), this.first);
+    this.refused = refused;
+    this.store = new Store(state);
+    this.mechanics = new Mechanics(engine, this.store, () => this.#mechanicsChanged());
+    this.sampling = new Sampling(engine, robot.study, () => this.refresh());
+    this.slicing = new Slicing(engine, robot, () => {
+      this.#drawSlice();
+      this.refresh();
+    });
+    this.moves = new Moves(this);
+    this.dark = matchMedia("(prefers-color-scheme: dark)");
+    this.less = matchMedia("(prefers-reduced-motion: reduce)");
+    this.#build();
+    this.store.listen((now, before, stepped) => this.#changed(now, before, stepped));
+    this.dark.addEventListener("change", this.#repaint);
+    this.less.addEventListener("change", this.#redraw);
+    this.#repaint();
+    if (isChanged(state.changes) || state.changes.reference !== null) this.#newRobot();
+    this.#ask({ restart: true });
+  }
+
+  get palette() {
+    return this.dark.matches ? DARK : LIGHT;
+  }
+
+  get reduced() {
+    return this.less.matches;
+  }
+
+  getState() {
+    return structuredClone(this.store.state);
+  }
+
+  setState(saved) {
+    const { state } = restore(saved, this.first);
+    this.jumpTo(state);
+  }
+
+  /** Takes over fields of a state that does not follow from the one before. */
+  jumpTo(fields) {
+    this.store.set(fields, { commit: true, quiet: true });
+    this.mechanics.jump = null;
+    this.#newRobot();
+    this.#ask({ restart: true });
+  }
+
+  /** Marks a cable in view and table. */
+  select(k) {
+    this.selected = k;
+    this.#draw();
+    this.refresh();
+  }
+
+  setHandle(mode) {
+    this.view?.handles.set(mode);
+    this.view?.invalidate();
+    this.stage.setHandle(mode);
+  }
+
+  /** The factor of the deflection: the one that is set, or one that makes it an eighth of the robot. */
+  get deflectionFactor() {
+    const { deflection } = this.store.state.view;
+    const rms = this.mechanics.picture?.rms;
+    if (deflection > 0) return deflection;
+    return rms > 0 ? Math.max(1, roundUp((0.06 * this.size) / rms)) : 1;
+  }
+
+  /** The tolerance with the largest share of the variance, in words. */
+  most() {
+    const { effects, failure } = this.sampling;
+    if (!effects || failure) return null;
+    const [top] = shares(effects.inputs, tolerances(this.robot.study));
+    return top ? `${entryWords(top.entry)}, ${digits(100 * top.share, 2)} %` : null;
+  }
+
+  /** Draws all panels at the next frame. */
+  refresh() {
+    if (this.#queued) return;
+    this.#queued = true;
+    requestAnimationFrame(() => {
+      this.#queued = false;
+      for (const panel of this.panels) panel.update();
+      this.undo.disabled = !this.store.canUndo;
+      this.redo.disabled = !this.store.canRedo;
+    });
+    clearTimeout(this.#settle);
+    this.#settle = setTimeout(() => this.#settled(), SETTLED);
+  }
+
+  /** The address of this page in this state. */
+  link() {
+    return `${location.href.split("#")[0]}#state=${encode(this.store.state, this.first)}`;
+  }
+
+  /** Opens a saved state; returns what is to be said about it. */
+  open(text, name) {
+    let saved;
+    try {
+      saved = JSON.parse(text);
+    } catch (error) {
+      return `${name} is no JSON: ${error.message}`;
+    }
+    const { state, refused } = restore(saved, this.first);
+    if (saved?.format !== state.format)
+      return `${name} is no state of this page: its format is ${String(saved?.format)}, not ${state.format}`;
+    this.jumpTo(state);
+    const other = saved.robot && saved.robot !== this.robot.name ? ` It was saved for ${saved.robot}.` : "";
+    return `${name} is open.${other}${refused.length > 0 ? ` Left out: ${refused.join(", ")}.` : ""}`;
+  }
+
+  dispose() {
+    clearTimeout(this.#settle);
+    this.engine.dispose();
+    this.sampling.dispose();
+    this.charts.dispose();
+    this.view?.dispose();
+    this.dark.removeEventListener("change", this.#repaint);
+    this.less.removeEventListener("change", this.#redraw);
+    this.element.removeEventListener("keydown", this.#keys);
+    this.element.replaceChildren();
+    this.element.classList.remove("cdprx");
+  }
+
+  #build() {
+    this.stage = stagePanel(this);
+    this.charts = chartsPanel(this);
+    this.motions = motionsPanel(this);
+    const figures = numbersPanel(this);
+    const side = [posePanel, loadPanel, tolerancesPanel, slicePanel, cablesPanel].map((make) => make(this));
+    side.push(this.motions, pinsPanel(this), commandsPanel(this));
+    if (!this.embedded) side.push(filesPanel(this));
+    this.panels = [this.stage, figures, this.charts, ...side];
+    Object.assign(this, layout(this, { stage: this.stage, figures, charts: this.charts, side }));
+    this.element.addEventListener("keydown", this.#keys);
+    try {
+      this.view = new View(this.stage.surface, this.robot, {
+        grab: (phase, pose) => this.moves.grab(phase, pose),
+        goto: (position) => this.moves.goto(position),
+      });
+    } catch (error) {
+      this.view = null;
+      const reason = `No 3D view: this browser gives no WebGL (${error.message}). All numbers are there without it.`;
+      this.stage.surface.append(h("p", { class: "failure", text: reason }));
+    }
+  }
+
+  #keys = (event) => {
+    if (
+      !(event.ctrlKey || event.metaKey) ||
+      event.key.toLowerCase() !== "z" ||
+      event.target.matches("input[type=number], textarea")
+    )
+      return;
+    event.preventDefault();
+    if (event.shiftKey) this.store.redo();
+    else this.store.undo();
+  };
+
+  #changed(now, before, stepped) {
+    if (now.changes !== before.changes) this.#newRobot();
+    if (stepped) this.mechanics.jump = null;
+    const same = [
+      "position",
+      "rpy_deg",
+      "lengths",
+      "payload",
+      "force",
+      "moment",
+      "free",
+      "way",
+      "changes",
+    ].every((field) => now[field] === before[field]);
+    if (same) {
+      this.#draw();
+      this.#ask({ mechanics: false });
+    } else this.#ask({ restart: stepped || now.changes !== before.changes });
+  }
+
+  #newRobot() {
+    this.version += 1;
+    this.engine.setRobot(JSON.stringify(changedRobot(this.file, this.store.state.changes)));
+  }
+
+  #ask({ restart = false, mechanics = true } = {}) {
+    const { state } = this.store;
+    if (mechanics) this.mechanics.update({ restart });
+    this.sampling.update(state, this.version);
+    this.slicing.update(state, this.version);
+    this.#drawSlice();
+    this.#askModes();
+    this.refresh();
+  }
+
+  // Modes are asked for while somebody looks at them, once the platform rests.
+  async #askModes() {
+    const { picture, failure, busy } = this.mechanics;
+    if (!this.motions.wanted() || !picture || failure || busy || this.#asked) return;
+    const { lengths, loaded } = picture;
+    const load = loadOf(this.store.state);
+    const key = JSON.stringify([lengths, load, loaded.pose, this.version]);
+    if (key === this.#modesKey) return;
+    this.#asked = true;
+    const {
+      answers: [answer],
+    } = await this.engine.ask("modes", [{ modes: { lengths, load, start: loaded.pose } }]);
+    this.#asked = false;
+    this.#modesKey = key;
+    this.modes = answer.ok ?? this.modes;
+    this.modesFailure = answer.error?.reason ?? null;
+    this.#draw();
+    this.refresh();
+    this.#askModes();
+  }
+
+  #mechanicsChanged() {
+    const { picture } = this.mechanics;
+    if (picture) {
+      const greatest = Math.max(...picture.loaded.cables.map((cable) => cable.tension));
+      if (greatest > this.range || greatest < 0.4 * this.range) this.range = roundUp(greatest);
+    }
+    if (this.store.state.way === "kept") this.sampling.update(this.store.state, this.version);
+    this.#draw();
+    this.#askModes();
+    this.refresh();
+  }
+
+  #draw() {
+    const { picture, failure, pull, jump } = this.mechanics;
+    if (!this.view || !picture) return;
+    const { state } = this.store;
+    const force = state.force.map((value, k) => value + pull.force[k]);
+    const size = Math.hypot(...force);
+    const length = (0.22 * this.size * size) / (size + this.robot.mass * 9.81);
+    this.view.show({
+      loaded: picture.loaded,
+      unloaded: picture.unloaded,
+      rotation: picture.rotation,
+      wanted: failure ? failure.wanted : null,
+      faded: Boolean(failure),
+      handle: state.way === "anew" ? (state.free.length > 0 ? picture.unloaded?.pose : poseOf(state)) : null,
+      sag: state.view.sag,
+      range: this.range,
+      selected: this.selected,
+      deflection: this.deflectionFactor,
+      ghost: state.view.ghost,
+      names: state.view.names,
+      motion: chosenMotion(this, picture.loaded),
+      still: this.reduced,
+      force: size > 0 ? force.map((value) => (value / size) * length) : null,
+      jump,
+      pins: pinPoses(state),
+    });
+  }
+
+  #redraw = () => this.#draw();
+
+  #drawSlice() {
+    const { plane } = this.slicing;
+    this.view?.showSlice(plane, plane ? slicePixels(this.slicing, this.store.state.slice.quantity) : null);
+  }
+
+  #repaint = () => {
+    this.view?.paint(this.palette);
+    this.#draw();
+    this.refresh();
+  };
+
+  #settled() {
+    if (this.mechanics.busy || this.sampling.busy) return;
+    const { state } = this.store;
+    if (!this.embedded) {
+      try {
+        history.replaceState(history.state, "", `#state=${encode(state, this.first)}`);
+      } catch {
+        // A page without an address of its own, such as a frame of a notebook, has no link.
+      }
+    }
+    this.#askModes();
+    const text = this.#sentence();
+    if (text !== this.#told) {
+      this.#told = text;
+      setText(this.live, text);
+      this.element.dispatchEvent(new CustomEvent("cdpr-state", { detail: this.getState(), bubbles: true }));
+    }
+  }
+
+  #sentence() {
+    const { picture, failure } = this.mechanics;
+    if (failure || !picture) return failure ? `Not held here: ${failure.reason}` : "";
+    const known = numbers(this);
+    const [least, greatest] = known.tensions;
+    return [
+      `Platform at ${point(picture.loaded.pose.slice(0, 3))}.`,
+      `Deflection ${short(picture.rms)}.`,
+      `Tensions ${digits(least)} to ${withUnit(greatest, "N")}.`,
+      `Least stiffness ${withUnit(known.stiffness, "N/m")}.`,
+      sentence(this),
+    ].join(" ");
+  }
+}

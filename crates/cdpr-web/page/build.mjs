@@ -1,0 +1,53 @@
+// Bundles the page into crates/cdpr-web/dist: `npm run build`. With `--mock` the module is a stand-in.
+
+import { build } from "esbuild";
+import { fileURLToPath } from "node:url";
+import path from "node:path";
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+
+/**
+ * @param {{out: string, mock?: boolean}} options
+ */
+export async function bundle({ out, mock = false }) {
+  const common = {
+    bundle: true,
+    minify: true,
+    format: "iife",
+    target: "es2022",
+    legalComments: "inline",
+    charset: "utf8",
+    logLevel: "warning",
+    define: { "import.meta.url": '""' },
+  };
+  const standIn = {
+    name: "mock",
+    setup: ({ onResolve }) => {
+      onResolve({ filter: /pkg\/cdpr_web\.js$/ }, () => ({ path: path.join(here, "test/mock-live.js") }));
+    },
+  };
+  await Promise.all([
+    build({
+      ...common,
+      entryPoints: [path.join(here, "main.js")],
+      outfile: path.join(out, "explorer.js"),
+      globalName: "cdprExplorer",
+    }),
+    build({
+      ...common,
+      entryPoints: [path.join(here, "worker.js")],
+      outfile: path.join(out, "worker.js"),
+      plugins: mock ? [standIn] : [],
+    }),
+    build({
+      entryPoints: [path.join(here, "explorer.css")],
+      outfile: path.join(out, "explorer.css"),
+      minify: true,
+      logLevel: "warning",
+    }),
+  ]);
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  await bundle({ out: path.join(here, "../dist"), mock: process.argv.includes("--mock") });
+}

@@ -1,0 +1,188 @@
+// Elements of the page: `h` builds one, the others are its controls.
+
+/**
+ * Builds an element.
+ * @param {string} tag
+ * @param {Object<string, *>} [properties] attributes; `class`, `text`, and functions as listeners of `onNAME`
+ * @param {...(Node|string|null|false)} children
+ * @returns {HTMLElement}
+ */
+export function h(tag, properties = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (name === "text") element.textContent = value;
+    else element.setAttribute(name, value === true ? "" : String(value));
+  }
+  element.append(...children.filter((child) => child !== null && child !== false && child !== undefined));
+  return element;
+}
+
+let counter = 0;
+
+/** A new identifier, unique on the page. */
+export function unique(prefix) {
+  counter += 1;
+  return `cdprx-${prefix}-${counter}`;
+}
+
+/** Sets the text of an element where it has changed, so that readers and layouts are left in peace. */
+export function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/** Sets the value of a field unless somebody is typing there. */
+export function setValue(input, value) {
+  const text = String(value);
+  if (document.activeElement !== input && input.value !== text) input.value = text;
+}
+
+/**
+ * A number that is typed.
+ * @param {{label: string, unit?: string, step?: number|string, min?: number, max?: number, hint?: string,
+ *   change: function(number): void}} options `change` gets what was typed once it is a number in range
+ * @returns {{element: HTMLElement, input: HTMLInputElement, set: function(number): void}}
+ */
+export function numberField({ label, unit = "", step = "any", min, max, hint, change }) {
+  const id = unique("field");
+  const input = h("input", { id, type: "number", step, min, max, inputmode: "decimal", title: hint });
+  const tell = () => {
+    if (input.value !== "" && input.checkValidity()) change(input.valueAsNumber);
+    else input.reportValidity();
+  };
+  input.addEventListener("change", tell);
+  const element = h(
+    "div",
+    { class: "field" },
+    h("label", { for: id }, label, unit ? h("span", { class: "unit" }, ` [${unit}]`) : null),
+    input,
+  );
+  return { element, input, set: (value) => setValue(input, value) };
+}
+
+/**
+ * A slider with a number beside it. Positions are 0 to 1000, mapped by `scale`.
+ * @param {{label: string, unit?: string, scale: {to: function(number): number, from: function(number): number},
+ *   digits?: number, min?: number, max?: number, input: function(number): void, commit: function(): void}} options
+ */
+export function slider({ label, unit = "", scale, digits = 4, min, max, input, commit }) {
+  const id = unique("slider");
+  const range = h("input", { id, type: "range", min: 0, max: 1000, step: 1 });
+  const typed = h("input", {
+    type: "number",
+    step: "any",
+    min,
+    max,
+    inputmode: "decimal",
+    "aria-label": unit ? `${label} [${unit}]` : label,
+  });
+  const show = (value) => {
+    range.setAttribute("aria-valuetext", `${Number(value.toPrecision(digits))} ${unit}`.trim());
+  };
+  range.addEventListener("input", () => {
+    const value = Number(scale.to(range.valueAsNumber / 1000).toPrecision(3));
+    typed.value = String(value);
+    show(value);
+    input(value);
+  });
+  range.addEventListener("change", commit);
+  typed.addEventListener("change", () => {
+    if (typed.value === "" || !typed.checkValidity()) return void typed.reportValidity();
+    input(typed.valueAsNumber);
+    commit();
+  });
+  const element = h(
+    "div",
+    { class: "slider" },
+    h("label", { for: id }, label, unit ? h("span", { class: "unit" }, ` [${unit}]`) : null),
+    range,
+    typed,
+  );
+  const set = (value) => {
+    setValue(typed, Number(value.toPrecision(digits)));
+    if (document.activeElement !== range) range.value = String(Math.round(1000 * scale.from(value)));
+    show(value);
+  };
+  return { element, set };
+}
+
+/** The scale of a slider from `min` to `max`, in equal steps. */
+export function linear(min, max) {
+  return {
+    to: (t) => min + (max - min) * t,
+    from: (value) => Math.min(1, Math.max(0, (value - min) / (max - min))),
+  };
+}
+
+/** The scale of a slider from `min` to `max`, both positive, in equal ratios. */
+export function logarithmic(min, max) {
+  const ratio = Math.log(max / min);
+  return {
+    to: (t) => min * Math.exp(ratio * t),
+    from: (value) => Math.min(1, Math.max(0, Math.log(Math.max(value, min) / min) / ratio)),
+  };
+}
+
+/**
+ * A button.
+ * @param {string} text
+ * @param {function(): void} press
+ * @param {Object<string, *>} [properties]
+ */
+export function button(text, press, properties = {}) {
+  return h("button", { type: "button", onclick: press, ...properties }, text);
+}
+
+/**
+ * A choice of one among a few, as a row of radio buttons.
+ * @param {string} legend
+ * @param {Array<[string, string, string?]>} options value, text and hint of each
+ * @param {function(string): void} choose
+ */
+export function choice(legend, options, choose) {
+  const name = unique("choice");
+  const inputs = options.map(([value, , hint]) =>
+    h("input", {
+      type: "radio",
+      name,
+      value,
+      title: hint,
+      onchange: () => choose(value),
+    }),
+  );
+  const element = h(
+    "fieldset",
+    { class: "choice" },
+    h("legend", {}, legend),
+    ...inputs.map((input, k) => h("label", { title: options[k][2] }, input, h("span", {}, options[k][1]))),
+  );
+  const set = (value) => {
+    for (const input of inputs) input.checked = input.value === value;
+  };
+  return { element, set };
+}
+
+/** A list to choose from. */
+export function select(label, options, choose) {
+  const id = unique("select");
+  const box = h(
+    "select",
+    { id, onchange: () => choose(box.value) },
+    ...options.map(([value, text]) => h("option", { value }, text)),
+  );
+  const element = h("div", { class: "field" }, h("label", { for: id }, label), box);
+  return { element, box, set: (value) => setValue(box, value) };
+}
+
+/** A box to tick. */
+export function check(label, toggle, hint) {
+  const input = h("input", { type: "checkbox", onchange: () => toggle(input.checked) });
+  const element = h("label", { class: "check", title: hint }, input, h("span", {}, label));
+  return {
+    element,
+    set: (value) => {
+      input.checked = value;
+    },
+  };
+}

@@ -1,0 +1,139 @@
+// Workers and the questions to them. A newer question of a lane replaces the older ones of that lane.
+
+// Lanes in the order in which they are served. The others wait while the first worker serves a hand that moves.
+const ORDER = ["pose", "modes", "observe", "slice"];
+const HAND = 300;
+
+/** What a question resolves to where a newer one has taken its place. */
+export const STALE = Symbol("stale");
+
+/** How many workers a machine gets: one for the pose, the others for observations and slices. */
+export function workerCount(cores) {
+  return Math.min(8, Math.max(2, cores || 2));
+}
+
+/**
+ * @typedef {{lane: string, generation: number, order: number, version: number, robot: string,
+ *   asks: object[], resolve: function(*): void}} Task
+ */
+
+export class Engine {
+  #workers = [];
+  #queue = [];
+  #generations = new Map();
+  #version = 0;
+  #robot = "";
+  #next = 0;
+  #moved = -Infinity;
+  #fail;
+
+  /**
+   * @param {function(): Worker} makeWorker
+   * @param {number} count
+   * @param {WebAssembly.Module} module
+   * @param {function(string): void} fail hears of a worker that does not start or breaks
+   */
+  constructor(makeWorker, count, module, fail) {
+    this.#fail = fail;
+    for (let k = 0; k < count; k++) this.#start(makeWorker(), module, k);
+  }
+
+  get workers() {
+    return this.#workers.length;
+  }
+
+  /** The robot of all questions from now on, as the text of a robot file. */
+  setRobot(text) {
+    this.#version += 1;
+    this.#robot = text;
+  }
+
+  /** Makes all questions of a lane stale. */
+  drop(lane) {
+    this.#generations.set(lane, this.#generation(lane) + 1);
+    this.#queue = this.#queue.filter((task) => task.lane !== lane || void task.resolve(STALE));
+  }
+
+  /**
+   * Asks a batch of questions, in place of all earlier ones of the lane.
+   * @param {string} lane
+   * @param {object[]} asks
+   * @returns {Promise<{answers: object[], milliseconds: number}|typeof STALE>}
+   */
+  latest(lane, asks) {
+    this.drop(lane);
+    return this.ask(lane, asks);
+  }
+
+  /** Asks a batch of questions beside the others of the lane. */
+  ask(lane, asks) {
+    return new Promise((resolve) => {
+      const order = ORDER.indexOf(lane);
+      const task = {
+        lane,
+        order,
+        generation: this.#generation(lane),
+        asks,
+        resolve,
+        version: this.#version,
+        robot: this.#robot,
+      };
+      const place = this.#queue.findIndex((other) => other.order > order);
+      this.#queue.splice(place < 0 ? this.#queue.length : place, 0, task);
+      if (lane === "pose") this.#moved = performance.now();
+      this.#give();
+    });
+  }
+
+  dispose() {
+    for (const { worker } of this.#workers) worker.terminate();
+    for (const task of this.#queue) task.resolve(STALE);
+    this.#workers = [];
+    this.#queue = [];
+  }
+
+  #generation(lane) {
+    return this.#generations.get(lane) ?? 0;
+  }
+
+  #start(worker, module, index) {
+    const entry = { worker, ready: false, task: null, version: -1, index };
+    this.#workers.push(entry);
+    worker.onmessage = ({ data }) => this.#hear(entry, data);
+    worker.onerror = (event) => this.#fail(event.message || "a worker could not start");
+    worker.postMessage({ module });
+  }
+
+  #hear(entry, data) {
+    if (data.broken) return this.#fail(data.broken);
+    if (data.ready) entry.ready = true;
+    else {
+      const { task } = entry;
+      entry.task = null;
+      const stale = task.generation !== this.#generation(task.lane);
+      task.resolve(stale ? STALE : { answers: data.answers, milliseconds: data.milliseconds });
+    }
+    this.#give();
+  }
+
+  // While the platform moves the first worker is kept for the pose, so that a slice never holds up the hand.
+  #give() {
+    const moving = performance.now() - this.#moved < HAND;
+    for (const entry of this.#workers) {
+      if (!entry.ready || entry.task !== null) continue;
+      const place = this.#queue.findIndex((task) => entry.index > 0 || !moving || task.lane === "pose");
+      if (place < 0) continue;
+      const [task] = this.#queue.splice(place, 1);
+      const known = entry.version === task.version;
+      entry.task = task;
+      entry.version = task.version;
+      this.#next += 1;
+      entry.worker.postMessage({
+        id: this.#next,
+        version: task.version,
+        robot: known ? undefined : task.robot,
+        asks: task.asks,
+      });
+    }
+  }
+}

@@ -1,0 +1,78 @@
+// Files that the page writes.
+
+import { withUnit } from "./format.js";
+import { css, viridis } from "./charts/scale.js";
+
+/** Offers a file for download. */
+export function download(name, content, type) {
+  const blob = content instanceof Blob ? content : new Blob([content], { type });
+  const address = URL.createObjectURL(blob);
+  const anchor = document.createElement("a");
+  anchor.href = address;
+  anchor.download = name;
+  anchor.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10000);
+}
+
+/**
+ * The table of the cables as CSV, with the units in its header.
+ * @param {object} picture of the mechanics
+ * @param {Array<{min: number, max: number}>} limits those of the robot [N]
+ */
+export function cablesCsv({ loaded, unloaded, limits: here }, limits) {
+  const head =
+    "cable,unstrained_length_m,tension_n,exit_tension_n,tension_without_load_n,least_tension_n,greatest_tension_n,sag_m,slack,limit";
+  const lines = loaded.cables.map((cable, k) => {
+    const [min, max] = here?.[k] ?? [limits[k].min, limits[k].max];
+    return [
+      k + 1,
+      cable.length,
+      cable.tension,
+      cable.exit_tension,
+      unloaded?.cables[k].tension ?? "",
+      min,
+      max,
+      cable.sag,
+      cable.slack,
+      cable.limit ?? "",
+    ].join(",");
+  });
+  return `${[head, ...lines].join("\n")}\n`;
+}
+
+/** The sorted observations as CSV. */
+export function observationsCsv({ summary }) {
+  return `rms_mm\n${Array.from(summary.sorted).join("\n")}\n`;
+}
+
+/**
+ * The picture of the view with its legend and a caption, as a canvas.
+ * @param {HTMLCanvasElement} canvas
+ * @param {{range: number, lines: string[], palette: object}} options `range` [N] of the colours
+ */
+export function framed(canvas, { range, lines, palette }) {
+  const scale = canvas.width / canvas.clientWidth || 1;
+  const size = 13 * scale;
+  const made = document.createElement("canvas");
+  made.width = canvas.width;
+  made.height = canvas.height + (lines.length + 3) * 1.5 * size;
+  const pen = made.getContext("2d");
+  pen.fillStyle = palette.paper;
+  pen.fillRect(0, 0, made.width, made.height);
+  pen.drawImage(canvas, 0, 0);
+  pen.font = `${size}px system-ui, sans-serif`;
+  pen.fillStyle = palette.ink;
+  let y = canvas.height + 1.6 * size;
+  for (const line of lines) {
+    pen.fillText(line, size, y, made.width - 2 * size);
+    y += 1.5 * size;
+  }
+  const [left, width] = [size, Math.min(300 * scale, made.width - 2 * size)];
+  for (let k = 0; k < width; k++) {
+    pen.fillStyle = css(viridis(k / width));
+    pen.fillRect(left + k, y - size, 1.5, size);
+  }
+  pen.fillStyle = palette.ink;
+  pen.fillText(`tension: 0 to ${withUnit(range, "N", 3)}`, left, y + 1.2 * size);
+  return made;
+}

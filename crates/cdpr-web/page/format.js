@@ -1,0 +1,115 @@
+// Numbers and names as a reader sees them.
+
+const PREFIXES = [
+  [1e9, "G"],
+  [1e6, "M"],
+  [1e3, "k"],
+  [1, ""],
+  [1e-3, "m"],
+  [1e-6, "µ"],
+];
+
+/** A number with so many significant digits, without an exponent between 1e-4 and 1e6. */
+export function digits(value, count = 4) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "none";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) return value.toExponential(Math.max(0, count - 1)).replace("e+", "e");
+  const rounded = Number(value.toPrecision(count));
+  const decimals = Math.max(0, count - 1 - Math.floor(Math.log10(Math.abs(rounded))));
+  return rounded.toFixed(Math.min(decimals, 10)).replace("-", "−");
+}
+
+/** A force, stiffness or modulus with its unit: 54.8 kN/m. */
+export function withUnit(value, unit, count = 4) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "none";
+  const size = Math.abs(value);
+  const [factor, prefix] = PREFIXES.find(([factor]) => size >= factor && factor >= 1) ?? [1, ""];
+  const scaled = size >= 1e4 || unit === "Pa" ? [factor, prefix] : [1, ""];
+  return `${digits(value / scaled[0], count)} ${scaled[1]}${unit}`;
+}
+
+/** A length in millimetres from metres, or in metres where it is large. */
+export function short(metres, count = 4) {
+  if (metres === null || metres === undefined || !Number.isFinite(metres)) return "none";
+  return Math.abs(metres) >= 10 ? `${digits(metres, count)} m` : `${digits(1e3 * metres, count)} mm`;
+}
+
+/** A residual: two digits and an exponent. */
+export function residual(value, unit) {
+  return value === null || value === undefined ? "none" : `${value.toExponential(1)} ${unit}`;
+}
+
+/** Coordinates in metres: (0, −1.2, 3) m. */
+export function point(vector, decimals = 3) {
+  const shown = vector.map((value) => String(Number(value.toFixed(decimals))).replace("-", "−"));
+  return `(${shown.join(", ")}) m`;
+}
+
+const AXES = { x: "x", y: "y", z: "z" };
+
+/** A parameter in words: `a3.x` is the x coordinate of anchor point 3. */
+export function parameterWords(name) {
+  const [, letters, number, , axis] = name.match(/^([a-z_]+?)(\d*)(\.([a-z]))?$/) ?? [];
+  const where = axis ? ` ${AXES[axis] ?? axis}` : "";
+  const words = {
+    a: "anchor point",
+    b: "exit point",
+    cog: "centre of mass",
+    dt: "tension set-point",
+    r: "pulley radius",
+    lead: "lead",
+    tilt: "pulley tilt",
+    gravity: "gravity",
+    mass: "platform mass",
+    linear_density: "cable density",
+    youngs_modulus: "cable modulus",
+  }[letters];
+  return words ? `${words}${number ? ` ${number}` : ""}${where}` : name;
+}
+
+/** An entry of an error model in words. */
+export function entryWords(entry) {
+  const groups = {
+    a: "anchor points",
+    b: "exit points",
+    cog: "centre of mass",
+    dt: "tension set-points",
+    r: "pulley radii",
+    lead: "leads",
+    tilt: "pulley tilts",
+    gravity: "gravity",
+    mass: "platform mass",
+    linear_density: "cable density",
+    youngs_modulus: "cable modulus",
+  };
+  return groups[entry] ?? parameterWords(entry);
+}
+
+/** How many of a unit of the interface one SI unit has, and its name: 1000 mm to a metre. */
+export function shownUnit(unit) {
+  return (
+    { m: [1e3, "mm"], Pa: [1e-9, "GPa"], rad: [180 / Math.PI, "degrees"], "kg/m": [1e3, "g/m"] }[unit] ?? [
+      1,
+      unit,
+    ]
+  );
+}
+
+/** Text that may stand in SVG or HTML. */
+export function escape(text) {
+  const entities = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" };
+  return String(text).replace(/[&<>"']/g, (letter) => entities[letter]);
+}
+
+const KINDS = {
+  turning_point: "the equilibrium ended at a turning point",
+  bifurcation: "the equilibrium became unstable at a bifurcation",
+  overstrained: "a cable was stretched too far",
+  step_limit: "the way could not be followed in the allowed steps",
+};
+
+/** How an equilibrium was lost, in words. */
+export function lossWords(kind) {
+  return KINDS[kind] ?? String(kind).replaceAll("_", " ");
+}

@@ -1,0 +1,82 @@
+// The explorer: `mount` puts the live page of a robot into an element.
+
+import { App } from "./app.js";
+import { h } from "./dom.js";
+import { Engine, workerCount } from "./engine.js";
+
+const ADVICE =
+  "It needs a browser with WebAssembly and workers, such as Firefox, Chrome, Edge or Safari of 2023 or later. " +
+  "The program gives the same numbers: cdpr deflection --help.";
+
+/**
+ * @param {HTMLElement} element
+ * @param {{robot: object, state?: object|null, module: ArrayBuffer, worker: string, name?: string, embedded?: boolean}} options
+ *   `robot`: content of a robot file; `state`: a saved state; `module`: bytes of the WebAssembly module;
+ *   `worker`: source text of worker.js; `name`: name of the robot file in commands; `embedded`: part of another
+ *   page, without address and files of its own
+ * @returns {{getState: function(): object|null, setState: function(object): void, dispose: function(): void,
+ *   ready: Promise<void>}}
+ */
+export function mount(
+  element,
+  { robot, state = null, module, worker, name = "robot.json", embedded = false },
+) {
+  let app = null;
+  let engine = null;
+  let waiting = null;
+  let gone = false;
+  const fail = (reason) => {
+    if (!gone && app === null)
+      element.replaceChildren(message(`The live robot does not run here: ${reason}.`, ADVICE));
+  };
+  element.classList.add("cdprx");
+  element.replaceChildren(h("p", { class: "loading", role: "status" }, "The models are loading …"));
+  const ready = start().catch((error) => fail(String(error?.message ?? error)));
+  return {
+    ready,
+    getState: () => app?.getState() ?? null,
+    setState: (saved) => {
+      if (app) app.setState(saved);
+      else waiting = saved;
+    },
+    dispose: () => {
+      gone = true;
+      if (app) app.dispose();
+      else engine?.dispose();
+    },
+  };
+
+  async function start() {
+    if (typeof WebAssembly !== "object") throw new Error("this browser has no WebAssembly");
+    const compiled = await WebAssembly.compile(module);
+    const address = URL.createObjectURL(new Blob([worker], { type: "text/javascript" }));
+    engine = new Engine(
+      () => new Worker(address),
+      workerCount(navigator.hardwareConcurrency),
+      compiled,
+      fail,
+    );
+    engine.setRobot(JSON.stringify(robot));
+    const {
+      answers: [answer],
+    } = await engine.ask("pose", [{ describe: {} }]);
+    URL.revokeObjectURL(address);
+    if (gone) return engine.dispose();
+    if (answer.error) {
+      engine.dispose();
+      return element.replaceChildren(message(`This robot cannot be shown: ${answer.error.reason}.`));
+    }
+    app = new App(element, {
+      engine,
+      robot: answer.ok,
+      file: robot,
+      name,
+      saved: waiting ?? state,
+      embedded,
+    });
+  }
+}
+
+function message(...sentences) {
+  return h("div", { class: "failure", role: "alert" }, ...sentences.map((sentence) => h("p", {}, sentence)));
+}

@@ -1,0 +1,158 @@
+// Where the platform stands: asks the engine for the state on screen, one question at a time, the newest next.
+
+import { placeOf, quaternion, vectorBetween } from "./rotation.js";
+
+const NONE = { payload: 0, force: [0, 0, 0], moment: [0, 0, 0] };
+
+/** The wanted pose of a state, as the engine has it. */
+export function poseOf({ position, rpy_deg }) {
+  return [...position, ...quaternion(rpy_deg)];
+}
+
+/** The load of a state. */
+export function loadOf({ payload, force, moment }) {
+  return { payload, force, moment };
+}
+
+export class Mechanics {
+  /** What is shown: the last state that was found. */
+  picture = null;
+  /** Why there is none at the wanted pose: {kind, reason}. */
+  failure = null;
+  /** The last jump to another equilibrium. */
+  jump = null;
+  /** Force and moment of the hand, with the lengths kept. */
+  pull = { force: [0, 0, 0], moment: [0, 0, 0] };
+  busy = false;
+  #again = false;
+  #anchor = null;
+
+  /**
+   * @param {import("./engine.js").Engine} engine
+   * @param {import("./state.js").Store} store
+   * @param {function(): void} told hears of every answer
+   */
+  constructor(engine, store, told) {
+    this.engine = engine;
+    this.store = store;
+    this.told = told;
+  }
+
+  /** Asks for the state as it is now. `restart` where it does not follow from the last one, as in undo. */
+  update({ restart = false } = {}) {
+    if (restart) this.#anchor = null;
+    if (this.busy) this.#again = true;
+    else this.#run();
+  }
+
+  /** Keeps the lengths from now on. */
+  keep() {
+    if (!this.picture || this.failure) return;
+    const { lengths, loaded } = this.picture;
+    this.#anchor = { lengths, load: loadOf(this.store.state), pose: loaded.pose };
+    this.store.set({ way: "kept", lengths, ...placeOf(loaded.pose) }, { commit: true });
+  }
+
+  /** Distributes the tensions anew from now on, at the pose without the load. */
+  renew() {
+    const pose = this.picture?.unloaded?.pose ?? this.picture?.loaded.pose;
+    this.jump = null;
+    this.store.set({ way: "anew", lengths: null, ...(pose ? placeOf(pose) : {}) }, { commit: true });
+  }
+
+  forgetJump() {
+    this.jump = null;
+    this.told();
+  }
+
+  async #run() {
+    this.busy = true;
+    do {
+      this.#again = false;
+      const { state } = this.store;
+      await (state.way === "kept" && state.lengths ? this.#follow(state) : this.#hold(state));
+      this.told();
+    } while (this.#again);
+    this.busy = false;
+    this.told();
+  }
+
+  async #hold(state) {
+    const pose = poseOf(state);
+    const {
+      answers: [answer],
+      milliseconds,
+    } = await this.engine.ask("pose", [{ hold: { pose, load: loadOf(state), free: state.free } }]);
+    if (answer.error) return this.#fail(answer.error, pose);
+    this.failure = null;
+    this.picture = { ...answer.ok, milliseconds, way: "anew" };
+    this.#anchor = null;
+  }
+
+  // The lengths are kept: from where the platform is, lengths and load change to those of the state.
+  async #follow(state) {
+    const load = loadOf(state);
+    for (const part of ["force", "moment"])
+      load[part] = load[part].map((value, k) => value + this.pull[part][k]);
+    const { lengths } = state;
+    const anchor = this.#anchor;
+    const start = anchor?.pose ?? poseOf(state);
+    const free = { stand: { lengths, load: NONE, start: this.picture?.unloaded?.pose ?? start } };
+    const ask = anchor
+      ? { wind: { lengths: [anchor.lengths, lengths], load: [anchor.load, load], start } }
+      : { stand: { lengths, load, start } };
+    const {
+      answers: [answer, alone],
+      milliseconds,
+    } = await this.engine.ask("pose", [ask, free]);
+    if (answer.error) return this.#fail(answer.error, null);
+    const way = answer.ok;
+    if (anchor && way.jumps.length > 0) this.#mark(way);
+    const found = anchor ? way.state : way;
+    if (!found)
+      return this.#fail(
+        { kind: way.jumps.at(-1)?.kind ?? "lost", reason: way.reason ?? "the equilibrium is lost" },
+        null,
+      );
+    this.failure = null;
+    const unloaded = alone.ok ?? null;
+    this.picture = {
+      loaded: found,
+      unloaded,
+      lengths,
+      limits: this.picture?.limits ?? null,
+      milliseconds,
+      way: "kept",
+      ...between(unloaded, found),
+    };
+    this.#anchor = { lengths, load, pose: found.pose };
+    if (this.store.state.way === "kept") this.store.set(placeOf(found.pose), { quiet: true });
+  }
+
+  #mark({ jumps, path }) {
+    const { before, after, kind, share } = jumps.at(-1);
+    this.jump = {
+      kind,
+      share,
+      count: jumps.length,
+      path,
+      before: before.pose.slice(0, 3),
+      after: after?.pose.slice(0, 3) ?? null,
+      lengths: before.cables.map((cable) => cable.length),
+    };
+  }
+
+  #fail(error, wanted) {
+    this.failure = { ...error, wanted };
+  }
+}
+
+function between(unloaded, loaded) {
+  if (!unloaded) return { displacement: null, rms: null, rotation: null };
+  const displacement = [0, 1, 2].map((k) => loaded.pose[k] - unloaded.pose[k]);
+  return {
+    displacement,
+    rms: Math.hypot(...displacement),
+    rotation: vectorBetween(unloaded.pose.slice(3), loaded.pose.slice(3)),
+  };
+}

@@ -1,0 +1,114 @@
+// What keys, buttons and handles do to the platform.
+
+import { placeOf, rounded, turnedAngles, vectorBetween } from "./rotation.js";
+
+const AXES = ["x", "y", "z"];
+const ANGLES = ["roll", "pitch", "yaw"];
+
+/** Keys that move the platform: axis of the base frame and direction. */
+export const KEYS = {
+  ArrowLeft: [0, -1],
+  ArrowRight: [0, 1],
+  ArrowDown: [1, -1],
+  ArrowUp: [1, 1],
+  PageDown: [2, -1],
+  PageUp: [2, 1],
+};
+
+export class Moves {
+  /**
+   * @param {{store: object, robot: object, mechanics: object, size: number}} app
+   */
+  constructor(app) {
+    this.app = app;
+    const step = 10 ** Math.floor(Math.log10(app.size / 40));
+    this.step = step;
+    this.degrees = 1;
+    this.newtons = niceForce(app.robot.mass);
+    this.keepForce = false;
+    this.taken = null;
+  }
+
+  /** One step along or about an axis. With the lengths kept the load changes instead of the pose. */
+  nudge(axis, sign, turn = false, factor = 1) {
+    const { store, robot } = this.app;
+    const { state } = store;
+    if (robot.held.includes((turn ? ANGLES : AXES)[axis])) return;
+    if (state.way === "kept") {
+      const name = turn ? "moment" : "force";
+      const step = (turn ? this.newtons * this.app.arm : this.newtons) * factor;
+      store.set(
+        { [name]: state[name].map((value, k) => (k === axis ? rounded(value + sign * step, 6) : value)) },
+        { commit: true },
+      );
+    } else if (turn) {
+      const angles = turnedAngles(state.rpy_deg, axis, sign * this.degrees * factor);
+      store.set({ rpy_deg: angles.map((angle) => rounded(angle, 5)) }, { commit: true });
+    } else {
+      const position = state.position.map((value, k) =>
+        k === axis ? rounded(value + sign * this.step * factor, 6) : value,
+      );
+      store.set({ position }, { commit: true });
+    }
+  }
+
+  /** Goes to a position, with the tensions distributed anew. */
+  goto(position) {
+    const { store, mechanics } = this.app;
+    if (store.state.way === "kept") mechanics.renew();
+    store.set({ position: position.map((value) => rounded(value, 6)) }, { commit: true });
+  }
+
+  /** A hand on the handles of the view. */
+  grab(phase, pose) {
+    const { store, mechanics, size } = this.app;
+    const { state } = store;
+    if (phase === "begin") this.taken = mechanics.picture?.loaded.pose ?? pose;
+    if (state.way === "anew") {
+      const { position, rpy_deg } = placeOf(pose);
+      const decimals = Math.max(0, 4 - Math.floor(Math.log10(size)));
+      if (phase === "move") {
+        store.set({
+          position: position.map((value) => rounded(value, decimals)),
+          rpy_deg: rpy_deg.map((value) => rounded(value, 2)),
+        });
+      }
+      if (phase === "end") store.commit();
+      return;
+    }
+    if (phase === "move") this.#pull(pose);
+    if (phase === "end") this.#release();
+  }
+
+  // The hand pulls with a force in proportion to its way from where it took the platform.
+  #pull(pose) {
+    const { mechanics, size, arm } = this.app;
+    const stiffness = (10 * this.newtons) / (0.05 * size);
+    mechanics.pull.force = [0, 1, 2].map((k) => rounded((pose[k] - this.taken[k]) * stiffness, 3));
+    mechanics.pull.moment = vectorBetween(this.taken.slice(3), pose.slice(3)).map((angle) =>
+      rounded(angle * 10 * this.newtons * arm, 3),
+    );
+    mechanics.update();
+  }
+
+  #release() {
+    const { store, mechanics } = this.app;
+    const { force, moment } = mechanics.pull;
+    mechanics.pull = { force: [0, 0, 0], moment: [0, 0, 0] };
+    if (this.keepForce) {
+      const { state } = store;
+      store.set(
+        {
+          force: state.force.map((value, k) => rounded(value + force[k], 3)),
+          moment: state.moment.map((value, k) => rounded(value + moment[k], 3)),
+        },
+        { commit: true },
+      );
+    } else mechanics.update();
+  }
+}
+
+// A round force of about a twentieth of the platform's weight.
+function niceForce(mass) {
+  return Number((10 ** Math.round(Math.log10((mass * 9.81) / 20))).toPrecision(1));
+}

@@ -1,0 +1,127 @@
+// Histogram and effects at the pose on screen, with what they say in a sentence.
+
+import { h, setText } from "../dom.js";
+import { digits, entryWords, parameterWords } from "../format.js";
+import { effectBars, largest } from "../charts/effects.js";
+import { histogram } from "../charts/histogram.js";
+import { shares, tolerances } from "../robot.js";
+
+/** @param {object} app */
+export function chartsPanel(app) {
+  const { sampling, robot } = app;
+  const says = h("p", { class: "says" });
+  const failed = h("p", { class: "failure", hidden: true });
+  const numbers = h("p", { class: "hint" });
+  const counted = h("p", { class: "hint" });
+  const first = h("div", { class: "chart" }),
+    second = h("div", { class: "chart" });
+  const parts = [
+    h(
+      "section",
+      { "aria-label": "Histogram of the deflection" },
+      h("h2", { text: "Deflection of robots within the tolerances" }),
+      first,
+      numbers,
+      counted,
+    ),
+    h(
+      "section",
+      { "aria-label": "Largest effects" },
+      h("h2", { text: "Largest effects" }),
+      second,
+      h(
+        "p",
+        { class: "hint" },
+        "Mean deflection where the parameter is above its nominal value less that where it is below, with 95 % intervals.",
+      ),
+    ),
+  ];
+  const element = h(
+    "section",
+    { class: "charts", "aria-label": "Uncertainty of the deflection" },
+    says,
+    failed,
+    h("div", { class: "pair" }, ...parts),
+  );
+  const observer = new ResizeObserver(() => update());
+  observer.observe(element);
+  return { element, update, dispose: () => observer.disconnect() };
+
+  function update() {
+    if (!robot.study) {
+      failed.hidden = false;
+      return void setText(failed, `No observations: ${robot.start_reason}`);
+    }
+    const { sample, effects, failure } = sampling;
+    failed.hidden = !failure;
+    if (failure) setText(failed, `No observations here: ${failure.reason}`);
+    element.classList.toggle("stale", Boolean(failure));
+    setText(says, sentence(app));
+    const width = Math.max(240, Math.floor(first.clientWidth));
+    if (sample && sample.summary.count > 1) {
+      first.innerHTML = histogram(
+        sample.summary,
+        { width, height: 190, nominal: sample.nominal, title: histogramTitle(sample) },
+        app.palette,
+      );
+      setText(numbers, statisticsWords(sample));
+      setText(counted, countWords(sample));
+    } else {
+      first.replaceChildren();
+      setText(numbers, "");
+      setText(counted, "");
+    }
+    if (effects) {
+      second.innerHTML = effectBars(
+        effects.inputs,
+        { width: Math.max(240, Math.floor(second.clientWidth)), title: effectsTitle(effects) },
+        app.palette,
+      );
+    } else second.replaceChildren();
+  }
+}
+
+/** What matters most, in a sentence. */
+export function sentence({ sampling, robot }) {
+  const { effects } = sampling;
+  if (!effects || sampling.failure) return "";
+  const [top] = shares(effects.inputs, tolerances(robot.study));
+  const [one] = largest(effects.inputs, 1);
+  if (!top || !one) return "";
+  return (
+    `The tolerance that matters most here: ${entryWords(top.entry)}, with ${digits(100 * top.share, 2)} % of the variance of the deflection. ` +
+    `The parameter with the largest effect is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 3)} mm, ` +
+    `interval ${digits(one.low_mm, 3)} to ${digits(one.high_mm, 3)} mm.`
+  );
+}
+
+/** Statistics of the observations in words. */
+export function statisticsWords({ summary, nominal }) {
+  const { mean, std, q05, q50, q95, min, max } = summary;
+  const mm = (value) => `${digits(value)} mm`;
+  return (
+    `Mean ${mm(mean)}, standard deviation ${mm(std)}; quantiles 5 % ${mm(q05)}, 50 % ${mm(q50)}, 95 % ${mm(q95)}; ` +
+    `from ${mm(min)} to ${mm(max)}; nominal robot ${mm(nominal)} (triangle).`
+  );
+}
+
+export function histogramTitle(sample) {
+  return `Histogram of ${sample.summary.count} deflections. ${statisticsWords(sample)}`;
+}
+
+export function effectsTitle({ inputs }) {
+  const list = largest(inputs, 10).map(
+    ({ name, effect_mm }) => `${parameterWords(name)} ${digits(effect_mm, 3)} mm`,
+  );
+  return `The ten largest effects on the deflection: ${list.join(", ")}`;
+}
+
+function countWords({ observations, milliseconds, coarse, failed }) {
+  const time = `${observations} observations in ${digits(milliseconds, 3)} ms`;
+  return `${time}${coarse ? ", coarse while it moves" : ""}; ${failuresWords(failed)}.`;
+}
+
+function failuresWords(failed) {
+  const list = Object.entries(failed).map(([kind, count]) => `${count} ${kind.replaceAll("_", " ")}`);
+  return list.length > 0 ? `failed: ${list.join(", ")}` : "none failed";
+}

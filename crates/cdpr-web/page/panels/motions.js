@@ -1,0 +1,64 @@
+// Motions: the softest one and the natural modes, told and animated.
+
+import { button, h, setText } from "../dom.js";
+import { digits, withUnit } from "../format.js";
+import { panel } from "./panel.js";
+
+/** @param {object} app */
+export function motionsPanel(app) {
+  const { store } = app;
+  const list = h("div", { class: "motions", role: "radiogroup", "aria-label": "Motion that the view shows" });
+  const note = h("p", { class: "hint" });
+  let drawn = "";
+  const made = panel("Softest motion and modes", { update }, list, note);
+  return { ...made, wanted: () => made.element.open || store.state.view.motion !== "still" };
+
+  function update() {
+    const { modes } = app;
+    const { motion } = store.state.view;
+    const options = [["still", "no motion", ""]];
+    for (const [k, one] of (modes?.motions ?? []).entries()) {
+      options.push([
+        `motion:${k}`,
+        k === 0 ? "softest motion" : `motion ${k + 1}`,
+        withUnit(one.stiffness, "N/m"),
+      ]);
+    }
+    for (const [k, one] of (modes?.frequencies ?? []).entries())
+      options.push([`mode:${k}`, `mode ${k + 1}`, `${digits(one.frequency)} Hz`]);
+    const key = JSON.stringify([options, motion]);
+    if (key !== drawn) {
+      const focused = list.contains(document.activeElement) ? document.activeElement.dataset.value : null;
+      list.replaceChildren(
+        ...options.map(([value, words, number]) => {
+          const one = button(
+            "",
+            () => store.set({ view: { ...store.state.view, motion: value } }, { commit: true }),
+            { role: "radio", "aria-checked": String(value === motion), "data-value": value },
+          );
+          one.append(h("span", {}, words), h("span", { class: "number" }, number));
+          return one;
+        }),
+      );
+      if (focused) list.querySelector(`[data-value="${focused}"]`)?.focus();
+      drawn = key;
+    }
+    const neutral = modes?.neutral > 0 ? ` ${modes.neutral} motions are resisted by nothing.` : "";
+    setText(
+      note,
+      app.modesFailure
+        ? `No motions here: ${app.modesFailure}.`
+        : `${modes?.reason ? `No natural frequencies: ${modes.reason}. ` : ""}With the load, on these lengths. The size of a motion is exaggerated.` +
+            `${app.reduced ? " Your system asks for less motion: the view shows the end of the motion, and where it begins as an outline." : ""}${neutral}`,
+    );
+  }
+}
+
+/** The motion that is chosen, of the state or the modes; null without one. */
+export function chosenMotion(app, loaded) {
+  const [kind, k] = app.store.state.view.motion.split(":");
+  if (kind === "motion" && k === "0" && loaded.softest) return loaded.softest;
+  if (kind === "motion") return app.modes?.motions[k] ?? null;
+  if (kind === "mode") return app.modes?.frequencies[k] ?? null;
+  return null;
+}

@@ -1,0 +1,190 @@
+// The 3D view with its tools, legend and marks of what went wrong or jumped.
+
+import { button, check, choice, h, linear, logarithmic, setText, slider } from "../dom.js";
+import { digits, lossWords, point, short, withUnit } from "../format.js";
+import { stops, viridis } from "../charts/scale.js";
+import { KEYS } from "../moves.js";
+
+/** @param {object} app */
+export function stagePanel(app) {
+  const { store, mechanics, moves } = app;
+  const surface = h("div", {
+    class: "surface",
+    tabindex: "0",
+    role: "application",
+    "aria-label": `3D view of ${app.robot.name}. Arrow keys and Page Up, Page Down move the platform, with Shift they turn it, with Alt ten steps.`,
+  });
+  const view = (patch) => store.set({ view: { ...store.state.view, ...patch } });
+  const way = choice(
+    "Under a change",
+    [
+      ["anew", "tensions anew", "The cables are wound so that the platform has the pose that you choose."],
+      ["kept", "lengths kept", "The lengths stay; the platform goes where the cables hold it."],
+    ],
+    (value) => (value === "kept" ? mechanics.keep() : mechanics.renew()),
+  );
+  const handle = choice(
+    "Handles",
+    [
+      ["translate", "move"],
+      ["rotate", "turn"],
+      ["off", "off"],
+    ],
+    (mode) => app.setHandle(mode),
+  );
+  handle.set("translate");
+  const failure = h("div", { class: "banner warns", role: "alert", hidden: true });
+  const jumpText = h("span", {});
+  const jump = h(
+    "div",
+    { class: "banner jump", role: "alert", hidden: true },
+    jumpText,
+    button("Forget it", () => mechanics.forgetJump()),
+  );
+  const pull = h("div", { class: "banner pull", hidden: true });
+  const legend = legendOf();
+  const looks = h(
+    "div",
+    { class: "tools", role: "group", "aria-label": "Camera" },
+    ...[
+      ["whole", () => app.view.look("default")],
+      ["top", () => app.view.look("top")],
+      ["front", () => app.view.look("front")],
+      ["side", () => app.view.look("side")],
+      ["platform", () => app.view.toPlatform()],
+    ].map(([name, act]) => button(name, act)),
+    button("+", () => app.view.zoom(0.8), { "aria-label": "zoom in" }),
+    button("−", () => app.view.zoom(1.25), { "aria-label": "zoom out" }),
+    button("⟲", () => app.view.turn(-0.25), { "aria-label": "turn the view to the left" }),
+    button("⟳", () => app.view.turn(0.25), { "aria-label": "turn the view to the right" }),
+  );
+  const sag = slider({
+    label: "sag ×",
+    scale: logarithmic(1, 1000),
+    digits: 3,
+    min: 0,
+    input: (value) => view({ sag: value }),
+    commit: () => store.commit(),
+  });
+  const arrow = slider({
+    label: "deflection ×",
+    scale: logarithmic(1, 1e5),
+    digits: 3,
+    min: 0,
+    input: (value) => view({ deflection: value }),
+    commit: () => store.commit(),
+  });
+  const auto = check(
+    "fitting",
+    (on) => {
+      view({ deflection: on ? 0 : app.deflectionFactor });
+      store.commit();
+    },
+    "choose the factor of the deflection to fit the view",
+  );
+  const ghost = check("outline without load", (on) => {
+    view({ ghost: on });
+    store.commit();
+  });
+  const names = check("numbers of cables", (on) => {
+    view({ names: on });
+    store.commit();
+  });
+  const options = h(
+    "details",
+    { class: "options" },
+    h("summary", {}, "Display"),
+    h("div", { class: "inside" }, sag.element, arrow.element, auto.element, ghost.element, names.element),
+  );
+  const element = h(
+    "section",
+    { class: "stage", "aria-label": "Robot" },
+    h("div", { class: "stagebar" }, way.element, handle.element, options),
+    h(
+      "div",
+      { class: "picture" },
+      surface,
+      legend.element,
+      h("div", { class: "banners" }, failure, jump, pull),
+      looks,
+    ),
+  );
+  surface.addEventListener("keydown", (event) => {
+    const key = KEYS[event.key];
+    if (!key || event.ctrlKey || event.metaKey) return;
+    event.preventDefault();
+    // With Shift the keys turn about the axis in which they would move.
+    moves.nudge(key[0], key[1], event.shiftKey, event.altKey ? 10 : 1);
+  });
+  return { element, surface, update, setHandle: handle.set };
+
+  function update() {
+    const { state } = store;
+    way.set(state.way);
+    sag.set(state.view.sag);
+    arrow.set(app.deflectionFactor);
+    auto.set(state.view.deflection === 0);
+    ghost.set(state.view.ghost);
+    names.set(state.view.names);
+    legend.update(app);
+    const failed = mechanics.failure;
+    failure.hidden = !failed;
+    if (failed) {
+      const shown = mechanics.picture
+        ? ` The picture, in grey, is of the last pose that was held: ${point(mechanics.picture.loaded.pose.slice(0, 3))}.`
+        : "";
+      setText(failure, `Not held here: ${failed.reason}.${shown}`);
+    }
+    element.classList.toggle("stale", Boolean(failed));
+    const lost = mechanics.jump;
+    jump.hidden = !lost;
+    if (lost) setText(jumpText, jumpWords(lost));
+    const size = Math.hypot(...mechanics.pull.force);
+    const turn = Math.hypot(...mechanics.pull.moment);
+    pull.hidden = size === 0 && turn === 0;
+    setText(
+      pull,
+      size > 0
+        ? `The hand pulls with ${withUnit(size, "N", 3)}.`
+        : `The hand turns with ${withUnit(turn, "N m", 3)}.`,
+    );
+  }
+}
+
+/** A jump in words. */
+export function jumpWords({ kind, share, before, after, count }) {
+  const where = `at ${point(before)}, after ${digits(100 * share, 3)} % of the change`;
+  const far = after
+    ? `It went ${short(Math.hypot(...after.map((value, k) => value - before[k])), 3)} to ${point(after)}.`
+    : "No equilibrium was found behind it.";
+  return `The platform jumped${count > 1 ? ` ${count} times, the last` : ""}: ${lossWords(kind)}, ${where}. ${far}`;
+}
+
+function legendOf() {
+  const gradient = `linear-gradient(to right, ${stops(viridis)
+    .map(([t, color]) => `${color} ${100 * t}%`)
+    .join(", ")})`;
+  const bar = h("div", { class: "gradient", style: `background: ${gradient}` });
+  const marks = ["low", "middle", "high"].map((name) => h("span", { class: name }));
+  const caption = h("div", { class: "caption" });
+  const element = h(
+    "div",
+    { class: "legend" },
+    h("div", {}, "tension at the platform [N]"),
+    bar,
+    h("div", { class: "marks" }, ...marks),
+    caption,
+  );
+  return {
+    element,
+    update(app) {
+      [0, app.range / 2, app.range].forEach((value, k) => setText(marks[k], digits(value, 2)));
+      const factor = app.deflectionFactor;
+      const lines = [];
+      if (app.mechanics.picture?.rms > 0) lines.push(`deflection × ${digits(factor, 3)}`);
+      if (app.store.state.view.sag !== 1) lines.push(`sag × ${digits(app.store.state.view.sag, 3)}`);
+      lines.push("grey: slack; orange band: out of limits");
+      setText(caption, lines.join(" · "));
+    },
+  };
+}

@@ -1,0 +1,72 @@
+// The tolerances: a slider for each entry of the error model, and how many robots are observed.
+
+import { button, h, linear, select, setText, slider } from "../dom.js";
+import { digits, entryWords, shownUnit } from "../format.js";
+import { shares, tolerances, width, widthWords } from "../robot.js";
+import { panel } from "./panel.js";
+
+const COUNTS = [512, 2048, 8192, 20000];
+
+/** @param {object} app */
+export function tolerancesPanel(app) {
+  const { store, robot, sampling } = app;
+  if (!robot.study) {
+    return panel(
+      "Tolerances",
+      { open: true, update() {} },
+      h("p", { class: "note" }, `No study of this robot: ${robot.start_reason ?? "it has no template"}.`),
+    );
+  }
+  const entries = Object.entries(tolerances(robot.study));
+  const sliders = entries.map(([name, entry]) => {
+    const [factor, unit] = shownUnit(unitOf(robot, name, entry));
+    const nominal = width(entry) * factor;
+    const one = slider({
+      label: `${entryWords(name)}, ${widthWords(entry)}`,
+      unit,
+      scale: linear(0, 3 * nominal),
+      min: 0,
+      input: (value) => store.set({ tolerances: { ...store.state.tolerances, [name]: value / nominal } }),
+      commit: () => store.commit(),
+    });
+    const share = h("span", {
+      class: "share",
+      title: "share of the variance of the deflection here, of effects squared",
+    });
+    one.element.append(share);
+    return { name, nominal, share, ...one };
+  });
+  const count = select(
+    "observations",
+    COUNTS.map((n) => [String(n), String(n)]),
+    (value) => store.set({ observations: Number(value) }, { commit: true }),
+  );
+  return panel(
+    "Tolerances",
+    { open: true, update },
+    h(
+      "p",
+      { class: "hint" },
+      "How far each parameter may be off. The template's tolerances are assumptions: put in what you know.",
+    ),
+    ...sliders.map((one) => one.element),
+    count.element,
+    button("As in the template", () => store.set({ tolerances: {} }, { commit: true })),
+  );
+
+  function update() {
+    const found = sampling.effects ? shares(sampling.effects.inputs, tolerances(robot.study)) : [];
+    for (const { name, nominal, share, set } of sliders) {
+      set(nominal * (store.state.tolerances[name] ?? 1));
+      const part = found.find(({ entry }) => entry === name)?.share;
+      setText(share, part === undefined ? "" : `${digits(100 * part, 2)} %`);
+      share.style.setProperty("--share", String(part ?? 0));
+    }
+    count.set(String(store.state.observations));
+  }
+}
+
+function unitOf({ parameters }, name, { parameters: acts }) {
+  const [first] = acts ? Object.keys(acts) : [name];
+  return parameters.find((parameter) => parameter.name === first || parameter.group === first)?.unit ?? "";
+}

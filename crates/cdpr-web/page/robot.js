@@ -1,0 +1,117 @@
+// The robot and the study that the engine gets: the files with the changes that the page has made to them.
+
+import { quaternion } from "./rotation.js";
+import { firstSampling } from "./state.js";
+
+/**
+ * The robot file with a changed modulus, density, tension reference and limits.
+ * @param {object} file robot file
+ * @param {{modulus: number, density: number, reference: number|string|null, least: number|null,
+ *   greatest: number|null}} changes factors, tensions [N]
+ */
+export function changedRobot(file, changes) {
+  const robot = structuredClone(file);
+  for (const cable of [robot.cable, ...robot.cables.map((entry) => entry.cable)]) {
+    if (!cable) continue;
+    cable.youngs_modulus *= changes.modulus;
+    cable.linear_density *= changes.density;
+    for (const segment of cable.law?.segments ?? []) segment.modulus *= changes.modulus;
+  }
+  if (changes.reference !== null) robot.tension_reference = changes.reference;
+  for (const limits of [robot.tension_limits, ...robot.cables.map((entry) => entry.tension_limits)]) {
+    if (!limits) continue;
+    if (changes.least !== null && limits.min !== undefined) limits.min = changes.least;
+    if (changes.greatest !== null && limits.max !== undefined) limits.max = changes.greatest;
+  }
+  return robot;
+}
+
+/** Whether the robot is another one than that of the file. The tension reference is an option of commands. */
+export function isChanged({ modulus, density, least, greatest }) {
+  return modulus !== 1 || density !== 1 || least !== null || greatest !== null;
+}
+
+/** The tolerances of a study: the entries of the error model of its sampling. */
+export function tolerances(study) {
+  return study.error_models[firstSampling(study).error_model];
+}
+
+/** Half the width of a law, or its standard deviation: the number that a slider shows, in SI units. */
+export function width({ law }) {
+  const [[kind, numbers]] = Object.entries(law);
+  return kind === "normal" || kind === "truncated_normal" ? numbers.std : (numbers.max - numbers.min) / 2;
+}
+
+/** What `width` is: of a law with ends half their distance, else the standard deviation. */
+export function widthWords({ law }) {
+  return "normal" in law || "truncated_normal" in law ? "standard deviation" : "±";
+}
+
+/** An entry of an error model with all its deviations times a factor. */
+export function scaled(entry, factor) {
+  const [[kind, numbers]] = Object.entries(entry.law);
+  const law = Object.fromEntries(
+    Object.entries(numbers).map(([name, value]) => [
+      name,
+      name === "alpha" || name === "beta" ? value : value * factor,
+    ]),
+  );
+  return { ...entry, law: { [kind]: law } };
+}
+
+/**
+ * The study of what is on screen: one sampling, `all`, at the pose, with scaled tolerances.
+ * @param {object} study the study of the template
+ * @param {object} state
+ * @param {{robot: string, observations?: number}} options name of the robot file
+ */
+export function studyOf(study, state, { robot, observations = state.observations }) {
+  const sampling = firstSampling(study);
+  const entries = Object.entries(tolerances(study))
+    .map(([name, entry]) => [name, entry, state.tolerances[name] ?? 1])
+    .filter(([, , factor]) => factor > 0)
+    .map(([name, entry, factor]) => [name, factor === 1 ? entry : scaled(entry, factor)]);
+  const { name, seed, replicates, confidence, bootstrap_resamples } = study;
+  return {
+    format: study.format,
+    name,
+    source: "Written by the live robot of cdpr.",
+    robot,
+    payload: state.payload,
+    seed,
+    ...(state.changes.reference === null ? {} : { tension_reference: state.changes.reference }),
+    replicates,
+    confidence,
+    bootstrap_resamples,
+    error_models: { tolerances: Object.fromEntries(entries) },
+    samplings: {
+      all: {
+        title: sampling.title,
+        pose: { position: state.position, quaternion: quaternion(state.rpy_deg) },
+        ...(state.free.length > 0 ? { free: state.free } : {}),
+        error_model: "tolerances",
+        observations,
+      },
+    },
+  };
+}
+
+/**
+ * Shares of the tolerances in the variance, by effects: the variance of a parameter that acts linearly is its
+ * effect squared over 3 (uniform law), or over 8/π (normal law).
+ * @param {Array<{entry: string, effect_mm: number}>} effects
+ * @param {Object<string, object>} entries those of the error model
+ * @returns {Array<{entry: string, share: number}>} the largest first
+ */
+export function shares(effects, entries) {
+  const sums = new Map();
+  for (const { entry, effect_mm } of effects) {
+    const law = entries[entry]?.law ?? {};
+    const part = effect_mm ** 2 / ("normal" in law ? 8 / Math.PI : 3);
+    sums.set(entry, (sums.get(entry) ?? 0) + part);
+  }
+  const total = [...sums.values()].reduce((sum, part) => sum + part, 0);
+  return [...sums]
+    .map(([entry, part]) => ({ entry, share: total > 0 ? part / total : 0 }))
+    .sort((a, b) => b.share - a.share);
+}

@@ -1,0 +1,114 @@
+// Slices of the workspace: their planes, their rows, and the quantities that are shown.
+
+/** The two axes in the plane across each axis. */
+export const SLICE_AXES = { x: ["y", "z"], y: ["x", "z"], z: ["x", "y"] };
+
+/** Quantities of a slice: field of the answer, words, unit. */
+export const QUANTITIES = [
+  ["deflection_mm", "deflection", "mm"],
+  ["least_stiffness", "least stiffness", "N/m"],
+  ["tension_min", "least tension", "N"],
+  ["tension_max", "greatest tension", "N"],
+];
+
+const INDEX = { x: 0, y: 1, z: 2 };
+
+/**
+ * The plane of a slice over the frame of the exit points, as the engine wants it.
+ * @param {{normal: string, at: number, cells: number}} slice `cells` along the longer side
+ * @param {number[][]} exits
+ * @param {number} floor height of the floor [m]
+ */
+export function plane({ normal, at, cells }, exits, floor) {
+  const ranges = SLICE_AXES[normal].map((axis) => {
+    const values = exits.map((exit) => exit[INDEX[axis]]);
+    if (axis === "z") values.push(floor);
+    return [Math.min(...values), Math.max(...values)];
+  });
+  const longest = Math.max(...ranges.map(([min, max]) => max - min), 1e-9);
+  const [u, v] = ranges.map(([min, max]) => {
+    const count = Math.max(2, Math.round(((max - min) / longest) * (cells - 1)) + 1);
+    return max - min < 1e-9 * longest ? [tidy(min), tidy(min), 1] : [tidy(min), tidy(max), count];
+  });
+  return { normal, at: tidy(at), u, v };
+}
+
+/** The least and greatest coordinate of a slice along its normal. */
+export function reach(normal, exits, floor) {
+  const values = exits.map((exit) => exit[INDEX[normal]]);
+  if (normal === "z") values.push(floor);
+  return [Math.min(...values), Math.max(...values)];
+}
+
+/** An empty picture of a plane, with a cell for each position; `state` is 0 unknown, 1 held, 2 not held. */
+export function emptyCells({ u: [, , columns], v: [, , rows] }) {
+  const values = Object.fromEntries(
+    QUANTITIES.map(([field]) => [field, new Float64Array(columns * rows).fill(NaN)]),
+  );
+  return { columns, rows, held: new Uint8Array(columns * rows), values, reasons: {}, done: 0 };
+}
+
+/** Puts the answer for the rows from `first` on into the cells. Positions that are not held have no values. */
+export function fill(cells, first, answer) {
+  const offset = first * cells.columns;
+  answer.held.forEach((held, k) => {
+    cells.held[offset + k] = held ? 1 : 2;
+  });
+  for (const [field] of QUANTITIES) {
+    answer[field].forEach((value, k) => {
+      cells.values[field][offset + k] = answer.held[k] ? (value ?? NaN) : NaN;
+    });
+  }
+  for (const [kind, count] of Object.entries(answer.reasons ?? {})) {
+    cells.reasons[kind] = (cells.reasons[kind] ?? 0) + count;
+  }
+  cells.done += answer.held.length;
+}
+
+/** The order in which rows are asked for: those far apart first, so that the picture fills in everywhere. */
+export function rowOrder(rows) {
+  const order = [];
+  const seen = new Set();
+  for (let step = 2 ** Math.ceil(Math.log2(Math.max(rows, 1))); step >= 1; step /= 2) {
+    for (let row = 0; row < rows; row += step) {
+      if (!seen.has(row)) order.push(row);
+      seen.add(row);
+    }
+  }
+  return order;
+}
+
+/** The base-frame position of the cell in a column and row. */
+export function positionOf({ normal, at, u, v }, column, row) {
+  const place = ([min, max, count], k) => (count > 1 ? tidy(min + ((max - min) * k) / (count - 1)) : min);
+  const position = [0, 0, 0];
+  position[INDEX[normal]] = at;
+  position[INDEX[SLICE_AXES[normal][0]]] = place(u, column);
+  position[INDEX[SLICE_AXES[normal][1]]] = place(v, row);
+  return position;
+}
+
+/** The least and greatest finite value, or null where there is none. */
+export function extent(values) {
+  let min = Infinity,
+    max = -Infinity;
+  for (const value of values) {
+    if (value < min) min = value;
+    if (value > max) max = value;
+  }
+  return min <= max ? [min, max] : null;
+}
+
+/** Column and row of the greatest or least value, or null. */
+export function extreme(cells, field, sign) {
+  let best = null;
+  cells.values[field].forEach((value, k) => {
+    if (Number.isFinite(value) && (best === null || sign * value > sign * cells.values[field][best]))
+      best = k;
+  });
+  return best === null ? null : [best % cells.columns, Math.floor(best / cells.columns)];
+}
+
+function tidy(value) {
+  return Number(value.toPrecision(10));
+}

@@ -1,0 +1,185 @@
+// The state of the page: what a link, a file and the steps of undo hold. No numbers are derived here.
+
+import { placeOf, rounded } from "./rotation.js";
+
+export const FORMAT = "cdpr-explorer/1";
+const MEMORY = 200;
+
+/**
+ * The state that a robot is first shown in.
+ * @param {object} robot answer to `describe`
+ */
+export function initial(robot) {
+  const pose = robot.start?.pose ?? [0, 0, 0, 1, 0, 0, 0];
+  return {
+    format: FORMAT,
+    robot: robot.name,
+    way: "anew",
+    ...placeOf(pose),
+    lengths: null,
+    payload: robot.start?.payload ?? 0,
+    force: [0, 0, 0],
+    moment: [0, 0, 0],
+    free: robot.free ?? [],
+    changes: { modulus: 1, density: 1, reference: null, least: null, greatest: null },
+    tolerances: {},
+    observations: robot.study ? firstSampling(robot.study).observations : 2048,
+    view: { sag: 1, deflection: 0, motion: "still", ghost: true, names: true },
+    slice: { shown: false, normal: "z", at: rounded(pose[2], 6), quantity: "deflection_mm", cells: 33 },
+    pins: [null, null],
+  };
+}
+
+/** The first sampling of a study file, by convention named `all`. */
+export function firstSampling(study) {
+  return study.samplings.all ?? Object.values(study.samplings)[0];
+}
+
+/**
+ * A saved state on top of the first one. Fields of another kind than they should have are left out.
+ * @param {object|null} saved
+ * @param {object} first
+ * @returns {{state: object, refused: string[]}} with the names of the fields that were left out
+ */
+export function restore(saved, first) {
+  const refused = [];
+  if (saved === null || saved === undefined) return { state: structuredClone(first), refused };
+  if (saved.format !== undefined && saved.format !== FORMAT) {
+    return { state: structuredClone(first), refused: [`format ${String(saved.format)}`] };
+  }
+  const state = structuredClone(first);
+  for (const [field, value] of Object.entries(saved)) {
+    if (["format", "robot"].includes(field)) continue;
+    if (field in first && alike(value, first[field], field)) {
+      const nested = ["changes", "view", "slice"].includes(field);
+      state[field] = nested ? { ...first[field], ...known(value, first[field]) } : value;
+    } else refused.push(field);
+  }
+  return { state, refused };
+}
+
+/** The state as a link holds it: the fields that differ from the first state, as base64url of JSON. */
+export function encode(state, first) {
+  const saved = { format: FORMAT };
+  for (const field of Object.keys(first)) {
+    if (JSON.stringify(state[field]) !== JSON.stringify(first[field])) saved[field] = state[field];
+  }
+  const bytes = new TextEncoder().encode(JSON.stringify(saved));
+  const text = Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
+  return btoa(text).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+}
+
+/**
+ * The saved state of a link.
+ * @param {string} hash such as `#state=..`
+ * @returns {object|null} null where the link holds no state that can be read
+ */
+export function decode(hash) {
+  const [, text] = hash.match(/state=([A-Za-z0-9_-]+)/) ?? [];
+  if (text === undefined) return null;
+  try {
+    const binary = atob(text.replaceAll("-", "+").replaceAll("_", "/"));
+    const saved = JSON.parse(
+      new TextDecoder().decode(Uint8Array.from(binary, (letter) => letter.charCodeAt(0))),
+    );
+    return saved !== null && typeof saved === "object" && !Array.isArray(saved) ? saved : null;
+  } catch {
+    return null;
+  }
+}
+
+/** Holds the state, its steps of undo, and who wants to hear of changes. */
+export class Store {
+  #listeners = new Set();
+  #past = [];
+  #future = [];
+  #kept;
+
+  /** @param {object} state */
+  constructor(state) {
+    this.state = state;
+    this.#kept = state;
+  }
+
+  /**
+   * Changes fields of the state; `commit` makes a step of undo of it.
+   * @param {object} patch
+   * @param {{commit?: boolean, quiet?: boolean}} [options] `quiet` for what follows from an answer
+   */
+  set(patch, { commit = false, quiet = false } = {}) {
+    const before = this.state;
+    this.state = { ...this.state, ...patch };
+    if (!quiet) this.#tell(before);
+    if (commit) this.commit();
+  }
+
+  /** Makes a step of undo of all changes since the last one. */
+  commit() {
+    if (JSON.stringify(this.state) === JSON.stringify(this.#kept)) return;
+    this.#past.push(this.#kept);
+    if (this.#past.length > MEMORY) this.#past.shift();
+    this.#future = [];
+    this.#kept = this.state;
+  }
+
+  get canUndo() {
+    return this.#past.length > 0;
+  }
+
+  get canRedo() {
+    return this.#future.length > 0;
+  }
+
+  undo() {
+    this.#step(this.#past, this.#future);
+  }
+
+  redo() {
+    this.#step(this.#future, this.#past);
+  }
+
+  /** @param {function(object, object, boolean): void} listener state, state before, whether it is undo or redo */
+  listen(listener) {
+    this.#listeners.add(listener);
+  }
+
+  #step(from, to) {
+    if (from.length === 0) return;
+    const before = this.state;
+    to.push(this.#kept);
+    this.#kept = from.pop();
+    this.state = this.#kept;
+    this.#tell(before, true);
+  }
+
+  #tell(before, stepped = false) {
+    for (const listener of this.#listeners) listener(this.state, before, stepped);
+  }
+}
+
+function alike(value, first, field) {
+  if (field === "lengths") return value === null || numbers(value);
+  if (field === "pins") return Array.isArray(value) && value.length === 2;
+  if (field === "way") return value === "anew" || value === "kept";
+  if (Array.isArray(first)) {
+    if (!Array.isArray(value)) return false;
+    return field === "free"
+      ? value.every((name) => typeof name === "string")
+      : value.length === first.length && numbers(value);
+  }
+  if (typeof first === "number") return Number.isFinite(value);
+  return value !== null && typeof value === typeof first;
+}
+
+function numbers(list) {
+  return Array.isArray(list) && list.every(Number.isFinite);
+}
+
+function known(value, first) {
+  return Object.fromEntries(
+    Object.entries(value).filter(
+      ([name, inner]) =>
+        name in first && (first[name] === null || inner === null || typeof inner === typeof first[name]),
+    ),
+  );
+}

@@ -1,0 +1,105 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { bins, quantile, summary } from "../charts/statistics.js";
+import { css, map, roundUp, ticks, viridis } from "../charts/scale.js";
+import { digits, entryWords, parameterWords, residual, short, withUnit } from "../format.js";
+import { angles, product, quaternion, turned, turnedAngles, vectorBetween } from "../rotation.js";
+
+const close = (a, b, tolerance = 1e-12) =>
+  a.forEach((value, k) => assert.ok(Math.abs(value - b[k]) < tolerance, `${a} is not ${b}`));
+
+test("statistics of a few values", () => {
+  const found = summary([4, null, 1, 3, 2]);
+  assert.equal(found.count, 4);
+  assert.equal(found.failed, 1);
+  assert.equal(found.mean, 2.5);
+  assert.ok(Math.abs(found.std - Math.sqrt(5 / 3)) < 1e-15);
+  assert.equal(found.q50, 2.5);
+  assert.equal(quantile([0, 10], 0.05), 0.5);
+});
+
+test("every observation is in one bin", () => {
+  const values = Array.from({ length: 1000 }, (_, k) => Math.sin(k) + k / 500);
+  const { edges, counts } = bins(summary(values));
+  assert.equal(
+    counts.reduce((a, b) => a + b),
+    1000,
+  );
+  assert.equal(edges.length, counts.length + 1);
+  assert.deepEqual(bins(summary([2, 2, 2])), { edges: [2, 2], counts: [3] });
+});
+
+test("a sample without values has a count only", () => {
+  assert.deepEqual(summary([null, null]), { count: 0, failed: 2 });
+});
+
+test("ticks are round and within the ends", () => {
+  assert.deepEqual(ticks(0, 1, 5), [0, 0.2, 0.4, 0.6, 0.8, 1]);
+  assert.deepEqual(ticks(-0.3, 0.3, 3), [-0.2, 0, 0.2]);
+  assert.equal(roundUp(0.0123), 0.015);
+  assert.equal(roundUp(800), 1000);
+  assert.equal(map([2, 4], [10, 20])(3), 15);
+});
+
+test("colours begin and end where they should", () => {
+  assert.equal(css(viridis(0)), "#440154");
+  assert.equal(css(viridis(1)), "#fde725");
+  assert.equal(css(viridis(7)), "#fde725");
+});
+
+test("numbers as they are shown", () => {
+  assert.equal(digits(0.00123456), "0.001235");
+  assert.equal(digits(-12.5, 2), "−13");
+  assert.equal(digits(1234567), "1.235e6");
+  assert.equal(digits(null), "none");
+  assert.equal(withUnit(54764.8, "N/m"), "54.76 kN/m");
+  assert.equal(withUnit(540.12, "N"), "540.1 N");
+  assert.equal(short(0.00754), "7.540 mm");
+  assert.equal(short(25), "25.00 m");
+  assert.equal(residual(3.6e-15, "m"), "3.6e-15 m");
+});
+
+test("names of parameters in words", () => {
+  assert.equal(parameterWords("a3.x"), "anchor point 3 x");
+  assert.equal(parameterWords("cog.z"), "centre of mass z");
+  assert.equal(parameterWords("dt12"), "tension set-point 12");
+  assert.equal(parameterWords("tilt1.u"), "pulley tilt 1 u");
+  assert.equal(parameterWords("youngs_modulus"), "cable modulus");
+  assert.equal(parameterWords("pulley block"), "pulley block");
+  assert.equal(entryWords("b"), "exit points");
+});
+
+test("angles and quaternions are each other's inverse", () => {
+  for (const rpy of [
+    [0, 0, 0],
+    [10, -20, 30],
+    [-170, 60, 100],
+    [5, 0, 179],
+  ]) {
+    close(angles(quaternion(rpy)), rpy, 1e-9);
+    assert.ok(quaternion(rpy)[0] >= 0);
+  }
+});
+
+test("R = Rz(yaw) Ry(pitch) Rx(roll)", () => {
+  close(turned(quaternion([90, 0, 90]), [0, 1, 0]), [0, 0, 1]);
+  close(turned(quaternion([0, 0, 90]), [1, 0, 0]), [0, 1, 0]);
+});
+
+test("a turn about an axis of the base frame comes after the rotation", () => {
+  close(turnedAngles([10, 0, 90], 2, 5), [10, 0, 95], 1e-9);
+  const by = vectorBetween(quaternion([10, 20, 30]), quaternion(turnedAngles([10, 20, 30], 0, 7)));
+  close(by, [(7 * Math.PI) / 180, 0, 0]);
+});
+
+test("the rotation between two quaternions takes the one to the other", () => {
+  const [a, b] = [quaternion([10, 20, 30]), quaternion([-40, 5, 170])];
+  const vector = vectorBetween(a, b);
+  const angle = Math.hypot(...vector);
+  const step = [Math.cos(angle / 2), ...vector.map((part) => (part / angle) * Math.sin(angle / 2))];
+  const found = product(step, a);
+  close(
+    found.map((part) => part * Math.sign(found[0])),
+    b,
+  );
+});

@@ -1,0 +1,198 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { bodyPoints, exaggerated, extents, followed, moved, ring } from "../geometry.js";
+import { changedRobot, isChanged, scaled, shares, studyOf, width } from "../robot.js";
+import { cellAt, mapFrame, mapScales } from "../charts/map.js";
+import { emptyCells, extreme, fill, plane, positionOf, rowOrder } from "../slices.js";
+
+const none = { modulus: 1, density: 1, reference: null, least: null, greatest: null };
+const uniform = (half) => ({ law: { uniform: { min: -half, max: half } } });
+
+test("changes reach common and single cables, and leave the file alone", () => {
+  const file = {
+    cable: { youngs_modulus: 1e11, linear_density: 0.06, law: { segments: [{ tension: 0, modulus: 8e10 }] } },
+    tension_limits: { min: 1, max: 5000 },
+    cables: [{ cable: { youngs_modulus: 2e11, linear_density: 0.1 } }, { tension_limits: { max: 300 } }],
+  };
+  const before = structuredClone(file);
+  const robot = changedRobot(file, { modulus: 0.5, density: 2, reference: "mid", least: 10, greatest: 400 });
+  assert.deepEqual(file, before);
+  assert.equal(robot.cable.youngs_modulus, 5e10);
+  assert.equal(robot.cable.law.segments[0].modulus, 4e10);
+  assert.equal(robot.cables[0].cable.linear_density, 0.2);
+  assert.deepEqual(robot.tension_limits, { min: 10, max: 400 });
+  assert.deepEqual(robot.cables[1].tension_limits, { max: 400 });
+  assert.equal(robot.tension_reference, "mid");
+  assert.deepEqual(changedRobot(file, none), file);
+  assert.equal(isChanged({ ...none, reference: 5 }), false);
+  assert.equal(isChanged({ ...none, density: 2 }), true);
+});
+
+test("laws scale with their deviations and keep their shapes", () => {
+  assert.deepEqual(scaled(uniform(2), 0.5), uniform(1));
+  const beta = { law: { beta: { alpha: 2, beta: 3, min: -1, max: 1 } } };
+  assert.deepEqual(scaled(beta, 2).law.beta, { alpha: 2, beta: 3, min: -2, max: 2 });
+  assert.equal(width(uniform(2)), 2);
+  assert.equal(width({ law: { normal: { mean: 0, std: 3 } } }), 3);
+});
+
+test("the study on screen has the pose, the scaled tolerances, and none that is zero", () => {
+  const study = {
+    format: "cdpr-study/1",
+    name: "s",
+    seed: 1,
+    replicates: 4,
+    confidence: 0.95,
+    bootstrap_resamples: 200,
+    error_models: { t: { mass: uniform(4), a: uniform(0.002) } },
+    samplings: { all: { title: "All", error_model: "t", observations: 2048 } },
+  };
+  const state = {
+    position: [1, 2, 3],
+    rpy_deg: [0, 0, 180],
+    payload: 9,
+    free: [],
+    tolerances: { mass: 0, a: 2 },
+    changes: none,
+    observations: 512,
+  };
+  const made = studyOf(study, state, { robot: "r.json" });
+  assert.deepEqual(made.error_models, { tolerances: { a: uniform(0.004) } });
+  assert.deepEqual(made.samplings.all.pose.position, [1, 2, 3]);
+  assert.ok(Math.abs(made.samplings.all.pose.quaternion[3] - 1) < 1e-15);
+  assert.equal(made.samplings.all.observations, 512);
+  assert.equal(made.payload, 9);
+});
+
+test("shares follow from squared effects and add up to one", () => {
+  const effects = [
+    { entry: "a", effect_mm: 3 },
+    { entry: "a", effect_mm: -4 },
+    { entry: "b", effect_mm: 5 },
+  ];
+  const found = shares(effects, { a: uniform(1), b: uniform(1) });
+  for (const { share } of found) assert.ok(Math.abs(share - 0.5) < 1e-15);
+  assert.deepEqual(shares([{ entry: "a", effect_mm: 0 }], {}), [{ entry: "a", share: 0 }]);
+});
+
+test("a slice covers the frame, and its cells are where the engine computes them", () => {
+  const exits = [
+    [-2, -1, 3],
+    [2, -1, 3],
+    [2, 1, 3.5],
+    [-2, 1, 3],
+  ];
+  const found = plane({ normal: "z", at: 1.5, cells: 9 }, exits, 0);
+  assert.deepEqual(found, { normal: "z", at: 1.5, u: [-2, 2, 9], v: [-1, 1, 5] });
+  assert.deepEqual(positionOf(found, 2, 4), [-1, 1, 1.5]);
+  assert.deepEqual(plane({ normal: "y", at: 0, cells: 5 }, exits, 0).v, [0, 3.5, 5]);
+});
+
+test("rows are asked for once each, those far apart first", () => {
+  assert.deepEqual(rowOrder(5), [0, 4, 2, 1, 3]);
+  assert.deepEqual(
+    [...rowOrder(33)].sort((a, b) => a - b),
+    Array.from({ length: 33 }, (_, k) => k),
+  );
+});
+
+test("cells take rows, and positions that are not held have no values", () => {
+  const cells = emptyCells({ u: [0, 1, 2], v: [0, 1, 2] });
+  const values = { deflection_mm: [1, 2], least_stiffness: [3, 4], tension_min: [5, 6], tension_max: [7, 8] };
+  fill(cells, 1, { held: [1, 0], ...values, reasons: { beyond_limits: 1 } });
+  assert.deepEqual([...cells.held], [0, 0, 1, 2]);
+  assert.equal(cells.values.deflection_mm[2], 1);
+  assert.ok(Number.isNaN(cells.values.deflection_mm[3]));
+  assert.deepEqual(extreme(cells, "deflection_mm", 1), [0, 1]);
+  assert.equal(cells.done, 2);
+});
+
+test("a click in the middle of a cell finds the cell", () => {
+  const found = { normal: "z", at: 0, u: [-2, 2, 9], v: [-1, 1, 5] };
+  const [x, y] = mapScales(found, mapFrame(found, 400));
+  for (const [column, row] of [
+    [0, 0],
+    [8, 4],
+    [3, 2],
+  ]) {
+    const [px, py] = [x(-2 + column * 0.5), y(-1 + row * 0.5)];
+    assert.deepEqual(cellAt(found, 400, [px, py]), [column, row]);
+  }
+  assert.equal(cellAt(found, 400, [0, 0]), null);
+});
+
+test("bodies have a volume: flat ones and bars get a thickness, a point mass is none", () => {
+  assert.equal(
+    bodyPoints(
+      [
+        [0, 0, 0],
+        [0, 0, 0],
+      ],
+      10,
+    ),
+    null,
+  );
+  assert.equal(
+    bodyPoints(
+      [
+        [1, 0, 0],
+        [0, 1, 0],
+        [-1, -1, 0],
+      ],
+      10,
+    ).length,
+    6,
+  );
+  assert.equal(
+    bodyPoints(
+      [
+        [1, 0, 0],
+        [-1, 0, 0],
+      ],
+      10,
+    ).length,
+    8,
+  );
+  const box = [
+    [1, 1, 0],
+    [-1, 1, 1],
+    [1, -1, 0],
+    [-1, -1, 1],
+  ];
+  assert.deepEqual(bodyPoints([...box, [0, 0, -1]], 10).length, 5);
+});
+
+test("the ring goes around, and the floor is zero below a surveyed frame", () => {
+  const exits = [
+    [1, 1, 3],
+    [-1, -1, 3],
+    [1, -1, 3],
+    [-1, 1, 3],
+  ];
+  const order = ring(exits);
+  for (let k = 0; k < 4; k++) {
+    const [a, b] = [exits[order[k]], exits[order[(k + 1) % 4]]];
+    assert.equal(Math.hypot(a[0] - b[0], a[1] - b[1]), 2);
+  }
+  assert.equal(extents(exits).floor, 0);
+  assert.equal(
+    extents([
+      [0, 0, -1],
+      [1, 1, 0],
+    ]).floor,
+    -1,
+  );
+});
+
+test("an exaggerated cable keeps its ends", () => {
+  const points = [0, 0, 0, 1, 0, -0.1, 2, 0, 0];
+  assert.deepEqual(exaggerated(points, 10), [0, 0, 0, 1, 0, -1, 2, 0, 0]);
+  assert.deepEqual(followed(points, [0, 0, 1]), [0, 0, 0, 1, 0, 0.4, 2, 0, 1]);
+});
+
+test("a small motion moves and turns a pose", () => {
+  const found = moved([0, 0, 0, 1, 0, 0, 0], { translation: [1, 0, 0], rotation: [0, 0, Math.PI] }, 0.5);
+  [0.5, 0, 0, Math.SQRT1_2, 0, 0, Math.SQRT1_2].forEach((value, k) =>
+    assert.ok(Math.abs(found[k] - value) < 1e-15),
+  );
+});

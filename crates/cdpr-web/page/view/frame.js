@@ -1,0 +1,70 @@
+// The frame of the robot: floor, posts, the ring through the exit points, and the numbers of the cables.
+
+import { GridHelper, Group } from "three";
+import { h } from "../dom.js";
+import { ring } from "../geometry.js";
+import { Segments } from "./segments.js";
+import { roundUp } from "../charts/scale.js";
+
+export class Frame {
+  /**
+   * @param {import("three").Object3D} parent
+   * @param {number[][]} exits
+   * @param {{min: number[], max: number[], size: number, floor: number, middle: number[]}} box
+   */
+  constructor(parent, exits, box) {
+    this.group = new Group();
+    parent.add(this.group);
+    this.lines = new Segments(this.group, 4 * exits.length + 8, { linewidth: 2, opacity: 0.85 });
+    const order = ring(exits);
+    for (const exit of exits) {
+      if (exit[2] > box.floor) this.lines.line([...exit, exit[0], exit[1], box.floor]);
+    }
+    order.forEach((k, j) => this.lines.line([...exits[k], ...exits[order[(j + 1) % order.length]]]));
+    this.lines.done();
+    const cell = roundUp(box.size / 12);
+    const count = 2 * Math.ceil((0.75 * box.size) / cell);
+    this.cell = cell;
+    this.grid = new GridHelper(count * cell, count);
+    this.grid.rotation.x = Math.PI / 2;
+    this.grid.position.set(
+      Math.round(box.middle[0] / cell) * cell,
+      Math.round(box.middle[1] / cell) * cell,
+      box.floor - 1e-4 * box.size,
+    );
+    this.group.add(this.grid);
+  }
+
+  /** @param {object} palette */
+  paint(palette) {
+    this.lines.material.color.set(palette.frame);
+    this.grid.material.vertexColors = false;
+    this.grid.material.color.set(palette.grid);
+    this.grid.material.needsUpdate = true;
+  }
+}
+
+export class Names {
+  /**
+   * @param {HTMLElement} container
+   * @param {number[][]} exits
+   */
+  constructor(container, exits) {
+    this.exits = exits;
+    this.labels = exits.map((_, k) => h("span", { class: "name", "aria-hidden": "true" }, String(k + 1)));
+    this.element = h("div", { class: "names" }, ...this.labels);
+    container.append(this.element);
+  }
+
+  /** Puts each number beside its exit point on the screen. */
+  place(camera, scratch, width, height) {
+    this.exits.forEach((exit, k) => {
+      scratch.set(...exit).project(camera);
+      const label = this.labels[k];
+      const seen = scratch.z < 1 && Math.abs(scratch.x) < 1 && Math.abs(scratch.y) < 1;
+      label.style.display = seen ? "" : "none";
+      if (seen)
+        label.style.transform = `translate(${(((scratch.x + 1) / 2) * width + 5).toFixed(1)}px,${(((1 - scratch.y) / 2) * height - 18).toFixed(1)}px)`;
+    });
+  }
+}

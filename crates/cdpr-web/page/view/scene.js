@@ -1,0 +1,280 @@
+// The 3D view: scene, camera, and the loop that draws only when something has changed or moves.
+
+import {
+  AmbientLight,
+  DirectionalLight,
+  PerspectiveCamera,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+  Color,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { amplitude, anchorsAt, extents, moved } from "../geometry.js";
+import { Arrow } from "./arrow.js";
+import { Cables } from "./cables.js";
+import { Frame, Names } from "./frame.js";
+import { Handles } from "./handles.js";
+import { Platform, place } from "./platform.js";
+import { Segments } from "./segments.js";
+import { SlicePicture } from "./slice.js";
+
+const LOOKS = { default: [-0.75, -1.25, 0.55], top: [0, -1e-3, 1], front: [0, -1, 0.02], side: [1, 0, 0.02] };
+const PERIOD = 1.6;
+
+/**
+ * @typedef {{loaded: object, unloaded: object|null, wanted: number[]|null, faded: boolean, sag: number, range: number,
+ *   selected: number|null, deflection: number, ghost: boolean, motion: object|null, still: boolean,
+ *   force: number[]|null, jump: {before: number[], after: number[]|null}|null, pins: Array<number[]|null>}} Picture
+ */
+
+export class View {
+  #needed = true;
+  #frame = 0;
+  #pick = new Raycaster();
+
+  /**
+   * @param {HTMLElement} container
+   * @param {object} robot answer to `describe`
+   * @param {{grab: function(string, number[]): void, goto: function(number[]): void}} hooks
+   */
+  constructor(container, robot, hooks) {
+    this.container = container;
+    this.robot = robot;
+    this.hooks = hooks;
+    this.box = extents(robot.exits);
+    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: false });
+    this.renderer.setPixelRatio(Math.min(2, globalThis.devicePixelRatio || 1));
+    this.surface = this.renderer.domElement;
+    this.surface.setAttribute("aria-hidden", "true");
+    container.prepend(this.surface);
+    this.scene = new Scene();
+    const { size } = this.box;
+    this.camera = new PerspectiveCamera(38, 1, size / 2000, size * 30);
+    this.camera.up.set(0, 0, 1);
+    this.scene.add(new AmbientLight(0xffffff, 1.8));
+    const sun = new DirectionalLight(0xffffff, 1.6);
+    sun.position.set(-1, -2, 3);
+    this.scene.add(sun);
+    this.orbit = new OrbitControls(this.camera, this.surface);
+    this.orbit.addEventListener("change", () => this.invalidate());
+    this.frame = new Frame(this.scene, robot.exits, this.box);
+    this.names = new Names(container, robot.exits);
+    this.slice = new SlicePicture(this.scene);
+    this.cables = new Cables(this.scene, robot.cables);
+    this.platform = new Platform(this.scene, robot, size);
+    this.arrow = new Arrow(this.scene);
+    this.force = new Arrow(this.scene);
+    this.jump = new Arrow(this.scene);
+    this.trace = new Segments(this.scene, 400, { linewidth: 2, opacity: 0.8 });
+    this.handles = new Handles(this.scene, this.camera, this.surface, robot.held, {
+      grab: (phase, pose) => {
+        this.orbit.enabled = phase === "end";
+        hooks.grab(phase, pose);
+      },
+      change: () => this.invalidate(),
+    });
+    this.#listen();
+    this.resize = new ResizeObserver(() => this.#fitCanvas());
+    this.resize.observe(container);
+    this.#fitCanvas();
+    this.look("default");
+    this.#frame = requestAnimationFrame(this.#loop);
+  }
+
+  /** @param {object} palette */
+  paint(palette) {
+    this.palette = palette;
+    this.scene.background = new Color(palette.sky);
+    for (const part of [this.frame, this.cables, this.platform]) part.paint(palette);
+    this.arrow.material.color.set(palette.arrow);
+    this.force.material.color.set(palette.force);
+    this.jump.material.color.set(palette.warn);
+    this.trace.material.color.set(palette.warn);
+    if (this.picture) this.show(this.picture);
+    this.invalidate();
+  }
+
+  /** Draws at the next frame. */
+  invalidate() {
+    this.#needed = true;
+  }
+
+  /** @param {Picture} picture */
+  show(picture) {
+    this.picture = picture;
+    const { loaded, unloaded, wanted, faded, deflection, ghost, force, jump, pins } = picture;
+    this.platform.fade(faded);
+    place(this.platform.ghost, ghost && unloaded ? unloaded.pose : null);
+    place(this.platform.wanted, wanted);
+    pins.forEach((pin, k) => place(this.platform.pins[k], pin));
+    const step = unloaded ? loaded.pose.slice(0, 3).map((value, k) => value - unloaded.pose[k]) : [0, 0, 0];
+    const { size } = this.box;
+    const thickness = Math.max(0.0022 * size, 0.03 * this.platform.reach);
+    this.arrow.draw(
+      unloaded && !faded ? unloaded.pose.slice(0, 3) : null,
+      step.map((value) => deflection * value),
+      thickness,
+    );
+    const tip =
+      unloaded && !faded && deflection > 1
+        ? moved(unloaded.pose, { translation: step, rotation: picture.rotation ?? [0, 0, 0] }, deflection)
+        : null;
+    place(this.platform.tip, tip);
+    this.force.draw(force ? loaded.center_of_mass : null, force ?? [0, 0, 0], thickness);
+    this.jump.draw(
+      jump?.after ? jump.before : null,
+      jump?.after ? jump.after.map((value, k) => value - jump.before[k]) : [0, 0, 0],
+      thickness,
+    );
+    this.trace.clear();
+    if (jump?.path) this.trace.line(jump.path.flat());
+    this.trace.done();
+    this.handles.follow(wanted ?? picture.handle ?? loaded.pose);
+    this.#pose(0);
+    this.invalidate();
+  }
+
+  /** Shows a slice, or none. */
+  showSlice(plane, pixels) {
+    this.plane = plane;
+    if (plane) this.slice.draw(plane, pixels);
+    else this.slice.hide();
+    this.invalidate();
+  }
+
+  /** Looks at the whole robot from one of `LOOKS`. */
+  look(name) {
+    const { min, max, floor } = this.box;
+    this.#lookAt([min[0], min[1], Math.min(floor, min[2])], max, new Vector3(...LOOKS[name]));
+  }
+
+  /** Looks at the platform from where the camera is. */
+  toPlatform() {
+    if (!this.picture) return;
+    const { pose } = this.picture.loaded;
+    const reach = 2.2 * this.platform.reach;
+    const corner = (sign) => [0, 1, 2].map((k) => pose[k] + sign * reach);
+    this.#lookAt(corner(-1), corner(1), this.camera.position.clone().sub(this.orbit.target));
+  }
+
+  /** Moves the camera towards its target, or away from it. */
+  zoom(factor) {
+    this.camera.position.sub(this.orbit.target).multiplyScalar(factor).add(this.orbit.target);
+    this.orbit.update();
+    this.invalidate();
+  }
+
+  /** Turns the camera about its target [rad]. */
+  turn(angle) {
+    this.camera.position.sub(this.orbit.target).applyAxisAngle(this.camera.up, angle).add(this.orbit.target);
+    this.orbit.update();
+    this.invalidate();
+  }
+
+  /** The picture as it is now. */
+  snapshot() {
+    this.renderer.render(this.scene, this.camera);
+    return this.surface;
+  }
+
+  dispose() {
+    cancelAnimationFrame(this.#frame);
+    this.resize.disconnect();
+    this.handles.dispose();
+    this.orbit.dispose();
+    this.renderer.dispose();
+    this.surface.remove();
+    this.names.element.remove();
+  }
+
+  // From a direction, and so far away that the box from `min` to `max` fills the view.
+  #lookAt(min, max, direction) {
+    const center = new Vector3(...min).add(new Vector3(...max)).multiplyScalar(0.5);
+    const back = direction.normalize();
+    const right = new Vector3().crossVectors(this.camera.up, back).normalize();
+    const up = new Vector3().crossVectors(back, right);
+    const tangent = 0.96 * Math.tan((this.camera.fov * Math.PI) / 360);
+    let distance = 0;
+    for (let k = 0; k < 8; k++) {
+      const corner = new Vector3(...[0, 1, 2].map((axis) => ((k >> axis) & 1 ? max : min)[axis])).sub(center);
+      const across = Math.max(Math.abs(corner.dot(right)) / this.camera.aspect, Math.abs(corner.dot(up)));
+      distance = Math.max(distance, across / tangent + corner.dot(back));
+    }
+    this.orbit.target.copy(center);
+    this.camera.position.copy(center).addScaledVector(back, distance);
+    this.orbit.update();
+    this.invalidate();
+  }
+
+  #loop = () => {
+    this.#frame = requestAnimationFrame(this.#loop);
+    const picture = this.picture;
+    if (picture?.motion && !picture.still && !picture.faded) {
+      this.#pose(Math.sin((2 * Math.PI * performance.now()) / 1000 / PERIOD));
+      this.#needed = true;
+    }
+    if (!this.#needed) return;
+    this.#needed = false;
+    this.renderer.render(this.scene, this.camera);
+    this.names.element.hidden = !picture?.names;
+    if (picture?.names) this.names.place(this.camera, this.#scratch, this.width, this.height);
+  };
+
+  #scratch = new Vector3();
+
+  // The platform and its cables at a phase of the motion, from -1 to 1; a still motion is shown at its end.
+  #pose(phase) {
+    const { loaded, sag, range, selected, faded, motion, still } = this.picture;
+    let { pose } = loaded;
+    let steps = null;
+    if (motion && !faded) {
+      const reach = amplitude(
+        motion,
+        this.robot.anchors,
+        pose,
+        Math.max(0.03 * this.box.size, 0.35 * this.platform.reach),
+      );
+      pose = moved(pose, motion, reach * (still ? 1 : phase));
+      steps = anchorsAt(pose, this.robot.anchors).map((anchor, i) =>
+        anchor.map((value, k) => value - loaded.anchors[i][k]),
+      );
+      if (still) place(this.platform.ghost, loaded.pose);
+    }
+    place(this.platform.body, pose);
+    this.cables.draw(loaded, { sag, range, selected, faded, steps });
+  }
+
+  #fitCanvas() {
+    const { clientWidth, clientHeight } = this.container;
+    this.width = Math.max(clientWidth, 50);
+    this.height = Math.max(clientHeight, 50);
+    this.renderer.setSize(this.width, this.height);
+    this.camera.aspect = this.width / this.height;
+    this.camera.updateProjectionMatrix();
+    this.invalidate();
+  }
+
+  // A click on the slice goes there; a drag turns the view.
+  #listen() {
+    let down = null;
+    this.surface.addEventListener("pointerdown", (event) => {
+      down = [event.clientX, event.clientY];
+    });
+    this.surface.addEventListener("pointerup", (event) => {
+      const still = down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4;
+      down = null;
+      if (!still || this.handles.taken || this.handles.controls.axis || !this.slice.mesh.visible) return;
+      const box = this.surface.getBoundingClientRect();
+      const at = new Vector2(
+        ((event.clientX - box.left) / box.width) * 2 - 1,
+        1 - ((event.clientY - box.top) / box.height) * 2,
+      );
+      this.#pick.setFromCamera(at, this.camera);
+      const [hit] = this.#pick.intersectObject(this.slice.mesh);
+      if (hit) this.hooks.goto(hit.point.toArray());
+    });
+  }
+}
