@@ -40,9 +40,9 @@ export function residual(value, unit) {
   return value === null || value === undefined ? "none" : `${value.toExponential(1)} ${unit}`;
 }
 
-/** Coordinates in metres: (0, −1.2, 3) m. */
+/** Coordinates in metres, those of a position or a pose: (0, −1.2, 3) m. */
 export function point(vector, decimals = 3) {
-  const shown = vector.map((value) => String(Number(value.toFixed(decimals))).replace("-", "−"));
+  const shown = vector.slice(0, 3).map((value) => String(Number(value.toFixed(decimals))).replace("-", "−"));
   return `(${shown.join(", ")}) m`;
 }
 

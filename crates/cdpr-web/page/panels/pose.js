@@ -116,8 +116,8 @@ export function posePanel(app) {
     setText(
       note,
       kept
-        ? "The lengths are kept. The platform stands where the cables hold it; the handles, the keys and the buttons pull at it."
-        : "The cables are wound so that the platform has this pose under its own weight; then the load is put on it.",
+        ? "The lengths are kept. The platform is where the cables hold it; handles, keys and buttons pull at it."
+        : "The cables are wound for this pose under the platform's own weight; then the load is put on it.",
     );
   }
 }
