@@ -2,7 +2,7 @@
 
 import { roundUp } from "./charts/scale.js";
 import { h, setText } from "./dom.js";
-import { digits, entryWords, point, short, withUnit } from "./format.js";
+import { digits, entryWords, point, rangeWithUnit, short, withUnit } from "./format.js";
 import { extents } from "./geometry.js";
 import { layout } from "./layout.js";
 import { loadOf, Mechanics, poseOf } from "./mechanics.js";
@@ -350,7 +350,7 @@ export class App {
     return [
       `Platform at ${point(picture.loaded.pose.slice(0, 3))}.`,
       `Deflection ${short(picture.rms)}.`,
-      `Tensions ${digits(least)} to ${withUnit(greatest, "N")}.`,
+      `Tensions ${rangeWithUnit(least, greatest, "N")}.`,
       `Least stiffness ${withUnit(known.stiffness, "N/m")}.`,
       sentence(this),
     ].join(" ");

@@ -1,7 +1,7 @@
 // How the parts of the page stand together.
 
 import { button, h } from "./dom.js";
-import { digits, short } from "./format.js";
+import { digits } from "./format.js";
 
 // Widths [px] from which the page has two columns, and below which it is one of a phone.
 const WHOLE = 990;
@@ -19,7 +19,7 @@ export function layout(app, { stage, figures, charts, side }) {
   const redo = button("Redo", () => store.redo(), { title: "Ctrl+Shift+Z" });
   const again = button("Start again", () => app.jumpTo(app.first));
   const live = h("p", { class: "visually-hidden", role: "status", "aria-live": "polite" });
-  const kind = `${robot.cables} cables, ${digits(robot.mass, 3)} kg, ${short(size, 3)} across`;
+  const kind = `${robot.cables} cables, ${digits(robot.mass, 3)} kg, ${digits(size, 3)} m across`;
   const head = h(
     embedded ? "div" : "header",
     { class: "head" },

@@ -90,8 +90,8 @@ export function sentence({ sampling, robot }) {
   if (!top || !one) return "";
   return (
     `The tolerance that matters most here: ${entryWords(top.entry)}, with ` +
-    `${digits(100 * top.share, 2)} % of the variance of the deflection. The parameter with the largest effect is ` +
-    `${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 3)} mm, ` +
+    `${digits(100 * top.share, 2)} % of the variance of the deflection. The parameter with the largest effect ` +
+    `is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 3)} mm, ` +
     `interval ${digits(one.low_mm, 3)} to ${digits(one.high_mm, 3)} mm.`
   );
 }
