@@ -2,7 +2,7 @@
 
 import { roundUp } from "./charts/scale.js";
 import { h, setText } from "./dom.js";
-import { digits, entryWords, point, short, withUnit } from "./format.js";
+import { digits, entryWords, point, rangeWithUnit, short, withUnit } from "./format.js";
 import { extents } from "./geometry.js";
 import { layout } from "./layout.js";
 import { loadOf, Mechanics, poseOf } from "./mechanics.js";
@@ -43,8 +43,8 @@ export class App {
 
   /**
    * @param {HTMLElement} element
-   * @param {{engine: import("./engine.js").Engine, robot: object, file: object, name: string, saved: object|null,
-   *   embedded: boolean}} options `robot`: answer to `describe`; `file`: the robot file
+   * @param {{engine: import("./engine.js").Engine, robot: object, file: object, name: string,
+   *   saved: object|null, embedded: boolean}} options `robot`: answer to `describe`; `file`: the robot file
    */
   constructor(element, { engine, robot, file, name, saved, embedded }) {
     Object.assign(this, { element, engine, robot, file, name, embedded });
@@ -167,12 +167,13 @@ export class App {
     this.engine.dispose();
     this.sampling.dispose();
     this.charts.dispose();
+    this.sizes.disconnect();
     this.view?.dispose();
     this.dark.removeEventListener("change", this.#repaint);
     this.less.removeEventListener("change", this.#redraw);
     this.element.removeEventListener("keydown", this.#keys);
     this.element.replaceChildren();
-    this.element.classList.remove("cdprx");
+    this.element.classList.remove("cdprx", "embedded", "whole", "phone");
   }
 
   #build() {
@@ -180,9 +181,12 @@ export class App {
     this.charts = chartsPanel(this);
     this.motions = motionsPanel(this);
     const figures = numbersPanel(this);
-    const side = [posePanel, loadPanel, tolerancesPanel, slicePanel, cablesPanel].map((make) => make(this));
-    side.push(this.motions, pinsPanel(this), commandsPanel(this));
-    if (!this.embedded) side.push(filesPanel(this));
+    const panels = [loadPanel, tolerancesPanel, slicePanel, cablesPanel, commandsPanel];
+    if (!this.embedded) panels.unshift(posePanel);
+    if (!this.embedded) panels.push(pinsPanel, filesPanel);
+    const side = panels.map((make) => make(this));
+    side.splice(-3, 0, this.motions);
+    if (this.embedded) for (const panel of side) panel.element.open = false;
     this.panels = [this.stage, figures, this.charts, ...side];
     Object.assign(this, layout(this, { stage: this.stage, figures, charts: this.charts, side }));
     this.element.addEventListener("keydown", this.#keys);
@@ -193,7 +197,7 @@ export class App {
       });
     } catch (error) {
       this.view = null;
-      const reason = `No 3D view: this browser gives no WebGL (${error.message}). All numbers are there without it.`;
+      const reason = `No 3D view: this browser gives no WebGL (${error.message}). The numbers need none.`;
       this.stage.surface.append(h("p", { class: "failure", text: reason }));
     }
   }
@@ -346,7 +350,7 @@ export class App {
     return [
       `Platform at ${point(picture.loaded.pose.slice(0, 3))}.`,
       `Deflection ${short(picture.rms)}.`,
-      `Tensions ${digits(least)} to ${withUnit(greatest, "N")}.`,
+      `Tensions ${rangeWithUnit(least, greatest, "N")}.`,
       `Least stiffness ${withUnit(known.stiffness, "N/m")}.`,
       sentence(this),
     ].join(" ");

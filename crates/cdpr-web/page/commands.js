@@ -1,11 +1,13 @@
 // The commands of the program that give the numbers on screen.
 
 import { isChanged } from "./robot.js";
+import { quaternion } from "./rotation.js";
 import { SLICE_AXES } from "./slices.js";
 
 /**
- * @param {{state: object, file: string, lengths: number[]|null, pose: {position: number[], rpy_deg: number[]},
- *   slice: object|null, hasModes: boolean}} given `pose` is where the platform stands, `slice` the plane in view
+ * @param {{state: object, file: string, lengths: number[]|null,
+ *   pose: {position: number[], rpy_deg: number[]}, slice: object|null, hasModes: boolean}} given
+ *   `pose` is where the platform stands, `slice` the plane in view
  * @returns {Array<{title: string, text: string, needs: string[]}>} `needs`: files that the page writes,
  *   `robot` or `study`
  */
@@ -42,7 +44,7 @@ export function commands({ state, file, lengths, pose, slice, hasModes }) {
       "modes",
       robot,
       ...lengthOptions(lengths),
-      ...poseOptions("start", pose.position, []),
+      `--start=${[...pose.position, ...rotationOf(pose.rpy_deg)].join(",")}`,
       ...load,
     ]);
   }
@@ -85,6 +87,11 @@ export function stem(file) {
 
 function poseOptions(name, position, rpy_deg) {
   return [`--${name}=${position.join(",")}`, ...rpyOptions(rpy_deg)];
+}
+
+// `modes` takes the rotation of its start as a quaternion.
+function rotationOf(rpy_deg) {
+  return rpy_deg.some((angle) => angle !== 0) ? quaternion(rpy_deg) : [];
 }
 
 function rpyOptions(rpy_deg) {

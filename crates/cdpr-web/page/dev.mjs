@@ -1,4 +1,4 @@
-// Writes the page of a robot as one file, to look at: `node dev.mjs ROBOT.json OUT.html [--mock] [--embedded]`.
+// Writes the page of a robot as one file: `node dev.mjs ROBOT.json OUT.html [--mock] [--embedded]`.
 
 import { readFile, writeFile, mkdtemp } from "node:fs/promises";
 import { gzipSync } from "node:zlib";
@@ -18,8 +18,14 @@ const module = mock
   ? Buffer.from([0, 97, 115, 109, 1, 0, 0, 0])
   : await readFile(path.join(here, "pkg/cdpr_web_bg.wasm"));
 const script = (text) => text.replaceAll("</script", "<\\/script");
-const policy =
-  "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; style-src 'unsafe-inline'; img-src data: blob:; worker-src blob:; connect-src 'none'";
+const policy = [
+  "default-src 'none'",
+  "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:",
+  "style-src 'unsafe-inline'",
+  "img-src data: blob:",
+  "worker-src blob:",
+  "connect-src 'none'",
+].join("; ");
 const page = `<!doctype html>
 <html lang="en">
 <head>
@@ -39,9 +45,11 @@ const page = `<!doctype html>
 (async () => {
   const text = (id) => document.getElementById(id).textContent;
   const bytes = Uint8Array.from(atob(text("module")), (letter) => letter.charCodeAt(0));
-  const module = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  const unzipped = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const module = await new Response(unzipped).arrayBuffer();
   window.live = cdprExplorer.mount(document.getElementById("explorer"), {
-    robot: JSON.parse(text("robot")), module, worker: text("worker"), name: ${JSON.stringify(path.basename(robot))},
+    robot: JSON.parse(text("robot")), module, worker: text("worker"),
+    name: ${JSON.stringify(path.basename(robot))},
     embedded: ${process.argv.includes("--embedded")},
   });
 })();

@@ -63,8 +63,9 @@ export function numberField({ label, unit = "", step = "any", min, max, hint, ch
 
 /**
  * A slider with a number beside it. Positions are 0 to 1000, mapped by `scale`.
- * @param {{label: string, unit?: string, scale: {to: function(number): number, from: function(number): number},
- *   digits?: number, min?: number, max?: number, input: function(number): void, commit: function(): void}} options
+ * @param {{label: string, unit?: string,
+ *   scale: {to: function(number): number, from: function(number): number}, digits?: number, min?: number,
+ *   max?: number, input: function(number): void, commit: function(): void}} options
  */
 export function slider({ label, unit = "", scale, digits = 4, min, max, input, commit }) {
   const id = unique("slider");

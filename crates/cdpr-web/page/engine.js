@@ -1,6 +1,6 @@
 // Workers and the questions to them. A newer question of a lane replaces the older ones of that lane.
 
-// Lanes in the order in which they are served. The others wait while the first worker serves a hand that moves.
+// Lanes in the order in which they are served.
 const ORDER = ["pose", "modes", "observe", "slice"];
 const HAND = 300;
 

@@ -21,7 +21,8 @@ export function download(name, content, type) {
  */
 export function cablesCsv({ loaded, unloaded, limits: here }, limits) {
   const head =
-    "cable,unstrained_length_m,tension_n,exit_tension_n,tension_without_load_n,least_tension_n,greatest_tension_n,sag_m,slack,limit";
+    "cable,unstrained_length_m,tension_n,exit_tension_n,tension_without_load_n," +
+    "least_tension_n,greatest_tension_n,sag_m,slack,limit";
   const lines = loaded.cables.map((cable, k) => {
     const [min, max] = here?.[k] ?? [limits[k].min, limits[k].max];
     return [

@@ -29,6 +29,12 @@ export function withUnit(value, unit, count = 4) {
   return `${digits(value / scaled[0], count)} ${scaled[1]}${unit}`;
 }
 
+/** A range of forces in one unit. */
+export function rangeWithUnit(least, greatest, unit) {
+  const large = greatest >= 1e4;
+  return `${digits(large ? least / 1e3 : least)} to ${digits(large ? greatest / 1e3 : greatest)} ${large ? "k" : ""}${unit}`;
+}
+
 /** A length in millimetres from metres, or in metres where it is large. */
 export function short(metres, count = 4) {
   if (metres === null || metres === undefined || !Number.isFinite(metres)) return "none";
@@ -40,10 +46,10 @@ export function residual(value, unit) {
   return value === null || value === undefined ? "none" : `${value.toExponential(1)} ${unit}`;
 }
 
-/** Coordinates in metres: (0, −1.2, 3) m. */
+/** Coordinates in metres, those of a position or a pose: (0, −1.2, 3) m. */
 export function point(vector, decimals = 3) {
-  const shown = vector.map((value) => String(Number(value.toFixed(decimals))).replace("-", "−"));
-  return `(${shown.join(", ")}) m`;
+  const shown = vector.slice(0, 3).map((value) => String(Number(value.toFixed(decimals))));
+  return `(${shown.join(", ").replaceAll("-", "−")}) m`;
 }
 
 const AXES = { x: "x", y: "y", z: "z" };

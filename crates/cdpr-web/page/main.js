@@ -5,15 +5,16 @@ import { h } from "./dom.js";
 import { Engine, workerCount } from "./engine.js";
 
 const ADVICE =
-  "It needs a browser with WebAssembly and workers, such as Firefox, Chrome, Edge or Safari of 2023 or later. " +
-  "The program gives the same numbers: cdpr deflection --help.";
+  "It needs a browser with WebAssembly and workers, such as Firefox, Chrome, Edge or Safari of 2023 " +
+  "or later. The program gives the same numbers: cdpr deflection --help.";
 
 /**
  * @param {HTMLElement} element
- * @param {{robot: object, state?: object|null, module: ArrayBuffer, worker: string, name?: string, embedded?: boolean}} options
+ * @param {{robot: object, state?: object|null, module: ArrayBuffer, worker: string, name?: string,
+ *   embedded?: boolean}} options
  *   `robot`: content of a robot file; `state`: a saved state; `module`: bytes of the WebAssembly module;
- *   `worker`: source text of worker.js; `name`: name of the robot file in commands; `embedded`: part of another
- *   page, without address and files of its own
+ *   `worker`: source text of worker.js; `name`: name of the robot file in commands; `embedded`: part of
+ *   another page, without address and files of its own
  * @returns {{getState: function(): object|null, setState: function(object): void, dispose: function(): void,
  *   ready: Promise<void>}}
  */

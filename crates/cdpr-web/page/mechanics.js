@@ -1,4 +1,4 @@
-// Where the platform stands: asks the engine for the state on screen, one question at a time, the newest next.
+// Where the platform stands: asks for the state on screen, one question at a time, the newest next.
 
 import { placeOf, quaternion, vectorBetween } from "./rotation.js";
 
@@ -120,7 +120,7 @@ export class Mechanics {
       loaded: found,
       unloaded,
       lengths,
-      limits: this.picture?.limits ?? null,
+      limits: null,
       milliseconds,
       way: "kept",
       ...between(unloaded, found),

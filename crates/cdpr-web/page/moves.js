@@ -61,18 +61,11 @@ export class Moves {
 
   /** A hand on the handles of the view. */
   grab(phase, pose) {
-    const { store, mechanics, size } = this.app;
+    const { store, mechanics } = this.app;
     const { state } = store;
-    if (phase === "begin") this.taken = mechanics.picture?.loaded.pose ?? pose;
+    if (phase === "begin") this.taken = { pose: mechanics.picture?.loaded.pose ?? pose, state };
     if (state.way === "anew") {
-      const { position, rpy_deg } = placeOf(pose);
-      const decimals = Math.max(0, 4 - Math.floor(Math.log10(size)));
-      if (phase === "move") {
-        store.set({
-          position: position.map((value) => rounded(value, decimals)),
-          rpy_deg: rpy_deg.map((value) => rounded(value, 2)),
-        });
-      }
+      if (phase === "move") store.set(this.#moved(pose, this.taken.state));
       if (phase === "end") store.commit();
       return;
     }
@@ -80,12 +73,21 @@ export class Moves {
     if (phase === "end") this.#release();
   }
 
+  // What the hand has moved, with a few digits; the rest is as it was.
+  #moved(pose, { position, rpy_deg }) {
+    const decimals = Math.max(0, 4 - Math.floor(Math.log10(this.app.size)));
+    const place = placeOf(pose);
+    const kept = (now, before, digits) =>
+      now.map((value, k) => (Math.abs(value - before[k]) < 1e-4 ? before[k] : rounded(value, digits)));
+    return { position: kept(place.position, position, decimals), rpy_deg: kept(place.rpy_deg, rpy_deg, 2) };
+  }
+
   // The hand pulls with a force in proportion to its way from where it took the platform.
   #pull(pose) {
     const { mechanics, size, arm } = this.app;
     const stiffness = (10 * this.newtons) / (0.05 * size);
-    mechanics.pull.force = [0, 1, 2].map((k) => rounded((pose[k] - this.taken[k]) * stiffness, 3));
-    mechanics.pull.moment = vectorBetween(this.taken.slice(3), pose.slice(3)).map((angle) =>
+    mechanics.pull.force = [0, 1, 2].map((k) => rounded((pose[k] - this.taken.pose[k]) * stiffness, 3));
+    mechanics.pull.moment = vectorBetween(this.taken.pose.slice(3), pose.slice(3)).map((angle) =>
       rounded(angle * 10 * this.newtons * arm, 3),
     );
     mechanics.update();

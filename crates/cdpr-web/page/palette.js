@@ -1,4 +1,4 @@
-// Colours of the view and the charts, for light and dark screens and for files. Hues are those of Okabe and Ito.
+// Colours of view and charts, for light and dark screens and for files. Hues are those of Okabe and Ito.
 
 export const LIGHT = {
   dark: false,

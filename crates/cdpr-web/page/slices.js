@@ -48,7 +48,7 @@ export function emptyCells({ u: [, , columns], v: [, , rows] }) {
   return { columns, rows, held: new Uint8Array(columns * rows), values, reasons: {}, done: 0 };
 }
 
-/** Puts the answer for the rows from `first` on into the cells. Positions that are not held have no values. */
+/** Puts the answer for the rows from `first` on into the cells. Only positions that are held have values. */
 export function fill(cells, first, answer) {
   const offset = first * cells.columns;
   answer.held.forEach((held, k) => {

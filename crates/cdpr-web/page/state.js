@@ -138,7 +138,7 @@ export class Store {
     this.#step(this.#future, this.#past);
   }
 
-  /** @param {function(object, object, boolean): void} listener state, state before, whether it is undo or redo */
+  /** @param {function(object, object, boolean): void} listener state, state before, whether undo or redo */
   listen(listener) {
     this.#listeners.add(listener);
   }

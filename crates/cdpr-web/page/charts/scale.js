@@ -1,11 +1,12 @@
 // Axes and colours of charts.
 
-/** Round numbers from at most `min` to at least `max`, about `count` of them. */
+/** Round numbers between `min` and `max`, about `count` of them. */
 export function ticks(min, max, count = 5) {
   if (!(max > min)) return [min];
   const raw = (max - min) / Math.max(1, count);
   const power = 10 ** Math.floor(Math.log10(raw));
-  const step = power * ([1, 2, 5].find((factor) => factor * power >= raw * 0.999) ?? 10);
+  const ratio = raw / power;
+  const step = power * (ratio < 1.5 ? 1 : ratio < 3.5 ? 2 : ratio < 7.5 ? 5 : 10);
   const list = [];
   for (let k = Math.ceil(min / step - 1e-9); k * step <= max + 1e-9 * step; k++)
     list.push(Number((k * step).toPrecision(12)));

@@ -1,4 +1,4 @@
-// SVG as text: whole drawings and their parts. All colours are attributes, so that a saved file needs no style.
+// SVG as text: whole drawings and their parts. All colours are attributes: a saved file needs no style.
 
 import { escape } from "../format.js";
 
@@ -22,7 +22,8 @@ export function svg(width, height, title, parts, palette) {
 
 /** @param {string} [more] further attributes */
 export function rect(x, y, width, height, fill, more = "") {
-  return `<rect x="${fix(x)}" y="${fix(y)}" width="${fix(width)}" height="${fix(height)}" fill="${fill}" ${more}/>`;
+  const box = `x="${fix(x)}" y="${fix(y)}" width="${fix(width)}" height="${fix(height)}"`;
+  return `<rect ${box} fill="${fill}" ${more}/>`;
 }
 
 export function line(x1, y1, x2, y2, stroke, more = "") {

@@ -1,8 +1,8 @@
 // The cables: tensions as bars against their limits, sag, lengths, and winding of single cables.
 
-import { button, h, linear, setText, slider } from "../dom.js";
+import { button, h, linear, logarithmic, setText, slider } from "../dom.js";
 import { digits, short, withUnit } from "../format.js";
-import { css, map, viridis } from "../charts/scale.js";
+import { css, viridis } from "../charts/scale.js";
 import { panel } from "./panel.js";
 
 /** @param {object} app */
@@ -65,8 +65,8 @@ export function cablesPanel(app) {
           h(
             "tr",
             {},
-            ...["cable", "tension [N]", "between the limits", "without load [N]", "sag", "length [m]"].map(
-              (name) => h("th", { scope: "col" }, name),
+            ...["cable", "tension [N]", "in its limits", "no load [N]", "sag", "length [m]"].map((name) =>
+              h("th", { scope: "col" }, name),
             ),
           ),
         ),
@@ -120,18 +120,17 @@ function row(app, k) {
     title: "mark this cable in the view",
   });
   const element = h("tr", {}, h("th", { scope: "row" }, select), ...cells);
-  const bar = h("div", { class: "bar" }, h("span", { class: "value" }), h("span", { class: "mark" }));
+  const bar = h("div", { class: "bar" }, h("span", { class: "value" }));
   cells[1].append(bar);
   const update = ({ loaded, unloaded, limits }, i) => {
     const cable = loaded.cables[i];
     setText(cells[0], `${digits(cable.tension)}${cable.limit ? " !" : cable.slack ? " slack" : ""}`);
     cells[0].title = `${digits(cable.exit_tension)} N at the exit point`;
-    const [min, max] = limits?.[i] ?? [app.robot.limits[i].min, app.robot.limits[i].max];
-    const place = map([0, Math.max(max, cable.tension)], [0, 100]);
-    bar.firstChild.style.width = `${place(cable.tension).toFixed(2)}%`;
+    const [min, max] = limits?.[i] ?? limitsOf(app, i);
+    const { share, scale } = between(cable.tension, min, max);
+    bar.firstChild.style.width = `${(100 * share).toFixed(2)}%`;
     bar.firstChild.style.background = cable.slack ? "" : css(viridis(cable.tension / app.range));
-    bar.lastChild.style.left = `${place(min).toFixed(2)}%`;
-    bar.title = `limits ${withUnit(min, "N")} to ${withUnit(max, "N")}`;
+    bar.title = `from ${withUnit(min, "N")} to ${withUnit(max, "N")}, ${scale} scale`;
     setText(cells[2], unloaded ? digits(unloaded.cables[i].tension) : "none");
     setText(cells[3], short(cable.sag, 3));
     setText(cells[4], cable.length.toFixed(4));
@@ -139,4 +138,16 @@ function row(app, k) {
     select.setAttribute("aria-pressed", String(app.selected === i));
   };
   return { element, update };
+}
+
+function limitsOf({ robot, store }, k) {
+  const { least, greatest } = store.state.changes;
+  return [least ?? robot.limits[k].min, greatest ?? robot.limits[k].max];
+}
+
+// How far a tension is between its limits, from 0 to 1; logarithmic where the limits are far apart.
+function between(tension, min, max) {
+  const far = min > 0 && max > 20 * min;
+  const place = far ? logarithmic(min, max) : linear(min, max);
+  return { share: place.from(tension), scale: far ? "logarithmic" : "linear" };
 }

@@ -32,7 +32,7 @@ export function chartsPanel(app) {
       h(
         "p",
         { class: "hint" },
-        "Mean deflection where the parameter is above its nominal value less that where it is below, with 95 % intervals.",
+        "Mean deflection with the parameter above its nominal value less that with it below; 95 % intervals.",
       ),
     ),
   ];
@@ -65,7 +65,7 @@ export function chartsPanel(app) {
         app.palette,
       );
       setText(numbers, statisticsWords(sample));
-      setText(counted, countWords(sample));
+      setText(counted, `${countWords(sample)} ${conditionWords(app.store.state)}`);
     } else {
       first.replaceChildren();
       setText(numbers, "");
@@ -89,8 +89,9 @@ export function sentence({ sampling, robot }) {
   const [one] = largest(effects.inputs, 1);
   if (!top || !one) return "";
   return (
-    `The tolerance that matters most here: ${entryWords(top.entry)}, with ${digits(100 * top.share, 2)} % of the variance of the deflection. ` +
-    `The parameter with the largest effect is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 3)} mm, ` +
+    `The tolerance that matters most here: ${entryWords(top.entry)}, with ` +
+    `${digits(100 * top.share, 2)} % of the variance of the deflection. The parameter with the largest effect ` +
+    `is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 3)} mm, ` +
     `interval ${digits(one.low_mm, 3)} to ${digits(one.high_mm, 3)} mm.`
   );
 }
@@ -100,7 +101,8 @@ export function statisticsWords({ summary, nominal }) {
   const { mean, std, q05, q50, q95, min, max } = summary;
   const mm = (value) => `${digits(value)} mm`;
   return (
-    `Mean ${mm(mean)}, standard deviation ${mm(std)}; quantiles 5 % ${mm(q05)}, 50 % ${mm(q50)}, 95 % ${mm(q95)}; ` +
+    `Mean ${mm(mean)}, standard deviation ${mm(std)}; ` +
+    `quantiles 5 % ${mm(q05)}, 50 % ${mm(q50)}, 95 % ${mm(q95)}; ` +
     `from ${mm(min)} to ${mm(max)}; nominal robot ${mm(nominal)} (triangle).`
   );
 }
@@ -119,6 +121,14 @@ export function effectsTitle({ inputs }) {
 function countWords({ observations, milliseconds, coarse, failed }) {
   const time = `${observations} observations in ${digits(milliseconds, 3)} ms`;
   return `${time}${coarse ? ", coarse while it moves" : ""}; ${failuresWords(failed)}.`;
+}
+
+// What the observations leave out of the state on screen.
+function conditionWords({ way, force, moment }) {
+  const more = [...force, ...moment].some((value) => value !== 0);
+  if (way === "anew" && !more) return "";
+  const without = more ? ", without force and moment" : "";
+  return `They wind the cables anew for this pose, and load it with the payload${without}.`;
 }
 
 function failuresWords(failed) {

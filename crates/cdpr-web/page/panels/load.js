@@ -129,7 +129,7 @@ export function loadPanel(app) {
     setText(
       note,
       state.way === "kept"
-        ? "With the lengths kept, level and limits change no length; a new modulus or density moves the platform."
+        ? "With the lengths kept, level and limits change nothing; modulus and density move the platform."
         : `Limits of the file: ${withUnit(least, "N")} to ${withUnit(greatest, "N")}.`,
     );
   }

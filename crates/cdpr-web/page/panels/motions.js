@@ -43,15 +43,20 @@ export function motionsPanel(app) {
       if (focused) list.querySelector(`[data-value="${focused}"]`)?.focus();
       drawn = key;
     }
-    const neutral = modes?.neutral > 0 ? ` ${modes.neutral} motions are resisted by nothing.` : "";
-    setText(
-      note,
-      app.modesFailure
-        ? `No motions here: ${app.modesFailure}.`
-        : `${modes?.reason ? `No natural frequencies: ${modes.reason}. ` : ""}With the load, on these lengths. The size of a motion is exaggerated.` +
-            `${app.reduced ? " Your system asks for less motion: the view shows the end of the motion, and where it begins as an outline." : ""}${neutral}`,
+    setText(note, app.modesFailure ? `No motions here: ${app.modesFailure}.` : noteOf(app));
+  }
+}
+
+function noteOf({ modes, reduced }) {
+  const sentences = ["With the load, on these lengths. The size of a motion is exaggerated."];
+  if (modes?.reason) sentences.unshift(`No natural frequencies: ${modes.reason}.`);
+  if (modes?.neutral > 0) sentences.push(`Nothing resists ${modes.neutral} of the motions.`);
+  if (reduced) {
+    sentences.push(
+      "Your system asks for less motion: the view shows its end, and an outline where it begins.",
     );
   }
+  return sentences.join(" ");
 }
 
 /** The motion that is chosen, of the state or the modes; null without one. */

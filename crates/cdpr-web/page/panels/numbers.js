@@ -1,7 +1,7 @@
 // The numbers of the state on screen, with residuals, and what went wrong.
 
 import { h, setText } from "../dom.js";
-import { digits, residual, short, withUnit } from "../format.js";
+import { digits, rangeWithUnit, residual, short, withUnit } from "../format.js";
 
 const DEGREES = 180 / Math.PI;
 
@@ -38,7 +38,7 @@ export function words({ displacement, rms, rotation, loaded, milliseconds }) {
       ? `${short(rms)}, (${displacement.map((value) => digits(1e3 * value, 3)).join(", ")}) mm`
       : "none: no rest without load",
     rotation ? `${digits(DEGREES * Math.hypot(...rotation), 3)}°` : "none",
-    `${digits(Math.min(...tensions))} to ${withUnit(Math.max(...tensions), "N")}`,
+    rangeWithUnit(Math.min(...tensions), Math.max(...tensions), "N"),
     `${withUnit(loaded.least_stiffness, "N/m")}, ${loaded.stable ? "stable" : "not stable"}`,
     `${residual(closure, "m")}, ${residual(force, "N")}, ${residual(moment, "N m")}`,
     `in ${digits(milliseconds, 3)} ms, ${loaded.method}, ${loaded.iterations} iterations`,

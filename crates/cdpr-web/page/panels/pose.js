@@ -1,6 +1,7 @@
 // The pose: typed numbers, steps, and which coordinates are found.
 
 import { button, check, h, numberField, setText } from "../dom.js";
+import { rounded } from "../rotation.js";
 import { panel } from "./panel.js";
 
 const NAMES = ["x", "y", "z", "roll", "pitch", "yaw"];
@@ -103,10 +104,12 @@ export function posePanel(app) {
   function update() {
     const { state } = store;
     const kept = state.way === "kept";
+    const found = app.mechanics.picture?.unloaded;
     fields.forEach((field, k) => {
-      const value = k < 3 ? state.position[k] : state.rpy_deg[k - 3];
-      field.set(value);
-      field.input.disabled = kept || robot.held.includes(NAMES[k]) || state.free.includes(NAMES[k]);
+      const free = !kept && state.free.includes(NAMES[k]);
+      const [wanted, at] = k < 3 ? [state.position, found?.pose] : [state.rpy_deg, found?.rpy_deg];
+      field.set(free && at ? rounded(at[k % 3], 6) : wanted[k % 3]);
+      field.input.disabled = kept || robot.held.includes(NAMES[k]) || free;
     });
     for (const [name, box] of free) box.set(state.free.includes(name));
     step.set(moves.step);
@@ -116,8 +119,8 @@ export function posePanel(app) {
     setText(
       note,
       kept
-        ? "The lengths are kept. The platform stands where the cables hold it; the handles, the keys and the buttons pull at it."
-        : "The cables are wound so that the platform has this pose under its own weight; then the load is put on it.",
+        ? "The lengths are kept. The platform is where the cables hold it; handles, keys, buttons pull at it."
+        : "The cables are wound for this pose under the platform's own weight; then the load is put on it.",
     );
   }
 }

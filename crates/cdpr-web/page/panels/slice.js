@@ -120,7 +120,7 @@ export function slicePanel(app) {
       .map(([kind, n]) => `${n} ${kind.replaceAll("_", " ")}`)
       .join(", ");
     return (
-      `${done} of ${held.length} positions computed, ${count} held${why ? `; not held (grey): ${why}` : ""}.` +
+      `${done} of ${held.length} positions computed, ${count} held${why && `; not held (grey): ${why}`}.` +
       " Click or tap on a position to go there. Deflection is with the lengths kept."
     );
   }

@@ -5,6 +5,9 @@ import { digits, lossWords, point, short, withUnit } from "../format.js";
 import { stops, viridis } from "../charts/scale.js";
 import { KEYS } from "../moves.js";
 
+const KEY_WORDS =
+  "Arrow keys and Page Up, Page Down move the platform, with Shift they turn it, with Alt ten steps.";
+
 /** @param {object} app */
 export function stagePanel(app) {
   const { store, mechanics, moves } = app;
@@ -12,7 +15,7 @@ export function stagePanel(app) {
     class: "surface",
     tabindex: "0",
     role: "application",
-    "aria-label": `3D view of ${app.robot.name}. Arrow keys and Page Up, Page Down move the platform, with Shift they turn it, with Alt ten steps.`,
+    "aria-label": `3D view of ${app.robot.name}. ${KEY_WORDS}`,
   });
   const view = (patch) => store.set({ view: { ...store.state.view, ...patch } });
   const way = choice(
@@ -96,18 +99,13 @@ export function stagePanel(app) {
     h("summary", {}, "Display"),
     h("div", { class: "inside" }, sag.element, arrow.element, auto.element, ghost.element, names.element),
   );
+  const banners = h("div", { class: "banners" }, failure, jump, pull);
+  const picture = h("div", { class: "picture" }, surface, banners);
   const element = h(
     "section",
     { class: "stage", "aria-label": "Robot" },
     h("div", { class: "stagebar" }, way.element, handle.element, options),
-    h(
-      "div",
-      { class: "picture" },
-      surface,
-      legend.element,
-      h("div", { class: "banners" }, failure, jump, pull),
-      looks,
-    ),
+    h("div", { class: "view" }, picture, legend.element, looks),
   );
   surface.addEventListener("keydown", (event) => {
     const key = KEYS[event.key];
@@ -131,7 +129,7 @@ export function stagePanel(app) {
     failure.hidden = !failed;
     if (failed) {
       const shown = mechanics.picture
-        ? ` The picture, in grey, is of the last pose that was held: ${point(mechanics.picture.loaded.pose.slice(0, 3))}.`
+        ? ` The grey picture is of the last pose that was held, ${point(mechanics.picture.loaded.pose)}.`
         : "";
       setText(failure, `Not held here: ${failed.reason}.${shown}`);
     }
@@ -157,7 +155,8 @@ export function jumpWords({ kind, share, before, after, count }) {
   const far = after
     ? `It went ${short(Math.hypot(...after.map((value, k) => value - before[k])), 3)} to ${point(after)}.`
     : "No equilibrium was found behind it.";
-  return `The platform jumped${count > 1 ? ` ${count} times, the last` : ""}: ${lossWords(kind)}, ${where}. ${far}`;
+  const times = count > 1 ? ` ${count} times, the last` : "";
+  return `The platform jumped${times}: ${lossWords(kind)}, ${where}. ${far}`;
 }
 
 function legendOf() {

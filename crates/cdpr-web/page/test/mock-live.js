@@ -125,7 +125,7 @@ export class Live {
       return {
         error: {
           kind: "infeasible_tension",
-          reason: `at position (${pose.slice(0, 3).join(", ")}) m: no tensions within the limits hold the platform`,
+          reason: `at (${pose.slice(0, 3).join(", ")}) m: no tensions within the limits hold the platform`,
         },
       };
     }

@@ -40,7 +40,8 @@ export class Cables {
 
   /**
    * @param {object} state answer of the engine
-   * @param {{sag: number, range: number, selected: number|null, faded: boolean, steps: number[][]|null}} options
+   * @param {{sag: number, range: number, selected: number|null, faded: boolean,
+   *   steps: number[][]|null}} options
    *   `range`: tension at the top of the scale [N]; `steps`: how far each anchor point is off in a motion
    */
   draw(state, { sag, range, selected, faded, steps }) {

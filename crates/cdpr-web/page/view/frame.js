@@ -63,8 +63,9 @@ export class Names {
       const label = this.labels[k];
       const seen = scratch.z < 1 && Math.abs(scratch.x) < 1 && Math.abs(scratch.y) < 1;
       label.style.display = seen ? "" : "none";
-      if (seen)
-        label.style.transform = `translate(${(((scratch.x + 1) / 2) * width + 5).toFixed(1)}px,${(((1 - scratch.y) / 2) * height - 18).toFixed(1)}px)`;
+      if (!seen) return;
+      const [x, y] = [((scratch.x + 1) / 2) * width + 5, ((1 - scratch.y) / 2) * height - 18];
+      label.style.transform = `translate(${x.toFixed(1)}px,${y.toFixed(1)}px)`;
     });
   }
 }

@@ -25,9 +25,11 @@ const LOOKS = { default: [-0.75, -1.25, 0.55], top: [0, -1e-3, 1], front: [0, -1
 const PERIOD = 1.6;
 
 /**
- * @typedef {{loaded: object, unloaded: object|null, wanted: number[]|null, faded: boolean, sag: number, range: number,
+ * @typedef {{loaded: object, unloaded: object|null, wanted: number[]|null, faded: boolean, sag: number,
+ *   range: number,
  *   selected: number|null, deflection: number, ghost: boolean, motion: object|null, still: boolean,
- *   force: number[]|null, jump: {before: number[], after: number[]|null}|null, pins: Array<number[]|null>}} Picture
+ *   force: number[]|null, jump: {before: number[], after: number[]|null}|null,
+ *   pins: Array<number[]|null>}} Picture
  */
 
 export class View {
