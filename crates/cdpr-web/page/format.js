@@ -14,7 +14,10 @@ export function digits(value, count = 4) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "none";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return value.toExponential(Math.max(0, count - 1)).replace("e+", "e");
+  if (size >= 1e6 || size < 1e-4) {
+    const text = value.toExponential(Math.max(0, count - 1));
+    return text.replace("e+", "e").replaceAll("-", "−");
+  }
   const rounded = Number(value.toPrecision(count));
   const decimals = Math.max(0, count - 1 - Math.floor(Math.log10(Math.abs(rounded))));
   return rounded.toFixed(Math.min(decimals, 10)).replace("-", "−");
@@ -29,10 +32,18 @@ export function withUnit(value, unit, count = 4) {
   return `${digits(value / scaled[0], count)} ${scaled[1]}${unit}`;
 }
 
+/** A vector [m] in millimetres, all with the decimals that its length needs. */
+export function vectorShort(vector, count = 3) {
+  const size = 1e3 * Math.hypot(...vector);
+  const decimals = size > 0 ? Math.min(9, Math.max(0, count - 1 - Math.floor(Math.log10(size)))) : 0;
+  const shown = vector.map((value) => String(Number((1e3 * value).toFixed(decimals)) || 0));
+  return `(${shown.join(", ").replaceAll("-", "−")}) mm`;
+}
+
 /** A range of forces in one unit. */
 export function rangeWithUnit(least, greatest, unit) {
-  const large = greatest >= 1e4;
-  return `${digits(large ? least / 1e3 : least)} to ${digits(large ? greatest / 1e3 : greatest)} ${large ? "k" : ""}${unit}`;
+  const [factor, prefix] = greatest >= 1e4 ? [1e3, "k"] : [1, ""];
+  return `${digits(least / factor)} to ${digits(greatest / factor)} ${prefix}${unit}`;
 }
 
 /** A length in millimetres from metres, or in metres where it is large. */

@@ -90,9 +90,9 @@ export function sentence({ sampling, robot }) {
   if (!top || !one) return "";
   return (
     `The tolerance that matters most here: ${entryWords(top.entry)}, with ` +
-    `${digits(100 * top.share, 2)} % of the variance of the deflection. The parameter with the largest effect ` +
-    `is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 3)} mm, ` +
-    `interval ${digits(one.low_mm, 3)} to ${digits(one.high_mm, 3)} mm.`
+    `${digits(100 * top.share, 2)} % of the variance of the deflection. The largest effect of a parameter ` +
+    `is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 4)} mm, ` +
+    `95 % interval ${digits(one.low_mm, 4)} to ${digits(one.high_mm, 4)} mm.`
   );
 }
 
@@ -132,6 +132,8 @@ function conditionWords({ way, force, moment }) {
 }
 
 function failuresWords(failed) {
-  const list = Object.entries(failed).map(([kind, count]) => `${count} ${kind.replaceAll("_", " ")}`);
+  const list = Object.entries(failed)
+    .filter(([, count]) => count > 0)
+    .map(([kind, count]) => `${count} ${kind.replaceAll("_", " ")}`);
   return list.length > 0 ? `failed: ${list.join(", ")}` : "none failed";
 }

@@ -177,7 +177,7 @@ function legendOf() {
   return {
     element,
     update(app) {
-      [0, app.range / 2, app.range].forEach((value, k) => setText(marks[k], digits(value, 2)));
+      [0, app.range / 2, app.range].forEach((value, k) => setText(marks[k], digits(value, 3)));
       const factor = app.deflectionFactor;
       const lines = [];
       if (app.mechanics.picture?.rms > 0) lines.push(`deflection × ${digits(factor, 3)}`);
