@@ -18,7 +18,7 @@ import { numbersPanel } from "./panels/numbers.js";
 import { numbers, pinPoses, pinsPanel } from "./panels/pins.js";
 import { posePanel } from "./panels/pose.js";
 import { slicePanel, slicePixels } from "./panels/slice.js";
-import { stagePanel } from "./panels/stage.js";
+import { notHeld, stagePanel } from "./panels/stage.js";
 import { tolerancesPanel } from "./panels/tolerances.js";
 import { changedRobot, isChanged, shares, tolerances } from "./robot.js";
 import { Sampling } from "./sampling.js";
@@ -276,7 +276,8 @@ export class App {
       const greatest = Math.max(...picture.loaded.cables.map((cable) => cable.tension));
       if (greatest > this.range || greatest < 0.4 * this.range) this.range = roundUp(greatest);
     }
-    if (this.store.state.way === "kept") this.sampling.update(this.store.state, this.version);
+    const { state } = this.store;
+    if (state.way === "kept" || state.free.length > 0) this.sampling.update(state, this.version);
     this.#draw();
     this.#askModes();
     this.refresh();
@@ -344,7 +345,7 @@ export class App {
 
   #sentence() {
     const { picture, failure } = this.mechanics;
-    if (failure || !picture) return failure ? `Not held here: ${failure.reason}` : "";
+    if (failure || !picture) return failure ? `${notHeld(this.store.state)}: ${failure.reason}` : "";
     const known = numbers(this);
     const [least, greatest] = known.tensions;
     return [

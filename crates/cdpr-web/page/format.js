@@ -32,12 +32,13 @@ export function withUnit(value, unit, count = 4) {
   return `${digits(value / scaled[0], count)} ${scaled[1]}${unit}`;
 }
 
-/** A vector [m] in millimetres, all with the decimals that its length needs. */
+/** A vector [m] in millimetres or, if it is large, metres, all with the decimals that its length needs. */
 export function vectorShort(vector, count = 3) {
-  const size = 1e3 * Math.hypot(...vector);
+  const [factor, unit] = Math.hypot(...vector) >= 1 ? [1, "m"] : [1e3, "mm"];
+  const size = factor * Math.hypot(...vector);
   const decimals = size > 0 ? Math.min(9, Math.max(0, count - 1 - Math.floor(Math.log10(size)))) : 0;
-  const shown = vector.map((value) => String(Number((1e3 * value).toFixed(decimals)) || 0));
-  return `(${shown.join(", ").replaceAll("-", "−")}) mm`;
+  const shown = vector.map((value) => String(Number((factor * value).toFixed(decimals)) || 0));
+  return `(${shown.join(", ").replaceAll("-", "−")}) ${unit}`;
 }
 
 /** A range of forces in one unit. */
@@ -49,7 +50,7 @@ export function rangeWithUnit(least, greatest, unit) {
 /** A length in millimetres from metres, or in metres where it is large. */
 export function short(metres, count = 4) {
   if (metres === null || metres === undefined || !Number.isFinite(metres)) return "none";
-  return Math.abs(metres) >= 10 ? `${digits(metres, count)} m` : `${digits(1e3 * metres, count)} mm`;
+  return Math.abs(metres) >= 1 ? `${digits(metres, count)} m` : `${digits(1e3 * metres, count)} mm`;
 }
 
 /** A residual: two digits and an exponent. */

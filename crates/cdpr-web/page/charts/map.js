@@ -112,16 +112,24 @@ function cross(px, py, palette) {
 
 function legend({ left, right, bottom }, [min, max], { field, words, unit }, palette) {
   const top = bottom + 40;
+  const scale = isWide([min, max]) ? ", log. scale" : "";
   const colors = stops(magma).map(([t, color]) => `<stop offset="${t}" stop-color="${color}"/>`);
   return [
     `<defs><linearGradient id="cdprx-${field}">${colors.join("")}</linearGradient></defs>`,
     rect(left, top, right - left, 10, `url(#cdprx-${field})`),
     text(left, top + 24, digits(min, 3), palette.soft, "start"),
     text(right, top + 24, digits(max, 3), palette.soft, "end"),
-    text((left + right) / 2, top + 24, `${words} [${unit}]`, palette.ink),
+    text((left + right) / 2, top + 24, `${words} [${unit}]${scale}`, palette.ink),
   ];
 }
 
+// Where a value is in a range, from 0 to 1.
 function share(value, [min, max]) {
+  if (isWide([min, max])) return Math.log(value / min) / Math.log(max / min);
   return max > min ? (value - min) / (max - min) : 0.5;
+}
+
+// Ranges over about an order of magnitude have a logarithmic scale.
+function isWide([min, max]) {
+  return min > 0 && max > 8 * min;
 }

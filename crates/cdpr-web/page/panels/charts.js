@@ -54,7 +54,7 @@ export function chartsPanel(app) {
     }
     const { sample, effects, failure } = sampling;
     failed.hidden = !failure;
-    if (failure) setText(failed, `No observations here: ${failure.reason}`);
+    if (failure) setText(failed, `No observations here: ${reasonWords(app, failure)}`);
     element.classList.toggle("stale", Boolean(failure));
     setText(says, sentence(app));
     const width = Math.max(240, Math.floor(first.clientWidth));
@@ -65,7 +65,7 @@ export function chartsPanel(app) {
         app.palette,
       );
       setText(numbers, statisticsWords(sample));
-      setText(counted, `${countWords(sample)} ${conditionWords(app.store.state)}`);
+      setText(counted, `${countWords(sample)} ${conditionWords(app)}`);
     } else {
       first.replaceChildren();
       setText(numbers, "");
@@ -118,13 +118,23 @@ export function effectsTitle({ inputs }) {
   return `The ten largest effects on the deflection: ${list.join(", ")}`;
 }
 
+// The reason of the mechanics is told above already.
+function reasonWords({ mechanics, store }, { reason }) {
+  return mechanics.failure && store.state.way === "anew" ? "the pose is not held." : reason;
+}
+
 function countWords({ observations, milliseconds, coarse, failed }) {
   const time = `${observations} observations in ${digits(milliseconds, 3)} ms`;
-  return `${time}${coarse ? ", coarse while it moves" : ""}; ${failuresWords(failed)}.`;
+  return `${time}${coarse ? ", few while it moves" : ""}; ${failuresWords(failed)}.`;
 }
 
 // What the observations leave out of the state on screen.
-function conditionWords({ way, force, moment }) {
+function conditionWords({ store: { state }, sampling: { sample, busy } }) {
+  const { way, force, moment, observations } = state;
+  if (!busy && sample.observations < observations) {
+    const each = digits(sample.milliseconds / sample.observations, 2);
+    return `One takes ${each} ms here: for ${observations} of them run the command below.`;
+  }
   const more = [...force, ...moment].some((value) => value !== 0);
   if (way === "anew" && !more) return "";
   const without = more ? ", without force and moment" : "";

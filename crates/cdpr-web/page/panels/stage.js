@@ -131,7 +131,7 @@ export function stagePanel(app) {
       const shown = mechanics.picture
         ? ` The grey picture is of the last pose that was held, ${point(mechanics.picture.loaded.pose)}.`
         : "";
-      setText(failure, `Not held here: ${failed.reason}.${shown}`);
+      setText(failure, `${notHeld(state)}: ${failed.reason}.${shown}`);
     }
     element.classList.toggle("stale", Boolean(failed));
     const lost = mechanics.jump;
@@ -149,14 +149,18 @@ export function stagePanel(app) {
   }
 }
 
+/** The beginning of a sentence on why there is no picture of the state. */
+export function notHeld({ way }) {
+  return way === "kept" ? "No equilibrium on these lengths" : "Not held here";
+}
+
 /** A jump in words. */
 export function jumpWords({ kind, share, before, after, count }) {
   const where = `at ${point(before)}, after ${digits(100 * share, 3)} % of the change`;
-  const far = after
-    ? `It went ${short(Math.hypot(...after.map((value, k) => value - before[k])), 3)} to ${point(after)}.`
-    : "No equilibrium was found behind it.";
+  if (!after) return `The equilibrium was lost: ${lossWords(kind)}, ${where}.`;
   const times = count > 1 ? ` ${count} times, the last` : "";
-  return `The platform jumped${times}: ${lossWords(kind)}, ${where}. ${far}`;
+  const way = short(Math.hypot(...after.map((value, k) => value - before[k])), 3);
+  return `The platform jumped${times}: ${lossWords(kind)}, ${where}. It went ${way} to ${point(after)}.`;
 }
 
 function legendOf() {

@@ -56,7 +56,7 @@ export class Names {
     container.append(this.element);
   }
 
-  /** Puts each number beside its exit point on the screen; numbers that would cover each other stand together. */
+  /** Puts each number beside its exit point; those that would cover each other stand together. */
   place(camera, scratch, width, height) {
     const shown = [];
     this.exits.forEach((exit, k) => {
