@@ -113,11 +113,15 @@ export class Engine {
     this.#give();
   }
 
-  // The first worker is kept for the pose, so that nothing else holds up the hand.
+  // The first worker is kept for the pose, so that nothing else holds up the hand. The last one, where there
+  // are three, takes slices first, so that these fill in while observations go on.
   #give() {
+    const last = this.#workers.length - 1;
     for (const entry of this.#workers) {
       if (!entry.ready || entry.task !== null) continue;
-      const place = this.#queue.findIndex((task) => entry.index > 0 || task.lane === "pose");
+      const slice = this.#queue.findIndex((task) => task.lane === "slice");
+      const any = this.#queue.findIndex((task) => entry.index > 0 || task.lane === "pose");
+      const place = entry.index === last && last > 1 && slice >= 0 ? slice : any;
       if (place < 0) continue;
       const [task] = this.#queue.splice(place, 1);
       const known = entry.version === task.version;

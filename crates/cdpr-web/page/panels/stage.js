@@ -134,6 +134,7 @@ export function stagePanel(app) {
       setText(failure, `${notHeld(state)}: ${failed.reason}.${shown}`);
     }
     element.classList.toggle("stale", Boolean(failed));
+    element.classList.toggle("busy", mechanics.busy);
     const lost = mechanics.jump;
     jump.hidden = !lost;
     if (lost) setText(jumpText, jumpWords(lost));
