@@ -41,6 +41,11 @@ export function vectorShort(vector, count = 3) {
   return `(${shown.join(", ").replaceAll("-", "−")}) ${unit}`;
 }
 
+/** A share in percent. */
+export function sharePercent(share) {
+  return share < 1e-3 ? "< 0.1 %" : `${digits(100 * share, 2)} %`;
+}
+
 /** A range of forces in one unit. */
 export function rangeWithUnit(least, greatest, unit) {
   const [factor, prefix] = greatest >= 1e4 ? [1e3, "k"] : [1, ""];
@@ -121,8 +126,8 @@ export function escape(text) {
 }
 
 const KINDS = {
-  turning_point: "the equilibrium ended at a turning point",
-  bifurcation: "the equilibrium became unstable at a bifurcation",
+  turning_point: "its equilibrium ended at a turning point",
+  bifurcation: "its equilibrium became unstable at a bifurcation",
   overstrained: "a cable was stretched too far",
   step_limit: "the way could not be followed in the allowed steps",
 };

@@ -129,7 +129,7 @@ function share(value, [min, max]) {
   return max > min ? (value - min) / (max - min) : 0.5;
 }
 
-// Ranges over about an order of magnitude have a logarithmic scale.
-function isWide([min, max]) {
+/** Whether a range has a logarithmic scale: those over about an order of magnitude. */
+export function isWide([min, max]) {
   return min > 0 && max > 8 * min;
 }

@@ -1,7 +1,7 @@
 // Histogram and effects at the pose on screen, with what they say in a sentence.
 
 import { h, setText } from "../dom.js";
-import { digits, entryWords, parameterWords } from "../format.js";
+import { digits, entryWords, parameterWords, sharePercent } from "../format.js";
 import { effectBars, largest } from "../charts/effects.js";
 import { histogram } from "../charts/histogram.js";
 import { shares, tolerances } from "../robot.js";
@@ -90,7 +90,7 @@ export function sentence({ sampling, robot }) {
   if (!top || !one) return "";
   return (
     `The tolerance that matters most here: ${entryWords(top.entry)}, with ` +
-    `${digits(100 * top.share, 2)} % of the variance of the deflection. The largest effect of a parameter ` +
+    `${sharePercent(top.share)} of the variance of the deflection. The largest effect of a parameter ` +
     `is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 4)} mm, ` +
     `95 % interval ${digits(one.low_mm, 4)} to ${digits(one.high_mm, 4)} mm.`
   );
