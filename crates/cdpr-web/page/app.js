@@ -2,7 +2,7 @@
 
 import { roundUp } from "./charts/scale.js";
 import { h, setText } from "./dom.js";
-import { digits, entryWords, point, rangeWithUnit, short, withUnit } from "./format.js";
+import { entryWords, point, rangeWithUnit, sharePercent, short, withUnit } from "./format.js";
 import { extents } from "./geometry.js";
 import { layout } from "./layout.js";
 import { loadOf, Mechanics, poseOf } from "./mechanics.js";
@@ -18,7 +18,7 @@ import { numbersPanel } from "./panels/numbers.js";
 import { numbers, pinPoses, pinsPanel } from "./panels/pins.js";
 import { posePanel } from "./panels/pose.js";
 import { slicePanel, slicePixels } from "./panels/slice.js";
-import { stagePanel } from "./panels/stage.js";
+import { notHeld, stagePanel } from "./panels/stage.js";
 import { tolerancesPanel } from "./panels/tolerances.js";
 import { changedRobot, isChanged, shares, tolerances } from "./robot.js";
 import { Sampling } from "./sampling.js";
@@ -105,6 +105,16 @@ export class App {
     this.refresh();
   }
 
+  /** Shows or hides the slice of the workspace, and its panel. */
+  toggleSlice() {
+    const { slice } = this.store.state;
+    const shown = !slice.shown;
+    this.store.set({ slice: { ...slice, shown } }, { commit: true });
+    if (!shown) return;
+    this.slicePanel.element.open = true;
+    if (this.element.classList.contains("whole")) this.slicePanel.element.scrollIntoView({ block: "start" });
+  }
+
   setHandle(mode) {
     this.view?.handles.set(mode);
     this.view?.invalidate();
@@ -124,7 +134,7 @@ export class App {
     const { effects, failure } = this.sampling;
     if (!effects || failure) return null;
     const [top] = shares(effects.inputs, tolerances(this.robot.study));
-    return top ? `${entryWords(top.entry)}, ${digits(100 * top.share, 2)} %` : null;
+    return top ? `${entryWords(top.entry)}, ${sharePercent(top.share)}` : null;
   }
 
   /** Draws all panels at the next frame. */
@@ -185,6 +195,7 @@ export class App {
     if (!this.embedded) panels.unshift(posePanel);
     if (!this.embedded) panels.push(pinsPanel, filesPanel);
     const side = panels.map((make) => make(this));
+    this.slicePanel = side[panels.indexOf(slicePanel)];
     side.splice(-3, 0, this.motions);
     if (this.embedded) for (const panel of side) panel.element.open = false;
     this.panels = [this.stage, figures, this.charts, ...side];
@@ -276,7 +287,8 @@ export class App {
       const greatest = Math.max(...picture.loaded.cables.map((cable) => cable.tension));
       if (greatest > this.range || greatest < 0.4 * this.range) this.range = roundUp(greatest);
     }
-    if (this.store.state.way === "kept") this.sampling.update(this.store.state, this.version);
+    const { state } = this.store;
+    if (state.way === "kept" || state.free.length > 0) this.sampling.update(state, this.version);
     this.#draw();
     this.#askModes();
     this.refresh();
@@ -344,7 +356,7 @@ export class App {
 
   #sentence() {
     const { picture, failure } = this.mechanics;
-    if (failure || !picture) return failure ? `Not held here: ${failure.reason}` : "";
+    if (failure || !picture) return failure ? `${notHeld(this.store.state)}: ${failure.reason}` : "";
     const known = numbers(this);
     const [least, greatest] = known.tensions;
     return [

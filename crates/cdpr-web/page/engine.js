@@ -2,14 +2,13 @@
 
 // Lanes in the order in which they are served.
 const ORDER = ["pose", "modes", "observe", "slice"];
-const HAND = 300;
 
 /** What a question resolves to where a newer one has taken its place. */
 export const STALE = Symbol("stale");
 
-/** How many workers a machine gets: one for the pose, the others for observations and slices. */
+/** How many workers a machine gets: one for the pose, and as many as cores, up to 7, for the rest. */
 export function workerCount(cores) {
-  return Math.min(8, Math.max(2, cores || 2));
+  return 1 + Math.min(7, Math.max(1, cores || 1));
 }
 
 /**
@@ -24,7 +23,6 @@ export class Engine {
   #version = 0;
   #robot = "";
   #next = 0;
-  #moved = -Infinity;
   #fail;
 
   /**
@@ -80,7 +78,6 @@ export class Engine {
       };
       const place = this.#queue.findIndex((other) => other.order > order);
       this.#queue.splice(place < 0 ? this.#queue.length : place, 0, task);
-      if (lane === "pose") this.#moved = performance.now();
       this.#give();
     });
   }
@@ -116,12 +113,15 @@ export class Engine {
     this.#give();
   }
 
-  // While the platform moves the first worker is kept for the pose, so that a slice never holds up the hand.
+  // The first worker is kept for the pose, so that nothing else holds up the hand. The last one, where there
+  // are three, takes slices first, so that these fill in while observations go on.
   #give() {
-    const moving = performance.now() - this.#moved < HAND;
+    const last = this.#workers.length - 1;
     for (const entry of this.#workers) {
       if (!entry.ready || entry.task !== null) continue;
-      const place = this.#queue.findIndex((task) => entry.index > 0 || !moving || task.lane === "pose");
+      const slice = this.#queue.findIndex((task) => task.lane === "slice");
+      const any = this.#queue.findIndex((task) => entry.index > 0 || task.lane === "pose");
+      const place = entry.index === last && last > 1 && slice >= 0 ? slice : any;
       if (place < 0) continue;
       const [task] = this.#queue.splice(place, 1);
       const known = entry.version === task.version;

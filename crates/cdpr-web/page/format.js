@@ -14,7 +14,10 @@ export function digits(value, count = 4) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "none";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return value.toExponential(Math.max(0, count - 1)).replace("e+", "e");
+  if (size >= 1e6 || size < 1e-4) {
+    const text = value.toExponential(Math.max(0, count - 1));
+    return text.replace("e+", "e").replaceAll("-", "−");
+  }
   const rounded = Number(value.toPrecision(count));
   const decimals = Math.max(0, count - 1 - Math.floor(Math.log10(Math.abs(rounded))));
   return rounded.toFixed(Math.min(decimals, 10)).replace("-", "−");
@@ -29,16 +32,30 @@ export function withUnit(value, unit, count = 4) {
   return `${digits(value / scaled[0], count)} ${scaled[1]}${unit}`;
 }
 
+/** A vector [m] in millimetres or, if it is large, metres, all with the decimals that its length needs. */
+export function vectorShort(vector, count = 3) {
+  const [factor, unit] = Math.hypot(...vector) >= 1 ? [1, "m"] : [1e3, "mm"];
+  const size = factor * Math.hypot(...vector);
+  const decimals = size > 0 ? Math.min(9, Math.max(0, count - 1 - Math.floor(Math.log10(size)))) : 0;
+  const shown = vector.map((value) => String(Number((factor * value).toFixed(decimals)) || 0));
+  return `(${shown.join(", ").replaceAll("-", "−")}) ${unit}`;
+}
+
+/** A share in percent. */
+export function sharePercent(share) {
+  return share < 1e-3 ? "< 0.1 %" : `${digits(100 * share, 2)} %`;
+}
+
 /** A range of forces in one unit. */
 export function rangeWithUnit(least, greatest, unit) {
-  const large = greatest >= 1e4;
-  return `${digits(large ? least / 1e3 : least)} to ${digits(large ? greatest / 1e3 : greatest)} ${large ? "k" : ""}${unit}`;
+  const [factor, prefix] = greatest >= 1e4 ? [1e3, "k"] : [1, ""];
+  return `${digits(least / factor)} to ${digits(greatest / factor)} ${prefix}${unit}`;
 }
 
 /** A length in millimetres from metres, or in metres where it is large. */
 export function short(metres, count = 4) {
   if (metres === null || metres === undefined || !Number.isFinite(metres)) return "none";
-  return Math.abs(metres) >= 10 ? `${digits(metres, count)} m` : `${digits(1e3 * metres, count)} mm`;
+  return Math.abs(metres) >= 1 ? `${digits(metres, count)} m` : `${digits(1e3 * metres, count)} mm`;
 }
 
 /** A residual: two digits and an exponent. */
@@ -109,8 +126,8 @@ export function escape(text) {
 }
 
 const KINDS = {
-  turning_point: "the equilibrium ended at a turning point",
-  bifurcation: "the equilibrium became unstable at a bifurcation",
+  turning_point: "its equilibrium ended at a turning point",
+  bifurcation: "its equilibrium became unstable at a bifurcation",
   overstrained: "a cable was stretched too far",
   step_limit: "the way could not be followed in the allowed steps",
 };

@@ -45,10 +45,11 @@ export class Mechanics {
     else this.#run();
   }
 
-  /** Keeps the lengths from now on. */
+  /** Keeps the lengths of what is shown from now on. */
   keep() {
-    if (!this.picture || this.failure) return;
+    if (!this.picture) return;
     const { lengths, loaded } = this.picture;
+    this.failure = null;
     this.#anchor = { lengths, load: loadOf(this.store.state), pose: loaded.pose };
     this.store.set({ way: "kept", lengths, ...placeOf(loaded.pose) }, { commit: true });
   }
@@ -86,7 +87,22 @@ export class Mechanics {
     if (answer.error) return this.#fail(answer.error, pose);
     this.failure = null;
     this.picture = { ...answer.ok, milliseconds, way: "anew" };
+    this.#take(state);
     this.#anchor = null;
+  }
+
+  // Coordinates that are found are where the next search begins.
+  #take({ position, rpy_deg, free }) {
+    if (free.length === 0 || this.store.state.way !== "anew") return;
+    const found = placeOf(this.picture.unloaded.pose);
+    const mixed = (now, names, values) =>
+      now.map((value, k) => (free.includes(names[k]) ? values[k] : value));
+    const place = {
+      position: mixed(position, ["x", "y", "z"], found.position),
+      rpy_deg: mixed(rpy_deg, ["roll", "pitch", "yaw"], found.rpy_deg),
+    };
+    const { state } = this.store;
+    if (state.position === position && state.rpy_deg === rpy_deg) this.store.set(place, { quiet: true });
   }
 
   // The lengths are kept: from where the platform is, lengths and load change to those of the state.
@@ -108,6 +124,7 @@ export class Mechanics {
     if (answer.error) return this.#fail(answer.error, null);
     const way = answer.ok;
     if (anchor && way.jumps.length > 0) this.#mark(way);
+    else if (this.jump?.after === null) this.jump = null;
     const found = anchor ? way.state : way;
     if (!found)
       return this.#fail(

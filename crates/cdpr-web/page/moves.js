@@ -21,8 +21,7 @@ export class Moves {
    */
   constructor(app) {
     this.app = app;
-    const step = 10 ** Math.floor(Math.log10(app.size / 40));
-    this.step = step;
+    this.step = nice(app.size / 300);
     this.degrees = 1;
     this.newtons = niceForce(app.robot.mass);
     this.keepForce = false;
@@ -108,6 +107,12 @@ export class Moves {
       );
     } else mechanics.update();
   }
+}
+
+// The next of 1, 2, 5 times a power of ten.
+function nice(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return rounded(power * [1, 2, 5, 10].find((factor) => factor * power >= value), 9);
 }
 
 // A round force of about a twentieth of the platform's weight.

@@ -1,20 +1,34 @@
-// Observations of perturbed robots at the pose on screen: a coarse design while it moves, all of it at rest.
+// Observations of perturbed robots at the pose on screen: few while it moves, more and more once it rests.
 
 import { summary } from "./charts/statistics.js";
 import { studyOf, tolerances } from "./robot.js";
 
-const COARSE = 256;
+// Time of the observations while the platform moves, and the longest time of one question at rest [ms].
+const COARSE_TIME = 120;
+const LONGEST = 2500;
 const REST = 200;
 
+/**
+ * How many observations a question may have: a power of two for `time` [ms] at `rate` [ms each].
+ * @param {number} time
+ * @param {number} rate
+ * @param {number} most
+ */
+export function affordable(time, rate, most) {
+  const count = 2 ** Math.floor(Math.log2(Math.max(time / rate, 1)));
+  return Math.min(most, Math.max(16, count));
+}
+
 export class Sampling {
-  /** {summary, nominal, failed, milliseconds, coarse, key} of the last observations. */
+  /** {summary, nominal, failed, milliseconds, coarse, key, observations} of the last observations. */
   sample = null;
-  /** {inputs, confidence, replicates, coarse, key} of the last effects. */
+  /** {inputs, confidence, replicates, key} of the last effects. */
   effects = null;
   failure = null;
   busy = false;
   #wanted = null;
   #timer = 0;
+  #rate = 1;
 
   /**
    * @param {import("./engine.js").Engine} engine
@@ -54,7 +68,7 @@ export class Sampling {
       const resting = performance.now() - wanted.since > REST;
       if (!resting && (await this.#coarse(wanted)) && this.#wanted === wanted) await this.#pause();
       if (this.#wanted !== wanted) continue;
-      await this.#full(wanted);
+      await this.#refine(wanted);
       done = wanted;
       this.told();
     }
@@ -74,52 +88,61 @@ export class Sampling {
 
   // All in one batch of one worker: it returns soon, and a newer pose waits for nothing else.
   async #coarse({ key, state }) {
-    if (this.#nothing(key, state)) return false;
-    const asks = [
-      this.#text(state, Math.min(COARSE, state.observations)),
-      ...observe(0, 1, 2),
-      { effects: "batch" },
-    ];
+    if (this.#nothing(state)) return false;
+    const count = affordable(COARSE_TIME / 3, this.#rate, state.observations);
+    const asks = [this.#text(state, count), ...observe(0, 1, 2), { effects: "batch" }];
     const {
       answers: [set, first, , , effects],
       milliseconds,
     } = await this.engine.ask("observe", asks);
-    if (!this.#take(key, set, first, milliseconds, true)) return false;
-    if (effects.ok) this.effects = { ...effects.ok, coarse: true, key };
+    if (!this.#take(key, set, first, milliseconds / 3, true)) return false;
+    if (effects.ok) this.effects = { ...effects.ok, key };
     this.told();
     return true;
   }
 
-  async #full({ key, state }) {
-    if (this.#nothing(key, state)) return;
-    const text = this.#text(state, state.observations);
+  // As many observations as are wanted, in steps where one takes long.
+  async #refine({ key, state }) {
+    if (this.#nothing(state)) return;
+    let count = 0;
+    while (count < state.observations && this.#wanted.key === key) {
+      const time = count === 0 ? LONGEST / 10 : LONGEST;
+      const next = affordable(time, this.#rate, state.observations);
+      if (next <= count) break;
+      count = next;
+      if (!(await this.#full({ key, state }, count))) return;
+    }
+  }
+
+  async #full({ key, state }, count) {
+    const text = this.#text(state, count);
     const ask = (replicate) => this.engine.ask("observe", [text, ...observe(replicate)]);
-    const begin = performance.now();
     const {
       answers: [set, first],
+      milliseconds,
     } = await ask(0);
-    if (!this.#take(key, set, first, performance.now() - begin, false)) return;
+    if (!this.#take(key, set, first, milliseconds, false)) return false;
     this.told();
-    if (this.#wanted.key !== key) return;
-    const count = Math.max(2, this.study.replicates);
-    const parts = await Promise.all(Array.from({ length: count }, (_, k) => ask(k + 1)));
+    if (this.#wanted.key !== key) return false;
+    const replicates = Math.max(2, this.study.replicates);
+    const parts = await Promise.all(Array.from({ length: replicates }, (_, k) => ask(k + 1)));
     const of = parts.map(({ answers: [, part] }) => part.ok?.effects).filter(Boolean);
     if (of.length < 2) {
+      const error = parts.map(({ answers: [, part] }) => part.error).find(Boolean);
       this.effects = null;
-      this.failure = parts.map(({ answers: [, part] }) => part.error).find(Boolean) ?? {
-        kind: "too_few",
-        reason: "too few observations have a deflection",
-      };
-      return;
+      this.failure = error ?? { kind: "too_few", reason: "too few observations have a deflection" };
+      return false;
     }
     const {
       answers: [, effects],
     } = await this.engine.ask("observe", [text, { effects: { of } }]);
-    if (effects.ok) this.effects = { ...effects.ok, coarse: false, key };
+    if (effects.ok) this.effects = { ...effects.ok, key };
     else this.failure = effects.error;
+    this.told();
+    return true;
   }
 
-  #nothing(key, state) {
+  #nothing(state) {
     const factors = Object.keys(tolerances(this.study)).map((entry) => state.tolerances[entry] ?? 1);
     const reason =
       state.payload === 0
@@ -144,15 +167,10 @@ export class Sampling {
     }
     this.failure = null;
     const { values_mm, failed, nominal_mm } = observed.ok;
-    this.sample = {
-      summary: summary(values_mm),
-      nominal: nominal_mm,
-      failed,
-      milliseconds,
-      coarse,
-      key,
-      observations: values_mm.length,
-    };
+    const observations = values_mm.length;
+    this.#rate = Math.max(milliseconds / observations, 1e-3);
+    const numbers = { summary: summary(values_mm), nominal: nominal_mm, failed, milliseconds, observations };
+    this.sample = { ...numbers, coarse, key };
     return true;
   }
 }

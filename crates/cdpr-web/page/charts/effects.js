@@ -1,7 +1,7 @@
 // The largest signed effects as bars with intervals, as SVG.
 
-import { digits, parameterWords } from "../format.js";
-import { map, ticks } from "./scale.js";
+import { parameterWords } from "../format.js";
+import { map, tickLabel, ticks } from "./scale.js";
 import { fix, line, path, rect, svg, text } from "./svg.js";
 
 const ROW = 18;
@@ -20,10 +20,10 @@ export function effectBars(inputs, { width, count = 10, title }, palette) {
   const [low, high] = [Math.min(...ends, 0), Math.max(...ends, 0)];
   const pad = (high - low) * 0.04 || 1;
   const x = map([low - pad, high + pad], [left, width - 10]);
-  const grid = ticks(low, high, Math.max(2, Math.floor((width - left) / 75))).map(
+  const grid = ticks(low, high, Math.max(2, Math.floor((width - left) / 85))).map(
     (tick) =>
       line(x(tick), 4, x(tick), height - 34, palette.line) +
-      text(x(tick), height - 20, digits(tick, 2), palette.soft),
+      text(x(tick), height - 20, tickLabel(tick), palette.soft),
   );
   const bars = shown.map(({ name, effect_mm, low_mm, high_mm }, k) => {
     const y = 6 + k * ROW;

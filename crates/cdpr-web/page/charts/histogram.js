@@ -1,7 +1,6 @@
 // The histogram of the deflection, as SVG.
 
-import { digits } from "../format.js";
-import { map, ticks } from "./scale.js";
+import { map, tickLabel, ticks } from "./scale.js";
 import { bins } from "./statistics.js";
 import { fix, line, rect, svg, text } from "./svg.js";
 
@@ -36,7 +35,7 @@ export function histogram(summary, { width, height, nominal, title }, palette) {
   }
   const labels = ticks(low, high, Math.max(2, Math.floor(width / 90)))
     .filter((tick) => x(tick) > 12 && x(tick) < width - 12)
-    .map((tick) => text(x(tick), height - 18, short(tick), palette.soft));
+    .map((tick) => text(x(tick), height - 18, tickLabel(tick), palette.soft));
   const axis = line(frame.left, frame.bottom, frame.right, frame.bottom, palette.line);
   const name = text(width / 2, height - 3, "deflection [mm]", palette.soft);
   return svg(width, height, title, [...bars, axis, ...marks, ...labels, name], palette);
@@ -45,11 +44,4 @@ export function histogram(summary, { width, height, nominal, title }, palette) {
     const stroke = line(px, frame.top, px, frame.bottom, palette.ink, 'stroke-dasharray="4 3"');
     return stroke + text(px + (anchor === "end" ? -3 : 3), frame.top + 10, words, palette.soft, anchor);
   }
-}
-
-// A tick without the zeros that it ends with.
-function short(tick) {
-  return digits(tick, 6)
-    .replace(/(\.\d*?)0+$/, "$1")
-    .replace(/\.$/, "");
 }

@@ -2,7 +2,7 @@
 
 import { digits } from "../format.js";
 import { extent, SLICE_AXES } from "../slices.js";
-import { css, magma, map, stops, ticks } from "./scale.js";
+import { css, magma, map, stops, tickLabel, ticks } from "./scale.js";
 import { fix, path, rect, svg, text } from "./svg.js";
 
 /**
@@ -97,8 +97,8 @@ function rectangles({ u, v }, { held, values, columns }, field, range, [x, y], p
 function axes({ normal, u, v }, { left, right, top, bottom }, [x, y], palette) {
   const [first, second] = SLICE_AXES[normal];
   return [
-    ...ticks(u[0], u[1], 5).map((tick) => text(x(tick), bottom + 15, digits(tick, 3), palette.soft)),
-    ...ticks(v[0], v[1], 4).map((tick) => text(left - 5, y(tick) + 4, digits(tick, 3), palette.soft, "end")),
+    ...ticks(u[0], u[1], 5).map((tick) => text(x(tick), bottom + 15, tickLabel(tick), palette.soft)),
+    ...ticks(v[0], v[1], 4).map((tick) => text(left - 5, y(tick) + 4, tickLabel(tick), palette.soft, "end")),
     text((left + right) / 2, bottom + 29, `${first} [m]`, palette.soft),
     text(4, top - 6, `${second} [m]`, palette.soft, "start"),
     rect(left, top, right - left, bottom - top, "none", `stroke="${palette.line}"`),
@@ -112,16 +112,24 @@ function cross(px, py, palette) {
 
 function legend({ left, right, bottom }, [min, max], { field, words, unit }, palette) {
   const top = bottom + 40;
+  const scale = isWide([min, max]) ? ", log. scale" : "";
   const colors = stops(magma).map(([t, color]) => `<stop offset="${t}" stop-color="${color}"/>`);
   return [
     `<defs><linearGradient id="cdprx-${field}">${colors.join("")}</linearGradient></defs>`,
     rect(left, top, right - left, 10, `url(#cdprx-${field})`),
     text(left, top + 24, digits(min, 3), palette.soft, "start"),
     text(right, top + 24, digits(max, 3), palette.soft, "end"),
-    text((left + right) / 2, top + 24, `${words} [${unit}]`, palette.ink),
+    text((left + right) / 2, top + 24, `${words} [${unit}]${scale}`, palette.ink),
   ];
 }
 
+// Where a value is in a range, from 0 to 1.
 function share(value, [min, max]) {
+  if (isWide([min, max])) return Math.log(value / min) / Math.log(max / min);
   return max > min ? (value - min) / (max - min) : 0.5;
+}
+
+/** Whether a range has a logarithmic scale: those over about an order of magnitude. */
+export function isWide([min, max]) {
+  return min > 0 && max > 8 * min;
 }

@@ -13,6 +13,13 @@ export function ticks(min, max, count = 5) {
   return list;
 }
 
+/** The label of a tick: no zeros at its end. */
+export function tickLabel(tick) {
+  return String(Number(tick.toPrecision(6)))
+    .replace("e+", "e")
+    .replaceAll("-", "−");
+}
+
 /** The next number of 1, 2, 5 times a power of ten above a positive value. */
 export function roundUp(value) {
   if (!(value > 0)) return 1;

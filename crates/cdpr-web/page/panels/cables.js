@@ -133,7 +133,7 @@ function row(app, k) {
     bar.title = `from ${withUnit(min, "N")} to ${withUnit(max, "N")}, ${scale} scale`;
     setText(cells[2], unloaded ? digits(unloaded.cables[i].tension) : "none");
     setText(cells[3], short(cable.sag, 3));
-    setText(cells[4], cable.length.toFixed(4));
+    setText(cells[4], cable.length.toFixed(3));
     element.classList.toggle("warns", Boolean(cable.limit));
     select.setAttribute("aria-pressed", String(app.selected === i));
   };

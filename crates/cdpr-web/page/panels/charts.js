@@ -1,7 +1,7 @@
 // Histogram and effects at the pose on screen, with what they say in a sentence.
 
 import { h, setText } from "../dom.js";
-import { digits, entryWords, parameterWords } from "../format.js";
+import { digits, entryWords, parameterWords, sharePercent } from "../format.js";
 import { effectBars, largest } from "../charts/effects.js";
 import { histogram } from "../charts/histogram.js";
 import { shares, tolerances } from "../robot.js";
@@ -54,7 +54,7 @@ export function chartsPanel(app) {
     }
     const { sample, effects, failure } = sampling;
     failed.hidden = !failure;
-    if (failure) setText(failed, `No observations here: ${failure.reason}`);
+    if (failure) setText(failed, `No observations here: ${reasonWords(app, failure)}`);
     element.classList.toggle("stale", Boolean(failure));
     setText(says, sentence(app));
     const width = Math.max(240, Math.floor(first.clientWidth));
@@ -65,7 +65,7 @@ export function chartsPanel(app) {
         app.palette,
       );
       setText(numbers, statisticsWords(sample));
-      setText(counted, `${countWords(sample)} ${conditionWords(app.store.state)}`);
+      setText(counted, `${countWords(sample)} ${conditionWords(app)}`);
     } else {
       first.replaceChildren();
       setText(numbers, "");
@@ -90,9 +90,9 @@ export function sentence({ sampling, robot }) {
   if (!top || !one) return "";
   return (
     `The tolerance that matters most here: ${entryWords(top.entry)}, with ` +
-    `${digits(100 * top.share, 2)} % of the variance of the deflection. The parameter with the largest effect ` +
-    `is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 3)} mm, ` +
-    `interval ${digits(one.low_mm, 3)} to ${digits(one.high_mm, 3)} mm.`
+    `${sharePercent(top.share)} of the variance of the deflection. The largest effect of a parameter ` +
+    `is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 4)} mm, ` +
+    `95 % interval ${digits(one.low_mm, 4)} to ${digits(one.high_mm, 4)} mm.`
   );
 }
 
@@ -118,13 +118,23 @@ export function effectsTitle({ inputs }) {
   return `The ten largest effects on the deflection: ${list.join(", ")}`;
 }
 
+// The reason of the mechanics is told above already.
+function reasonWords({ mechanics, store }, { reason }) {
+  return mechanics.failure && store.state.way === "anew" ? "the pose is not held." : reason;
+}
+
 function countWords({ observations, milliseconds, coarse, failed }) {
   const time = `${observations} observations in ${digits(milliseconds, 3)} ms`;
-  return `${time}${coarse ? ", coarse while it moves" : ""}; ${failuresWords(failed)}.`;
+  return `${time}${coarse ? ", few while it moves" : ""}; ${failuresWords(failed)}.`;
 }
 
 // What the observations leave out of the state on screen.
-function conditionWords({ way, force, moment }) {
+function conditionWords({ store: { state }, sampling: { sample, busy } }) {
+  const { way, force, moment, observations } = state;
+  if (!busy && sample.observations < observations) {
+    const each = digits(sample.milliseconds / sample.observations, 2);
+    return `One takes ${each} ms here: for ${observations} of them run the command below.`;
+  }
   const more = [...force, ...moment].some((value) => value !== 0);
   if (way === "anew" && !more) return "";
   const without = more ? ", without force and moment" : "";
@@ -132,6 +142,8 @@ function conditionWords({ way, force, moment }) {
 }
 
 function failuresWords(failed) {
-  const list = Object.entries(failed).map(([kind, count]) => `${count} ${kind.replaceAll("_", " ")}`);
+  const list = Object.entries(failed)
+    .filter(([, count]) => count > 0)
+    .map(([kind, count]) => `${count} ${kind.replaceAll("_", " ")}`);
   return list.length > 0 ? `failed: ${list.join(", ")}` : "none failed";
 }

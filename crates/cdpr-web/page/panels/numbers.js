@@ -1,7 +1,7 @@
 // The numbers of the state on screen, with residuals, and what went wrong.
 
 import { h, setText } from "../dom.js";
-import { digits, rangeWithUnit, residual, short, withUnit } from "../format.js";
+import { digits, rangeWithUnit, residual, short, vectorShort, withUnit } from "../format.js";
 
 const DEGREES = 180 / Math.PI;
 
@@ -34,9 +34,7 @@ export function words({ displacement, rms, rotation, loaded, milliseconds }) {
   const tensions = loaded.cables.map((cable) => cable.tension);
   const { closure, force, moment } = loaded.residual;
   return [
-    displacement
-      ? `${short(rms)}, (${displacement.map((value) => digits(1e3 * value, 3)).join(", ")}) mm`
-      : "none: no rest without load",
+    displacement ? `${short(rms)}, ${vectorShort(displacement)}` : "none: no rest without load",
     rotation ? `${digits(DEGREES * Math.hypot(...rotation), 3)}°` : "none",
     rangeWithUnit(Math.min(...tensions), Math.max(...tensions), "N"),
     `${withUnit(loaded.least_stiffness, "N/m")}, ${loaded.stable ? "stable" : "not stable"}`,

@@ -1,7 +1,6 @@
 // The pose: typed numbers, steps, and which coordinates are found.
 
 import { button, check, h, numberField, setText } from "../dom.js";
-import { rounded } from "../rotation.js";
 import { panel } from "./panel.js";
 
 const NAMES = ["x", "y", "z", "roll", "pitch", "yaw"];
@@ -104,12 +103,9 @@ export function posePanel(app) {
   function update() {
     const { state } = store;
     const kept = state.way === "kept";
-    const found = app.mechanics.picture?.unloaded;
     fields.forEach((field, k) => {
-      const free = !kept && state.free.includes(NAMES[k]);
-      const [wanted, at] = k < 3 ? [state.position, found?.pose] : [state.rpy_deg, found?.rpy_deg];
-      field.set(free && at ? rounded(at[k % 3], 6) : wanted[k % 3]);
-      field.input.disabled = kept || robot.held.includes(NAMES[k]) || free;
+      field.set(k < 3 ? state.position[k] : state.rpy_deg[k - 3]);
+      field.input.disabled = kept || robot.held.includes(NAMES[k]) || state.free.includes(NAMES[k]);
     });
     for (const [name, box] of free) box.set(state.free.includes(name));
     step.set(moves.step);

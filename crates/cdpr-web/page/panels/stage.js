@@ -2,8 +2,8 @@
 
 import { button, check, choice, h, linear, logarithmic, setText, slider } from "../dom.js";
 import { digits, lossWords, point, short, withUnit } from "../format.js";
-import { stops, viridis } from "../charts/scale.js";
 import { KEYS } from "../moves.js";
+import { legendOf } from "./legend.js";
 
 const KEY_WORDS =
   "Arrow keys and Page Up, Page Down move the platform, with Shift they turn it, with Alt ten steps.";
@@ -19,7 +19,7 @@ export function stagePanel(app) {
   });
   const view = (patch) => store.set({ view: { ...store.state.view, ...patch } });
   const way = choice(
-    "Under a change",
+    "Cables",
     [
       ["anew", "tensions anew", "The cables are wound so that the platform has the pose that you choose."],
       ["kept", "lengths kept", "The lengths stay; the platform goes where the cables hold it."],
@@ -45,7 +45,7 @@ export function stagePanel(app) {
     button("Forget it", () => mechanics.forgetJump()),
   );
   const pull = h("div", { class: "banner pull", hidden: true });
-  const legend = legendOf();
+  const legend = legendOf(app);
   const looks = h(
     "div",
     { class: "tools", role: "group", "aria-label": "Camera" },
@@ -99,12 +99,15 @@ export function stagePanel(app) {
     h("summary", {}, "Display"),
     h("div", { class: "inside" }, sag.element, arrow.element, auto.element, ghost.element, names.element),
   );
+  const workspace = button("Workspace", () => app.toggleSlice(), {
+    title: "a slice of the workspace, to see where the platform can go and to go there",
+  });
   const banners = h("div", { class: "banners" }, failure, jump, pull);
   const picture = h("div", { class: "picture" }, surface, banners);
   const element = h(
     "section",
     { class: "stage", "aria-label": "Robot" },
-    h("div", { class: "stagebar" }, way.element, handle.element, options),
+    h("div", { class: "stagebar" }, way.element, handle.element, workspace, options),
     h("div", { class: "view" }, picture, legend.element, looks),
   );
   surface.addEventListener("keydown", (event) => {
@@ -124,16 +127,18 @@ export function stagePanel(app) {
     auto.set(state.view.deflection === 0);
     ghost.set(state.view.ghost);
     names.set(state.view.names);
-    legend.update(app);
+    legend.update();
+    workspace.setAttribute("aria-pressed", String(state.slice.shown));
     const failed = mechanics.failure;
     failure.hidden = !failed;
     if (failed) {
       const shown = mechanics.picture
         ? ` The grey picture is of the last pose that was held, ${point(mechanics.picture.loaded.pose)}.`
         : "";
-      setText(failure, `Not held here: ${failed.reason}.${shown}`);
+      setText(failure, `${notHeld(state)}: ${failed.reason}.${shown}`);
     }
     element.classList.toggle("stale", Boolean(failed));
+    element.classList.toggle("busy", mechanics.busy);
     const lost = mechanics.jump;
     jump.hidden = !lost;
     if (lost) setText(jumpText, jumpWords(lost));
@@ -149,41 +154,16 @@ export function stagePanel(app) {
   }
 }
 
+/** The beginning of a sentence on why there is no picture of the state. */
+export function notHeld({ way }) {
+  return way === "kept" ? "No equilibrium on these lengths" : "Not held here";
+}
+
 /** A jump in words. */
 export function jumpWords({ kind, share, before, after, count }) {
   const where = `at ${point(before)}, after ${digits(100 * share, 3)} % of the change`;
-  const far = after
-    ? `It went ${short(Math.hypot(...after.map((value, k) => value - before[k])), 3)} to ${point(after)}.`
-    : "No equilibrium was found behind it.";
+  if (!after) return `The platform can be followed no further: ${lossWords(kind)}, ${where}.`;
   const times = count > 1 ? ` ${count} times, the last` : "";
-  return `The platform jumped${times}: ${lossWords(kind)}, ${where}. ${far}`;
-}
-
-function legendOf() {
-  const gradient = `linear-gradient(to right, ${stops(viridis)
-    .map(([t, color]) => `${color} ${100 * t}%`)
-    .join(", ")})`;
-  const bar = h("div", { class: "gradient", style: `background: ${gradient}` });
-  const marks = ["low", "middle", "high"].map((name) => h("span", { class: name }));
-  const caption = h("div", { class: "caption" });
-  const element = h(
-    "div",
-    { class: "legend" },
-    h("div", {}, "tension at the platform [N]"),
-    bar,
-    h("div", { class: "marks" }, ...marks),
-    caption,
-  );
-  return {
-    element,
-    update(app) {
-      [0, app.range / 2, app.range].forEach((value, k) => setText(marks[k], digits(value, 2)));
-      const factor = app.deflectionFactor;
-      const lines = [];
-      if (app.mechanics.picture?.rms > 0) lines.push(`deflection × ${digits(factor, 3)}`);
-      if (app.store.state.view.sag !== 1) lines.push(`sag × ${digits(app.store.state.view.sag, 3)}`);
-      lines.push("grey: slack; orange band: out of limits");
-      setText(caption, lines.join(" · "));
-    },
-  };
+  const way = short(Math.hypot(...after.map((value, k) => value - before[k])), 3);
+  return `The platform jumped${times}: ${lossWords(kind)}, ${where}. It went ${way} to ${point(after)}.`;
 }

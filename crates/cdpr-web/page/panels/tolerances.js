@@ -1,7 +1,7 @@
 // The tolerances: a slider for each entry of the error model, and how many robots are observed.
 
 import { button, h, linear, select, setText, slider } from "../dom.js";
-import { digits, entryWords, shownUnit } from "../format.js";
+import { entryWords, sharePercent, shownUnit } from "../format.js";
 import { shares, tolerances, width, widthWords } from "../robot.js";
 import { panel } from "./panel.js";
 
@@ -59,7 +59,7 @@ export function tolerancesPanel(app) {
     for (const { name, nominal, share, set } of sliders) {
       set(nominal * (store.state.tolerances[name] ?? 1));
       const part = found.find(({ entry }) => entry === name)?.share;
-      setText(share, part === undefined ? "" : `${digits(100 * part, 2)} %`);
+      setText(share, part === undefined ? "" : sharePercent(part));
       share.style.setProperty("--share", String(part ?? 0));
     }
     count.set(String(store.state.observations));

@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { bins, quantile, summary } from "../charts/statistics.js";
 import { css, map, roundUp, ticks, viridis } from "../charts/scale.js";
-import { digits, entryWords, parameterWords, residual, short, withUnit } from "../format.js";
+import { digits, entryWords, parameterWords, residual, short, vectorShort, withUnit } from "../format.js";
+import { affordable } from "../sampling.js";
 import { angles, product, quaternion, turned, turnedAngles, vectorBetween } from "../rotation.js";
 
 const close = (a, b, tolerance = 1e-12) =>
@@ -102,4 +103,17 @@ test("the rotation between two quaternions takes the one to the other", () => {
     found.map((part) => part * Math.sign(found[0])),
     b,
   );
+});
+
+test("observations are as many as their time allows, and a power of two", () => {
+  assert.equal(affordable(100, 0.01, 20000), 8192);
+  assert.equal(affordable(2500, 0.01, 20000), 20000);
+  assert.equal(affordable(100, 50, 2048), 16);
+});
+
+test("a vector has the decimals that its length needs", () => {
+  assert.equal(vectorShort([6.4e-17, -2e-16, -0.00048]), "(0, 0, −0.48) mm");
+  assert.equal(vectorShort([0.0127, -0.0003, 0]), "(12.7, −0.3, 0) mm");
+  assert.equal(vectorShort([0, 0, 3.4804]), "(0, 0, 3.48) m");
+  assert.equal(vectorShort([0, 0, 0]), "(0, 0, 0) mm");
 });

@@ -52,12 +52,11 @@ export class Cables {
       if (steps) points = followed(points, steps[k]);
       const color = faded || cable.slack ? rgb(palette.slack) : linear(viridis(cable.tension / range));
       this.lines.line(points, color);
-      this.casing.line(points);
+      if (!faded) this.casing.line(points);
       if (k === selected) this.marks.line(points, rgb(palette.ink));
       else if (cable.limit && !faded) this.marks.line(points, rgb(palette.warn));
       if (cable.wheel.length > 0) this.wheels.line([...cable.wheel, ...cable.wheel.slice(0, 3)]);
     });
-    this.lines.material.opacity = faded ? 0.45 : 1;
     for (const part of [this.casing, this.marks, this.lines, this.wheels]) part.done();
   }
 }

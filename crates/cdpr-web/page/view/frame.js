@@ -1,7 +1,7 @@
 // The frame of the robot: floor, posts, the ring through the exit points, and the numbers of the cables.
 
 import { GridHelper, Group } from "three";
-import { h } from "../dom.js";
+import { h, setText } from "../dom.js";
 import { ring } from "../geometry.js";
 import { Segments } from "./segments.js";
 import { roundUp } from "../charts/scale.js";
@@ -51,21 +51,28 @@ export class Names {
    */
   constructor(container, exits) {
     this.exits = exits;
-    this.labels = exits.map((_, k) => h("span", { class: "name", "aria-hidden": "true" }, String(k + 1)));
+    this.labels = exits.map(() => h("span", { class: "name", "aria-hidden": "true" }));
     this.element = h("div", { class: "names" }, ...this.labels);
     container.append(this.element);
   }
 
-  /** Puts each number beside its exit point on the screen. */
+  /** Puts each number beside its exit point; those that would cover each other stand together. */
   place(camera, scratch, width, height) {
+    const shown = [];
     this.exits.forEach((exit, k) => {
       scratch.set(...exit).project(camera);
-      const label = this.labels[k];
-      const seen = scratch.z < 1 && Math.abs(scratch.x) < 1 && Math.abs(scratch.y) < 1;
-      label.style.display = seen ? "" : "none";
-      if (!seen) return;
       const [x, y] = [((scratch.x + 1) / 2) * width + 5, ((1 - scratch.y) / 2) * height - 18];
-      label.style.transform = `translate(${x.toFixed(1)}px,${y.toFixed(1)}px)`;
+      const seen = scratch.z < 1 && Math.abs(scratch.x) < 1 && Math.abs(scratch.y) < 1;
+      const other = seen && shown.find((one) => Math.abs(one.x - x) < 16 && Math.abs(one.y - y) < 14);
+      if (other) other.names.push(k + 1);
+      else if (seen) shown.push({ x, y, names: [k + 1] });
+    });
+    this.labels.forEach((label, k) => {
+      const one = shown[k];
+      label.style.display = one ? "" : "none";
+      if (!one) return;
+      setText(label, one.names.join(", "));
+      label.style.transform = `translate(${one.x.toFixed(1)}px,${one.y.toFixed(1)}px)`;
     });
   }
 }
