@@ -62,7 +62,7 @@ fn make() -> Outcome {
     fs::create_dir_all(&dist)?;
     for (name, feature) in MODULES {
         eprintln!("module {name}");
-        let target = root().join("target/web").join(name);
+        let target = root().join("target/web");
         let mut build = cargo_command(&["build", "--locked", "--package", "cdpr-web", "--profile", "web"]);
         build.args(["--target", TARGET, "--target-dir"]).arg(&target);
         done(build.env("RUSTFLAGS", format!("-C target-feature={feature}")))?;

@@ -1,0 +1,81 @@
+//! Answers of robots that differ, against the models that they come from, and refusals.
+
+use crate::common::{ask, farthest, questions, robots};
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{Load, deflection};
+use cdpr_web::Live;
+use serde_json::{Value, json};
+
+#[test]
+fn every_kind_of_question_is_answered_by_robots_that_differ() {
+    for (name, robot) in robots() {
+        let mut live = Live::new(&robot).unwrap();
+        for question in questions(&mut live) {
+            let answer = ask(&mut live, &question);
+            assert!(answer["ok"].is_object(), "{name}: {question}: {}", answer["error"]);
+        }
+    }
+}
+
+#[test]
+fn a_deflection_is_that_of_the_model() {
+    let (_, text) = robots().swap_remove(1);
+    let robot = Robot::from_json(&text).unwrap();
+    let expected = deflection(&robot, &Pose::at(1.0, -0.5, 1.5), &[0.0; 8], &Load::payload(100.0)).unwrap();
+    let question = json!({"hold": {"pose": [1.0, -0.5, 1.5, 1, 0, 0, 0], "load": {"payload": 100}}});
+    let found = ask(&mut Live::new(&text).unwrap(), &question)["ok"].clone();
+    assert_eq!(found["rms"].as_f64(), Some(expected.rms()));
+    assert_eq!(found["lengths"], json!(expected.lengths));
+    let residual = &expected.loaded.report.residual;
+    assert_eq!(found["loaded"]["residual"]["force"].as_f64(), Some(residual.force));
+}
+
+#[test]
+fn a_cable_wound_out_leads_where_the_same_lengths_are_found_directly() {
+    let (_, text) = robots().swap_remove(0);
+    let mut live = Live::new(&text).unwrap();
+    let wind = questions(&mut live).swap_remove(3);
+    let way = ask(&mut live, &wind)["ok"].clone();
+    let given = &wind["wind"];
+    let stand = json!({"stand": {"lengths": given["lengths"][1], "load": given["load"][1], "start": given["start"]}});
+    let direct = ask(&mut live, &stand)["ok"].clone();
+    assert_eq!(way["jumps"], json!([]));
+    assert!(farthest(&way["state"]["pose"], &direct["pose"]).0 < 1e-9);
+}
+
+#[test]
+fn a_platform_whose_cables_are_wound_far_jumps_or_says_why_not() {
+    // One cable of the four is let out until the platform hangs on the others.
+    let (_, text) = robots().into_iter().find(|(name, _)| *name == "cogiro").unwrap();
+    let mut live = Live::new(&text).unwrap();
+    let held = ask(&mut live, &json!({"hold": {"pose": [0, 0, 2, 1, 0, 0, 0]}}))["ok"].clone();
+    let mut longer = held["lengths"].clone();
+    longer[0] = json!(longer[0].as_f64().unwrap() * 1.3);
+    let wind = json!({"wind": {"lengths": [held["lengths"], longer], "start": [0, 0, 2, 1, 0, 0, 0]}});
+    let way = ask(&mut live, &wind)["ok"].clone();
+    assert!(way["state"].is_object() || way["reason"].is_string(), "{way}");
+    let slack = |state: &Value| state["cables"][0]["slack"] == json!(true);
+    assert!(way["state"].is_null() || slack(&way["state"]));
+}
+
+#[test]
+fn what_cannot_be_answered_says_why() {
+    let mut live = Live::new(&robots().swap_remove(0).1).unwrap();
+    let refused = |live: &mut Live, question: Value, kind: &str, words: &str| {
+        let error = ask(live, &question)["error"].clone();
+        let reason = error["reason"].as_str().unwrap_or_default();
+        assert!(error["kind"] == kind && reason.contains(words), "{question}: {error}");
+    };
+    let far = json!({"hold": {"pose": [50, 0, 0, 1, 0, 0, 0]}});
+    refused(&mut live, far, "infeasible_tension", "position");
+    refused(&mut live, json!({"hold": {"pose": [0, 0, 1, 0, 0, 0, 0]}}), "invalid_input", "quaternion");
+    refused(&mut live, json!({"hold": {}}), "invalid_question", "pose");
+    refused(&mut live, json!({"dance": {}}), "invalid_question", "dance");
+    refused(&mut live, json!({"observe": {"replicate": 1}}), "invalid_input", "study");
+    let short = json!({"stand": {"lengths": [1, 2], "start": [0, 0, 1, 1, 0, 0, 0]}});
+    refused(&mut live, short, "invalid_input", "lengths");
+    let rows = json!({"normal": "z", "at": 1, "quaternion": [1, 0, 0, 0], "u": [0, 1, 2], "v": [0, 1, 2],
+                      "rows": [0, 3]});
+    refused(&mut live, json!({"slice": rows}), "invalid_input", "rows");
+    assert!(Live::new("{}").is_err());
+}
