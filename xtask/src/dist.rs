@@ -4,7 +4,7 @@
 //! from CHANGELOG.md, and the checksums of all files. A part whose tool is not installed is left out, and the
 //! last lines say so.
 
-use crate::cargo::{cargo_command, done, root};
+use crate::cargo::{cargo_command, cdpr_command, done, root};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -116,13 +116,19 @@ fn wheel(folder: &Path) -> Outcome {
 }
 
 fn book(folder: &Path) -> Outcome {
-    done(
-        Command::new("mdbook")
-            .arg("build")
-            .arg(root().join("docs"))
-            .arg("--dest-dir")
-            .arg(folder.join("book")),
-    )
+    let book = folder.join("book");
+    done(Command::new("mdbook").arg("build").arg(root().join("docs")).arg("--dest-dir").arg(&book))?;
+    // The pages that docs/robots.md leads to.
+    let pages = book.join("explorer");
+    fs::create_dir_all(&pages)?;
+    for file in fs::read_dir(root().join("data/robots"))? {
+        let path = file?.path();
+        if let Some(name) = path.file_stem().filter(|_| path.extension().is_some_and(|end| end == "json")) {
+            let page = pages.join(name).with_extension("html");
+            done(cdpr_command(&["explore"]).arg(&path).arg("--out").arg(page))?;
+        }
+    }
+    Ok(())
 }
 
 /// The checksums of all files beside them, as `sha256sum --check` reads them.

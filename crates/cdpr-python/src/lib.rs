@@ -10,6 +10,7 @@
 mod calibration;
 mod catenary;
 mod convert;
+mod explorer;
 mod robot;
 mod sensitivity;
 mod study;
@@ -23,6 +24,8 @@ mod _core {
     use crate::calibration::{calibrate, calibration_plan, identify};
     #[pymodule_export]
     use crate::catenary::{Catenary, catenary};
+    #[pymodule_export]
+    use crate::explorer::explorer_parts;
     #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]

@@ -41,7 +41,7 @@ impl Live {
     fn answer(&mut self, question: Question) -> String {
         let robot = &self.robot;
         match question {
-            Question::Describe {} => text(Ok(describe::describe(robot))),
+            Question::Describe { study } => text(Ok(describe::describe(robot, study.map(|study| *study)))),
             Question::Hold(given) => text(deflect::hold(robot, &given)),
             Question::Stand(given) => text(stand::stand(robot, &given)),
             Question::Wind(given) => text(follow::wind(robot, given)),

@@ -9,8 +9,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Question {
-    /// What the robot is, where it can stand first, and a study of it with tolerances that are assumed.
-    Describe {},
+    /// What the robot is, and where it stands first.
+    Describe {
+        /// A study of it with the first pose, payload and tolerances; those that are assumed, as by
+        /// [`cdpr_study::template`], if left out.
+        #[serde(default)]
+        study: Option<Box<StudyFile>>,
+    },
     /// The deflection at a pose: tensions distributed for it under the platform's own weight, then the load.
     Hold(Hold),
     /// Where the platform stands on given lengths.

@@ -34,7 +34,7 @@ pub(crate) struct Description {
     /// A pose that the robot holds with the payload; absent with a reason.
     start: Option<FirstPose>,
     start_reason: Option<String>,
-    /// A study of the robot with tolerances that are assumed, as `cdpr study new` writes it.
+    /// The study that was given, or one with tolerances that are assumed, as `cdpr study new` writes it.
     study: Option<StudyFile>,
 }
 
@@ -64,8 +64,8 @@ struct FirstPose {
     payload: f64,
 }
 
-pub(crate) fn describe(robot: &Robot) -> Description {
-    let (study, first, start_reason) = match first(robot) {
+pub(crate) fn describe(robot: &Robot, study: Option<StudyFile>) -> Description {
+    let (study, first, start_reason) = match first(robot, study) {
         Ok((study, first)) => (Some(study), Some(first), None),
         Err(reason) => (None, None, Some(reason.reason)),
     };
@@ -107,14 +107,19 @@ pub(crate) fn describe(robot: &Robot) -> Description {
     }
 }
 
-/// The study of the template, of which only what is observed is left, and its pose.
-fn first(robot: &Robot) -> Result<(StudyFile, FirstPose), Failure> {
-    let text = template(robot, &robot.name, None, None, &[])?;
-    let mut file: StudyFile = serde_json::from_str(&text).map_err(|error| Failure::question(&error))?;
-    file.surfaces.clear();
-    file.sensitivity = None;
+/// The study, or that of the template of which only what is observed is left, and its pose.
+fn first(robot: &Robot, given: Option<StudyFile>) -> Result<(StudyFile, FirstPose), Failure> {
+    let file = given.map_or_else(|| assumed(robot), Ok)?;
     let study = Study::of_robot(file, robot.clone(), Path::new(STUDY_NAME))?;
     let pose = PoseGiven::from(&study.nominal(SAMPLING)?.pose);
     let first = FirstPose { pose, payload: study.file.payload };
     Ok((study.file, first))
+}
+
+fn assumed(robot: &Robot) -> Result<StudyFile, Failure> {
+    let text = template(robot, &robot.name, None, None, &[])?;
+    let mut file: StudyFile = serde_json::from_str(&text).map_err(|error| Failure::question(&error))?;
+    file.surfaces.clear();
+    file.sensitivity = None;
+    Ok(file)
 }

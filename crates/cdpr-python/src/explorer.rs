@@ -1,0 +1,47 @@
+//! The parts of the explorer's page, and its file.
+
+use crate::convert::{Answer, Raised};
+use crate::robot::Robot;
+use cdpr_report::{EXPLORER_MARK, Explored, explorer};
+use cdpr_study::write_text;
+use cdpr_web::page;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::path::PathBuf;
+
+/// The script, the worker, the style and the packed module of the explorer, for its widget.
+#[pyfunction]
+pub(crate) fn explorer_parts(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let parts = PyDict::new(py);
+    parts.set_item("script", page::SCRIPT)?;
+    parts.set_item("worker", page::WORKER)?;
+    parts.set_item("style", page::STYLE)?;
+    parts.set_item("module", PyBytes::new(py, page::MODULE))?;
+    Ok(parts)
+}
+
+#[pymethods]
+impl Robot {
+    /// Shows the robot in a notebook, where it computes as it is moved: a widget of the package anywidget.
+    ///
+    /// state: what is shown first, as `Explorer.state` has it.
+    #[pyo3(signature = (*, state = None))]
+    fn explore(slf: Bound<'_, Self>, state: Option<Bound<'_, PyDict>>) -> PyResult<Py<PyAny>> {
+        let module = slf.py().import("cdpr.explorer")?;
+        Ok(module.call_method1("Explorer", (slf, state))?.unbind())
+    }
+
+    /// Writes the page of `cdpr explore`: one HTML file on which the robot computes in any browser.
+    ///
+    /// path: the file; one that exists is written over only if it is such a page.
+    ///
+    /// Raises FileError.
+    fn write_explorer(&self, path: PathBuf) -> Answer<()> {
+        let Self { robot } = self;
+        let file = format!("{}.json", robot.name);
+        let explored = Explored { name: &robot.name, file: &file, robot: &robot.to_json(), study: None };
+        let page = explorer(&explored, env!("CARGO_PKG_VERSION"))
+            .map_err(|error| Raised::Input(error.to_string()))?;
+        Ok(write_text(&path, &page, EXPLORER_MARK)?)
+    }
+}
