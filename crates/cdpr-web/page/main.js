@@ -3,6 +3,7 @@
 import { App } from "./app.js";
 import { h } from "./dom.js";
 import { Engine, workerCount } from "./engine.js";
+import { ofStudy } from "./robot.js";
 
 const ADVICE =
   "It needs a browser with WebAssembly and workers, such as Firefox, Chrome, Edge or Safari of 2023 " +
@@ -10,9 +11,10 @@ const ADVICE =
 
 /**
  * @param {HTMLElement} element
- * @param {{robot: object, state?: object|null, module: ArrayBuffer, worker: string, name?: string,
- *   embedded?: boolean}} options
- *   `robot`: content of a robot file; `state`: a saved state; `module`: bytes of the WebAssembly module;
+ * @param {{robot: object, study?: object|null, state?: object|null, module: ArrayBuffer, worker: string,
+ *   name?: string, embedded?: boolean}} options
+ *   `robot`: content of a robot file; `study`: a study file whose sampling `all` takes the place of the
+ *   template's; `state`: a saved state; `module`: bytes of the WebAssembly module;
  *   `worker`: source text of worker.js; `name`: name of the robot file in commands; `embedded`: part of
  *   another page, without address and files of its own
  * @returns {{getState: function(): object|null, setState: function(object): void, dispose: function(): void,
@@ -20,7 +22,7 @@ const ADVICE =
  */
 export function mount(
   element,
-  { robot, state = null, module, worker, name = "robot.json", embedded = false },
+  { robot, study = null, state = null, module, worker, name = "robot.json", embedded = false },
 ) {
   let app = null;
   let engine = null;
@@ -67,9 +69,10 @@ export function mount(
       engine.dispose();
       return element.replaceChildren(message(`This robot cannot be shown: ${answer.error.reason}.`));
     }
+    const described = study ? { ...answer.ok, ...ofStudy(study) } : answer.ok;
     app = new App(element, {
       engine,
-      robot: answer.ok,
+      robot: described,
       file: robot,
       name,
       saved: waiting ?? state,

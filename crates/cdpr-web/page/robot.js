@@ -31,6 +31,17 @@ export function isChanged({ modulus, density, least, greatest }) {
   return modulus !== 1 || density !== 1 || least !== null || greatest !== null;
 }
 
+/**
+ * What a study says in place of the template: itself, and pose, payload and free coordinates to begin with.
+ * @param {object} study study file
+ */
+export function ofStudy(study) {
+  const { pose, free = [] } = firstSampling(study);
+  const rotation = pose?.quaternion ?? quaternion(pose?.rpy_deg ?? [0, 0, 0]);
+  const start = pose ? { pose: [...pose.position, ...rotation], payload: study.payload } : null;
+  return { study, ...(start ? { start, free } : {}), reference: study.tension_reference ?? null };
+}
+
 /** The tolerances of a study: the entries of the error model of its sampling. */
 export function tolerances(study) {
   return study.error_models[firstSampling(study).error_model];
@@ -80,7 +91,7 @@ export function studyOf(study, state, { robot, observations = state.observations
     payload: state.payload,
     seed,
     ...(state.changes.reference === null ? {} : { tension_reference: state.changes.reference }),
-    replicates,
+    replicates: Math.max(2, replicates),
     confidence,
     bootstrap_resamples,
     error_models: { tolerances: Object.fromEntries(entries) },

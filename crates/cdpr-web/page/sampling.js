@@ -7,6 +7,9 @@ import { studyOf, tolerances } from "./robot.js";
 const COARSE_TIME = 120;
 const LONGEST = 2500;
 const REST = 200;
+const FEWEST = 16;
+// Above this time [ms] effects wait until the platform rests.
+const SLOW = 400;
 
 /**
  * How many observations a question may have: a power of two for `time` [ms] at `rate` [ms each].
@@ -16,7 +19,7 @@ const REST = 200;
  */
 export function affordable(time, rate, most) {
   const count = 2 ** Math.floor(Math.log2(Math.max(time / rate, 1)));
-  return Math.min(most, Math.max(16, count));
+  return Math.min(most, Math.max(FEWEST, count));
 }
 
 export class Sampling {
@@ -28,7 +31,7 @@ export class Sampling {
   busy = false;
   #wanted = null;
   #timer = 0;
-  #rate = 1;
+  #rate = null;
 
   /**
    * @param {import("./engine.js").Engine} engine
@@ -89,21 +92,32 @@ export class Sampling {
   // All in one batch of one worker: it returns soon, and a newer pose waits for nothing else.
   async #coarse({ key, state }) {
     if (this.#nothing(state)) return false;
+    if (this.#rate === null) await this.#measure(state);
     const count = affordable(COARSE_TIME / 3, this.#rate, state.observations);
-    const asks = [this.#text(state, count), ...observe(0, 1, 2), { effects: "batch" }];
+    const slow = 3 * count * this.#rate > SLOW;
+    const more = slow ? [] : [...observe(1, 2), { effects: "batch" }];
+    const asks = [this.#text(state, count), ...observe(0), ...more];
     const {
       answers: [set, first, , , effects],
       milliseconds,
     } = await this.engine.ask("observe", asks);
-    if (!this.#take(key, set, first, milliseconds / 3, true)) return false;
-    if (effects.ok) this.effects = { ...effects.ok, key };
+    if (!this.#take(key, set, first, slow ? milliseconds : milliseconds / 3, true)) return false;
+    if (effects?.ok) this.effects = { ...effects.ok, key };
     this.told();
     return true;
+  }
+
+  // How long an observation takes, which nobody knows before.
+  async #measure(state) {
+    const asks = [this.#text(state, FEWEST), ...observe(0)];
+    const { milliseconds } = await this.engine.ask("observe", asks);
+    this.#rate = Math.max(milliseconds / FEWEST, 1e-3);
   }
 
   // As many observations as are wanted, in steps where one takes long.
   async #refine({ key, state }) {
     if (this.#nothing(state)) return;
+    if (this.#rate === null) await this.#measure(state);
     let count = 0;
     while (count < state.observations && this.#wanted.key === key) {
       const time = count === 0 ? LONGEST / 10 : LONGEST;

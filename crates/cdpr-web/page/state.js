@@ -21,7 +21,13 @@ export function initial(robot) {
     force: [0, 0, 0],
     moment: [0, 0, 0],
     free: robot.free ?? [],
-    changes: { modulus: 1, density: 1, reference: null, least: null, greatest: null },
+    changes: {
+      modulus: 1,
+      density: 1,
+      reference: scalarReference(robot.reference),
+      least: null,
+      greatest: null,
+    },
     tolerances: {},
     observations: robot.study ? firstSampling(robot.study).observations : 2048,
     view: { sag: 1, deflection: 0, motion: "still", ghost: true, names: true },
@@ -155,6 +161,11 @@ export class Store {
   #tell(before, stepped = false) {
     for (const listener of this.#listeners) listener(this.state, before, stepped);
   }
+}
+
+// A list of tensions stays in the robot and study files: the page has one level for all cables.
+function scalarReference(reference) {
+  return typeof reference === "number" || reference === "mid" ? reference : null;
 }
 
 function alike(value, first, field) {

@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { bodyPoints, exaggerated, extents, followed, moved, ring } from "../geometry.js";
-import { changedRobot, isChanged, scaled, shares, studyOf, width } from "../robot.js";
+import { changedRobot, isChanged, ofStudy, scaled, shares, studyOf, width } from "../robot.js";
+import { initial } from "../state.js";
 import { cellAt, mapFrame, mapScales } from "../charts/map.js";
 import { emptyCells, extreme, fill, plane, positionOf, rowOrder } from "../slices.js";
 
@@ -195,4 +196,25 @@ test("a small motion moves and turns a pose", () => {
   [0.5, 0, 0, Math.SQRT1_2, 0, 0, Math.SQRT1_2].forEach((value, k) =>
     assert.ok(Math.abs(found[k] - value) < 1e-15),
   );
+});
+
+test("a study in place of the template gives pose, payload and tolerances", () => {
+  const sampling = {
+    error_model: "t",
+    observations: 256,
+    pose: { position: [1, 2, 3], rpy_deg: [0, 0, 90] },
+  };
+  const study = {
+    payload: 50,
+    samplings: { all: sampling },
+    error_models: { t: {} },
+    tension_reference: "mid",
+  };
+  const found = ofStudy(study);
+  assert.equal(found.study, study);
+  assert.equal(found.start.payload, 50);
+  assert.deepEqual(found.start.pose.slice(0, 3), [1, 2, 3]);
+  assert.ok(Math.abs(found.start.pose[6] - Math.SQRT1_2) < 1e-15);
+  const { position, rpy_deg, changes, observations } = initial({ name: "r", ...found });
+  assert.deepEqual([position, rpy_deg, changes.reference, observations], [[1, 2, 3], [0, 0, 90], "mid", 256]);
 });
