@@ -1,12 +1,4 @@
-//! The report in a real browser: Chromium without a window, driven over its debugging socket (Chrome DevTools
-//! Protocol).
-//!
-//! Screenshots for a person to look at are left in `target/report-screenshots`. `.ci/run` runs this test by
-//! its name; a plain `cargo test` leaves it out, because it needs Chromium.
-
-#![allow(clippy::unwrap_used, clippy::expect_used)]
-
-mod common;
+//! A page in Chromium without a window, driven over its debugging socket (Chrome DevTools Protocol).
 
 use base64::Engine;
 use serde_json::{Value, json};
@@ -17,8 +9,15 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 use tungstenite::{Message, WebSocket};
 
+/// Height of the window [px].
+const HEIGHT: u32 = 3000;
+
+const ALL_NEAR_ARE_DRAWN: &str = "[...document.querySelectorAll('.plot:not([hidden])')].every((plot) => { \
+     const { top, bottom } = plot.getBoundingClientRect(); \
+     return bottom < 0 || top > innerHeight || plot.dataset.drawn; })";
+
 /// The first of the programs that a system may have.
-fn chromium() -> &'static str {
+pub(crate) fn chromium() -> &'static str {
     let is_installed = |name: &&str| {
         let version =
             Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
@@ -29,13 +28,13 @@ fn chromium() -> &'static str {
 }
 
 /// A page in a browser.
-struct Page {
+pub(crate) struct Page {
     process: Child,
     socket: WebSocket<TcpStream>,
     session: Option<String>,
     calls: u64,
     /// What the browser said unasked.
-    events: Vec<Value>,
+    pub(crate) events: Vec<Value>,
     _profile: tempfile::TempDir,
 }
 
@@ -47,7 +46,7 @@ impl Drop for Page {
 }
 
 impl Page {
-    fn open(program: &str) -> Self {
+    pub(crate) fn open(program: &str) -> Self {
         let profile = tempfile::TempDir::new().unwrap();
         let mut process = Command::new(program)
             .args([
@@ -89,7 +88,7 @@ impl Page {
     }
 
     /// Calls a method of the browser; its answer.
-    fn call(&mut self, method: &str, parameters: Value) -> Value {
+    pub(crate) fn call(&mut self, method: &str, parameters: Value) -> Value {
         self.calls += 1;
         let mut call = json!({"id": self.calls, "method": method, "params": parameters});
         if let Some(session) = &self.session {
@@ -109,7 +108,7 @@ impl Page {
     }
 
     /// The value of an expression in the page, waited for if it is a promise.
-    fn evaluate(&mut self, expression: &str) -> Value {
+    pub(crate) fn evaluate(&mut self, expression: &str) -> Value {
         let parameters = json!({"expression": expression, "awaitPromise": true, "returnByValue": true});
         let answer = self.call("Runtime.evaluate", parameters);
         assert!(answer.get("exceptionDetails").is_none(), "{expression}: {answer}");
@@ -117,7 +116,7 @@ impl Page {
     }
 
     /// Waits until a condition of the page holds.
-    fn wait_for(&mut self, condition: &str) {
+    pub(crate) fn wait_for(&mut self, condition: &str) {
         let held = self.evaluate(&format!(
             "new Promise((done) => {{ const end = Date.now() + 30000; \
              const look = () => ({condition}) ? done(true) \
@@ -127,13 +126,13 @@ impl Page {
     }
 
     /// Opens a file.
-    fn show(&mut self, file: &Path) {
+    pub(crate) fn show(&mut self, file: &Path) {
         self.call("Page.navigate", json!({"url": format!("file://{}", file.display())}));
-        self.wait_for("document.readyState === 'complete' && document.querySelector('main')");
+        self.wait_for("document.readyState === 'complete'");
     }
 
     /// A window of this width, in light or dark surroundings.
-    fn surround(&mut self, width: u32, scheme: &str) {
+    pub(crate) fn surround(&mut self, width: u32, scheme: &str) {
         let media = json!({"features": [{"name": "prefers-color-scheme", "value": scheme}]});
         self.call("Emulation.setEmulatedMedia", media);
         let size = json!({"width": width, "height": HEIGHT, "deviceScaleFactor": 1, "mobile": false});
@@ -141,7 +140,7 @@ impl Page {
     }
 
     /// Writes pictures of the whole page, one a window.
-    fn photograph(&mut self, folder: &Path, name: &str) {
+    pub(crate) fn photograph(&mut self, folder: &Path, name: &str) {
         let height = self.evaluate("document.documentElement.scrollHeight").as_u64().unwrap();
         for (part, top) in (0..height).step_by(HEIGHT as usize).enumerate() {
             self.evaluate(&format!("scrollTo({{top: {top}, behavior: 'instant'}})"));
@@ -153,7 +152,7 @@ impl Page {
         }
     }
 
-    fn mouse(&mut self, kind: &str, x: f64, y: f64) {
+    pub(crate) fn mouse(&mut self, kind: &str, x: f64, y: f64) {
         let buttons = u8::from(kind != "mouseReleased");
         let event =
             json!({"type": kind, "x": x, "y": y, "button": "left", "buttons": buttons, "clickCount": 1});
@@ -161,7 +160,7 @@ impl Page {
     }
 
     /// Everything that the page complained of or asked the network for.
-    fn complaints(&self, file: &Path) -> Vec<String> {
+    pub(crate) fn complaints(&self, file: &Path) -> Vec<String> {
         let own = format!("file://{}", file.display());
         let complaint = |event: &Value| {
             let parameters = &event["params"];
@@ -179,116 +178,11 @@ impl Page {
     }
 }
 
-/// Height of the window [px].
-const HEIGHT: u32 = 3000;
-
-const ALL_NEAR_ARE_DRAWN: &str = "[...document.querySelectorAll('.plot:not([hidden])')].every((plot) => { \
-     const { top, bottom } = plot.getBoundingClientRect(); \
-     return bottom < 0 || top > innerHeight || plot.dataset.drawn; })";
-
-const EYE: &str = "(() => { const robot = document.getElementById('plot-robot'); \
-    const { x, y, z } = robot._fullLayout.scene._scene.getCamera().eye; \
-     return [x, y, z]; })()";
-
-fn write_report(folder: &Path, name: &str, results: &cdpr_study::Results) -> PathBuf {
-    let path = folder.join(name).with_extension("html");
-    std::fs::write(&path, cdpr_report::report(results).unwrap()).unwrap();
-    path
-}
-
-#[test]
-fn the_report_is_whole_quiet_and_turns_in_a_browser() {
+/// The folder for pictures that a person looks at: `target/report-screenshots`.
+pub(crate) fn screenshots() -> PathBuf {
     let target = std::env::var_os("CARGO_TARGET_DIR")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target"), PathBuf::from);
     let folder = target.join("report-screenshots");
     std::fs::create_dir_all(&folder).unwrap();
-    let folder = folder.canonicalize().unwrap();
-    let results = common::caroca(|study, _| {
-        study["samplings"].as_object_mut().unwrap().shift_remove("geometrical").unwrap();
-        study["comparison"].as_array_mut().unwrap().retain(|row| row["study"] != "geometrical");
-    });
-    let file = write_report(&folder, "caroca", &results);
-    let mut page = Page::open(chromium());
-
-    for (width, scheme) in [(1400, "light"), (1400, "dark"), (400, "dark"), (400, "light")] {
-        page.surround(width, scheme);
-        // Opened in the light or in the dark, the other comes while it is open.
-        if (width == 1400) == (scheme == "light") {
-            page.show(&file);
-        }
-        page.photograph(&folder, &format!("caroca-{width}-{scheme}"));
-        let sizes = page.evaluate(
-            "[...document.querySelectorAll('figure')].map((figure) => [figure.id, \
-             ...['.drawing:not([hidden]) svg', '.plot:not([hidden])'] \
-             .map((part) => figure.querySelector(part)).filter((part) => part) \
-             .map((part) => part.getBoundingClientRect()) \
-             .map(({ width, height }) => Math.min(width, height))])",
-        );
-        let sizes = sizes.as_array().unwrap();
-        // The robot, three figures a sampling, two surfaces, anchor and exit points.
-        assert_eq!(sizes.len(), 1 + 3 * 2 + 2 + 2, "{sizes:?}");
-        assert!(sizes.iter().all(|figure| figure[1].as_f64().unwrap_or(0.0) > 100.0), "{sizes:?}");
-        let overflow =
-            page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth");
-        assert_eq!(overflow, 0, "the page scrolls sideways at {width} px");
-        let dark = page.evaluate("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)";
-        assert_eq!(dark, scheme == "dark");
-    }
-
-    page.surround(1400, "light");
-    page.show(&file);
-    page.evaluate(
-        "document.getElementById('plot-robot').scrollIntoView({behavior: 'instant', block: 'center'})",
-    );
-    page.wait_for("document.getElementById('plot-robot').dataset.drawn");
-    let before = page.evaluate(EYE);
-    let middle = page.evaluate(
-        "(() => { const { x, y, width, height } = document.getElementById('plot-robot') \
-         .getBoundingClientRect(); return [x + width / 2, y + height / 2]; })()",
-    );
-    let (x, y) = (middle[0].as_f64().unwrap(), middle[1].as_f64().unwrap());
-    page.mouse("mousePressed", x, y);
-    for step in 1..=6 {
-        page.mouse("mouseMoved", x + 25.0 * f64::from(step), y);
-    }
-    page.mouse("mouseReleased", x + 150.0, y);
-    page.wait_for(&format!("JSON.stringify({EYE}) !== '{before}'"));
-    let turned = page.evaluate(EYE);
-    let length = |eye: &Value| (0..3).map(|i| eye[i].as_f64().unwrap().powi(2)).sum::<f64>().sqrt();
-    assert!(
-        (length(&turned) / length(&before) - 1.0).abs() < 0.02,
-        "turned, not zoomed: {before} to {turned}"
-    );
-
-    // Keys turn it, too; controls redraw it and say what they stretch.
-    page.evaluate(
-        "document.getElementById('plot-robot') \
-         .dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }))",
-    );
-    page.wait_for(&format!("JSON.stringify({EYE}) !== '{turned}'"));
-    let heights = "document.getElementById('plot-robot').data \
-        .find((trace) => trace.line?.colorscale).z.reduce((sum, z) => sum + z, 0)";
-    let stretched = page.evaluate(heights).as_f64().unwrap();
-    page.evaluate(
-        "(() => { const sag = document.getElementById('sag'); sag.value = 0; \
-         sag.dispatchEvent(new Event('input', { bubbles: true })); })()",
-    );
-    assert!(
-        page.evaluate(heights).as_f64().unwrap() > stretched,
-        "the true sag is less than the stretched one"
-    );
-    assert_eq!(page.evaluate("document.getElementById('sag-times').textContent"), "\u{d7}1 (true)");
-
-    page.evaluate("document.querySelector('[data-surface=surface_E_rho] [data-show=map]').click()");
-    assert_eq!(page.evaluate("document.getElementById('plot-surface_E_rho').hidden"), true);
-    let map = "document.querySelector('[data-surface=surface_E_rho] .map svg') \
-        .getBoundingClientRect().height > 100";
-    assert_eq!(page.evaluate(map), true);
-    assert_eq!(page.complaints(&file), [""; 0]);
-
-    let other = write_report(&folder, "cogiro", &common::cogiro());
-    page.events.clear();
-    page.show(&other);
-    page.photograph(&folder, "cogiro-1400-light");
-    assert_eq!(page.complaints(&other), [""; 0]);
+    folder.canonicalize().unwrap()
 }
