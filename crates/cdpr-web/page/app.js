@@ -1,7 +1,7 @@
 // The page of a robot: ties state, engine, view and panels together.
 
 import { roundUp } from "./charts/scale.js";
-import { h, setText } from "./dom.js";
+import { h, setText, whenOther } from "./dom.js";
 import { entryWords, point, rangeWithUnit, sharePercent, short, withUnit } from "./format.js";
 import { extents } from "./geometry.js";
 import { layout } from "./layout.js";
@@ -40,6 +40,7 @@ export class App {
   #settle = 0;
   #told = "";
   #queued = false;
+  #otherSlice = whenOther();
 
   /**
    * @param {HTMLElement} element
@@ -325,8 +326,11 @@ export class App {
   #redraw = () => this.#draw();
 
   #drawSlice() {
-    const { plane } = this.slicing;
-    this.view?.showSlice(plane, plane ? slicePixels(this.slicing, this.store.state.slice.quantity) : null);
+    const { plane, cells } = this.slicing;
+    const { quantity } = this.store.state.slice;
+    this.#otherSlice([plane, cells?.done, quantity], () => {
+      this.view?.showSlice(plane, plane ? slicePixels(this.slicing, quantity) : null);
+    });
   }
 
   #repaint = () => {

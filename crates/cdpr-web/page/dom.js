@@ -32,6 +32,19 @@ export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/**
+ * A memory of what was drawn last: the function that it returns draws only where one of the parts is another.
+ * @returns {function(Array<*>, function(): void): void}
+ */
+export function whenOther() {
+  let last = null;
+  return (parts, draw) => {
+    if (last?.length === parts.length && parts.every((part, k) => part === last[k])) return;
+    last = parts;
+    draw();
+  };
+}
+
 /** Sets the value of a field unless somebody is typing there. */
 export function setValue(input, value) {
   const text = String(value);

@@ -1,6 +1,6 @@
 // A slice of the workspace: its plane, its map, and the way to its positions.
 
-import { button, check, choice, h, linear, select, setText, slider } from "../dom.js";
+import { button, check, choice, h, linear, select, setText, slider, whenOther } from "../dom.js";
 import { digits } from "../format.js";
 import { cellAt, heatMap, pixels } from "../charts/map.js";
 import { rangeOf, extreme, positionOf, QUANTITIES, reach, SLICE_AXES } from "../slices.js";
@@ -41,6 +41,7 @@ export function slicePanel(app) {
   );
   let axis = "";
   let at = null;
+  const other = whenOther();
   const place = h("div", {});
   const picture = h("div", {
     class: "map",
@@ -108,13 +109,11 @@ export function slicePanel(app) {
     if (!slicing.plane) return void setText(note, slicing.failure?.reason ?? "");
     const chosen = quantityOf(slice.quantity);
     const here = SLICE_AXES[slice.normal].map((name) => position["xyz".indexOf(name)]);
-    picture.innerHTML = heatMap(
-      slicing.plane,
-      slicing.cells,
-      chosen,
-      { width: app.mapWidth, here, title: mapTitle(slicing, chosen) },
-      app.palette,
-    );
+    const { plane, cells: found } = slicing;
+    other([plane, found.done, chosen.field, ...here, app.palette], () => {
+      const options = { width: app.mapWidth, here, title: mapTitle(slicing, chosen) };
+      picture.innerHTML = heatMap(plane, found, chosen, options, app.palette);
+    });
     setText(note, told());
   }
 
