@@ -350,12 +350,11 @@ export class App {
       }
     }
     this.#askModes();
-    const text = this.#sentence();
-    if (text !== this.#told) {
-      this.#told = text;
-      setText(this.live, text);
-      this.element.dispatchEvent(new CustomEvent("cdpr-state", { detail: this.getState(), bubbles: true }));
-    }
+    setText(this.live, this.#sentence());
+    const told = JSON.stringify(state);
+    if (told === this.#told) return;
+    this.#told = told;
+    this.element.dispatchEvent(new CustomEvent("cdpr-state", { detail: this.getState(), bubbles: true }));
   }
 
   #sentence() {
