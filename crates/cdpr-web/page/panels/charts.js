@@ -115,9 +115,10 @@ export function effectsTitle({ inputs }) {
   return `The ten largest effects on the deflection: ${list.join(", ")}`;
 }
 
-// The reason of the mechanics is told above already.
+// The reason of the mechanics is told above already; of a study that of its pose is enough.
 function reasonWords({ mechanics, store }, { reason }) {
-  return mechanics.failure && store.state.way === "anew" ? "the pose is not held." : reason;
+  if (mechanics.failure && store.state.way === "anew") return "the pose is not held.";
+  return reason.replace(/^study\.json: .*? that the nominal robot can hold: /, "");
 }
 
 function countWords({ observations, milliseconds, coarse, failed }) {
