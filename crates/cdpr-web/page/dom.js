@@ -95,7 +95,7 @@ export function slider({ label, unit = "", scale, digits = 4, min, max, input, c
     range.setAttribute("aria-valuetext", `${Number(value.toPrecision(digits))} ${unit}`.trim());
   };
   range.addEventListener("input", () => {
-    const value = Number(scale.to(range.valueAsNumber / 1000).toPrecision(3));
+    const value = Number(scale.to(range.valueAsNumber / 1000).toPrecision(Math.max(3, digits - 3)));
     typed.value = String(value);
     show(value);
     input(value);
