@@ -1,7 +1,7 @@
 // The page of a robot: ties state, engine, view and panels together.
 
 import { roundUp } from "./charts/scale.js";
-import { h, setText } from "./dom.js";
+import { h, setText, whenOther } from "./dom.js";
 import { entryWords, point, rangeWithUnit, sharePercent, short, withUnit } from "./format.js";
 import { extents } from "./geometry.js";
 import { layout } from "./layout.js";
@@ -40,6 +40,7 @@ export class App {
   #settle = 0;
   #told = "";
   #queued = false;
+  #otherSlice = whenOther();
 
   /**
    * @param {HTMLElement} element
@@ -325,8 +326,11 @@ export class App {
   #redraw = () => this.#draw();
 
   #drawSlice() {
-    const { plane } = this.slicing;
-    this.view?.showSlice(plane, plane ? slicePixels(this.slicing, this.store.state.slice.quantity) : null);
+    const { plane, cells } = this.slicing;
+    const { quantity } = this.store.state.slice;
+    this.#otherSlice([plane, cells?.done, quantity], () => {
+      this.view?.showSlice(plane, plane ? slicePixels(this.slicing, quantity) : null);
+    });
   }
 
   #repaint = () => {
@@ -346,12 +350,11 @@ export class App {
       }
     }
     this.#askModes();
-    const text = this.#sentence();
-    if (text !== this.#told) {
-      this.#told = text;
-      setText(this.live, text);
-      this.element.dispatchEvent(new CustomEvent("cdpr-state", { detail: this.getState(), bubbles: true }));
-    }
+    setText(this.live, this.#sentence());
+    const told = JSON.stringify(state);
+    if (told === this.#told) return;
+    this.#told = told;
+    this.element.dispatchEvent(new CustomEvent("cdpr-state", { detail: this.getState(), bubbles: true }));
   }
 
   #sentence() {

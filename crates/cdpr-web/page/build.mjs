@@ -1,6 +1,7 @@
 // Bundles the page into crates/cdpr-web/dist: `npm run build`. With `--mock` the module is a stand-in.
 
 import { build } from "esbuild";
+import { readFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import path from "node:path";
 
@@ -26,9 +27,12 @@ export async function bundle({ out, mock = false }) {
       onResolve({ filter: /pkg\/cdpr_web\.js$/ }, () => ({ path: path.join(here, "test/mock-live.js") }));
     },
   };
+  const license = await readFile(path.join(here, "node_modules/three/LICENSE"), "utf8");
+  const banner = { js: `/*! With three.js:\n${license}*/` };
   await Promise.all([
     build({
       ...common,
+      banner,
       entryPoints: [path.join(here, "main.js")],
       outfile: path.join(out, "explorer.js"),
       globalName: "cdprExplorer",

@@ -32,6 +32,19 @@ export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/**
+ * A memory of what was drawn last: the function that it returns draws only where one of the parts is another.
+ * @returns {function(Array<*>, function(): void): void}
+ */
+export function whenOther() {
+  let last = null;
+  return (parts, draw) => {
+    if (last?.length === parts.length && parts.every((part, k) => part === last[k])) return;
+    last = parts;
+    draw();
+  };
+}
+
 /** Sets the value of a field unless somebody is typing there. */
 export function setValue(input, value) {
   const text = String(value);
@@ -82,7 +95,7 @@ export function slider({ label, unit = "", scale, digits = 4, min, max, input, c
     range.setAttribute("aria-valuetext", `${Number(value.toPrecision(digits))} ${unit}`.trim());
   };
   range.addEventListener("input", () => {
-    const value = Number(scale.to(range.valueAsNumber / 1000).toPrecision(3));
+    const value = Number(scale.to(range.valueAsNumber / 1000).toPrecision(Math.max(3, digits - 3)));
     typed.value = String(value);
     show(value);
     input(value);

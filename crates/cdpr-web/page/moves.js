@@ -84,7 +84,7 @@ export class Moves {
   // The hand pulls with a force in proportion to its way from where it took the platform.
   #pull(pose) {
     const { mechanics, size, arm } = this.app;
-    const stiffness = (10 * this.newtons) / (0.05 * size);
+    const stiffness = (10 * this.newtons) / (0.1 * size);
     mechanics.pull.force = [0, 1, 2].map((k) => rounded((pose[k] - this.taken.pose[k]) * stiffness, 3));
     mechanics.pull.moment = vectorBetween(this.taken.pose.slice(3), pose.slice(3)).map((angle) =>
       rounded(angle * 10 * this.newtons * arm, 3),

@@ -48,7 +48,7 @@ export function emptyCells({ u: [, , columns], v: [, , rows] }) {
   return { columns, rows, held: new Uint8Array(columns * rows), values, reasons: {}, done: 0 };
 }
 
-/** Puts the answer for the rows from `first` on into the cells. Only positions that are held have values. */
+/** Puts the answer for the rows from `first` on into the cells. */
 export function fill(cells, first, answer) {
   const offset = first * cells.columns;
   answer.held.forEach((held, k) => {
@@ -56,7 +56,7 @@ export function fill(cells, first, answer) {
   });
   for (const [field] of QUANTITIES) {
     answer[field].forEach((value, k) => {
-      cells.values[field][offset + k] = answer.held[k] ? (value ?? NaN) : NaN;
+      cells.values[field][offset + k] = value ?? NaN;
     });
   }
   for (const [kind, count] of Object.entries(answer.reasons ?? {})) {
@@ -88,25 +88,30 @@ export function positionOf({ normal, at, u, v }, column, row) {
   return position;
 }
 
-/** The least and greatest finite value, or null where there is none. */
-export function extent(values) {
-  let min = Infinity,
-    max = -Infinity;
-  for (const value of values) {
-    if (value < min) min = value;
-    if (value > max) max = value;
-  }
-  return min <= max ? [min, max] : null;
+/**
+ * The least and greatest value of a quantity at the positions that are held or, where none is, at those with
+ * tensions out of their limits; null without any.
+ */
+export function rangeOf(cells, field) {
+  const list = known(cells, field);
+  if (list.length === 0) return null;
+  const values = list.map((k) => cells.values[field][k]);
+  return [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
 }
 
-/** Column and row of the greatest or least value, or null. */
+/** Column and row of the greatest (`sign` 1) or least (-1) of these values, or null. */
 export function extreme(cells, field, sign) {
-  let best = null;
-  cells.values[field].forEach((value, k) => {
-    if (Number.isFinite(value) && (best === null || sign * value > sign * cells.values[field][best]))
-      best = k;
-  });
-  return best === null ? null : [best % cells.columns, Math.floor(best / cells.columns)];
+  const list = known(cells, field);
+  if (list.length === 0) return null;
+  const value = (k) => sign * cells.values[field][k];
+  const best = list.reduce((a, b) => (value(b) > value(a) ? b : a));
+  return [best % cells.columns, Math.floor(best / cells.columns)];
+}
+
+function known({ held, values }, field) {
+  const list = Array.from(held.keys()).filter((k) => Number.isFinite(values[field][k]));
+  const within = list.filter((k) => held[k] === 1);
+  return within.length > 0 ? within : list;
 }
 
 function tidy(value) {

@@ -1,9 +1,19 @@
 // The state of the page: what a link, a file and the steps of undo hold. No numbers are derived here.
 
 import { placeOf, rounded } from "./rotation.js";
+import { QUANTITIES } from "./slices.js";
 
 export const FORMAT = "cdpr-explorer/1";
 const MEMORY = 200;
+const COORDINATES = ["x", "y", "z", "roll", "pitch", "yaw"];
+
+// Values of fields of which not every one of their kind will do.
+const CHOICES = {
+  normal: (value) => ["x", "y", "z"].includes(value),
+  quantity: (value) => QUANTITIES.some(([field]) => field === value),
+  cells: (value) => Number.isInteger(value) && value >= 2 && value <= 200,
+  reference: (value) => value === null || value === "mid" || Number.isFinite(value),
+};
 
 /**
  * The state that a robot is first shown in.
@@ -17,6 +27,7 @@ export function initial(robot) {
     way: "anew",
     ...placeOf(pose),
     lengths: null,
+    cables: robot.cables,
     payload: robot.start?.payload ?? 0,
     force: [0, 0, 0],
     moment: [0, 0, 0],
@@ -55,12 +66,14 @@ export function restore(saved, first) {
   }
   const state = structuredClone(first);
   for (const [field, value] of Object.entries(saved)) {
-    if (["format", "robot"].includes(field)) continue;
+    if (["format", "robot", "cables"].includes(field)) continue;
     if (field in first && alike(value, first[field], field)) {
       const nested = ["changes", "view", "slice"].includes(field);
       state[field] = nested ? { ...first[field], ...known(value, first[field]) } : value;
     } else refused.push(field);
   }
+  if (state.lengths?.length !== first.cables) state.lengths = null;
+  if (state.lengths === null) state.way = "anew";
   return { state, refused };
 }
 
@@ -170,27 +183,38 @@ function scalarReference(reference) {
 
 function alike(value, first, field) {
   if (field === "lengths") return value === null || numbers(value);
-  if (field === "pins") return Array.isArray(value) && value.length === 2;
+  if (field === "pins")
+    return Array.isArray(value) && value.length === 2 && value.every((pin) => !pin || isPin(pin));
   if (field === "way") return value === "anew" || value === "kept";
-  if (Array.isArray(first)) {
-    if (!Array.isArray(value)) return false;
-    return field === "free"
-      ? value.every((name) => typeof name === "string")
-      : value.length === first.length && numbers(value);
-  }
+  if (field === "free") return Array.isArray(value) && value.every((name) => COORDINATES.includes(name));
+  if (field === "tolerances") return isObject(value) && Object.values(value).every((factor) => factor >= 0);
+  if (Array.isArray(first)) return numbers(value) && value.length === first.length;
   if (typeof first === "number") return Number.isFinite(value);
-  return value !== null && typeof value === typeof first;
+  return isObject(value) === isObject(first) && typeof value === typeof first;
+}
+
+function isObject(value) {
+  return value !== null && typeof value === "object" && !Array.isArray(value);
+}
+
+function isPin({ position, rpy_deg, force, moment, tensions, lengths }) {
+  const threes = [position, rpy_deg, force, moment].every((list) => numbers(list) && list.length === 3);
+  return threes && numbers(tensions) && tensions.length === 2 && (lengths === null || numbers(lengths));
 }
 
 function numbers(list) {
   return Array.isArray(list) && list.every(Number.isFinite);
 }
 
+// The fields of a part of the state whose values are such as they can have.
 function known(value, first) {
-  return Object.fromEntries(
-    Object.entries(value).filter(
-      ([name, inner]) =>
-        name in first && (first[name] === null || inner === null || typeof inner === typeof first[name]),
-    ),
-  );
+  const fits = (name, inner) => {
+    if (!(name in first)) return false;
+    if (name in CHOICES) return CHOICES[name](inner);
+    if (first[name] === null) return inner === null || Number.isFinite(inner);
+    return typeof inner === "number"
+      ? Number.isFinite(inner) && typeof first[name] === "number"
+      : typeof inner === typeof first[name];
+  };
+  return Object.fromEntries(Object.entries(value).filter(([name, inner]) => fits(name, inner)));
 }

@@ -1,9 +1,12 @@
 // A slice of the workspace as a heat map: pixels for the 3D view, and SVG with axes.
 
 import { digits } from "../format.js";
-import { extent, SLICE_AXES } from "../slices.js";
+import { rangeOf, SLICE_AXES } from "../slices.js";
 import { css, magma, map, stops, tickLabel, ticks } from "./scale.js";
 import { fix, path, rect, svg, text } from "./svg.js";
+
+// Opacity, of 255, of positions with tensions out of their limits.
+const PALE = 110;
 
 /**
  * The colours of the cells, a row of pixels for each row of cells, the last row first (as pictures have it).
@@ -24,7 +27,7 @@ export function pixels(cells, field, range) {
         magma(share(value, range)).forEach((part, c) => {
           data[place + c] = 255 * part;
         });
-        data[place + 3] = 255;
+        data[place + 3] = held[k] === 1 ? 255 : PALE;
       } else if (held[k] !== 0) {
         data.set((row + column) % 2 ? [150, 150, 150, 90] : [150, 150, 150, 50], place);
       }
@@ -43,7 +46,7 @@ export function pixels(cells, field, range) {
 export function heatMap(plane, cells, quantity, { width, here, title }, palette) {
   const frame = mapFrame(plane, width);
   const scales = mapScales(plane, frame);
-  const range = extent(cells.values[quantity.field]);
+  const range = rangeOf(cells, quantity.field);
   const parts = [
     ...rectangles(plane, cells, quantity.field, range, scales, palette),
     ...axes(plane, frame, scales, palette),
@@ -89,7 +92,8 @@ function rectangles({ u, v }, { held, values, columns }, field, range, [x, y], p
     const top = y(v[0] + Math.floor(k / columns) * dv) - height / 2;
     const known = Number.isFinite(value);
     const color = known ? css(magma(share(value, range))) : palette.line;
-    list.push(rect(left, top, width + 0.4, height + 0.4, color, known ? "" : 'fill-opacity="0.55"'));
+    const opacity = known && held[k] === 1 ? "" : `fill-opacity="${(known ? PALE / 255 : 0.55).toFixed(2)}"`;
+    list.push(rect(left, top, width + 0.4, height + 0.4, color, opacity));
   }
   return list;
 }

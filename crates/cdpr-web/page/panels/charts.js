@@ -1,6 +1,6 @@
 // Histogram and effects at the pose on screen, with what they say in a sentence.
 
-import { h, setText } from "../dom.js";
+import { h, setText, whenOther } from "../dom.js";
 import { digits, entryWords, parameterWords, sharePercent } from "../format.js";
 import { effectBars, largest } from "../charts/effects.js";
 import { histogram } from "../charts/histogram.js";
@@ -43,6 +43,7 @@ export function chartsPanel(app) {
     failed,
     h("div", { class: "pair" }, ...parts),
   );
+  const [firstOther, secondOther] = [whenOther(), whenOther()];
   const observer = new ResizeObserver(() => update());
   observer.observe(element);
   return { element, update, dispose: () => observer.disconnect() };
@@ -57,27 +58,23 @@ export function chartsPanel(app) {
     if (failure) setText(failed, `No observations here: ${reasonWords(app, failure)}`);
     element.classList.toggle("stale", Boolean(failure));
     setText(says, sentence(app));
+    const { palette } = app;
     const width = Math.max(240, Math.floor(first.clientWidth));
-    if (sample && sample.summary.count > 1) {
-      first.innerHTML = histogram(
-        sample.summary,
-        { width, height: 190, nominal: sample.nominal, title: histogramTitle(sample) },
-        app.palette,
-      );
-      setText(numbers, statisticsWords(sample));
-      setText(counted, `${countWords(sample)} ${conditionWords(app)}`);
-    } else {
-      first.replaceChildren();
-      setText(numbers, "");
-      setText(counted, "");
-    }
-    if (effects) {
-      second.innerHTML = effectBars(
-        effects.inputs,
-        { width: Math.max(240, Math.floor(second.clientWidth)), title: effectsTitle(effects) },
-        app.palette,
-      );
-    } else second.replaceChildren();
+    firstOther([sample, width, palette], () => drawHistogram(sample, width));
+    if (sample) setText(counted, `${countWords(sample)} ${conditionWords(app)}`);
+    secondOther([effects, width, palette], () => {
+      if (!effects) return second.replaceChildren();
+      second.innerHTML = effectBars(effects.inputs, { width, title: effectsTitle(effects) }, palette);
+    });
+  }
+
+  function drawHistogram(sample, width) {
+    const some = sample && sample.summary.count > 1;
+    setText(numbers, some ? statisticsWords(sample) : "");
+    if (!sample) setText(counted, "");
+    if (!some) return first.replaceChildren();
+    const options = { width, height: 190, nominal: sample.nominal, title: histogramTitle(sample) };
+    first.innerHTML = histogram(sample.summary, options, app.palette);
   }
 }
 
@@ -118,9 +115,10 @@ export function effectsTitle({ inputs }) {
   return `The ten largest effects on the deflection: ${list.join(", ")}`;
 }
 
-// The reason of the mechanics is told above already.
+// The reason of the mechanics is told above already; of a study that of its pose is enough.
 function reasonWords({ mechanics, store }, { reason }) {
-  return mechanics.failure && store.state.way === "anew" ? "the pose is not held." : reason;
+  if (mechanics.failure && store.state.way === "anew") return "the pose is not held.";
+  return reason.replace(/^study\.json: .*? that the nominal robot can hold: /, "");
 }
 
 function countWords({ observations, milliseconds, coarse, failed }) {

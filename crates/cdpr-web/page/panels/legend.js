@@ -4,7 +4,7 @@ import { h, setText } from "../dom.js";
 import { digits } from "../format.js";
 import { magma, stops, viridis } from "../charts/scale.js";
 import { isWide } from "../charts/map.js";
-import { extent } from "../slices.js";
+import { rangeOf } from "../slices.js";
 import { quantityOf } from "./slice.js";
 
 /** @param {object} app */
@@ -19,7 +19,7 @@ export function legendOf(app) {
     const { store, slicing, mechanics, range } = app;
     tensions.update("tension at the platform [N]", [0, range / 2, range]);
     const { words, unit, field } = quantityOf(store.state.slice.quantity);
-    const found = slicing.plane && extent(slicing.cells.values[field]);
+    const found = slicing.plane && rangeOf(slicing.cells, field);
     slice.element.hidden = !found;
     if (found) {
       const [min, max] = found;

@@ -12,8 +12,8 @@ const ROWS = [
   ["least stiffness", ({ stiffness }) => withUnit(stiffness, "N/m")],
   ["least tension", ({ tensions }) => withUnit(tensions[0], "N")],
   ["greatest tension", ({ tensions }) => withUnit(tensions[1], "N")],
-  ["mean of the observations", ({ mean_mm }) => (mean_mm === null ? "none" : `${digits(mean_mm)} mm`)],
-  ["their standard deviation", ({ std_mm }) => (std_mm === null ? "none" : `${digits(std_mm)} mm`)],
+  ["mean observed", ({ mean_mm }) => (mean_mm === null ? "none" : `${digits(mean_mm)} mm`)],
+  ["standard deviation", ({ std_mm }) => (std_mm === null ? "none" : `${digits(std_mm)} mm`)],
   ["matters most", ({ most }) => most ?? "none"],
 ];
 

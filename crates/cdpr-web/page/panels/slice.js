@@ -1,10 +1,16 @@
 // A slice of the workspace: its plane, its map, and the way to its positions.
 
-import { button, check, choice, h, linear, select, setText, slider } from "../dom.js";
+import { button, check, choice, h, linear, select, setText, slider, whenOther } from "../dom.js";
 import { digits } from "../format.js";
 import { cellAt, heatMap, pixels } from "../charts/map.js";
-import { extent, extreme, positionOf, QUANTITIES, reach, SLICE_AXES } from "../slices.js";
+import { rangeOf, extreme, positionOf, QUANTITIES, reach, SLICE_AXES } from "../slices.js";
 import { panel } from "./panel.js";
+
+// Why positions are not held, and how they are drawn.
+const REASONS = {
+  beyond_limits: "with a tension out of its limits (pale)",
+  infeasible_tension: "without tensions that hold the platform (grey)",
+};
 
 /** @param {object} app */
 export function slicePanel(app) {
@@ -35,6 +41,7 @@ export function slicePanel(app) {
   );
   let axis = "";
   let at = null;
+  const other = whenOther();
   const place = h("div", {});
   const picture = h("div", {
     class: "map",
@@ -102,13 +109,11 @@ export function slicePanel(app) {
     if (!slicing.plane) return void setText(note, slicing.failure?.reason ?? "");
     const chosen = quantityOf(slice.quantity);
     const here = SLICE_AXES[slice.normal].map((name) => position["xyz".indexOf(name)]);
-    picture.innerHTML = heatMap(
-      slicing.plane,
-      slicing.cells,
-      chosen,
-      { width: app.mapWidth, here, title: mapTitle(slicing, chosen) },
-      app.palette,
-    );
+    const { plane, cells: found } = slicing;
+    other([plane, found.done, chosen.field, ...here, app.palette], () => {
+      const options = { width: app.mapWidth, here, title: mapTitle(slicing, chosen) };
+      picture.innerHTML = heatMap(plane, found, chosen, options, app.palette);
+    });
     setText(note, told());
   }
 
@@ -116,13 +121,14 @@ export function slicePanel(app) {
     if (slicing.failure) return `The slice failed: ${slicing.failure.reason}.`;
     const { held, reasons, done } = slicing.cells;
     const count = held.filter((state) => state === 1).length;
-    const why = Object.entries(reasons)
-      .map(([kind, n]) => `${n} ${kind.replaceAll("_", " ")}`)
-      .join(", ");
-    return (
-      `${done} of ${held.length} positions computed, ${count} held${why && `; not held (grey): ${why}`}.` +
-      " Click or tap on a position to go there. Deflection is with the lengths kept."
+    const why = Object.entries(reasons).map(
+      ([kind, n]) => `${n} ${REASONS[kind] ?? kind.replaceAll("_", " ")}`,
     );
+    const rest = why.length > 0 ? `; ${why.join(", ")}` : "";
+    return [
+      `${done} of ${held.length} positions computed, ${count} held${rest}.`,
+      "Click or tap on a position to go there. Everything is with the lengths kept.",
+    ].join(" ");
   }
 
   function go(sign) {
@@ -147,12 +153,12 @@ export function quantityOf(field) {
 
 /** Pixels of the slice for the 3D view. */
 export function slicePixels({ cells }, field) {
-  return pixels(cells, field, extent(cells.values[field]));
+  return pixels(cells, field, rangeOf(cells, field));
 }
 
 /** What a map shows, in a sentence. */
 export function mapTitle({ plane, cells }, { field, words, unit }) {
-  const range = extent(cells.values[field]);
+  const range = rangeOf(cells, field);
   const numbers = range ? `, ${digits(range[0], 3)} to ${digits(range[1], 3)} ${unit}` : "";
   return `${words} over the plane ${plane.normal} = ${digits(plane.at, 4)} m${numbers}`;
 }

@@ -36,11 +36,11 @@ export function tolerancesPanel(app) {
     one.element.append(share);
     return { name, nominal, share, ...one };
   });
-  const count = select(
-    "observations",
-    COUNTS.map((n) => [String(n), String(n)]),
-    (value) => store.set({ observations: Number(value) }, { commit: true }),
-  );
+  const counts = [...new Set([...COUNTS, app.first.observations])].sort((a, b) => a - b);
+  const options = counts.map((n) => [String(n), String(n)]);
+  const count = select("observations", options, (value) => {
+    store.set({ observations: Number(value) }, { commit: true });
+  });
   return panel(
     "Tolerances",
     { open: true, update },

@@ -4,7 +4,7 @@ import { bodyPoints, exaggerated, extents, followed, moved, ring } from "../geom
 import { changedRobot, isChanged, ofStudy, scaled, shares, studyOf, width } from "../robot.js";
 import { initial } from "../state.js";
 import { cellAt, mapFrame, mapScales } from "../charts/map.js";
-import { emptyCells, extreme, fill, plane, positionOf, rowOrder } from "../slices.js";
+import { emptyCells, extreme, fill, plane, positionOf, rangeOf, rowOrder } from "../slices.js";
 
 const none = { modulus: 1, density: 1, reference: null, least: null, greatest: null };
 const uniform = (half) => ({ law: { uniform: { min: -half, max: half } } });
@@ -97,15 +97,18 @@ test("rows are asked for once each, those far apart first", () => {
   );
 });
 
-test("cells take rows, and positions that are not held have no values", () => {
+test("cells take rows; the range is of positions that are held, and of all where none is", () => {
   const cells = emptyCells({ u: [0, 1, 2], v: [0, 1, 2] });
-  const values = { deflection_mm: [1, 2], least_stiffness: [3, 4], tension_min: [5, 6], tension_max: [7, 8] };
-  fill(cells, 1, { held: [1, 0], ...values, reasons: { beyond_limits: 1 } });
-  assert.deepEqual([...cells.held], [0, 0, 1, 2]);
-  assert.equal(cells.values.deflection_mm[2], 1);
-  assert.ok(Number.isNaN(cells.values.deflection_mm[3]));
-  assert.deepEqual(extreme(cells, "deflection_mm", 1), [0, 1]);
-  assert.equal(cells.done, 2);
+  const rest = { least_stiffness: [3, 4], tension_min: [5, 6], tension_max: [7, 8], reasons: {} };
+  assert.equal(rangeOf(cells, "deflection_mm"), null);
+  fill(cells, 0, { held: [0, 0], deflection_mm: [9, null], ...rest });
+  assert.deepEqual([...cells.held], [2, 2, 0, 0]);
+  assert.deepEqual(rangeOf(cells, "deflection_mm"), [9, 9]);
+  fill(cells, 1, { held: [1, 1], deflection_mm: [1, 2], ...rest, reasons: { beyond_limits: 1 } });
+  assert.deepEqual(rangeOf(cells, "deflection_mm"), [1, 2]);
+  assert.deepEqual(extreme(cells, "deflection_mm", 1), [1, 1]);
+  assert.deepEqual(extreme(cells, "deflection_mm", -1), [0, 1]);
+  assert.deepEqual([cells.done, cells.reasons.beyond_limits], [4, 1]);
 });
 
 test("a click in the middle of a cell finds the cell", () => {

@@ -4,6 +4,7 @@ import { decode, encode, initial, restore, Store } from "../state.js";
 
 const robot = {
   name: "two",
+  cables: 2,
   free: [],
   start: { pose: [0.1, 0.2, 1.5, 1, 0, 0, 0], payload: 5 },
   study: { samplings: { all: { observations: 512 } } },
@@ -92,4 +93,22 @@ test("listeners hear of changes, and not of what an answer brings", () => {
     [6, 5, false],
     [5, 7, true],
   ]);
+});
+
+test("a state that would break the page is mended where it is read", () => {
+  const first = initial(robot);
+  const saved = {
+    way: "kept",
+    lengths: [1, 2, 3],
+    free: ["roll", "up"],
+    tolerances: { a: -1 },
+    pins: [{ position: [1, 2, 3] }, null],
+    changes: { modulus: null, reference: "high", least: 5 },
+    slice: { normal: "w", cells: 1e6, quantity: "colour", shown: true },
+  };
+  const { state, refused } = restore(saved, first);
+  assert.deepEqual(refused.sort(), ["free", "pins", "tolerances"]);
+  assert.deepEqual([state.way, state.lengths], ["anew", null]);
+  assert.deepEqual(state.changes, { ...first.changes, least: 5 });
+  assert.deepEqual(state.slice, { ...first.slice, shown: true });
 });

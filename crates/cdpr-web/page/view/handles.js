@@ -19,7 +19,7 @@ export class Handles {
     scene.add(this.proxy);
     this.controls = new TransformControls(camera, surface);
     this.controls.attach(this.proxy);
-    this.controls.setSize(0.85);
+    this.controls.setSize(matchMedia("(pointer: coarse)").matches ? 1.3 : 0.85);
     scene.add(this.controls.getHelper());
     this.held = held;
     this.taken = false;
