@@ -94,6 +94,8 @@ pub struct Response<T> {
     pub end_per_length: [T; 2],
     /// Tension T at A [N].
     pub tension: T,
+    /// 1/T [1/N].
+    pub tension_inv: T,
     /// Direction (fx, fz)/T of the force at A.
     pub direction: [T; 2],
     /// Slackness q², from 0 for a straight cable to 1 for one that hangs folded.
@@ -221,6 +223,7 @@ impl Response<f64> {
             lateral_flexibility: of(self.lateral_flexibility),
             end_per_length: self.end_per_length.map(&of),
             tension: of(self.tension),
+            tension_inv: of(self.tension_inv),
             direction: self.direction.map(&of),
             slackness: of(self.slackness),
         }
@@ -298,6 +301,7 @@ impl<T: Field> Terms<T> {
             lateral_flexibility,
             end_per_length: [fx * entering, v0 * entering],
             tension: t,
+            tension_inv,
             direction: [fx * tension_inv, fz * tension_inv],
             slackness: q2,
         }

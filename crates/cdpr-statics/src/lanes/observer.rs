@@ -12,17 +12,16 @@ use crate::error::StaticsError;
 use crate::inverse::{Branch, InverseSolution};
 use crate::lanes::algebra::{six, three};
 use crate::lanes::cable::LaneCable;
-use crate::lanes::chain::{ChainStart, Choice, Shared, observe};
+use crate::lanes::chain::{ChainStart, Choice, Shape, Shared, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale, in_lanes};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{deflection, deflection_near};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
-use cdpr_cable::kernel::Field;
+use crate::state::{Load, Residual, rounding_of_closure};
+use cdpr_cable::kernel::{Field, response};
 use cdpr_robot::{Axis, Parameter, ParameterLayout, Pose, Robot, Vector3, Vector6};
-use cdpr_tension::Bound;
 use smallvec::SmallVec;
 use std::array::from_fn;
 
@@ -62,8 +61,6 @@ pub struct Observer<'a> {
 /// The nominal robot at the wanted pose.
 #[derive(Clone, Debug)]
 struct Nominal {
-    equilibrium: Equilibrium,
-    lengths: Vec<f64>,
     multipliers: Vector6<f64>,
     shared: Shared,
 }
@@ -134,14 +131,14 @@ impl Nominal {
         let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let reference = robot.reference();
-        let choice = |(i, (reference, active)): (usize, (&f64, &Option<Bound>))| Choice {
+        let choice = |(i, reference): (usize, &f64)| Choice {
             reference: *reference,
             limits: robot.limits(i),
             max_at: robot.max_at(i),
-            active: *active,
+            shape: shape(robot, pose, i, &solution),
         };
         let shared = Shared {
-            choices: reference.iter().zip(&solution.active).enumerate().map(choice).collect(),
+            choices: reference.iter().enumerate().map(choice).collect(),
             tension: solution.tensions.iter().sum(),
             scale: Scale {
                 size: problem.size(),
@@ -149,13 +146,19 @@ impl Nominal {
                 rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
             },
         };
-        Ok(Self {
-            equilibrium: solution.equilibrium,
-            lengths: solution.lengths,
-            multipliers: solution.multipliers,
-            shared,
-        })
+        Ok(Self { multipliers: solution.multipliers, shared })
     }
+}
+
+/// The shape of a cable of the nominal robot at the wanted pose.
+fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape {
+    let span = robot.span(pose, i);
+    let (chord, height) = (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
+    let (cable, length, force) = (robot.cable(i), solution.lengths[i], solution.equilibrium.cable_forces[i]);
+    let flexibility = 1.0 / cable.axial_stiffness;
+    let answer = response(cable.weight_per_length, flexibility, length, force.into());
+    let chord_force = chord / answer.lateral_flexibility;
+    Shape { chord_force, sag_force: force.y - chord_force * height / chord, longer: length - chord }
 }
 
 /// Rows of deviations for the lanes.
@@ -293,15 +296,14 @@ impl<S: Simd> Rows<'_, S> {
                 & zero.less_or_equal(density)
                 & tiny.less_or_equal(modulus)
                 & offset.less_or_equal(offset);
-            let force = nominal.equilibrium.cable_forces[i];
             start.offsets.push(offset);
             start.robots.cables.push(LaneCable {
                 weight_per_length: density * gravity,
                 axial_flexibility: (modulus * cable.properties.section).recip(),
                 exit_point: self.point(layout.exit_point(i), &cable.exit_point),
                 anchor_arm: rotate(pose, &self.point(layout.anchor_point(i), &cable.anchor_point)),
-                length: self.all(nominal.lengths[i]),
-                force: [self.all(force.x), self.all(force.y)],
+                length: zero,
+                force: [zero; 2],
             });
         }
         if let Some(level) = &level {
