@@ -39,8 +39,8 @@ use cdpr_cable::kernel::{FOLDED, Field, Lanewise, Response, TAUT};
 use cdpr_robot::{CableEnd, TensionLimits};
 
 /// Robots at their wanted pose.
-pub(crate) struct ChainStart<S: Simd> {
-    pub(crate) robots: Robots<S>,
+pub(crate) struct ChainStart<'a, S: Simd> {
+    pub(crate) robots: Robots<'a, S>,
     /// Offset of the tension set-point of each cable [N].
     pub(crate) offsets: Vec<Lanes<S>>,
     /// λ to start from.
@@ -127,7 +127,7 @@ const MAX_DISTRIBUTIONS: usize = 20;
 /// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at
 /// the wanted pose.
 #[inline(always)]
-pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome<S> {
+pub(crate) fn observe<S: Simd>(begin: ChainStart<'_, S>, shared: &Shared) -> Outcome<S> {
     let ChainStart { mut robots, offsets, multipliers, payload } = begin;
     let robots = &mut robots;
     let zero = robots.weight.all(0.0);
@@ -160,7 +160,7 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome
     Outcome { passed: [converged, sound, held, standing, answered], displacement, unloaded, loaded }
 }
 
-impl<S: Simd> LaneCable<S> {
+impl<S: Simd> LaneCable<'_, S> {
     /// The tensions at the platform that the limits allow [N], as `limits_at` has them.
     #[inline(always)]
     fn limits(&self, span: &Span<Lanes<S>>, choice: &Choice) -> [Lanes<S>; 2] {
@@ -201,7 +201,7 @@ struct HeldCable<S: Simd> {
 
 impl<S: Simd> HeldCable<S> {
     #[inline(always)]
-    fn new(cable: &LaneCable<S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
+    fn new(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
         let [xx, xz, zz] = response.flexibility;
         let [ux, uz] = response.direction;
         let miss = span.misclosure(response.end);
@@ -244,7 +244,7 @@ impl<S: Simd> HeldCable<S> {
     /// L' = -h² S² (φ - 1)/(fx L),     L L'' = h² S² ((φ - 1)² + u²)/fx² - L'²
     /// ```
     #[inline(always)]
-    fn curvature(&self, cable: &LaneCable<S>, span: &Span<Lanes<S>>) -> Lanes<S> {
+    fn curvature(&self, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Lanes<S> {
         let [h, z] = span.end;
         let fx_inv = cable.force[0].recip();
         let u = cable.weight_per_length * h * fx_inv * 0.5;
@@ -264,7 +264,7 @@ impl<S: Simd> HeldCable<S> {
     ///
     /// Newton's step towards the least tension, over ln fx, lowers it by half of `(fx t')²/(fx t' + fx² t'')`.
     #[inline(always)]
-    fn is_taut(&self, cable: &LaneCable<S>) -> Mask<S> {
+    fn is_taut(&self, cable: &LaneCable<'_, S>) -> Mask<S> {
         let fx = cable.force[0];
         let slope = fx * self.tension_slope;
         let curvature = slope + fx * fx * self.curvatures[0];
@@ -280,7 +280,7 @@ impl<S: Simd> HeldCable<S> {
 
     /// Changes fx by `d` where `going`. Returns the largest relative change made.
     #[inline(always)]
-    fn change(&self, cable: &mut LaneCable<S>, d: Lanes<S>, going: Mask<S>, shared: &Shared) -> Lanes<S> {
+    fn change(&self, cable: &mut LaneCable<'_, S>, d: Lanes<S>, going: Mask<S>, shared: &Shared) -> Lanes<S> {
         let [fx, fz] = cable.force;
         let d = d.max(fx * -GREATEST_LOSS);
         let rise = self.closing[0] + self.rise * d;
@@ -297,7 +297,7 @@ impl<S: Simd> HeldCable<S> {
 /// found, and those where no cable is folded and no limits exclude each other.
 #[inline(always)]
 fn distribute<S: Simd>(
-    robots: &mut Robots<S>,
+    robots: &mut Robots<'_, S>,
     mut multipliers: Lanes6<S>,
     offsets: &mut [Lanes<S>],
     spans: &[Span<Lanes<S>>],
@@ -371,12 +371,11 @@ fn distribute<S: Simd>(
             moved = moved.max(held.change(cable, d, going, shared));
         }
         multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
-        let last = going & settled & moved.less_or_equal(last_change);
+        let (force, moment) = halves(&balance);
+        let balanced = dot(&force, &force).less_or_equal(zero.all(unbalanced * unbalanced))
+            & dot(&moment, &moment).less_or_equal(zero.all(unbalanced * arm * unbalanced * arm));
+        let last = going & settled & balanced & moved.less_or_equal(last_change);
         if last.any() {
-            let (force, moment) = halves(&balance);
-            let balanced = dot(&force, &force).less_or_equal(zero.all(unbalanced * unbalanced))
-                & dot(&moment, &moment).less_or_equal(zero.all(unbalanced * arm * unbalanced * arm));
-            within = within & (balanced | !last);
             let cables = rows.iter().zip(&all_held).zip(&mut robots.cables).zip(&mut *offsets);
             for ((((row, held), cable), offset), [least, greatest]) in cables.zip(&limits) {
                 let (least, greatest) = (*least, *greatest);
@@ -406,7 +405,7 @@ fn distribute<S: Simd>(
 /// the lanes where all were found.
 #[inline(always)]
 fn hold<S: Simd>(
-    robots: &mut Robots<S>,
+    robots: &mut Robots<'_, S>,
     platform: &mut LinearizedPlatform<S>,
     set_points: &[Lanes<S>],
     spans: &[Span<Lanes<S>>],

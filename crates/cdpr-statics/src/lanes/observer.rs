@@ -14,14 +14,15 @@ use crate::lanes::algebra::{six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::{ChainStart, Choice, Shape, Shared, observe};
 use crate::lanes::level::LevelFrame;
-use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale, in_lanes};
+use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{deflection, deflection_near};
 use crate::problem::DirectProblem;
 use crate::state::{Load, Residual, rounding_of_closure};
-use cdpr_cable::kernel::{Field, response};
-use cdpr_robot::{Axis, Parameter, ParameterLayout, Pose, Robot, Vector3, Vector6};
+use cdpr_cable::kernel::{Field, LaneSegment};
+use cdpr_cable::{Catenary, PiecewiseLaw};
+use cdpr_robot::{Axis, Parameter, ParameterLayout, Pose, Robot, RobotCable, Vector3, Vector6};
 use smallvec::SmallVec;
 use std::array::from_fn;
 
@@ -62,6 +63,8 @@ pub struct Observer<'a> {
 #[derive(Clone, Debug)]
 struct Nominal {
     multipliers: Vector6<f64>,
+    /// Segments of the elastic law of each cable; none of a linear one.
+    laws: Vec<Vec<LaneSegment>>,
     shared: Shared,
 }
 
@@ -123,9 +126,8 @@ impl Nominal {
         load: &Load,
         solution: Option<InverseSolution>,
     ) -> Result<Self, ScalarReason> {
-        match ScalarReason::of_all(robot, load) {
-            Some(why) => return Err(why),
-            None => debug_assert!(in_lanes(robot)),
+        if let Some(why) = ScalarReason::of_all(robot, load) {
+            return Err(why);
         }
         let solution = solution.ok_or(ScalarReason::NominalRobot)?;
         let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
@@ -146,7 +148,9 @@ impl Nominal {
                 rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
             },
         };
-        Ok(Self { multipliers: solution.multipliers, shared })
+        let law = |cable: &RobotCable| cable.properties.law.as_ref().map(PiecewiseLaw::lane_segments);
+        let laws = robot.cables.iter().map(|cable| law(cable).unwrap_or_default()).collect();
+        Ok(Self { multipliers: solution.multipliers, laws, shared })
     }
 }
 
@@ -154,11 +158,14 @@ impl Nominal {
 fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape {
     let span = robot.span(pose, i);
     let (chord, height) = (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
-    let (cable, length, force) = (robot.cable(i), solution.lengths[i], solution.equilibrium.cable_forces[i]);
-    let flexibility = 1.0 / cable.axial_stiffness;
-    let answer = response(cable.weight_per_length, flexibility, length, force.into());
+    let (unstrained_length, force) = (solution.lengths[i], solution.equilibrium.cable_forces[i]);
+    let answer = Catenary { cable: robot.cable(i), unstrained_length, force }.response();
     let chord_force = chord / answer.lateral_flexibility;
-    Shape { chord_force, sag_force: force.y - chord_force * height / chord, longer: length - chord }
+    Shape {
+        chord_force,
+        sag_force: force.y - chord_force * height / chord,
+        longer: unstrained_length - chord,
+    }
 }
 
 /// Rows of deviations for the lanes.
@@ -250,13 +257,13 @@ impl<S: Simd> Rows<'_, S> {
     /// The perturbed robots in their level frames, these frames where they are not the base frame, and the
     /// lanes whose robot is valid.
     #[inline(always)]
-    fn robots(
+    fn robots<'a>(
         &self,
         robot: &Robot,
         pose: &Pose,
         load: &Load,
-        nominal: &Nominal,
-    ) -> (ChainStart<S>, Option<LevelFrame<S>>, Mask<S>) {
+        nominal: &'a Nominal,
+    ) -> (ChainStart<'a, S>, Option<LevelFrame<S>>, Mask<S>) {
         let n = robot.cables.len();
         let layout = ParameterLayout::of(robot);
         let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
@@ -298,6 +305,7 @@ impl<S: Simd> Rows<'_, S> {
                 & offset.less_or_equal(offset);
             start.offsets.push(offset);
             start.robots.cables.push(LaneCable {
+                law: &nominal.laws[i],
                 weight_per_length: density * gravity,
                 axial_flexibility: (modulus * cable.properties.section).recip(),
                 exit_point: self.point(layout.exit_point(i), &cable.exit_point),
@@ -313,7 +321,7 @@ impl<S: Simd> Rows<'_, S> {
     }
 }
 
-impl<S: Simd> ChainStart<S> {
+impl<S: Simd> ChainStart<'_, S> {
     /// Rotates the robots from the base frame into their level frames.
     #[inline(always)]
     fn rotate(&mut self, level: &LevelFrame<S>) {
