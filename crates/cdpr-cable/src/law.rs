@@ -12,7 +12,7 @@
 //! per length is `∫ ε dT = c_k + (α_k - 1) T + T²/2EA_k`.
 
 use crate::error::{CableError, check};
-use crate::kernel::Field;
+use crate::kernel::{Field, LaneSegment};
 
 /// Strain as a function of the tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,6 +145,19 @@ impl PiecewiseLaw {
             flexibility: axial_flexibility * (1.0 / ratio),
             energy: axial_flexibility * (scaled_energy - scaled_strain * t + 0.5 * t * t / ratio),
         }
+    }
+
+    /// The segments as lanes take them.
+    pub fn lane_segments(&self) -> Vec<LaneSegment> {
+        let of = |piece: &Piece| {
+            let Segment { tension, ratio } = piece.segment;
+            LaneSegment {
+                from: tension,
+                offset: piece.scaled_strain - tension / ratio,
+                flexibility: 1.0 / ratio,
+            }
+        };
+        self.pieces.iter().map(of).collect()
     }
 
     /// Tensions at which the stiffness changes [N].

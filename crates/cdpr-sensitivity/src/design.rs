@@ -17,6 +17,10 @@ pub mod sobol;
 use crate::design::input::{Input, Prepared};
 use crate::error::{SensitivityError, check_length, check_range};
 
+/// Version of the points of all designs. It rises where the same arguments give other points, so that rows
+/// that were observed before are not continued by others.
+pub const POINTS_VERSION: u32 = 2;
+
 /// What every design has: its inputs, its size and the seed of its randomisation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
@@ -114,13 +118,18 @@ pub trait SampleDesign: Sized + Sync {
     /// As [`SampleDesign::unit_points`].
     fn rows(&self, first: usize, rows: &mut [f64]) -> Result<(), SensitivityError> {
         self.unit_points(first, rows)?;
-        let inputs: Vec<Prepared> = self.inputs().iter().map(Input::prepare).collect();
-        for row in rows.chunks_exact_mut(inputs.len()) {
-            for (value, input) in row.iter_mut().zip(&inputs) {
-                *value = input.value(*value);
-            }
-        }
+        to_values(self.inputs(), rows);
         Ok(())
+    }
+}
+
+/// Makes values of the inputs from points of the unit cube.
+pub(crate) fn to_values(inputs: &[Input], points: &mut [f64]) {
+    let inputs: Vec<Prepared> = inputs.iter().map(Input::prepare).collect();
+    for point in points.chunks_exact_mut(inputs.len()) {
+        for (value, input) in point.iter_mut().zip(&inputs) {
+            *value = input.value(*value);
+        }
     }
 }
 
@@ -139,6 +148,18 @@ pub(crate) fn check_row(
 ) -> Result<(), SensitivityError> {
     check_range("index", index as u64, 0, design.points() as u64 - 1)?;
     check_length("row", row.len(), design.inputs().len())
+}
+
+/// Checks that consecutive rows from `first` on are whole ones of a design.
+pub(crate) fn check_rows(
+    design: &impl SampleDesign,
+    first: usize,
+    rows: &[f64],
+) -> Result<(), SensitivityError> {
+    let width = design.inputs().len();
+    check_length("rows", rows.len(), rows.len().next_multiple_of(width))?;
+    let last = (first + rows.len() / width).saturating_sub(1);
+    check_range("index", first.max(last) as u64, 0, design.points() as u64 - 1)
 }
 
 /// Checks that consecutive points lie within a sequence of 2^32 points.

@@ -74,7 +74,7 @@ pub use design::observation::observe;
 pub use design::random::RandomDesign;
 pub use design::saltelli::{Order, SaltelliDesign};
 pub use design::sobol::{Sobol, SobolDesign};
-pub use design::{IndependentSample, JointSample, Layout, SampleDesign};
+pub use design::{IndependentSample, JointSample, Layout, POINTS_VERSION, SampleDesign};
 pub use error::SensitivityError;
 pub use family::Family;
 pub use given::analysis::{

@@ -9,5 +9,6 @@ mod fit;
 mod given;
 mod global;
 mod law;
+mod scrambling;
 mod sobol;
 mod summary;

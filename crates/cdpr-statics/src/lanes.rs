@@ -7,6 +7,7 @@ mod chain;
 mod level;
 mod newton;
 mod observer;
+mod program;
 mod reason;
 mod simd;
 mod tracker;

@@ -1,5 +1,6 @@
 //! Lanes over random robots, poses, loads and deviations: the answers of the scalar models.
 
+use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{
     CableEnd, CableProperties, OwnLimits, Parameter, Platform, Pose, Robot, RobotCable, Rotation3,
     TensionLimits, TensionReference, Vector3,
@@ -37,7 +38,8 @@ fn in_cube(rng: &mut ChaCha8Rng) -> Vector3<f64> {
 }
 
 /// Robots of 1 m to 300 m with 6 to 16 cables, suspended or held from all sides, level or not; straight cables
-/// and such that weigh more than the platform; with limits and preferred tensions that are active or not.
+/// and such that weigh more than the platform; with limits and preferred tensions that are active or not,
+/// linear or with an elastic law.
 /// `None` where the robot cannot be held.
 fn case(seed: u64) -> Option<Case> {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
@@ -49,7 +51,15 @@ fn case(seed: u64) -> Option<Case> {
     let suspended = rng.random_bool(0.6);
     let density = log_uniform(rng, 1e-5, 1.0) * mass / (size * f64::from(n));
     let modulus = weight / log_uniform(rng, 1e-6, 1e-2) / 1e-5;
-    let properties = CableProperties::linear(1e-5, density, modulus);
+    let mut properties = CableProperties::linear(1e-5, density, modulus);
+    // A generator of its own leaves the other numbers of linear robots as they are.
+    let of_law = &mut ChaCha8Rng::seed_from_u64(!seed);
+    if of_law.random_bool(0.25) {
+        let kink = weight * log_uniform(of_law, 0.03, 1.0);
+        let segments = [0.0, kink, kink * of_law.random_range(1.1..3.0)];
+        let segments = segments.map(|tension| Segment { tension, ratio: of_law.random_range(0.6..1.4) });
+        properties.law = PiecewiseLaw::new(0.0, &segments).ok();
+    }
     let cables: Vec<_> = (0..n)
         .map(|_| {
             let mut exit_point = in_cube(rng) * (0.5 * size);

@@ -139,6 +139,7 @@ pub(crate) fn response<T: Real>(
         lateral_flexibility: zero,
         end_per_length: [zero; 2],
         tension,
+        tension_inv: tension.recip(),
         direction: [fx / tension, fz / tension],
         slackness: q * q,
     };

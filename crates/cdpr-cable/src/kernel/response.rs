@@ -94,6 +94,8 @@ pub struct Response<T> {
     pub end_per_length: [T; 2],
     /// Tension T at A [N].
     pub tension: T,
+    /// 1/T [1/N].
+    pub tension_inv: T,
     /// Direction (fx, fz)/T of the force at A.
     pub direction: [T; 2],
     /// Slackness q², from 0 for a straight cable to 1 for one that hangs folded.
@@ -115,16 +117,7 @@ pub fn response<T: Real>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]
 /// Cables that hang folded, with a slackness above [`FOLDED`], lose digits.
 #[inline(always)]
 pub fn lane_response<T: Lanewise>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
-    let terms = Terms::with_square(w, axial_flexibility, length, fx, fz, fx * fx);
-    let q2 = terms.slackness();
-    let taut = q2.at_most(TAUT);
-    let (mut psi, mut shape) = (psi_of_taut(q2), terms.shape_of_the_taut());
-    if !T::all(taut) {
-        let (slack_psi, (g, n_over_d)) = terms.sag_in_lanes(q2);
-        psi = T::select(taut, psi, slack_psi);
-        shape = (T::select(taut, shape.0, g), T::select(taut, shape.1, n_over_d));
-    }
-    terms.assemble(q2, psi, shape)
+    Terms::with_square(w, axial_flexibility, length, fx, fz, fx * fx).lane_response(None)
 }
 
 /// End position, tension and slackness of a cable.
@@ -149,23 +142,32 @@ pub fn lane_end<T: Lanewise>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T
         psi = T::select(taut, psi, terms.sag_in_lanes(slackness).0);
     }
     let x = fx * terms.lateral_flexibility(slackness * psi + 1.0);
-    LaneEnd { end: [x, terms.height()], tension: terms.t, slackness }
+    LaneEnd { end: [x, terms.height(None)], tension: terms.t, slackness }
+}
+
+/// An inextensible part times α.
+#[inline(always)]
+fn stretched<T: Field>(part: T, alpha: Option<T>) -> T {
+    match alpha {
+        None => part,
+        Some(alpha) => part * alpha,
+    }
 }
 
 /// The quantities that equations (C1)-(C11) share.
 pub(crate) struct Terms<T> {
-    fx: T,
-    fz: T,
-    v0: T,
+    pub(super) fx: T,
+    pub(super) fz: T,
+    pub(super) v0: T,
     length: T,
     /// 1/EA.
     axial_flexibility: T,
     weight: T,
     fx2: T,
     /// T, tension at A.
-    t: T,
+    pub(super) t: T,
     /// T0, tension at B.
-    t0: T,
+    pub(super) t0: T,
     /// 1/s = 1/(T + T0).
     s_inv: T,
 }
@@ -221,6 +223,7 @@ impl Response<f64> {
             lateral_flexibility: of(self.lateral_flexibility),
             end_per_length: self.end_per_length.map(&of),
             tension: of(self.tension),
+            tension_inv: of(self.tension_inv),
             direction: self.direction.map(&of),
             slackness: of(self.slackness),
         }
@@ -229,12 +232,18 @@ impl Response<f64> {
 
 impl<T: Field> Terms<T> {
     #[inline(always)]
-    fn with_square(w: T, axial_flexibility: T, length: T, fx: T, fz: T, fx2: T) -> Self {
+    pub(super) fn with_square(w: T, axial_flexibility: T, length: T, fx: T, fz: T, fx2: T) -> Self {
         let weight = w * length;
         let v0 = fz - weight;
         let t = (fx2 + fz * fz).sqrt();
         let t0 = (fx2 + v0 * v0).sqrt();
         Self { fx, fz, v0, length, axial_flexibility, weight, fx2, t, t0, s_inv: (t + t0).recip() }
+    }
+
+    /// The same of a cable with another axial flexibility.
+    #[inline(always)]
+    pub(super) fn with_flexibility(self, axial_flexibility: T) -> Self {
+        Self { axial_flexibility, ..self }
     }
 
     /// q².
@@ -253,10 +262,10 @@ impl<T: Field> Terms<T> {
 
     /// z, (C2).
     #[inline(always)]
-    fn height(&self) -> T {
+    fn height(&self, alpha: Option<T>) -> T {
         let Self { fz, v0, length, weight, axial_flexibility, s_inv, .. } = *self;
         // Eq. (2b), with fz L/ES as its first term.
-        length * ((fz + weight * -0.5) * axial_flexibility + (fz + v0) * s_inv)
+        length * ((fz + weight * -0.5) * axial_flexibility + stretched((fz + v0) * s_inv, alpha))
     }
 
     /// g = fx²/D and N/D of a cable for which nothing cancels in D.
@@ -274,30 +283,32 @@ impl<T: Field> Terms<T> {
         self.fz * self.fz + self.v0 * self.v0
     }
 
-    /// (C1)-(C5), (C8) and (C9) from q², ψ, g and N/D.
+    /// (C1)-(C5), (C8) and (C9) from q², ψ, g and N/D, with the inextensible part times `alpha`, (C13).
     #[inline(always)]
-    fn assemble(&self, q2: T, psi: T, (g, n_over_d): (T, T)) -> Response<T> {
+    fn assemble(&self, q2: T, psi: T, (g, n_over_d): (T, T), alpha: Option<T>) -> Response<T> {
         let Self { fx, fz, v0, length, axial_flexibility, t, t0, s_inv, .. } = *self;
         let tt0_inv = (t * t0).recip();
         let sag = q2 * psi * 2.0;
-        let sag_zz = (t + t0) * g * tt0_inv;
-        let sag_xx = (sag + n_over_d * tt0_inv) * s_inv;
-        let lateral_flexibility = self.lateral_flexibility(q2 * psi + 1.0);
-        let determinant = (axial_flexibility + sag_xx + sag_zz) * axial_flexibility + sag * g * tt0_inv;
-        let entering = t * tt0_inv + axial_flexibility;
+        let sag_zz = stretched((t + t0) * g * tt0_inv, alpha);
+        let sag_xx = stretched((sag + n_over_d * tt0_inv) * s_inv, alpha);
+        let lateral_flexibility = self.lateral_flexibility(stretched(q2 * psi + 1.0, alpha));
+        let bent = stretched(stretched(sag * g * tt0_inv, alpha), alpha);
+        let determinant = (axial_flexibility + sag_xx + sag_zz) * axial_flexibility + bent;
+        let entering = stretched(t * tt0_inv, alpha) + axial_flexibility;
         let tension_inv = t0 * tt0_inv;
         Response {
             // Eq. (2a), Eq. (2b)
-            end: [fx * lateral_flexibility, self.height()],
+            end: [fx * lateral_flexibility, self.height(alpha)],
             flexibility: [
                 length * (axial_flexibility + sag_xx),
-                -fx * length * (fz + v0) * (tt0_inv * s_inv),
+                stretched(-fx * length * (fz + v0) * (tt0_inv * s_inv), alpha),
                 length * (axial_flexibility + sag_zz),
             ],
             determinant: length * determinant * length,
             lateral_flexibility,
             end_per_length: [fx * entering, v0 * entering],
             tension: t,
+            tension_inv,
             direction: [fx * tension_inv, fz * tension_inv],
             slackness: q2,
         }
@@ -305,6 +316,20 @@ impl<T: Field> Terms<T> {
 }
 
 impl<T: Lanewise> Terms<T> {
+    /// The response, whose inextensible part is stretched by `alpha`, 1 without it.
+    #[inline(always)]
+    pub(super) fn lane_response(&self, alpha: Option<T>) -> Response<T> {
+        let q2 = self.slackness();
+        let taut = q2.at_most(TAUT);
+        let (mut psi, mut shape) = (psi_of_taut(q2), self.shape_of_the_taut());
+        if !T::all(taut) {
+            let (slack_psi, (g, n_over_d)) = self.sag_in_lanes(q2);
+            psi = T::select(taut, psi, slack_psi);
+            shape = (T::select(taut, shape.0, g), T::select(taut, shape.1, n_over_d));
+        }
+        self.assemble(q2, psi, shape, alpha)
+    }
+
     /// ψ(q²), and g and N/D, of cables with any sag.
     #[inline(always)]
     fn sag_in_lanes(&self, q2: T) -> (T, (T, T)) {
@@ -366,7 +391,7 @@ impl<T: Real> Terms<T> {
 
     pub(crate) fn end_position(&self) -> [T; 2] {
         let (q2, psi) = self.sag_terms();
-        [self.fx * self.lateral_flexibility(q2 * psi + 1.0), self.height()]
+        [self.fx * self.lateral_flexibility(q2 * psi + 1.0), self.height(None)]
     }
 
     pub(crate) fn response(&self) -> Response<T> {
@@ -379,6 +404,6 @@ impl<T: Real> Terms<T> {
             let g = (m + 1.0).recip();
             (g, g * (self.squares() + p * 2.0 * m))
         };
-        self.assemble(q2, psi, shape)
+        self.assemble(q2, psi, shape, None)
     }
 }

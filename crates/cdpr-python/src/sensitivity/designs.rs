@@ -16,7 +16,7 @@ use std::sync::atomic::Ordering;
 
 /// Consecutive points of Sobol's sequence in the laws of k inputs.
 ///
-/// The sequence is plain or, with a seed, under Owen's scrambling. Sizes of 2^m, from index 0, keep its
+/// The sequence is plain or, with a seed, under a nested scrambling. Sizes of 2^m, from index 0, keep its
 /// balance.
 ///
 /// inputs: law of each input by its name; see `uniform`, `normal` and the other laws.

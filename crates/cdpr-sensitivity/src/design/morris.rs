@@ -8,8 +8,8 @@
 //!
 //! *Radial blocks*: from a point of Sobol's sequence each input is moved alone, to its value in another
 //! point: F. Campolongo, A. Saltelli, J. Cariboni, *From screening to quantitative sensitivity analysis*,
-//! Comput. Phys. Commun. 182 (2011). The sequence has Owen's scrambling here, under which the two coordinates
-//! do not coincide.
+//! Comput. Phys. Commun. 182 (2011). The sequence is scrambled here, so that the two
+//! coordinates do not coincide.
 
 use rand::RngExt;
 use rand::seq::SliceRandom;
@@ -17,7 +17,7 @@ use rand::seq::SliceRandom;
 use crate::design::input::Input;
 use crate::design::saltelli::radial_sequence;
 use crate::design::sobol::Sobol;
-use crate::design::{Layout, SampleDesign, check_row};
+use crate::design::{Layout, SampleDesign, check_row, check_rows, to_values};
 use crate::error::{SensitivityError, check_range, require};
 use crate::sample::random::stream;
 
@@ -105,38 +105,97 @@ impl SampleDesign for MorrisDesign {
 
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
         check_row(self, index, point)?;
+        let mut block = Block::new(point.len());
+        self.draw(index / (point.len() + 1), &mut block)?;
+        block.write(index % (point.len() + 1), point);
+        Ok(())
+    }
+
+    fn unit_points(&self, first: usize, points: &mut [f64]) -> Result<(), SensitivityError> {
+        self.fill(first, points, |_| ())
+    }
+
+    fn rows(&self, first: usize, rows: &mut [f64]) -> Result<(), SensitivityError> {
+        self.fill(first, rows, |ends| to_values(self.inputs(), ends))
+    }
+}
+
+impl MorrisDesign {
+    /// Writes consecutive rows of blocks, each of which is drawn once and whose ends are then `mapped`.
+    fn fill(
+        &self,
+        first: usize,
+        rows: &mut [f64],
+        mapped: impl Fn(&mut [f64]),
+    ) -> Result<(), SensitivityError> {
+        check_rows(self, first, rows)?;
         let k = self.inputs().len();
-        let (block, row) = (index / (k + 1), index % (k + 1));
-        match &self.plan {
-            Plan::Trajectories { levels, seed } => {
-                let mut generator = stream(*seed, block as u64);
-                let half = levels / 2;
-                let mut ends = || {
-                    let low = generator.random_range(0..half);
-                    if generator.random_bool(0.5) { [low, low + half] } else { [low + half, low] }
-                };
-                let ends: Vec<[u32; 2]> = (0..k).map(|_| ends()).collect();
-                let mut order: Vec<usize> = (0..k).collect();
-                order.shuffle(&mut generator);
-                for (moved, &input) in order.iter().enumerate() {
-                    let level = ends[input][usize::from(moved < row)];
-                    point[input] = match self.layout.inputs[input].law.support().is_bounded() {
-                        true => f64::from(level) / f64::from(levels - 1),
-                        false => (f64::from(level) + 0.5) / f64::from(*levels),
-                    };
-                }
+        let (mut block, mut known) = (Block::new(k), None);
+        for (index, row) in (first..).zip(rows.chunks_exact_mut(k)) {
+            let number = index / (k + 1);
+            if known.replace(number) != Some(number) {
+                self.draw(number, &mut block)?;
+                mapped(&mut block.ends);
             }
-            Plan::Radial(sequence) => {
-                let mut both = vec![0.0; 2 * k];
-                sequence.point(block as u32, &mut both)?;
-                let (from, to) = both.split_at(k);
-                point.copy_from_slice(from);
-                if let Some(input) = row.checked_sub(1) {
-                    point[input] = to[input];
-                }
-            }
+            block.write(index % (k + 1), row);
         }
         Ok(())
+    }
+
+    /// Draws a block of points of the unit cube.
+    fn draw(&self, number: usize, block: &mut Block) -> Result<(), SensitivityError> {
+        let (from, to) = block.ends.split_at_mut(block.row_of_move.len());
+        match &self.plan {
+            Plan::Trajectories { levels, seed } => {
+                let mut generator = stream(*seed, number as u64);
+                let half = levels / 2;
+                for ((from, to), input) in from.iter_mut().zip(to).zip(self.inputs()) {
+                    let low = generator.random_range(0..half);
+                    let [low, high] = [low, low + half].map(|level| match input.law.support().is_bounded() {
+                        true => f64::from(level) / f64::from(levels - 1),
+                        false => (f64::from(level) + 0.5) / f64::from(*levels),
+                    });
+                    (*from, *to) = if generator.random_bool(0.5) { (low, high) } else { (high, low) };
+                }
+                let mut order: Vec<usize> = (0..self.inputs().len()).collect();
+                order.shuffle(&mut generator);
+                for (moved, &input) in order.iter().enumerate() {
+                    block.row_of_move[input] = moved + 1;
+                }
+                block.stays = true;
+                Ok(())
+            }
+            Plan::Radial(sequence) => {
+                block.row_of_move.iter_mut().zip(1..).for_each(|(row, number)| *row = number);
+                block.stays = false;
+                sequence.point(number as u32, &mut block.ends)
+            }
+        }
+    }
+}
+
+/// The rows of a block: in each but the first, one input moves.
+struct Block {
+    /// Where the inputs come from, and where they go.
+    ends: Vec<f64>,
+    /// The row in which each input moves.
+    row_of_move: Vec<usize>,
+    /// Whether an input that has moved stays there in the rows below.
+    stays: bool,
+}
+
+impl Block {
+    fn new(inputs: usize) -> Self {
+        Self { ends: vec![0.0; 2 * inputs], row_of_move: vec![0; inputs], stays: false }
+    }
+
+    fn write(&self, number: usize, row: &mut [f64]) {
+        let (from, to) = self.ends.split_at(row.len());
+        for (input, value) in row.iter_mut().enumerate() {
+            let moves = self.row_of_move[input];
+            let moved = number == moves || (self.stays && number > moves);
+            *value = if moved { to[input] } else { from[input] };
+        }
     }
 }
 

@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::input::Input;
 use crate::design::sobol::Sobol;
-use crate::design::{Layout, SampleDesign, check_origin, check_points, check_row};
+use crate::design::{Layout, SampleDesign, check_origin, check_points, check_row, check_rows, to_values};
 use crate::error::{SensitivityError, check_range};
 use crate::sample::random::stream;
 
@@ -158,6 +158,29 @@ impl SaltelliDesign {
     pub fn block_points(&self) -> usize {
         block_points(self.order, self.inputs().len())
     }
+
+    /// Point (a, b) of a block.
+    fn pair(&self, block: usize) -> &[f64] {
+        let size = 2 * self.inputs().len();
+        &self.pairs[size * block..][..size]
+    }
+
+    /// Writes row `within` of the block of (a, b), Eq. (B1).
+    fn write(&self, pair: &[f64], within: usize, row: &mut [f64]) {
+        let k = row.len();
+        let (a, b) = pair.split_at(k);
+        let (from, exchanged, other) = if within <= k {
+            (a, within.checked_sub(1), b)
+        } else if within + 1 < self.block_points() {
+            (b, Some(within - k - 1), a)
+        } else {
+            (b, None, a)
+        };
+        row.copy_from_slice(from);
+        if let Some(i) = exchanged {
+            row[i] = other[i];
+        }
+    }
 }
 
 impl SampleDesign for SaltelliDesign {
@@ -173,19 +196,22 @@ impl SampleDesign for SaltelliDesign {
 
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
         check_row(self, index, point)?;
-        let k = self.inputs().len();
         let (block, within) = (index / self.block_points(), index % self.block_points());
-        let (a, b) = self.pairs[2 * k * block..2 * k * (block + 1)].split_at(k);
-        let (from, exchanged, other) = if within <= k {
-            (a, within.checked_sub(1), b)
-        } else if within + 1 < self.block_points() {
-            (b, Some(within - k - 1), a)
-        } else {
-            (b, None, a)
-        };
-        point.copy_from_slice(from);
-        if let Some(i) = exchanged {
-            point[i] = other[i];
+        self.write(self.pair(block), within, point);
+        Ok(())
+    }
+
+    /// The values of a block are those of its a and b.
+    fn rows(&self, first: usize, rows: &mut [f64]) -> Result<(), SensitivityError> {
+        check_rows(self, first, rows)?;
+        let (size, k) = (self.block_points(), self.inputs().len());
+        let (mut pair, mut known) = (vec![0.0; 2 * k], None);
+        for (index, row) in (first..).zip(rows.chunks_exact_mut(k)) {
+            if known.replace(index / size) != Some(index / size) {
+                pair.copy_from_slice(self.pair(index / size));
+                to_values(self.inputs(), &mut pair);
+            }
+            self.write(&pair, index % size, row);
         }
         Ok(())
     }
@@ -211,10 +237,11 @@ fn scramblings(plain: &Sobol, seed: u64) -> Vec<Sobol> {
     let scrambling = |number: u64| {
         let mut generator = stream(seed, number);
         let key = generator.next_u64();
-        let (mut a, mut b): (Vec<usize>, Vec<usize>) = ((0..k).collect(), (k..2 * k).collect());
+        let mut order: Vec<usize> = (0..2 * k).collect();
+        let (a, b) = order.split_at_mut(k);
         a.shuffle(&mut generator);
         b.shuffle(&mut generator);
-        plain.reordered(a.into_iter().chain(b)).rescrambled(key)
+        plain.reordered(&order).rescrambled(key)
     };
     (0..=SaltelliDesign::REPLICATES as u64).map(scrambling).collect()
 }

@@ -1,4 +1,4 @@
-//! Sobol's sequence, plain or with Owen's scrambling. Any point is computed directly from its index.
+//! Sobol's sequence, plain or with a nested scrambling. Any point is computed directly from its index.
 //!
 //! With `V_j,k` the direction numbers of dimension j and g the Gray code of the index i,
 //!
@@ -13,21 +13,29 @@
 //! projections*, SIAM J. Sci. Comput. 30 (2008), table `new-joe-kuo-6`. Its licence stands beside it in
 //! `data/`.
 //!
-//! The scrambling is nested and uniform: A. B. Owen, *Randomly permuted (t,m,s)-nets and (t,s)-sequences*
-//! (1995). Each binary digit is flipped by a fair coin that depends on all digits before it:
+//! The scrambling is nested: A. B. Owen, *Randomly permuted (t,m,s)-nets and (t,s)-sequences* (1995). Each
+//! binary digit is flipped by a coin that depends on all digits before it:
 //!
 //! ```text
 //! y_k = x_k ⊕ coin(seed, j, x_1 .. x_(k-1)),   k = 1 .. 32                 (S4)
 //! ```
 //!
-//! The coin is a hash of these digits, as in B. Burley, *Practical hash-based Owen scrambling* (JCGT, 2020).
-//! Each node of the tree of digits has a coin of its own here; Burley's Laine-Karras permutation only
-//! approximates (S4). The hash is the output function of `SplitMix64`: G. L. Steele, D. Lea, C. H. Flood,
-//! *Fast splittable pseudorandom number generators* (2014).
+//! The coins come from a permutation of integers in which a bit depends on lower bits alone, applied to the
+//! digits in reverse order: S. Laine, T. Karras, *Stratified sampling for stochastic transparency* (2011);
+//! B. Burley, *Practical hash-based Owen scrambling*, JCGT 9:4 (2020). With c the key of the seed and of
+//! dimension j, and N. Vegdahl's constants (*Building a better LK hash*, 2021),
+//!
+//! ```text
+//! n ⊕= 3d20adea n,  n += c,  n *= c/2^16 | 1,  n ⊕= 05526c56 n,  n ⊕= 53a22864 n    (modulo 2^32)    (S5)
+//! ```
+//!
+//! A net stays a net of the same quality, and each point is uniform. The coins are not independent of each
+//! other as Owen's are; `tests/scrambling.rs` compares the variances of means with those of independent
+//! coins.
 
 use crate::design::input::Input;
 use crate::design::{
-    IndependentSample, JointSample, Layout, SampleDesign, check_origin, check_points, check_row,
+    IndependentSample, JointSample, Layout, SampleDesign, check_origin, check_points, check_row, check_rows,
 };
 use crate::error::{SensitivityError, check_length, check_range};
 
@@ -37,9 +45,18 @@ const TABLE: &str = include_str!("../../data/new-joe-kuo-6.2048");
 /// Sobol's sequence of 2^32 points in up to [`Sobol::MAX_DIMENSIONS`] dimensions.
 #[derive(Debug, Clone)]
 pub struct Sobol {
-    /// `V_j,k` of each dimension, the most significant bit first.
-    directions: Vec<[u32; BITS]>,
-    seed: Option<u64>,
+    dimensions: usize,
+    /// `V_j,k` of all dimensions for k = 1, then for k = 2, and so on. In a scrambled sequence their bits are
+    /// in reverse order, the most significant digit last, as Eq. (S5) takes them.
+    directions: Vec<u32>,
+    scrambling: Option<Scrambling>,
+}
+
+/// A seed, and its key for each dimension.
+#[derive(Debug, Clone)]
+struct Scrambling {
+    seed: u64,
+    keys: Vec<u32>,
 }
 
 impl Sobol {
@@ -57,42 +74,49 @@ impl Sobol {
         check_range("dimensions", dimensions as u64, 1, Self::MAX_DIMENSIONS as u64)?;
         let first = std::array::from_fn(|k| 1 << (BITS - 1 - k));
         let others = TABLE.lines().map(directions_of_line);
-        let directions = std::iter::once(first).chain(others).take(dimensions).collect();
-        Ok(Self { directions, seed: None })
+        let by_dimension: Vec<[u32; BITS]> = std::iter::once(first).chain(others).take(dimensions).collect();
+        let directions = (0..BITS).flat_map(|k| by_dimension.iter().map(move |v| v[k])).collect();
+        Ok(Self { dimensions, directions, scrambling: None })
     }
 
-    /// Makes the sequence under a nested uniform scrambling, Eq. (S4), which is independent in each
-    /// dimension.
+    /// Makes the sequence under a nested scrambling, Eq. (S4), with a key of its own in each dimension.
     ///
     /// Each point is uniform on (0, 1). The values 0 and 1 do not occur.
     ///
     /// # Errors
     /// As [`Sobol::new`].
     pub fn scrambled(dimensions: usize, seed: u64) -> Result<Self, SensitivityError> {
-        Ok(Self { seed: Some(seed), ..Self::new(dimensions)? })
+        Ok(Self::new(dimensions)?.rescrambled(seed))
     }
 
     /// Returns the same sequence under the scrambling of another seed.
     #[must_use]
     pub fn rescrambled(&self, seed: u64) -> Self {
-        Self { seed: Some(seed), ..self.clone() }
+        let directions = match self.scrambling {
+            None => self.directions.iter().map(|direction| direction.reverse_bits()).collect(),
+            Some(_) => self.directions.clone(),
+        };
+        let keys = (0..self.dimensions as u64).map(|j| key(seed, j)).collect();
+        Self { directions, scrambling: Some(Scrambling { seed, keys }), dimensions: self.dimensions }
     }
 
-    /// Returns the same sequence with its dimensions in another order.
-    pub(crate) fn reordered(&self, order: impl Iterator<Item = usize>) -> Self {
-        Self { directions: order.map(|j| self.directions[j]).collect(), seed: self.seed }
+    /// Returns the plain sequence with its dimensions in another order.
+    pub(crate) fn reordered(&self, order: &[usize]) -> Self {
+        let rows = self.directions.chunks_exact(self.dimensions);
+        let directions = rows.flat_map(|row| order.iter().map(|&j| row[j])).collect();
+        Self { dimensions: order.len(), directions, scrambling: None }
     }
 
     /// Number of dimensions.
     #[must_use]
     pub fn dimensions(&self) -> usize {
-        self.directions.len()
+        self.dimensions
     }
 
     /// Seed of the scrambling, `None` for the plain sequence.
     #[must_use]
     pub fn seed(&self) -> Option<u64> {
-        self.seed
+        self.scrambling.as_ref().map(|scrambling| scrambling.seed)
     }
 
     /// Writes the point of this index into `point`. Plain points lie in [0, 1), scrambled ones in (0, 1).
@@ -100,10 +124,8 @@ impl Sobol {
     /// # Errors
     /// [`SensitivityError::LengthMismatch`] unless `point` has as many elements as there are dimensions.
     pub fn point(&self, index: u32, point: &mut [f64]) -> Result<(), SensitivityError> {
-        check_length("point", point.len(), self.dimensions())?;
-        for (j, (x, directions)) in point.iter_mut().zip(&self.directions).enumerate() {
-            *x = self.coordinate(j, digits(gray(index), directions));
-        }
+        check_length("point", point.len(), self.dimensions)?;
+        self.coordinates(&self.digits(index), point);
         Ok(())
     }
 
@@ -116,34 +138,65 @@ impl Sobol {
     /// [`SensitivityError::LengthMismatch`] unless `points` holds whole points,
     /// [`SensitivityError::OutOfRange`] for points beyond 2^32.
     pub fn points(&self, first: u32, points: &mut [f64]) -> Result<(), SensitivityError> {
-        let dimensions = self.dimensions();
+        let dimensions = self.dimensions;
         check_length("points", points.len(), points.len().next_multiple_of(dimensions))?;
         let count = points.len() / dimensions;
         check_range("points", count as u64, 0, (1_u64 << BITS) - u64::from(first))?;
-        let mut state: Vec<u32> =
-            self.directions.iter().map(|directions| digits(gray(first), directions)).collect();
+        let mut digits = self.digits(first);
         for (index, point) in (u64::from(first)..).zip(points.chunks_exact_mut(dimensions)) {
-            for (j, (x, digits)) in point.iter_mut().zip(&state).enumerate() {
-                *x = self.coordinate(j, *digits);
-            }
+            self.coordinates(&digits, point);
             // The digit of the Gray code that changes next. After the last point there is no such digit.
             let changed = (index + 1).trailing_zeros() as usize;
             if changed < BITS {
-                for (digits, directions) in state.iter_mut().zip(&self.directions) {
-                    *digits ^= directions[changed];
-                }
+                self.flip(changed, &mut digits);
             }
         }
         Ok(())
     }
 
-    /// Coordinate of dimension `j`. It is scrambled if the sequence is scrambled.
-    fn coordinate(&self, j: usize, digits: u32) -> f64 {
+    /// Digits of all coordinates of a point, Eq. (S2), as integers; reversed where they are to be scrambled.
+    fn digits(&self, index: u32) -> Vec<u32> {
+        let mut digits = vec![0; self.dimensions];
+        let mut gray = index ^ (index >> 1); // Eq. (S1)
+        while gray != 0 {
+            self.flip(gray.trailing_zeros() as usize, &mut digits);
+            gray &= gray - 1;
+        }
+        digits
+    }
+
+    /// Changes digit k of the Gray code.
+    fn flip(&self, k: usize, digits: &mut [u32]) {
+        let directions = &self.directions[k * self.dimensions..][..self.dimensions];
+        for (digits, direction) in digits.iter_mut().zip(directions) {
+            *digits ^= direction;
+        }
+    }
+
+    /// Coordinates of these digits. They are scrambled if the sequence is scrambled.
+    fn coordinates(&self, digits: &[u32], point: &mut [f64]) {
         const CELL: f64 = 1.0 / (1_u64 << BITS) as f64;
-        match self.seed {
-            None => f64::from(digits) * CELL,
-            // The point is the middle of its cell of 2^-32.
-            Some(seed) => (f64::from(scramble(digits, key(seed, j as u64))) + 0.5) * CELL,
+        match &self.scrambling {
+            None => {
+                for (x, digits) in point.iter_mut().zip(digits) {
+                    *x = f64::from(*digits) * CELL;
+                }
+            }
+            Some(Scrambling { keys, .. }) => {
+                // Two loops at a time, each of which fills the lanes of any vector unit.
+                const TOGETHER: usize = 64;
+                let parts = digits.chunks(TOGETHER).zip(keys.chunks(TOGETHER));
+                for (point, (digits, keys)) in point.chunks_mut(TOGETHER).zip(parts) {
+                    let mut scrambled = [0; TOGETHER];
+                    for ((scrambled, digits), key) in scrambled.iter_mut().zip(digits).zip(keys) {
+                        *scrambled = scramble(*digits, *key);
+                    }
+                    for (x, scrambled) in point.iter_mut().zip(scrambled) {
+                        // The point is the middle of its cell of 2^-32.
+                        *x = (f64::from(scrambled.reverse_bits()) + 0.5) * CELL;
+                    }
+                }
+            }
         }
     }
 }
@@ -171,7 +224,7 @@ impl SobolDesign {
         Self::over(sobol, inputs, first_index, points)
     }
 
-    /// Makes a design of the first points of the sequence under Owen's scrambling.
+    /// Makes a design of the first points of the scrambled sequence.
     ///
     /// # Errors
     /// As [`SobolDesign::new`], but point 0 is allowed: scrambled, it is not zero.
@@ -215,19 +268,14 @@ impl SampleDesign for SobolDesign {
     }
 
     fn unit_points(&self, first: usize, points: &mut [f64]) -> Result<(), SensitivityError> {
-        let last = (first + points.len() / self.inputs().len()).saturating_sub(1);
-        check_range("index", first.max(last) as u64, 0, self.points() as u64 - 1)?;
+        check_rows(self, first, points)?;
+        // `check_points` has ensured that the index is below 2^32.
         self.sobol.points(self.first_index + first as u32, points)
     }
 }
 
 impl JointSample for SobolDesign {}
 impl IndependentSample for SobolDesign {}
-
-/// Gray code, Eq. (S1).
-fn gray(index: u32) -> u32 {
-    index ^ (index >> 1)
-}
 
 /// Direction numbers, Eq. (S3), from a line `a m_1 .. m_s` of the table.
 fn directions_of_line(line: &str) -> [u32; BITS] {
@@ -252,31 +300,20 @@ fn directions_of_line(line: &str) -> [u32; BITS] {
     v
 }
 
-/// Digits of a coordinate, Eq. (S2), as an integer.
-fn digits(mut gray: u32, directions: &[u32; BITS]) -> u32 {
-    let mut digits = 0;
-    while gray != 0 {
-        digits ^= directions[gray.trailing_zeros() as usize];
-        gray &= gray - 1;
-    }
-    digits
+/// Scrambles digits in reverse order, Eq. (S5).
+#[inline]
+fn scramble(mut n: u32, key: u32) -> u32 {
+    n ^= n.wrapping_mul(0x3d20_adea);
+    n = n.wrapping_add(key).wrapping_mul((key >> 16) | 1);
+    n ^= n.wrapping_mul(0x0552_6c56);
+    n ^ n.wrapping_mul(0x53a2_2864)
 }
 
-/// Scrambles digits, Eq. (S4). In the tree of digits, a prefix of k digits leads to the node number 2^k +
-/// prefix.
-fn scramble(digits: u32, key: u64) -> u32 {
-    let mut flips = 0;
-    for k in 0..BITS {
-        let node = (1 << k) + (u64::from(digits) >> (BITS - k));
-        let coin = mix(key.wrapping_add(node.wrapping_mul(GOLDEN))) >> 63;
-        flips = (flips << 1) | coin as u32;
-    }
-    digits ^ flips
-}
-
-/// Key of a seed and a dimension.
-fn key(seed: u64, dimension: u64) -> u64 {
-    mix(mix(seed.wrapping_add(GOLDEN)).wrapping_add(dimension.wrapping_mul(GOLDEN)))
+/// Key of a seed and a dimension: half of the number that `SplitMix64` gives, G. L. Steele, D. Lea, C. H.
+/// Flood, *Fast splittable pseudorandom number generators* (2014).
+fn key(seed: u64, dimension: u64) -> u32 {
+    let seeded = mix(seed.wrapping_add(GOLDEN));
+    (mix(seeded.wrapping_add(dimension.wrapping_mul(GOLDEN))) >> 32) as u32
 }
 
 /// Increment of `SplitMix64`: the odd integer closest to 2^64 over the golden ratio.
@@ -303,28 +340,5 @@ mod tests {
                 assert!(m % 2 == 1 && *m < 2 << k, "{line}");
             }
         }
-    }
-
-    #[test]
-    fn scrambling_permutes_the_cells_of_each_size() {
-        for depth in [1, 4, 8] {
-            let mut seen = vec![false; 1 << depth];
-            for cell in 0..1_u32 << depth {
-                seen[(scramble(cell << (32 - depth), key(3, 1)) >> (32 - depth)) as usize] = true;
-            }
-            assert!(seen.iter().all(|&seen| seen));
-        }
-    }
-
-    #[test]
-    fn the_coin_of_a_node_is_fair_and_independent_of_that_of_its_sibling() {
-        // Over seeds: the four outcomes of the coins below prefixes 0 and 1. Standard deviation of a count:
-        // 27.
-        let mut counts = [0_i32; 4];
-        for seed in 0..4000 {
-            let (left, right) = (scramble(0, key(seed, 5)), scramble(1 << 31, key(seed, 5)));
-            counts[(((left >> 30) & 1) + 2 * ((right >> 30) & 1)) as usize] += 1;
-        }
-        assert!(counts.iter().all(|count| (count - 1000).abs() < 110), "{counts:?}");
     }
 }

@@ -2,41 +2,45 @@
 //!
 //! Its links are the inverse model, the offset set-points, and the direct model without and with the load.
 //! The equations are those of `inverse.rs` and `direct/newton.rs`, with one difference: the shape of a cable
-//! is not solved for but takes part in the iteration. With û the direction of the force at its end, n̂ the
-//! normal to it, C the flexibility, `e = d(x, z)/dL` and c its misclosure at force and length,
+//! is not solved for but takes part in the iteration. The unknown of a cable is its horizontal force fx, which
+//! at held ends is proportional to its chord force: all derivatives are finite, also at the least tension.
+//! With C the flexibility, `e = d(x, z)/dL` and c the misclosure at force and length,
 //!
 //! ```text
-//! C (û dt + n̂ t dθ) + e dL = c      gives      dθ = α + β dt,    dL = γ + δ dt                         (L1)
+//! C (0, dz) + e dL = c,      C (1, g) + e L' = 0                                                      (L1)
 //! ```
 //!
-//! for a change dt of its tension. With w the wrench of a unit tension, n its derivative with respect to θ,
-//! and λ the multipliers of the balance, the optimum (I2) for the reference r and a step towards it are
+//! give the force `(fx, fz + dz)` that closes the cable at the same fx, and its slope `f' = (1, g)` over fx;
+//! `t' = û·f'` is that of the tension. With J the wrench of f', w that of the closing force, λ the multipliers
+//! of the balance and r the reference, the optimum (I2) and a step towards it are
 //!
 //! ```text
-//! t - r + c·λ = 0,      sum t w + w_ex = 0,      c = w + t β n                                         (L2)
-//! [ sum c cᵀ/D ] dλ = R2 - sum c R1/D,      dt = -(R1 + c·dλ)/D,                                       (L3)
-//!      R1 = t - r + (c + α (n - t β w))·λ,   R2 = sum t (w + α n) + w_ex,   D = 1 - t β² w·λ
+//! (t - r) t' + J·λ = 0,      sum w + w_ex = 0                                                        (L2)
+//! [ sum J Jᵀ/h ] dλ = R2 - sum J R1/h,      dfx = -(R1 + J·dλ)/h,                                    (L3)
+//!      R1 = (t + û_z dz - r) t' + J·λ,   R2 = sum w + w_ex,   h = t'² + (t - r) t'' + λ·w''
 //! ```
 //!
-//! c is the derivative of the cable's wrench with respect to its tension. D holds the derivative of c for a
-//! parabola, whose direction turns in proportion to 1/t; for a taut cable little is missing. A cable that
-//! hangs at the least tension that its length allows has no such slope: its lane finds nothing.
+//! Where steps pass limits of the tensions, `program.rs` finds those within them.
+//!
+//! For a parabola fz is linear in fx and w'' zero; for a cable that is not taut it is that of the inextensible
+//! catenary ([`HeldCable::curvature`]). A cable near the least tension of its span, which the scalar models
+//! hold there, is left to them.
 //!
 //! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
 
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
-use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, SymmetricFactors, six, three};
+use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, halves, six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots, Scale};
+use crate::lanes::program::{Row, newton, within_limits};
 use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::kernel::{FOLDED, Field, Response};
+use cdpr_cable::kernel::{FOLDED, Field, Lanewise, Response, TAUT};
 use cdpr_robot::{CableEnd, TensionLimits};
-use cdpr_tension::Bound;
 
-/// Robots at their wanted pose, with lengths and forces to start from.
-pub(crate) struct ChainStart<S: Simd> {
-    pub(crate) robots: Robots<S>,
+/// Robots at their wanted pose.
+pub(crate) struct ChainStart<'a, S: Simd> {
+    pub(crate) robots: Robots<'a, S>,
     /// Offset of the tension set-point of each cable [N].
     pub(crate) offsets: Vec<Lanes<S>>,
     /// λ to start from.
@@ -54,8 +58,19 @@ pub(crate) struct Choice {
     pub(crate) limits: TensionLimits,
     /// Where the greatest tension is limited.
     pub(crate) max_at: CableEnd,
-    /// The limit at which the nominal robot has it.
-    pub(crate) active: Option<Bound>,
+    /// The shape that the nominal robot gives it.
+    pub(crate) shape: Shape,
+}
+
+/// What a cable that is nearly a parabola keeps when its ends move.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shape {
+    /// σ [N].
+    pub(crate) chord_force: f64,
+    /// Vertical force at A beyond that along the chord [N].
+    pub(crate) sag_force: f64,
+    /// Unstrained length less the chord [m].
+    pub(crate) longer: f64,
 }
 
 /// What all robots of a batch share.
@@ -93,9 +108,18 @@ const LAST_OWN_CHANGE: f64 = 1e-6;
 /// m.
 const LAST_DISTRIBUTION: f64 = 1e-9;
 
-/// Greatest -t/L dL/dt of a cable. It is 1/EA of the tension for a straight cable and grows without bound
-/// towards the least tension of a span; a level cable has 8 at 1.001 times that tension, a steep one less.
-const STEEPEST: f64 = 2.0;
+/// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell. The
+/// scalar models hold cables at 0.001, which the estimate meets within a few percent.
+const ABOVE_LEAST: f64 = 0.0015;
+
+/// Greatest part of its horizontal force that a step takes away from a cable.
+const GREATEST_LOSS: f64 = 0.9;
+
+/// Least curvature of a step, relative to that of a straight cable.
+const LEAST_CURVATURE: f64 = 0.01;
+
+/// Greatest unbalanced force of an optimum, relative to the sum of tensions.
+const BALANCED: f64 = 1e-7;
 
 /// Iterations for the tensions, whose limits may change on the way.
 const MAX_DISTRIBUTIONS: usize = 20;
@@ -103,13 +127,18 @@ const MAX_DISTRIBUTIONS: usize = 20;
 /// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at
 /// the wanted pose.
 #[inline(always)]
-pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome<S> {
+pub(crate) fn observe<S: Simd>(begin: ChainStart<'_, S>, shared: &Shared) -> Outcome<S> {
     let ChainStart { mut robots, offsets, multipliers, payload } = begin;
     let robots = &mut robots;
     let zero = robots.weight.all(0.0);
     let mut spans = Vec::with_capacity(robots.cables.len());
-    for cable in &robots.cables {
-        spans.push(cable.span(&robots.position));
+    for (cable, choice) in robots.cables.iter_mut().zip(&shared.choices) {
+        let span = cable.span(&robots.position);
+        let chord = span.chord();
+        let per_length = chord.recip() * choice.shape.chord_force;
+        cable.force = [span.end[0] * per_length, span.end[1] * per_length + choice.shape.sag_force];
+        cable.length = chord + choice.shape.longer;
+        spans.push(span);
     }
     let mut set_points = offsets;
     let (converged, sound) = distribute(robots, multipliers, &mut set_points, &spans, shared);
@@ -131,7 +160,7 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<S>, shared: &Shared) -> Outcome
     Outcome { passed: [converged, sound, held, standing, answered], displacement, unloaded, loaded }
 }
 
-impl<S: Simd> LaneCable<S> {
+impl<S: Simd> LaneCable<'_, S> {
     /// The tensions at the platform that the limits allow [N], as `limits_at` has them.
     #[inline(always)]
     fn limits(&self, span: &Span<Lanes<S>>, choice: &Choice) -> [Lanes<S>; 2] {
@@ -148,112 +177,117 @@ impl<S: Simd> LaneCable<S> {
     }
 }
 
-/// The lanes in which a cable is held at the least of its tensions, and at the greatest.
-#[derive(Clone, Copy)]
-struct AtLimit<S: Simd> {
-    limits: [Lanes<S>; 2],
-    sides: [Mask<S>; 2],
-    /// Whether it is held in any lane.
-    any: bool,
-}
-
-impl<S: Simd> AtLimit<S> {
-    #[inline(always)]
-    fn new(limits: [Lanes<S>; 2], active: Option<Bound>) -> Self {
-        let all = limits[0].less_or_equal(limits[0]);
-        let none = all & !all;
-        let sides = match active {
-            None => [none, none],
-            Some(Bound::Min) => [all, none],
-            Some(Bound::Max) => [none, all],
-        };
-        Self { limits, sides, any: active.is_some() }
-    }
-
-    /// `free` in the lanes in which the cable is held at no limit, in the others `held` or, at the least
-    /// tension, `least`.
-    #[inline(always)]
-    fn select(&self, free: Lanes<S>, [least, greatest]: [Lanes<S>; 2]) -> Lanes<S> {
-        self.sides[0].select(least, self.sides[1].select(greatest, free))
-    }
-
-    /// Holds the cable where its tension has passed a limit, and frees it where the sum to be minimised falls
-    /// with a tension on the right side: (I2) of `inverse.rs`, whose slope over the tension is `slope`.
-    /// Returns the lanes in which nothing changes.
-    #[inline(always)]
-    fn revise(&mut self, tension: Lanes<S>, slope: Lanes<S>, going: Mask<S>) -> Mask<S> {
-        let zero = slope.all(0.0);
-        let [low, high] = self.sides;
-        let free = !(low | high);
-        let below = free & !self.limits[0].less_or_equal(tension);
-        let above = free & !tension.less_or_equal(self.limits[1]);
-        let (rises, falls) = (low & !zero.less_or_equal(slope), high & !slope.less_or_equal(zero));
-        let changed = going & (below | above | rises | falls);
-        self.sides = [
-            (low & !(changed & rises)) | (changed & below),
-            (high & !(changed & falls)) | (changed & above & !below),
-        ];
-        self.any |= changed.any();
-        !changed
-    }
-}
-
 /// A cable at its held ends, equation (L1).
 #[derive(Clone, Copy)]
 struct HeldCable<S: Simd> {
+    /// t, and that with the closing force.
     tension: Lanes<S>,
+    closed: Lanes<S>,
+    /// û_x, the part of the force that is horizontal.
+    flatness: Lanes<S>,
     /// q².
     slackness: Lanes<S>,
-    /// û.
-    along: Lanes2<S>,
-    alpha: Lanes<S>,
-    beta: Lanes<S>,
-    gamma: Lanes<S>,
-    delta: Lanes<S>,
+    /// dz and dL.
+    closing: Lanes2<S>,
+    /// g.
+    rise: Lanes<S>,
+    /// L'.
+    length_slope: Lanes<S>,
+    /// t'.
+    tension_slope: Lanes<S>,
+    /// t'' and fz''.
+    curvatures: Lanes2<S>,
 }
 
 impl<S: Simd> HeldCable<S> {
     #[inline(always)]
-    fn new(cable: &LaneCable<S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
-        let [fx, fz] = cable.force;
+    fn new(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
         let [xx, xz, zz] = response.flexibility;
-        let along = response.direction;
+        let [ux, uz] = response.direction;
         let miss = span.misclosure(response.end);
-        let rotation = [xz * fx - xx * fz, zz * fx - xz * fz];
-        let give = [xx * along[0] + xz * along[1], xz * along[0] + zz * along[1]];
         let longer = response.end_per_length;
-        let area = |a: &Lanes2<S>, b: &Lanes2<S>| a[0] * b[1] - a[1] * b[0];
-        let inverse = area(&rotation, &longer).recip();
-        Self {
+        let inverse = (longer[0] * zz - longer[1] * xz).recip();
+        let here = (longer[1] * xx - longer[0] * xz) * inverse;
+        let closing =
+            [(longer[0] * miss[1] - longer[1] * miss[0]) * inverse, (zz * miss[0] - xz * miss[1]) * inverse];
+        // Closing turns a taut cable, whose 1/û_x is t', and its slope with it.
+        let taut = response.slackness.at_most(TAUT);
+        let tilt = taut.select(closing[0] * response.tension_inv, here.all(0.0));
+        let across = ux * here - uz;
+        let rise = here + tilt * (ux + uz * here);
+        let tension_slope = ux + uz * rise + across * ux * tilt;
+        let bent = rise.all(0.0);
+        let mut held = Self {
             tension: response.tension,
+            closed: response.tension + uz * closing[0],
+            flatness: ux,
             slackness: response.slackness,
-            along,
-            alpha: area(&miss, &longer) * inverse,
-            beta: -area(&give, &longer) * inverse,
-            gamma: area(&rotation, &miss) * inverse,
-            delta: -area(&rotation, &give) * inverse,
+            closing,
+            rise,
+            length_slope: -(response.determinant * inverse),
+            tension_slope,
+            curvatures: [bent, bent],
+        };
+        if !<Lanes<S> as Lanewise>::all(taut) {
+            held.curvatures[1] = taut.select(bent, held.curvature(cable, span));
         }
+        // |n̂·f'|²/t = (|f'|² - t'²)/t
+        held.curvatures[0] = across * across * response.tension_inv + uz * held.curvatures[1];
+        held
+    }
+
+    /// fz'' of the inextensible catenary. With u = w h/(2 fx), q = tanh u, φ = u/q and S = sinh u/u,
+    ///
+    /// ```text
+    /// fz = fx (z/h) u coth u + w L/2,     L² = z² + h² S²                                               (L4)
+    /// fz'' = (2 z/(h fx)) φ² (1 - q²) (φ - 1) + (w/2) L''
+    /// L' = -h² S² (φ - 1)/(fx L),     L L'' = h² S² ((φ - 1)² + u²)/fx² - L'²
+    /// ```
+    #[inline(always)]
+    fn curvature(&self, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Lanes<S> {
+        let [h, z] = span.end;
+        let fx_inv = cable.force[0].recip();
+        let u = cable.weight_per_length * h * fx_inv * 0.5;
+        let q = self.slackness.sqrt();
+        let phi = u / q;
+        let more = phi + -1.0;
+        let narrow = phi * phi * (-self.slackness + 1.0);
+        let wide = h * h / narrow;
+        let length = (z * z + wide).sqrt();
+        let slope = wide * more / length;
+        let of_length = (wide * (more * more + u * u) - slope * slope) / length * fx_inv;
+        (z / h * narrow * more * 2.0 + cable.weight_per_length * 0.5 * of_length) * fx_inv
     }
 
     /// Where the tension falls as cable is paid out, and is not next to the least one that the span demands,
     /// at which the scalar models hold the cable.
+    ///
+    /// Newton's step towards the least tension, over ln fx, lowers it by half of `(fx t')²/(fx t' + fx² t'')`.
     #[inline(always)]
-    fn is_taut(&self, cable: &LaneCable<S>) -> Mask<S> {
-        let zero = self.delta.all(0.0);
-        self.delta.less_or_equal(zero) & (-(self.delta * self.tension)).less_or_equal(cable.length * STEEPEST)
+    fn is_taut(&self, cable: &LaneCable<'_, S>) -> Mask<S> {
+        let fx = cable.force[0];
+        let slope = fx * self.tension_slope;
+        let curvature = slope + fx * fx * self.curvatures[0];
+        slope.all(0.0).less_or_equal(slope)
+            & (curvature * self.tension * (2.0 * ABOVE_LEAST)).less_or_equal(slope * slope)
     }
 
-    /// Changes the tension by `dt` where `going`. Returns the largest relative change made.
+    /// The change of fx that brings the tension to `tension`.
     #[inline(always)]
-    fn change(&self, cable: &mut LaneCable<S>, dt: Lanes<S>, going: Mask<S>, shared: &Shared) -> Lanes<S> {
-        let across = (self.alpha + self.beta * dt) * self.tension;
-        let longer = self.gamma + self.delta * dt;
-        let [ux, uz] = self.along;
+    fn way_to(&self, tension: Lanes<S>) -> Lanes<S> {
+        (tension - self.closed) / self.tension_slope
+    }
+
+    /// Changes fx by `d` where `going`. Returns the largest relative change made.
+    #[inline(always)]
+    fn change(&self, cable: &mut LaneCable<'_, S>, d: Lanes<S>, going: Mask<S>, shared: &Shared) -> Lanes<S> {
         let [fx, fz] = cable.force;
-        cable.force =
-            [going.select(fx + ux * dt - uz * across, fx), going.select(fz + uz * dt + ux * across, fz)];
+        let d = d.max(fx * -GREATEST_LOSS);
+        let rise = self.closing[0] + self.rise * d;
+        let longer = self.closing[1] + self.length_slope * d;
+        cable.force = [going.select(fx + d, fx), going.select(fz + rise, fz)];
         cable.length = going.select(cable.length + longer, cable.length);
-        let force = (dt.abs() + across.abs()) * (1.0 / shared.tension);
+        let force = (d.abs() + rise.abs()) * (1.0 / shared.tension);
         force.max(longer.abs() * (1.0 / shared.scale.size))
     }
 }
@@ -261,12 +295,9 @@ impl<S: Simd> HeldCable<S> {
 /// The tensions nearest to their reference at the wanted pose, equations (L2) and (L3); `offsets` are added
 /// to them and become set-points, towards which cables make a first step. Returns the lanes where they were
 /// found, and those where no cable is folded and no limits exclude each other.
-///
-/// A cable that is held at a limit of its tension has a known dt and drops out of the matrix. Which ones are
-/// held is known of the nominal robot; where the optimum of a lane says otherwise, that lane goes on.
 #[inline(always)]
 fn distribute<S: Simd>(
-    robots: &mut Robots<S>,
+    robots: &mut Robots<'_, S>,
     mut multipliers: Lanes6<S>,
     offsets: &mut [Lanes<S>],
     spans: &[Span<Lanes<S>>],
@@ -274,68 +305,83 @@ fn distribute<S: Simd>(
 ) -> (Mask<S>, Mask<S>) {
     let zero = robots.weight.all(0.0);
     let last_change = zero.all(LAST_DISTRIBUTION);
+    let unbalanced = BALANCED * shared.tension;
+    let arm = shared.scale.characteristic_length;
     let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
     let mut going = zero.less_or_equal(zero);
     let mut within = going;
-    let mut linear = Vec::with_capacity(spans.len());
-    let mut at_limits = Vec::with_capacity(spans.len());
-    for ((span, cable), choice) in spans.iter().zip(&robots.cables).zip(&shared.choices) {
-        at_limits.push(AtLimit::new(cable.limits(span, choice), choice.active));
+    let mut all_held = Vec::with_capacity(spans.len());
+    let mut rows = Vec::with_capacity(spans.len());
+    let mut limits = Vec::with_capacity(spans.len());
+    for ((cable, span), choice) in robots.cables.iter().zip(spans).zip(&shared.choices) {
+        limits.push(cable.limits(span, choice));
     }
     for _ in 0..MAX_DISTRIBUTIONS {
-        linear.clear();
-        let mut matrix = [[zero; 6]; 6];
-        let mut right = weight;
+        all_held.clear();
+        rows.clear();
+        let mut balance = weight;
         let cables = spans.iter().zip(&robots.cables).zip(&shared.choices);
-        for (((span, cable), choice), at_limit) in cables.zip(&at_limits) {
+        for ((span, cable), choice) in cables {
             let held = HeldCable::new(cable, span, &cable.response());
-            let [ux, uz] = held.along;
-            let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(held.along));
-            let rotation = wrench(&cable.anchor_arm, &span.plane.force_on_platform([-uz, ux]));
-            let (pulled, rotated) = (dot(&pull, &multipliers), dot(&rotation, &multipliers));
-            let bent = held.tension * held.beta;
-            let mut d_inv = (-(bent * held.beta * pulled) + 1.0).recip();
-            let beyond = held.tension + -choice.reference;
-            let left = beyond + pulled + bent * rotated + held.alpha * (rotated - bent * pulled);
-            let slope = six(|k| pull[k] + rotation[k] * bent);
-            let mut known = zero;
-            if at_limit.any {
-                let [low, high] = at_limit.limits;
-                known = at_limit.select(zero, [low - held.tension, high - held.tension]);
-                d_inv = at_limit.select(d_inv, [zero; 2]);
-                for k in 0..6 {
-                    right[k] += slope[k] * known;
-                }
-            }
+            let [fx, fz] = cable.force;
+            let closed = [fx, fz + held.closing[0]];
+            let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(closed));
             for k in 0..6 {
-                let c = slope[k] * d_inv;
-                right[k] += (pull[k] + rotation[k] * held.alpha) * held.tension - c * left;
-                for l in k..6 {
-                    matrix[k][l] += c * slope[l];
-                }
+                balance[k] += pull[k];
             }
-            linear.push((held, slope, left, d_inv, known));
+            let along = span.plane.force_on_platform([zero.all(1.0), held.rise]);
+            // w''·λ of a vertical force.
+            let [sx, sy, _] = cable.anchor_arm;
+            let lifted = multipliers[2] + sy * multipliers[3] - sx * multipliers[4];
+            let square = held.tension_slope * held.tension_slope;
+            let curvature = square + (held.tension + -choice.reference) * held.curvatures[0]
+                - lifted * held.curvatures[1];
+            let curvature = curvature.abs().max(square * LEAST_CURVATURE);
+            rows.push(Row::new(
+                wrench(&cable.anchor_arm, &along),
+                (held.closed + -choice.reference) * held.tension_slope,
+                curvature.recip(),
+                &multipliers,
+            ));
+            all_held.push(held);
         }
-        let step = SymmetricFactors::new(matrix).solve(&right);
+        let (mut step, _) = newton(&rows, &balance);
+        let mut outside = zero.less_or_equal(zero);
+        outside = outside & !outside;
+        for ((row, held), [least, greatest]) in rows.iter_mut().zip(&all_held).zip(&limits) {
+            row.raise(&step);
+            let tension = held.closed + held.tension_slope * (row.wanted - row.change);
+            outside = outside | !(least.less_or_equal(tension) & tension.less_or_equal(*greatest));
+        }
+        // Limits change nothing in the other lanes.
+        let mut settled = !outside;
+        let bounded = going & outside;
+        if bounded.any() {
+            for ((row, held), [least, greatest]) in rows.iter_mut().zip(&all_held).zip(&limits) {
+                row.ways = [held.way_to(*least), held.way_to(*greatest)];
+            }
+            let (raised, solved) = within_limits(&mut rows, &balance, bounded);
+            step = six(|k| bounded.select(raised[k], step[k]));
+            settled = settled | solved;
+        }
         let mut moved = zero;
-        for ((held, slope, left, d_inv, known), cable) in linear.iter().zip(&mut robots.cables) {
-            let dt = *known - (*left + dot(slope, &step)) * *d_inv;
-            moved = moved.max(held.change(cable, dt, going, shared));
+        for ((row, held), cable) in rows.iter_mut().zip(&all_held).zip(&mut robots.cables) {
+            row.sides = [bounded & row.sides[0], bounded & row.sides[1]];
+            let d = bounded.select(row.value(), row.wanted - row.change);
+            moved = moved.max(held.change(cable, d, going, shared));
         }
         multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
-        let mut last = going & moved.less_or_equal(last_change);
+        let (force, moment) = halves(&balance);
+        let balanced = dot(&force, &force).less_or_equal(zero.all(unbalanced * unbalanced))
+            & dot(&moment, &moment).less_or_equal(zero.all(unbalanced * arm * unbalanced * arm));
+        let last = going & settled & balanced & moved.less_or_equal(last_change);
         if last.any() {
-            let here = last;
-            let cables = linear.iter().zip(&robots.cables).zip(&mut at_limits);
-            for (((_, slope, left, ..), cable), at_limit) in cables {
+            let cables = rows.iter().zip(&all_held).zip(&mut robots.cables).zip(&mut *offsets);
+            for ((((row, held), cable), offset), [least, greatest]) in cables.zip(&limits) {
+                let (least, greatest) = (*least, *greatest);
                 let tension = dot(&cable.force, &cable.force).sqrt();
-                last = last & at_limit.revise(tension, *left + dot(slope, &step), here);
-            }
-            let cables = linear.iter().zip(&mut robots.cables).zip(&mut *offsets);
-            for ((((held, ..), cable), offset), at_limit) in cables.zip(&at_limits) {
-                let [least, greatest] = at_limit.limits;
-                let tension = dot(&cable.force, &cable.force).sqrt();
-                let set_point = (at_limit.select(tension, at_limit.limits) + *offset).max(least);
+                let chosen = row.sides[0].select(least, row.sides[1].select(greatest, tension));
+                let set_point = (chosen + *offset).max(least);
                 let set_point = set_point.less_or_equal(greatest).select(set_point, greatest);
                 let sound = zero.less_or_equal(cable.force[0])
                     & held.slackness.less_or_equal(zero.all(FOLDED))
@@ -343,8 +389,8 @@ fn distribute<S: Simd>(
                     & least.less_or_equal(greatest);
                 within = within & (sound | !last);
                 *offset = last.select(set_point, *offset);
-                let closed = HeldCable { alpha: zero, gamma: zero, ..*held };
-                closed.change(cable, set_point - tension, last, shared);
+                let there = HeldCable { closed: tension, closing: [zero; 2], ..*held };
+                there.change(cable, there.way_to(set_point), last, shared);
             }
         }
         going = going & !last;
@@ -359,7 +405,7 @@ fn distribute<S: Simd>(
 /// the lanes where all were found.
 #[inline(always)]
 fn hold<S: Simd>(
-    robots: &mut Robots<S>,
+    robots: &mut Robots<'_, S>,
     platform: &mut LinearizedPlatform<S>,
     set_points: &[Lanes<S>],
     spans: &[Span<Lanes<S>>],
@@ -375,13 +421,13 @@ fn hold<S: Simd>(
             let held = HeldCable::new(cable, span, &response);
             taut = (!going & taut) | (going & held.is_taut(cable));
             linearized.replace(&LinearizedCable::new(span, cable.force, &response), going);
-            let dt = *set_point - held.tension;
-            let own = (dt / held.tension).abs() + (held.alpha + held.beta * dt).abs();
-            // t/L dL/dt grows without bound towards the least tension, and with it what a step leaves.
-            let steepness = held.delta.abs() * held.tension * (1.0 / (10.0 * shared.scale.size));
-            let longer = (held.gamma + held.delta * dt).abs() * steepness * (1.0 / shared.scale.size);
-            let own = (own * (LAST_CHANGE / LAST_OWN_CHANGE)).max(longer);
-            let moved = held.change(cable, dt, going, shared).max(own);
+            let fx = cable.force[0];
+            let inverse = (fx * held.tension_slope).recip();
+            let d = (*set_point - held.closed) * fx * inverse;
+            // What a step leaves grows with its curvature over its slope.
+            let own = d.abs() + held.closing[0].abs() * held.flatness * held.tension_slope;
+            let own = own * inverse * (LAST_CHANGE / LAST_OWN_CHANGE);
+            let moved = held.change(cable, d, going, shared).max(own);
             going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
             if !going.any() {
                 break;

@@ -32,9 +32,9 @@ pub(crate) enum Layout<S: Simd> {
 const INLINE: usize = 4;
 
 /// Robots, in an equilibrium or near one.
-pub(crate) struct Robots<S: Simd> {
+pub(crate) struct Robots<'a, S: Simd> {
     pub(crate) layout: Layout<S>,
-    pub(crate) cables: SmallVec<[LaneCable<S>; INLINE]>,
+    pub(crate) cables: SmallVec<[LaneCable<'a, S>; INLINE]>,
     /// Position of the platform [m].
     pub(crate) position: Lanes3<S>,
     /// R c, the lever of the centre of mass [m].
@@ -125,7 +125,7 @@ impl<S: Simd> LinearizedPlatform<S> {
     }
 }
 
-impl<S: Simd> Robots<S> {
+impl<S: Simd> Robots<'_, S> {
     /// Linearises all cables in the lanes that are `going`.
     #[inline(always)]
     pub(crate) fn linearise(
@@ -260,7 +260,7 @@ impl<S: Simd> Robots<S> {
             add(&mut gradient, &cable.anchor_arm, &moved.plane.lift([x, z]));
             linearized.replace(&moved, near);
             tensions += self.counted(i, tension);
-            let strain = (tension + cable.weight_per_length * cable.length) * cable.axial_flexibility;
+            let strain = cable.strain(tension + cable.weight_per_length * cable.length);
             let sound = zero.less_or_equal(fx)
                 & slackness.less_or_equal(zero.all(FOLDED))
                 & strain.less_or_equal(zero.all(MAX_STRAIN));

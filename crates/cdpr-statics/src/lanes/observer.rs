@@ -12,17 +12,17 @@ use crate::error::StaticsError;
 use crate::inverse::{Branch, InverseSolution};
 use crate::lanes::algebra::{six, three};
 use crate::lanes::cable::LaneCable;
-use crate::lanes::chain::{ChainStart, Choice, Shared, observe};
+use crate::lanes::chain::{ChainStart, Choice, Shape, Shared, observe};
 use crate::lanes::level::LevelFrame;
-use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale, in_lanes};
+use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{deflection, deflection_near};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
-use cdpr_cable::kernel::Field;
-use cdpr_robot::{Axis, Parameter, ParameterLayout, Pose, Robot, Vector3, Vector6};
-use cdpr_tension::Bound;
+use crate::state::{Load, Residual, rounding_of_closure};
+use cdpr_cable::kernel::{Field, LaneSegment};
+use cdpr_cable::{Catenary, PiecewiseLaw};
+use cdpr_robot::{Axis, Parameter, ParameterLayout, Pose, Robot, RobotCable, Vector3, Vector6};
 use smallvec::SmallVec;
 use std::array::from_fn;
 
@@ -62,9 +62,9 @@ pub struct Observer<'a> {
 /// The nominal robot at the wanted pose.
 #[derive(Clone, Debug)]
 struct Nominal {
-    equilibrium: Equilibrium,
-    lengths: Vec<f64>,
     multipliers: Vector6<f64>,
+    /// Segments of the elastic law of each cable; none of a linear one.
+    laws: Vec<Vec<LaneSegment>>,
     shared: Shared,
 }
 
@@ -126,22 +126,21 @@ impl Nominal {
         load: &Load,
         solution: Option<InverseSolution>,
     ) -> Result<Self, ScalarReason> {
-        match ScalarReason::of_all(robot, load) {
-            Some(why) => return Err(why),
-            None => debug_assert!(in_lanes(robot)),
+        if let Some(why) = ScalarReason::of_all(robot, load) {
+            return Err(why);
         }
         let solution = solution.ok_or(ScalarReason::NominalRobot)?;
         let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let reference = robot.reference();
-        let choice = |(i, (reference, active)): (usize, (&f64, &Option<Bound>))| Choice {
+        let choice = |(i, reference): (usize, &f64)| Choice {
             reference: *reference,
             limits: robot.limits(i),
             max_at: robot.max_at(i),
-            active: *active,
+            shape: shape(robot, pose, i, &solution),
         };
         let shared = Shared {
-            choices: reference.iter().zip(&solution.active).enumerate().map(choice).collect(),
+            choices: reference.iter().enumerate().map(choice).collect(),
             tension: solution.tensions.iter().sum(),
             scale: Scale {
                 size: problem.size(),
@@ -149,12 +148,23 @@ impl Nominal {
                 rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
             },
         };
-        Ok(Self {
-            equilibrium: solution.equilibrium,
-            lengths: solution.lengths,
-            multipliers: solution.multipliers,
-            shared,
-        })
+        let law = |cable: &RobotCable| cable.properties.law.as_ref().map(PiecewiseLaw::lane_segments);
+        let laws = robot.cables.iter().map(|cable| law(cable).unwrap_or_default()).collect();
+        Ok(Self { multipliers: solution.multipliers, laws, shared })
+    }
+}
+
+/// The shape of a cable of the nominal robot at the wanted pose.
+fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape {
+    let span = robot.span(pose, i);
+    let (chord, height) = (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
+    let (unstrained_length, force) = (solution.lengths[i], solution.equilibrium.cable_forces[i]);
+    let answer = Catenary { cable: robot.cable(i), unstrained_length, force }.response();
+    let chord_force = chord / answer.lateral_flexibility;
+    Shape {
+        chord_force,
+        sag_force: force.y - chord_force * height / chord,
+        longer: unstrained_length - chord,
     }
 }
 
@@ -247,13 +257,13 @@ impl<S: Simd> Rows<'_, S> {
     /// The perturbed robots in their level frames, these frames where they are not the base frame, and the
     /// lanes whose robot is valid.
     #[inline(always)]
-    fn robots(
+    fn robots<'a>(
         &self,
         robot: &Robot,
         pose: &Pose,
         load: &Load,
-        nominal: &Nominal,
-    ) -> (ChainStart<S>, Option<LevelFrame<S>>, Mask<S>) {
+        nominal: &'a Nominal,
+    ) -> (ChainStart<'a, S>, Option<LevelFrame<S>>, Mask<S>) {
         let n = robot.cables.len();
         let layout = ParameterLayout::of(robot);
         let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
@@ -293,15 +303,15 @@ impl<S: Simd> Rows<'_, S> {
                 & zero.less_or_equal(density)
                 & tiny.less_or_equal(modulus)
                 & offset.less_or_equal(offset);
-            let force = nominal.equilibrium.cable_forces[i];
             start.offsets.push(offset);
             start.robots.cables.push(LaneCable {
+                law: &nominal.laws[i],
                 weight_per_length: density * gravity,
                 axial_flexibility: (modulus * cable.properties.section).recip(),
                 exit_point: self.point(layout.exit_point(i), &cable.exit_point),
                 anchor_arm: rotate(pose, &self.point(layout.anchor_point(i), &cable.anchor_point)),
-                length: self.all(nominal.lengths[i]),
-                force: [self.all(force.x), self.all(force.y)],
+                length: zero,
+                force: [zero; 2],
             });
         }
         if let Some(level) = &level {
@@ -311,7 +321,7 @@ impl<S: Simd> Rows<'_, S> {
     }
 }
 
-impl<S: Simd> ChainStart<S> {
+impl<S: Simd> ChainStart<'_, S> {
     /// Rotates the robots from the base frame into their level frames.
     #[inline(always)]
     fn rotate(&mut self, level: &LevelFrame<S>) {

@@ -1,7 +1,7 @@
 //! Why a robot is left to the scalar models.
 
 use crate::state::Load;
-use cdpr_robot::{Robot, Vector3};
+use cdpr_robot::{CableEnd, Robot, Vector3};
 
 /// Why an observation is made by the scalar models and not in the lanes of the vector unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -18,7 +18,7 @@ pub enum ScalarReason {
     Pulleys,
     /// Cables have leads behind their exit points.
     Leads,
-    /// Cables have an elastic law.
+    /// Cables have an elastic law, and a greatest tension at their exit points.
     Laws,
     /// The load has a moment.
     Moment,
@@ -72,11 +72,17 @@ impl ScalarReason {
     /// Why all robots like this one under this load are left to the scalar models, if they are.
     pub(crate) fn of_all(robot: &Robot, load: &Load) -> Option<Self> {
         let some = |property: fn(&cdpr_robot::RobotCable) -> bool| robot.cables.iter().any(property);
+        // A greatest tension at the exit point has a closed form for linear cables only.
+        let laws_at_exits = robot
+            .cables
+            .iter()
+            .enumerate()
+            .any(|(i, cable)| cable.properties.law.is_some() && robot.max_at(i) == CableEnd::Exit);
         let reasons = [
             (!robot.freedoms().are_all() || !robot.is_fully_actuated(), Self::FewCables),
             (some(|cable| cable.pulley.is_some_and(|pulley| pulley.radius != 0.0)), Self::Pulleys),
             (some(|cable| cable.lead != 0.0), Self::Leads),
-            (!robot.is_linear(), Self::Laws),
+            (laws_at_exits, Self::Laws),
             // A moment has no potential: pivots do not show whether its equilibria are stable.
             (load.wrench.moment != Vector3::zeros(), Self::Moment),
         ];

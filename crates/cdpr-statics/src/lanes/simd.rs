@@ -69,6 +69,12 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// The value of each lane; zeros beyond the last one.
+    /// Carries out `task` with this vector unit in a function of its own.
+    #[inline(always)]
+    pub(crate) fn apart<T: WithSimd>(self, task: T) -> T::Output {
+        self.simd.vectorize(task)
+    }
+
     #[inline(always)]
     pub(crate) fn to_array(self) -> [f64; MAX_LANES] {
         let mut values = [0.0; MAX_LANES];

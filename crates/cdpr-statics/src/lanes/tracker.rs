@@ -143,6 +143,7 @@ impl WithSimd for Update<'_, '_> {
             }
             let column = |k: usize| Lanes::from_array(simd, &values[k]);
             robots.cables.push(LaneCable {
+                law: &[],
                 weight_per_length: column(0),
                 axial_flexibility: column(1),
                 exit_point: [column(2), column(3), column(4)],

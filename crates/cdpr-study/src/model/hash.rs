@@ -5,11 +5,12 @@ use crate::file::output::Output;
 use crate::file::study_file::SamplingSpec;
 use crate::model::study::Study;
 use cdpr_robot::{Provenance, Robot};
+use cdpr_sensitivity::POINTS_VERSION;
 use serde::Serialize;
 
 impl Study {
     /// Hash of everything that determines the observations: robot, error models, poses, payload, output,
-    /// seed, version of the program. Names, titles, numbers of observations and statistics do not enter.
+    /// seed, version of the program and of its designs. Names, titles, numbers of observations and statistics do not enter.
     ///
     /// # Errors
     /// A study that was read successfully has no errors here.
@@ -49,7 +50,7 @@ impl Study {
     fn hash_of(&self, content: &impl Serialize) -> Result<String, StudyError> {
         let robot = Robot { name: String::new(), provenance: Provenance::default(), ..self.robot.clone() };
         let mut hasher = blake3::Hasher::new();
-        let whole = (env!("CARGO_PKG_VERSION"), content, robot.to_json());
+        let whole = (env!("CARGO_PKG_VERSION"), POINTS_VERSION, content, robot.to_json());
         serde_json::to_writer(&mut hasher, &whole)
             .map_err(|error| StudyError::Write { path: self.path.clone(), source: error.into() })?;
         // 128 bits tell studies apart, and can be read out.
