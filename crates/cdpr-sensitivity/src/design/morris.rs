@@ -10,10 +10,15 @@
 //! point: F. Campolongo, A. Saltelli, J. Cariboni, *From screening to quantitative sensitivity analysis*,
 //! Comput. Phys. Commun. 182 (2011). The sequence has Owen's scrambling here, under which the two coordinates
 //! do not coincide.
+//!
+//! With groups ([`MorrisDesign::grouped`]) all inputs of a group move in the same row, each up or down by its
+//! own draw: F. Campolongo, J. Cariboni, A. Saltelli, *An effective screening design for sensitivity analysis
+//! of large models*, Environ. Model. Softw. 22 (2007), section 3.
 
 use rand::RngExt;
 use rand::seq::SliceRandom;
 
+use crate::design::group::{Group, Overlap, check_groups};
 use crate::design::input::Input;
 use crate::design::saltelli::radial_sequence;
 use crate::design::sobol::Sobol;
@@ -21,11 +26,13 @@ use crate::design::{Layout, SampleDesign, check_row};
 use crate::error::{SensitivityError, check_range, require};
 use crate::sample::random::stream;
 
-/// Blocks of k + 1 points, in each of which every one of the k inputs is moved once.
+/// Blocks of k + 1 points, in each of which every one of the k inputs, or groups of inputs, is moved once.
 #[derive(Debug, Clone)]
 pub struct MorrisDesign {
     layout: Layout,
     plan: Plan,
+    /// What is moved in a row: each input by itself, unless there are groups.
+    groups: Vec<Group>,
 }
 
 #[derive(Debug, Clone)]
@@ -51,7 +58,8 @@ impl MorrisDesign {
         let layout = layout(inputs, trajectories, seed)?;
         let even = levels > 0 && levels.is_multiple_of(2);
         require(even, "levels", f64::from(levels), "an even number from 2 on")?;
-        Ok(Self { layout, plan: Plan::Trajectories { levels, seed } })
+        let groups = Group::singles(&layout.inputs);
+        Ok(Self { layout, plan: Plan::Trajectories { levels, seed }, groups })
     }
 
     /// Makes radial blocks on points of the scrambled Sobol' sequence.
@@ -63,7 +71,31 @@ impl MorrisDesign {
         check_range("blocks", blocks as u64, 2, 1 << 32)?;
         let layout = layout(inputs, blocks, seed)?;
         let sequence = radial_sequence(layout.inputs.len())?.rescrambled(seed);
-        Ok(Self { layout, plan: Plan::Radial(sequence) })
+        let groups = Group::singles(&layout.inputs);
+        Ok(Self { layout, plan: Plan::Radial(sequence), groups })
+    }
+
+    /// Returns a design of as many blocks in which groups of inputs move. An input without a group keeps its
+    /// value in each block. Groups of radial blocks may overlap.
+    ///
+    /// # Errors
+    /// [`SensitivityError::OutOfRange`] for no group; [`SensitivityError::WrongGroup`] for one without
+    /// inputs, with an input twice or one that does not exist, and for trajectories of groups with a common
+    /// input.
+    pub fn grouped(self, groups: Vec<Group>) -> Result<Self, SensitivityError> {
+        let overlap = match self.plan {
+            Plan::Trajectories { .. } => Overlap::Disjoint,
+            Plan::Radial(_) => Overlap::Allowed,
+        };
+        check_groups(&groups, self.inputs(), overlap)?;
+        let points = self.blocks() * (groups.len() + 1);
+        Ok(Self { layout: Layout { points, ..self.layout }, plan: self.plan, groups })
+    }
+
+    /// What is moved in a row of a block: each input by itself, unless there are groups.
+    #[must_use]
+    pub fn groups(&self) -> &[Group] {
+        &self.groups
     }
 
     /// Number of levels of trajectories, `None` for radial blocks.
@@ -78,7 +110,7 @@ impl MorrisDesign {
     /// Number of trajectories or radial blocks.
     #[must_use]
     pub fn blocks(&self) -> usize {
-        self.points() / (self.inputs().len() + 1)
+        self.points() / (self.groups.len() + 1)
     }
 
     /// Row of a block with which its row `row` is compared. The first row is not compared.
@@ -100,13 +132,13 @@ impl SampleDesign for MorrisDesign {
             Plan::Trajectories { levels, .. } => Plan::Trajectories { levels: *levels, seed },
             Plan::Radial(sequence) => Plan::Radial(sequence.rescrambled(seed)),
         };
-        Self { plan, layout: self.layout.reseeded(seed) }
+        Self { plan, layout: self.layout.reseeded(seed), groups: self.groups.clone() }
     }
 
     fn unit_point(&self, index: usize, point: &mut [f64]) -> Result<(), SensitivityError> {
         check_row(self, index, point)?;
-        let k = self.inputs().len();
-        let (block, row) = (index / (k + 1), index % (k + 1));
+        let (k, moves) = (self.inputs().len(), self.groups.len());
+        let (block, row) = (index / (moves + 1), index % (moves + 1));
         match &self.plan {
             Plan::Trajectories { levels, seed } => {
                 let mut generator = stream(*seed, block as u64);
@@ -116,11 +148,16 @@ impl SampleDesign for MorrisDesign {
                     if generator.random_bool(0.5) { [low, low + half] } else { [low + half, low] }
                 };
                 let ends: Vec<[u32; 2]> = (0..k).map(|_| ends()).collect();
-                let mut order: Vec<usize> = (0..k).collect();
+                let mut order: Vec<usize> = (0..moves).collect();
                 order.shuffle(&mut generator);
-                for (moved, &input) in order.iter().enumerate() {
-                    let level = ends[input][usize::from(moved < row)];
-                    point[input] = match self.layout.inputs[input].law.support().is_bounded() {
+                let mut moved = vec![false; k];
+                order[..row]
+                    .iter()
+                    .flat_map(|&group| &self.groups[group].inputs)
+                    .for_each(|&i| moved[i] = true);
+                for (input, value) in point.iter_mut().enumerate() {
+                    let level = ends[input][usize::from(moved[input])];
+                    *value = match self.layout.inputs[input].law.support().is_bounded() {
                         true => f64::from(level) / f64::from(levels - 1),
                         false => (f64::from(level) + 0.5) / f64::from(*levels),
                     };
@@ -131,8 +168,8 @@ impl SampleDesign for MorrisDesign {
                 sequence.point(block as u32, &mut both)?;
                 let (from, to) = both.split_at(k);
                 point.copy_from_slice(from);
-                if let Some(input) = row.checked_sub(1) {
-                    point[input] = to[input];
+                if let Some(group) = row.checked_sub(1) {
+                    self.groups[group].inputs.iter().for_each(|&input| point[input] = to[input]);
                 }
             }
         }

@@ -201,7 +201,7 @@ struct Table {
 }
 
 impl Table {
-    /// Bounds of each input as shares of the variance, from some rows: (J3) of S and of T, and that of T from
+    /// Bounds of each input as shares of the variance, from some rows: of S and T from below, of T from
     /// above.
     fn bounds(&self, rows: &[usize]) -> Vec<[f64; 3]> {
         let slopes: Vec<f64> =
@@ -224,8 +224,8 @@ impl Table {
             let (lower, upper) = alone[i];
             let by_others = variance - (sum - lower.max(0.0));
             let upper = upper.map_or(by_others, |upper| upper.min(by_others)).min(variance);
-            let total = lower.max(0.0) + pairs[i].max(0.0);
-            [lower.max(0.0), total, upper.max(0.0)].map(|bound| bound / variance)
+            let (lower, pairs) = (lower.max(0.0), pairs[i].max(0.0));
+            [lower, lower + pairs, upper.max(0.0)].map(|bound| bound / variance)
         };
         (0..k).map(bounds).collect()
     }
