@@ -63,6 +63,7 @@ mod family;
 pub mod given;
 pub mod law;
 pub mod measure;
+mod parallel;
 pub mod sample;
 
 pub use design::correlated::Correlated;

@@ -8,7 +8,8 @@ use crate::design::input::Input;
 use crate::error::{SensitivityError, check_range};
 
 /// Inputs that are regarded as one.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Group {
     /// Name of the group.
     pub name: String,

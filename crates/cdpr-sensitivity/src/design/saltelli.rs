@@ -25,7 +25,6 @@
 
 use rand::Rng;
 use rand::seq::SliceRandom;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::group::{Group, Overlap, check_groups};
@@ -33,10 +32,12 @@ use crate::design::input::Input;
 use crate::design::sobol::Sobol;
 use crate::design::{Layout, SampleDesign, check_origin, check_points, check_row};
 use crate::error::{SensitivityError, check_range};
+use crate::parallel::*;
 use crate::sample::random::stream;
 
 /// Order of the indices that the blocks can estimate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Order {
     /// First-order and total indices: k + 2 points per block.

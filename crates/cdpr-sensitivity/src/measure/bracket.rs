@@ -31,7 +31,6 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use rand::seq::SliceRandom;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::IndependentSample;
@@ -41,12 +40,14 @@ use crate::law::Law;
 use crate::measure::dgsm::{Slopes, checked};
 use crate::measure::expansion::basis::Polynomials;
 use crate::measure::poincare::poincare_constant;
+use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::random::stream;
 use crate::sample::summary::{Spread, check_varies};
 
 /// Bounds of the indices of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Bracket {
     /// Name of the input.
     pub input: String,

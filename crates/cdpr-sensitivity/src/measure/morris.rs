@@ -31,7 +31,8 @@ use crate::sample::interval::Estimate;
 use crate::sample::summary::Spread;
 
 /// Elementary effects of one input, in the unit of the output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct MorrisEffect {
     /// Name of the input, or of the group.
     pub input: String,

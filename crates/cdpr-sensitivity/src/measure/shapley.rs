@@ -40,7 +40,8 @@ use crate::sample::interval::Estimate;
 use crate::sample::summary::{Spread, check_varies};
 
 /// Shapley effect of one input, or of a group.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct ShapleyEffect {
     /// Name of the input, or of the group.
     pub input: String,

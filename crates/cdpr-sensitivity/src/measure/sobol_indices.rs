@@ -52,19 +52,20 @@
 use std::collections::BTreeMap;
 
 use rand::RngExt;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::SampleDesign;
 use crate::design::observation::check_outputs;
 use crate::design::saltelli::{Order, SaltelliDesign};
 use crate::error::{SensitivityError, check_length, check_level, check_range};
+use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::random::{Bootstrap, stream};
 use crate::sample::summary::check_varies;
 
 /// Indices of one input, or of a group.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct SobolIndex {
     /// Name of the input, or of the group.
     pub input: String,
@@ -78,7 +79,8 @@ pub struct SobolIndex {
 }
 
 /// Index of a pair of inputs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct PairIndex {
     /// Names of the inputs.
     pub inputs: [String; 2],
@@ -87,7 +89,8 @@ pub struct PairIndex {
 }
 
 /// Indices of all inputs of a [`SaltelliDesign`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct SobolIndices {
     /// Number of blocks of the design.
     pub blocks: usize,

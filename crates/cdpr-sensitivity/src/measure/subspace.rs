@@ -17,18 +17,19 @@
 //! of the output. The steps of an input are disregarded, as in [`crate::measure::dgsm`].
 
 use rand::RngExt;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::IndependentSample;
 use crate::error::{SensitivityError, check_level, check_range, require};
 use crate::measure::dgsm::{Slopes, checked};
 use crate::measure::eigen::symmetric_eigen;
+use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::random::{Bootstrap, stream};
 
 /// Eigenvalues and directions (AS1).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct ActiveSubspace {
     /// Number of observations that gave slopes.
     pub observed: usize,
