@@ -39,7 +39,7 @@ mod by_faer {
     use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
     use faer::{Mat, Par};
 
-    use super::{DEPENDENT, LeastSquares};
+    use crate::measure::least_squares::{DEPENDENT, LeastSquares};
 
     pub(super) fn solve(columns: &[Vec<f64>], y: &[f64]) -> Result<LeastSquares, usize> {
         let (n, k) = (y.len(), columns.len());
@@ -65,7 +65,7 @@ mod by_faer {
 
 #[cfg(any(test, not(feature = "faer")))]
 mod by_reflections {
-    use super::{DEPENDENT, LeastSquares};
+    use crate::measure::least_squares::{DEPENDENT, LeastSquares};
 
     pub(super) fn solve(columns: &[Vec<f64>], y: &[f64]) -> Result<LeastSquares, usize> {
         let k = columns.len();
