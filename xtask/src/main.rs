@@ -57,7 +57,8 @@ tasks:
   statistics TABLE [STUDIES]
                  measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
                  choice (of a fitted law), indices (of Sobol'), expansions
-                 given (estimators of tables) or brackets (bounds by derivatives)
+                 given (estimators of tables), brackets (bounds by derivatives) or measures (all of
+                 them, docs/STATISTICS.md)
   calibration PART [CAMPAIGNS | FILES]
                  prints the figures of calibration in docs/VALIDATION.md and docs/calibration.md; PART is
                  recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,

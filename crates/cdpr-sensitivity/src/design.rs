@@ -5,6 +5,7 @@
 //! threads.
 
 pub mod correlated;
+pub mod group;
 pub mod halton;
 pub mod input;
 pub mod latin_hypercube;
@@ -12,6 +13,7 @@ pub mod morris;
 pub(crate) mod observation;
 pub(crate) mod random;
 pub mod saltelli;
+pub mod shapley;
 pub mod sobol;
 
 use crate::design::input::{Input, Prepared};

@@ -136,6 +136,14 @@ pub enum SensitivityError {
         /// Name asked for.
         name: String,
     },
+    /// A group of inputs does not fit the design.
+    #[error("group `{name}`: expected {expected}")]
+    WrongGroup {
+        /// Name of the group.
+        name: String,
+        /// What was expected, in words.
+        expected: &'static str,
+    },
     /// The designs behind an interval are not independent replicates of each other.
     #[error("replicate {index}: expected {expected}")]
     NotAReplicate {

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 /// A family of laws that can be fitted: the variants of [`crate::Law`] with two parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Family {
     /// [`crate::Law::Uniform`]. Its estimate spans the smallest to the largest value of the sample.

@@ -20,7 +20,8 @@ use crate::error::{SensitivityError, require};
 use crate::law::normal::{Truncated, ln_normal_pdf, standard_normal_cdf, standard_normal_quantile};
 
 /// A probability law, in the unit of its variable. In JSON: `{"uniform": {"min": -1.0, "max": 1.0}}`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Law {
     /// Uniform law: constant density on [min, max].

@@ -3,9 +3,12 @@
 mod brackets;
 mod dgsm;
 pub(crate) mod functions;
+mod groups;
 mod indices;
 mod morris;
 mod pce;
 mod regression;
 mod sequential;
+mod shapley;
 mod space_filling;
+mod subspace;

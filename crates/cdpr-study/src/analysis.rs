@@ -4,6 +4,7 @@ pub(crate) mod comparison;
 pub(crate) mod extremes;
 pub(crate) mod keys;
 pub(crate) mod measures;
+pub(crate) mod methods;
 pub(crate) mod part;
 pub(crate) mod poses;
 pub(crate) mod sampling;

@@ -51,13 +51,14 @@ mod store;
 
 pub use analysis::comparison::{ComparisonRow, Verdict};
 pub use analysis::extremes::Extremes;
-pub use analysis::measures::{InputMeasures, MEASURES, Measure, Quantity};
+pub use analysis::measures::{GroupMeasures, InputMeasures, MEASURES, Measure, Quantity, SubspaceSummary};
+pub use analysis::methods::MethodSummary;
 pub use analysis::part::{Overview, StudySummary};
 pub use analysis::poses::{HELD, PoseRow, PosesResult, PosesSummary, observe_poses};
 pub use analysis::sampling::{
     FitSummary, NominalSummary, SamplingSummary, SignedEffect, ValueSummary, analyse, effects_of_replicates,
 };
-pub use analysis::sensitivity::{Agreement, MethodSummary, SensitivitySummary, measure};
+pub use analysis::sensitivity::{Agreement, SensitivitySummary, measure};
 pub use analysis::summary::Summary;
 pub use analysis::surface::{SurfaceResult, SurfaceSummary, SurfaceValues, compute_surface};
 pub use cdpr_sensitivity::{
@@ -71,8 +72,8 @@ pub use file::grid::{GridAxis, GridSpec};
 pub use file::output::Output;
 pub use file::record::{open_record, read_record};
 pub use file::study_file::{
-    AxisSpec, ComparisonSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec, SensitivitySpec,
-    Statistic, StudyFile, SurfaceSpec, json_schema,
+    AxisSpec, ComparisonSpec, CorrelationSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec,
+    SensitivitySpec, Statistic, StudyFile, SurfaceSpec, json_schema,
 };
 pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template};
 pub use file::value::Value;

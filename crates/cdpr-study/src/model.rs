@@ -13,4 +13,5 @@ pub(crate) mod open;
 pub(crate) mod operating_point;
 pub(crate) mod pose_set;
 pub(crate) mod prepare;
+pub(crate) mod related;
 pub(crate) mod study;

@@ -1,6 +1,7 @@
 //! The measures of sensitivity agree where they should, and one that fails leaves a note.
 
 use cdpr_robot::Robot;
+use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
     InputMeasures, MEASURES, SensitivitySpec, SensitivitySummary, Session, Study, StudyError, Truncation,
     measure, observe, template, template_cost,
@@ -21,7 +22,9 @@ const SMALL: SensitivitySpec = SensitivitySpec {
     saltelli_blocks: 256,
     bootstrap_resamples: 200,
     morris_blocks: 16,
-    derivative_points: 32,
+    morris_levels: None,
+    derivative_points: 64,
+    shapley_walks: 0,
     expansion: Truncation { max_degree: 2, norm: 0.75, interactions: 2 },
 };
 
@@ -45,7 +48,7 @@ fn timeless(mut found: SensitivitySummary) -> SensitivitySummary {
 #[test]
 fn derivatives_and_sobol_indices_agree_on_the_share_of_the_modulus() {
     let found = of_sampling("mechanical", &SMALL);
-    assert_eq!((found.methods.len(), &found.notes[..]), (8, &[][..]));
+    assert_eq!((found.methods.len(), &found.notes[..]), (10, &[][..]));
     let modulus = input(&found, "youngs_modulus");
     let share = modulus.derivative_share.unwrap();
     assert!((share - 0.9945).abs() < 1e-4, "{share}");
@@ -65,6 +68,180 @@ fn derivatives_and_sobol_indices_agree_on_the_share_of_the_modulus() {
     assert!((of_groups - found.sums["all"]["sobol_first"]).abs() < 1e-12);
     assert!(found.methods["regression"].r_squared.unwrap() > 0.98);
     assert!(found.methods["expansion"].leave_one_out.unwrap() < 0.01);
+}
+
+#[test]
+fn bounds_by_derivatives_hold_the_sobol_indices_of_every_parameter() {
+    let spec = SensitivitySpec { saltelli_blocks: 4096, derivative_points: 256, ..SMALL };
+    for name in ["mechanical", "geometrical", "geometrical_asymmetric"] {
+        let found = of_sampling(name, &spec);
+        for input in &found.inputs {
+            let indices = [
+                (input.sobol_first_low, input.sobol_first_high, input.first_bracket()),
+                (input.sobol_total_low, input.sobol_total_high, input.total_bracket()),
+            ];
+            for (low, high, bracket) in indices {
+                let [lower, upper] = bracket.unwrap();
+                assert!(lower <= upper, "{input:?}");
+                // The interval of the index and the bracket have a common point.
+                assert!(low.unwrap() <= upper && lower <= high.unwrap(), "{name}: {input:?}");
+            }
+            let width = input.total_upper_high.unwrap() - input.total_lower_low.unwrap();
+            assert!(width < 0.15, "{name}: {width}, {input:?}");
+        }
+    }
+}
+
+/// The study with these fields in place of the first ones of their names.
+fn changed(changes: &[(&str, &str)]) -> Result<Study, StudyError> {
+    let mut text = text();
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    Study::from_json(&text, path())
+}
+
+fn measured(study: &Study, name: &str, spec: &SensitivitySpec) -> SensitivitySummary {
+    let sampling = study.sampling(name).unwrap();
+    let session = Session::in_memory();
+    measure(&sampling, spec, &observe(&sampling, &session).unwrap(), &session).unwrap()
+}
+
+const GROUPS: (&str, &str) = (
+    "\"samplings\": {",
+    "\"groups\": {\"cable 1\": [\"a1\", \"b1.x\", \"b1\", \"dt1\"], \"exits\": [\"b\"], \
+     \"modulus\": [\"youngs_modulus\"]}, \
+     \"samplings\": {",
+);
+
+#[test]
+fn indices_of_groups_are_those_of_their_inputs_and_what_these_cause_together() {
+    let mut study = changed(&[GROUPS]).unwrap();
+    study.file.sensitivity = Some(SMALL);
+    let found = measured(&study, "geometrical", &SMALL);
+    let names: Vec<_> = found.groups.iter().map(|group| (group.group.as_str(), group.inputs.len())).collect();
+    assert_eq!(names, [("cable 1", 7), ("exits", 24), ("modulus", 1)]);
+    for group in &found.groups {
+        let of_group = |input: &&InputMeasures| group.inputs.contains(&input.input);
+        let sum: f64 = found.inputs.iter().filter(of_group).filter_map(|input| input.derivative_share).sum();
+        // The robot is nearly linear at this pose.
+        let (low, high) = (group.sobol_first_low.unwrap(), group.sobol_first_high.unwrap());
+        assert!(low - 0.05 < sum && sum < high + 0.05, "{sum}: {group:?}");
+        assert!(group.sobol_total_high.unwrap() > sum - 0.05 && group.morris_mean_absolute.unwrap() > 0.0);
+    }
+    let ticked = AtomicUsize::new(0);
+    let tick = |done: usize| {
+        ticked.fetch_add(done, Ordering::Relaxed);
+    };
+    let session = Session { tick: &tick, ..Session::in_memory() };
+    let sampling = study.sampling("geometrical").unwrap();
+    measure(&sampling, &SMALL, &observe(&sampling, &session).unwrap(), &session).unwrap();
+    let replicates = sampling.design.points() * study.file.replicates;
+    assert_eq!(ticked.into_inner() + replicates, study.observations("geometrical").unwrap());
+}
+
+#[test]
+fn groups_of_unknown_names_are_refused() {
+    let wrong = ("\"samplings\": {", "\"groups\": {\"p\": [\"a1\", \"c9\"]}, \"samplings\": {");
+    let error = changed(&[wrong]).unwrap_err().to_string();
+    assert!(error.contains("groups.p is c9: expected the name of an input"), "{error}");
+}
+
+const CORRELATED: (&str, &str) = (
+    "\"error_model\": \"table_3\",",
+    "\"error_model\": \"table_3\", \"first_index\": 1, \
+     \"correlations\": [{\"between\": [\"youngs_modulus\", \"mass\"], \"value\": 0.8}],",
+);
+
+#[test]
+fn a_parameter_that_acts_only_through_its_correlation_has_a_shapley_effect() {
+    let mut study = changed(&[CORRELATED]).unwrap();
+    let spec = SensitivitySpec { shapley_walks: 512, ..SMALL };
+    study.file.sensitivity = Some(spec);
+    let found = measured(&study, "mechanical", &spec);
+    // The modulus has nearly all of the variance. By C = 0.8 of uniform laws the mass explains 0.62 of it;
+    // half of what both explain is its own.
+    let (modulus, mass) = (input(&found, "youngs_modulus"), input(&found, "mass"));
+    let correlation = 6.0 / std::f64::consts::PI * 0.4_f64.asin();
+    let shared = 0.5 * correlation * correlation;
+    for (of, exact) in [(modulus, 1.0 - shared), (mass, shared)] {
+        let (low, high) = (of.shapley_low.unwrap(), of.shapley_high.unwrap());
+        assert!(low - 0.01 < exact && exact < high + 0.01 && high - low < 0.2, "{exact}: {low} {high}");
+    }
+    assert!((found.sums["all"]["shapley"] - 1.0).abs() < 1e-9);
+    // What needs independent inputs is left out by name.
+    assert!(found.notes[0].starts_with("t_student, derivatives, morris, dgsm"), "{:?}", found.notes);
+    let methods: Vec<_> = found.methods.keys().map(String::as_str).collect();
+    assert_eq!(methods, ["regression", "rank_regression", "shapley"]);
+    assert!(mass.sobol_total.is_none() && mass.t_student.is_none());
+
+    // Without correlations it is the share of Sobol' indices.
+    let study = changed(&[]).unwrap();
+    let found = measured(&study, "mechanical", &spec);
+    let modulus = input(&found, "youngs_modulus");
+    assert!(modulus.shapley_low.unwrap() < 0.9945 && modulus.shapley_high.unwrap() > 0.9945, "{modulus:?}");
+}
+
+#[test]
+fn correlated_deviations_are_observed_as_such() {
+    let study = changed(&[CORRELATED]).unwrap();
+    let sampling = study.sampling("mechanical").unwrap();
+    let place = |name| sampling.design.inputs().iter().position(|input| input.name == name).unwrap();
+    let (i, j, k) = (place("youngs_modulus"), place("mass"), sampling.design.inputs().len());
+    let mut pairs = Vec::new();
+    let each = |part: &cdpr_study::Part| -> Vec<[f64; 2]> {
+        part.rows.chunks(k).map(|row| [row[i], row[j]]).collect()
+    };
+    cdpr_study::observe_into(&sampling, &Session::in_memory(), each, |part| {
+        pairs.extend(part);
+        Ok(())
+    })
+    .unwrap();
+    let mean = |of: &dyn Fn(&[f64; 2]) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
+    let [x, y] = [mean(&|pair| pair[0]), mean(&|pair| pair[1])];
+    let product = mean(&|pair| (pair[0] - x) * (pair[1] - y));
+    let scale = (mean(&|pair| (pair[0] - x).powi(2)) * mean(&|pair| (pair[1] - y).powi(2))).sqrt();
+    let expected = 6.0 / std::f64::consts::PI * 0.4_f64.asin();
+    assert!((product / scale - expected).abs() < 0.02, "{}", product / scale);
+    let found = cdpr_study::analyse(
+        &sampling,
+        &observe(&sampling, &Session::in_memory()).unwrap(),
+        &Session::in_memory(),
+    );
+    let found = found.unwrap();
+    assert!(found.t_student.is_empty() && found.signed_effects.is_empty());
+    assert!(found.notes.iter().any(|note| note.contains("the inputs are correlated")), "{:?}", found.notes);
+}
+
+#[test]
+fn correlations_that_cannot_be_are_refused() {
+    let refusal = |correlations: &str| {
+        let to =
+            format!("\"error_model\": \"table_3\", \"first_index\": 1, \"correlations\": [{correlations}],");
+        changed(&[("\"error_model\": \"table_3\",", &to)]).unwrap_err().to_string()
+    };
+    let unknown = refusal("{\"between\": [\"mass\", \"m\"], \"value\": 0.5}");
+    assert!(unknown.contains("correlations[0].between is m: expected the name of an input"), "{unknown}");
+    let one = refusal("{\"between\": [\"mass\", \"youngs_modulus\"], \"value\": 1.0}");
+    assert!(one.contains("value is 1: expected a number above -1 and below 1"), "{one}");
+    let same = refusal("{\"between\": [\"mass\", \"mass\"], \"value\": 0.5}");
+    assert!(same.contains("two different inputs"), "{same}");
+    let of =
+        |i: &str, j: &str, value: f64| format!("{{\"between\": [\"{i}\", \"{j}\"], \"value\": {value}}}");
+    let contradiction =
+        [of("a1.x", "a1.y", 0.9), of("a1.y", "a1.z", 0.9), of("a1.x", "a1.z", -0.9)].join(", ");
+    assert!(refusal(&contradiction).contains("positive definite"));
+}
+
+#[test]
+fn trajectories_take_the_place_of_radial_blocks() {
+    let spec = SensitivitySpec { morris_levels: Some(4), ..SMALL };
+    let (radial, found) = (of_sampling("mechanical", &SMALL), of_sampling("mechanical", &spec));
+    let effect = |of: &SensitivitySummary| input(of, "youngs_modulus").morris_mean_absolute.unwrap();
+    assert_ne!(effect(&radial), effect(&found));
+    // The effect of a nearly linear input is its slope times its range, wherever it is taken.
+    assert!((effect(&radial) / effect(&found) - 1.0).abs() < 0.02);
 }
 
 #[test]
@@ -155,6 +332,11 @@ fn invalid_settings_are_refused_with_field_value_and_remedy() {
         norm.ends_with("sensitivity.expansion.norm is 0: expected a number above 0, at most 1"),
         "{norm}"
     );
+    let levels = refusal("\"morris_blocks\": 128", "\"morris_blocks\": 128, \"morris_levels\": 5");
+    assert!(
+        levels.ends_with("sensitivity.morris_levels is 5: expected an even number from 2 to 1024"),
+        "{levels}"
+    );
     let degree = refusal("\"max_degree\": 3", "\"max_degree\": 101");
     assert!(degree.ends_with("sensitivity.expansion.max_degree is 101: expected 1 to 100"), "{degree}");
 }
@@ -183,7 +365,7 @@ fn fewer_observations_shorten_all_measures_and_an_extension_keeps_them() {
     let short = study.file.sensitivity.unwrap();
     assert_eq!((whole.saltelli_blocks, short.saltelli_blocks), (128, 32));
     assert_eq!((whole.morris_blocks, short.morris_blocks), (16, 4));
-    assert_eq!((whole.derivative_points, short.derivative_points), (32, 8));
+    assert_eq!((whole.derivative_points, short.derivative_points), (64, 16));
     study.extend(4096).unwrap();
     assert_eq!(study.file.sensitivity, Some(short));
 }

@@ -229,10 +229,15 @@ fn side_by_side(found: &SensitivitySummary, output: Output) -> Markup {
         _ => measure.label.to_owned(),
     };
     let labels: Vec<String> = measures.iter().map(label).collect();
-    let head: Vec<&str> = ["Parameter"].into_iter().chain(labels.iter().map(String::as_str)).collect();
+    let bracketed = found.inputs.iter().any(|input| input.total_bracket().is_some());
+    let bounds: &[&str] = if bracketed { &["total at least", "total at most"] } else { &[] };
+    let labels = labels.iter().map(String::as_str).chain(bounds.iter().copied());
+    let head: Vec<&str> = ["Parameter"].into_iter().chain(labels).collect();
     let row = |input: &InputMeasures| -> Vec<Markup> {
         let values = measures.iter().map(|measure| numeric((measure.value)(input), 3));
-        [cell(parameters::symbol(&input.input))].into_iter().chain(values).collect()
+        let ends = [input.total_lower_low, input.total_upper_high].map(|end| numeric(end, 3));
+        let ends = ends.into_iter().take(bounds.len());
+        [cell(parameters::symbol(&input.input))].into_iter().chain(values).chain(ends).collect()
     };
     let rows: Vec<_> = found.leading().into_iter().take(LEADING).map(row).collect();
     let agreed: Vec<&str> = found.agreement.inputs.iter().map(|name| parameters::symbol(name)).collect();

@@ -18,8 +18,7 @@ pub(crate) fn table(studies: u64) -> Result<(), SensitivityError> {
     println!("L <= T <= U, of the estimates and of the outer ends of their intervals of 95 % [%]; mean and");
     println!("greatest U - L of the estimates; the same of the bound C nu / V alone");
     println!("{:22}{:>7}{:>10}{:>10}{:>18}{:>18}", "function", "N", "held", "intervals", "U - L", "C nu / V");
-    let smooth = |function: &Function| function.name != "step" && !function.name.contains("fail");
-    for function in all().into_iter().filter(smooth) {
+    for function in all().into_iter().filter(is_smooth) {
         let design = SaltelliDesign::scrambled(function.inputs.clone(), TRUE_BLOCKS, Order::First, u64::MAX)?;
         let outputs = observe(&design, function.model)?;
         let exact = sobol_indices(&design, &outputs, Bootstrap { resamples: 2, seed: 1 }, 0.95)?;
@@ -64,8 +63,16 @@ fn row(function: &Function, exact: &[f64], points: usize, studies: u64) -> Resul
     Ok(())
 }
 
+/// Whether a function has derivatives wherever it is evaluated.
+pub(crate) fn is_smooth(function: &Function) -> bool {
+    function.name != "step" && !function.name.contains("fail")
+}
+
 /// Outputs with central differences.
-fn slopes(design: &SobolDesign, function: &Function) -> Result<Vec<Option<Slopes>>, SensitivityError> {
+pub(crate) fn slopes(
+    design: &SobolDesign,
+    function: &Function,
+) -> Result<Vec<Option<Slopes>>, SensitivityError> {
     let inputs = design.inputs();
     let at = |index: usize| {
         let mut row = vec![0.0; inputs.len()];

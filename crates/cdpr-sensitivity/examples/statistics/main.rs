@@ -11,6 +11,7 @@ mod expansions;
 mod functions;
 mod given;
 mod indices;
+mod measures;
 
 use cdpr_sensitivity::SensitivityError;
 
@@ -18,12 +19,13 @@ use cdpr_sensitivity::SensitivityError;
 type Table = fn(u64) -> Result<(), SensitivityError>;
 
 fn main() -> Result<(), SensitivityError> {
-    let tables: [(&str, Table); 5] = [
+    let tables: [(&str, Table); 6] = [
         ("choice", choice::table),
         ("indices", indices::table),
         ("expansions", expansions::table),
         ("given", given::table),
         ("brackets", brackets::table),
+        ("measures", measures::table),
     ];
     let mut arguments = std::env::args().skip(1);
     let (name, count) = (arguments.next(), arguments.next());

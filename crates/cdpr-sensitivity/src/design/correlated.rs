@@ -101,7 +101,7 @@ impl<D: IndependentSample> SampleDesign for Correlated<D> {
 impl<D: IndependentSample> JointSample for Correlated<D> {}
 
 /// Cholesky factor of a correlation matrix, Eq. (K1).
-fn cholesky(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, SensitivityError> {
+pub(crate) fn cholesky(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, SensitivityError> {
     /// A squared pivot up to this value is rounding.
     const SINGULAR: f64 = 1e-12;
     let mut factor: Vec<Vec<f64>> = Vec::with_capacity(matrix.len());

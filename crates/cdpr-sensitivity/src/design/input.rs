@@ -22,7 +22,8 @@ use crate::law::{Law, Support};
 /// A step that does not divide the range leaves a remainder without a level at both ends. For example,
 /// ±0.01015 in steps of 3e-5 has 677 levels. The last one lies at 338 · 3e-5 = 0.01014, and the probability
 /// of the remainder falls on it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Steps {
     /// Rounding to the nearest level, Eq. (I1).
@@ -38,7 +39,8 @@ pub enum Steps {
 }
 
 /// An uncertain input of a model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Input {
     /// Name, as reports show it.

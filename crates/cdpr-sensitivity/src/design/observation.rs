@@ -2,10 +2,9 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use crate::design::SampleDesign;
 use crate::error::{SensitivityError, check_finite, check_length, check_range};
+use crate::parallel::*;
 use crate::sample::summary::check_varies;
 
 /// Runs a model at all points of a design in parallel. It returns one output per row, `None` where the model

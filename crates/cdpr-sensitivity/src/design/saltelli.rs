@@ -12,6 +12,9 @@
 //! analysis of model output. Design and estimator for the total sensitivity index*, Comput. Phys. Commun. 181
 //! (2010). The order of the rows is that of SALib. The estimator is [`crate::sobol_indices()`].
 //!
+//! With groups ([`SaltelliDesign::grouped`]) the coordinates of a whole group are exchanged at once, and a
+//! block has a row for each group in place of each input: M. J. W. Jansen (1999), SALib's `groups`.
+//!
 //! A scrambled design takes every other block from one scrambled sequence, from which the indices are
 //! estimated. The blocks between them come in rotation from [`SaltelliDesign::REPLICATES`] other scramblings.
 //! The differences between these show the error of the indices, which a single sequence does not. The first
@@ -22,17 +25,19 @@
 
 use rand::Rng;
 use rand::seq::SliceRandom;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::design::group::{Group, Overlap, check_groups};
 use crate::design::input::Input;
 use crate::design::sobol::Sobol;
 use crate::design::{Layout, SampleDesign, check_origin, check_points, check_row, check_rows, to_values};
 use crate::error::{SensitivityError, check_range};
+use crate::parallel::*;
 use crate::sample::random::stream;
 
 /// Order of the indices that the blocks can estimate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Order {
     /// First-order and total indices: k + 2 points per block.
@@ -52,6 +57,8 @@ pub struct SaltelliDesign {
     /// Points (a, b) of all blocks.
     pairs: Vec<f64>,
     order: Order,
+    /// What is exchanged in the rows of a block: each input by itself, unless there are groups.
+    groups: Vec<Group>,
 }
 
 impl SaltelliDesign {
@@ -105,7 +112,32 @@ impl SaltelliDesign {
         let plain = radial_sequence(inputs)?;
         let sequences = seed.map_or_else(|| vec![plain.clone()], |seed| scramblings(&plain, seed));
         let pairs = extended(room(blocks, 2 * inputs)?, &sequences, first_index, blocks);
-        Ok(Self { layout, plain, sequences, first_index, pairs, order })
+        let groups = Group::singles(&layout.inputs);
+        Ok(Self { layout, plain, sequences, first_index, pairs, order, groups })
+    }
+
+    /// Returns this design with the same points (a, b), in whose blocks groups of inputs are exchanged. The
+    /// indices are then those of groups: the first-order index is the share of the variance that the inputs
+    /// of the group cause alone or with each other, the total index that in which any of them takes part.
+    ///
+    /// For [`Order::First`] an input may be in several groups, or in none.
+    ///
+    /// # Errors
+    /// [`SensitivityError::OutOfRange`] for no group; [`SensitivityError::WrongGroup`] for one without
+    /// inputs, with an input twice or one that does not exist, and for [`Order::Second`] for groups with a
+    /// common input.
+    pub fn grouped(self, groups: Vec<Group>) -> Result<Self, SensitivityError> {
+        let overlap = if self.order == Order::First { Overlap::Allowed } else { Overlap::Disjoint };
+        check_groups(&groups, self.inputs(), overlap)?;
+        let points = self.blocks() * block_points(self.order, groups.len());
+        Ok(Self { layout: Layout { points, ..self.layout }, groups, ..self })
+    }
+
+    /// What is exchanged in the rows of a block, and what the indices are of: each input by itself, unless
+    /// there are groups.
+    #[must_use]
+    pub fn groups(&self) -> &[Group] {
+        &self.groups
     }
 
     /// Returns this design with another number of blocks. The blocks that both have are the same.
@@ -156,7 +188,7 @@ impl SaltelliDesign {
     /// Number of points of one block.
     #[must_use]
     pub fn block_points(&self) -> usize {
-        block_points(self.order, self.inputs().len())
+        block_points(self.order, self.groups.len())
     }
 
     /// Point (a, b) of a block.
@@ -167,18 +199,18 @@ impl SaltelliDesign {
 
     /// Writes row `within` of the block of (a, b), Eq. (B1).
     fn write(&self, pair: &[f64], within: usize, row: &mut [f64]) {
-        let k = row.len();
-        let (a, b) = pair.split_at(k);
-        let (from, exchanged, other) = if within <= k {
+        let (a, b) = pair.split_at(row.len());
+        let groups = self.groups.len();
+        let (from, exchanged, other) = if within <= groups {
             (a, within.checked_sub(1), b)
         } else if within + 1 < self.block_points() {
-            (b, Some(within - k - 1), a)
+            (b, Some(within - groups - 1), a)
         } else {
             (b, None, a)
         };
         row.copy_from_slice(from);
-        if let Some(i) = exchanged {
-            row[i] = other[i];
+        if let Some(group) = exchanged {
+            self.groups[group].inputs.iter().for_each(|&input| row[input] = other[input]);
         }
     }
 }
@@ -217,11 +249,11 @@ impl SampleDesign for SaltelliDesign {
     }
 }
 
-/// Number of points of one block for this many inputs.
-fn block_points(order: Order, inputs: usize) -> usize {
+/// Number of points of one block for this many groups.
+fn block_points(order: Order, groups: usize) -> usize {
     match order {
-        Order::First => inputs + 2,
-        Order::Second => 2 * inputs + 2,
+        Order::First => groups + 2,
+        Order::Second => 2 * groups + 2,
     }
 }
 

@@ -21,7 +21,8 @@ use crate::sample::random::{Bootstrap, derived_seed, stream};
 use crate::sample::summary::{Sample, Summary, check_varies};
 
 /// What the outputs are to satisfy.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Limit {
     /// They are to stay below this value.
@@ -77,7 +78,8 @@ const DELTA_RESAMPLES: usize = 30;
 const LEAST_FAILING: usize = 5;
 
 /// What a table says of one output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Analysis {
     /// Moments and extremes, in the unit of the output, and the number of failed observations.
     pub summary: Summary,
@@ -106,7 +108,8 @@ pub struct Analysis {
 }
 
 /// Two inputs and the correlation of their ranks.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct CorrelatedPair {
     /// Their names.
     pub inputs: [String; 2],
@@ -115,7 +118,8 @@ pub struct CorrelatedPair {
 }
 
 /// How often a limit fails.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct LimitFailures {
     /// The limit.
     pub limit: Limit,
@@ -126,7 +130,8 @@ pub struct LimitFailures {
 }
 
 /// Measures of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct InputAnalysis {
     /// Name of the input.
     pub input: String,
@@ -153,7 +158,8 @@ pub struct InputAnalysis {
 }
 
 /// How an input makes a limit fail.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct InputAtLimit {
     /// Dependence of the failure of the limit (target HSIC).
     pub target: Dependence,

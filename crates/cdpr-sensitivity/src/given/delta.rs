@@ -19,18 +19,19 @@
 
 use rand::RngExt;
 use rand::seq::SliceRandom;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{SensitivityError, check_level};
 use crate::given::data::GivenData;
 use crate::given::rank::order;
+use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::random::{Bootstrap, stream};
 use crate::sample::summary::Spread;
 
 /// δ of one input.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Delta {
     /// Corrected estimate (B2) with the interval over the resamples, which shows its scatter.
     pub delta: Estimate,

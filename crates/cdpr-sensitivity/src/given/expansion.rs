@@ -26,7 +26,8 @@ use crate::measure::expansion::{Expansion, Found, Shares, Term, search, shares};
 use crate::measure::regression::ranks;
 
 /// Expansion of a table.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct GivenExpansion {
     /// Whether the polynomials are those of the ranks.
     pub of_ranks: bool,

@@ -19,7 +19,8 @@ use crate::given::data::GivenData;
 use crate::sample::summary::Spread;
 
 /// Effect (E1) of one input.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Half {
     /// Signed effect, in the unit of the output. It is 0 for an input of which one half has no value.
     pub effect: f64,

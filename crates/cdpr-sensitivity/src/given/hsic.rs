@@ -35,17 +35,18 @@
 //! Inputs may depend on each other: then an input without an effect of its own depends on the output, too.
 
 use rand::seq::index::sample;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Gamma};
 
 use crate::error::{SensitivityError, check_length, check_range};
 use crate::given::data::GivenData;
+use crate::parallel::*;
 use crate::sample::random::stream;
 use crate::sample::summary::{Spread, check_varies};
 
 /// Dependence on one input.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Dependence {
     /// R² (D2), from 0 to 1. A constant input has 0.
     pub r_squared: f64,

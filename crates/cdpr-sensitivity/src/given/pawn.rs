@@ -13,16 +13,17 @@
 //! effect stay below is therefore estimated by random parts of the same sizes.
 
 use rand::seq::SliceRandom;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::error::SensitivityError;
 use crate::given::data::GivenData;
 use crate::given::rank::order;
+use crate::parallel::*;
 use crate::sample::random::stream;
 
 /// PAWN index of one input.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Pawn {
     /// Median of the distances (N1).
     pub median: f64,

@@ -25,11 +25,11 @@
 //! equal values of an input are put into random order. No unit.
 
 use rand::seq::SliceRandom;
-use rayon::prelude::*;
 
 use crate::design::observation::Observed;
 use crate::error::{SensitivityError, check_level};
 use crate::given::data::GivenData;
+use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::random::stream;
 use crate::sample::summary::Spread;

@@ -25,7 +25,6 @@
 //! parameters is not a law of a location and a scale.
 
 use rand_distr::{Distribution, Exp1};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{SensitivityError, check_range};
@@ -33,6 +32,7 @@ use crate::family::Family;
 use crate::law::Law;
 use crate::law::choice::log_weight;
 use crate::law::likelihood::estimate;
+use crate::parallel::*;
 use crate::sample::random::{Bootstrap, stream};
 use crate::sample::summary::{Sample, check_varies};
 
@@ -52,7 +52,8 @@ impl Family {
 }
 
 /// A fitted law and how well it fits.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Fit {
     /// Family of the law.
     pub family: Family,

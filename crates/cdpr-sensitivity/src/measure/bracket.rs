@@ -31,7 +31,6 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use rand::seq::SliceRandom;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::IndependentSample;
@@ -41,12 +40,14 @@ use crate::law::Law;
 use crate::measure::dgsm::{Slopes, checked};
 use crate::measure::expansion::basis::Polynomials;
 use crate::measure::poincare::poincare_constant;
+use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::random::stream;
 use crate::sample::summary::{Spread, check_varies};
 
 /// Bounds of the indices of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Bracket {
     /// Name of the input.
     pub input: String,
@@ -201,7 +202,7 @@ struct Table {
 }
 
 impl Table {
-    /// Bounds of each input as shares of the variance, from some rows: (J3) of S and of T, and that of T from
+    /// Bounds of each input as shares of the variance, from some rows: of S and T from below, of T from
     /// above.
     fn bounds(&self, rows: &[usize]) -> Vec<[f64; 3]> {
         let slopes: Vec<f64> =
@@ -224,8 +225,8 @@ impl Table {
             let (lower, upper) = alone[i];
             let by_others = variance - (sum - lower.max(0.0));
             let upper = upper.map_or(by_others, |upper| upper.min(by_others)).min(variance);
-            let total = lower.max(0.0) + pairs[i].max(0.0);
-            [lower.max(0.0), total, upper.max(0.0)].map(|bound| bound / variance)
+            let (lower, pairs) = (lower.max(0.0), pairs[i].max(0.0));
+            [lower, lower + pairs, upper.max(0.0)].map(|bound| bound / variance)
         };
         (0..k).map(bounds).collect()
     }

@@ -14,7 +14,8 @@ use crate::measure::sobol_indices::{SobolIndices, sobol_indices};
 use crate::sample::random::Bootstrap;
 
 /// Condition on which doubling ends.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Target {
     /// Largest width that an interval may have.
     pub width: f64,

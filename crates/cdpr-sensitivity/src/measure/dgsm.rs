@@ -23,7 +23,8 @@ use crate::sample::interval::Estimate;
 use crate::sample::summary::{Spread, check_varies};
 
 /// Output of an observation and its derivatives with respect to the inputs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Slopes {
     /// Output.
     pub output: f64,
@@ -32,7 +33,8 @@ pub struct Slopes {
 }
 
 /// Derivative-based measure of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct DerivativeMeasure {
     /// Name of the input.
     pub input: String,
@@ -43,7 +45,8 @@ pub struct DerivativeMeasure {
 }
 
 /// Measures of all inputs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct DerivativeMeasures {
     /// Number of observations that gave slopes.
     pub observed: usize,

@@ -23,20 +23,21 @@
 //!
 //! For y = Σ b x and uniform inputs, the expected effect of an input is b (max - min) / 2.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::IndependentSample;
 use crate::design::input::Input;
 use crate::design::observation::check_outputs;
 use crate::error::{SensitivityError, check_length, check_level, check_range};
+use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::summary::{Moments, Spread, Summary};
 
 /// Effect of one input, and the observations on which it is based.
 ///
 /// An observation whose input lies exactly on the middle of its domain belongs to neither half.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Effect {
     /// Name of the input.
     pub input: String,
@@ -61,7 +62,8 @@ pub struct Effect {
 }
 
 /// Effects of all inputs of a design.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Effects {
     /// Summary of the outputs. [`Summary::failed`] counts the failed observations.
     pub outputs: Summary,
@@ -70,7 +72,8 @@ pub struct Effects {
 }
 
 /// Signed effect of one input over independent replicates of a design, Eq. (U3).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct EffectInterval {
     /// Name of the input.
     pub input: String,

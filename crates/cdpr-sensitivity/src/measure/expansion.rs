@@ -20,7 +20,6 @@ pub mod basis;
 pub mod polynomial;
 mod pursuit;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::IndependentSample;
@@ -30,12 +29,14 @@ use crate::error::{SensitivityError, check_length};
 use crate::measure::expansion::basis::Polynomials;
 use crate::measure::expansion::polynomial::{Power, Truncation};
 use crate::measure::expansion::pursuit::pursue;
+use crate::parallel::*;
 
 /// Largest number of values of candidate terms (terms times outputs): 1 GiB.
 const MAX_VALUES: usize = 1 << 27;
 
 /// One term of an expansion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Term {
     /// α: inputs of the product and their degrees.
     pub powers: Vec<Power>,
@@ -44,7 +45,8 @@ pub struct Term {
 }
 
 /// Sparse expansion (X1).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Expansion {
     /// Inputs, in the order of the design.
     pub inputs: Vec<Input>,
@@ -65,7 +67,8 @@ pub struct Expansion {
 }
 
 /// Indices of one input, or of a group of inputs.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Shares {
     /// Share of the variance that the inputs cause without others, Eq. (X3). For one input it is its
     /// first-order index.
@@ -75,7 +78,8 @@ pub struct Shares {
 }
 
 /// Index of a pair of inputs.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct PairShare {
     /// Indices of the inputs, the smaller one first.
     pub inputs: [usize; 2],

@@ -8,6 +8,10 @@
 //! μ_i = mean(e_i),   μ*_i = mean(|e_i|),   σ_i² = Σ (e_i - μ_i)² / (n - 1)              (O2)
 //! ```
 //!
+//! In a design with groups an effect is that of a group, whose change is divided by the root mean square of
+//! the probabilities by which its inputs have moved; those that steps leave where they are count with zero.
+//! It has no direction if the group has several inputs: μ* alone describes it then.
+//!
 //! μ* ranks the inputs. A large σ shows curvature or interactions. In a linear model of uniform inputs, e = b
 //! (max - min). If steps round the two values of an input to the same level, there is no elementary effect.
 //!
@@ -18,6 +22,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::design::SampleDesign;
+use crate::design::group::Group;
 use crate::design::input::Input;
 use crate::design::morris::MorrisDesign;
 use crate::design::observation::check_outputs;
@@ -26,15 +31,16 @@ use crate::sample::interval::Estimate;
 use crate::sample::summary::Spread;
 
 /// Elementary effects of one input, in the unit of the output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct MorrisEffect {
-    /// Name of the input.
+    /// Name of the input, or of the group.
     pub input: String,
     /// Number of elementary effects.
     pub effects: usize,
     /// Number of elementary effects lost to failed observations.
     pub failed: usize,
-    /// Mean μ (O2).
+    /// Mean μ (O2). It says nothing of a group of several inputs.
     pub mean: f64,
     /// Mean μ* of the absolute values (O2) with Student's interval over the blocks.
     pub mean_absolute: Estimate,
@@ -61,36 +67,40 @@ pub fn morris_effects(
     check_level(level)?;
     check_outputs(design, outputs)?;
     let inputs = design.inputs();
-    let mut found = vec![(Vec::new(), 0); inputs.len()];
-    let mut rows = vec![vec![0.0; inputs.len()]; inputs.len() + 1];
+    let groups = design.groups();
+    let mut found = vec![(Vec::new(), 0); groups.len()];
+    let mut rows = vec![vec![0.0; inputs.len()]; groups.len() + 1];
     for (block, outputs) in outputs.chunks(rows.len()).enumerate() {
         for (k, row) in rows.iter_mut().enumerate() {
-            design.row(block * (inputs.len() + 1) + k, row)?;
+            design.row(block * (groups.len() + 1) + k, row)?;
         }
         for k in 1..rows.len() {
             let reference = design.reference(k);
             let (from, to) = (&rows[reference], &rows[k]);
             // No input differs if steps have rounded the two values to the same level.
-            let Some(input) = (0..inputs.len()).find(|&input| from[input] != to[input]) else {
+            let Some(moved) = (0..inputs.len()).find(|&input| from[input] != to[input]) else {
                 continue;
             };
-            let law = &inputs[input].law;
+            // Radial blocks move the groups in their order, trajectories in a random one.
+            let of_trajectory = groups.iter().position(|group| group.contains(moved));
+            let Some(group) = design.levels().map_or(Some(k - 1), |_| of_trajectory) else { continue };
             match (outputs[reference], outputs[k]) {
                 (Some(before), Some(after)) => {
-                    found[input].0.push((after - before) / (law.cdf(to[input]) - law.cdf(from[input])));
+                    let distance = distance(&groups[group], inputs, from, to);
+                    found[group].0.push((after - before) / distance);
                 }
-                _ => found[input].1 += 1,
+                _ => found[group].1 += 1,
             }
         }
     }
-    let summary = |(input, (effects, failed)): (&Input, (Vec<f64>, usize))| {
+    let summary = |(group, (effects, failed)): (&Group, (Vec<f64>, usize))| {
         check_range("elementary effects", effects.len() as u64, 2, u64::MAX).map_err(|source| {
-            SensitivityError::InvalidInput { name: input.name.clone(), source: Box::new(source) }
+            SensitivityError::InvalidInput { name: group.name.clone(), source: Box::new(source) }
         })?;
         let spread = Spread::of(&effects);
         let absolute: Vec<f64> = effects.iter().map(|effect| effect.abs()).collect();
         Ok(MorrisEffect {
-            input: input.name.clone(),
+            input: group.name.clone(),
             effects: effects.len(),
             failed,
             mean: spread.mean,
@@ -98,5 +108,17 @@ pub fn morris_effects(
             std: spread.std(),
         })
     };
-    inputs.iter().zip(found).map(summary).collect()
+    groups.iter().zip(found).map(summary).collect()
+}
+
+/// Probability by which a group has moved: of one input with its sign, of several the root mean square.
+fn distance(group: &Group, inputs: &[Input], from: &[f64], to: &[f64]) -> f64 {
+    let of_input = |&i: &usize| inputs[i].law.cdf(to[i]) - inputs[i].law.cdf(from[i]);
+    match &group.inputs[..] {
+        [input] => of_input(input),
+        several => {
+            let squares: f64 = several.iter().map(|input| of_input(input).powi(2)).sum();
+            (squares / several.len() as f64).sqrt()
+        }
+    }
 }

@@ -29,7 +29,8 @@ use crate::measure::least_squares::least_squares;
 use crate::sample::summary::Spread;
 
 /// Coefficients of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Coefficient {
     /// Name of the input.
     pub input: String,
@@ -42,7 +43,8 @@ pub struct Coefficient {
 }
 
 /// Linear model of standardised values or ranks.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Regression {
     /// Number of observations on which the model is based.
     pub observed: usize,

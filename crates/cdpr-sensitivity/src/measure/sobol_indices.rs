@@ -19,6 +19,13 @@
 //!
 //! They agree with the estimators of SALib up to rounding.
 //!
+//! Of a design with groups, i and j stand for groups: the indices are those of all inputs of a group.
+//!
+//! Of an output with several components ([`vector_sobol_indices`]), each product is the sum over the
+//! components: with C_u the covariance of `E (f | x_u)`, the indices are `tr C_u / tr C`. F. Gamboa, A.
+//! Janon, T. Klein, A. Lagnoux, *Sensitivity analysis for multidimensional and functional outputs*, Electron.
+//! J. Stat. 8 (2014): the only indices of this kind that do not depend on rotations of the output.
+//!
 //! Each index is a quotient of sums over blocks. Those of a scrambled design come from its one sequence of M
 //! blocks, half of all. The R replicates together have as many blocks. With s* the deviation over a bootstrap
 //! of them ([`crate::sample::interval`], Eq. (CI2)), and S' the index of all replicates together, the
@@ -45,21 +52,22 @@
 use std::collections::BTreeMap;
 
 use rand::RngExt;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::design::SampleDesign;
 use crate::design::observation::check_outputs;
 use crate::design::saltelli::{Order, SaltelliDesign};
-use crate::error::{SensitivityError, check_level, check_range};
+use crate::error::{SensitivityError, check_length, check_level, check_range};
+use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::random::{Bootstrap, stream};
 use crate::sample::summary::check_varies;
 
-/// Indices of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+/// Indices of one input, or of a group.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct SobolIndex {
-    /// Name of the input.
+    /// Name of the input, or of the group.
     pub input: String,
     /// Number of blocks behind both indices: those in which a, b and `ab_i` were observed, and of a scrambled
     /// design twice those of its smaller half.
@@ -71,7 +79,8 @@ pub struct SobolIndex {
 }
 
 /// Index of a pair of inputs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct PairIndex {
     /// Names of the inputs.
     pub inputs: [String; 2],
@@ -80,7 +89,8 @@ pub struct PairIndex {
 }
 
 /// Indices of all inputs of a [`SaltelliDesign`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct SobolIndices {
     /// Number of blocks of the design.
     pub blocks: usize,
@@ -88,7 +98,7 @@ pub struct SobolIndices {
     pub failed_blocks: usize,
     /// Number of failed observations.
     pub failed: usize,
-    /// Variance V (V1), in the square of the unit of the output.
+    /// Variance V (V1), in the square of the unit of the output; of several components the sum.
     pub variance: f64,
     /// Confidence level of the intervals.
     pub level: f64,
@@ -138,24 +148,69 @@ pub fn sobol_indices(
     bootstrap: Bootstrap,
     level: f64,
 ) -> Result<SobolIndices, SensitivityError> {
+    check_outputs(design, outputs)?;
+    indices(design, &[outputs], bootstrap, level)
+}
+
+/// Estimates the indices of an output of several components, which need a common unit: one element per row,
+/// `None` for a failed observation.
+///
+/// # Errors
+/// As [`sobol_indices`], and [`SensitivityError::LengthMismatch`] for an output without components or with
+/// another number than the others.
+pub fn vector_sobol_indices(
+    design: &SaltelliDesign,
+    outputs: &[Option<Vec<f64>>],
+    bootstrap: Bootstrap,
+    level: f64,
+) -> Result<SobolIndices, SensitivityError> {
+    check_length("outputs", outputs.len(), design.points())?;
+    let size = outputs.iter().flatten().next().map_or(1, |output| output.len().max(1));
+    outputs.iter().flatten().try_for_each(|output| check_length("components", output.len(), size))?;
+    let component = |c: usize| outputs.iter().map(|output| Some(output.as_ref()?[c])).collect();
+    let components: Vec<Vec<Option<f64>>> = (0..size).map(component).collect();
+    components.iter().try_for_each(|outputs| check_outputs(design, outputs))?;
+    let components: Vec<&[Option<f64>]> = components.iter().map(Vec::as_slice).collect();
+    indices(design, &components, bootstrap, level)
+}
+
+/// Indices of checked outputs, one list per component.
+fn indices(
+    design: &SaltelliDesign,
+    components: &[&[Option<f64>]],
+    bootstrap: Bootstrap,
+    level: f64,
+) -> Result<SobolIndices, SensitivityError> {
     check_level(level)?;
     check_range("resamples", bootstrap.resamples as u64, 2, u64::MAX)?;
-    check_outputs(design, outputs)?;
-    let blocks = || outputs.chunks(design.block_points()).enumerate();
+    let (size, count) = (design.block_points(), design.blocks());
     let estimates = |number: usize| !design.is_scrambled() || design.replicate_of(number).is_none();
-    let ends = blocks().filter(|(number, _)| estimates(*number));
-    let ends: Vec<f64> = ends.flat_map(|(_, block)| [block[0], block[block.len() - 1]]).flatten().collect();
-    check_range("observed outputs", ends.len() as u64, 2, u64::MAX)?;
-    check_varies(&ends)?;
-
-    let observed = outputs.iter().flatten();
-    let mean = observed.clone().sum::<f64>() / observed.count() as f64;
-    let k = design.inputs().len();
+    let varies = |outputs: &&[Option<f64>]| {
+        let ends = (0..count).filter(|number| estimates(*number));
+        let ends = ends.flat_map(|number| [outputs[number * size], outputs[(number + 1) * size - 1]]);
+        let ends: Vec<f64> = ends.flatten().collect();
+        check_range("observed outputs", ends.len() as u64, 2, u64::MAX)?;
+        check_varies(&ends)
+    };
+    // One component that varies suffices.
+    let checks: Vec<Result<(), SensitivityError>> = components.iter().map(varies).collect();
+    if let Some(Err(error)) = checks.iter().find(|check| check.is_ok()).or(checks.first()) {
+        return Err(error.clone());
+    }
+    let mean = |outputs: &&[Option<f64>]| {
+        let observed = outputs.iter().flatten();
+        observed.clone().sum::<f64>() / observed.count() as f64
+    };
+    let means: Vec<f64> = components.iter().map(mean).collect();
+    let k = design.groups().len();
     // Sums of the estimate and of the units that show its error: the replicates, or single blocks.
     let mut estimate = Sums::default();
     let mut units: BTreeMap<usize, Sums> = BTreeMap::new();
-    for (number, block) in blocks() {
-        let terms = terms(block, mean, k, design.order());
+    for number in 0..count {
+        let mut terms = Sums { components: components.len(), ..Sums::default() };
+        for (component, (outputs, mean)) in components.iter().zip(&means).enumerate() {
+            terms.observe(&outputs[number * size..(number + 1) * size], *mean, component, design);
+        }
         if estimates(number) {
             estimate.add(1, &terms);
         }
@@ -167,14 +222,14 @@ pub fn sobol_indices(
     let units: Vec<Sums> = units.into_values().collect();
     let mut pool = Sums::default();
     units.iter().for_each(|unit| pool.add(1, unit));
-    let count = |i: usize| match design.is_scrambled() {
+    let behind = |i: usize| match design.is_scrambled() {
         true => 2 * estimate.count(i).min(pool.count(i)),
         false => estimate.count(i),
     };
-    for (i, input) in design.inputs().iter().enumerate() {
+    for (i, group) in design.groups().iter().enumerate() {
         let least = SobolIndices::MIN_BLOCKS as u64;
-        check_range("blocks without a failure", count(i) as u64, least, u64::MAX).map_err(|source| {
-            SensitivityError::InvalidInput { name: input.name.clone(), source: Box::new(source) }
+        check_range("blocks without a failure", behind(i) as u64, least, u64::MAX).map_err(|source| {
+            SensitivityError::InvalidInput { name: group.name.clone(), source: Box::new(source) }
         })?;
     }
     let ((variance, values), (_, pooled)) = (estimate.quotients(), pool.quotients());
@@ -201,18 +256,19 @@ pub fn sobol_indices(
     };
     let estimates: Vec<Estimate> = values.par_iter().enumerate().map(interval).collect::<Result<_, _>>()?;
 
-    let name = |i: usize| design.inputs()[i].name.clone();
+    let name = |i: usize| design.groups()[i].name.clone();
+    let outputs = components[0];
     let (of_inputs, of_pairs) = estimates.split_at(2 * k);
     let input =
-        |i| SobolIndex { input: name(i), blocks: count(i), first: of_inputs[i], total: of_inputs[k + i] };
+        |i| SobolIndex { input: name(i), blocks: behind(i), first: of_inputs[i], total: of_inputs[k + i] };
     let pair = |((i, j), &second)| PairIndex { inputs: [name(i), name(j)], second };
     Ok(SobolIndices {
-        blocks: design.blocks(),
-        failed_blocks: outputs.chunks(design.block_points()).filter(|block| block.contains(&None)).count(),
+        blocks: count,
+        failed_blocks: outputs.chunks(size).filter(|block| block.contains(&None)).count(),
         failed: outputs.iter().filter(|output| output.is_none()).count(),
         variance,
         level,
-        reliable: design.is_scrambled() && (0..k).all(|i| count(i) >= SobolIndices::RELIABLE_BLOCKS),
+        reliable: design.is_scrambled() && (0..k).all(|i| behind(i) >= SobolIndices::RELIABLE_BLOCKS),
         inputs: (0..k).map(input).collect(),
         pairs: pairs(k).zip(of_pairs).map(pair).collect(),
     })
@@ -223,52 +279,62 @@ fn pairs(k: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..k).flat_map(move |i| (i + 1..k).map(move |j| (i, j)))
 }
 
-/// Counts and sums of the terms that (V1) to (V4) average: the two of V, then those of all `S_i`, `T_i`,
-/// `S_ij`.
+/// Counts and sums of the terms that (V1) to (V4) average.
 #[derive(Default)]
-struct Sums(Vec<[f64; 2]>);
-
-/// Terms of one block. Those that need a failed output are left out.
-fn terms(block: &[Option<f64>], mean: f64, k: usize, order: Order) -> Sums {
-    let centred: Vec<Option<f64>> = block.iter().map(|output| Some((*output)? - mean)).collect();
-    let (a, b) = (centred[0], centred[centred.len() - 1]);
-    let ab = &centred[1..=k];
-    let count = |term: Option<f64>| term.map_or([0.0; 2], |term| [1.0, term]);
-    let both = |power: i32| {
-        let add = |[n, sum]: [f64; 2], x: f64| [n + 1.0, sum + x.powi(power)];
-        [a, b].into_iter().flatten().fold([0.0; 2], add)
-    };
-    let first: Vec<Option<f64>> = ab.iter().map(|ab| Some(b? * ((*ab)? - a?))).collect();
-    let total = ab.iter().map(|ab| Some(0.5 * (a? - (*ab)?).powi(2)));
-    let mut terms = vec![both(1), both(2)];
-    terms.extend(first.iter().copied().chain(total).map(count));
-    if order == Order::Second {
-        let ba = &centred[k + 1..=2 * k];
-        let second = |(i, j): (usize, usize)| Some(ba[i]? * ab[j]? - a? * b? - first[i]? - first[j]?);
-        terms.extend(pairs(k).map(second).map(count));
-    }
-    Sums(terms)
+struct Sums {
+    components: usize,
+    /// The two of V for each component, then those of all `S_i`, `T_i`, `S_ij`.
+    terms: Vec<[f64; 2]>,
 }
 
 impl Sums {
+    /// Adds the terms of one component of a block. Those that need a failed output are left out.
+    fn observe(&mut self, block: &[Option<f64>], mean: f64, component: usize, design: &SaltelliDesign) {
+        let k = design.groups().len();
+        let centred: Vec<Option<f64>> = block.iter().map(|output| Some((*output)? - mean)).collect();
+        let (a, b) = (centred[0], centred[centred.len() - 1]);
+        let ab = &centred[1..=k];
+        let first: Vec<Option<f64>> = ab.iter().map(|ab| Some(b? * ((*ab)? - a?))).collect();
+        let total = ab.iter().map(|ab| Some(0.5 * (a? - (*ab)?).powi(2)));
+        let mut terms: Vec<Option<f64>> = first.iter().copied().chain(total).collect();
+        if design.order() == Order::Second {
+            let ba = &centred[k + 1..=2 * k];
+            let second = |(i, j): (usize, usize)| Some(ba[i]? * ab[j]? - a? * b? - first[i]? - first[j]?);
+            terms.extend(pairs(k).map(second));
+        }
+        let moments = 2 * self.components;
+        self.terms.resize(moments + terms.len(), [0.0; 2]);
+        for (power, moment) in [1, 2].into_iter().zip(&mut self.terms[2 * component..]) {
+            for x in [a, b].into_iter().flatten() {
+                *moment = [moment[0] + 1.0, moment[1] + x.powi(power)];
+            }
+        }
+        for (sum, term) in self.terms[moments..].iter_mut().zip(terms) {
+            // All components of an observation fail together.
+            *sum = term.map_or([0.0; 2], |term| [1.0, sum[1] + term]);
+        }
+    }
+
     /// Adds the sums of others `times` times.
     fn add(&mut self, times: u32, other: &Self) {
-        self.0.resize(other.0.len(), [0.0; 2]);
-        for (sum, term) in self.0.iter_mut().flatten().zip(other.0.iter().flatten()) {
+        self.components = other.components;
+        self.terms.resize(other.terms.len(), [0.0; 2]);
+        for (sum, term) in self.terms.iter_mut().flatten().zip(other.terms.iter().flatten()) {
             *sum += f64::from(times) * term;
         }
     }
 
     /// Number of blocks behind an index.
     fn count(&self, index: usize) -> usize {
-        self.0[2 + index][0] as usize
+        self.terms[2 * self.components + index][0] as usize
     }
 
     /// V and the indices. An index without terms is NaN.
     fn quotients(&self) -> (f64, Vec<f64>) {
         let mean = |[n, sum]: &[f64; 2]| sum / n;
-        let variance = mean(&self.0[1]) - mean(&self.0[0]).powi(2);
-        (variance, self.0[2..].iter().map(|term| mean(term) / variance).collect())
+        let (moments, terms) = self.terms.split_at(2 * self.components);
+        let variance: f64 = moments.chunks(2).map(|of| mean(&of[1]) - mean(&of[0]).powi(2)).sum();
+        (variance, terms.iter().map(|term| mean(term) / variance).collect())
     }
 }
 

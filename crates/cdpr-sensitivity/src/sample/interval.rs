@@ -29,7 +29,8 @@ use crate::error::{SensitivityError, check_level, check_range, require};
 use crate::sample::summary::Spread;
 
 /// An estimate and its confidence interval.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Estimate {
     /// Estimate.
     pub value: f64,

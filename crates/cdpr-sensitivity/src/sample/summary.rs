@@ -26,7 +26,8 @@ pub struct Sample {
 }
 
 /// Count, moments and extremes of a [`Sample`], in the unit of the output.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Summary {
     /// Number of observations that gave a value. All fields but `failed` describe these only.
     pub count: usize,
@@ -119,7 +120,8 @@ pub enum Bins {
 }
 
 /// Histogram with bins of equal width from the smallest to the largest value.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Histogram {
     /// Edges, one more than bins. A bin includes its lower edge only; the last bin includes both.
     pub edges: Vec<f64>,

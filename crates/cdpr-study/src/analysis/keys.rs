@@ -62,9 +62,11 @@ impl To {
             other = true;
             self.fields(output, fields);
             let Some(sensitivity) = fields.get_mut("sensitivity") else { continue };
-            let inputs = sensitivity.get_mut("inputs").and_then(Value::as_array_mut);
-            for input in inputs.into_iter().flatten().filter_map(Value::as_object_mut) {
-                self.fields(output, input);
+            for list in ["inputs", "groups"] {
+                let measured = sensitivity.get_mut(list).and_then(Value::as_array_mut);
+                for of in measured.into_iter().flatten().filter_map(Value::as_object_mut) {
+                    self.fields(output, of);
+                }
             }
             let measures = sensitivity.pointer_mut("/agreement/measures").and_then(Value::as_array_mut);
             for measure in measures.into_iter().flatten() {

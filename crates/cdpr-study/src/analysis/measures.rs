@@ -26,6 +26,18 @@ pub struct InputMeasures {
     pub morris_std: Option<f64>,
     /// Bound on its total index from derivatives; `None` for a law without a known constant.
     pub dgsm_total_bound: Option<f64>,
+    /// Lower bound of its first-order index, from exact derivatives (`cdpr_sensitivity::brackets`).
+    pub first_lower: Option<f64>,
+    /// Lower end of the interval of that bound.
+    pub first_lower_low: Option<f64>,
+    /// Lower bound of its total index.
+    pub total_lower: Option<f64>,
+    /// Lower end of the interval of that bound.
+    pub total_lower_low: Option<f64>,
+    /// Upper bound of its total index, and of its first-order index.
+    pub total_upper: Option<f64>,
+    /// Upper end of the interval of that bound.
+    pub total_upper_high: Option<f64>,
     /// Index of the first order of the chaos expansion.
     pub expansion_first: Option<f64>,
     /// Its total index.
@@ -42,6 +54,82 @@ pub struct InputMeasures {
     pub sobol_total_low: Option<f64>,
     /// Upper end of its interval.
     pub sobol_total_high: Option<f64>,
+    /// First-order index of the displacement as a vector: of the sum of the variances of its components.
+    pub vector_first: Option<f64>,
+    /// Lower end of its interval.
+    pub vector_first_low: Option<f64>,
+    /// Upper end of its interval.
+    pub vector_first_high: Option<f64>,
+    /// Total index of the displacement as a vector.
+    pub vector_total: Option<f64>,
+    /// Lower end of its interval.
+    pub vector_total_low: Option<f64>,
+    /// Upper end of its interval.
+    pub vector_total_high: Option<f64>,
+    /// Shapley effect.
+    pub shapley: Option<f64>,
+    /// Lower end of its interval.
+    pub shapley_low: Option<f64>,
+    /// Upper end of its interval.
+    pub shapley_high: Option<f64>,
+    /// Activity score: its part in all directions along which the output varies.
+    pub activity: Option<f64>,
+}
+
+/// Values of the measures for a group of inputs; `None` for a method that has failed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GroupMeasures {
+    /// Name of the group.
+    pub group: String,
+    /// Names of its inputs.
+    pub inputs: Vec<String>,
+    /// Morris's mean absolute elementary effect of the whole group, in the unit of the output.
+    #[serde(rename = "morris_mean_absolute_mm")]
+    pub morris_mean_absolute: Option<f64>,
+    /// Share of the variance that its inputs cause alone and with each other.
+    pub sobol_first: Option<f64>,
+    /// Lower end of its interval.
+    pub sobol_first_low: Option<f64>,
+    /// Upper end of its interval.
+    pub sobol_first_high: Option<f64>,
+    /// Share in which any of its inputs takes part.
+    pub sobol_total: Option<f64>,
+    /// Lower end of its interval.
+    pub sobol_total_low: Option<f64>,
+    /// Upper end of its interval.
+    pub sobol_total_high: Option<f64>,
+}
+
+/// The active subspace of the output, in standard deviations of the inputs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SubspaceSummary {
+    /// Mean square of the slope along each direction, in descending order, in the square of the unit of the
+    /// output.
+    pub eigenvalues: Vec<f64>,
+    /// Lower ends of their intervals.
+    pub low: Vec<f64>,
+    /// Upper ends of their intervals.
+    pub high: Vec<f64>,
+    /// Number of directions that have 90 % of the sum, with its least and greatest over the bootstrap.
+    pub needed_90: [usize; 3],
+    /// The same for 99 %.
+    pub needed_99: [usize; 3],
+    /// The first direction, one component per input.
+    pub first: Vec<f64>,
+}
+
+impl InputMeasures {
+    /// The first-order index lies between these, by derivatives and with the study's confidence at each end.
+    #[must_use]
+    pub fn first_bracket(&self) -> Option<[f64; 2]> {
+        Some([self.first_lower_low?, self.total_upper_high?])
+    }
+
+    /// The total index lies between these, by derivatives and with the study's confidence at each end.
+    #[must_use]
+    pub fn total_bracket(&self) -> Option<[f64; 2]> {
+        Some([self.total_lower_low?, self.total_upper_high?])
+    }
 }
 
 /// A measure of sensitivity.
@@ -78,7 +166,7 @@ pub enum Quantity {
 }
 
 /// All measures, in the order of tables.
-pub const MEASURES: [Measure; 12] = [
+pub const MEASURES: [Measure; 15] = [
     Measure::new("t_student", "t-Student", Quantity::Index, |input| input.t_student).ranking(),
     Measure::new("signed_effect_mm", "signed effect", Quantity::Change, |input| input.signed_effect),
     Measure::new("derivative_share", "derivatives", Quantity::Share, |input| input.derivative_share)
@@ -102,6 +190,12 @@ pub const MEASURES: [Measure; 12] = [
     Measure::new("sobol_total", "Sobol' total", Quantity::Share, |input| input.sobol_total)
         .within(|input| Some([input.sobol_total_low?, input.sobol_total_high?]))
         .ranking(),
+    Measure::new("vector_first", "vector first", Quantity::Share, |input| input.vector_first)
+        .within(|input| Some([input.vector_first_low?, input.vector_first_high?])),
+    Measure::new("vector_total", "vector total", Quantity::Share, |input| input.vector_total)
+        .within(|input| Some([input.vector_total_low?, input.vector_total_high?])),
+    Measure::new("shapley", "Shapley", Quantity::Share, |input| input.shapley)
+        .within(|input| Some([input.shapley_low?, input.shapley_high?])),
 ];
 
 impl Measure {

@@ -236,7 +236,9 @@ impl PoseRow {
     fn held(sampling: &Sampling, tally: &Tally) -> Self {
         let found = tally.sums.outputs().summary().ok();
         // An index needs observations in both halves of every range.
-        let effects = tally.sums.effects(sampling.design.inputs()).ok();
+        // It would show what correlated inputs cause, too.
+        let independent = sampling.correlation.is_none();
+        let effects = tally.sums.effects(sampling.design.inputs()).ok().filter(|_| independent);
         let effects = effects.into_iter().flat_map(|effects| effects.effects);
         let dominant = effects
             .filter(|effect| effect.student > 0.0)

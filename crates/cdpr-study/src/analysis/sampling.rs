@@ -183,6 +183,9 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
             notes.push(format!("{what}: of the first {used} observations"));
         }
     }
+    if sampling.correlation.is_some() {
+        notes.push("t_student, signed effects: the inputs are correlated".to_owned());
+    }
     let mut note = |what: &str, error: SensitivityError| notes.push(format!("{what}: {error}"));
     let moments = tally.sums.outputs().summary().map_err(|error| note(output.name(), error)).ok();
     // An output that is no length has this value for every robot, if at all, where nothing resists.
@@ -206,10 +209,12 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
     };
     let best_fit = best(&fits).map(|fit| fit.family);
     let undecided = best_fit.is_some() && undecided(&fits);
-    let t_student = tally
-        .sums
-        .effects(sampling.design.inputs())
-        .map(|effects| effects.effects.into_iter().map(|effect| (effect.input, effect.student)).collect());
+    let t_student = match sampling.correlation {
+        None => tally.sums.effects(sampling.design.inputs()).map(|effects| {
+            effects.effects.into_iter().map(|effect| (effect.input, effect.student)).collect()
+        }),
+        Some(_) => Ok(IndexMap::new()),
+    };
     let signed = signed_effects(sampling, session)?;
     let sensitivity = settings.sensitivity.as_ref().map(|spec| measure(sampling, spec, tally, session));
     Ok(SamplingSummary {
@@ -318,7 +323,7 @@ fn signed_effects(
     sampling: &Sampling,
     session: &Session,
 ) -> Result<Result<IndexMap<String, SignedEffect>, SensitivityError>, StudyError> {
-    let replicates = sampling.study.file.replicates;
+    let replicates = if sampling.correlation.is_none() { sampling.study.file.replicates } else { 0 };
     if replicates == 0 {
         return Ok(Ok(IndexMap::new()));
     }

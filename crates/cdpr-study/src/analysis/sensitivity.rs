@@ -5,31 +5,29 @@
 //! | method | result | input |
 //! |---|---|---|
 //! | `t_student` | t-Student index and signed effect | first observations of the sampling |
-//! | `derivatives` | share of the variance, to first order | derivatives at the nominal robot, variances of the laws |
+//! | `derivatives` | share of the variance, to first order | derivatives at the nominal robot, variances |
 //! | `regression`, `rank_regression` | squared coefficients of values and ranks | first observations |
-//! | `morris` | mean absolute elementary effect and deviation of the effects | radial blocks |
+//! | `morris` | mean absolute elementary effect, deviation of effects | radial blocks or trajectories |
 //! | `dgsm` | bound on the total index | exact derivatives at points of a scrambled Sobol sequence |
+//! | `brackets` | bounds of first-order and total indices on both sides | the same derivatives |
 //! | `expansion` | first-order and total indices of a polynomial model | first observations |
-//! | `sobol` | indices of the first order and total, with intervals | Saltelli's blocks |
+//! | `sobol` | first-order and total indices, with intervals; of vectors, too | Saltelli's blocks |
+//! | `shapley` | Shapley effects, with intervals | walks through the joint law of the inputs |
+//! | `active_subspace` | directions of all inputs, activity scores | the derivatives of `dgsm` |
+//! | `morris_of_groups`, `sobol_of_groups` | the same of groups | blocks that move groups |
 //!
 //! Derivatives and polynomials take the continuous laws: steps of h in a uniform range R change a variance by
 //! a relative (h / R)². All observations are of the stepped inputs.
 
-use crate::analysis::measures::{InputMeasures, MEASURES, Measure, Quantity};
+use crate::analysis::measures::{GroupMeasures, InputMeasures, MEASURES, Measure, Quantity, SubspaceSummary};
+use crate::analysis::methods::{Found, METHODS, MethodSummary, Needs, Run};
 use crate::error::StudyError;
-use crate::file::study_file::{SensitivitySpec, StudyFile};
-use crate::model::designs::{MORRIS, Points, SALTELLI};
+use crate::file::study_file::SensitivitySpec;
 use crate::model::study::Sampling;
-use crate::observe::observation::{Session, Tally, observe_values};
-use cdpr_sensitivity::{
-    Bootstrap, Input, Regression, SampleDesign, SensitivityError, Slopes, SobolDesign, dgsm, expansion,
-    morris_effects, rank_correlation, rank_regression, regression, sobol_indices, student_effects,
-};
-use cdpr_statics::StaticsError;
+use crate::observe::observation::{Session, Tally};
+use cdpr_sensitivity::rank_correlation;
 use indexmap::IndexMap;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::error::Error;
 use std::time::Instant;
 
 /// Measures of all inputs of a sampling; serialised into `summary.json`.
@@ -37,6 +35,12 @@ use std::time::Instant;
 pub struct SensitivitySummary {
     /// Values of the measures for each input, in the order of the parameter vector.
     pub inputs: Vec<InputMeasures>,
+    /// Values of the measures for each group of the study.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<GroupMeasures>,
+    /// Directions of the parameters along which the output varies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub subspace: Option<SubspaceSummary>,
     /// The basis of each method; methods that failed are named in the notes instead.
     pub methods: IndexMap<String, MethodSummary>,
     /// Sums of each share of the variance over the inputs of a group (`a`, `b`, `mass`, ...), and over all of
@@ -46,31 +50,6 @@ pub struct SensitivitySummary {
     pub agreement: Agreement,
     /// What could not be measured, and why.
     pub notes: Vec<String>,
-}
-
-/// The observations on which a method rests, and how well it explains the output.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct MethodSummary {
-    /// Observations made, failed ones included; each with its derivatives for `derivatives` and `dgsm`.
-    pub observations: usize,
-    /// Those that failed.
-    pub failed: usize,
-    /// Saltelli's blocks with a failed observation. It is missed by the indices of one input only, unless it
-    /// is one of the two points on which all inputs of a block rest.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub failed_blocks: Option<usize>,
-    /// Whether the intervals of Sobol' indices have their confidence: they have from 64 blocks on.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub reliable: Option<bool>,
-    /// Share of the variance that a linear model explains.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub r_squared: Option<f64>,
-    /// Share of the variance that the expansion does not predict: its corrected leave-one-out error.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub leave_one_out: Option<f64>,
-    /// Wall time [s]; not in files, which are the same from run to run.
-    #[serde(skip)]
-    pub seconds: f64,
 }
 
 /// What the measures agree on.
@@ -90,33 +69,6 @@ pub struct Agreement {
 /// Most inputs that count as leading.
 const LEADING: usize = 10;
 
-/// The data of a method.
-struct Run<'a> {
-    sampling: &'a Sampling<'a>,
-    spec: &'a SensitivitySpec,
-    settings: &'a StudyFile,
-    tally: &'a Tally,
-    session: &'a Session<'a>,
-}
-
-/// Fills in the fields of a method for all inputs, unless it fails.
-type Method = fn(&Run, &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>>;
-
-const METHODS: [(&str, Method); 8] = [
-    ("t_student", t_student),
-    ("derivatives", nominal_derivatives),
-    ("regression", |run, inputs| {
-        regress(run, inputs, regression, |input, share| input.regression_share = Some(share))
-    }),
-    ("rank_regression", |run, inputs| {
-        regress(run, inputs, rank_regression, |input, share| input.rank_regression_share = Some(share))
-    }),
-    ("morris", morris),
-    ("dgsm", derivative_bounds),
-    ("expansion", chaos_expansion),
-    ("sobol", sobol),
-];
-
 /// Measures all inputs of a sampling by every method, from its observations and others made here. A method
 /// that fails is left out and
 /// named in [`SensitivitySummary::notes`].
@@ -129,14 +81,21 @@ pub fn measure(
     tally: &Tally,
     session: &Session,
 ) -> Result<SensitivitySummary, StudyError> {
-    let run = Run { sampling, spec, settings: &sampling.study.file, tally, session };
-    let named = |input: &Input| InputMeasures { input: input.name.clone(), ..InputMeasures::default() };
-    let mut inputs: Vec<_> = sampling.design.inputs().iter().map(named).collect();
+    let run = Run::new(sampling, spec, tally, session);
+    let mut found = Found::new(sampling);
     let (mut methods, mut notes) = (IndexMap::new(), Vec::new());
-    for (name, method) in METHODS {
+    let is_correlated = sampling.correlation.is_some();
+    if is_correlated {
+        let left: Vec<_> =
+            METHODS.iter().filter(|of| of.inputs == Needs::Independent).map(|of| of.name).collect();
+        notes.push(format!("{}: the inputs are correlated", left.join(", ")));
+    }
+    for method in METHODS.iter().filter(|of| !(is_correlated && of.inputs == Needs::Independent)) {
         let clock = Instant::now();
-        match method(&run, &mut inputs) {
-            Ok(summary) => {
+        let name = method.name;
+        match (method.run)(&run, &mut found) {
+            Ok(None) => {}
+            Ok(Some(summary)) => {
                 if summary.reliable == Some(false) {
                     notes.push(format!("{name}: too few blocks, the intervals are an indication only"));
                 }
@@ -152,8 +111,9 @@ pub fn measure(
             },
         }
     }
+    let Found { inputs, groups, subspace } = found;
     let (sums, agreement) = (sums(sampling, &inputs), Agreement::of(&inputs));
-    Ok(SensitivitySummary { inputs, methods, sums, agreement, notes })
+    Ok(SensitivitySummary { inputs, groups, subspace, methods, sums, agreement, notes })
 }
 
 impl SensitivitySummary {
@@ -169,133 +129,6 @@ impl SensitivitySummary {
             inputs.sort_by(|one, other| of(other).unwrap_or(0.0).total_cmp(&of(one).unwrap_or(0.0)));
         }
         inputs
-    }
-}
-
-impl Run<'_> {
-    fn inputs(&self) -> &[Input] {
-        self.sampling.design.inputs()
-    }
-
-    fn observe(&self, name: &str, design: &dyn Points) -> Result<Vec<Option<f64>>, StudyError> {
-        observe_values(self.sampling, (name, design), self.session)
-    }
-
-    /// The sampling's first observations.
-    fn first(&self) -> Result<(SobolDesign, Vec<Option<f64>>), SensitivityError> {
-        let whole = &self.sampling.design;
-        let points = whole.points().min(self.spec.observations);
-        let design = SobolDesign::new(whole.inputs().to_vec(), whole.first_index(), points)?;
-        Ok((design, self.tally.first_values.iter().copied().take(points).collect()))
-    }
-
-    /// Output of the robot with these deviations of the inputs, and its derivatives per unit of the input.
-    fn slopes(&self, row: &[f64]) -> Result<Slopes, StaticsError> {
-        let Sampling { errors, observer, .. } = self.sampling;
-        let (output, gradient) = observer.slopes(&errors.deviations(row), errors)?;
-        Ok(Slopes { output, gradient })
-    }
-}
-
-fn t_student(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
-    let (design, outputs) = run.first()?;
-    let found = student_effects(&design, &outputs)?;
-    for (input, effect) in inputs.iter_mut().zip(found.effects) {
-        input.t_student = Some(effect.student);
-        input.signed_effect = Some(effect.effect);
-    }
-    Ok(MethodSummary::of(&outputs))
-}
-
-fn nominal_derivatives(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
-    let slopes = run.slopes(&vec![0.0; inputs.len()])?;
-    let part = |(slope, input): (&f64, &Input)| (slope * input.law.std()).powi(2);
-    let parts: Vec<f64> = slopes.gradient.iter().zip(run.inputs()).map(part).collect();
-    let variance: f64 = parts.iter().sum();
-    if !(variance.is_finite() && variance > 0.0) {
-        return Err(format!("the variance to first order is {variance}").into());
-    }
-    for (input, part) in inputs.iter_mut().zip(parts) {
-        input.derivative_share = Some(part / variance);
-    }
-    Ok(MethodSummary { observations: 1, ..MethodSummary::default() })
-}
-
-fn regress(
-    run: &Run,
-    inputs: &mut [InputMeasures],
-    fit: fn(&SobolDesign, &[Option<f64>]) -> Result<Regression, SensitivityError>,
-    set: fn(&mut InputMeasures, f64),
-) -> Result<MethodSummary, Box<dyn Error>> {
-    let (design, outputs) = run.first()?;
-    let found = fit(&design, &outputs)?;
-    for (input, coefficient) in inputs.iter_mut().zip(found.inputs) {
-        set(input, coefficient.share);
-    }
-    Ok(MethodSummary { r_squared: Some(found.r_squared), ..MethodSummary::of(&outputs) })
-}
-
-fn morris(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
-    let design = run.sampling.morris_design(run.spec.morris_blocks)?;
-    let outputs = run.observe(MORRIS, &design)?;
-    for (input, effect) in inputs.iter_mut().zip(morris_effects(&design, &outputs, run.settings.confidence)?)
-    {
-        input.morris_mean_absolute = Some(effect.mean_absolute.value);
-        input.morris_std = Some(effect.std);
-    }
-    Ok(MethodSummary::of(&outputs))
-}
-
-fn derivative_bounds(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
-    let points = run.spec.derivative_points;
-    let design = SobolDesign::scrambled(run.inputs().to_vec(), points, run.settings.seed)?;
-    let slopes_at = |row: &mut Vec<f64>, index| {
-        design.row(index, row)?;
-        (run.session.tick)(1);
-        Ok(run.slopes(row).ok())
-    };
-    let slopes: Result<Vec<Option<Slopes>>, SensitivityError> =
-        (0..points).into_par_iter().map_init(|| vec![0.0; run.inputs().len()], slopes_at).collect();
-    let found = dgsm(&design, &slopes?, run.settings.confidence)?;
-    for (input, measure) in inputs.iter_mut().zip(found.inputs) {
-        input.dgsm_total_bound = measure.total_bound;
-    }
-    Ok(MethodSummary { observations: points, failed: found.failed, ..MethodSummary::default() })
-}
-
-fn chaos_expansion(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
-    let (design, outputs) = run.first()?;
-    let found = expansion(&design, &outputs, run.spec.expansion)?;
-    if found.terms.is_empty() {
-        return Err("no polynomial predicts the output better than its mean".into());
-    }
-    for (input, shares) in inputs.iter_mut().zip(found.indices()) {
-        input.expansion_first = Some(shares.closed);
-        input.expansion_total = Some(shares.total);
-    }
-    Ok(MethodSummary { leave_one_out: Some(found.leave_one_out), ..MethodSummary::of(&outputs) })
-}
-
-fn sobol(run: &Run, inputs: &mut [InputMeasures]) -> Result<MethodSummary, Box<dyn Error>> {
-    let SensitivitySpec { saltelli_blocks, bootstrap_resamples: resamples, .. } = *run.spec;
-    let design = run.sampling.saltelli_design(saltelli_blocks)?;
-    let outputs = run.observe(SALTELLI, &design)?;
-    let bootstrap = Bootstrap { resamples, seed: run.settings.seed };
-    let found = sobol_indices(&design, &outputs, bootstrap, run.settings.confidence)?;
-    for (input, index) in inputs.iter_mut().zip(found.inputs) {
-        [input.sobol_first, input.sobol_first_low, input.sobol_first_high] =
-            [index.first.value, index.first.low, index.first.high].map(Some);
-        [input.sobol_total, input.sobol_total_low, input.sobol_total_high] =
-            [index.total.value, index.total.low, index.total.high].map(Some);
-    }
-    let (failed_blocks, reliable) = (Some(found.failed_blocks), Some(found.reliable));
-    Ok(MethodSummary { failed_blocks, reliable, ..MethodSummary::of(&outputs) })
-}
-
-impl MethodSummary {
-    fn of(outputs: &[Option<f64>]) -> Self {
-        let failed = outputs.iter().filter(|output| output.is_none()).count();
-        Self { observations: outputs.len(), failed, ..Self::default() }
     }
 }
 

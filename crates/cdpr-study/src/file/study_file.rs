@@ -6,6 +6,7 @@ use crate::file::grid::GridSpec;
 use crate::file::output::Output;
 use crate::file::value::Value;
 use cdpr_robot::{Coordinate, TensionReference};
+use cdpr_sensitivity::measure::shapley::MIN_WALKS;
 use cdpr_sensitivity::{Expansion, Law, SobolIndices, Steps, Truncation};
 use indexmap::IndexMap;
 use schemars::JsonSchema;
@@ -62,6 +63,11 @@ pub struct StudyFile {
     /// none is computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensitivity: Option<SensitivitySpec>,
+    /// Groups of inputs by name, such as a cable or all exits: their measures of sensitivity are listed
+    /// beside those of single inputs. A group consists of inputs (`b1.x`, the name of a cause), of the inputs
+    /// of a point (`b1`), or of those of a group of parameters (`b`). Groups may overlap.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub groups: IndexMap<String, Vec<String>>,
     /// Surfaces by name: two parameters vary over a grid, and all others are nominal.
     #[serde(default)]
     pub surfaces: IndexMap<String, SurfaceSpec>,
@@ -164,9 +170,24 @@ pub struct SamplingSpec {
     pub error_model: String,
     /// Number of observations at each pose.
     pub observations: usize,
-    /// Index of the first observation in Sobol's sequence.
+    /// Index of the first observation in Sobol's sequence. It is at least 1 where inputs are correlated.
     #[serde(default)]
     pub first_index: u32,
+    /// Correlations between inputs (a Gaussian copula); all others are independent. What needs independent
+    /// inputs is left out then: of the measures of sensitivity, regressions and Shapley effects remain.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub correlations: Vec<CorrelationSpec>,
+}
+
+/// Correlation of two inputs of a sampling. They keep their laws.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CorrelationSpec {
+    /// Names of the two inputs: parameters or causes of the error model.
+    pub between: [String; 2],
+    /// Correlation C of their normal scores, above -1 and below 1. It is that of normal deviations; that of
+    /// uniform ones is (6/π) asin(C / 2), which differs by at most 0.02.
+    pub value: f64,
 }
 
 /// Observations behind the measures of sensitivity, for k inputs.
@@ -182,8 +203,17 @@ pub struct SensitivitySpec {
     pub bootstrap_resamples: usize,
     /// Blocks behind Morris's elementary effects, of k + 1 observations: 2 to 1048576.
     pub morris_blocks: usize,
-    /// Points at which exact derivatives are taken: 2 to 1048576.
+    /// Levels of the grid on which trajectories take the place of radial blocks behind Morris's effects: an
+    /// even number, 2 to 1024. Their effects are bounded where the output jumps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub morris_levels: Option<u32>,
+    /// Points at which exact derivatives are taken: 2 to 1048576. The bounds of first-order and total indices
+    /// on both sides need 40.
     pub derivative_points: usize,
+    /// Walks behind Shapley effects, of k + 1 observations: 16 to 1048576, or 0 for none. They share the
+    /// variance between the inputs, also between correlated ones.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub shapley_walks: usize,
     /// Products of polynomials that the chaos expansion chooses from.
     pub expansion: Truncation,
 }
@@ -195,7 +225,9 @@ impl Default for SensitivitySpec {
             saltelli_blocks: 4096,
             bootstrap_resamples: 1000,
             morris_blocks: 128,
+            morris_levels: None,
             derivative_points: 256,
+            shapley_walks: 0,
             expansion: Truncation { max_degree: 3, norm: 0.75, interactions: 2 },
         }
     }
@@ -210,6 +242,7 @@ impl SensitivitySpec {
         self.saltelli_blocks = power(fewer(self.saltelli_blocks, SobolIndices::MIN_BLOCKS));
         self.morris_blocks = power(fewer(self.morris_blocks, 2));
         self.derivative_points = fewer(self.derivative_points, 2);
+        self.shapley_walks = fewer(self.shapley_walks, MIN_WALKS);
     }
 
     /// The first invalid setting: field, value, and what is expected.
@@ -222,17 +255,34 @@ impl SensitivitySpec {
             ("bootstrap_resamples", self.bootstrap_resamples, 2..=MOST),
             ("morris_blocks", self.morris_blocks, 2..=MOST),
             ("derivative_points", self.derivative_points, 2..=MOST),
+            ("shapley_walks", self.shapley_walks.max(MIN_WALKS), MIN_WALKS..=MOST),
             ("expansion.max_degree", max_degree, 1..=Expansion::MAX_DEGREE),
             ("expansion.interactions", interactions, 1..=MOST),
         ];
+        let few_walks = (1..MIN_WALKS).contains(&self.shapley_walks);
+        let of_walks =
+            || ("shapley_walks", self.shapley_walks.to_string(), format!("0, or at least {MIN_WALKS}"));
         let count = counts.into_iter().find(|(_, value, range)| !range.contains(value));
         let of_count = |(field, value, range): (_, usize, std::ops::RangeInclusive<usize>)| {
             (field, value.to_string(), format!("{} to {}", range.start(), range.end()))
         };
+        let uneven =
+            self.morris_levels.filter(|levels| !(levels.is_multiple_of(2) && (2..=1024).contains(levels)));
+        let of_levels =
+            |levels: u32| ("morris_levels", levels.to_string(), "an even number from 2 to 1024".to_owned());
         let sound_norm = norm > 0.0 && norm <= 1.0;
         let of_norm = || ("expansion.norm", norm.to_string(), "a number above 0, at most 1".to_owned());
-        count.map(of_count).or_else(|| (!sound_norm).then(of_norm))
+        count
+            .map(of_count)
+            .or_else(|| few_walks.then(of_walks))
+            .or_else(|| uneven.map(of_levels))
+            .or_else(|| (!sound_norm).then(of_norm))
     }
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// A surface of the output over two parameters.

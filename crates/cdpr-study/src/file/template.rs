@@ -53,7 +53,7 @@ impl Size {
 
 const SALTELLI_BLOCKS: usize = 128;
 const MORRIS_BLOCKS: usize = 16;
-const DERIVATIVE_POINTS: usize = 32;
+const DERIVATIVE_POINTS: usize = 64;
 
 /// How many observations each part of the template makes, for people.
 pub fn template_cost(robot: &Robot) -> String {

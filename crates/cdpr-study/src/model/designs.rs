@@ -3,20 +3,15 @@
 //! grows.
 
 use crate::error::StudyError;
-use crate::file::study_file::SamplingSpec;
+use crate::file::study_file::{SamplingSpec, SensitivitySpec};
 use crate::model::study::{Sampling, Study};
 use cdpr_sensitivity::{
-    MorrisDesign, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolDesign, derived_seed,
+    Correlated, Group, MorrisDesign, Order, SaltelliDesign, SampleDesign, SensitivityError, ShapleyDesign,
+    SobolDesign, derived_seed,
 };
 
 /// Name of the sampling's own design.
 pub(crate) const OWN: &str = "sampling";
-
-/// Name of the design of Morris's elementary effects.
-pub(crate) const MORRIS: &str = "morris";
-
-/// Name of the design of Sobol' indices.
-pub(crate) const SALTELLI: &str = "saltelli";
 
 /// Rows of inputs, of a design of any type.
 pub(crate) trait Points: Sync {
@@ -52,7 +47,18 @@ pub(crate) enum Design {
     Own,
     /// Number of the replicate, from 1.
     Replicate(usize),
-    Morris,
+    /// Levels of trajectories; without them, radial blocks.
+    Morris(Option<u32>),
+    Saltelli,
+    Shapley,
+    /// One of these over groups, whose key tells them from other groups.
+    Groups(Grouped, u32),
+}
+
+/// A design over groups of inputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Grouped {
+    Morris(Option<u32>),
     Saltelli,
 }
 
@@ -61,18 +67,33 @@ impl Design {
         match self {
             Self::Own => OWN.to_owned(),
             Self::Replicate(number) => replicate_name(number),
-            Self::Morris => MORRIS.to_owned(),
-            Self::Saltelli => SALTELLI.to_owned(),
+            Self::Morris(None) => "morris".to_owned(),
+            Self::Morris(Some(levels)) => format!("morris-{levels}-levels"),
+            Self::Saltelli => "saltelli".to_owned(),
+            Self::Shapley => "shapley".to_owned(),
+            Self::Groups(Grouped::Morris(levels), key) => {
+                format!("{}-of-groups-{key:08x}", Self::Morris(levels).name())
+            }
+            Self::Groups(Grouped::Saltelli, key) => {
+                format!("{}-of-groups-{key:08x}", Self::Saltelli.name())
+            }
         }
     }
 
     pub(crate) fn make(self, sampling: &Sampling) -> Result<Box<dyn Points>, SensitivityError> {
         let spec = sampling.study.file.sensitivity.unwrap_or_default();
         Ok(match self {
-            Self::Own => Box::new(sampling.design.clone()),
+            Self::Own => sampling.own()?,
             Self::Replicate(number) => Box::new(sampling.replicate(number)),
-            Self::Morris => Box::new(sampling.morris_design(spec.morris_blocks)?),
+            Self::Morris(_) => Box::new(sampling.morris_design(&spec)?),
             Self::Saltelli => Box::new(sampling.saltelli_design(spec.saltelli_blocks)?),
+            Self::Shapley => Box::new(sampling.shapley_design(spec.shapley_walks)?),
+            Self::Groups(Grouped::Morris(_), _) => {
+                Box::new(sampling.morris_design(&spec)?.grouped(sampling.groups.clone())?)
+            }
+            Self::Groups(Grouped::Saltelli, _) => {
+                Box::new(sampling.saltelli_design(spec.saltelli_blocks)?.grouped(sampling.groups.clone())?)
+            }
         })
     }
 }
@@ -92,6 +113,7 @@ impl Study {
         let of_designs = self.designs(name, spec)?.into_iter().map(|(_, points)| points).sum::<usize>();
         Ok(match self.poses(name, spec)?.several() {
             Some(poses) => poses * of_designs,
+            None if !spec.correlations.is_empty() => of_designs,
             None => of_designs + self.file.sensitivity.map_or(0, |spec| spec.derivative_points),
         })
     }
@@ -116,25 +138,73 @@ impl Study {
         if spec.poses.is_some() {
             return Ok(vec![own]);
         }
-        let inputs = self.design(name, spec, &[])?.0.inputs.len();
-        let replicates =
-            (1..=self.file.replicates).map(|number| (Design::Replicate(number), spec.observations));
-        let measures = self.file.sensitivity.map(|spec| {
-            let (morris, saltelli) = (spec.morris_blocks * (inputs + 1), spec.saltelli_blocks * (inputs + 2));
-            [(Design::Morris, morris), (Design::Saltelli, saltelli)]
-        });
-        Ok([own].into_iter().chain(replicates).chain(measures.into_iter().flatten()).collect())
+        let errors = self.design(name, spec, &[])?.0;
+        let inputs = errors.inputs.len();
+        let mut designs = vec![own];
+        let is_correlated = !spec.correlations.is_empty();
+        if !is_correlated {
+            designs.extend((1..=self.file.replicates).map(|k| (Design::Replicate(k), spec.observations)));
+        }
+        let Some(measures) = self.file.sensitivity else { return Ok(designs) };
+        if !is_correlated {
+            let groups = self.groups(&errors)?;
+            let (levels, key) = (measures.morris_levels, key(&groups));
+            let morris = |moved: usize| measures.morris_blocks * (moved + 1);
+            let saltelli = |exchanged: usize| measures.saltelli_blocks * (exchanged + 2);
+            designs.extend([(Design::Morris(levels), morris(inputs)), (Design::Saltelli, saltelli(inputs))]);
+            if !groups.is_empty() {
+                designs.extend([
+                    (Design::Groups(Grouped::Morris(levels), key), morris(groups.len())),
+                    (Design::Groups(Grouped::Saltelli, key), saltelli(groups.len())),
+                ]);
+            }
+        }
+        if measures.shapley_walks > 0 {
+            designs.push((Design::Shapley, measures.shapley_walks * (inputs + 1)));
+        }
+        Ok(designs)
     }
 }
 
+/// A number that tells groups of inputs from others; their names do not matter.
+pub(crate) fn key(groups: &[Group]) -> u32 {
+    let mut hasher = blake3::Hasher::new();
+    for group in groups {
+        hasher.update(format!("{:?}", group.inputs).as_bytes());
+    }
+    let [a, b, c, d, ..] = *hasher.finalize().as_bytes();
+    u32::from_be_bytes([a, b, c, d])
+}
+
 impl Sampling<'_> {
+    /// The sampling's own points, which may be correlated.
+    pub(crate) fn own(&self) -> Result<Box<dyn Points>, SensitivityError> {
+        Ok(match &self.correlation {
+            Some(matrix) => Box::new(Correlated::new(self.design.clone(), matrix)?),
+            None => Box::new(self.design.clone()),
+        })
+    }
+
+    pub(crate) fn shapley_design(&self, walks: usize) -> Result<ShapleyDesign, SensitivityError> {
+        let design = ShapleyDesign::new(self.design.inputs().to_vec(), walks, self.study.file.seed)?;
+        match &self.correlation {
+            Some(matrix) => design.correlated(matrix),
+            None => Ok(design),
+        }
+    }
+
     /// A scrambled replicate of the sampling's design.
     pub(crate) fn replicate(&self, number: usize) -> SobolDesign {
         self.design.replicate(derived_seed(self.study.file.seed, number as u64))
     }
 
-    pub(crate) fn morris_design(&self, blocks: usize) -> Result<MorrisDesign, SensitivityError> {
-        MorrisDesign::radial(self.design.inputs().to_vec(), blocks, self.study.file.seed)
+    pub(crate) fn morris_design(&self, spec: &SensitivitySpec) -> Result<MorrisDesign, SensitivityError> {
+        let (inputs, blocks, seed) =
+            (self.design.inputs().to_vec(), spec.morris_blocks, self.study.file.seed);
+        match spec.morris_levels {
+            Some(levels) => MorrisDesign::trajectories(inputs, blocks, levels, seed),
+            None => MorrisDesign::radial(inputs, blocks, seed),
+        }
     }
 
     pub(crate) fn saltelli_design(&self, blocks: usize) -> Result<SaltelliDesign, SensitivityError> {

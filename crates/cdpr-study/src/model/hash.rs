@@ -22,6 +22,7 @@ impl Study {
         for sampling in file.samplings.values_mut() {
             (sampling.title, sampling.observations) = Default::default();
         }
+        file.groups.clear();
         file.surfaces.clear();
         file.comparison.clear();
         self.hash_of(&file)

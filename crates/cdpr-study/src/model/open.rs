@@ -97,8 +97,8 @@ impl Study {
         self.validate()
     }
 
-    /// Gives every sampling this number of observations. If the file has more, the measures of sensitivity are
-    /// shortened in proportion.
+    /// Gives every sampling this number of observations. If the file has more, the measures of sensitivity
+    /// are shortened in proportion.
     ///
     /// # Errors
     /// [`StudyError::Setting`] for fewer than 3.
@@ -285,7 +285,9 @@ impl Study {
         }
         if set.several().is_none() {
             let nominal = self.nominal(name)?.deflection;
-            let inputs = self.design(name, spec, &[&nominal])?.0.inputs.len();
+            let (errors, _, design) = self.design(name, spec, &[&nominal])?;
+            self.correlation(name, spec, &design)?;
+            let inputs = errors.inputs.len();
             if let Some(SensitivitySpec { observations, .. }) = self.file.sensitivity
                 && observations > MOST_ENTRIES / inputs
             {
@@ -303,7 +305,8 @@ impl Study {
                             the blocks";
             return Err(self.invalid("samplings", name, expected));
         }
-        self.design(name, spec, &[])?;
+        let design = self.design(name, spec, &[])?.2;
+        self.correlation(name, spec, &design)?;
         self.check_poses(name, &set)
     }
 }

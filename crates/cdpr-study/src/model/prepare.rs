@@ -34,6 +34,8 @@ impl Study {
         let nominal = self.deflection(&field, &pose, &spec.free)?;
         let (nominal_value, observer) = self.observer(&field, &pose, &spec.free, &nominal)?;
         let (errors, operating_moduli, design) = self.design(entry, spec, &[&nominal])?;
+        let correlation = self.correlation(entry, spec, &design)?;
+        let groups = self.groups(&errors)?;
         Ok(Sampling {
             name,
             title: &spec.title,
@@ -41,6 +43,8 @@ impl Study {
             pose,
             load,
             design,
+            correlation,
+            groups,
             errors,
             operating_moduli,
             nominal,

@@ -7,7 +7,7 @@ use crate::model::error_model::ErrorModel;
 use crate::model::nominal::Nominals;
 use crate::model::observer::OutputObserver;
 use cdpr_robot::{Parameter, Pose, Robot};
-use cdpr_sensitivity::{SensitivityError, SobolDesign};
+use cdpr_sensitivity::{Group, SensitivityError, SobolDesign};
 use cdpr_statics::{Deflection, Load};
 use indexmap::IndexMap;
 use std::path::PathBuf;
@@ -48,6 +48,10 @@ pub struct Sampling<'a> {
     pub load: Load,
     /// Uncertain inputs (deviations by name of the cause) at points of Sobol's sequence.
     pub design: SobolDesign,
+    /// Correlation matrix of the inputs' normal scores, where some of them are correlated.
+    pub correlation: Option<Vec<Vec<f64>>>,
+    /// The groups of the study, of these inputs.
+    pub groups: Vec<Group>,
     /// What each input of the design acts on.
     pub errors: ErrorModel,
     /// Least and greatest modulus of the cables' law at the tensions of pose and load [Pa], where the error

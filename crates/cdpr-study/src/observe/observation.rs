@@ -14,7 +14,7 @@
 use crate::error::StudyError;
 use crate::file::output::Output;
 use crate::model::designs::{OWN, Points, replicate_name};
-use crate::model::observed::{Failure, Observed, ScalarCount, count_failed, failures, value_of};
+use crate::model::observed::{Failure, Measured, Observed, ScalarCount, count_failed, failures, value_of};
 use crate::model::study::Sampling;
 use crate::store::block::{BLOCK, blocks};
 use crate::store::blocks::{BlockId, Blocks};
@@ -134,9 +134,12 @@ pub fn observe_into<T: Send>(
     mut sink: impl FnMut(T) -> Result<(), StudyError>,
 ) -> Result<Tally, StudyError> {
     let mut whole = Tally::new(sampling);
+    let own = sampling.own().map_err(|source| {
+        sampling.study.statistics(format!("samplings.{}.correlations", sampling.name), source)
+    })?;
     observe_design(
         sampling,
-        (OWN, &sampling.design),
+        (OWN, own.as_ref()),
         session,
         |part| (Tally::of_part(sampling, part), each(part)),
         |(tally, made)| {
@@ -170,14 +173,14 @@ fn observe_tally(
     Ok(whole)
 }
 
-/// Output of each observation of a design over the inputs of the sampling, `None` where it fails.
-pub(crate) fn observe_values(
+/// What is observed at each row of a design over the inputs of the sampling, `None` where it fails.
+pub(crate) fn observe_quantities(
     sampling: &Sampling,
     design: (&str, &dyn Points),
     session: &Session,
-) -> Result<Vec<Option<f64>>, StudyError> {
+) -> Result<Vec<Option<Measured>>, StudyError> {
     let mut all = Vec::with_capacity(design.1.size());
-    let each = |part: &Part| part.outcomes.iter().map(value_of).collect::<Vec<_>>();
+    let each = |part: &Part| part.outcomes.iter().map(|of| of.as_ref().ok().copied()).collect::<Vec<_>>();
     observe_design(sampling, design, session, each, |values| {
         all.extend(values);
         Ok(())

@@ -6,10 +6,14 @@ use cdpr_study::{MEASURES, Measure, Output, Quantity, SensitivitySummary};
 /// Number of leading inputs in the table.
 const MOST: usize = 10;
 
+/// Columns of the bounds by derivatives.
+const BRACKETS: [&str; 2] = ["first within", "total within"];
+
 /// Prints inputs and groups of them, methods, and what the methods agree on.
 pub(crate) fn print(heading: &str, output: Output, found: &SensitivitySummary) {
     println!("{heading}");
     print_inputs(output, found);
+    print_groups(output, found);
     print_methods(found);
     let agreement = &found.agreement;
     let agreed = if agreement.inputs.is_empty() { "none".to_owned() } else { agreement.inputs.join(", ") };
@@ -22,26 +26,64 @@ pub(crate) fn print(heading: &str, output: Output, found: &SensitivitySummary) {
 
 fn print_inputs(output: Output, found: &SensitivitySummary) {
     let (unit, per_unit) = output.fine_unit();
-    let mut rows =
-        table(&["input"].into_iter().chain(MEASURES.map(|measure| measure.label)).collect::<Vec<_>>());
+    let measured = |measure: &Measure| found.inputs.iter().any(|input| (measure.value)(input).is_some());
+    let measures: Vec<Measure> = MEASURES.into_iter().filter(measured).collect();
+    let bracketed = found.inputs.iter().any(|input| input.total_bracket().is_some());
+    let brackets: &[&str] = if bracketed { &BRACKETS } else { &[] };
+    let labels = measures.iter().map(|measure| measure.label).chain(brackets.iter().copied());
+    let mut rows = table(&["input"].into_iter().chain(labels).collect::<Vec<_>>());
     for input in found.leading().into_iter().take(MOST) {
-        let cell = |measure: Measure| match (measure.quantity, (measure.interval)(input)) {
+        let cell = |measure: &Measure| match (measure.quantity, (measure.interval)(input)) {
             (Quantity::Index, _) => number((measure.value)(input), 1.0, 2),
             (Quantity::Change, _) => number((measure.value)(input), per_unit, 2),
             (Quantity::Share | Quantity::Bound, None) => percent((measure.value)(input)),
             (Quantity::Share | Quantity::Bound, Some(ends)) => interval((measure.value)(input), ends),
         };
-        rows.add_row([input.input.clone()].into_iter().chain(MEASURES.map(cell)));
+        let ends = [input.first_bracket(), input.total_bracket()].map(bracket);
+        let ends = ends.into_iter().take(brackets.len());
+        rows.add_row([input.input.clone()].into_iter().chain(measures.iter().map(cell)).chain(ends));
     }
     for (group, sums) in &found.sums {
-        let sum = |measure: Measure| percent(sums.get(measure.name).copied());
-        rows.add_row([format!("sum of {group}")].into_iter().chain(MEASURES.map(sum)));
+        let sum = |measure: &Measure| percent(sums.get(measure.name).copied());
+        rows.add_row([format!("sum of {group}")].into_iter().chain(measures.iter().map(sum)));
     }
     println!("{rows}");
     println!(
         "signed effect, Morris \u{b5}* and \u{3c3} [{unit}]; t-Student [-]; all others in % of the variance, \
-         first order unless total; DGSM a bound on the total"
+         first order unless total; DGSM a bound on the total; within: bounds on both sides by derivatives, \
+         each with the confidence of the study; vector: of the displacement as a vector"
     );
+}
+
+/// Groups of the study, and how many directions of the inputs matter.
+fn print_groups(output: Output, found: &SensitivitySummary) {
+    let (unit, per_unit) = output.fine_unit();
+    if !found.groups.is_empty() {
+        let morris = format!("Morris \u{b5}* [{unit}]");
+        let mut rows = table(&["group", "inputs", morris.as_str(), "Sobol' first [%]", "Sobol' total [%]"]);
+        for group in &found.groups {
+            let index = |value, low: Option<f64>, high: Option<f64>| {
+                low.zip(high).map_or_else(String::new, |(low, high)| interval(value, [low, high]))
+            };
+            rows.add_row([
+                group.group.clone(),
+                group.inputs.len().to_string(),
+                number(group.morris_mean_absolute, per_unit, 2),
+                index(group.sobol_first, group.sobol_first_low, group.sobol_first_high),
+                index(group.sobol_total, group.sobol_total_low, group.sobol_total_high),
+            ]);
+        }
+        println!("{rows}");
+    }
+    if let Some(space) = &found.subspace {
+        let needed = |[found, low, high]: [usize; 3]| format!("{found} ({low} to {high})");
+        println!(
+            "directions of {} inputs with 90 % of the mean square slope: {}, with 99 %: {}",
+            space.first.len(),
+            needed(space.needed_90),
+            needed(space.needed_99)
+        );
+    }
 }
 
 fn print_methods(found: &SensitivitySummary) {
@@ -81,4 +123,8 @@ fn percent(share: Option<f64>) -> String {
 
 fn interval(value: Option<f64>, [low, high]: [f64; 2]) -> String {
     format!("{} \u{b1} {}", percent(value), percent(Some(0.5 * (high - low))))
+}
+
+fn bracket(ends: Option<[f64; 2]>) -> String {
+    ends.map_or_else(String::new, |ends| ends.map(|end| percent(Some(end))).join(" .. "))
 }

@@ -24,7 +24,8 @@ use crate::design::input::Input;
 use crate::law::{Law, Support};
 
 /// Orthonormal polynomials (Y1) of the law of an input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Polynomials {
     /// Law whose F(x) takes the place of x, `None` for polynomials of x itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]

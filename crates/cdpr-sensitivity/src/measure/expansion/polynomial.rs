@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::{SensitivityError, check_range, require};
 
 /// Degree of one input in a product.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Power {
     /// Index of the input.
     pub input: usize,
@@ -21,7 +22,8 @@ pub struct Power {
 }
 
 /// Set of products from which an expansion chooses, Eq. (K1).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Truncation {
     /// Largest degree p.

@@ -22,8 +22,7 @@
 //! such terms make ε too small by a third. The path therefore ends where the best of the p candidates
 //! correlates no better than the best of p candidates would with noise.
 
-use rayon::prelude::*;
-
+use crate::parallel::*;
 use crate::sample::summary::Spread;
 
 /// Sparse least-squares model.

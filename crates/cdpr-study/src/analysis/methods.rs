@@ -1,0 +1,392 @@
+//! The methods behind the measures of sensitivity: each observes what it needs and fills in its measures.
+
+use crate::analysis::measures::{GroupMeasures, InputMeasures, SubspaceSummary};
+use crate::error::StudyError;
+use crate::file::study_file::{SensitivitySpec, StudyFile};
+use crate::model::designs::{Design, Grouped, Points, key};
+use crate::model::observed::{Measured, MeasuredQuantity};
+use crate::model::study::Sampling;
+use crate::observe::observation::{Session, Tally, observe_quantities};
+use cdpr_sensitivity::{
+    Bootstrap, Correlated, Input, Regression, SampleDesign, SensitivityError, Slopes, SobolDesign,
+    active_subspace, brackets, dgsm, expansion, morris_effects, rank_regression, regression, shapley_effects,
+    sobol_indices, student_effects, vector_sobol_indices,
+};
+use cdpr_statics::StaticsError;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::error::Error;
+use std::sync::OnceLock;
+
+/// The observations on which a method rests, and how well it explains the output.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MethodSummary {
+    /// Observations made, failed ones included; each with its derivatives for `derivatives` and `dgsm`.
+    pub observations: usize,
+    /// Those that failed.
+    pub failed: usize,
+    /// Saltelli's blocks with a failed observation. It is missed by the indices of one input only, unless it
+    /// is one of the two points on which all inputs of a block rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failed_blocks: Option<usize>,
+    /// Whether the intervals of Sobol' indices have their confidence: they have from 64 blocks on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reliable: Option<bool>,
+    /// Share of the variance that a linear model explains.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub r_squared: Option<f64>,
+    /// Share of the variance that the expansion does not predict: its corrected leave-one-out error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leave_one_out: Option<f64>,
+    /// Wall time [s]; not in files, which are the same from run to run.
+    #[serde(skip)]
+    pub seconds: f64,
+}
+
+/// A method of sensitivity analysis.
+pub(crate) struct Method {
+    /// Its name in results.
+    pub(crate) name: &'static str,
+    pub(crate) inputs: Needs,
+    /// Fills in its measures and returns its basis; `None` where the study does not ask for it.
+    pub(crate) run: fn(&Run, &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>>,
+}
+
+/// What a method relies on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Needs {
+    /// Independent inputs.
+    Independent,
+    /// No more than a sample of their joint law.
+    Joint,
+}
+
+/// What the methods have found.
+pub(crate) struct Found {
+    pub(crate) inputs: Vec<InputMeasures>,
+    pub(crate) groups: Vec<GroupMeasures>,
+    pub(crate) subspace: Option<SubspaceSummary>,
+}
+
+/// The data of a method.
+pub(crate) struct Run<'a> {
+    sampling: &'a Sampling<'a>,
+    spec: &'a SensitivitySpec,
+    settings: &'a StudyFile,
+    tally: &'a Tally,
+    session: &'a Session<'a>,
+    /// Outputs and derivatives at the points of [`Run::sloped`], computed once.
+    slopes: OnceLock<Vec<Option<Slopes>>>,
+}
+
+/// Resamples behind the intervals of eigenvalues.
+const SUBSPACE_RESAMPLES: usize = 200;
+
+/// All methods, in the order of their cost.
+pub(crate) const METHODS: [Method; 13] = [
+    Method::new("t_student", Needs::Independent, t_student),
+    Method::new("derivatives", Needs::Independent, nominal_derivatives),
+    Method::new("regression", Needs::Joint, |run, found| {
+        let fits = (regression::<SobolDesign> as Fit<_>, regression::<Correlated<SobolDesign>> as Fit<_>);
+        regress(run, found, fits, |input, share| input.regression_share = Some(share))
+    }),
+    Method::new("rank_regression", Needs::Joint, |run, found| {
+        let fits =
+            (rank_regression::<SobolDesign> as Fit<_>, rank_regression::<Correlated<SobolDesign>> as Fit<_>);
+        regress(run, found, fits, |input, share| input.rank_regression_share = Some(share))
+    }),
+    Method::new("morris", Needs::Independent, morris),
+    Method::new("dgsm", Needs::Independent, derivative_bounds),
+    Method::new("brackets", Needs::Independent, derivative_brackets),
+    Method::new("active_subspace", Needs::Independent, subspace),
+    Method::new("expansion", Needs::Independent, chaos_expansion),
+    Method::new("sobol", Needs::Independent, sobol),
+    Method::new("morris_of_groups", Needs::Independent, morris_of_groups),
+    Method::new("sobol_of_groups", Needs::Independent, sobol_of_groups),
+    Method::new("shapley", Needs::Joint, shapley),
+];
+
+/// A regression on a design.
+type Fit<D> = fn(&D, &[Option<f64>]) -> Result<Regression, SensitivityError>;
+
+impl Method {
+    const fn new(
+        name: &'static str,
+        inputs: Needs,
+        run: fn(&Run, &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>>,
+    ) -> Self {
+        Self { name, inputs, run }
+    }
+}
+
+impl Found {
+    pub(crate) fn new(sampling: &Sampling) -> Self {
+        let names: Vec<_> = sampling.design.inputs().iter().map(|input| input.name.clone()).collect();
+        let group = |group: &cdpr_sensitivity::Group| GroupMeasures {
+            group: group.name.clone(),
+            inputs: group.inputs.iter().map(|&i| names[i].clone()).collect(),
+            ..GroupMeasures::default()
+        };
+        let groups = sampling.groups.iter().map(group).collect();
+        let named = |name: &String| InputMeasures { input: name.clone(), ..InputMeasures::default() };
+        Self { inputs: names.iter().map(named).collect(), groups, subspace: None }
+    }
+}
+
+impl<'a> Run<'a> {
+    pub(crate) fn new(
+        sampling: &'a Sampling<'a>,
+        spec: &'a SensitivitySpec,
+        tally: &'a Tally,
+        session: &'a Session<'a>,
+    ) -> Self {
+        let settings = &sampling.study.file;
+        Self { sampling, spec, settings, tally, session, slopes: OnceLock::new() }
+    }
+
+    fn inputs(&self) -> &[Input] {
+        self.sampling.design.inputs()
+    }
+
+    fn observe(&self, of: Design, design: &dyn Points) -> Result<Vec<Option<f64>>, StudyError> {
+        let measured = self.observe_quantities(of, design)?;
+        Ok(measured.iter().map(|of| of.as_ref().map(Measured::value)).collect())
+    }
+
+    fn observe_quantities(
+        &self,
+        of: Design,
+        design: &dyn Points,
+    ) -> Result<Vec<Option<Measured>>, StudyError> {
+        observe_quantities(self.sampling, (&of.name(), design), self.session)
+    }
+
+    fn bootstrap(&self) -> Bootstrap {
+        Bootstrap { resamples: self.spec.bootstrap_resamples, seed: self.settings.seed }
+    }
+
+    /// The sampling's first observations.
+    fn first(&self) -> Result<(SobolDesign, Vec<Option<f64>>), SensitivityError> {
+        let whole = &self.sampling.design;
+        let points = whole.points().min(self.spec.observations);
+        let design = SobolDesign::new(whole.inputs().to_vec(), whole.first_index(), points)?;
+        Ok((design, self.tally.first_values.iter().copied().take(points).collect()))
+    }
+
+    /// Points at which derivatives are taken, and what was found there.
+    fn sloped(&self) -> Result<(SobolDesign, &[Option<Slopes>]), SensitivityError> {
+        let points = self.spec.derivative_points;
+        let design = SobolDesign::scrambled(self.inputs().to_vec(), points, self.settings.seed)?;
+        if let Some(slopes) = self.slopes.get() {
+            return Ok((design, slopes));
+        }
+        let at = |row: &mut Vec<f64>, index| {
+            design.row(index, row)?;
+            (self.session.tick)(1);
+            Ok(self.slopes(row).ok())
+        };
+        let found = (0..points).into_par_iter().map_init(|| vec![0.0; self.inputs().len()], at);
+        let found = found.collect::<Result<Vec<_>, SensitivityError>>()?;
+        Ok((design, self.slopes.get_or_init(|| found)))
+    }
+
+    /// Output of the robot with these deviations of the inputs, and its derivatives per unit of the input.
+    fn slopes(&self, row: &[f64]) -> Result<Slopes, StaticsError> {
+        let Sampling { errors, observer, .. } = self.sampling;
+        let (output, gradient) = observer.slopes(&errors.deviations(row), errors)?;
+        Ok(Slopes { output, gradient })
+    }
+}
+
+fn t_student(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let (design, outputs) = run.first()?;
+    let effects = student_effects(&design, &outputs)?.effects;
+    for (input, effect) in found.inputs.iter_mut().zip(effects) {
+        input.t_student = Some(effect.student);
+        input.signed_effect = Some(effect.effect);
+    }
+    Ok(Some(MethodSummary::of(&outputs)))
+}
+
+fn nominal_derivatives(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let slopes = run.slopes(&vec![0.0; run.inputs().len()])?;
+    let part = |(slope, input): (&f64, &Input)| (slope * input.law.std()).powi(2);
+    let parts: Vec<f64> = slopes.gradient.iter().zip(run.inputs()).map(part).collect();
+    let variance: f64 = parts.iter().sum();
+    if !(variance.is_finite() && variance > 0.0) {
+        return Err(format!("the variance to first order is {variance}").into());
+    }
+    for (input, part) in found.inputs.iter_mut().zip(parts) {
+        input.derivative_share = Some(part / variance);
+    }
+    Ok(Some(MethodSummary { observations: 1, ..MethodSummary::default() }))
+}
+
+fn regress(
+    run: &Run,
+    found: &mut Found,
+    (fit, of_correlated): (Fit<SobolDesign>, Fit<Correlated<SobolDesign>>),
+    set: fn(&mut InputMeasures, f64),
+) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let (design, outputs) = run.first()?;
+    let fitted = match &run.sampling.correlation {
+        Some(matrix) => of_correlated(&Correlated::new(design, matrix)?, &outputs)?,
+        None => fit(&design, &outputs)?,
+    };
+    for (input, coefficient) in found.inputs.iter_mut().zip(fitted.inputs) {
+        set(input, coefficient.share);
+    }
+    Ok(Some(MethodSummary { r_squared: Some(fitted.r_squared), ..MethodSummary::of(&outputs) }))
+}
+
+fn morris(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let design = run.sampling.morris_design(run.spec)?;
+    let outputs = run.observe(Design::Morris(run.spec.morris_levels), &design)?;
+    let effects = morris_effects(&design, &outputs, run.settings.confidence)?;
+    for (input, effect) in found.inputs.iter_mut().zip(effects) {
+        input.morris_mean_absolute = Some(effect.mean_absolute.value);
+        input.morris_std = Some(effect.std);
+    }
+    Ok(Some(MethodSummary::of(&outputs)))
+}
+
+fn morris_of_groups(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let groups = &run.sampling.groups;
+    if groups.is_empty() {
+        return Ok(None);
+    }
+    let design = run.sampling.morris_design(run.spec)?.grouped(groups.clone())?;
+    let of = Design::Groups(Grouped::Morris(run.spec.morris_levels), key(groups));
+    let outputs = run.observe(of, &design)?;
+    let effects = morris_effects(&design, &outputs, run.settings.confidence)?;
+    for (group, effect) in found.groups.iter_mut().zip(effects) {
+        group.morris_mean_absolute = Some(effect.mean_absolute.value);
+    }
+    Ok(Some(MethodSummary::of(&outputs)))
+}
+
+fn derivative_bounds(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let (design, slopes) = run.sloped()?;
+    let measures = dgsm(&design, slopes, run.settings.confidence)?;
+    for (input, measure) in found.inputs.iter_mut().zip(measures.inputs) {
+        input.dgsm_total_bound = measure.total_bound;
+    }
+    Ok(Some(MethodSummary::of(slopes)))
+}
+
+fn derivative_brackets(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let (design, slopes) = run.sloped()?;
+    let bounds = brackets(&design, slopes, run.settings.confidence, run.settings.seed)?;
+    for (input, bracket) in found.inputs.iter_mut().zip(bounds) {
+        [input.first_lower, input.first_lower_low] =
+            [bracket.first_lower.value, bracket.first_lower.low.max(0.0)].map(Some);
+        [input.total_lower, input.total_lower_low] =
+            [bracket.total_lower.value, bracket.total_lower.low.max(0.0)].map(Some);
+        [input.total_upper, input.total_upper_high] =
+            [bracket.total_upper.value, bracket.total_upper.high.min(1.0)].map(Some);
+    }
+    Ok(Some(MethodSummary::of(slopes)))
+}
+
+fn subspace(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let (design, slopes) = run.sloped()?;
+    let (level, seed) = (run.settings.confidence, run.settings.seed);
+    let space = active_subspace(&design, slopes, Bootstrap { resamples: SUBSPACE_RESAMPLES, seed }, level)?;
+    for (input, score) in found.inputs.iter_mut().zip(&space.activity) {
+        input.activity = Some(*score);
+    }
+    found.subspace = Some(SubspaceSummary {
+        eigenvalues: space.eigenvalues.iter().map(|of| of.value).collect(),
+        low: space.eigenvalues.iter().map(|of| of.low).collect(),
+        high: space.eigenvalues.iter().map(|of| of.high).collect(),
+        needed_90: space.needed(0.9, level)?,
+        needed_99: space.needed(0.99, level)?,
+        first: space.directions.first().cloned().unwrap_or_default(),
+    });
+    Ok(Some(MethodSummary::of(slopes)))
+}
+
+fn chaos_expansion(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let (design, outputs) = run.first()?;
+    let model = expansion(&design, &outputs, run.spec.expansion)?;
+    if model.terms.is_empty() {
+        return Err("no polynomial predicts the output better than its mean".into());
+    }
+    for (input, shares) in found.inputs.iter_mut().zip(model.indices()) {
+        input.expansion_first = Some(shares.closed);
+        input.expansion_total = Some(shares.total);
+    }
+    Ok(Some(MethodSummary { leave_one_out: Some(model.leave_one_out), ..MethodSummary::of(&outputs) }))
+}
+
+fn sobol(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let design = run.sampling.saltelli_design(run.spec.saltelli_blocks)?;
+    let measured = run.observe_quantities(Design::Saltelli, &design)?;
+    let outputs: Vec<_> = measured.iter().map(|of| of.as_ref().map(Measured::value)).collect();
+    let indices = sobol_indices(&design, &outputs, run.bootstrap(), run.settings.confidence)?;
+    for (input, index) in found.inputs.iter_mut().zip(indices.inputs) {
+        [input.sobol_first, input.sobol_first_low, input.sobol_first_high] =
+            [index.first.value, index.first.low, index.first.high].map(Some);
+        [input.sobol_total, input.sobol_total_low, input.sobol_total_high] =
+            [index.total.value, index.total.low, index.total.high].map(Some);
+    }
+    if run.sampling.output().is_length() {
+        let vectors: Vec<_> = measured.iter().map(|of| of.as_ref().and_then(displacement)).collect();
+        let of_vectors = vector_sobol_indices(&design, &vectors, run.bootstrap(), run.settings.confidence)?;
+        for (input, index) in found.inputs.iter_mut().zip(of_vectors.inputs) {
+            [input.vector_first, input.vector_first_low, input.vector_first_high] =
+                [index.first.value, index.first.low, index.first.high].map(Some);
+            [input.vector_total, input.vector_total_low, input.vector_total_high] =
+                [index.total.value, index.total.low, index.total.high].map(Some);
+        }
+    }
+    let (failed_blocks, reliable) = (Some(indices.failed_blocks), Some(indices.reliable));
+    Ok(Some(MethodSummary { failed_blocks, reliable, ..MethodSummary::of(&outputs) }))
+}
+
+fn sobol_of_groups(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    let groups = &run.sampling.groups;
+    if groups.is_empty() {
+        return Ok(None);
+    }
+    let design = run.sampling.saltelli_design(run.spec.saltelli_blocks)?.grouped(groups.clone())?;
+    let outputs = run.observe(Design::Groups(Grouped::Saltelli, key(groups)), &design)?;
+    let indices = sobol_indices(&design, &outputs, run.bootstrap(), run.settings.confidence)?;
+    for (group, index) in found.groups.iter_mut().zip(indices.inputs) {
+        [group.sobol_first, group.sobol_first_low, group.sobol_first_high] =
+            [index.first.value, index.first.low, index.first.high].map(Some);
+        [group.sobol_total, group.sobol_total_low, group.sobol_total_high] =
+            [index.total.value, index.total.low, index.total.high].map(Some);
+    }
+    let (failed_blocks, reliable) = (Some(indices.failed_blocks), Some(indices.reliable));
+    Ok(Some(MethodSummary { failed_blocks, reliable, ..MethodSummary::of(&outputs) }))
+}
+
+fn shapley(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    if run.spec.shapley_walks == 0 {
+        return Ok(None);
+    }
+    let design = run.sampling.shapley_design(run.spec.shapley_walks)?;
+    let outputs = run.observe(Design::Shapley, &design)?;
+    let effects = shapley_effects(&design, &outputs, run.settings.confidence)?;
+    for (input, of) in found.inputs.iter_mut().zip(effects) {
+        [input.shapley, input.shapley_low, input.shapley_high] =
+            [of.effect.value, of.effect.low, of.effect.high].map(Some);
+    }
+    Ok(Some(MethodSummary::of(&outputs)))
+}
+
+/// The components of an output that is a displacement [mm].
+fn displacement(of: &Measured) -> Option<Vec<f64>> {
+    match &of.quantity {
+        MeasuredQuantity::Displacement(displacement) => Some(displacement.iter().map(|x| 1e3 * x).collect()),
+        MeasuredQuantity::Number(_) => None,
+    }
+}
+
+impl MethodSummary {
+    fn of<T>(outputs: &[Option<T>]) -> Self {
+        let failed = outputs.iter().filter(|output| output.is_none()).count();
+        Self { observations: outputs.len(), failed, ..Self::default() }
+    }
+}
