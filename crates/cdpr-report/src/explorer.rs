@@ -114,7 +114,8 @@ fn inert(json: &str) -> String {
 
 /// The content security policy of a page with these scripts that computes.
 fn policy(scripts: &[&str]) -> String {
-    let hashes = scripts.iter().map(|script| format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(script))));
+    let hashes =
+        scripts.iter().map(|script| format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(script))));
     format!(
         "default-src 'none'; script-src {} 'wasm-unsafe-eval' blob:; worker-src blob:; \
          style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'",
@@ -138,6 +139,10 @@ mod tests {
         let robot = r#"{"name": "</script><script>alert(1)</script>"}"#;
         let explored = Explored { name: "</title>", file: "robot.json", robot, study: None };
         let page = explorer(&explored, "1.2.3").unwrap();
-        assert!(page.contains(EXPLORER_MARK) && !page.contains("</title> ") && !page.contains("alert(1)</script>"));
+        assert!(
+            page.contains(EXPLORER_MARK)
+                && !page.contains("</title> ")
+                && !page.contains("alert(1)</script>")
+        );
     }
 }

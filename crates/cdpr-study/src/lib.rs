@@ -94,7 +94,9 @@ pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarC
 pub use model::observer::OutputObserver;
 pub use model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis};
 pub use names::{REPORT_MARK, REPORT_NAME, ROBOT_NAME, STUDY_NAME};
-pub use observe::observation::{FITTED, KEPT, Part, Session, Tally, observe, observe_into, observe_replicate, observe_rows};
+pub use observe::observation::{
+    FITTED, KEPT, Part, Session, Tally, observe, observe_into, observe_replicate, observe_rows,
+};
 pub use observe::plan::{BlockMaker, Plan, observe_shard};
 pub use observe::shard::Shard;
 pub use observe::status::{

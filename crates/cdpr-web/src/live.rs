@@ -67,5 +67,6 @@ impl Live {
 fn text<T: Serialize>(outcome: Result<T, Failure>) -> String {
     let outcome = outcome.map_or_else(Outcome::Error, Outcome::Ok);
     // Only maps whose keys are no text cannot be written: no answer has one.
-    serde_json::to_string(&outcome).unwrap_or_else(|error| format!(r#"{{"error": {{"kind": "answer", "reason": "{error}"}}}}"#))
+    serde_json::to_string(&outcome)
+        .unwrap_or_else(|error| format!(r#"{{"error": {{"kind": "answer", "reason": "{error}"}}}}"#))
 }

@@ -65,7 +65,9 @@ pub(crate) fn questions(live: &mut Live) -> Vec<Value> {
 /// and to one; infinite where they are not alike.
 pub(crate) fn farthest(one: &Value, other: &Value) -> (f64, String) {
     let worst = |found: Vec<(f64, String)>| {
-        found.into_iter().fold((0.0, String::new()), |worst, next| if next.0 > worst.0 { next } else { worst })
+        found
+            .into_iter()
+            .fold((0.0, String::new()), |worst, next| if next.0 > worst.0 { next } else { worst })
     };
     match (one, other) {
         (Value::Number(a), Value::Number(b)) => {
@@ -73,16 +75,22 @@ pub(crate) fn farthest(one: &Value, other: &Value) -> (f64, String) {
             ((a - b).abs() / a.abs().max(1.0), String::new())
         }
         (Value::Array(a), Value::Array(b)) if a.len() == b.len() => worst(
-            a.iter().zip(b).enumerate().map(|(i, (a, b))| {
-                let (distance, place) = farthest(a, b);
-                (distance, format!("[{i}]{place}"))
-            }).collect(),
+            a.iter()
+                .zip(b)
+                .enumerate()
+                .map(|(i, (a, b))| {
+                    let (distance, place) = farthest(a, b);
+                    (distance, format!("[{i}]{place}"))
+                })
+                .collect(),
         ),
         (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => worst(
-            a.iter().map(|(key, a)| {
-                let (distance, place) = farthest(a, &b[key]);
-                (distance, format!(".{key}{place}"))
-            }).collect(),
+            a.iter()
+                .map(|(key, a)| {
+                    let (distance, place) = farthest(a, &b[key]);
+                    (distance, format!(".{key}{place}"))
+                })
+                .collect(),
         ),
         (a, b) if a == b => (0.0, String::new()),
         (a, b) => (f64::INFINITY, format!(": {a} and {b}")),

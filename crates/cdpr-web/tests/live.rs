@@ -37,7 +37,8 @@ fn a_cable_wound_out_leads_where_the_same_lengths_are_found_directly() {
     let wind = questions(&mut live).swap_remove(3);
     let way = ask(&mut live, &wind)["ok"].clone();
     let given = &wind["wind"];
-    let stand = json!({"stand": {"lengths": given["lengths"][1], "load": given["load"][1], "start": given["start"]}});
+    let stand =
+        json!({"stand": {"lengths": given["lengths"][1], "load": given["load"][1], "start": given["start"]}});
     let direct = ask(&mut live, &stand)["ok"].clone();
     assert_eq!(way["jumps"], json!([]));
     assert!(farthest(&way["state"]["pose"], &direct["pose"]).0 < 1e-9);

@@ -54,7 +54,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     });
     write_text(&path, &page, EXPLORER_MARK)?;
     if *open {
-        open::that(&path).map_err(|error| ProgramError::Browser { path: path.clone(), reason: error.to_string() })?;
+        open::that(&path)
+            .map_err(|error| ProgramError::Browser { path: path.clone(), reason: error.to_string() })?;
     }
     let written = Written { explorer: path.to_string_lossy().into_owned() };
     Ok(format.print(&written, |written| println!("explorer in {}", written.explorer))?)

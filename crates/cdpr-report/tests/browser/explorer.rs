@@ -90,7 +90,10 @@ fn the_explorer_answers_as_the_program_and_is_quiet() {
             }
             let [found, expected] = [&found["ok"], &expected["ok"]];
             for k in 0..3 {
-                assert!(difference(&expected["displacement"][k], &found["displacement"][k]) < 1e-12, "{name}");
+                assert!(
+                    difference(&expected["displacement"][k], &found["displacement"][k]) < 1e-12,
+                    "{name}"
+                );
             }
             assert!(difference(&expected["rms"], &found["rms"]) < 1e-12, "{name}");
         }
@@ -103,7 +106,10 @@ fn the_explorer_answers_as_the_program_and_is_quiet() {
             if name != "caroca-pulleys" {
                 let observed = page.evaluate(&format!("({ASK})({})", json!(asks)));
                 assert!(observed["answers"][10]["ok"]["summary"]["mean"].is_f64(), "{name}");
-                println!("{name}: {:.0} ms for 20480 observations in one worker", observed["milliseconds"].as_f64().unwrap());
+                println!(
+                    "{name}: {:.0} ms for 20480 observations in one worker",
+                    observed["milliseconds"].as_f64().unwrap()
+                );
             }
         }
         for (width, scheme) in [(1400, "light"), (1400, "dark"), (390, "light")] {

@@ -132,13 +132,9 @@ fn mean_products(gradients: &[Vec<f64>], rows: &[usize]) -> Vec<Vec<f64>> {
             line[..=i].iter_mut().zip(gradient).for_each(|(sum, g)| *sum += gradient[i] * g);
         }
     }
-    for i in 0..k {
-        for j in 0..=i {
-            sums[i][j] /= rows.len() as f64;
-            sums[j][i] = sums[i][j];
-        }
-    }
-    sums
+    let count = rows.len() as f64;
+    let mean = |i: usize, j: usize| sums[i.max(j)][i.min(j)] / count;
+    (0..k).map(|i| (0..k).map(|j| mean(i, j)).collect()).collect()
 }
 
 /// Ranks of the ends of the middle part `level` of n values.

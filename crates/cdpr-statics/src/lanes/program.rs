@@ -98,8 +98,8 @@ pub(crate) fn newton<S: Simd>(rows: &[Row<S>], balance: &Lanes6<S>) -> (Lanes6<S
         for k in 0..6 {
             let c = row.slope[k] * free_inv;
             right[k] += row.slope[k] * d;
-            for l in k..6 {
-                matrix[k][l] += c * row.slope[l];
+            for (entry, slope) in matrix[k].iter_mut().zip(&row.slope).skip(k) {
+                *entry += c * *slope;
             }
         }
     }
@@ -139,7 +139,7 @@ pub(crate) fn within_limits<S: Simd>(
         let moving = going.select(share, zero);
         raised = six(|k| raised[k] + step[k] * moving);
         for row in rows.iter_mut() {
-            row.wanted = row.wanted - row.change * moving;
+            row.wanted -= row.change * moving;
             let [low, high] = row.beyond(row.wanted);
             row.sides = [
                 (going & !same & low) | (!(going & !same) & row.sides[0]),

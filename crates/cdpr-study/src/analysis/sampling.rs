@@ -9,8 +9,8 @@ use crate::model::study::Sampling;
 use crate::observe::observation::{FITTED, KEPT, Session, Tally, observe_replicate};
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{
-    Bootstrap, EffectInterval, Effects, Family, Fit, Histogram, Law, Sample, SampleDesign, SensitivityError, SobolDesign,
-    Summary, best, fit_all, intervals_of_effects, undecided,
+    Bootstrap, EffectInterval, Effects, Family, Fit, Histogram, Law, Sample, SampleDesign, SensitivityError,
+    SobolDesign, Summary, best, fit_all, intervals_of_effects, undecided,
 };
 use cdpr_statics::Deflection;
 use indexmap::IndexMap;

@@ -46,7 +46,8 @@ pub(crate) fn wind(robot: &Robot, given: Follow) -> Result<Way, Failure> {
     loop {
         way.path.extend(found.steps.iter().map(|step| place(&step.solution)));
         let Some(lost) = found.lost else {
-            let last = found.steps.last().map(|step| State::new(robot, &to.lengths, &to.load, &step.solution));
+            let last =
+                found.steps.last().map(|step| State::new(robot, &to.lengths, &to.load, &step.solution));
             way.state = last.transpose()?;
             return Ok(way);
         };

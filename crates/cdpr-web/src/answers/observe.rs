@@ -5,8 +5,8 @@ use crate::question::ObserveReplicate;
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{Effects, SampleDesign};
 use cdpr_study::{
-    STUDY_NAME, ScalarCount, Session, Study, StudyFile, ValueSummary, effects_of_replicates, observe as observe_sampling,
-    observe_replicate,
+    STUDY_NAME, ScalarCount, Session, Study, StudyFile, ValueSummary, effects_of_replicates,
+    observe as observe_sampling, observe_replicate,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -90,8 +90,9 @@ pub(crate) fn observe(study: &Study, given: ObserveReplicate) -> Result<Observed
 
 pub(crate) fn effects(study: &Study, of: &[Effects]) -> Result<InputEffects, Failure> {
     let sampling = study.sampling(SAMPLING)?;
-    let found = effects_of_replicates(&sampling, of)
-        .map_err(|error| Failure::invalid("of", format!("effects of {} replicates", of.len()), &error.to_string()))?;
+    let found = effects_of_replicates(&sampling, of).map_err(|error| {
+        Failure::invalid("of", format!("effects of {} replicates", of.len()), &error.to_string())
+    })?;
     let inputs = found.into_iter().zip(&sampling.errors.entries);
     let effect = |((name, found), entry): ((String, cdpr_study::SignedEffect), &String)| InputEffect {
         name,
