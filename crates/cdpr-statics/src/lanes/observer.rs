@@ -1,7 +1,8 @@
 //! Deflections of a robot with deviations of its parameters, many at a time.
 //!
-//! Robots with plain cables, stable and taut or sagging, at their limits or not, are observed in the lanes of
-//! the vector unit (`lanes/chain.rs`), each from the tensions of the nominal robot. Any other robot is
+//! Robots with cables without pulleys and leads, linear or with an elastic law, taut or sagging, at their
+//! limits or not, are observed in the lanes of the vector unit (`lanes/chain.rs`), each from the tensions of
+//! the nominal robot. Any other robot is
 //! observed by the scalar models, which decide on every failure.
 //!
 //! Where the sum of squares of the inverse model has several local minima, a perturbed robot is observed in
