@@ -45,8 +45,11 @@ fn exact(plain: &[f64], dimensions: usize, seed: u64) -> Vec<f64> {
     plain.iter().enumerate().map(&mut one).collect()
 }
 
+/// A function of points and its name.
+type Named = (&'static str, fn(&[f64]) -> f64);
+
 /// Smooth, kinked and discontinuous functions, of all inputs and of few.
-fn functions() -> [(&'static str, fn(&[f64]) -> f64); 7] {
+fn functions() -> [Named; 7] {
     [
         ("sum of squares", |x| x.iter().map(|x| x * x).sum()),
         ("product", |x| x.iter().zip(1..).map(|(x, j)| 1.0 + (x - 0.5) / f64::from(j)).product()),

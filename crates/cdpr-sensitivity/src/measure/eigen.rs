@@ -65,13 +65,9 @@ mod tests {
     fn a_matrix_is_the_sum_of_its_eigenvalues_times_the_projections_on_its_eigenvectors() {
         for n in [1, 2, 3, 20, 62] {
             let mut generator = stream(n as u64, 0);
-            let mut a = vec![vec![0.0; n]; n];
-            for i in 0..n {
-                for j in 0..=i {
-                    a[i][j] = uniform(&mut generator) - 0.5;
-                    a[j][i] = a[i][j];
-                }
-            }
+            let half: Vec<f64> = (0..n * n).map(|_| uniform(&mut generator) - 0.5).collect();
+            let entry = |i: usize, j: usize| half[n * i.max(j) + i.min(j)];
+            let a: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
             let (values, vectors) = symmetric_eigen(a.clone());
             assert!(values.is_sorted_by(|one, other| one >= other));
             for i in 0..n {

@@ -49,8 +49,11 @@ pub(crate) struct Method {
     pub(crate) name: &'static str,
     pub(crate) inputs: Needs,
     /// Fills in its measures and returns its basis; `None` where the study does not ask for it.
-    pub(crate) run: fn(&Run, &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>>,
+    pub(crate) run: Estimator,
 }
+
+/// What carries a method out.
+type Estimator = fn(&Run, &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>>;
 
 /// What a method relies on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,11 +113,7 @@ pub(crate) const METHODS: [Method; 13] = [
 type Fit<D> = fn(&D, &[Option<f64>]) -> Result<Regression, SensitivityError>;
 
 impl Method {
-    const fn new(
-        name: &'static str,
-        inputs: Needs,
-        run: fn(&Run, &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>>,
-    ) -> Self {
+    const fn new(name: &'static str, inputs: Needs, run: Estimator) -> Self {
         Self { name, inputs, run }
     }
 }
