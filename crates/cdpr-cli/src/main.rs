@@ -75,7 +75,7 @@ enum Command {
     ///
     /// One HTML file that needs neither an installation nor a connection, with the robot and these models.
     #[command(after_help = "Examples:
-  cdpr explore data/robots/cogiro.json --open
+  cdpr explore data/robots/cogiro.json
   cdpr explore data/studies/caroca.json --out caroca.html")]
     Explore(robot::explore::Settings),
     /// List everything that is odd about a robot file.

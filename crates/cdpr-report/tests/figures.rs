@@ -108,6 +108,8 @@ fn measured() -> SamplingSummary {
     };
     let sensitivity = SensitivitySummary {
         inputs: vec![input("mass", 0.01), input("b2.x", 0.99)],
+        groups: Vec::new(),
+        subspace: None,
         methods: IndexMap::new(),
         sums: IndexMap::new(),
         agreement,

@@ -61,7 +61,9 @@ fn derivatives_and_sobol_indices_agree_on_the_share_of_the_modulus() {
 
     // A model that is almost the sum of its inputs.
     for (name, sum) in &found.sums["all"] {
-        assert!((sum - 1.0).abs() < 0.02, "{name}: {sum}");
+        // The modulus has nearly all of it, and the error that its interval tells.
+        let error = if name.starts_with("sobol") { 0.5 * (high - low) } else { 0.02 };
+        assert!((sum - 1.0).abs() < error, "{name}: {sum}");
     }
     let without_all = found.sums.iter().filter(|(group, _)| **group != "all");
     let of_groups: f64 = without_all.map(|(_, sums)| sums["sobol_first"]).sum();

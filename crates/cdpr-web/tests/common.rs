@@ -88,6 +88,8 @@ pub(crate) fn farthest(one: &Value, other: &Value) -> (f64, String) {
             a.iter()
                 .map(|(key, a)| {
                     let (distance, place) = farthest(a, &b[key]);
+                    // In metres, as all other lengths.
+                    let distance = if key.ends_with("_mm") { 1e-3 * distance } else { distance };
                     (distance, format!(".{key}{place}"))
                 })
                 .collect(),

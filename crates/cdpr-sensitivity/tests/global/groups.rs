@@ -130,7 +130,8 @@ fn indices_of_a_vector_are_shares_of_the_sum_of_its_variances() {
             .collect()
     };
     let found = vector_sobol_indices(&design, &observed(0.0), BOOTSTRAP, 0.95).unwrap();
-    assert!((found.variance - 15.0 / 12.0).abs() < 1e-3);
+    // The variance of 2048 independent outputs has a standard deviation of 3 %; theirs are balanced.
+    assert!((found.variance * 12.0 / 15.0 - 1.0).abs() < 0.01, "{}", found.variance);
     for (index, exact) in found.inputs.iter().zip([10.0, 4.0, 1.0].map(|part| part / 15.0)) {
         assert!((index.first.value - exact).abs() < 0.01 && (index.total.value - exact).abs() < 0.01);
         assert!(index.first.low <= exact && exact <= index.first.high, "{index:?}");
