@@ -18,8 +18,9 @@ type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// The modules, and the features of the processor that they ask for.
-const MODULES: [(&str, &str); 2] = [("cdpr_web", "+simd128"), ("cdpr_web_scalar", "-simd128")];
+/// The modules, the features of the processor that they ask for, and their folders below that of the glue.
+const MODULES: [(&str, &str, &str); 2] =
+    [("cdpr_web", "+simd128", ""), ("cdpr_web_scalar", "-simd128", "scalar")];
 
 /// What the products are made of, in the workspace.
 const SOURCES: [&str; 10] = [
@@ -60,16 +61,18 @@ fn make() -> Outcome {
     has_target()?;
     let wasm_bindgen = wasm_bindgen()?;
     fs::create_dir_all(&dist)?;
-    for (name, feature) in MODULES {
+    for (name, feature, folder) in MODULES {
         eprintln!("module {name}");
         let target = root().join("target/web");
         let mut build = cargo_command(&["build", "--locked", "--package", "cdpr-web", "--profile", "web"]);
         build.args(["--target", TARGET, "--target-dir"]).arg(&target);
         done(build.env("RUSTFLAGS", format!("-C target-feature={feature}")))?;
+        // Of the same name, so that the one glue in `pkg` serves both.
+        let bound = page.join("pkg").join(folder);
         let mut bind = Command::new(&wasm_bindgen);
-        bind.args(["--target", "web", "--no-typescript", "--out-dir"]).arg(page.join("pkg"));
-        done(bind.args(["--out-name", name]).arg(target.join(TARGET).join("web/cdpr_web.wasm")))?;
-        let module = page.join("pkg").join(format!("{name}_bg.wasm"));
+        bind.args(["--target", "web", "--no-typescript", "--out-name", "cdpr_web", "--out-dir"]).arg(&bound);
+        done(bind.arg(target.join(TARGET).join("web/cdpr_web.wasm")))?;
+        let module = bound.join("cdpr_web_bg.wasm");
         let packed = Command::new("gzip").args(["-9", "--no-name", "--stdout"]).arg(module).output()?;
         if !packed.status.success() {
             return Err("gzip has failed".into());
