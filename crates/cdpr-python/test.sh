@@ -16,4 +16,5 @@ python3 -m venv --clear "$environment"
 "$environment/bin/pip" install --quiet ./crates/cdpr-python pytest pandas matplotlib mypy mujoco anywidget "$@"
 cd crates/cdpr-python
 CDPR=$target/debug/cdpr "$environment/bin/python" -m pytest -q -rs -p no:cacheprovider tests
-"$environment/bin/python" -m mypy.stubtest cdpr --mypy-config-file pyproject.toml
+"$environment/bin/python" -m mypy.stubtest cdpr --mypy-config-file pyproject.toml \
+    --allowlist tests/stubtest-allowed.txt
