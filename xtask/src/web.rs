@@ -124,7 +124,7 @@ fn wasm_bindgen() -> Outcome<PathBuf> {
     let program = tools.join("bin").join(format!("wasm-bindgen{}", std::env::consts::EXE_SUFFIX));
     let known = Command::new(&program).arg("--version").output();
     if !known.is_ok_and(|known| String::from_utf8_lossy(&known.stdout).trim().ends_with(version)) {
-        // By cargo itself: the package is none of this workspace's.
+        // Without this workspace's manifest, to which the package does not belong.
         let mut install = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()));
         install.args(["install", "wasm-bindgen-cli", "--version", version, "--force", "--root"]);
         done(install.arg(&tools))?;

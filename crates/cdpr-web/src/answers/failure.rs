@@ -12,7 +12,7 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
-    /// A question that is none.
+    /// A text that cannot be read as a question.
     pub(crate) fn question(error: &serde_json::Error) -> Self {
         Self { kind: "invalid_question".to_owned(), reason: error.to_string() }
     }

@@ -10,7 +10,7 @@ use serde::Serialize;
 /// The way between two settings.
 #[derive(Serialize)]
 pub(crate) struct Way {
-    /// The equilibrium at the second setting, behind a jump if there was one; absent if there is none.
+    /// The equilibrium at the second setting, after all jumps; absent if the way ends before.
     state: Option<State>,
     /// Positions of P on the way [m].
     path: Vec<[f64; 3]>,

@@ -12,7 +12,7 @@ use serde::Serialize;
 pub(crate) struct Moves {
     /// Natural modes, the slowest first; empty with a `reason`.
     frequencies: Vec<Natural>,
-    /// Why there are none.
+    /// Why the natural modes are missing.
     reason: Option<String>,
     /// Motions from the softest to the stiffest.
     motions: Vec<Motion>,

@@ -27,7 +27,7 @@ pub(crate) struct Inputs {
 /// Observations of one design.
 #[derive(Serialize)]
 pub(crate) struct Observed {
-    /// Deflections [mm], `null` where there is none.
+    /// Deflections [mm], `null` for failed observations.
     values_mm: Vec<Option<f64>>,
     /// Their summary; absent if fewer than two exist.
     summary: Option<ValueSummary>,
