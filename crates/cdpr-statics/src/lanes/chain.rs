@@ -2,8 +2,9 @@
 //!
 //! Its links are the inverse model, the offset set-points, and the direct model without and with the load.
 //! The equations are those of `inverse.rs` and `direct/newton.rs`, with one difference: the shape of a cable
-//! is not solved for but takes part in the iteration. The unknown of a cable is its horizontal force fx, which
-//! at held ends is proportional to its chord force: all derivatives are finite, also at the least tension.
+//! is not solved for but takes part in the iteration. The unknown of a cable is its horizontal force fx,
+//! which at held ends is proportional to its chord force: all derivatives are finite, also at the least
+//! tension.
 //! With C the flexibility, `e = d(x, z)/dL` and c the misclosure at force and length,
 //!
 //! ```text
@@ -11,8 +12,8 @@
 //! ```
 //!
 //! give the force `(fx, fz + dz)` that closes the cable at the same fx, and its slope `f' = (1, g)` over fx;
-//! `t' = û·f'` is that of the tension. With J the wrench of f', w that of the closing force, λ the multipliers
-//! of the balance and r the reference, the optimum (I2) and a step towards it are
+//! `t' = û·f'` is that of the tension. With J the wrench of f', w that of the closing force, λ the
+//! multipliers of the balance and r the reference, the optimum (I2) and a step towards it are
 //!
 //! ```text
 //! (t - r) t' + J·λ = 0,      sum w + w_ex = 0                                                        (L2)
@@ -22,9 +23,9 @@
 //!
 //! Where steps pass limits of the tensions, `program.rs` finds those within them.
 //!
-//! For a parabola fz is linear in fx and w'' zero; for a cable that is not taut it is that of the inextensible
-//! catenary ([`HeldCable::curvature`]). A cable near the least tension of its span, which the scalar models
-//! hold there, is left to them.
+//! For a parabola fz is linear in fx and w'' zero; for a cable that is not taut it is that of the
+//! inextensible catenary ([`HeldCable::curvature`]). A cable near the least tension of its
+//! span, which the scalar models hold there, is left to them.
 //!
 //! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
 
@@ -108,8 +109,8 @@ const LAST_OWN_CHANGE: f64 = 1e-6;
 /// m.
 const LAST_DISTRIBUTION: f64 = 1e-9;
 
-/// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell. The
-/// scalar models hold cables at 0.001, which the estimate meets within a few percent.
+/// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell.
+/// The scalar models hold cables at 0.001, which the estimate meets within a few percent.
 const ABOVE_LEAST: f64 = 0.0015;
 
 /// Greatest step of a cable that sags, relative to its horizontal force: a longer one may lead to another
@@ -270,7 +271,8 @@ impl<S: Simd> HeldCable<S> {
     /// Where the tension falls as cable is paid out, and is not next to the least one that the span demands,
     /// at which the scalar models hold the cable.
     ///
-    /// Newton's step towards the least tension, over ln fx, lowers it by half of `(fx t')²/(fx t' + fx² t'')`.
+    /// Newton's step towards the least tension, over ln fx, lowers it by half of
+    /// `(fx t')²/(fx t' + fx² t'')`.
     #[inline(always)]
     fn is_taut(&self, cable: &LaneCable<'_, S>) -> Mask<S> {
         let fx = cable.force[0];
