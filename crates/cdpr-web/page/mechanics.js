@@ -17,7 +17,7 @@ export function loadOf({ payload, force, moment }) {
 export class Mechanics {
   /** What is shown: the last state that was found. */
   picture = null;
-  /** Why there is none at the wanted pose: {kind, reason}. */
+  /** Why the wanted pose has no picture: {kind, reason}. */
   failure = null;
   /** The last jump to another equilibrium. */
   jump = null;
