@@ -74,12 +74,15 @@ fn a_slip_in_a_name_finds_the_name() {
 }
 
 #[test]
-fn the_gallery_has_a_section_and_a_picture_of_every_robot() {
-    let page = std::fs::read_to_string(root().join("docs/robots.md")).unwrap();
+fn the_gallery_has_a_section_a_picture_and_a_live_page_of_every_robot() {
+    let [page, live] = ["robots", "live"]
+        .map(|name| std::fs::read_to_string(root().join(format!("docs/{name}.md"))).unwrap());
     for file in ROBOTS {
         let picture = format!("images/robots/{}.svg", file.name);
         assert!(page.contains(&format!("]({picture})")), "{}: run: cargo xtask gallery", file.name);
         assert!(root().join("docs").join(&picture).exists(), "{picture}: run: cargo xtask gallery");
+        let link = format!("href=\"explorer/{}.html\"", file.name);
+        assert!(live.contains(&link), "{}: run: cargo xtask gallery", file.name);
     }
 }
 

@@ -118,7 +118,7 @@ fn wheel(folder: &Path) -> Outcome {
 fn book(folder: &Path) -> Outcome {
     let book = folder.join("book");
     done(Command::new("mdbook").arg("build").arg(root().join("docs")).arg("--dest-dir").arg(&book))?;
-    // The pages that docs/robots.md leads to.
+    // The pages that docs/live.md leads to.
     let pages = book.join("explorer");
     fs::create_dir_all(&pages)?;
     for file in fs::read_dir(root().join("data/robots"))? {

@@ -1,4 +1,5 @@
-//! `cargo xtask gallery`: docs/robots.md, a picture and a table for each robot of the library.
+//! `cargo xtask gallery`: docs/robots.md, a picture and a table for each robot of the library, and
+//! docs/live.md, where they move.
 //!
 //! The picture is that of the study that `cdpr study new` writes, at its pose and under its load; a robot
 //! with fewer cables than free motions is drawn with straight cables at the pose that `cdpr inverse --free`
@@ -20,7 +21,19 @@ const REMARKS: [(&str, &str); 1] = [(
     "its upper exit points lead to the lower anchor points, so that cables pass each other closely",
 )];
 
-/// Writes the page and its pictures.
+/// The page on which robots move, before their names.
+const LIVE: &str = "# Robots to move
+
+Choose a robot; it computes in the frame below, in this browser and without a connection. [The
+explorer](explorer.md) says what one can do with it, and `cdpr explore NAME` writes its page as a file. The pages
+are part of the book that `cargo xtask dist` makes.
+
+<iframe name=\"robot\" src=\"explorer/caroca.html\" title=\"The robot that was chosen\" loading=\"lazy\"
+ style=\"width: 100%; height: 85vh; border: 1px solid\"></iframe>
+
+";
+
+/// Writes the pages and their pictures.
 pub(crate) fn run() -> Result<(), String> {
     let folder = root().join("target/gallery");
     let pictures = root().join("docs/images/robots");
@@ -38,6 +51,7 @@ pictures.
 
 ",
     );
+    let mut live = String::from(LIVE);
     let robots = answer(&["robots"], &[0])?;
     for robot in robots.as_array().ok_or("no list of robots")? {
         let name = text(&robot["name"]);
@@ -47,7 +61,16 @@ pictures.
             None => studied(name, &folder, &pictures)?,
         };
         section(&mut page, robot, &rows)?;
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            live,
+            "- <a href=\"explorer/{name}.html\" target=\"robot\">{}</a>: {} cables, {} kg",
+            text(&robot["title"]),
+            robot["cables"],
+            robot["mass_kg"],
+        );
     }
+    write(&root().join("docs/live.md"), &live)?;
     write(&root().join("docs/robots.md"), &page)
 }
 

@@ -72,22 +72,28 @@ fn make() -> Outcome {
         let mut bind = Command::new(&wasm_bindgen);
         bind.args(["--target", "web", "--no-typescript", "--out-name", "cdpr_web", "--out-dir"]).arg(&bound);
         done(bind.arg(target.join(TARGET).join("web/cdpr_web.wasm")))?;
-        let module = bound.join("cdpr_web_bg.wasm");
-        let packed = Command::new("gzip").args(["-9", "--no-name", "--stdout"]).arg(module).output()?;
-        if !packed.status.success() {
-            return Err("gzip has failed".into());
-        }
-        fs::write(dist.join(format!("{name}.wasm.gz")), packed.stdout)?;
+        pack(&bound.join("cdpr_web_bg.wasm"), &dist.join(format!("{name}.wasm.gz")))?;
     }
     eprintln!("page");
     done(Command::new("npm").args(["ci", "--no-audit", "--no-fund"]).current_dir(&page))?;
     done(Command::new("npm").args(["run", "build"]).current_dir(&page))?;
+    let script = dist.join("explorer.js");
+    pack(&script, &dist.join("explorer.js.gz"))?;
+    fs::remove_file(script)?;
     fs::write(dist.join("SOURCES"), format!("{sources}\n"))?;
     for file in fs::read_dir(&dist)? {
         let file = file?;
         eprintln!("{:>9} bytes  {}", file.metadata()?.len(), file.file_name().display());
     }
     Ok(())
+}
+
+fn pack(file: &Path, packed: &Path) -> Outcome {
+    let output = Command::new("gzip").args(["-9", "--no-name", "--stdout"]).arg(file).output()?;
+    if !output.status.success() {
+        return Err(format!("gzip has not packed {}", file.display()).into());
+    }
+    Ok(fs::write(packed, output.stdout)?)
 }
 
 /// Says where the products are not those of the sources: a warning, because the models may agree nevertheless.

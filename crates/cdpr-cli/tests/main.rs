@@ -12,6 +12,7 @@ mod common;
 mod derivatives;
 #[path = "../../cdpr-statics/tests/equilibria.rs"]
 mod equilibria;
+mod explore;
 #[cfg(debug_assertions)]
 mod faults;
 mod folder;

@@ -9,11 +9,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::path::PathBuf;
 
-/// The script, the worker, the style and the packed module of the explorer, for its widget.
+/// The packed script, the worker, the style and the packed module of the explorer, for its widget.
 #[pyfunction]
 pub(crate) fn explorer_parts(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let parts = PyDict::new(py);
-    parts.set_item("script", page::SCRIPT)?;
+    parts.set_item("script", PyBytes::new(py, page::SCRIPT))?;
     parts.set_item("worker", page::WORKER)?;
     parts.set_item("style", page::STYLE)?;
     parts.set_item("module", PyBytes::new(py, page::MODULE))?;

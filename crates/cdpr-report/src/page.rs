@@ -1,10 +1,9 @@
 //! The report: one HTML file with the study, its results and all figures, which needs no other file.
 //!
 //! Static figures are the SVG files of this crate, byte for byte. plotly.js (`vendor/plotly`) draws the robot
-//! and the surfaces in space from data that the page holds as JSON. maud escapes everything that comes from
-//! files. The data stands in a `script` element of a type that no browser runs, and contains no `<`. A
-//! content security policy allows the two scripts by their hashes, and forbids all other scripts and every
-//! connection.
+//! and the surfaces in space from data that the page holds as JSON, and the explorer lets the reader move the
+//! robot; both are packed. maud escapes everything that comes from files. A content security policy allows the
+//! scripts of the page by their hashes, and forbids every connection.
 
 mod analysis;
 mod calibration;
@@ -22,19 +21,18 @@ pub use calibration::calibration_report;
 
 use crate::draw::figures;
 use crate::error::ReportError;
+use crate::live::{LiveRobot, UNPACK, data, explored_study, models, packed, policy, script};
 use crate::page::elements::{STYLE, Section, inert};
 use crate::scene::Scene;
-use base64::Engine;
-use base64::prelude::BASE64_STANDARD;
 use cdpr_assess::FoundRegion;
-use cdpr_robot::{shown, shown_lines};
-use cdpr_study::{Figure, Results};
+use cdpr_robot::shown;
+use cdpr_study::{Figure, ROBOT_NAME, Results};
+use cdpr_web::page as explorer;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 
 const SCRIPT: &str = include_str!("page/page.js");
-const PLOTLY: &str = include_str!("../vendor/plotly/plotly-gl3d.min.js");
+const PLOTLY: &[u8] = include_bytes!("../vendor/plotly/plotly-gl3d.min.js.gz");
 
 /// Data that the script of the page draws.
 #[derive(Serialize)]
@@ -42,6 +40,7 @@ struct Data<'a> {
     robot: Option<&'a Scene>,
     surfaces: Vec<results::SpaceSurface>,
     region: Option<robot::RegionInSpace>,
+    live: LiveRobot<'a>,
 }
 
 /// Writes the report of a study as the text of an HTML file.
@@ -70,13 +69,19 @@ pub fn report_with(
         return Err(ReportError::invalid("the robot of the workspace", &region.robot, expected));
     }
     let scene = Scene::new(&results.study);
+    let unreadable = |error: serde_json::Error| ReportError::Drawing { reason: error.to_string() };
+    let study = explored_study(&results.study);
     let data = Data {
         robot: scene.as_ref().ok(),
         surfaces: results::in_space(results),
         region: region.map(robot::RegionInSpace::new),
+        live: LiveRobot {
+            file: ROBOT_NAME,
+            robot: serde_json::from_str(&results.robot_json).map_err(unreadable)?,
+            study: study.as_ref(),
+        },
     };
-    let json =
-        serde_json::to_string(&data).map_err(|error| ReportError::Drawing { reason: error.to_string() })?;
+    let json = serde_json::to_string(&data).map_err(unreadable)?;
     let sections: Vec<Section> = [
         Some(robot::section(&results.study.robot, &scene, region)),
         Some(setup::section(results)),
@@ -104,12 +109,12 @@ fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(policy());
+                meta http-equiv="Content-Security-Policy" content=(policy(&[UNPACK, SCRIPT]));
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content={ "cdpr " (results.summary.version) };
                 title { (shown(title)) }
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(STYLE)) (PreEscaped(explorer::STYLE)) }
             }
             body {
                 a.skip href="#content" { "Skip to the content" }
@@ -131,34 +136,26 @@ fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
                         }
                         footer {
                             "Written by cdpr " (results.summary.version)
-                                ". Interactive figures by plotly.js 4.1.1 (MIT licence)."
+                                ". Interactive figures by plotly.js 4.1.1, the live robot by three.js (MIT "
+                                "licences)."
                         }
                     }
                 }
-                // No browser runs this type. Without `<`, nothing in the data can end the element.
-                script type="application/json" id="data" { (PreEscaped(shown_lines(json).replace('<', "\\u003c"))) }
-                script { (PreEscaped(PLOTLY)) }
-                script { (PreEscaped(SCRIPT)) }
+                (robot::live(&results.study.robot))
+                (data(json))
+                (packed("plotly", PLOTLY))
+                (models())
+                (script(UNPACK))
+                (script(SCRIPT))
             }
         }
     }
 }
 
-/// Content security policy: scripts by their hashes, styles and images of the page itself, and no connection.
-fn policy() -> String {
-    let hash = |script: &str| BASE64_STANDARD.encode(Sha256::digest(script));
-    format!(
-        "default-src 'none'; script-src 'sha256-{}' 'sha256-{}'; style-src 'unsafe-inline'; img-src data: \
-            blob:; \
-         base-uri 'none'; form-action 'none'",
-        hash(PLOTLY),
-        hash(SCRIPT)
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sha2::{Digest, Sha256};
     use std::fmt::Write;
 
     #[test]
@@ -171,9 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn the_scripts_do_not_end_their_elements() {
-        for script in [PLOTLY, SCRIPT] {
-            assert!(!script.to_lowercase().contains("</script") && !script.contains("<!--"));
-        }
+    fn the_script_does_not_end_its_element() {
+        assert!(!SCRIPT.to_lowercase().contains("</script") && !SCRIPT.contains("<!--"));
     }
 }

@@ -4,7 +4,7 @@ use crate::text;
 use cdpr_robot::{Axis, Matrix3, Pose, Robot, Vector3};
 use cdpr_statics::{Deflection, DirectProblem, Equilibrium, Load, StaticsError};
 use cdpr_study::{Study, StudyError};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Number of points along a cable.
 const POINTS: usize = 49;
@@ -27,7 +27,7 @@ pub(crate) struct Scene {
 /// Robot at one pose.
 #[derive(Serialize)]
 pub(crate) struct ScenePose {
-    #[serde(skip)]
+    #[serde(serialize_with = "seven")]
     pub pose: Pose,
     /// Names of the samplings and surfaces at this pose.
     #[serde(skip)]
@@ -42,6 +42,13 @@ pub(crate) struct ScenePose {
     pub deflection_mm: f64,
     /// For a platform of coplanar anchor points, the axis closest to their normal.
     flat: Option<&'static str>,
+}
+
+/// A pose as the explorer takes it: position [m], then quaternion w, x, y, z.
+fn seven<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::Error> {
+    let [w, i, j, k] = pose.quaternion();
+    let [x, y, z] = pose.position.into();
+    [x, y, z, w, i, j, k].serialize(serializer)
 }
 
 /// Robot in equilibrium.

@@ -27,7 +27,10 @@ impl JsonError {
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
         let message = match message {
-            "expected value" => "expected a JSON value; NaN, Infinity and bare words are not JSON".to_owned(),
+            "expected value" => {
+                "expected a JSON value of this field's kind; NaN, Infinity and bare words are not JSON"
+                    .to_owned()
+            }
             "number out of range" => "number out of range, expected a finite number".to_owned(),
             "EOF while parsing a value" => "the text ends where a JSON value is expected".to_owned(),
             // Types that have Rust's names.

@@ -243,8 +243,8 @@ fn a_bad_file_is_refused_with_field_value_and_remedy() {
         (
             r#""mass": 180.0"#,
             r#""mass": NaN"#,
-            "line 11, column 24: platform.mass: expected a JSON value; NaN, Infinity and bare words are not \
-             JSON",
+            "line 11, column 24: platform.mass: expected a JSON value of this field's kind; NaN, \
+             Infinity and bare words are not JSON",
         ),
         (
             r#""mass": 180.0"#,

@@ -4,7 +4,9 @@
 mod algebra;
 mod cable;
 mod chain;
+mod held;
 mod level;
+mod minimum;
 mod newton;
 mod observer;
 mod program;

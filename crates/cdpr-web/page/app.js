@@ -4,7 +4,7 @@ import { roundUp } from "./charts/scale.js";
 import { h, setText, whenOther } from "./dom.js";
 import { entryWords, point, rangeWithUnit, sharePercent, short, withUnit } from "./format.js";
 import { extents } from "./geometry.js";
-import { layout } from "./layout.js";
+import { layout, WHOLE } from "./layout.js";
 import { loadOf, Mechanics, poseOf } from "./mechanics.js";
 import { Moves } from "./moves.js";
 import { DARK, LIGHT } from "./palette.js";
@@ -192,13 +192,20 @@ export class App {
     this.charts = chartsPanel(this);
     this.motions = motionsPanel(this);
     const figures = numbersPanel(this);
-    const panels = [loadPanel, tolerancesPanel, slicePanel, cablesPanel, commandsPanel];
-    if (!this.embedded) panels.unshift(posePanel);
-    if (!this.embedded) panels.push(pinsPanel, filesPanel);
+    const panels = [
+      posePanel,
+      loadPanel,
+      tolerancesPanel,
+      slicePanel,
+      cablesPanel,
+      commandsPanel,
+      pinsPanel,
+      filesPanel,
+    ];
     const side = panels.map((make) => make(this));
     this.slicePanel = side[panels.indexOf(slicePanel)];
     side.splice(-3, 0, this.motions);
-    if (this.embedded) for (const panel of side) panel.element.open = false;
+    if (this.embedded && this.element.clientWidth < WHOLE) for (const panel of side) panel.element.open = false;
     this.panels = [this.stage, figures, this.charts, ...side];
     Object.assign(this, layout(this, { stage: this.stage, figures, charts: this.charts, side }));
     this.element.addEventListener("keydown", this.#keys);

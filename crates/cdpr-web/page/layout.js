@@ -4,7 +4,7 @@ import { button, h } from "./dom.js";
 import { digits } from "./format.js";
 
 // Widths [px] from which the page has two columns, and below which it is one of a phone.
-const WHOLE = 990;
+export const WHOLE = 990;
 const PHONE = 640;
 
 /**
@@ -41,7 +41,7 @@ export function layout(app, { stage, figures, charts, side }) {
   element.classList.toggle("embedded", embedded);
   element.replaceChildren(head, main, aside, live);
   const fit = () => {
-    element.classList.toggle("whole", !embedded && element.clientWidth >= WHOLE);
+    element.classList.toggle("whole", element.clientWidth >= WHOLE);
     element.classList.toggle("phone", element.clientWidth < PHONE);
   };
   const sizes = new ResizeObserver(fit);

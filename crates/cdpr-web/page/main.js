@@ -11,18 +11,18 @@ const ADVICE =
 
 /**
  * @param {HTMLElement} element
- * @param {{robot: object, study?: object|null, state?: object|null, module: ArrayBuffer, worker: string,
- *   name?: string, embedded?: boolean}} options
+ * @param {{robot: object, study?: object|null, state?: object|null, pose?: number[]|null,
+ *   module: ArrayBuffer, worker: string, name?: string, embedded?: boolean}} options
  *   `robot`: content of a robot file; `study`: a study file whose sampling `all` takes the place of the
- *   template's; `state`: a saved state; `module`: bytes of the WebAssembly module;
- *   `worker`: source text of worker.js; `name`: name of the robot file in commands; `embedded`: part of
- *   another page, without address and files of its own
+ *   template's; `state`: a saved state; `pose`: where the platform is shown first; `module`: bytes of the
+ *   WebAssembly module; `worker`: source text of worker.js; `name`: name of the robot file in commands;
+ *   `embedded`: part of another page, which has the address, the headings and the height
  * @returns {{getState: function(): object|null, setState: function(object): void, dispose: function(): void,
  *   ready: Promise<void>}}
  */
 export function mount(
   element,
-  { robot, study = null, state = null, module, worker, name = "robot.json", embedded = false },
+  { robot, study = null, state = null, pose = null, module, worker, name = "robot.json", embedded = false },
 ) {
   let app = null;
   let engine = null;
@@ -70,6 +70,7 @@ export function mount(
       return element.replaceChildren(message(`This robot cannot be shown: ${answer.error.reason}.`));
     }
     const described = study ? { ...answer.ok, ...ofStudy(study) } : answer.ok;
+    if (pose) described.start = { ...described.start, pose };
     app = new App(element, {
       engine,
       robot: described,

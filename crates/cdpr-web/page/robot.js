@@ -47,25 +47,32 @@ export function tolerances(study) {
   return study.error_models[firstSampling(study).error_model];
 }
 
-/** Half the width of a law, or its standard deviation: the number that a slider shows, in SI units. */
-export function width({ law }) {
-  const [[kind, numbers]] = Object.entries(law);
-  return kind === "normal" || kind === "truncated_normal" ? numbers.std : (numbers.max - numbers.min) / 2;
+// The number that a slider shows of a law, in SI units, and what it is.
+function extent({ law }) {
+  const [numbers] = Object.values(law);
+  if ("std" in numbers) return [numbers.std, "standard deviation"];
+  if ("log_mean" in numbers) return [Math.exp(numbers.log_mean), "median"];
+  if ("min" in numbers) return [(numbers.max - numbers.min) / 2, "±"];
+  return [numbers.scale, "scale"];
 }
 
-/** What `width` is: of a law with ends half their distance, else the standard deviation. */
-export function widthWords({ law }) {
-  return "normal" in law || "truncated_normal" in law ? "standard deviation" : "±";
-}
+/** How wide a law is, in SI units. */
+export const width = (entry) => extent(entry)[0];
+
+/** What `width` is: half the distance of the ends, standard deviation, scale or median. */
+export const widthWords = (entry) => extent(entry)[1];
+
+// Numbers of laws that stay where deviations are multiplied.
+const SHAPES = ["alpha", "beta", "shape", "log_std"];
 
 /** An entry of an error model with all its deviations times a factor. */
 export function scaled(entry, factor) {
   const [[kind, numbers]] = Object.entries(entry.law);
   const law = Object.fromEntries(
-    Object.entries(numbers).map(([name, value]) => [
-      name,
-      name === "alpha" || name === "beta" ? value : value * factor,
-    ]),
+    Object.entries(numbers).map(([name, value]) => {
+      if (name === "log_mean") return [name, value + Math.log(factor)];
+      return [name, SHAPES.includes(name) ? value : value * factor];
+    }),
   );
   return { ...entry, law: { [kind]: law } };
 }

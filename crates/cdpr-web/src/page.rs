@@ -6,8 +6,8 @@ pub const MODULE: &[u8] = include_bytes!("../dist/cdpr_web.wasm.gz");
 /// The module without it, for browsers before 2023.
 pub const SCALAR_MODULE: &[u8] = include_bytes!("../dist/cdpr_web_scalar.wasm.gz");
 
-/// The script of the page, which defines `cdprExplorer`.
-pub const SCRIPT: &str = include_str!("../dist/explorer.js");
+/// The script of the page, which defines `cdprExplorer`, packed by gzip.
+pub const SCRIPT: &[u8] = include_bytes!("../dist/explorer.js.gz");
 
 /// The script of the workers that compute.
 pub const WORKER: &str = include_str!("../dist/worker.js");

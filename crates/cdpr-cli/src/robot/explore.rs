@@ -5,7 +5,7 @@ use crate::error::ProgramError;
 use crate::output::patiently;
 use cdpr_report::{EXPLORER_MARK, Explored, explored_study, explorer};
 use cdpr_robot::Robot;
-use cdpr_study::{InputKind, Results, Study, StudyError, open_robot, write_text};
+use cdpr_study::{InputKind, ROBOT_NAME, Results, Study, StudyError, open_robot, write_text};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -31,21 +31,21 @@ struct Written {
     explorer: String,
 }
 
-/// A robot, and the study of it that comes first.
+/// A robot, its file, and the study of it that comes first.
 struct Input {
     robot: Robot,
+    file: PathBuf,
     study: Option<Study>,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { input, out, open, format } = settings;
-    let Input { robot, study } = patiently("reading the robot", || read(input))?;
-    let file = input.to_string_lossy();
+    let Input { robot, file, study } = patiently("reading the robot", || read(input))?;
     let explored = Explored {
         name: &robot.name,
-        file: &file,
+        file: &file.to_string_lossy(),
         robot: &robot.to_json(),
-        study: study.as_ref().map(explored_study),
+        study: study.as_ref().and_then(explored_study),
     };
     let page = explorer(&explored, env!("CARGO_PKG_VERSION"))?;
     let path = out.clone().unwrap_or_else(|| {
@@ -62,13 +62,24 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
 }
 
 fn read(path: &Path) -> Result<Input, StudyError> {
-    let of_study = |study: Study| Input { robot: study.robot.clone(), study: Some(study) };
+    let of_study = |study: Study, file| Input { robot: study.robot.clone(), file, study: Some(study) };
     if path.is_dir() {
-        return Ok(of_study(Results::read(path)?.study));
+        return Ok(of_study(Results::read(path)?.study, path.join(ROBOT_NAME)));
     }
     match open_robot(path) {
-        Ok(robot) => Ok(Input { robot, study: None }),
-        Err(StudyError::OtherKind { found: InputKind::Study, .. }) => Ok(of_study(Study::open(path)?)),
+        Ok(robot) => Ok(Input { robot, file: path.to_owned(), study: None }),
+        Err(StudyError::OtherKind { found: InputKind::Study, .. }) => {
+            let study = Study::open(path)?;
+            let named = Path::new(&study.file.robot);
+            // Beside the study, or else of the library.
+            let beside = path.with_file_name("").join(named);
+            let file = if beside.exists() {
+                beside
+            } else {
+                PathBuf::from(named.file_stem().unwrap_or(named.as_os_str()))
+            };
+            Ok(of_study(study, file))
+        }
         Err(error) => Err(error),
     }
 }

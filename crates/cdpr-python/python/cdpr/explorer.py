@@ -70,7 +70,7 @@ class Explorer(anywidget.AnyWidget):
     state: what is shown, a dictionary of the format `cdpr-explorer/1`; None until something is shown.
     """
 
-    _esm = _PARTS["script"] + _RENDER
+    _esm = gzip.decompress(_PARTS["script"]).decode() + _RENDER
     _css = _STYLE
     robot = traitlets.Dict().tag(sync=True)
     state = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)

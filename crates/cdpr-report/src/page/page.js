@@ -1,5 +1,4 @@
 // Draws what lies in space: the robot and the surfaces, from the data of the page, by plotly.js.
-"use strict";
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const byId = (id) => document.getElementById(id);
@@ -17,7 +16,8 @@
   const views = new Map();
   function view(element, traces, scene) {
     const layout = { autosize: true, margin: { l: 0, r: 0, t: 0, b: 0 }, showlegend: false, scene: {} };
-    const draw = () => {
+    const draw = async () => {
+      await packed.run("plotly");
       const axes = scene();
       for (const axis of ["xaxis", "yaxis", "zaxis"]) {
         axes[axis] = {
@@ -33,7 +33,8 @@
         },
       });
       layout.scene = { ...axes, camera: layout.scene.camera ?? axes.camera };
-      return Plotly.react(element, traces(), layout, config).then(() => { element.dataset.drawn = "yes"; });
+      await Plotly.react(element, traces(), layout, config);
+      element.dataset.drawn = "yes";
     };
     views.set(element, { draw, layout, near: false });
     turnByKeys(element);
@@ -46,8 +47,8 @@
       const known = views.get(target);
       if (isIntersecting === known.near) continue;
       known.near = isIntersecting;
-      if (isIntersecting) known.draw();
-      else { Plotly.purge(target); delete target.dataset.drawn; }
+      if (isIntersecting) known.draw().catch((error) => { target.textContent = error.message; });
+      else if (target.dataset.drawn) { Plotly.purge(target); delete target.dataset.drawn; }
     }
   }, { rootMargin: "600px" });
   const redraw = () => { for (const { draw, near } of views.values()) if (near) draw(); };
@@ -92,6 +93,30 @@
     const times = isNarrow(element) ? 1.25 : 1;
     return { eye: { x: times * x, y: times * y, z: times * z }, center: { x: 0, y: 0, z: height } };
   };
+
+  // The robot that computes, in a window over the page; it goes on where it was left.
+  if (typeof WebAssembly !== "undefined") {
+    const dialog = byId("live");
+    let explorer = null;
+    let left = { state: null, pose: null };
+    const open = async () => {
+      dialog.showModal();
+      const { robot, study, file } = data.live;
+      const pose = data.robot?.poses[byId("pose").value].pose ?? null;
+      const state = left.pose === pose ? left.state : null;
+      left = { state, pose };
+      explorer = await packed.explore(byId("live-robot"),
+        { robot, study, state, pose, name: file, embedded: true });
+    };
+    byId("live-offer").hidden = false;
+    byId("live-open").addEventListener("click", open);
+    byId("live-close").addEventListener("click", () => dialog.close());
+    dialog.addEventListener("close", () => {
+      left.state = explorer?.getState() ?? left.state;
+      explorer?.dispose();
+      explorer = null;
+    });
+  }
 
   const columns = (points) => [0, 1, 2].map((axis) => points.map((point) => point[axis]));
   const metres = (point) => "(" + point.map((value) => value.toFixed(4)).join(", ") + ") m";

@@ -43,8 +43,8 @@ pub(crate) fn section(
     region: Option<&FoundRegion>,
 ) -> Section {
     let body = match scene {
-        Ok(scene) => html! { (view(robot, scene, region)) (cables(scene)) },
-        Err(error) => html! { p.note { "The robot cannot be drawn: " (error) "." } },
+        Ok(scene) => html! { (view(robot, scene, region)) (offer()) (cables(scene)) },
+        Err(error) => html! { p.note { "The robot cannot be drawn: " (error) "." } (offer()) },
     };
     Section::new("robot", "The robot", body)
 }
@@ -91,6 +91,27 @@ fn view(robot: &Robot, scene: &Scene, region: Option<&FoundRegion>) -> Markup {
                     (if region.triangles.is_empty() { " m\u{b2}." } else { " m\u{b3}." })
                 }
             }
+        }
+    }
+}
+
+/// The way to the robot that computes.
+fn offer() -> Markup {
+    html! {
+        p.note id="live-offer" hidden {
+            button type="button" id="live-open" { "Move this robot" }
+            " computes it here, by the same models: at other poses, loads and tolerances, with what matters "
+            "most there."
+        }
+    }
+}
+
+/// The window of the robot that computes, beside the page, whose styles are not for it.
+pub(crate) fn live(robot: &Robot) -> Markup {
+    html! {
+        dialog id="live" aria-label={ (robot.name) ", computed here" } {
+            button type="button" id="live-close" { "Back to the report" }
+            div id="live-robot" {}
         }
     }
 }

@@ -145,11 +145,15 @@ impl Page {
         for (part, top) in (0..height).step_by(HEIGHT as usize).enumerate() {
             self.evaluate(&format!("scrollTo({{top: {top}, behavior: 'instant'}})"));
             self.wait_for(ALL_NEAR_ARE_DRAWN);
-            let picture =
-                self.call("Page.captureScreenshot", json!({"format": "png", "optimizeForSpeed": true}));
-            let bytes = base64::prelude::BASE64_STANDARD.decode(picture["data"].as_str().unwrap()).unwrap();
-            std::fs::write(folder.join(format!("{name}-{}.png", part + 1)), bytes).unwrap();
+            self.picture(folder, &format!("{name}-{}", part + 1));
         }
+    }
+
+    /// Writes a picture of the window.
+    pub(crate) fn picture(&mut self, folder: &Path, name: &str) {
+        let picture = self.call("Page.captureScreenshot", json!({"format": "png", "optimizeForSpeed": true}));
+        let bytes = base64::prelude::BASE64_STANDARD.decode(picture["data"].as_str().unwrap()).unwrap();
+        std::fs::write(folder.join(format!("{name}.png")), bytes).unwrap();
     }
 
     pub(crate) fn mouse(&mut self, kind: &str, x: f64, y: f64) {

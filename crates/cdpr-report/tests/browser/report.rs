@@ -107,3 +107,43 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
     page.photograph(&folder, "cogiro-1400-light");
     assert_eq!(page.complaints(&other), [""; 0]);
 }
+
+/// The deflection on screen [mm].
+const ON_SCREEN: &str = "document.querySelector('#live-robot .numbers')?.textContent ?? ''";
+
+#[test]
+fn the_robot_of_a_report_moves_and_goes_on_where_it_was_left() {
+    let folder = screenshots();
+    let mut page = Page::open(chromium());
+    for (name, results) in [("caroca-live", common::caroca(|_, _| ())), ("cogiro-live", common::cogiro())] {
+        let file = write_report(&folder, name, &results);
+        let size = std::fs::metadata(&file).unwrap().len();
+        println!("{name}: {size} bytes");
+        assert!(size < 3_500_000);
+        page.events.clear();
+        page.surround(1400, "light");
+        page.show(&file);
+        page.evaluate("document.getElementById('live-open').click()");
+        page.wait_for("document.querySelector('#live-robot canvas')");
+        // The numbers of the report's own robot at its pose, by the module.
+        let nominal = results.study.nominal(&results.study.sampling_names().next().unwrap()).unwrap();
+        let expected = format!("{:.3}", 1e3 * nominal.deflection.rms());
+        page.wait_for(&format!("({ON_SCREEN}).includes('{expected}')"));
+        for (width, scheme) in [(1400, "dark"), (390, "light"), (1400, "light")] {
+            page.surround(width, scheme);
+            page.picture(&folder, &format!("{name}-{width}-{scheme}"));
+        }
+        let before = page.evaluate(ON_SCREEN);
+        page.evaluate(
+            "document.querySelector('#live-robot .surface').dispatchEvent(\
+             new KeyboardEvent('keydown', { key: 'ArrowRight', bubbles: true }))",
+        );
+        page.wait_for(&format!("({ON_SCREEN}) !== {before}"));
+        let moved = page.evaluate(ON_SCREEN);
+        page.evaluate("document.getElementById('live-close').click()");
+        page.wait_for("!document.querySelector('#live-robot canvas')");
+        page.evaluate("document.getElementById('live-open').click()");
+        page.wait_for(&format!("({ON_SCREEN}) === {moved}"));
+        assert_eq!(page.complaints(&file), [""; 0]);
+    }
+}

@@ -31,12 +31,14 @@
 
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
-use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, halves, six, three};
+use crate::lanes::algebra::{Lanes3, Lanes6, halves, six, three};
 use crate::lanes::cable::LaneCable;
+use crate::lanes::held::HeldCable;
+use crate::lanes::minimum::is_least;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots, Scale};
 use crate::lanes::program::{Row, newton, within_limits};
 use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::kernel::{FOLDED, Field, Lanewise, Response, TAUT};
+use cdpr_cable::kernel::{FOLDED, Field};
 use cdpr_robot::{CableEnd, TensionLimits};
 
 /// Robots at their wanted pose.
@@ -109,20 +111,14 @@ const LAST_OWN_CHANGE: f64 = 1e-6;
 /// m.
 const LAST_DISTRIBUTION: f64 = 1e-9;
 
-/// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell.
-/// The scalar models hold cables at 0.001, which the estimate meets within a few percent.
-const ABOVE_LEAST: f64 = 0.0015;
-
-/// Greatest step of a cable that sags, relative to its horizontal force: a longer one may lead to another
-/// minimum than the scalar models find. Without a bound, 14 of 15 040 rows of random robots
-/// in `tests/any_lanes.rs` do (27 000 cases), with it none of 14 740.
+/// Step of a cable that sags, relative to its horizontal force, from which on the point that it leads to is
+/// compared with others. Without the comparison 14 of 15 040 rows of random robots in `tests/any_lanes.rs`
+/// have another minimum than the scalar models find near the nominal robot (27 000 cases), with it one of
+/// 14 861, which is the least of all.
 const LONGEST_STEP: f64 = 0.3;
 
 /// q² from which a cable sags.
 const SAGGING: f64 = 0.02;
-
-/// Greatest part of its horizontal force that a step takes away from a cable.
-const GREATEST_LOSS: f64 = 0.9;
 
 /// Least curvature of a step, relative to that of a straight cable.
 const LEAST_CURVATURE: f64 = 0.01;
@@ -186,122 +182,6 @@ impl<S: Simd> LaneCable<'_, S> {
     }
 }
 
-/// A cable at its held ends, equation (L1).
-#[derive(Clone, Copy)]
-struct HeldCable<S: Simd> {
-    /// t, and that with the closing force.
-    tension: Lanes<S>,
-    closed: Lanes<S>,
-    /// û_x, the part of the force that is horizontal.
-    flatness: Lanes<S>,
-    /// q².
-    slackness: Lanes<S>,
-    /// dz and dL.
-    closing: Lanes2<S>,
-    /// g.
-    rise: Lanes<S>,
-    /// L'.
-    length_slope: Lanes<S>,
-    /// t'.
-    tension_slope: Lanes<S>,
-    /// t'' and fz''.
-    curvatures: Lanes2<S>,
-}
-
-impl<S: Simd> HeldCable<S> {
-    #[inline(always)]
-    fn new(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
-        let [xx, xz, zz] = response.flexibility;
-        let [ux, uz] = response.direction;
-        let miss = span.misclosure(response.end);
-        let longer = response.end_per_length;
-        let inverse = (longer[0] * zz - longer[1] * xz).recip();
-        let here = (longer[1] * xx - longer[0] * xz) * inverse;
-        let closing =
-            [(longer[0] * miss[1] - longer[1] * miss[0]) * inverse, (zz * miss[0] - xz * miss[1]) * inverse];
-        // Closing turns a taut cable, whose 1/û_x is t', and its slope with it.
-        let taut = response.slackness.at_most(TAUT);
-        let tilt = taut.select(closing[0] * response.tension_inv, here.all(0.0));
-        let across = ux * here - uz;
-        let rise = here + tilt * (ux + uz * here);
-        let tension_slope = ux + uz * rise + across * ux * tilt;
-        let bent = rise.all(0.0);
-        let mut held = Self {
-            tension: response.tension,
-            closed: response.tension + uz * closing[0],
-            flatness: ux,
-            slackness: response.slackness,
-            closing,
-            rise,
-            length_slope: -(response.determinant * inverse),
-            tension_slope,
-            curvatures: [bent, bent],
-        };
-        if !<Lanes<S> as Lanewise>::all(taut) {
-            held.curvatures[1] = taut.select(bent, held.curvature(cable, span));
-        }
-        // |n̂·f'|²/t = (|f'|² - t'²)/t
-        held.curvatures[0] = across * across * response.tension_inv + uz * held.curvatures[1];
-        held
-    }
-
-    /// fz'' of the inextensible catenary. With u = w h/(2 fx), q = tanh u, φ = u/q and S = sinh u/u,
-    ///
-    /// ```text
-    /// fz = fx (z/h) u coth u + w L/2,     L² = z² + h² S²                                               (L4)
-    /// fz'' = (2 z/(h fx)) φ² (1 - q²) (φ - 1) + (w/2) L''
-    /// L' = -h² S² (φ - 1)/(fx L),     L L'' = h² S² ((φ - 1)² + u²)/fx² - L'²
-    /// ```
-    #[inline(always)]
-    fn curvature(&self, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Lanes<S> {
-        let [h, z] = span.end;
-        let fx_inv = cable.force[0].recip();
-        let u = cable.weight_per_length * h * fx_inv * 0.5;
-        let q = self.slackness.sqrt();
-        let phi = u / q;
-        let more = phi + -1.0;
-        let narrow = phi * phi * (-self.slackness + 1.0);
-        let wide = h * h / narrow;
-        let length = (z * z + wide).sqrt();
-        let slope = wide * more / length;
-        let of_length = (wide * (more * more + u * u) - slope * slope) / length * fx_inv;
-        (z / h * narrow * more * 2.0 + cable.weight_per_length * 0.5 * of_length) * fx_inv
-    }
-
-    /// Where the tension falls as cable is paid out, and is not next to the least one that the span demands,
-    /// at which the scalar models hold the cable.
-    ///
-    /// Newton's step towards the least tension, over ln fx, lowers it by half of
-    /// `(fx t')²/(fx t' + fx² t'')`.
-    #[inline(always)]
-    fn is_taut(&self, cable: &LaneCable<'_, S>) -> Mask<S> {
-        let fx = cable.force[0];
-        let slope = fx * self.tension_slope;
-        let curvature = slope + fx * fx * self.curvatures[0];
-        slope.all(0.0).less_or_equal(slope)
-            & (curvature * self.tension * (2.0 * ABOVE_LEAST)).less_or_equal(slope * slope)
-    }
-
-    /// The change of fx that brings the tension to `tension`.
-    #[inline(always)]
-    fn way_to(&self, tension: Lanes<S>) -> Lanes<S> {
-        (tension - self.closed) / self.tension_slope
-    }
-
-    /// Changes fx by `d` where `going`. Returns the largest relative change made.
-    #[inline(always)]
-    fn change(&self, cable: &mut LaneCable<'_, S>, d: Lanes<S>, going: Mask<S>, shared: &Shared) -> Lanes<S> {
-        let [fx, fz] = cable.force;
-        let d = d.max(fx * -GREATEST_LOSS);
-        let rise = self.closing[0] + self.rise * d;
-        let longer = self.closing[1] + self.length_slope * d;
-        cable.force = [going.select(fx + d, fx), going.select(fz + rise, fz)];
-        cable.length = going.select(cable.length + longer, cable.length);
-        let force = (d.abs() + rise.abs()) * (1.0 / shared.tension);
-        force.max(longer.abs() * (1.0 / shared.scale.size))
-    }
-}
-
 /// The tensions nearest to their reference at the wanted pose, equations (L2) and (L3); `offsets` are added
 /// to them and become set-points, towards which cables make a first step. Returns the lanes where they were
 /// found, and those where no cable is folded and no limits exclude each other.
@@ -314,12 +194,14 @@ fn distribute<S: Simd>(
     shared: &Shared,
 ) -> (Mask<S>, Mask<S>) {
     let zero = robots.weight.all(0.0);
+    let compared = [shared.tension, shared.scale.size];
     let last_change = zero.all(LAST_DISTRIBUTION);
     let unbalanced = BALANCED * shared.tension;
     let arm = shared.scale.characteristic_length;
     let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
     let mut going = zero.less_or_equal(zero);
     let mut within = going;
+    let mut jumped = !going;
     let mut all_held = Vec::with_capacity(spans.len());
     let mut convex = Vec::with_capacity(spans.len());
     let mut rows = Vec::with_capacity(spans.len());
@@ -382,8 +264,8 @@ fn distribute<S: Simd>(
             row.sides = [bounded & row.sides[0], bounded & row.sides[1]];
             let d = bounded.select(row.value(), row.wanted - row.change);
             let near = d.abs().less_or_equal(cable.force[0] * LONGEST_STEP);
-            within = within & (near | held.slackness.less_or_equal(d.all(SAGGING)) | !going);
-            moved = moved.max(held.change(cable, d, going, shared));
+            jumped = jumped | (going & !near & !held.slackness.less_or_equal(d.all(SAGGING)));
+            moved = moved.max(held.change(cable, d, going, compared));
         }
         multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
         let (force, moment) = halves(&balance);
@@ -394,6 +276,15 @@ fn distribute<S: Simd>(
             // Elsewhere a stationary point may be no minimum: the scalar models decide.
             for (row, convex) in rows.iter().zip(&convex) {
                 within = within & (*convex | row.sides[0] | row.sides[1] | !last);
+            }
+            // Long steps may have led to another minimum than the one that the scalar models find.
+            let doubted = last & jumped;
+            if doubted.any() {
+                let places = spans.iter().zip(&shared.choices).zip(&limits);
+                for (cable, ((span, choice), limits)) in robots.cables.iter().zip(places) {
+                    let least = is_least(cable, span, &multipliers, choice.reference, limits);
+                    within = within & (least | !doubted);
+                }
             }
             let cables = rows.iter().zip(&all_held).zip(&mut robots.cables).zip(&mut *offsets);
             for ((((row, held), cable), offset), [least, greatest]) in cables.zip(&limits) {
@@ -409,7 +300,7 @@ fn distribute<S: Simd>(
                 within = within & (sound | !last);
                 *offset = last.select(set_point, *offset);
                 let there = HeldCable { closed: tension, closing: [zero; 2], ..*held };
-                there.change(cable, there.way_to(set_point), last, shared);
+                there.change(cable, there.way_to(set_point), last, compared);
             }
         }
         going = going & !last;
@@ -431,6 +322,7 @@ fn hold<S: Simd>(
     shared: &Shared,
 ) -> Mask<S> {
     let zero = robots.weight.all(0.0);
+    let compared = [shared.tension, shared.scale.size];
     let mut all = zero.less_or_equal(zero);
     let cables = robots.cables.iter_mut().zip(&mut platform.cables);
     for ((span, set_point), (cable, linearized)) in spans.iter().zip(set_points).zip(cables) {
@@ -446,7 +338,7 @@ fn hold<S: Simd>(
             // What a step leaves grows with its curvature over its slope.
             let own = d.abs() + held.closing[0].abs() * held.flatness * held.tension_slope;
             let own = own * inverse * (LAST_CHANGE / LAST_OWN_CHANGE);
-            let moved = held.change(cable, d, going, shared).max(own);
+            let moved = held.change(cable, d, going, compared).max(own);
             going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
             if !going.any() {
                 break;

@@ -35,6 +35,14 @@ test("laws scale with their deviations and keep their shapes", () => {
   assert.deepEqual(scaled(beta, 2).law.beta, { alpha: 2, beta: 3, min: -2, max: 2 });
   assert.equal(width(uniform(2)), 2);
   assert.equal(width({ law: { normal: { mean: 0, std: 3 } } }), 3);
+  const weibull = { law: { weibull: { shape: 2, scale: 0.5 } } };
+  assert.deepEqual(scaled(weibull, 3).law.weibull, { shape: 2, scale: 1.5 });
+  assert.equal(width(weibull), 0.5);
+  const lognormal = { law: { log_normal: { log_mean: 0, log_std: 0.2 } } };
+  assert.deepEqual(scaled(lognormal, Math.E).law.log_normal, { log_mean: 1, log_std: 0.2 });
+  assert.equal(width(scaled(lognormal, Math.E)), Math.E);
+  const cut = { law: { truncated_normal: { mean: 0, std: 1, min: -2, max: 2 } } };
+  assert.equal(width(scaled(cut, 2)), 2);
 });
 
 test("the study on screen has the pose, the scaled tolerances, and none that is zero", () => {

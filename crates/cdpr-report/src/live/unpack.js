@@ -1,0 +1,57 @@
+// What the page carries packed: scripts, and the models of a robot that computes here.
+"use strict";
+const packed = (() => {
+  const text = (id) => document.getElementById(id)?.textContent;
+  // The smallest module that uses the vector unit: v128.const, dropped.
+  const WITH_LANES = [0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 23, 1, 21, 0, 253, 12,
+    ...new Array(16).fill(0), 26, 11];
+
+  async function bytes(id) {
+    if (typeof DecompressionStream === "undefined") {
+      throw new Error("this browser cannot unpack data; take one of 2023 or later");
+    }
+    const data = Uint8Array.from(atob(text(id)), (letter) => letter.charCodeAt(0));
+    const unpacked = new Blob([data]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return new Response(unpacked).arrayBuffer();
+  }
+
+  const loaded = new Map();
+
+  // Runs a packed script, once.
+  function run(id) {
+    if (!loaded.has(id)) loaded.set(id, load(id));
+    return loaded.get(id);
+  }
+
+  async function load(id) {
+    const address = URL.createObjectURL(new Blob([await bytes(id)], { type: "text/javascript" }));
+    const script = document.createElement("script");
+    const done = new Promise((resolve, reject) => {
+      script.onload = resolve;
+      script.onerror = () => reject(new Error(`the script ${id} does not run`));
+    });
+    script.src = address;
+    document.head.append(script);
+    await done;
+    URL.revokeObjectURL(address);
+  }
+
+  // Puts a robot that computes into an element; returns what `mount` of the page of cdpr-web does.
+  async function explore(element, options) {
+    try {
+      if (typeof WebAssembly === "undefined") throw new Error("this browser has no WebAssembly");
+      const id = WebAssembly.validate(new Uint8Array(WITH_LANES)) ? "module" : "module-scalar";
+      if (text(id) === undefined) throw new Error("WebAssembly has no vector unit here; cdpr explore needs none");
+      const [module] = await Promise.all([bytes(id), run("explorer-script")]);
+      return cdprExplorer.mount(element, { ...options, module, worker: text("worker") });
+    } catch (error) {
+      const note = document.createElement("p");
+      note.setAttribute("role", "alert");
+      note.textContent = `The robot cannot be computed here: ${error.message}.`;
+      element.replaceChildren(note);
+      return null;
+    }
+  }
+
+  return { run, explore };
+})();

@@ -1,0 +1,140 @@
+//! A cable at its held ends, one in each lane.
+
+use crate::equations::Span;
+use crate::lanes::algebra::Lanes2;
+use crate::lanes::cable::LaneCable;
+use crate::lanes::simd::{Lanes, Mask, Simd};
+use cdpr_cable::kernel::{Field, Lanewise, Response, TAUT};
+
+/// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell.
+/// The scalar models hold cables at 0.001, which the estimate meets within a few percent.
+const ABOVE_LEAST: f64 = 0.0015;
+
+/// Greatest part of its horizontal force that a step takes away from a cable.
+const GREATEST_LOSS: f64 = 0.9;
+
+/// A cable at its held ends, equation (L1).
+#[derive(Clone, Copy)]
+pub(crate) struct HeldCable<S: Simd> {
+    /// t, and that with the closing force.
+    pub(crate) tension: Lanes<S>,
+    pub(crate) closed: Lanes<S>,
+    /// û_x, the part of the force that is horizontal.
+    pub(crate) flatness: Lanes<S>,
+    /// q².
+    pub(crate) slackness: Lanes<S>,
+    /// dz and dL.
+    pub(crate) closing: Lanes2<S>,
+    /// g.
+    pub(crate) rise: Lanes<S>,
+    /// L'.
+    pub(crate) length_slope: Lanes<S>,
+    /// t'.
+    pub(crate) tension_slope: Lanes<S>,
+    /// t'' and fz''.
+    pub(crate) curvatures: Lanes2<S>,
+}
+
+impl<S: Simd> HeldCable<S> {
+    #[inline(always)]
+    pub(crate) fn new(
+        cable: &LaneCable<'_, S>,
+        span: &Span<Lanes<S>>,
+        response: &Response<Lanes<S>>,
+    ) -> Self {
+        let [xx, xz, zz] = response.flexibility;
+        let [ux, uz] = response.direction;
+        let miss = span.misclosure(response.end);
+        let longer = response.end_per_length;
+        let inverse = (longer[0] * zz - longer[1] * xz).recip();
+        let here = (longer[1] * xx - longer[0] * xz) * inverse;
+        let closing =
+            [(longer[0] * miss[1] - longer[1] * miss[0]) * inverse, (zz * miss[0] - xz * miss[1]) * inverse];
+        // Closing turns a taut cable, whose 1/û_x is t', and its slope with it.
+        let taut = response.slackness.at_most(TAUT);
+        let tilt = taut.select(closing[0] * response.tension_inv, here.all(0.0));
+        let across = ux * here - uz;
+        let rise = here + tilt * (ux + uz * here);
+        let tension_slope = ux + uz * rise + across * ux * tilt;
+        let bent = rise.all(0.0);
+        let mut held = Self {
+            tension: response.tension,
+            closed: response.tension + uz * closing[0],
+            flatness: ux,
+            slackness: response.slackness,
+            closing,
+            rise,
+            length_slope: -(response.determinant * inverse),
+            tension_slope,
+            curvatures: [bent, bent],
+        };
+        if !<Lanes<S> as Lanewise>::all(taut) {
+            held.curvatures[1] = taut.select(bent, held.curvature(cable, span));
+        }
+        // |n̂·f'|²/t = (|f'|² - t'²)/t
+        held.curvatures[0] = across * across * response.tension_inv + uz * held.curvatures[1];
+        held
+    }
+
+    /// fz'' of the inextensible catenary. With u = w h/(2 fx), q = tanh u, φ = u/q and S = sinh u/u,
+    ///
+    /// ```text
+    /// fz = fx (z/h) u coth u + w L/2,     L² = z² + h² S²                                               (L4)
+    /// fz'' = (2 z/(h fx)) φ² (1 - q²) (φ - 1) + (w/2) L''
+    /// L' = -h² S² (φ - 1)/(fx L),     L L'' = h² S² ((φ - 1)² + u²)/fx² - L'²
+    /// ```
+    #[inline(always)]
+    fn curvature(&self, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Lanes<S> {
+        let [h, z] = span.end;
+        let fx_inv = cable.force[0].recip();
+        let u = cable.weight_per_length * h * fx_inv * 0.5;
+        let q = self.slackness.sqrt();
+        let phi = u / q;
+        let more = phi + -1.0;
+        let narrow = phi * phi * (-self.slackness + 1.0);
+        let wide = h * h / narrow;
+        let length = (z * z + wide).sqrt();
+        let slope = wide * more / length;
+        let of_length = (wide * (more * more + u * u) - slope * slope) / length * fx_inv;
+        (z / h * narrow * more * 2.0 + cable.weight_per_length * 0.5 * of_length) * fx_inv
+    }
+
+    /// Where the tension falls as cable is paid out, and is not next to the least one that the span demands,
+    /// at which the scalar models hold the cable.
+    ///
+    /// Newton's step towards the least tension, over ln fx, lowers it by half of
+    /// `(fx t')²/(fx t' + fx² t'')`.
+    #[inline(always)]
+    pub(crate) fn is_taut(&self, cable: &LaneCable<'_, S>) -> Mask<S> {
+        let fx = cable.force[0];
+        let slope = fx * self.tension_slope;
+        let curvature = slope + fx * fx * self.curvatures[0];
+        slope.all(0.0).less_or_equal(slope)
+            & (curvature * self.tension * (2.0 * ABOVE_LEAST)).less_or_equal(slope * slope)
+    }
+
+    /// The change of fx that brings the tension to `tension`.
+    #[inline(always)]
+    pub(crate) fn way_to(&self, tension: Lanes<S>) -> Lanes<S> {
+        (tension - self.closed) / self.tension_slope
+    }
+
+    /// Changes fx by `d` where `going`. Returns the largest relative change made.
+    #[inline(always)]
+    pub(crate) fn change(
+        &self,
+        cable: &mut LaneCable<'_, S>,
+        d: Lanes<S>,
+        going: Mask<S>,
+        [tension, size]: [f64; 2],
+    ) -> Lanes<S> {
+        let [fx, fz] = cable.force;
+        let d = d.max(fx * -GREATEST_LOSS);
+        let rise = self.closing[0] + self.rise * d;
+        let longer = self.closing[1] + self.length_slope * d;
+        cable.force = [going.select(fx + d, fx), going.select(fz + rise, fz)];
+        cable.length = going.select(cable.length + longer, cable.length);
+        let force = (d.abs() + rise.abs()) * (1.0 / tension);
+        force.max(longer.abs() * (1.0 / size))
+    }
+}

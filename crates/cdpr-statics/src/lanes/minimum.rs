@@ -1,0 +1,66 @@
+//! Whether a stationary point of the tensions is the least of all.
+//!
+//! With λ the multipliers of the balance, a point within the limits is the least of all if the horizontal
+//! force of each cable, by itself, makes its part of the Lagrangian least:
+//!
+//! ```text
+//! φ(fx) = (t - r)²/2 + λ·w,   φ(fx*) <= φ(fx)   for all fx that the limits allow                       (L7)
+//! ```
+//!
+//! (H. Everett, *Generalized Lagrange multiplier method*, Operations Research 11, 1963). φ is compared with
+//! that of inextensible catenaries (L4) at fixed values of u, from nearly straight to steep ones.
+
+use crate::equations::Span;
+use crate::equations::vector::{dot, wrench};
+use crate::lanes::algebra::{Lanes2, Lanes6};
+use crate::lanes::cable::LaneCable;
+use crate::lanes::simd::{Lanes, Mask, Simd};
+use cdpr_cable::kernel::Field;
+
+/// u, u coth u and (sinh u/u)².
+const CATENARIES: [[f64; 3]; 14] = [
+    [0.02, 1.0001333297779131, 1.0001333404446475],
+    [0.03, 1.0002999820015428, 1.0003000360023144],
+    [0.045, 1.0006749088925706, 1.0006751822763635],
+    [0.0675, 1.0015182888797765, 1.001519672940956],
+    [0.10125, 1.0034148543437589, 1.003421861789987],
+    [0.151875, 1.0076768746528206, 1.0077123571439928],
+    [0.2278125, 1.0172399514147172, 1.0174196657529746],
+    [0.34171875, 1.0386242183096823, 1.0395350105133716],
+    [0.512578125, 1.086082171906353, 1.0907050498546278],
+    [0.7688671875, 1.1896991682601088, 1.2132574697355711],
+    [1.15330078125, 1.4084488933079546, 1.5299278526817621],
+    [1.729951171875, 1.8422351010090872, 2.493149384466324],
+    [2.5949267578125, 2.6240109744948383, 6.588105013913787],
+    [3.89239013671875, 3.895630099010452, 39.63081220847488],
+];
+
+/// The lanes in which no catenary between the same ends, of a tension within `limits`, has a smaller φ.
+#[inline(always)]
+pub(crate) fn is_least<S: Simd>(
+    cable: &LaneCable<'_, S>,
+    span: &Span<Lanes<S>>,
+    multipliers: &Lanes6<S>,
+    reference: f64,
+    [least, greatest]: &Lanes2<S>,
+) -> Mask<S> {
+    let [h, z] = span.end;
+    let part = |tension: Lanes<S>, force: Lanes2<S>| {
+        let miss = tension + -reference;
+        let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(force));
+        miss * miss * 0.5 + dot(multipliers, &pull)
+    };
+    let tension = |force: &Lanes2<S>| dot(force, force).sqrt();
+    let here = part(tension(&cable.force), cable.force);
+    let half_weight = cable.weight_per_length * 0.5;
+    let mut is_least = here.less_or_equal(here);
+    for [u, coth, stretch] in CATENARIES {
+        // (L4)
+        let length = (z * z + h * h * stretch).sqrt();
+        let force = [half_weight * h * (1.0 / u), half_weight * (z * (coth / u) + length)];
+        let there = tension(&force);
+        let allowed = least.less_or_equal(there) & there.less_or_equal(*greatest);
+        is_least = is_least & (here.less_or_equal(part(there, force)) | !allowed);
+    }
+    is_least
+}
