@@ -118,7 +118,7 @@ fn each_numerical_library_is_named_by_one_module_of_a_crate() {
             "faer",
             &[
                 "cdpr-calibration/src/solve.rs",
-                "cdpr-sensitivity/src/measure/least_squares.rs",
+                "cdpr-sensitivity/src/measure/linear_algebra.rs",
                 "cdpr-statics/src/equations/assembled.rs",
             ],
         ),

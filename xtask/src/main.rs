@@ -16,6 +16,7 @@ mod gallery;
 mod led;
 mod peers;
 mod scaling;
+mod statistics;
 mod throughput;
 mod web;
 
@@ -54,11 +55,12 @@ tasks:
                  where a median has grown
   bench-peers    solves the direct model and an observation with cdpr, and with SciPy, Octave and Ceres
                  where these are installed, see docs/PEERS.md
-  statistics TABLE [STUDIES]
+  statistics TABLE [STUDIES [FUNCTION]]
                  measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
-                 choice (of a fitted law), indices (of Sobol'), expansions
-                 given (estimators of tables), brackets (bounds by derivatives) or measures (all of
-                 them, docs/STATISTICS.md)
+                 choice (of a fitted law), indices (of Sobol'), expansions,
+                 given (estimators of tables), brackets (bounds by derivatives), measures (all of them, of
+                 functions with FUNCTION in their names; docs/STATISTICS.md) or peers (beside SALib and
+                 OpenTURNS, which pip installs into target/peers/statistics)
   calibration PART [CAMPAIGNS | FILES]
                  prints the figures of calibration in docs/VALIDATION.md and docs/calibration.md; PART is
                  recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,
@@ -90,7 +92,7 @@ fn main() -> ExitCode {
         Some("scaling") => scaling::run(&rest),
         Some("bench") => bench::run(rest),
         Some("bench-peers") => peers::bench(),
-        Some("statistics") => statistics(&rest),
+        Some("statistics") => statistics::run(&rest),
         Some("calibration") => calibration::run(&rest),
         Some("fuzz") => fuzz::run(&rest),
         Some("attack") => attack::run(),
@@ -147,12 +149,6 @@ fn robustness(mut rest: Vec<String>) -> ExitCode {
     default(&mut rest, "--robot", "data/robots/cogiro.json");
     eprintln!("building the program (a few minutes the first time), then looking for poses");
     cdpr(&["robustness"], &rest)
-}
-
-fn statistics(rest: &[String]) -> ExitCode {
-    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-    let example = ["run", "--release", "-p", "cdpr-sensitivity", "--example", "statistics", "--"];
-    cargo(&[&example, &rest[..]].concat())
 }
 
 fn throughput(rest: &[String]) -> ExitCode {

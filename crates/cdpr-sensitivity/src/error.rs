@@ -99,6 +99,13 @@ pub enum SensitivityError {
         /// Iterations made.
         iterations: usize,
     },
+    /// The eigenvalues of a matrix of mean products of slopes were not found. Slopes whose squares overflow
+    /// have none.
+    #[error("no eigenvalues of a matrix of {rows} rows were found: expected slopes whose squares are finite")]
+    NoEigenvalues {
+        /// Rows of the matrix.
+        rows: usize,
+    },
     /// One half of the range of an input holds no observation, so that its mean does not exist.
     #[error(
         "input `{input}`: {above} observations above the middle, {below} below: expected at least one each"

@@ -108,6 +108,7 @@ pub use measure::poincare::poincare_constant;
 pub use measure::regression::{Coefficient, Regression, rank_correlation, rank_regression, regression};
 pub use measure::shapley::{ShapleyEffect, shapley_effects};
 pub use measure::sobol_indices::{PairIndex, SobolIndex, SobolIndices, sobol_indices, vector_sobol_indices};
+#[cfg(feature = "faer")]
 pub use measure::subspace::{ActiveSubspace, active_subspace};
 pub use sample::interval::Estimate;
 pub use sample::random::{Bootstrap, derived_seed};

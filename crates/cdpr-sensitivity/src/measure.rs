@@ -5,12 +5,12 @@ pub mod bracket;
 pub mod convergence;
 pub mod dgsm;
 pub mod effect;
-mod eigen;
 pub mod expansion;
-mod least_squares;
+mod linear_algebra;
 pub mod morris;
 pub mod poincare;
 pub mod regression;
 pub mod shapley;
 pub mod sobol_indices;
+#[cfg(feature = "faer")]
 pub mod subspace;

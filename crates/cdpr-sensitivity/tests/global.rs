@@ -11,4 +11,5 @@ mod regression;
 mod sequential;
 mod shapley;
 mod space_filling;
+#[cfg(feature = "faer")]
 mod subspace;

@@ -52,7 +52,12 @@ fn row(inputs: usize, estimates: impl Fn(usize) -> (f64, Vec<Estimate>)) {
     print!("{:>20}{error:>10.5}{width:>7.1}", format!("{mean:.1} {least:.1}"));
 }
 
-fn indices(function: &Function, blocks: usize, seed: u64) -> Result<SobolIndices, SensitivityError> {
+/// Indices of a study of so many blocks.
+pub(crate) fn indices(
+    function: &Function,
+    blocks: usize,
+    seed: u64,
+) -> Result<SobolIndices, SensitivityError> {
     let design = SaltelliDesign::scrambled(function.inputs.clone(), blocks, Order::First, seed)?;
     let outputs = observe(&design, function.model)?;
     sobol_indices(&design, &outputs, Bootstrap { resamples: 200, seed }, 0.95)

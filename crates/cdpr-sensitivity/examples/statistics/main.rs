@@ -7,6 +7,7 @@
 
 mod brackets;
 mod choice;
+mod exact;
 mod expansions;
 mod functions;
 mod given;
@@ -15,23 +16,24 @@ mod measures;
 
 use cdpr_sensitivity::SensitivityError;
 
-/// Prints a table of this many studies.
-type Table = fn(u64) -> Result<(), SensitivityError>;
+/// Prints a table of this many studies. The text is a part of the names of functions, where the table takes
+/// one.
+type Table = fn(u64, &str) -> Result<(), SensitivityError>;
 
 fn main() -> Result<(), SensitivityError> {
     let tables: [(&str, Table); 6] = [
-        ("choice", choice::table),
-        ("indices", indices::table),
-        ("expansions", expansions::table),
-        ("given", given::table),
-        ("brackets", brackets::table),
+        ("choice", |studies, _| choice::table(studies)),
+        ("indices", |studies, _| indices::table(studies)),
+        ("expansions", |studies, _| expansions::table(studies)),
+        ("given", |studies, _| given::table(studies)),
+        ("brackets", |studies, _| brackets::table(studies)),
         ("measures", measures::table),
     ];
     let mut arguments = std::env::args().skip(1);
-    let (name, count) = (arguments.next(), arguments.next());
+    let [name, count, part] = [(); 3].map(|()| arguments.next());
     let Some((_, table)) = tables.iter().find(|(table, _)| Some(*table) == name.as_deref()) else {
-        println!("statistics TABLE [STUDIES], TABLE one of {:?}", tables.map(|(table, _)| table));
+        println!("statistics TABLE [STUDIES [FUNCTION]], TABLE one of {:?}", tables.map(|(table, _)| table));
         return Ok(());
     };
-    table(count.and_then(|count| count.parse().ok()).unwrap_or(1000))
+    table(count.and_then(|count| count.parse().ok()).unwrap_or(1000), &part.unwrap_or_default())
 }

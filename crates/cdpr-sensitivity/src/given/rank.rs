@@ -3,23 +3,32 @@
 //! With the outputs in ascending order of input i,
 //!
 //! ```text
-//! S_i = 1 - Σ (y_(j+1) - y_(j))² / (2 (n - 1) V),   V = Σ (y - ȳ)² / (n - 1)          (K2)
-//! u_j = (y_(j+1) - y_(j))² / 2 - (1 - S) ((y_(j) - ȳ)² + (y_(j+1) - ȳ)²) / 2          (K3)
+//! S_i = 1 - θ,   θ = (Σ d_j + (d_1 + d_(n-1)) / 2) / (n V),   d_j = (y_(j+1) - y_(j))² / 2
+//! V = Σ (y - ȳ)² / (n - 1)                                                            (K2)
+//! u_j = d_j - θ ((y_(j) - ȳ)² + (y_(j+1) - ȳ)²) / 2                                    (K3)
 //! s² = γ_0 + 2 (γ_1 - (γ_2 + γ_3 + γ_4) / 3),   s² >= γ_0 / 4                          (K4)
-//! Var S = max(s² / (V² (n - 8)), (1 - S)² / (2 n)),   with Student's factor of n / 8        (K5)
+//! Var θ = max(s² / (V² (n - 8)), θ² / n)                                               (K5)
+//! 1 - θ exp(h / θ) <= S <= 1 - θ + h,   h = t_(n/8, (1 + level) / 2) √(Var θ)             (K6)
 //! ```
 //!
 //! - (K2): two rows that are neighbours in x have nearly the same conditional mean, so that their difference
-//!   shows what the other inputs cause. Up to the terms of the two ends it is the estimator of F. Gamboa, P.
-//!   Gremaud, T. Klein, A. Lagnoux, *Global sensitivity analysis: a novel generation of mighty estimators
-//!   based on rank statistics*, Bernoulli 28 (2022), with a bias of the order 1 / n² for smooth models; the
-//!   sum is that of J. von Neumann (1941), whose mean is exactly 2 (n - 1) V without any dependence.
+//!   shows what the other inputs cause. It is the estimator of F. Gamboa, P. Gremaud, T. Klein, A. Lagnoux,
+//!   *Global sensitivity analysis: a novel generation of mighty estimators based on rank statistics*,
+//!   Bernoulli 28 (2022), up to the two ends: they join the last row to the first, whereas here the outer
+//!   differences count one and a half times, so that every row counts once. The bias is of the order 1 / n²
+//!   for smooth models; the sum is that of J. von Neumann (1941), and θ is 1 in the mean without any
+//!   dependence.
 //! - (K4) leads to its variance to the first order. `γ_k` is the covariance of u at k places apart:
 //!   neighbours share an output, and from two places apart on only the part is left that x itself causes. The
 //!   bootstrap fails for statistics of ranks: Z. Lin, F. Han, *On the failure of the bootstrap for
-//!   Chatterjee's rank correlation*, Biometrika 111 (2024). (K5) allows for few rows; (1 - S)² / n is the
-//!   variance without an effect. `cargo xtask statistics given` counts how often the intervals hold the
-//!   index.
+//!   Chatterjee's rank correlation*, Biometrika 111 (2024).
+//! - (K5): with σ²(x) the variance of y given x, n V² Var θ is the variance of (y - E (y | x))² - θ (y - ȳ)²
+//!   plus `E σ⁴(x) >= (E σ²(x))² = θ² V²` (Jensen's inequality). No estimate is below that; without an effect
+//!   it is the variance itself. The 8 and Student's factor of n / 8 allow for few rows.
+//! - (K6): θ is a quotient of variances, whose law is skewed towards large values; its logarithm is less so
+//!   and gives the lower end. The upper end is of the first order, as a logarithm never holds S = 1.
+//!
+//! `cargo xtask statistics given` counts how often the intervals hold the index.
 //!
 //! The inputs must be independent of each other: what a correlated input causes is counted for both. Rows of
 //! equal values of an input are put into random order. No unit.
@@ -74,13 +83,14 @@ fn of_sorted(y: &[f64], level: f64) -> Result<Estimate, SensitivityError> {
     let spread = Spread::of(y);
     let (n, variance) = (y.len(), spread.variance());
     let square = |deviation: f64| deviation * deviation;
-    let differences: f64 = y.windows(2).map(|pair| 0.5 * square(pair[1] - pair[0])).sum();
-    let noise = differences / ((n - 1) as f64 * variance);
-    let term = |pair: &[f64]| {
+    let differences: Vec<f64> = y.windows(2).map(|pair| 0.5 * square(pair[1] - pair[0])).collect();
+    let ends = 0.5 * (differences[0] + differences[n - 2]);
+    let noise = (differences.iter().sum::<f64>() + ends) / (n as f64 * variance);
+    let term = |(pair, difference): (&[f64], &f64)| {
         let [low, high] = [pair[0] - spread.mean, pair[1] - spread.mean];
-        0.5 * square(high - low) - 0.5 * noise * (low * low + high * high)
+        difference - 0.5 * noise * (low * low + high * high)
     };
-    let mut terms: Vec<f64> = y.windows(2).map(term).collect();
+    let mut terms: Vec<f64> = y.windows(2).zip(&differences).map(term).collect();
     let mean = terms.iter().sum::<f64>() / terms.len() as f64;
     terms.iter_mut().for_each(|term| *term -= mean);
     let covariance = |apart: usize| {
@@ -91,6 +101,8 @@ fn of_sorted(y: &[f64], level: f64) -> Result<Estimate, SensitivityError> {
     // Few rows may give a difference below zero.
     let sum = (own + 2.0 * (covariance(1) - far)).max(0.25 * own) / (variance * variance);
     let size = n as f64;
-    let variance = (sum / (size - 8.0)).max(0.5 * noise * noise / size);
-    Estimate::of_variance(1.0 - noise, variance, size / 8.0, level)
+    let variance = (sum / (size - 8.0)).max(noise * noise / size);
+    let estimate = Estimate::of_variance(1.0 - noise, variance, size / 8.0, level)?;
+    let half = estimate.high - estimate.value;
+    Ok(Estimate { low: 1.0 - noise * (half / noise).exp(), ..estimate })
 }

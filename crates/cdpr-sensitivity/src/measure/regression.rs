@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 use crate::design::JointSample;
 use crate::design::observation::Observed;
 use crate::error::{SensitivityError, check_range};
-use crate::measure::least_squares::least_squares;
+use crate::measure::linear_algebra::least_squares;
 use crate::sample::summary::Spread;
 
 /// Coefficients of one input.

@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 use crate::design::IndependentSample;
 use crate::error::{SensitivityError, check_level, check_range, require};
 use crate::measure::dgsm::{Slopes, checked};
-use crate::measure::eigen::symmetric_eigen;
+use crate::measure::linear_algebra::symmetric_eigen;
 use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::random::{Bootstrap, stream};
@@ -68,7 +68,8 @@ impl ActiveSubspace {
 /// observation. The intervals have the confidence `level` in (0, 1).
 ///
 /// # Errors
-/// As [`crate::dgsm`], and [`SensitivityError::OutOfRange`] for fewer than two resamples.
+/// As [`crate::dgsm`], [`SensitivityError::OutOfRange`] for fewer than two resamples, and
+/// [`SensitivityError::NoEigenvalues`] for slopes whose squares are not finite.
 pub fn active_subspace<D: IndependentSample>(
     design: &D,
     slopes: &[Option<Slopes>],
@@ -84,13 +85,14 @@ pub fn active_subspace<D: IndependentSample>(
     let n = gradients.len();
     check_range("observed outputs", n as u64, 2, u64::MAX)?;
     let all: Vec<usize> = (0..n).collect();
-    let (values, directions) = symmetric_eigen(mean_products(&gradients, &all));
+    let (values, directions) = eigen_of(&gradients, &all)?;
     let resample = |resample: usize| {
         let mut generator = stream(bootstrap.seed, resample as u64);
         let rows: Vec<usize> = (0..n).map(|_| generator.random_range(0..n)).collect();
-        symmetric_eigen(mean_products(&gradients, &rows)).0
+        Ok(eigen_of(&gradients, &rows)?.0)
     };
-    let resampled: Vec<Vec<f64>> = (0..bootstrap.resamples).into_par_iter().map(resample).collect();
+    let resampled: Vec<Vec<f64>> =
+        (0..bootstrap.resamples).into_par_iter().map(resample).collect::<Result<_, SensitivityError>>()?;
     let [low, high] = ends(bootstrap.resamples, level);
     let estimate = |(j, &value): (usize, &f64)| {
         let mut of: Vec<f64> = resampled.iter().map(|values| values[j]).collect();
@@ -121,6 +123,11 @@ fn count(values: impl Iterator<Item = f64> + Clone, share: f64) -> usize {
         is_before
     });
     before.count()
+}
+
+/// Eigenvalues and eigenvectors of the mean of g gᵀ over some rows.
+fn eigen_of(gradients: &[Vec<f64>], rows: &[usize]) -> Result<(Vec<f64>, Vec<Vec<f64>>), SensitivityError> {
+    symmetric_eigen(&mean_products(gradients, rows)).map_err(|rows| SensitivityError::NoEigenvalues { rows })
 }
 
 /// Mean of g gᵀ over some rows.

@@ -2,7 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Values of the measures for one input; `None` for a method that has failed.
+/// Values of the measures for one input; `None` for a method that has failed or is not asked for.
+///
+/// Indices of vectors and Shapley effects have no column and no key without a value: not every study asks for
+/// them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InputMeasures {
     /// Name of the input.
@@ -55,22 +58,31 @@ pub struct InputMeasures {
     /// Upper end of its interval.
     pub sobol_total_high: Option<f64>,
     /// First-order index of the displacement as a vector: of the sum of the variances of its components.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_first: Option<f64>,
     /// Lower end of its interval.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_first_low: Option<f64>,
     /// Upper end of its interval.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_first_high: Option<f64>,
     /// Total index of the displacement as a vector.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_total: Option<f64>,
     /// Lower end of its interval.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_total_low: Option<f64>,
     /// Upper end of its interval.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_total_high: Option<f64>,
     /// Shapley effect.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapley: Option<f64>,
     /// Lower end of its interval.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapley_low: Option<f64>,
     /// Upper end of its interval.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapley_high: Option<f64>,
     /// Activity score: its part in all directions along which the output varies.
     pub activity: Option<f64>,

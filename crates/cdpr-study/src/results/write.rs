@@ -42,7 +42,8 @@ pub fn write_surface(
 }
 
 /// Writes `NAME_sensitivity.csv`: one row an input, with what each measure says of it; shares and indices
-/// have no unit, a method that has failed leaves its cells empty.
+/// have no unit, a method that has failed leaves its cells empty. Indices of vectors and Shapley effects have
+/// columns where the study has them.
 ///
 /// # Errors
 /// As [`ResultsFolder::claim`].

@@ -183,7 +183,7 @@ fn add(sum: &mut [f64], factor: f64, vector: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::least_squares::{LeastSquares, least_squares};
+    use crate::measure::linear_algebra::{LeastSquares, least_squares};
 
     #[test]
     fn the_error_is_that_of_fits_that_leave_out_each_value_and_the_coefficients_are_those_of_householder() {

@@ -1,14 +1,18 @@
-//! Linear least squares by Householder's QR factorisation. No other module of this crate names faer.
-//! Without the feature `faer` the reflections are formed here, column by column; results agree up to rounding.
+//! Linear least squares by Householder's QR factorisation, and eigenvectors of symmetric matrices. No other
+//! module of this crate names faer. Without the feature `faer` the reflections are formed here, column by
+//! column; results agree up to rounding. Eigenvectors need the feature.
 //!
 //! ```text
 //! X = Q R,   b = R⁻¹ Qᵀ y,   (Xᵀ X)⁻¹ = R⁻¹ R⁻ᵀ                            (W1)
+//! A = W Λ Wᵀ,   λ_1 >= λ_2 >= ..                                           (W2)
 //! ```
 //!
-//! G. H. Golub, C. F. Van Loan, *Matrix computations*, 4th ed. (2013), section 5.3.
+//! G. H. Golub, C. F. Van Loan, *Matrix computations*, 4th ed. (2013), sections 5.3 and 8.3.
 
 #[cfg(feature = "faer")]
 use by_faer::solve;
+#[cfg(feature = "faer")]
+pub(crate) use by_faer::symmetric_eigen;
 #[cfg(not(feature = "faer"))]
 use by_reflections::solve;
 
@@ -35,11 +39,11 @@ const DEPENDENT: f64 = 1e-10;
 
 #[cfg(feature = "faer")]
 mod by_faer {
-    use faer::linalg::solvers::{Qr, SolveLstsq};
+    use faer::linalg::solvers::{Qr, SelfAdjointEigen, SolveLstsq};
     use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
-    use faer::{Mat, Par};
+    use faer::{Mat, Par, Side};
 
-    use crate::measure::least_squares::{DEPENDENT, LeastSquares};
+    use crate::measure::linear_algebra::{DEPENDENT, LeastSquares};
 
     pub(super) fn solve(columns: &[Vec<f64>], y: &[f64]) -> Result<LeastSquares, usize> {
         let (n, k) = (y.len(), columns.len());
@@ -61,11 +65,31 @@ mod by_faer {
             residual_squares: residual.squared_norm_l2(),
         })
     }
+
+    /// Eigenvalues (W2) of a symmetric matrix of finite entries in descending order, and the unit eigenvector
+    /// of each. The first component of a vector that is not zero is positive. Entries above the diagonal do
+    /// not count.
+    ///
+    /// # Errors
+    /// The number of rows, if the iteration does not converge.
+    pub(crate) fn symmetric_eigen(a: &[Vec<f64>]) -> Result<(Vec<f64>, Vec<Vec<f64>>), usize> {
+        let n = a.len();
+        let matrix = Mat::from_fn(n, n, |i, j| a[i][j]);
+        let found = SelfAdjointEigen::new(matrix.as_ref(), Side::Lower).map_err(|_| n)?;
+        let pair = |j: usize| {
+            let vector: Vec<f64> = found.U().col(j).iter().copied().collect();
+            let sign = vector.iter().find(|x| **x != 0.0).map_or(1.0, |first| first.signum());
+            (found.S()[j], vector.iter().map(|x| sign * x).collect())
+        };
+        let mut pairs: Vec<(f64, Vec<f64>)> = (0..n).map(pair).collect();
+        pairs.sort_by(|one, other| other.0.total_cmp(&one.0));
+        Ok(pairs.into_iter().unzip())
+    }
 }
 
 #[cfg(any(test, not(feature = "faer")))]
 mod by_reflections {
-    use crate::measure::least_squares::{DEPENDENT, LeastSquares};
+    use crate::measure::linear_algebra::{DEPENDENT, LeastSquares};
 
     pub(super) fn solve(columns: &[Vec<f64>], y: &[f64]) -> Result<LeastSquares, usize> {
         let k = columns.len();
@@ -139,5 +163,25 @@ mod tests {
         columns[3] = columns[0].iter().zip(&columns[1]).map(|(x, y)| x + 3.0 * y).collect();
         assert_eq!(by_faer::solve(&columns, &y).err(), Some(3));
         assert_eq!(by_reflections::solve(&columns, &y).err(), Some(3));
+    }
+
+    #[test]
+    fn a_matrix_is_the_sum_of_its_eigenvalues_times_the_projections_on_its_eigenvectors() {
+        for n in [1, 2, 3, 20, 62] {
+            let mut generator = stream(n as u64, 0);
+            let half: Vec<f64> = (0..n * n).map(|_| uniform(&mut generator) - 0.5).collect();
+            let entry = |i: usize, j: usize| half[n * i.max(j) + i.min(j)];
+            let a: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+            let (values, vectors) = symmetric_eigen(&a).unwrap();
+            assert!(values.is_sorted_by(|one, other| one >= other));
+            for i in 0..n {
+                for j in 0..n {
+                    let sum: f64 = (0..n).map(|k| values[k] * vectors[k][i] * vectors[k][j]).sum();
+                    assert!((sum - a[i][j]).abs() < 1e-12, "{n}: {i} {j}");
+                    let product: f64 = vectors[i].iter().zip(&vectors[j]).map(|(x, y)| x * y).sum();
+                    assert!((product - f64::from(i == j)).abs() < 1e-12);
+                }
+            }
+        }
     }
 }

@@ -1,0 +1,119 @@
+//! `cargo xtask statistics`: how often the estimators of cdpr-sensitivity are right; with `peers` beside those
+//! of SALib and OpenTURNS.
+//!
+//! The tables are those of `crates/cdpr-sensitivity/examples/statistics`. Its rows of all measures, and the
+//! values that count as true, are in `target/statistics`; `xtask/peers/statistics.py` reads the latter and
+//! prints rows of the same form. It runs in an environment of its own, `target/peers/statistics`.
+
+#![allow(clippy::print_stdout)]
+
+use crate::cargo::{cargo_command, done, root};
+use serde_json::Value;
+use std::error::Error;
+use std::path::PathBuf;
+use std::process::{Command, ExitCode};
+
+/// What pip installs, of these versions.
+const PACKAGES: [&str; 2] = ["SALib==1.6.0", "openturns==1.27"];
+/// The measures that the others have as well.
+const MEASURES: [&str; 6] =
+    ["Sobol' S, 256", "Sobol' T, 256", "S by ranks", "Morris mu*", "expansion S", "expansion T"];
+
+pub(crate) fn run(arguments: &[String]) -> ExitCode {
+    let of_peers = arguments.first().is_some_and(|table| table == "peers");
+    match if of_peers { peers(&arguments[1..]) } else { example(arguments) } {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn example(arguments: &[String]) -> Result<(), Box<dyn Error>> {
+    let example = ["run", "--release", "-p", "cdpr-sensitivity", "--example", "statistics", "--"];
+    done(cargo_command(&example).args(arguments).current_dir(root()))
+}
+
+/// Runs our studies and those of the others, one after the other on one thread, and prints a table.
+fn peers(arguments: &[String]) -> Result<(), Box<dyn Error>> {
+    let studies = arguments.first().map_or("100", String::as_str);
+    let python = environment()?;
+    let example = ["run", "--release", "-p", "cdpr-sensitivity", "--example", "statistics", "--", "measures"];
+    done(cargo_command(&example).arg(studies).current_dir(root()).env("RAYON_NUM_THREADS", "1"))?;
+    let folder = root().join("target/statistics");
+    let ours = std::fs::read_to_string(folder.join("measures.json"))?;
+    let mut rows: Vec<Value> = serde_json::from_str(&ours)?;
+    let mut command = Command::new(python);
+    command.arg(root().join("xtask/peers/statistics.py")).arg(folder.join("exact.json")).arg(studies);
+    for variable in ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"] {
+        command.env(variable, "1");
+    }
+    let output = command.stderr(std::process::Stdio::inherit()).output()?;
+    if !output.status.success() {
+        return Err("xtask/peers/statistics.py has failed".into());
+    }
+    for line in String::from_utf8_lossy(&output.stdout).lines() {
+        // SALib prints notices of its own.
+        rows.extend(serde_json::from_str::<Value>(line));
+    }
+    print(&rows);
+    Ok(())
+}
+
+/// The Python of an environment with the packages.
+fn environment() -> Result<PathBuf, Box<dyn Error>> {
+    let folder = root().join("target/peers/statistics");
+    let place = if cfg!(windows) { "Scripts" } else { "bin" };
+    let python = folder.join(place).join(format!("python{}", std::env::consts::EXE_SUFFIX));
+    if !python.exists() {
+        let system = if cfg!(windows) { "python" } else { "python3" };
+        done(Command::new(system).args(["-m", "venv"]).arg(&folder))?;
+    }
+    done(Command::new(&python).args(["-m", "pip", "install", "--quiet"]).args(PACKAGES))?;
+    Ok(python)
+}
+
+/// A table for each measure, with a row for each function and a column for each program.
+fn print(rows: &[Value]) {
+    for measure in MEASURES {
+        let rows: Vec<&Value> = rows.iter().filter(|row| row["measure"] == measure).collect();
+        let of = |field: &str| {
+            let mut values: Vec<&str> = Vec::new();
+            for row in &rows {
+                let value = text(row, field);
+                if !values.contains(&value) {
+                    values.push(value);
+                }
+            }
+            values
+        };
+        let (functions, programs) = (of("function"), of("program"));
+        println!("\n### {measure}\n\n| function | {} |", programs.join(" | "));
+        println!("|---|{}", "---|".repeat(programs.len()));
+        for function in functions {
+            let of_program = |program: &&str| {
+                rows.iter()
+                    .find(|row| text(row, "function") == function && text(row, "program") == *program)
+                    .map_or_else(|| "-".to_owned(), |row| cell(row))
+            };
+            println!("| {function} | {} |", programs.iter().map(of_program).collect::<Vec<_>>().join(" | "));
+        }
+    }
+}
+
+/// Error, mean and least share of the intervals that hold, CPU time and number of studies of a row.
+fn cell(row: &Value) -> String {
+    if let Some(why) = row["why"].as_str() {
+        return why.to_owned();
+    }
+    let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+    let held = row["held"]
+        .as_array()
+        .map_or_else(|| "-".to_owned(), |held| format!("{:.0} / {:.0}", number(&held[0]), number(&held[1])));
+    format!("{:.4}; {held}; {:.2}; {}", number(&row["error"]), number(&row["ms"]), row["studies"])
+}
+
+fn text<'a>(row: &'a Value, field: &str) -> &'a str {
+    row[field].as_str().unwrap_or_default()
+}
