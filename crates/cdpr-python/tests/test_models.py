@@ -375,6 +375,9 @@ def answers(robot):
         yield robot.derivatives(poses, payload=50)
         yield robot.capacity(poses, payload=50, tilt=2)
     yield robot.direct([LENGTHS, LENGTHS], force=[20, 0, -30])
+    for lengths in (LENGTHS, [LENGTHS, LENGTHS]):
+        yield robot.certify(lengths)
+    yield robot.path(far, payload=50)
     yield robot.observe(POSE, numpy.zeros((2, 62)), payload=50)
     yield robot.workspace(x=(-9, 0, 2), y=0, z=1.75, payload=50, uncertainty={"a": 0.002})
     laws = {"x": uniform(0, 1), "y": normal(2, 1)}
@@ -387,7 +390,8 @@ def answers(robot):
 
 
 def fields(answer):
-    return {name: getattr(answer, name) for name in dir(answer) if not name.startswith("_")}
+    named = {name: getattr(answer, name) for name in dir(answer) if not name.startswith("_")}
+    return {name: value for name, value in named.items() if not callable(value)}
 
 
 def check_same(one, other):
@@ -407,11 +411,12 @@ def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
         classes.add(type(answer).__name__)
         check_same(answer, pickle.loads(pickle.dumps(answer)))
         check_same(answer, copy.deepcopy(answer))
-        assert repr(answer).startswith(f"<{type(answer).__module__}.{type(answer).__name__} ")
+        public = type(answer).__module__.removesuffix(".estimates")
+        assert repr(answer).startswith(f"<{public}.{type(answer).__name__} ")
         assert len(repr(answer)) < 400
     assert classes == {"Capacity", "Catenary", "InverseSolution", "Deflection", "Stiffness", "Derivatives",
                        "DirectSolution", "Observations", "Workspace", "Effects", "SobolIndices",
-                       "MorrisEffects"}
+                       "MorrisEffects", "Certificate", "PathStates"}
     found = caroca.deflection([POSE, POSE], payload=50)
     assert repr(found) == (
         "<cdpr.Deflection displacement (2, 3), rms (2,), rotation (2, 3), lengths (2, 8), "
