@@ -417,6 +417,9 @@ def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
     assert classes == {"Capacity", "Catenary", "InverseSolution", "Deflection", "Stiffness", "Derivatives",
                        "DirectSolution", "Observations", "Workspace", "Effects", "SobolIndices",
                        "MorrisEffects", "Certificate", "PathStates"}
+    one = caroca.deflection(POSE, payload=50)
+    numbers = ", ".join(f"{value:.6g}" for value in one.displacement)
+    assert f"displacement [{numbers}], rms {one.rms:.6g}, " in repr(one)
     found = caroca.deflection([POSE, POSE], payload=50)
     assert repr(found) == (
         "<cdpr.Deflection displacement (2, 3), rms (2,), rotation (2, 3), lengths (2, 8), "
@@ -424,6 +427,23 @@ def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
     )
     with pytest.raises(TypeError, match="missing"):
         cdpr.Deflection(1, 2)
+
+
+def test_answers_are_frames_of_pandas_with_a_row_for_each_case(caroca):
+    pytest.importorskip("pandas", reason="pandas is not installed")
+    for answer in answers(caroca):
+        frame = answer.to_dataframe()
+        assert len(frame.columns) >= 1 and len(frame) >= 1, answer
+    far = [POSE, [9.0, 0.0, 1.75]]
+    found = caroca.derivatives(far, payload=50)
+    frame = found.to_dataframe()
+    numpy.testing.assert_array_equal(frame["rms/a1.x"], found.rms[:, found.inputs.index("a1.x")])
+    numpy.testing.assert_array_equal(frame["lengths_8/mass"], found.lengths[:, 7, found.inputs.index("mass")])
+    assert list(frame["kinds"]) == found.kinds and numpy.isnan(frame["rms/a1.x"][1])
+    assert caroca.inverse(POSE).to_dataframe()["tensions_3"][0] == caroca.inverse(POSE).tensions[2]
+    plane = caroca.workspace(plane=("z", 1.75), grid=(3, 3), payload=50)
+    frame = plane.to_dataframe()
+    assert list(frame["status"]) == plane.status and list(frame["positions_2"]) == list(plane.positions[:, 1])
 
 
 def test_answers_come_back_from_a_process_pool(caroca):

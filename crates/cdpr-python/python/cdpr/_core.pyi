@@ -512,6 +512,12 @@ class Catenary:
     """
 
     def __new__(cls, *fields: Any) -> Catenary: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def force(self) -> _Floats:
         """Force (fx, fz) on the cable at the anchor point [N], (2,)."""
@@ -555,6 +561,12 @@ class InverseSolution:
     """
 
     def __new__(cls, *fields: Any) -> InverseSolution: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def lengths(self) -> _Floats:
         """Unstrained length of each cable [m], (n,)."""
@@ -611,6 +623,12 @@ class DirectSolution:
     """
 
     def __new__(cls, *fields: Any) -> DirectSolution: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def position(self) -> _Floats:
         """Position of P in the base frame [m], (3,)."""
@@ -676,6 +694,12 @@ class Deflection:
     """
 
     def __new__(cls, *fields: Any) -> Deflection: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def displacement(self) -> _Floats:
         """Displacement dp of P, the position with the load minus that without [m], (3,)."""
@@ -710,6 +734,12 @@ class Modes:
     """
 
     def __new__(cls, *fields: Any) -> Modes: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def frequencies_hz(self) -> _Floats:
         """Natural frequencies, ascending [Hz], (6,); of a point mass or a planar robot (3,), here and below."""
@@ -742,6 +772,12 @@ class Capacity:
     """
 
     def __new__(cls, *fields: Any) -> Capacity: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def payload_anew(self) -> _Float:
         """Greatest mass at the centre of mass [kg]."""
@@ -781,6 +817,12 @@ class Boundary:
     """The boundary of the region that the cables hold."""
 
     def __new__(cls, *fields: Any) -> Boundary: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def measure(self) -> float:
         """Area in a plane [m²], volume in a box [m³]."""
@@ -806,6 +848,12 @@ class Certificate:
     """
 
     def __new__(cls, *fields: Any) -> Certificate: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def pose(self) -> _Floats:
         """Position and quaternion that were found, (7,)."""
@@ -840,6 +888,12 @@ class PathStates:
     """
 
     def __new__(cls, *fields: Any) -> PathStates: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def jump(self) -> NDArray[np.bool_]:
         """Where the lengths may jump, (m,)."""
@@ -891,6 +945,12 @@ class Stiffness:
     """
 
     def __new__(cls, *fields: Any) -> Stiffness: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def matrix(self) -> _Floats:
         """Stiffness K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
@@ -942,6 +1002,12 @@ class Derivatives:
     """
 
     def __new__(cls, *fields: Any) -> Derivatives: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def inputs(self) -> list[str]:
         """Names of the k inputs: the parameters of the robot, `payload`, and the wanted pose.
@@ -1012,6 +1078,12 @@ class Observations:
     """Deflections of m robots, or of one; NaN where there is no answer, and `reasons` says why."""
 
     def __new__(cls, *fields: Any) -> Observations: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def displacement(self) -> _Floats:
         """Displacement dp of P [m], (3,)."""
@@ -1030,6 +1102,12 @@ class Workspace:
     """Results at level positions on a grid, x slowest and z fastest; NaN where there is no answer."""
 
     def __new__(cls, *fields: Any) -> Workspace: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
     def shape(self) -> tuple[int, int, int]:
         """Number of positions along x, y and z."""

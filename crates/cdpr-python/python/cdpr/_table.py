@@ -163,3 +163,32 @@ def by_output(
         name: one(name, column, *(part(of, k) for of in more))
         for k, (name, column) in enumerate(zip(names, columns))
     }
+
+
+def frame_of(answer: Any, names: list[str]) -> Any:
+    """A pandas.DataFrame of the fields of a native answer with these names, a row for each case."""
+    import numpy
+    import pandas
+
+    reasons = getattr(answer, "reasons", None)
+    single = not isinstance(reasons, list)
+    count = 1 if single else len(reasons)
+    inputs = getattr(answer, "inputs", [])
+    columns: dict[str, Any] = {}
+    for name in names:
+        value = getattr(answer, name)
+        if isinstance(value, list):
+            if not single and len(value) == count:
+                columns[name] = pandas.Series(value, dtype=object)  # None stays None
+            continue
+        if value is None or isinstance(value, (dict, tuple)) or type(value).__module__ == "cdpr":
+            continue
+        array = numpy.asarray(value)[None] if single else numpy.asarray(value)
+        if array.ndim == 0 or len(array) != count:
+            continue
+        for index in numpy.ndindex(array.shape[1:]):
+            labels = [str(k + 1) for k in index]
+            end = f"/{inputs[index[-1]]}" if index and array.shape[-1] == len(inputs) else None
+            head = "_".join([name, *(labels if end is None else labels[:-1])])
+            columns[head + (end or "")] = array[(slice(None), *index)]
+    return pandas.DataFrame(columns)
