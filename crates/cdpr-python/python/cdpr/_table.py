@@ -172,7 +172,7 @@ def frame_of(answer: Any, names: list[str]) -> Any:
 
     reasons = getattr(answer, "reasons", None)
     single = not isinstance(reasons, list)
-    count = 1 if single else len(reasons)
+    count = len(reasons) if isinstance(reasons, list) else 1
     inputs = getattr(answer, "inputs", [])
     columns: dict[str, Any] = {}
     for name in names:
