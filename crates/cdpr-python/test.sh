@@ -13,7 +13,7 @@ trap 'rm -rf "$environment"' EXIT
 
 cargo build --quiet --bin cdpr
 python3 -m venv --clear "$environment"
-"$environment/bin/pip" install --quiet ./crates/cdpr-python pytest pandas matplotlib mypy mujoco anywidget "$@"
+"$environment/bin/pip" install --quiet ./crates/cdpr-python pytest pandas matplotlib mypy mujoco anywidget SALib "$@"
 cd crates/cdpr-python
 CDPR=$target/debug/cdpr "$environment/bin/python" -m pytest -q -rs -p no:cacheprovider tests
 "$environment/bin/python" -m mypy.stubtest cdpr --mypy-config-file pyproject.toml \

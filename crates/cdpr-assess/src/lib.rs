@@ -33,7 +33,7 @@ pub use path::{Bands, Path, PathPose};
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, Outcome, PoseRegion, Protocol, ProtocolSummary, Published,
     Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread, StartOffset,
-    anchor_distance, run_robustness,
+    anchor_distance, protocols, run_robustness,
 };
 pub use tilt::{Tilt, TiltTowards, tilt_at};
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};

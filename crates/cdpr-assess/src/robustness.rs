@@ -11,7 +11,7 @@
 mod protocol;
 mod summary;
 
-pub use protocol::{Assignment, PoseRegion, Protocol, Published, StartOffset};
+pub use protocol::{Assignment, PoseRegion, Protocol, Published, StartOffset, protocols};
 pub(crate) use summary::in_degrees;
 pub use summary::{Draws, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread};
 

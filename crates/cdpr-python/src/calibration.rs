@@ -5,13 +5,14 @@ use crate::convert::{Answer, Numbers, Raised, Rows, run, to_json, watched};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_calibration::{
-    AtWork, Calibration, Campaign, Combination, Criterion, FitSettings, Measurement, Quality, RobustLoss,
-    SensorError, Unknowns, carry_out, read_measurements,
+    AtWork, Calibration, CalibrationError, Campaign, Combination, Criterion, FitSettings, Measurement, Noise,
+    Quality, RobustLoss, SensorError, Simulated, Unknowns, carry_out, drawn, drawn_errors, read_measurements,
+    write_measurements,
 };
 use cdpr_report::calibration_report;
-use cdpr_robot::{Pose, Vector3};
+use cdpr_robot::{CableEnd, Pose, Vector3};
 use cdpr_statics::Load;
-use cdpr_study::{InputKind, open_errors, read_text, uncertainties};
+use cdpr_study::{InputKind, open_errors, read_text, uncertainties, write_text};
 use pyo3::prelude::*;
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -183,6 +184,57 @@ pub(crate) fn calibration_plan(
             "outermost": left(&found.corners),
             "growing": found.growing.iter().map(left).collect::<Vec<_>>(),
         }))
+    })?
+}
+
+/// What a campaign would read at poses with a robot that deviates from its file: writes the measurements as CSV
+/// and returns the robot as it truly is.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn simulate(
+    py: Python,
+    robot: &Robot,
+    poses: Numbers,
+    out: PathBuf,
+    model: PathBuf,
+    noise: Named,
+    unknown: Named,
+    markers: Vec<[f64; 3]>,
+    tension_at: &str,
+    payload: f64,
+    free: Option<Vec<String>>,
+    seed: u64,
+) -> Answer<Robot> {
+    let robot = &robot.robot;
+    let poses = Rows::poses("poses", &poses)?;
+    let poses = (0..poses.number()).map(|k| poses.pose(k)).collect::<Result<Vec<_>, _>>()?;
+    let free = coordinates(free)?;
+    let tension_at = match tension_at {
+        "platform" => CableEnd::Anchor,
+        "winch" => CableEnd::Exit,
+        _ => return Err(Raised::Input(format!("tension_at is {tension_at:?}: expected platform or winch"))),
+    };
+    let markers: Vec<Vector3<f64>> = markers.into_iter().map(Vector3::from).collect();
+    run(py, |_| -> Answer<Robot> {
+        let deviations = drawn(&open_errors(&model, robot)?, seed);
+        let named = |(name, std): &(String, f64)| Ok((SensorError::from_name(name)?, *std));
+        let errors = unknown.iter().map(named).collect::<Result<Vec<_>, CalibrationError>>()?;
+        let rows = cdpr_calibration::simulate(&Simulated {
+            nominal: robot,
+            deviations: &deviations,
+            poses: &poses,
+            free: &free,
+            load: Load::payload(payload),
+            noise: Noise::named(&noise)?,
+            markers: &markers,
+            errors: &drawn_errors(robot, &errors, markers.len(), seed),
+            tension_at,
+            seed,
+        })?;
+        let (header, lines) = write_measurements(&rows);
+        let lines = lines.iter().map(|line| line.join(",") + "\n").collect::<String>();
+        write_text(&out, &(header.join(",") + "\n" + &lines), "l1_m,")?;
+        Ok(Robot { robot: robot.perturbed(&deviations)?.robot })
     })?
 }
 

@@ -7,9 +7,11 @@
 //! `convert::answer`). Cases are computed in parallel without Python's lock (`convert::threads`). What a
 //! model refuses becomes an exception (`convert::error`).
 
+mod assess;
 mod calibration;
 mod catenary;
 mod convert;
+mod exchange;
 mod explorer;
 mod robot;
 mod sensitivity;
@@ -21,15 +23,23 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::calibration::{calibrate, calibration_plan, identify};
+    use crate::assess::{check, check_file, hysteresis, linear_density, modulus, robustness, tolerances};
+    #[pymodule_export]
+    use crate::calibration::{calibrate, calibration_plan, identify, simulate};
     #[pymodule_export]
     use crate::catenary::{Catenary, catenary};
+    #[pymodule_export]
+    use crate::exchange::{export_robot, import_robot, library};
     #[pymodule_export]
     use crate::explorer::explorer_parts;
     #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]
+    use crate::robot::boundary::Boundary;
+    #[pymodule_export]
     use crate::robot::capacity::Capacity;
+    #[pymodule_export]
+    use crate::robot::certify::Certificate;
     #[pymodule_export]
     use crate::robot::deflection::Deflection;
     #[pymodule_export]
@@ -43,17 +53,21 @@ mod _core {
     #[pymodule_export]
     use crate::robot::observe::Observations;
     #[pymodule_export]
+    use crate::robot::path::PathStates;
+    #[pymodule_export]
     use crate::robot::stiffness::Stiffness;
     #[pymodule_export]
     use crate::robot::workspace::Workspace;
     #[pymodule_export]
     use crate::sensitivity::analysis::analyse;
     #[pymodule_export]
-    use crate::sensitivity::designs::{MorrisDesign, SaltelliDesign, SobolDesign};
+    use crate::sensitivity::designs::{Morris, Saltelli, Sample, Shapley, effect_intervals};
     #[pymodule_export]
-    use crate::sensitivity::estimates::{Effects, Expansion, MorrisEffects, SobolIndices};
+    use crate::sensitivity::expansion::Expansion;
     #[pymodule_export]
-    use crate::study::{begin, carry_out, make_shard, observations, open_results, status};
+    use crate::sensitivity::laws::{allocate, fit_laws, law_moments, law_values};
+    #[pymodule_export]
+    use crate::study::{begin, carry_out, make_shard, observations, open_results, status, write_report};
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 }

@@ -2,13 +2,16 @@
 //!
 //! Each model is a method in a file of the folder.
 
+pub(crate) mod boundary;
 pub(crate) mod capacity;
+pub(crate) mod certify;
 pub(crate) mod deflection;
 pub(crate) mod derivatives;
 pub(crate) mod direct;
 pub(crate) mod inverse;
 pub(crate) mod modes;
 pub(crate) mod observe;
+pub(crate) mod path;
 pub(crate) mod stiffness;
 pub(crate) mod workspace;
 

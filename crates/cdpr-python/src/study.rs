@@ -1,11 +1,13 @@
 //! Functions of studies on folders of results, as `cdpr study` has them. `study.py` puts them together.
 
 use crate::convert::{Answer, Raised, run, to_json, watched, whole};
-use cdpr_report::{draw, report_with};
+use cdpr_assess::read_region;
+use cdpr_report::{draw, figures, report_with};
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
-    Access, Existing, Part, Plan, REPORT_NAME, Run, Session, Shard, StoredStudy, Study, StudyError,
-    TableFormat, Watcher, check_complete, check_observed, observe_into, observe_shard, take_results,
+    Access, Existing, Part, Plan, REPORT_MARK, REPORT_NAME, Results, Run, Session, Shard, StoredStudy, Study,
+    StudyError, TableFormat, Watcher, check_complete, check_observed, observe_into, observe_shard,
+    take_results, write_text,
 };
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -200,4 +202,27 @@ fn format_of(table: Option<&str>) -> Answer<Option<TableFormat>> {
         Some("none") => Ok(Some(TableFormat::None)),
         Some(table) => Err(Raised::Input(format!("table is {table}: expected csv or none"))),
     }
+}
+
+/// Writes the report of a folder of results; returns its path.
+///
+/// workspace: folder with the boundary of a workspace, which is drawn around the robot.
+#[pyfunction]
+pub(crate) fn write_report(
+    py: Python,
+    folder: PathBuf,
+    out: Option<PathBuf>,
+    workspace: Option<PathBuf>,
+) -> Answer<PathBuf> {
+    run(py, |_| -> Answer<PathBuf> {
+        let results = Results::read(&folder)?;
+        let region = workspace.as_deref().map(read_region).transpose()?;
+        let page = report_with(&results, &figures(&results), region.as_ref());
+        let page = page.map_err(|error| Raised::Input(error.to_string()))?;
+        match out {
+            Some(path) => write_text(&path, &page, REPORT_MARK).map(|()| path),
+            None => results.write_report(&folder, &page),
+        }
+        .map_err(Raised::from)
+    })?
 }

@@ -212,3 +212,27 @@ def test_irma4u_is_read_as_its_authors_write_it(data, tmp_path):
     # The last fit weighs as the authors do; the noise is that of the sensors in both.
     for name, unit, std in (("t", 1, 7), ("roll", 57.3, 7e-3), ("swivel", 57.3, 2e-2)):
         assert 0.5 * unit * std < after[name] < 1.3 * unit * std, answers[0]
+
+
+@pytest.mark.parametrize("name, free", [("caroca", None), ("cogiro", None), ("four-cables", ["roll", "pitch"])])
+def test_a_simulated_campaign_is_that_of_the_program(name, free, tmp_path):
+    robot = cdpr.Robot.from_file(name)
+    model = tmp_path / "model.json"
+    law = {"law": {"normal": {"mean": 0.0, "std": 0.002}}}
+    model.write_text(json.dumps({"a": law, "mass": law}))
+    poses = [[x, 0.1, 1.75] for x in (0.0, 0.1, 0.2)]
+    candidates = tmp_path / "poses.csv"
+    candidates.write_text("\n".join(",".join(map(str, pose)) for pose in poses))
+    more = [] if free is None else ["--free", ",".join(free)]
+    done = command("calibration", "simulate", name, "--poses", candidates, "--model", model, "--seed", "3",
+                   "--noise", "position=1e-4,length=1e-4", "--unknown", "length_offset=0.01",
+                   "--out", tmp_path / "theirs.csv", "--truth", tmp_path / "truth.json", *more)
+    assert done.returncode == 0, done.stderr
+    truth = cdpr.calibration.simulate(
+        robot, poses, tmp_path / "ours.csv", model=model, noise={"position": 1e-4, "length": 1e-4},
+        unknown={"length_offset": 0.01}, free=free, seed=3,
+    )
+    assert (tmp_path / "ours.csv").read_bytes() == (tmp_path / "theirs.csv").read_bytes()
+    assert truth.to_dict() == cdpr.Robot.from_file(tmp_path / "truth.json").to_dict()
+    with pytest.raises(cdpr.InputError, match='tension_at is "x": expected platform or winch'):
+        cdpr.calibration.simulate(robot, poses, tmp_path / "x.csv", model=model, noise={}, tension_at="x")

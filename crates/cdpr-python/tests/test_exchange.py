@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import cdpr
-from conftest import program
+from conftest import answer, program
 
 
 def test_a_robot_of_the_library_has_a_name(cogiro):
@@ -60,3 +60,44 @@ def test_moorpy_finds_the_tensions_of_the_exported_robot(tmp_path, cogiro):
     cable = cogiro.to_dict()["cable"]
     stiffness = cable["youngs_modulus"] * cable["section"] / np.array(ours.lengths)
     assert (np.abs(theirs - ours.tensions) < 1e-4 * stiffness).all()
+
+
+@pytest.mark.parametrize("target, name, pose", [
+    ("mjcf", "cogiro", [0, 0, 2]), ("moorpy", "caroca", [0, 0, 1.75]), ("caspr", "ipanema-3", [0, 0, 1.3]),
+    ("mjcf", "nist-robocrane", [0, 0, 1.5]),
+])
+def test_exported_files_are_those_of_the_program(target, name, pose, tmp_path):
+    found = cdpr.exchange.export_robot(cdpr.Robot.from_file(name), pose, target)
+    exported(target, name, ",".join(map(str, pose)), tmp_path / "robot")
+    theirs = {path.name.removeprefix("robot"): path.read_text() for path in tmp_path.iterdir()}
+    single = len(found.files) == 1
+    assert ({"": found.text} if single else found.files) == theirs and found.text in theirs.values()
+
+
+def test_a_robot_goes_to_caspr_and_back(tmp_path):
+    robot = cdpr.Robot.from_file("ipanema-3")
+    for ending, text in cdpr.exchange.export_robot(robot, [0, 0, 1.3], "caspr").files.items():
+        (tmp_path / f"robot{ending}").write_text(text)
+    again, notes = cdpr.exchange.import_robot(tmp_path, cable="steel-4mm", tension_limits=[10, 2000])
+    np.testing.assert_allclose(again.exit_points, robot.exit_points, atol=1e-9)
+    np.testing.assert_allclose(again.anchor_points, robot.anchor_points, atol=1e-9)
+    assert again.mass == pytest.approx(robot.mass) and list(again.tension_limits) == [10, 2000]
+    assert {note.kind for note in notes} <= {"assumed", "questioned", "no place for"}
+    for call, said in (
+        (lambda: cdpr.exchange.export_robot(robot, [0, 0, 1.3], "urdf"), 'to is "urdf": expected mjcf'),
+        (lambda: cdpr.exchange.import_robot(tmp_path, cable="steel-400mm", tension_limits=[1, 2]), "steel-400mm"),
+        (lambda: cdpr.exchange.import_robot(tmp_path, tension_limits=[1, 2, 3]), "tension_limits has the shape"),
+    ):
+        with pytest.raises((cdpr.InputError, cdpr.FileError), match=said):
+            call()
+    with pytest.raises(cdpr.NoSolutionError):
+        cdpr.exchange.export_robot(cdpr.Robot.from_file("cogiro"), [0, 0, 50], "mjcf")
+    with pytest.raises(cdpr.FileError, match="expected a folder with the XML files"):
+        (tmp_path / "empty").mkdir()
+        cdpr.exchange.import_robot(tmp_path / "empty")
+
+
+def test_the_library_is_that_of_the_program():
+    listed = answer("robots")
+    assert cdpr.exchange.robots() == [robot["name"] for robot in listed]
+    assert cdpr.exchange.cables() == [cable["name"] for cable in answer("robots", "--cables")]

@@ -375,6 +375,9 @@ def answers(robot):
         yield robot.derivatives(poses, payload=50)
         yield robot.capacity(poses, payload=50, tilt=2)
     yield robot.direct([LENGTHS, LENGTHS], force=[20, 0, -30])
+    for lengths in (LENGTHS, [LENGTHS, LENGTHS]):
+        yield robot.certify(lengths)
+    yield robot.path(far, payload=50)
     yield robot.observe(POSE, numpy.zeros((2, 62)), payload=50)
     yield robot.workspace(x=(-9, 0, 2), y=0, z=1.75, payload=50, uncertainty={"a": 0.002})
     laws = {"x": uniform(0, 1), "y": normal(2, 1)}
@@ -387,7 +390,8 @@ def answers(robot):
 
 
 def fields(answer):
-    return {name: getattr(answer, name) for name in dir(answer) if not name.startswith("_")}
+    named = {name: getattr(answer, name) for name in dir(answer) if not name.startswith("_")}
+    return {name: value for name, value in named.items() if not callable(value)}
 
 
 def check_same(one, other):
@@ -407,11 +411,15 @@ def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
         classes.add(type(answer).__name__)
         check_same(answer, pickle.loads(pickle.dumps(answer)))
         check_same(answer, copy.deepcopy(answer))
-        assert repr(answer).startswith(f"<{type(answer).__module__}.{type(answer).__name__} ")
+        public = type(answer).__module__.removesuffix(".estimates")
+        assert repr(answer).startswith(f"<{public}.{type(answer).__name__} ")
         assert len(repr(answer)) < 400
     assert classes == {"Capacity", "Catenary", "InverseSolution", "Deflection", "Stiffness", "Derivatives",
                        "DirectSolution", "Observations", "Workspace", "Effects", "SobolIndices",
-                       "MorrisEffects"}
+                       "MorrisEffects", "Certificate", "PathStates"}
+    one = caroca.deflection(POSE, payload=50)
+    numbers = ", ".join(f"{value:.6g}" for value in one.displacement)
+    assert f"displacement [{numbers}], rms {one.rms:.6g}, " in repr(one)
     found = caroca.deflection([POSE, POSE], payload=50)
     assert repr(found) == (
         "<cdpr.Deflection displacement (2, 3), rms (2,), rotation (2, 3), lengths (2, 8), "
@@ -419,6 +427,23 @@ def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
     )
     with pytest.raises(TypeError, match="missing"):
         cdpr.Deflection(1, 2)
+
+
+def test_answers_are_frames_of_pandas_with_a_row_for_each_case(caroca):
+    pytest.importorskip("pandas", reason="pandas is not installed")
+    for answer in answers(caroca):
+        frame = answer.to_dataframe()
+        assert len(frame.columns) >= 1 and len(frame) >= 1, answer
+    far = [POSE, [9.0, 0.0, 1.75]]
+    found = caroca.derivatives(far, payload=50)
+    frame = found.to_dataframe()
+    numpy.testing.assert_array_equal(frame["rms/a1.x"], found.rms[:, found.inputs.index("a1.x")])
+    numpy.testing.assert_array_equal(frame["lengths_8/mass"], found.lengths[:, 7, found.inputs.index("mass")])
+    assert list(frame["kinds"]) == found.kinds and numpy.isnan(frame["rms/a1.x"][1])
+    assert caroca.inverse(POSE).to_dataframe()["tensions_3"][0] == caroca.inverse(POSE).tensions[2]
+    plane = caroca.workspace(plane=("z", 1.75), grid=(3, 3), payload=50)
+    frame = plane.to_dataframe()
+    assert list(frame["status"]) == plane.status and list(frame["positions_2"]) == list(plane.positions[:, 1])
 
 
 def test_answers_come_back_from_a_process_pool(caroca):

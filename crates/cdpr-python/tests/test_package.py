@@ -1,5 +1,7 @@
 """The package itself: documentation, examples, import, threads."""
 
+import doctest
+import importlib
 import os
 import re
 import runpy
@@ -8,10 +10,11 @@ import subprocess
 import sys
 import threading
 import time
+from importlib.metadata import files, metadata
 from pathlib import Path
 
 import pytest
-from conftest import ROOT
+from conftest import ROOT, command
 
 import cdpr
 
@@ -39,6 +42,28 @@ def test_the_code_of_the_book_runs(tmp_path):
     python("\n".join(blocks), tmp_path)
 
 
+def test_the_book_says_what_every_command_of_the_program_is_called_in_python():
+    text = (ROOT / "docs" / "python.md").read_text()
+    table = re.search(r"## What the program does\n(.*?)\n## ", text, re.DOTALL).group(1)
+    left = "".join(row.split(" | ")[0] for row in table.splitlines() if row.startswith("| `"))
+    commands = re.search(r"Commands:\n(.*?)\n\n", command("--help").stdout, re.DOTALL).group(1)
+    names = set(re.findall(r"^  (\S+)", commands, re.MULTILINE)) - {"help"}
+    assert len(names) > 20
+    assert not [name for name in names if not re.search(rf"`{name}[` ]", left)]
+    for name in re.findall(r"`(cdpr\.[a-z_.]+)", table):
+        of = cdpr
+        for part in name.split(".")[1:]:
+            of = getattr(of, part)
+
+
+def test_the_stubs_have_the_documentation_of_what_they_describe():
+    stubs = runpy.run_path(str(HERE / "stubs.py"))
+    text = stubs["STUBS"].read_text()
+    assert text == stubs["documented"](cdpr._core, text)
+    for method in ("direct", "certify", "path"):
+        assert getattr(cdpr.Robot, method).__doc__.splitlines()[0] in text
+
+
 def test_the_octave_code_of_the_book_is_the_file_that_octave_runs():
     text = (ROOT / "docs" / "python.md").read_text()
     code = re.search(r"```matlab\n(.*?)```", text, re.DOTALL).group(1)
@@ -57,7 +82,9 @@ def test_an_example_draws_a_figure(name, tmp_path, monkeypatch, caroca_file):
 
 
 def test_everything_public_is_documented():
-    for module in (cdpr, cdpr.sensitivity, cdpr.study, cdpr.errors):
+    for module in (
+        cdpr, cdpr.analysis, cdpr.assess, cdpr.calibration, cdpr.exchange, cdpr.sensitivity, cdpr.study, cdpr.errors
+    ):
         for name in getattr(module, "__all__", dir(cdpr.errors)):
             if not name.startswith("_") and name not in ("annotations", "Law"):
                 assert getattr(module, name).__doc__, name
@@ -65,6 +92,23 @@ def test_everything_public_is_documented():
         if not name.startswith("_"):
             assert getattr(cdpr.Robot, name).__doc__, name
     assert "[m], (3,)" in cdpr.DirectSolution.position.__doc__
+
+
+@pytest.mark.parametrize("name", ["analysis", "assess", "exchange", "sensitivity", "sensitivity.inputs"])
+def test_the_examples_of_a_module_print_what_they_say(name):
+    module = importlib.import_module(f"cdpr.{name}")
+    found = doctest.testmod(module)
+    assert found.attempted > 0 and found.failed == 0
+
+
+def test_the_wheel_says_what_an_index_asks_for():
+    about = metadata("cdpr")
+    assert about["Version"] == cdpr.__version__ and about["License-Expression"] == "MIT OR Apache-2.0"
+    assert about["Requires-Python"] == ">=3.10" and about["Description-Content-Type"].startswith("text/markdown")
+    assert (HERE / "README.md").read_text() in about.get_payload()
+    assert "Typing :: Typed" in about.get_all("Classifier")
+    names = {file.name for file in files("cdpr")}
+    assert {"py.typed", "_core.pyi", "LICENSE-MIT", "LICENSE-APACHE"} <= names
 
 
 def test_the_import_leaves_numpy_to_whoever_uses_it():

@@ -86,7 +86,7 @@ pub use given::{
 };
 pub use indexmap::IndexMap;
 pub use kind::InputKind;
-pub use model::cable_law::open_law;
+pub use model::cable_law::{elastic_laws, open_law};
 pub use model::error_model::{ErrorModel, Term, uncertainties};
 pub use model::errors::open_errors;
 pub use model::grid::{Grid, frame};

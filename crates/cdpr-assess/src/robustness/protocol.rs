@@ -215,6 +215,34 @@ impl Protocol {
     }
 }
 
+/// Both protocols for a robot: that of Mahnke and Caverly, with another modulus [Pa] if there is one, and the
+/// thirty poses. In the room of another robot than CoGiRo, or in a region that is given, their distances
+/// change with its size.
+pub fn protocols(
+    robot: &Robot,
+    poses: usize,
+    modulus: Option<f64>,
+    region: Option<PoseRegion>,
+    free: &[Coordinate],
+    seed: u64,
+) -> [Protocol; 2] {
+    let room = match region {
+        None if robot.name == "CoGiRo" => None,
+        None => Some(PoseRegion::of(robot)),
+        given => given,
+    };
+    let own = |protocol: Protocol| Protocol {
+        free: free.to_vec(),
+        ..match room {
+            Some(room) => protocol.in_region(room),
+            None => protocol,
+        }
+    };
+    let first = own(Protocol::mahnke_caverly(poses, seed));
+    let youngs_modulus = modulus.or(first.youngs_modulus);
+    [Protocol { youngs_modulus, ..first }, own(Protocol::thirty_poses(seed))]
+}
+
 impl PoseRegion {
     /// Nearly all of the room inside of CoGiRo's frame, with rotations up to 30 degrees.
     pub fn cogiro() -> Self {

@@ -6,9 +6,9 @@ use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use crate::poses::{self, Angles};
 use cdpr_report::{Cycle, CycleBranch, cycle};
-use cdpr_robot::{PiecewiseLaw, Pose, Robot, RobotCable, Segment};
+use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
-use cdpr_study::{CableLaw, open_law, open_record, write_text};
+use cdpr_study::{CableLaw, elastic_laws, open_law, open_record, write_text};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -113,7 +113,7 @@ fn laws(robot: &Robot, settings: &Settings) -> Result<Vec<HysteresisLaw>, Progra
     let law = match (&settings.record, &settings.length, &settings.law) {
         (Some(record), Some(length), _) => of_record(robot, record, *length, settings.section)?,
         (_, _, Some(law)) => open_law(law)?,
-        _ => return own(robot),
+        _ => return elastic_laws(robot)?.ok_or(ProgramError::NoLaw),
     };
     let from = match settings.unloading {
         Branch::SameTension => Unloading::SameTension,
@@ -139,16 +139,6 @@ fn of_record(
     }
     let law = CableLaw::of_record(&open_record(record)?, length, section.unwrap_or(of_cables));
     law.map_err(ProgramError::in_file(record))
-}
-
-/// The laws of the robot file, by which cables lose no energy.
-fn own(robot: &Robot) -> Result<Vec<HysteresisLaw>, ProgramError> {
-    if robot.is_linear() {
-        return Err(ProgramError::NoLaw);
-    }
-    let linear = PiecewiseLaw::new(0.0, &[Segment { tension: 0.0, ratio: 1.0 }])?;
-    let law = |cable: &RobotCable| cable.properties.law.clone().unwrap_or_else(|| linear.clone());
-    Ok(robot.cables.iter().map(|cable| HysteresisLaw::elastic(law(cable))).collect())
 }
 
 impl Found {

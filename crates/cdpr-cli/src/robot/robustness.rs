@@ -4,10 +4,10 @@ use crate::arguments::{self, Format, FreeArguments, Preference};
 use crate::error::ProgramError;
 use crate::output::{drawn, progress, table};
 use cdpr_assess::{
-    PoseRegion, Protocol, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, begin_robustness,
+    PoseRegion, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, begin_robustness, protocols,
     run_robustness, write_robustness,
 };
-use cdpr_robot::{Robot, rounded, shown};
+use cdpr_robot::{rounded, shown};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -48,7 +48,8 @@ pub(crate) struct Settings {
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let clock = Instant::now();
     let robot = settings.preference.open_robot(&settings.robot)?;
-    let protocols = protocols(&robot, settings);
+    let Settings { poses, modulus, region, free, seed, .. } = settings;
+    let protocols = protocols(&robot, *poses, *modulus, *region, &free.free, *seed);
     for protocol in &protocols {
         protocol.validate()?;
     }
@@ -77,24 +78,6 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         print_results(summary);
         println!("{:.1} s; results in {}", clock.elapsed().as_secs_f64(), settings.out.display());
     })?)
-}
-
-fn protocols(robot: &Robot, settings: &Settings) -> [Protocol; 2] {
-    let room = match &settings.region {
-        None if robot.name == "CoGiRo" => None,
-        None => Some(PoseRegion::of(robot)),
-        given => *given,
-    };
-    let own = |protocol: Protocol| Protocol {
-        free: settings.free.free.clone(),
-        ..match room {
-            Some(room) => protocol.in_region(room),
-            None => protocol,
-        }
-    };
-    let first = own(Protocol::mahnke_caverly(settings.poses, settings.seed));
-    let youngs_modulus = settings.modulus.or(first.youngs_modulus);
-    [Protocol { youngs_modulus, ..first }, own(Protocol::thirty_poses(settings.seed))]
 }
 
 fn print_results(summary: &RobustnessSummary) {

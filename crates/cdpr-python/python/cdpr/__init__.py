@@ -13,18 +13,21 @@ an answer raises.
 1.3312 mm
 """
 
-from . import errors, sensitivity
+from . import errors
 from ._core import (
     VERSION as __version__,
+    Boundary,
     Capacity,
     Catenary,
+    Certificate,
     Deflection,
     Derivatives,
     DirectSolution,
     InverseSolution,
-    Observations,
-    Robot,
     Modes,
+    Observations,
+    PathStates,
+    Robot,
     Stiffness,
     Workspace,
     catenary,
@@ -33,13 +36,15 @@ from .errors import CdprError, FileError, InputError, NoSolutionError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from . import analysis, calibration, study
+    from . import analysis, assess, calibration, exchange, sensitivity, study
     from .analysis import analyse
 
 __all__ = [
+    "Boundary",
     "Capacity",
     "Catenary",
     "CdprError",
+    "Certificate",
     "Deflection",
     "Derivatives",
     "DirectSolution",
@@ -48,6 +53,7 @@ __all__ = [
     "InverseSolution",
     "NoSolutionError",
     "Observations",
+    "PathStates",
     "Robot",
     "Modes",
     "Stiffness",
@@ -55,9 +61,11 @@ __all__ = [
     "__version__",
     "analyse",
     "analysis",
+    "assess",
     "calibration",
     "catenary",
     "errors",
+    "exchange",
     "sensitivity",
     "study",
 ]
@@ -65,7 +73,7 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     # These are loaded when they are first used: the modules that they need take longer than all the rest.
-    if name in ("analysis", "calibration", "study"):
+    if name in ("analysis", "assess", "calibration", "exchange", "sensitivity", "study"):
         import importlib
 
         return importlib.import_module(f"cdpr.{name}")

@@ -1,39 +1,58 @@
 # Types of the native half of the package. `help(cdpr.Robot)` explains each argument and field.
 
 from os import PathLike
+from pathlib import Path
 from typing import Any, Callable, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "Boundary",
     "Capacity",
+    "Certificate",
     "Catenary",
     "Deflection",
     "Derivatives",
     "DirectSolution",
-    "Effects",
     "Expansion",
     "InverseSolution",
-    "MorrisDesign",
-    "MorrisEffects",
-    "Observations",
-    "Robot",
-    "SaltelliDesign",
-    "SobolDesign",
-    "SobolIndices",
     "Modes",
+    "Morris",
+    "Observations",
+    "PathStates",
+    "Robot",
+    "export_robot",
+    "import_robot",
+    "library",
+    "Saltelli",
+    "Sample",
+    "Shapley",
     "Stiffness",
     "VERSION",
     "Workspace",
+    "allocate",
     "analyse",
     "begin",
     "calibrate",
     "calibration_plan",
     "carry_out",
+    "check",
+    "check_file",
+    "hysteresis",
+    "linear_density",
+    "modulus",
+    "robustness",
+    "simulate",
+    "tolerances",
+    "write_report",
     "catenary",
+    "effect_intervals",
     "explorer_parts",
+    "fit_laws",
     "identify",
+    "law_moments",
+    "law_values",
     "make_shard",
     "observations",
     "open_results",
@@ -51,12 +70,37 @@ _Int: TypeAlias = Any
 _Word: TypeAlias = Any
 _Words: TypeAlias = list[str | None] | None
 _Path: TypeAlias = str | PathLike[str]
-_Law: TypeAlias = dict[str, dict[str, float]]
+_Law: TypeAlias = dict[str, Any]
 #: A coordinate [m], or from, to and the number of points.
 _Places: TypeAlias = float | tuple[float, float, int] | NDArray[Any]
 
 @final
 class Robot:
+    """A cable-driven parallel robot with n cables.
+
+    A robot does not change: `with_parameters` makes another one. Units are SI, and z points up in the base
+    frame. A pose is x, y, z [m], or x, y, z, qw, qx, qy, qz.
+
+    anchor_points: (n, 3), points A_i in the platform frame [m].
+    exit_points: (n, 3), points B_i in the base frame [m].
+    mass: mass of the platform [kg].
+    section: section that carries the tension [m²]; one number, or one for each cable, as for the next two.
+    linear_density: mass per unstrained length [kg/m].
+    youngs_modulus: Young's modulus [Pa].
+    tension_limits: least and greatest tension of a cable [N], (2,), or one row for each cable, (n, 2).
+    max_at: the end at which the greatest tension is limited, "anchor", on the platform, or "exit", where the
+        limit is the winch's.
+    tension_reference: tensions that those of the inverse model come as near to as they can: a number for all
+        cables [N], one for each, or "mid", the middle of the limits; the least norm if left out.
+    center_of_mass: centre of mass in the platform frame [m]; P if left out.
+    gravity: acceleration due to gravity [m/s²], a number along -z of the base frame or a vector in it, (3,);
+        9.81 if left out.
+    point: whether the platform is a point mass: its rotation is held.
+    plane: "xy", "xz" or "yz" for a planar robot, whose platform moves in this plane of the base frame.
+
+    Raises InputError naming the field, its value and what would be right.
+    """
+
     def __new__(
         cls,
         anchor_points: ArrayLike,
@@ -76,49 +120,110 @@ class Robot:
         plane: str | None = None,
     ) -> Robot: ...
     @staticmethod
-    def from_file(path: _Path) -> Robot: ...
+    def from_file(path: _Path) -> Robot:
+        """Reads a robot file (`cdpr-robot/1`), or a robot of the library by its name, `cogiro`.
+
+        Raises FileError, and InputError with line, column, field and what would be right.
+        """
     @staticmethod
-    def from_json(text: str) -> Robot: ...
+    def from_json(text: str) -> Robot:
+        """Makes a robot from the text of a robot file."""
     @staticmethod
-    def from_dict(content: dict[str, Any]) -> Robot: ...
-    def to_json(self) -> str: ...
-    def to_dict(self) -> dict[str, Any]: ...
+    def from_dict(content: dict[str, Any]) -> Robot:
+        """Makes a robot from the dictionary that `json.loads` makes of a robot file.
+
+        It may hold numbers and arrays of NumPy.
+        """
+    def to_json(self) -> str:
+        """The robot file as text."""
+    def to_dict(self) -> dict[str, Any]:
+        """The robot file as a dictionary."""
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Name of the robot."""
     @property
-    def cables(self) -> int: ...
+    def cables(self) -> int:
+        """Number of cables n."""
     @property
-    def anchor_points(self) -> _Floats: ...
+    def anchor_points(self) -> _Floats:
+        """Points A_i in the platform frame [m], (n, 3)."""
     @property
-    def exit_points(self) -> _Floats: ...
+    def exit_points(self) -> _Floats:
+        """Points B_i in the base frame [m], (n, 3)."""
     @property
-    def mass(self) -> float: ...
+    def mass(self) -> float:
+        """Mass of the platform [kg]."""
     @property
-    def center_of_mass(self) -> _Floats: ...
+    def center_of_mass(self) -> _Floats:
+        """Centre of mass in the platform frame [m], (3,)."""
     @property
-    def section(self) -> _Floats: ...
+    def section(self) -> _Floats:
+        """Section of each cable that carries its tension [m²], (n,)."""
     @property
-    def linear_density(self) -> _Floats: ...
+    def linear_density(self) -> _Floats:
+        """Mass of each cable per unstrained length [kg/m], (n,)."""
     @property
-    def youngs_modulus(self) -> _Floats: ...
+    def youngs_modulus(self) -> _Floats:
+        """Young's modulus of each cable [Pa], (n,)."""
     @property
-    def tension_limits(self) -> tuple[float, float]: ...
+    def tension_limits(self) -> tuple[float, float]:
+        """Least and greatest tension of a cable that has no limits of its own [N]."""
     @property
-    def cable_limits(self) -> _Floats: ...
+    def cable_limits(self) -> _Floats:
+        """Least and greatest tension of each cable [N], (n, 2)."""
     @property
-    def max_at(self) -> list[str]: ...
+    def max_at(self) -> list[str]:
+        """The end at which the greatest tension of each cable is limited: "anchor" or "exit"."""
     @property
-    def tension_reference(self) -> _Floats: ...
-    def with_tension_reference(self, reference: ArrayLike | str | None) -> Robot: ...
+    def tension_reference(self) -> _Floats:
+        """Tension of each cable that the inverse model comes as near to as it can [N], (n,); zeros for the least
+        norm.
+        """
+    def with_tension_reference(self, reference: ArrayLike | str | None) -> Robot:
+        """Makes a robot whose inverse model prefers other tensions.
+
+        reference: a number for all cables [N], one for each, "mid" for the middle of the limits, or None for
+            the least norm.
+
+        Raises InputError for a negative tension or another number of them than of cables.
+        """
     @property
-    def gravity(self) -> Any: ...
+    def gravity(self) -> Any:
+        """Acceleration due to gravity [m/s²] as it was given: a number along -z of the base frame, or a vector
+        in it, (3,).
+        """
     @property
-    def parameters(self) -> dict[str, float]: ...
-    def with_parameters(self, values: dict[str, float]) -> Robot: ...
+    def parameters(self) -> dict[str, float]:
+        """All parameters that studies know, by name, with their values in SI units.
+
+        They are mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ... (offsets of
+        tension set-points, zero), and where the robot has them r1 ... (radii of pulleys), lead1 ..., tilt1.u,
+        tilt1.v ... (tilts of swivel axes, zero) and gravity.x ... of a vector. All cables share one linear
+        density and one modulus here: the value is the first cable's.
+        """
+    def with_parameters(self, values: dict[str, float]) -> Robot:
+        """Makes a robot with other values of some parameters [SI units]: `{"mass": 185.0, "a1.x": 0.25}`.
+
+        Names are those in `parameters`. `linear_density` and `youngs_modulus` are set for all cables. Offsets
+        dt belong to a set-point and not to a robot: they can only be zero here; `deflection` takes them as
+        `tension_offsets`.
+
+        Raises InputError for a name or value that no such robot has.
+        """
     def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def explore(self, *, state: dict[str, Any] | None = None) -> Any: ...
-    def write_explorer(self, path: _Path) -> None: ...
+    def explore(self, *, state: dict[str, Any] | None = None) -> Any:
+        """Shows the robot in a notebook, where it computes as it is moved: a widget of the package anywidget.
+
+        state: what is shown first, as `Explorer.state` has it.
+        """
+    def write_explorer(self, path: _Path) -> None:
+        """Writes the page of `cdpr explore`: one HTML file on which the robot computes in any browser.
+
+        path: the file; one that exists is written over only if it is such a page.
+
+        Raises FileError.
+        """
     def inverse(
         self,
         pose: ArrayLike,
@@ -129,7 +234,26 @@ class Robot:
         reference: ArrayLike | None = None,
         path: bool = False,
         free: list[str] | None = None,
-    ) -> InverseSolution: ...
+    ) -> InverseSolution:
+        """Computes the unstrained lengths that hold the platform at a pose under its weight and a load.
+
+        The tensions are those within their limits that come nearest to a reference. Arguments are of one
+        case, or have a first axis of m cases.
+
+        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        force, moment: on the platform in the base frame, about P [N, N m], (3,).
+        payload: mass added at the platform's centre of mass [kg].
+        reference: tensions that the tensions are nearest to [N], (n,), in place of the robot's own
+            `tension_reference`; zeros for the least norm.
+        path: whether the cases are a path, so that each keeps to the branch of tensions of the one before as
+            long as it exists on the straight way between them.
+        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with
+            R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests;
+            limits and reference do not matter.
+
+        Raises InputError; for one case NoSolutionError.
+        """
     def direct(
         self,
         lengths: ArrayLike,
@@ -138,7 +262,18 @@ class Robot:
         moment: ArrayLike | None = None,
         payload: ArrayLike | None = None,
         start: ArrayLike | None = None,
-    ) -> DirectSolution: ...
+    ) -> DirectSolution:
+        """Finds where the platform stands for given unstrained lengths: a stable equilibrium.
+
+        Arguments are of one case, or have a first axis of m cases.
+
+        lengths: unstrained lengths of the cables [m], (n,).
+        force, moment: on the platform in the base frame, about P [N, N m], (3,).
+        payload: mass added at the platform's centre of mass [kg].
+        start: start of the search, (3,) or (7,); if left out, where straight cables would hold a point.
+
+        Raises InputError; for one case NoSolutionError.
+        """
     def deflection(
         self,
         pose: ArrayLike,
@@ -148,7 +283,21 @@ class Robot:
         moment: ArrayLike | None = None,
         tension_offsets: ArrayLike | None = None,
         free: list[str] | None = None,
-    ) -> Deflection: ...
+    ) -> Deflection:
+        """Computes how far a load displaces and rotates the platform.
+
+        The cables are wound so that the platform rests at the pose under its own weight; then the load is
+        added. Arguments are of one case, or have a first axis of m cases.
+
+        pose: wanted pose under the platform's own weight, (3,) or (7,).
+        payload: mass added at the platform's centre of mass [kg].
+        force, moment: on the platform in the base frame, about P [N, N m], (3,).
+        tension_offsets: offsets added to the tension set-points [N], (n,).
+        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Raises InputError; for one case NoSolutionError.
+        """
     def stiffness(
         self,
         pose: ArrayLike,
@@ -157,7 +306,19 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         free: list[str] | None = None,
-    ) -> Stiffness: ...
+    ) -> Stiffness:
+        """Computes the Cartesian stiffness at a pose with a load, including the sag and weight of the cables.
+
+        Arguments are of one case, or have a first axis of m cases.
+
+        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        payload: mass that the platform carries there, at its centre of mass [kg].
+        force, moment: on the platform in the base frame, about P [N, N m], (3,).
+        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Raises InputError; for one case NoSolutionError.
+        """
     def modes(
         self,
         pose: ArrayLike,
@@ -166,7 +327,19 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         free: list[str] | None = None,
-    ) -> Modes: ...
+    ) -> Modes:
+        """Computes the natural frequencies and motions at a pose with a load; the lengths are held.
+
+        Arguments are of one case, or have a first axis of m cases.
+
+        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        payload: mass that the platform carries there, at its centre of mass [kg].
+        force, moment: on the platform in the base frame, about P [N, N m], (3,).
+        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Raises InputError, also where the robot has no inertia; for one case NoSolutionError.
+        """
     def derivatives(
         self,
         pose: ArrayLike,
@@ -175,7 +348,19 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         free: list[str] | None = None,
-    ) -> Derivatives: ...
+    ) -> Derivatives:
+        """Computes the exact derivatives of lengths, tensions and deflection under a load.
+
+        Arguments are of one case, or have a first axis of m cases.
+
+        pose: wanted pose under the platform's own weight, (3,) or (7,).
+        payload: mass added at the platform's centre of mass [kg].
+        force, moment: on the platform in the base frame, about P [N, N m], (3,).
+        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Raises InputError; for one case NoSolutionError, also where a derivative does not exist.
+        """
     def observe(
         self,
         pose: ArrayLike,
@@ -185,7 +370,47 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         free: list[str] | None = None,
-    ) -> Observations: ...
+    ) -> Observations:
+        """Computes the deflections under a load of robots whose k parameters deviate from those of this robot.
+
+        This is what a study observes; each robot has its cables wound for the pose. Several robots go through
+        the vector unit at once: the answers agree with `deflection` to rounding, and each depends on its own
+        row alone.
+
+        pose: wanted pose under the platform's own weight, (3,) or (7,).
+        deviations: deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
+        payload, force, moment: one load for all, as in `deflection`.
+        free: names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
+            one with fewer cables than free motions; deviating robots are wound for the pose that it finds,
+            one at a time.
+
+        Raises InputError; for one robot NoSolutionError.
+        """
+    def boundary(
+        self,
+        *,
+        x: _Places | None = None,
+        y: _Places | None = None,
+        z: _Places | None = None,
+        plane: tuple[str, float] | None = None,
+        grid: tuple[int, int] | None = None,
+        payload: float,
+        way: str = "anew",
+        free: list[str] | None = None,
+    ) -> Boundary:
+        """Finds the boundary of the region that the cables hold under a payload, with the platform level.
+
+        Bisection moves it between the positions of a grid to where it is, so that a coarse grid does; a hole or
+        an island that lies between the positions is not seen.
+
+        x, y, z, plane, grid: as `Robot.workspace` takes them: a plane or a box.
+        payload: mass added at the platform's centre of mass [kg].
+        way: how the load is borne: "anew", the winches distribute the tensions, or "kept", with the lengths.
+        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions.
+
+        Raises InputError.
+        """
     def capacity(
         self,
         pose: ArrayLike,
@@ -196,7 +421,59 @@ class Robot:
         wrenches: ArrayLike | None = None,
         tilt: int = 0,
         free: list[str] | None = None,
-    ) -> Capacity: ...
+    ) -> Capacity:
+        """Finds what the cables can carry at a pose besides the platform, and how far the limits are.
+
+        Arguments are of one case, or have a first axis of m cases.
+
+        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        payload: mass that the platform carries there, at its centre of mass [kg].
+        force, moment: on the platform in the base frame, about P [N, N m], (3,).
+        wrenches: wrenches that may act beside the load, fx to mz about P [N, N m], (k, 6); all poses have the
+            same.
+        tilt: number of azimuths, from x to y, towards which the platform is tilted as far as tensions within
+            the limits hold it; 0 leaves it out.
+        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Raises InputError; for one case NoSolutionError.
+        """
+    def certify(
+        self,
+        lengths: ArrayLike,
+        *,
+        force: ArrayLike | None = None,
+        moment: ArrayLike | None = None,
+        payload: ArrayLike | None = None,
+        start: ArrayLike | None = None,
+    ) -> Certificate:
+        """Proves how close the exact equilibrium is to that of `Robot.direct`, and that it is stable.
+
+        It is for six free motions, plain cables and a level base. Arguments are those of `Robot.direct`.
+
+        Raises InputError; for one case NoSolutionError, of the kind `not_certified` where nothing is proved.
+        """
+    def path(
+        self,
+        poses: ArrayLike,
+        *,
+        payload: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        moment: ArrayLike | None = None,
+        uncertainty: dict[str, float] | None = None,
+    ) -> PathStates:
+        """Follows a path of poses, as `cdpr path` does.
+
+        Strongly sagging cables may hold a pose with several sets of tensions. Along a path each pose keeps to
+        the set of the pose before, as long as it exists. A pose without an answer is left out of the path.
+
+        poses: x, y, z [m], or x, y, z, qw, qx, qy, qz, (m, 3) or (m, 7).
+        payload: mass that the platform carries, at its centre of mass [kg].
+        force, moment: on the platform in the base frame, about P [N, N m], (3,).
+        uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+
+        Raises InputError.
+        """
     def workspace(
         self,
         *,
@@ -208,283 +485,686 @@ class Robot:
         payload: float,
         uncertainty: dict[str, float] | None = None,
         free: list[str] | None = None,
-    ) -> Workspace: ...
+    ) -> Workspace:
+        """Finds where the cables hold the platform under a payload, and how far it gives there.
+
+        Positions are on a grid, with the platform level.
+
+        x, y, z: coordinates along each axis [m]: a number, or (from, to, points).
+        plane: in place of x, y and z, a plane over the frame of the exit points, ("z", 1.75).
+        grid: points of the plane along its two axes; (41, 41) if left out.
+        payload: mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
+        uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Raises InputError. A position that is not held is no error.
+        """
 
 @final
 class Catenary:
+    """Cables in equilibrium, in their vertical planes.
+
+    The exit point is the origin, the anchor point is at (x, z), and z points up.
+
+    The answer is of one cable, or of m: then every field has a first axis of m, with NaN where there is
+    no answer, and `reasons` says why.
+    """
+
     def __new__(cls, *fields: Any) -> Catenary: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
-    def force(self) -> _Floats: ...
+    def force(self) -> _Floats:
+        """Force (fx, fz) on the cable at the anchor point [N], (2,)."""
     @property
-    def anchor_tension(self) -> _Float: ...
+    def anchor_tension(self) -> _Float:
+        """Tension at the anchor point [N]."""
     @property
-    def exit_tension(self) -> _Float: ...
+    def exit_tension(self) -> _Float:
+        """Tension at the exit point [N]."""
     @property
-    def sag(self) -> _Float: ...
+    def sag(self) -> _Float:
+        """Greatest height of the chord above the cable [m]."""
     @property
-    def energy(self) -> _Float: ...
+    def energy(self) -> _Float:
+        """Elastic energy plus potential energy of the weight, zero at the height of the exit point [J]."""
     @property
-    def unstrained_length(self) -> _Float: ...
+    def unstrained_length(self) -> _Float:
+        """Unstrained length [m]."""
     @property
-    def end(self) -> _Floats: ...
+    def end(self) -> _Floats:
+        """Position (x, z) of the anchor point [m], (2,)."""
     @property
-    def residual(self) -> _Float: ...
+    def residual(self) -> _Float:
+        """Closure residual: distance between the given end and that of the catenary [m]."""
     @property
-    def shape(self) -> _Floats: ...
+    def shape(self) -> _Floats:
+        """Points (x, z) from exit to anchor point, at equal unstrained distances [m], (points, 2)."""
     @property
-    def reasons(self) -> _Words: ...
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one; None for one cable."""
     @property
-    def kinds(self) -> _Words: ...
+    def kinds(self) -> _Words:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
 class InverseSolution:
+    """Unstrained lengths that hold poses.
+
+    The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
+    answer, and `reasons` says why.
+    """
+
     def __new__(cls, *fields: Any) -> InverseSolution: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
-    def lengths(self) -> _Floats: ...
+    def lengths(self) -> _Floats:
+        """Unstrained length of each cable [m], (n,)."""
     @property
-    def tensions(self) -> _Floats: ...
+    def tensions(self) -> _Floats:
+        """Tension of each cable at the platform [N], (n,)."""
     @property
-    def exit_tensions(self) -> _Floats: ...
+    def exit_tensions(self) -> _Floats:
+        """Tension of each cable at its exit point [N], (n,)."""
     @property
-    def out_of_limits(self) -> NDArray[np.int8]: ...
+    def out_of_limits(self) -> NDArray[np.int8]:
+        """Whether its tension, at either end, is out of limits: 2 above the breaking force, 1 above the
+        greatest tension, 0 within, (n,).
+        """
     @property
-    def cable_forces(self) -> _Floats: ...
+    def cable_forces(self) -> _Floats:
+        """Force (fx, fz) on each cable at its anchor point, in its vertical plane [N], (n, 2)."""
     @property
-    def active(self) -> NDArray[np.int8]: ...
+    def active(self) -> NDArray[np.int8]:
+        """The bound that each tension rests on: -1 the least, 1 the greatest, 0 none, (n,)."""
     @property
-    def residual(self) -> _Floats: ...
+    def residual(self) -> _Floats:
+        """Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,)."""
     @property
-    def iterations(self) -> _Int: ...
+    def iterations(self) -> _Int:
+        """Iterations of distribution and Newton's method; 0 where there is no answer."""
     @property
-    def jump(self) -> NDArray[np.bool_] | bool | None: ...
+    def jump(self) -> NDArray[np.bool_] | bool | None:
+        """Where the lengths may jump, because the branch of the pose before ends; only along a path, ()."""
     @property
-    def pose(self) -> _Floats: ...
+    def pose(self) -> _Floats:
+        """Pose at which the platform rests, (7,): the given one but for `free` coordinates."""
     @property
-    def stable(self) -> NDArray[np.bool_] | bool | None: ...
+    def stable(self) -> NDArray[np.bool_] | bool | None:
+        """Whether the platform stays there with these lengths; only with `free` coordinates."""
     @property
-    def others(self) -> list[Any] | None: ...
+    def others(self) -> list[Any] | None:
+        """Further solutions with `free` coordinates, stable ones first: a list of dicts of pose, lengths,
+        tensions and stable, or for m poses a list of m such lists.
+        """
     @property
-    def reasons(self) -> _Words: ...
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words: ...
+    def kinds(self) -> _Words:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
 class DirectSolution:
+    """Stable equilibria of the platform.
+
+    The answer is of one case, or of m: then every field has a first axis of m, with NaN (or False, None)
+    where there is no answer, and `reasons` says why.
+    """
+
     def __new__(cls, *fields: Any) -> DirectSolution: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
-    def position(self) -> _Floats: ...
+    def position(self) -> _Floats:
+        """Position of P in the base frame [m], (3,)."""
     @property
-    def quaternion(self) -> _Floats: ...
+    def quaternion(self) -> _Floats:
+        """Rotation from the platform to the base frame as a unit quaternion (w, x, y, z), w >= 0, (4,)."""
     @property
-    def rotation(self) -> _Floats: ...
+    def rotation(self) -> _Floats:
+        """Rotation from the platform to the base frame as a matrix, (3, 3)."""
     @property
-    def pose(self) -> _Floats: ...
+    def pose(self) -> _Floats:
+        """Position and quaternion, a pose as other calls take it, (7,)."""
     @property
-    def cable_forces(self) -> _Floats: ...
+    def cable_forces(self) -> _Floats:
+        """Force (fx, fz) on each cable at its anchor point, in its vertical plane [N], (n, 2)."""
     @property
-    def tensions(self) -> _Floats: ...
+    def tensions(self) -> _Floats:
+        """Tension of each cable at the platform [N], (n,)."""
     @property
-    def exit_tensions(self) -> _Floats: ...
+    def exit_tensions(self) -> _Floats:
+        """Tension of each cable at its exit point [N], (n,)."""
     @property
-    def out_of_limits(self) -> NDArray[np.int8]: ...
+    def out_of_limits(self) -> NDArray[np.int8]:
+        """Whether its tension, at either end, is out of limits: 2 above the breaking force, 1 above the
+        greatest tension, -1 below the least one, 0 within, (n,).
+        """
     @property
-    def stable(self) -> _Bool: ...
+    def stable(self) -> _Bool:
+        """Whether the equilibrium is stable."""
     @property
-    def neutral(self) -> _Floats: ...
+    def neutral(self) -> _Floats:
+        """Motions that nothing resists, a row for each, (6, 6): translation of P and rotation vector; NaN in
+        the rows beyond.
+        """
     @property
-    def least_stiffness(self) -> _Float: ...
+    def least_stiffness(self) -> _Float:
+        """Stiffness of the softest motion that is resisted [N/m]."""
     @property
-    def slack(self) -> NDArray[np.bool_]: ...
+    def slack(self) -> NDArray[np.bool_]:
+        """Whether each cable is longer than the distance of its points, (n,)."""
     @property
-    def residual(self) -> _Floats: ...
+    def residual(self) -> _Floats:
+        """Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,)."""
     @property
-    def method(self) -> _Word: ...
+    def method(self) -> _Word:
+        """Method that found the equilibrium: newton, trust_region or continuation."""
     @property
-    def iterations(self) -> _Int: ...
+    def iterations(self) -> _Int:
+        """Iterations of that method; 0 where there is no answer."""
     @property
-    def reasons(self) -> _Words: ...
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words: ...
+    def kinds(self) -> _Words:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
 class Deflection:
+    """Static deflections.
+
+    The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
+    answer, and `reasons` says why.
+    """
+
     def __new__(cls, *fields: Any) -> Deflection: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
-    def displacement(self) -> _Floats: ...
+    def displacement(self) -> _Floats:
+        """Displacement dp of P, the position with the load minus that without [m], (3,)."""
     @property
-    def rms(self) -> _Float: ...
+    def rms(self) -> _Float:
+        """Norm |dp| of the displacement, the paper's RMS [m]."""
     @property
-    def rotation(self) -> _Floats: ...
+    def rotation(self) -> _Floats:
+        """Rotation vector from the unloaded to the loaded platform, in the base frame [rad], (3,)."""
     @property
-    def lengths(self) -> _Floats: ...
+    def lengths(self) -> _Floats:
+        """Unstrained lengths of the cables [m], (n,)."""
     @property
-    def unloaded(self) -> DirectSolution: ...
+    def unloaded(self) -> DirectSolution:
+        """The platform under its own weight."""
     @property
-    def loaded(self) -> DirectSolution: ...
+    def loaded(self) -> DirectSolution:
+        """The platform with the load added."""
     @property
-    def reasons(self) -> _Words: ...
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words: ...
+    def kinds(self) -> _Words:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
 class Modes:
+    """Natural motions of the platform, of unit mass.
+
+    The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
+    answer, and `reasons` says why.
+    """
+
     def __new__(cls, *fields: Any) -> Modes: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
-    def frequencies_hz(self) -> _Floats: ...
+    def frequencies_hz(self) -> _Floats:
+        """Natural frequencies, ascending [Hz], (6,); of a point mass or a planar robot (3,), here and below."""
     @property
-    def translations(self) -> _Floats: ...
+    def translations(self) -> _Floats:
+        """Translation of P in each motion [1/sqrt(kg)], (6, 3)."""
     @property
-    def rotations(self) -> _Floats: ...
+    def rotations(self) -> _Floats:
+        """Rotation in each motion [rad/(m sqrt(kg))], (6, 3)."""
     @property
-    def cable_shares(self) -> _Floats: ...
+    def cable_shares(self) -> _Floats:
+        """Share of each cable in the energy of each motion, (6, n)."""
     @property
-    def weight_shares(self) -> _Floats: ...
+    def weight_shares(self) -> _Floats:
+        """Share of the weight in the energy of each motion, (6,)."""
     @property
-    def reasons(self) -> _Words: ...
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words: ...
+    def kinds(self) -> _Words:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
 class Capacity:
+    """What can be carried at a pose, for the wrench that leaves the least.
+
+    The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
+    answer, and `reasons` says why. A payload is -inf where a limit is passed even without one. With
+    `anew` the winches distribute the tensions anew, with `kept` the lengths are kept.
+    """
+
     def __new__(cls, *fields: Any) -> Capacity: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
-    def payload_anew(self) -> _Float: ...
+    def payload_anew(self) -> _Float:
+        """Greatest mass at the centre of mass [kg]."""
     @property
-    def payload_kept(self) -> _Float: ...
+    def payload_kept(self) -> _Float:
+        """Greatest mass at the centre of mass until a tension reaches any of its limits [kg]."""
     @property
-    def payload_kept_slack(self) -> _Float: ...
+    def payload_kept_slack(self) -> _Float:
+        """The same, whichever cables become slack [kg]."""
     @property
-    def margin_anew(self) -> _Float: ...
+    def margin_anew(self) -> _Float:
+        """Distance of the tensions from the nearest limit [N]."""
     @property
-    def margin_kept(self) -> _Float: ...
+    def margin_kept(self) -> _Float:
+        """Distance of the tensions from the nearest limit [N]."""
     @property
-    def blocked_by(self) -> list[str] | list[list[str] | None]: ...
+    def blocked_by(self) -> list[str] | list[list[str] | None]:
+        """What blocks each of these five, in words, or why it does not exist; a list of five."""
     @property
-    def nearest_cables(self) -> _Float: ...
+    def nearest_cables(self) -> _Float:
+        """Distance of the surfaces of the nearest two cables [m]."""
     @property
-    def nearest_to_platform(self) -> _Float: ...
+    def nearest_to_platform(self) -> _Float:
+        """Distance of the cable nearest to the platform's hull [m]."""
     @property
-    def tilt(self) -> _Floats: ...
+    def tilt(self) -> _Floats:
+        """How far the platform may tilt towards each azimuth [rad], (tilt,); (0,) if not asked for."""
     @property
-    def reasons(self) -> _Words: ...
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words: ...
+    def kinds(self) -> _Words:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
+
+@final
+class Boundary:
+    """The boundary of the region that the cables hold."""
+
+    def __new__(cls, *fields: Any) -> Boundary: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
+    @property
+    def measure(self) -> float:
+        """Area in a plane [m²], volume in a box [m³]."""
+    @property
+    def error(self) -> float:
+        """Estimate of its error [m², m³]."""
+    @property
+    def polygons(self) -> list[_Floats]:
+        """Closed polygons in a plane, the region on their left [m]: a list of arrays (.., 3)."""
+    @property
+    def triangles(self) -> _Floats:
+        """Triangles in a box, the region behind them [m], (t, 3, 3)."""
+    @property
+    def evaluations(self) -> int:
+        """Number of positions that were asked for."""
+
+@final
+class Certificate:
+    """Bounds on how far the exact equilibrium is from the one that was found, proved by interval arithmetic.
+
+    The answer is of one case, or of m: then every field has a first axis of m, with NaN (or False) where
+    there is no proof, and `reasons` says why.
+    """
+
+    def __new__(cls, *fields: Any) -> Certificate: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
+    @property
+    def pose(self) -> _Floats:
+        """Position and quaternion that were found, (7,)."""
+    @property
+    def position(self) -> _Float:
+        """Bound on the distance of P from there [m]."""
+    @property
+    def rotation(self) -> _Float:
+        """Bound on the angle [rad]."""
+    @property
+    def force(self) -> _Float:
+        """Bound on the error of the force of every cable [N]."""
+    @property
+    def least_stiffness(self) -> _Float:
+        """Lower bound of the stiffness of the softest motion [N/m]."""
+    @property
+    def stable(self) -> _Bool:
+        """Whether the exact equilibrium is proved stable."""
+    @property
+    def reasons(self) -> _Words:
+        """Why there is no proof, None where there is one; None for one case."""
+    @property
+    def kinds(self) -> _Words:
+        """The kind of each failure, in the same form: `not_certified`, ..."""
+
+@final
+class PathStates:
+    """What a robot does at the m poses of a path, NaN where there is no answer, and `reasons` says why.
+
+    The lengths hold each pose under the platform's own weight, on the branch of the pose before; then the
+    load comes onto the platform with the lengths kept.
+    """
+
+    def __new__(cls, *fields: Any) -> PathStates: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
+    @property
+    def jump(self) -> NDArray[np.bool_]:
+        """Where the lengths may jump, (m,)."""
+    @property
+    def lengths(self) -> _Floats:
+        """Unstrained lengths [m], (m, n)."""
+    @property
+    def tensions(self) -> _Floats:
+        """Tensions at the platform without the load [N], (m, n)."""
+    @property
+    def exit_tensions(self) -> _Floats:
+        """Tensions at the exit points without the load [N], (m, n)."""
+    @property
+    def sags(self) -> _Floats:
+        """Greatest distance of each cable across its chord without the load [m], (m, n)."""
+    @property
+    def displacement(self) -> _Floats:
+        """Displacement of P by the load [m], (m, 3)."""
+    @property
+    def rms(self) -> _Floats:
+        """Its length [m], (m,)."""
+    @property
+    def least_stiffness(self) -> _Floats:
+        """Stiffness of the softest motion with the load [N/m], (m,)."""
+    @property
+    def lowest_frequency(self) -> _Floats:
+        """Lowest natural frequency with the load [Hz], (m,); NaN for a robot without `inertia`."""
+    @property
+    def std(self) -> dict[str, _Floats] | None:
+        """Standard deviations of lengths, tensions, displacement, rms, least stiffness and lowest frequency
+        by their names; NaN where there are no derivatives. None without an uncertainty.
+        """
+    @property
+    def loaded(self) -> DirectSolution:
+        """The equilibria with the load."""
+    @property
+    def reasons(self) -> list[str | None]:
+        """Why there is no answer, None where there is one, (m,)."""
+    @property
+    def kinds(self) -> list[str | None]:
+        """The kind of each failure: `infeasible_tension`, ..."""
 
 @final
 class Stiffness:
+    """Cartesian stiffness.
+
+    The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
+    answer, and `reasons` says why.
+    """
+
     def __new__(cls, *fields: Any) -> Stiffness: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
-    def matrix(self) -> _Floats: ...
+    def matrix(self) -> _Floats:
+        """Stiffness K in (dp, dphi), in the base frame about P [N/m, N/rad, N, N m/rad], (6, 6).
+
+        It is the true tangent of the balance, with rotations R <- exp(dphi) R, and not symmetric under a
+        moment.
+        """
     @property
-    def symmetric_part(self) -> _Floats: ...
+    def symmetric_part(self) -> _Floats:
+        """Symmetric part of K, (6, 6)."""
     @property
-    def eigenvalues(self) -> _Floats: ...
+    def eigenvalues(self) -> _Floats:
+        """Eigenvalues of the symmetric part of the stiffness in (dp, characteristic_length dphi), from the
+        softest motion [N/m], (6,); of a point mass or a planar robot (3,), here and below. Motions that
+        nothing resists are left out, and the last numbers are NaN.
+        """
     @property
-    def translations(self) -> _Floats: ...
+    def translations(self) -> _Floats:
+        """Translation of P in each of these motions [m/m], (6, 3)."""
     @property
-    def rotations(self) -> _Floats: ...
+    def rotations(self) -> _Floats:
+        """Rotation in each of these motions [rad/m], (6, 3)."""
     @property
-    def least_stiffness(self) -> _Float: ...
+    def least_stiffness(self) -> _Float:
+        """Stiffness of the softest motion [N/m]."""
     @property
-    def stable(self) -> _Bool: ...
+    def stable(self) -> _Bool:
+        """Whether the equilibrium is stable."""
     @property
-    def characteristic_length(self) -> _Float: ...
+    def characteristic_length(self) -> _Float:
+        """Characteristic length, which makes rotations comparable with translations [m]."""
     @property
-    def reasons(self) -> _Words: ...
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words: ...
+    def kinds(self) -> _Words:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
 class Derivatives:
+    """A deflection with its exact derivatives, per SI unit of the k inputs.
+
+    Where a cable leaves a bound on one side of an input only, the derivatives as the input falls (left)
+    and as it grows (right) differ: `one_sided` says where. Fields without `right` in their name are left
+    ones.
+
+    The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
+    answer, and `reasons` says why.
+    """
+
     def __new__(cls, *fields: Any) -> Derivatives: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
-    def inputs(self) -> list[str]: ...
+    def inputs(self) -> list[str]:
+        """Names of the k inputs: the parameters of the robot, `payload`, and the wanted pose.
+
+        The inputs of the pose are `x`, `y`, `z` [m] and `rx`, `ry`, `rz` [rad].
+        """
     @property
-    def one_sided(self) -> NDArray[np.bool_]: ...
+    def one_sided(self) -> NDArray[np.bool_]:
+        """Inputs whose left and right derivatives differ, (k,)."""
     @property
-    def rms(self) -> _Floats: ...
+    def rms(self) -> _Floats:
+        """Derivatives of |dp| [m per unit], (k,)."""
     @property
-    def displacement(self) -> _Floats: ...
+    def displacement(self) -> _Floats:
+        """Derivatives of dp [m per unit], (3, k)."""
     @property
-    def lengths(self) -> _Floats: ...
+    def lengths(self) -> _Floats:
+        """Derivatives of the unstrained lengths [m per unit], (n, k)."""
     @property
-    def set_points(self) -> _Floats: ...
+    def set_points(self) -> _Floats:
+        """Derivatives of the tension set-points [N per unit], (n, k)."""
     @property
-    def tensions(self) -> _Floats: ...
+    def tensions(self) -> _Floats:
+        """Derivatives of the tensions with the load [N per unit], (n, k)."""
     @property
-    def least_stiffness(self) -> _Floats: ...
+    def least_stiffness(self) -> _Floats:
+        """Derivatives of the lowest stiffness with the load [N/m per unit], (k,); NaN where two motions have
+        it.
+        """
     @property
-    def frequency(self) -> _Floats: ...
+    def frequency(self) -> _Floats:
+        """Derivatives of the lowest natural frequency with the load [Hz per unit], (k,); NaN where two
+        motions have it, and without inertia of the platform.
+        """
     @property
-    def rms_right(self) -> _Floats: ...
+    def rms_right(self) -> _Floats:
+        """Right derivatives of |dp| [m per unit], (k,)."""
     @property
-    def displacement_right(self) -> _Floats: ...
+    def displacement_right(self) -> _Floats:
+        """Right derivatives of dp [m per unit], (3, k)."""
     @property
-    def lengths_right(self) -> _Floats: ...
+    def lengths_right(self) -> _Floats:
+        """Right derivatives of the unstrained lengths [m per unit], (n, k)."""
     @property
-    def set_points_right(self) -> _Floats: ...
+    def set_points_right(self) -> _Floats:
+        """Right derivatives of the tension set-points [N per unit], (n, k)."""
     @property
-    def tensions_right(self) -> _Floats: ...
+    def tensions_right(self) -> _Floats:
+        """Right derivatives of the tensions with the load [N per unit], (n, k)."""
     @property
-    def least_stiffness_right(self) -> _Floats: ...
+    def least_stiffness_right(self) -> _Floats:
+        """Right derivatives of the lowest stiffness [N/m per unit], (k,)."""
     @property
-    def frequency_right(self) -> _Floats: ...
+    def frequency_right(self) -> _Floats:
+        """Right derivatives of the lowest natural frequency [Hz per unit], (k,)."""
     @property
-    def deflection(self) -> Deflection: ...
+    def deflection(self) -> Deflection:
+        """The deflection itself."""
     @property
-    def reasons(self) -> _Words: ...
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words: ...
+    def kinds(self) -> _Words:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
 class Observations:
+    """Deflections of m robots, or of one; NaN where there is no answer, and `reasons` says why."""
+
     def __new__(cls, *fields: Any) -> Observations: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
-    def displacement(self) -> _Floats: ...
+    def displacement(self) -> _Floats:
+        """Displacement dp of P [m], (3,)."""
     @property
-    def rms(self) -> _Float: ...
+    def rms(self) -> _Float:
+        """Norm |dp| of the displacement [m]."""
     @property
-    def reasons(self) -> _Words: ...
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one; None for one robot."""
     @property
-    def kinds(self) -> _Words: ...
+    def kinds(self) -> _Words:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
 class Workspace:
+    """Results at level positions on a grid, x slowest and z fastest; NaN where there is no answer."""
+
     def __new__(cls, *fields: Any) -> Workspace: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `rms/a1.x`.
+        """
     @property
-    def shape(self) -> tuple[int, int, int]: ...
+    def shape(self) -> tuple[int, int, int]:
+        """Number of positions along x, y and z."""
     @property
-    def positions(self) -> _Floats: ...
+    def positions(self) -> _Floats:
+        """Positions of P [m], (m, 3)."""
     @property
-    def status(self) -> list[str]: ...
+    def status(self) -> list[str]:
+        """`held`, `beyond_limits`, or the kind of failure; m of them.
+
+        The lengths are kept under the load. A position is `beyond_limits` where the load takes a tension
+        out of the limits.
+        """
     @property
-    def reasons(self) -> list[str | None]: ...
+    def reasons(self) -> list[str | None]:
+        """Why a position is not held, None where it is; m of them."""
     @property
-    def least_tension(self) -> _Floats: ...
+    def least_tension(self) -> _Floats:
+        """Least tension, without and with the load [N], (m,)."""
     @property
-    def greatest_tension(self) -> _Floats: ...
+    def greatest_tension(self) -> _Floats:
+        """Greatest tension, without and with the load [N], (m,)."""
     @property
-    def displacement(self) -> _Floats: ...
+    def displacement(self) -> _Floats:
+        """Displacement dp of P under the payload [m], (m, 3)."""
     @property
-    def rms(self) -> _Floats: ...
+    def rms(self) -> _Floats:
+        """Norm |dp| of the displacement [m], (m,)."""
     @property
-    def least_stiffness(self) -> _Floats: ...
+    def least_stiffness(self) -> _Floats:
+        """Stiffness of the softest motion with the load [N/m], (m,)."""
     @property
-    def lowest_frequency(self) -> _Floats: ...
+    def lowest_frequency(self) -> _Floats:
+        """Lowest natural frequency with the load [Hz], (m,); NaN for a robot without inertia."""
     @property
-    def dominant(self) -> list[str | None]: ...
+    def dominant(self) -> list[str | None]:
+        """Uncertain parameter with the largest share of the variance of |dp|, or None; m of them."""
     @property
-    def dominant_share(self) -> _Floats: ...
+    def dominant_share(self) -> _Floats:
+        """Share of that parameter, 0 to 1, (m,)."""
     @property
-    def std(self) -> _Floats: ...
+    def std(self) -> _Floats:
+        """Standard deviation of |dp| from all uncertain parameters [m], (m,)."""
     @property
-    def anew_status(self) -> list[str | None]: ...
+    def anew_status(self) -> list[str | None]:
+        """`held` where tensions distributed anew hold the position under the load, or the kind of failure;
+        None without a load; m of them.
+        """
     @property
-    def anew_reasons(self) -> list[str | None]: ...
+    def anew_reasons(self) -> list[str | None]:
+        """Why no tensions distributed anew hold a position, None where they do; m of them."""
     @property
-    def anew_least_tension(self) -> _Floats: ...
+    def anew_least_tension(self) -> _Floats:
+        """Least tension, distributed anew [N], (m,)."""
     @property
-    def anew_greatest_tension(self) -> _Floats: ...
+    def anew_greatest_tension(self) -> _Floats:
+        """Greatest tension, distributed anew [N], (m,)."""
 
 def catenary(
     weight: ArrayLike,
@@ -495,124 +1175,118 @@ def catenary(
     force: ArrayLike | None = None,
     tension: ArrayLike | None = None,
     points: int = 51,
-) -> Catenary: ...
+) -> Catenary:
+    """Computes an elastic cable from two of its unstrained length, end, force and tension.
+
+    Given are `length` and `end`, `length` and `force`, or `end` and `tension`. Arguments are of one cable, or
+    have a first axis of m cables.
+
+    weight: weight per unstrained length [N/m]; 0 makes the cable a straight spring.
+    stiffness: axial stiffness EA [N].
+    length: unstrained length [m].
+    end: position (x, z) of the anchor point [m], (2,); x >= 0, z up.
+    force: force (fx, fz) on the cable at the anchor point [N], (2,).
+    tension: tension at the anchor point [N].
+    points: number of points of `shape`, at least 2.
+
+    Raises InputError; for one cable NoSolutionError.
+    """
+
+#: Inputs: name, law and steps.
+_Inputs: TypeAlias = list[tuple[str, Any, Any]]
+_Groups: TypeAlias = list[tuple[str, list[int]]] | None
+_Matrix: TypeAlias = list[list[float]] | None
+
+# Designs are native halves of the classes of `cdpr.sensitivity`; their estimates are JSON.
 
 @final
-class SobolDesign:
-    def __new__(
-        cls, inputs: dict[str, _Law], points: int, *, first_index: int = 0, seed: int | None = None
-    ) -> SobolDesign: ...
-    def __getnewargs_ex__(self) -> tuple[Any, ...]: ...
-    def rows(self) -> _Floats: ...
-    def effects(self, outputs: ArrayLike) -> Effects: ...
-    def expansion(
-        self, outputs: ArrayLike, *, max_degree: int = 5, norm: float = 1.0, interactions: int = 2
-    ) -> Expansion: ...
+class Sample:
+    """A sample of the joint law of the inputs."""
 
-@final
-class SaltelliDesign:
     def __new__(
         cls,
-        inputs: dict[str, _Law],
-        blocks: int,
-        *,
-        seed: int | None = None,
-        pairs: bool = False,
-        first_index: int = 0,
-    ) -> SaltelliDesign: ...
-    def __getnewargs_ex__(self) -> tuple[Any, ...]: ...
+        kind: str,
+        given: _Inputs,
+        points: int,
+        first_index: int,
+        seed: int | None,
+        correlation: _Matrix,
+    ) -> Sample: ...
+    def size(self) -> int: ...
     def rows(self) -> _Floats: ...
-    def indices(
-        self, outputs: ArrayLike, *, level: float = 0.95, resamples: int = 1000, seed: int | None = None
-    ) -> SobolIndices: ...
+    def effects(self, given: ArrayLike) -> str: ...
+    def regression(self, given: ArrayLike, ranks: bool) -> str: ...
+    def expansion(self, given: ArrayLike, max_degree: int, norm: float, interactions: int) -> Expansion: ...
+    def derivative_measures(self, given: ArrayLike, gradients: ArrayLike, level: float) -> str: ...
+    def brackets(self, given: ArrayLike, gradients: ArrayLike, level: float, seed: int) -> str: ...
+    def active_subspace(
+        self,
+        given: ArrayLike,
+        gradients: ArrayLike,
+        shares: list[float],
+        level: float,
+        resamples: int,
+        seed: int,
+    ) -> tuple[str, list[list[int]]]:
+        """The subspace, and for each share of the sum of eigenvalues the number of directions that have it."""
 
 @final
-class MorrisDesign:
+class Saltelli:
+    """Blocks for Sobol' indices."""
+
     def __new__(
-        cls, inputs: dict[str, _Law], blocks: int, *, seed: int, levels: int | None = None
-    ) -> MorrisDesign: ...
-    def __getnewargs_ex__(self) -> tuple[Any, ...]: ...
+        cls, given: _Inputs, blocks: int, seed: int | None, pairs: bool, first_index: int, grouped: _Groups
+    ) -> Saltelli: ...
+    def size(self) -> int: ...
     def rows(self) -> _Floats: ...
-    def effects(self, outputs: ArrayLike, *, level: float = 0.95) -> MorrisEffects: ...
+    def indices(self, given: ArrayLike, level: float, resamples: int, seed: int) -> str: ...
+    def vector_indices(self, given: ArrayLike, level: float, resamples: int, seed: int) -> str: ...
+    def convergence(self, given: ArrayLike, level: float, resamples: int, seed: int) -> str: ...
 
 @final
-class Effects:
-    def __new__(cls, *fields: Any) -> Effects: ...
-    @property
-    def inputs(self) -> list[str]: ...
-    @property
-    def effect(self) -> _Floats: ...
-    @property
-    def student(self) -> _Floats: ...
-    @property
-    def mean(self) -> float: ...
-    @property
-    def std(self) -> float: ...
-    @property
-    def failed(self) -> int: ...
+class Morris:
+    """Blocks for elementary effects."""
+
+    def __new__(
+        cls, given: _Inputs, blocks: int, seed: int, levels: int | None, grouped: _Groups
+    ) -> Morris: ...
+    def size(self) -> int: ...
+    def rows(self) -> _Floats: ...
+    def effects(self, given: ArrayLike, level: float) -> str: ...
 
 @final
-class SobolIndices:
-    def __new__(cls, *fields: Any) -> SobolIndices: ...
-    @property
-    def inputs(self) -> list[str]: ...
-    @property
-    def first(self) -> _Floats: ...
-    @property
-    def first_interval(self) -> _Floats: ...
-    @property
-    def total(self) -> _Floats: ...
-    @property
-    def total_interval(self) -> _Floats: ...
-    @property
-    def pairs(self) -> list[tuple[str, str]]: ...
-    @property
-    def second(self) -> _Floats: ...
-    @property
-    def second_interval(self) -> _Floats: ...
-    @property
-    def variance(self) -> float: ...
-    @property
-    def blocks(self) -> int: ...
-    @property
-    def failed_blocks(self) -> int: ...
-    @property
-    def input_blocks(self) -> list[int]: ...
-    @property
-    def reliable(self) -> bool: ...
+class Shapley:
+    """Walks for Shapley effects."""
 
-@final
-class MorrisEffects:
-    def __new__(cls, *fields: Any) -> MorrisEffects: ...
-    @property
-    def inputs(self) -> list[str]: ...
-    @property
-    def mean(self) -> _Floats: ...
-    @property
-    def mean_absolute(self) -> _Floats: ...
-    @property
-    def mean_absolute_interval(self) -> _Floats: ...
-    @property
-    def std(self) -> _Floats: ...
+    def __new__(
+        cls, given: _Inputs, walks: int, seed: int, correlation: _Matrix, grouped: _Groups
+    ) -> Shapley: ...
+    def size(self) -> int: ...
+    def rows(self) -> _Floats: ...
+    def effects(self, given: ArrayLike, level: float) -> str: ...
 
 @final
 class Expansion:
-    @property
-    def inputs(self) -> list[str]: ...
-    @property
-    def mean(self) -> float: ...
-    @property
-    def variance(self) -> float: ...
-    @property
-    def degree(self) -> int: ...
-    @property
-    def leave_one_out(self) -> float: ...
-    @property
-    def first(self) -> _Floats: ...
-    @property
-    def total(self) -> _Floats: ...
+    """A sparse polynomial chaos expansion."""
+
+    def __new__(cls, text: str) -> Expansion: ...
+    def __getnewargs__(self) -> tuple[str]: ...
+    def summary(self) -> str:
+        """What it says of the inputs, as JSON."""
+    def group(self, names: list[str]) -> tuple[float, float]:
+        """Shares of a group of inputs: closed and total."""
     def predict(self, rows: ArrayLike) -> _Floats: ...
 
+def effect_intervals(samples: list[Sample], given: list[ArrayLike], level: float) -> str:
+    """Intervals of effects from the outputs of several samples that differ in their seeds, as JSON."""
+def law_values(law: _Law, of: str, values: ArrayLike) -> _Floats:
+    """A function of a law at each value of an array."""
+def law_moments(law: _Law) -> tuple[float, float, float | None]:
+    """Mean, standard deviation and constant of Poincaré's inequality."""
+def fit_laws(values: ArrayLike, family: str | None, resamples: int, seed: int) -> str:
+    """Laws fitted to a sample, of one family or of all that apply, as JSON."""
+def allocate(variances: ArrayLike, costs: ArrayLike, target: float) -> _Floats:
+    """Factors of tolerances that leave a variance at the least cost."""
 def analyse(
     rows: ArrayLike,
     outputs: ArrayLike,
@@ -621,7 +1295,85 @@ def analyse(
     level: float,
     seed: int,
     dependence_rows: int,
-) -> str: ...
+) -> str:
+    """Analyses rows of inputs, (n, k), and their outputs, (n,): the analysis as JSON."""
+def check(robot: Robot) -> str:
+    """What is odd about a robot and yet no error, as JSON."""
+def check_file(path: _Path) -> str:
+    """The same of a robot file, whatever its units."""
+def tolerances(
+    study: _Path,
+    sampling: str,
+    limit_mm: float,
+    of: str,
+    quantile: float,
+    costs: dict[str, float],
+    observations: int,
+    threads: int | None,
+) -> str:
+    """The tolerances to tighten so that an error stays below a limit, as JSON."""
+def robustness(
+    robot: Robot,
+    poses: int,
+    modulus: float | None,
+    region: Any,
+    free: list[str] | None,
+    seed: int,
+    out: _Path | None,
+    progress: Callable[[int, int], object] | None,
+    threads: int | None,
+) -> str:
+    """How often the direct model finds the true pose from a wrong start: `robustness.json`."""
+def hysteresis(
+    robot: Robot,
+    pose: ArrayLike,
+    payload: float,
+    record: _Path | None,
+    length: float | None,
+    section: float | None,
+    law: _Path | None,
+    unloading: str,
+    steps: int,
+    free: list[str] | None,
+) -> str:
+    """A payload that is put on and taken off, in SI units as JSON.
+
+    The cables follow a record (with length and section of its specimen), a law file, or the robot's own laws.
+    """
+def modulus(
+    record: _Path,
+    length: float,
+    section: float,
+    breaking_force: float,
+    ranges: list[tuple[float, float]],
+    force_error: float,
+    elongation_error: float,
+    length_error: float,
+    section_error: float,
+) -> str:
+    """The secant moduli of a record over ranges of load, and the energy of its loop, as JSON."""
+def linear_density(
+    mass: float, length: float, mass_error: float, length_error: float
+) -> tuple[float, float]:
+    """Mass per length of a weighed piece of cable, and its greatest error [kg/m]."""
+def write_report(folder: _Path, out: _Path | None, workspace: _Path | None) -> Path:
+    """Writes the report of a folder of results; returns its path.
+
+    workspace: folder with the boundary of a workspace, which is drawn around the robot.
+    """
+def library() -> tuple[list[str], list[str]]:
+    """Names of the robots and of the cables that come with the package."""
+def import_robot(
+    files: list[str],
+    cable: _Path | None,
+    mass: float | None,
+    center_of_mass: ArrayLike | None,
+    tension_limits: ArrayLike | None,
+    cable_set: str | None,
+) -> tuple[Robot, list[tuple[str, tuple[str, int] | None, str]]]:
+    """A robot of the files of another program, and notes."""
+def export_robot(robot: Robot, pose: ArrayLike, to: str) -> tuple[list[tuple[str, str]], list[str]]:
+    """The files of a robot for another program by the ends of their names, and notes."""
 def begin(
     study: _Path,
     out: _Path,
@@ -630,8 +1382,13 @@ def begin(
     overwrite: bool,
     table: str | None,
     threads: int | None,
-) -> tuple[int, int]: ...
-def make_shard(out: _Path, index: int, count: int, threads: int) -> int: ...
+) -> tuple[int, int]:
+    """Makes the folder of a study, or continues with it; returns the numbers of blocks and observations.
+
+    All settings of the run are checked before anything is removed.
+    """
+def make_shard(out: _Path, index: int, count: int, threads: int) -> int:
+    """Makes the missing blocks of the `index`-th of `count` shards; returns their number of observations."""
 def carry_out(
     out: _Path,
     table: str | None,
@@ -639,12 +1396,24 @@ def carry_out(
     complete: bool,
     all: int,
     progress: Callable[[int, int], object] | None,
-) -> list[str]: ...
+) -> list[str]:
+    """Makes what is missing in the folder, analyses the whole, and writes all results and the report.
+
+    A folder that must be `complete` is refused if blocks are missing. `progress` is called with the
+    observations that are done and `all`.
+    """
 def observations(
     out: _Path, sampling: str
-) -> tuple[list[str], _Floats, list[str], _Floats, list[str | None]]: ...
-def open_results(out: _Path) -> None: ...
-def status(out: _Path) -> str: ...
+) -> tuple[list[str], _Floats, list[str], _Floats, list[str | None]]:
+    """Reads the observations of a sampling in a folder.
+
+    Returns the names of the inputs, their deviations (m, k), the names of the output's columns, their values
+    (m, columns), and the kinds of failure.
+    """
+def open_results(out: _Path) -> None:
+    """Checks that a folder holds results."""
+def status(out: _Path) -> str:
+    """Returns how far the study in a folder is, as `cdpr study status --format json` prints it."""
 def calibrate(
     robot: Robot,
     measurements: _Path,
@@ -662,7 +1431,24 @@ def calibrate(
     only_identifiable: bool,
     folds: int,
     threads: int | None,
-) -> str: ...
+) -> str:
+    """Fits the parameters of a robot to measurements and writes all results; returns `summary.json`."""
+def simulate(
+    robot: Robot,
+    poses: ArrayLike,
+    out: _Path,
+    model: _Path,
+    noise: list[tuple[str, float]],
+    unknown: list[tuple[str, float]],
+    markers: Any,
+    tension_at: str,
+    payload: float,
+    free: list[str] | None,
+    seed: int,
+) -> Robot:
+    """What a campaign would read at poses with a robot that deviates from its file: writes the measurements as CSV
+    and returns the robot as it truly is.
+    """
 def identify(
     robot: Robot,
     poses: ArrayLike,
@@ -670,7 +1456,8 @@ def identify(
     noise: list[tuple[str, float]],
     payload: float,
     free: list[str] | None,
-) -> str: ...
+) -> str:
+    """What measurements at poses tell of uncertain parameters, as JSON."""
 def calibration_plan(
     robot: Robot,
     poses: ArrayLike,
@@ -683,5 +1470,7 @@ def calibration_plan(
     payload: float,
     free: list[str] | None,
     seed: int,
-) -> str: ...
-def explorer_parts() -> dict[str, Any]: ...
+) -> str:
+    """The set of candidate poses that leaves least uncertainty, as JSON."""
+def explorer_parts() -> dict[str, Any]:
+    """The script, the worker, the style and the packed module of the explorer, for its widget."""

@@ -13,12 +13,12 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, Union
 
 import numpy
 
 from ._core import analyse as _analyse
-from .errors import InputError
+from ._table import Column, Interval, Table, by_output
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -28,23 +28,19 @@ if TYPE_CHECKING:
 __all__ = ["Analysis", "analyse"]
 
 
-class Analysis:
+class Analysis(Table):
     """What a table says of one output. `content` holds all of it, as `cdpr analyse --json` prints it.
 
     Arrays have an element for each of the k inputs, NaN where a measure cannot be computed (see `notes`).
     """
 
-    def __init__(self, output: str, content: dict[str, Any], x: NDArray[Any], y: NDArray[Any]) -> None:
+    _drawn = ("dependence",)
+
+    def __init__(self, output: str, content: dict[str, Any], x: NDArray[Any], y: ArrayLike) -> None:
+        super().__init__(content)
         #: Name of the output.
         self.output = output
-        #: Everything, as in `cdpr analyse --json`.
-        self.content = content
         self._x, self._y = x, y
-
-    @property
-    def inputs(self) -> list[str]:
-        """Names of the inputs."""
-        return [of["input"] for of in self.content["inputs"]]
 
     @property
     def summary(self) -> dict[str, float]:
@@ -61,121 +57,42 @@ class Analysis:
         """What was left out, and what is not to be relied on."""
         return list(self.content["notes"])
 
-    def _of(self, *path: str) -> NDArray[Any]:
-        def value(of: Any) -> float:
-            for key in path:
-                of = None if of is None else of[key]
-            return float("nan") if of is None else float(of)
-
-        return numpy.array([value(of) for of in self.content["inputs"]])
-
-    def _interval(self, *path: str) -> NDArray[Any]:
-        return numpy.stack([self._of(*path, end) for end in ("low", "high")], axis=1)
-
-    @property
-    def effect(self) -> NDArray[Any]:
-        """Mean output of the upper half of an input's values less that of the lower half."""
-        return self._of("half", "effect")
-
-    @property
-    def student(self) -> NDArray[Any]:
-        """Student's t of the effect, for independent rows."""
-        return self._of("half", "student")
-
-    @property
-    def standardised(self) -> NDArray[Any]:
-        """Standardised regression coefficients (SRC)."""
-        return self._of("standardised")
-
-    @property
-    def rank_standardised(self) -> NDArray[Any]:
-        """Standardised regression coefficients of ranks (SRRC)."""
-        return self._of("rank_standardised")
-
-    @property
-    def first(self) -> NDArray[Any]:
-        """First-order Sobol' indices by ranks."""
-        return self._of("first", "value")
-
-    @property
-    def first_interval(self) -> NDArray[Any]:
-        """Intervals of these, (k, 2)."""
-        return self._interval("first")
-
-    @property
-    def expansion_first(self) -> NDArray[Any]:
-        """First-order Sobol' indices of the polynomial model."""
-        return self._of("shares", "closed")
-
-    @property
-    def expansion_total(self) -> NDArray[Any]:
-        """Total Sobol' indices of the polynomial model."""
-        return self._of("shares", "total")
-
-    @property
-    def dependence(self) -> NDArray[Any]:
-        """R^2 of the Hilbert-Schmidt independence criterion (HSIC), from 0 to 1."""
-        return self._of("dependence", "r_squared")
-
-    @property
-    def p_value(self) -> NDArray[Any]:
-        """Probability of such a dependence without any."""
-        return self._of("dependence", "p_value")
-
-    @property
-    def pawn(self) -> NDArray[Any]:
-        """PAWN indices: median distances of Kolmogorov and Smirnov."""
-        return self._of("pawn", "median")
-
-    @property
-    def pawn_noise(self) -> NDArray[Any]:
-        """PAWN index that an input without an effect stays below in 95 of 100 tables."""
-        return self._of("pawn", "noise")
-
-    @property
-    def delta(self) -> NDArray[Any]:
-        """Borgonovo's delta."""
-        return self._of("delta", "delta", "value")
-
-    @property
-    def delta_interval(self) -> NDArray[Any]:
-        """Intervals of these, (k, 2)."""
-        return self._interval("delta", "delta")
-
-    @property
-    def delta_noise(self) -> NDArray[Any]:
-        """Delta that an input without an effect stays below in 95 of 100 tables."""
-        return self._of("delta", "noise")
-
-    @property
-    def target(self) -> NDArray[Any]:
-        """Dependence of the failure of the limit on each input, R^2; NaN without a limit."""
-        return self._of("limit", "target", "r_squared")
-
-    @property
-    def target_p_value(self) -> NDArray[Any]:
-        """Probability of such a dependence without any."""
-        return self._of("limit", "target", "p_value")
+    effect = Column("half.effect", "Mean output of the upper half of an input's values less that of the lower half.")
+    student = Column("half.student", "Student's t of the effect, for independent rows.")
+    standardised = Column("standardised", "Standardised regression coefficients (SRC).")
+    rank_standardised = Column("rank_standardised", "Standardised regression coefficients of ranks (SRRC).")
+    first = Column("first.value", "First-order Sobol' indices by ranks.")
+    first_interval = Interval("first", "Intervals of these, (k, 2).")
+    expansion_first = Column("shares.closed", "First-order Sobol' indices of the polynomial model.")
+    expansion_total = Column("shares.total", "Total Sobol' indices of the polynomial model.")
+    dependence = Column(
+        "dependence.r_squared", "R^2 of the Hilbert-Schmidt independence criterion (HSIC), from 0 to 1."
+    )
+    p_value = Column("dependence.p_value", "Probability of such a dependence without any.")
+    pawn = Column("pawn.median", "PAWN indices: median distances of Kolmogorov and Smirnov.")
+    pawn_noise = Column(
+        "pawn.noise", "PAWN index that an input without an effect stays below in 95 of 100 tables."
+    )
+    delta = Column("delta.delta.value", "Borgonovo's delta.")
+    delta_interval = Interval("delta.delta", "Intervals of these, (k, 2).")
+    delta_noise = Column("delta.noise", "Delta that an input without an effect stays below in 95 of 100 tables.")
+    target = Column(
+        "limit.target.r_squared",
+        "Dependence of the failure of the limit on each input, R^2; NaN without a limit.",
+    )
+    target_p_value = Column("limit.target.p_value", "Probability of such a dependence without any.")
 
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each input."""
-        import pandas
-
-        columns = (
-            "effect student standardised rank_standardised first expansion_first expansion_total dependence "
-            "p_value pawn pawn_noise delta delta_noise"
-        ).split()
-        if self.content["limit"] is not None:
-            columns += ["target", "target_p_value"]
-        frame = pandas.DataFrame({name: getattr(self, name) for name in columns}, index=self.inputs)
-        frame.index.name = "input"
-        return frame
+        """Returns a pandas.DataFrame with a row for each input; ends of intervals are `.._low`, `.._high`."""
+        frame = super().to_dataframe()
+        given = self.content["limit"] is not None
+        return frame if given else frame.drop(columns=["target", "target_p_value"])
 
     def plot(self, most: int = 9) -> Any:
         """Draws the output against the leading inputs, and returns the matplotlib Figure."""
         from matplotlib import pyplot
 
-        order = numpy.argsort(-numpy.nan_to_num(self.dependence))[:most]
+        order = self._leading(most)
         columns = min(3, len(order))
         rows = -(-len(order) // columns)
         figure, axes = pyplot.subplots(rows, columns, squeeze=False, sharey=True, layout="constrained")
@@ -190,8 +107,7 @@ class Analysis:
 
     def __repr__(self) -> str:
         of = self.summary
-        order = numpy.argsort(-numpy.nan_to_num(self.dependence))[:3]
-        leading = ", ".join(f"{self.inputs[k][:40]} {self.dependence[k]:.2f}" for k in order)
+        leading = ", ".join(f"{self.inputs[k][:40]} {self.dependence[k]:.2f}" for k in self._leading(3))
         return (
             f"<cdpr.analysis.Analysis of {self.output[:40]}: {of['count']} rows, {of['failed']} failed, "
             f"mean {of['mean']:.4g}, std {of['std']:.4g}; strongest (HSIC R^2): {leading}>"
@@ -200,7 +116,7 @@ class Analysis:
 
 def analyse(
     X: ArrayLike,
-    Y: ArrayLike,
+    Y: Union[ArrayLike, Mapping[str, ArrayLike]],
     names: Sequence[str] | None = None,
     *,
     problem: Mapping[str, Any] | None = None,
@@ -208,11 +124,11 @@ def analyse(
     level: float = 0.95,
     seed: int = 2017,
     dependence_rows: int = 2000,
-) -> Any:
+) -> Annotated[Any, Analysis]:
     """Analyses rows of inputs and their outputs: which inputs matter, and how.
 
     X: values of the inputs, (n, k), or a pandas.DataFrame.
-    Y: outputs, (n,), NaN where a row failed; or several outputs, (n, m) or a pandas.DataFrame.
+    Y: outputs, (n,), NaN where a row failed; or several outputs: a dictionary, a pandas.DataFrame or (n, m).
     names: names of the inputs; those of the DataFrame, of `problem`, or x1, x2, ... if left out.
     problem: SALib's dictionary of a problem, for its `names`.
     limit: what the outputs are to satisfy, such as ("<", 1.4), with <, <=, > or >=.
@@ -225,7 +141,7 @@ def analyse(
 
     Raises InputError.
     """
-    x, y = numpy.asarray(X, dtype=float), numpy.asarray(Y, dtype=float)
+    x = numpy.asarray(X, dtype=float)
     if x.ndim == 1:
         x = x[:, None]
     if names is None and problem is not None:
@@ -234,15 +150,9 @@ def analyse(
         columns = getattr(X, "columns", None)
         names = [f"x{k + 1}" for k in range(x.shape[-1])] if columns is None else list(columns)
     listed = [str(name) for name in names]
-    if y.ndim not in (1, 2):
-        raise InputError(f"Y has the shape {y.shape}: expected (n,) or (n, m)")
 
-    def one(output: str, values: NDArray[Any]) -> Analysis:
+    def one(output: str, values: ArrayLike) -> Analysis:
         text = _analyse(x, values, listed, limit, level, seed, dependence_rows)
         return Analysis(output, json.loads(text), x, values)
 
-    if y.ndim == 1:
-        return one(str(getattr(Y, "name", None) or "y"), y)
-    columns = getattr(Y, "columns", None)
-    outputs = [f"y{k + 1}" for k in range(y.shape[1])] if columns is None else [str(name) for name in columns]
-    return {name: one(name, y[:, k]) for k, name in enumerate(outputs)}
+    return by_output(Y, one)

@@ -26,8 +26,9 @@ from ._core import Robot
 from ._core import calibrate as _calibrate
 from ._core import calibration_plan as _plan
 from ._core import identify as _identify
+from ._core import simulate as _simulate
 
-__all__ = ["calibrate", "calibration_plan", "identify"]
+__all__ = ["calibrate", "calibration_plan", "identify", "simulate"]
 
 _Path = Union[str, "PathLike[str]"]
 
@@ -166,3 +167,48 @@ def calibration_plan(
     )
     found: dict[str, Any] = json.loads(text)
     return found
+
+
+def simulate(
+    robot: Robot,
+    poses: ArrayLike,
+    out: _Path,
+    *,
+    model: _Path,
+    noise: Mapping[str, float],
+    unknown: Mapping[str, float] = {},
+    markers: Sequence[Sequence[float]] = (),
+    tension_at: str = "platform",
+    payload: float = 0.0,
+    free: Optional[Sequence[str]] = None,
+    seed: int = 1,
+) -> Robot:
+    """Write what a campaign would read with a robot that deviates from its file; return that robot.
+
+    robot: the robot as the controller knows it.
+    poses: wanted poses, (m, 3) or (m, 7).
+    out: file for the measurements (CSV), which `calibrate` reads.
+    model: file of an error model with the tolerances, from which the deviations are drawn.
+    noise: standard deviations of the sensors that are there: {"position": 1e-4, "length": 1e-4}.
+    unknown: errors of sensors to draw, with their standard deviations: {"length_offset": 0.01}.
+    markers: places of markers on the platform [m], (k, 3).
+    tension_at: where the load cells sit, "platform" or "winch".
+    payload: mass added at the platform's centre of mass [kg].
+    free: names of the coordinates that are found, for a robot with few cables.
+    seed: of deviations and noise.
+
+    Raises InputError, FileError and NoSolutionError.
+    """
+    return _simulate(
+        robot,
+        poses,
+        out,
+        model,
+        list(noise.items()),
+        list(unknown.items()),
+        [tuple(marker) for marker in markers],
+        tension_at,
+        payload,
+        None if free is None else list(free),
+        seed,
+    )

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Results", "open_results", "run"]
 
+_Path = Union[str, "PathLike[str]"]
+
 #: Columns of tables that hold text.
 _TEXTS = ("sampling", "status", "dominant", "reason")
 
@@ -94,6 +96,16 @@ class Results:
         columns.update(zip(output, cells.T))
         columns["status"] = numpy.array([failure or "ok" for failure in failures])
         return _records(columns)
+
+    def report(self, out: Optional[_Path] = None, *, workspace: Optional[_Path] = None) -> Path:
+        """Writes the report (HTML) anew and returns its path, as `cdpr report` does.
+
+        out: file for the report; `report.html` in the folder if left out.
+        workspace: folder that `cdpr workspace --boundary` has written: its region is drawn around the robot.
+
+        Raises FileError and InputError.
+        """
+        return Path(_core.write_report(self.folder, out, workspace))
 
     def frame(self, sampling: str) -> Any:
         """Returns the observations of a sampling as a `pandas.DataFrame`, with `index` as its index."""

@@ -3,7 +3,7 @@
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::tuple::BoundTupleIterator;
-use pyo3::types::{PyList, PyTuple};
+use pyo3::types::{PyFloat, PyList, PyTuple};
 
 /// Declares a struct as a Python class that is pickled and printed by its fields.
 macro_rules! answer {
@@ -33,6 +33,17 @@ macro_rules! answer {
             fn __repr__(slf: &pyo3::Bound<Self>) -> pyo3::PyResult<String> {
                 $crate::convert::answer::summary(slf.as_any(), &[$(stringify!($field)),*])
             }
+
+            /// Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+            ///
+            /// Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+            /// name: `rms/a1.x`.
+            fn to_dataframe<'py>(
+                slf: &pyo3::Bound<'py, Self>,
+            ) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
+                let table = slf.py().import("cdpr._table")?;
+                table.call_method1("frame_of", (slf, [$(stringify!($field)),*]))
+            }
         }
     };
 }
@@ -53,19 +64,30 @@ pub(crate) fn fields<'py>(answer: &Bound<'py, PyAny>, names: &[&str]) -> PyResul
 
 /// Summarises an answer: `<cdpr.Deflection displacement (40, 3), rms (40,), ..., reasons [40]>`.
 ///
-/// Arrays show their shapes, lists their lengths; fields that are None are left out, and right derivatives, which
+/// Numbers, and vectors of up to three of a single case, show their values, other arrays their shapes, lists
+/// their lengths; fields that are None are left out, and right derivatives, which
 /// are shaped as the left ones.
 pub(crate) fn summary(answer: &Bound<PyAny>, names: &[&str]) -> PyResult<String> {
     let class = answer.get_type();
     let module = class.module()?.to_string();
+    let single = answer.getattr("reasons").is_ok_and(|reasons| reasons.is_none());
     let mut parts = Vec::new();
     for (name, value) in names.iter().zip(fields(answer, names)?) {
         let shown = if value.is_none() || name.ends_with("_right") {
             continue;
         } else if value.get_type().module()? == *module {
             value.get_type().name()?.to_string()
-        } else if let Ok(shape) = value.getattr("shape") {
-            shape.to_string()
+        } else if let Ok(number) = value.cast_exact::<PyFloat>() {
+            shortened(number)?
+        } else if let Ok(shape) = value.getattr("shape").and_then(|shape| shape.extract::<Vec<usize>>()) {
+            match shape[..] {
+                [1..=3] if single => {
+                    let numbers = value.call_method0("tolist")?.try_iter()?;
+                    let shown = numbers.map(|number| shortened(&number?)).collect::<PyResult<Vec<_>>>()?;
+                    format!("[{}]", shown.join(", "))
+                }
+                _ => value.getattr("shape")?.to_string(),
+            }
         } else if let Ok(list) = value.cast::<PyList>() {
             format!("[{}]", list.len())
         } else {
@@ -74,4 +96,13 @@ pub(crate) fn summary(answer: &Bound<PyAny>, names: &[&str]) -> PyResult<String>
         parts.push(format!("{name} {shown}"));
     }
     Ok(format!("<{} {}>", class.fully_qualified_name()?, parts.join(", ")))
+}
+
+/// A number with six digits, or what else stands there.
+fn shortened(number: &Bound<PyAny>) -> PyResult<String> {
+    if number.is_exact_instance_of::<PyFloat>() {
+        number.call_method1("__format__", (".6g",))?.extract()
+    } else {
+        Ok(number.repr()?.to_string())
+    }
 }

@@ -1,7 +1,9 @@
 //! Exceptions: the classes of `cdpr.errors`, with the sentences of the libraries.
 
+use cdpr_assess::AssessError;
 use cdpr_cable::CableError;
 use cdpr_calibration::CalibrationError;
+use cdpr_exchange::ExchangeError;
 use cdpr_robot::RobotError;
 use cdpr_sensitivity::SensitivityError;
 use cdpr_statics::StaticsError;
@@ -130,6 +132,27 @@ impl From<CalibrationError> for Raised {
             error @ CalibrationError::Row { .. } => {
                 Self::NoSolution { kind: error.kind(), message: error.to_string() }
             }
+            error => Self::Input(error.to_string()),
+        }
+    }
+}
+
+impl From<AssessError> for Raised {
+    fn from(error: AssessError) -> Self {
+        match error {
+            AssessError::Study(error) => error.into(),
+            AssessError::Unobservable { .. } => {
+                Self::NoSolution { kind: "unobservable", message: error.to_string() }
+            }
+            error => Self::Input(error.to_string()),
+        }
+    }
+}
+
+impl From<ExchangeError> for Raised {
+    fn from(error: ExchangeError) -> Self {
+        match error {
+            ExchangeError::Pose(error) => error.into(),
             error => Self::Input(error.to_string()),
         }
     }

@@ -91,15 +91,7 @@ impl Robot {
         free: Option<Vec<String>>,
     ) -> Answer<Workspace> {
         let free = coordinates(free)?;
-        let grid = match (x, y, z, plane, grid) {
-            (Some(x), Some(y), Some(z), None, None) => {
-                Grid::new([places("x", &x)?, places("y", &y)?, places("z", &z)?])?
-            }
-            (None, None, None, Some((axis, place)), points) => {
-                Grid::over_frame(&self.robot, normal(&axis)?, place, points.unwrap_or(POINTS).into())?
-            }
-            _ => return Err(Raised::Input("expected x, y and z, or plane with its grid".to_owned())),
-        };
+        let grid = grid_of(&self.robot, x, y, z, plane, grid)?;
         let tolerances = uncertainty.map(|named| tolerances(&self.robot, named)).transpose()?;
         let workspace = cdpr_assess::Workspace {
             robot: &self.robot,
@@ -144,6 +136,26 @@ impl Robot {
     }
 }
 
+/// The positions of a box, or of a plane over the frame of the exit points.
+pub(crate) fn grid_of(
+    robot: &cdpr_robot::Robot,
+    x: Option<Numbers>,
+    y: Option<Numbers>,
+    z: Option<Numbers>,
+    plane: Option<(String, f64)>,
+    grid: Option<(usize, usize)>,
+) -> Answer<Grid> {
+    match (x, y, z, plane, grid) {
+        (Some(x), Some(y), Some(z), None, None) => {
+            Ok(Grid::new([places("x", &x)?, places("y", &y)?, places("z", &z)?])?)
+        }
+        (None, None, None, Some((axis, place)), points) => {
+            Ok(Grid::over_frame(robot, normal(&axis)?, place, points.unwrap_or(POINTS).into())?)
+        }
+        _ => Err(Raised::Input("expected x, y and z, or plane with its grid".to_owned())),
+    }
+}
+
 /// Coordinates along an axis: one, or from, to and their number.
 fn places(name: &str, numbers: &Numbers) -> Answer<GridAxis> {
     let Array { shape, values } = Array::new(name, numbers)?;
@@ -165,7 +177,7 @@ fn normal(axis: &str) -> Answer<Axis> {
 }
 
 /// Normal deviations of the parameters that are named, by themselves or by their group.
-fn tolerances(robot: &cdpr_robot::Robot, named: &Bound<PyDict>) -> Answer<ErrorModel> {
+pub(crate) fn tolerances(robot: &cdpr_robot::Robot, named: &Bound<PyDict>) -> Answer<ErrorModel> {
     let named: Vec<(String, f64)> =
         named.iter().map(|(name, std)| Ok((name.extract()?, std.extract()?))).collect::<PyResult<_>>()?;
     Ok(ErrorModel::normal(robot, &uncertainties(robot, &named)?))

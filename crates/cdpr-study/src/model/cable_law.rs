@@ -6,7 +6,7 @@ use crate::file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve};
 use crate::fs::input::{other_kind, read_text};
 use crate::kind::InputKind;
 use cdpr_cable::{CableError, Phase, PiecewiseLaw, Record, RecordError, TangentModulus};
-use cdpr_robot::{CableProperties, LawSegment, from_json};
+use cdpr_robot::{CableProperties, LawSegment, Robot, RobotCable, Segment, from_json};
 use cdpr_statics::{HysteresisLaw, Unloading};
 use std::path::Path;
 
@@ -78,6 +78,19 @@ impl CableLaw {
             },
         })
     }
+}
+
+/// The laws of the robot's own cables, by which they lose no energy; `None` where no cable has one.
+///
+/// # Errors
+/// Those of [`PiecewiseLaw::new`].
+pub fn elastic_laws(robot: &Robot) -> Result<Option<Vec<HysteresisLaw>>, CableError> {
+    if robot.is_linear() {
+        return Ok(None);
+    }
+    let linear = PiecewiseLaw::new(0.0, &[Segment { tension: 0.0, ratio: 1.0 }])?;
+    let law = |cable: &RobotCable| cable.properties.law.clone().unwrap_or_else(|| linear.clone());
+    Ok(Some(robot.cables.iter().map(|cable| HysteresisLaw::elastic(law(cable))).collect()))
 }
 
 /// Reads and checks a law file.

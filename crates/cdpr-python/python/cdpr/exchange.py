@@ -1,0 +1,120 @@
+"""Robots from and for other programs, and those that come with the package.
+
+>>> import cdpr
+>>> "cogiro" in cdpr.exchange.robots()
+True
+>>> cogiro = cdpr.Robot.from_file("cogiro")
+>>> exported = cdpr.exchange.export_robot(cogiro, [0, 0, 2], to="mjcf")
+>>> exported.text[:7]
+'<mujoco'
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, Optional, Union
+
+from . import _core
+from ._core import Robot
+from .errors import FileError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+__all__ = ["Exported", "Imported", "Note", "cables", "export_robot", "import_robot", "robots"]
+
+_Path = Union[str, "PathLike[str]"]
+
+
+def robots() -> list[str]:
+    """Lists the names of the robots that come with the package, which `Robot.from_file` takes."""
+    return _core.library()[0]
+
+
+def cables() -> list[str]:
+    """Lists the names of the cables that come with the package, which `import_robot` takes."""
+    return _core.library()[1]
+
+
+class Note(NamedTuple):
+    """What to know of an import."""
+
+    #: "assumed", "questioned" or "no place for".
+    kind: str
+    #: File and line, None where it is about no place in a file.
+    place: Optional[tuple[str, int]]
+    #: A sentence.
+    text: str
+
+
+class Imported(NamedTuple):
+    """A robot made of the files of another program."""
+
+    robot: Robot
+    #: What was assumed, what is questioned, what a robot file has no place for.
+    notes: list[Note]
+
+
+def import_robot(
+    files: Union[_Path, Sequence[_Path]],
+    *,
+    cable: Optional[_Path] = None,
+    mass: Optional[float] = None,
+    center_of_mass: Optional[ArrayLike] = None,
+    tension_limits: Optional[ArrayLike] = None,
+    cable_set: Optional[str] = None,
+) -> Imported:
+    """Makes a robot of the files of another program, as `cdpr import` does.
+
+    files: bodies and cables of CASPR or the folder that has them, a .wcrfx file of WireX, YAML of oKermorgant's
+        cdpr, JSON of IRMA, or a table of points (CSV).
+    cable: cable of all cables: a cable file, or a name of `cables()`.
+    mass: mass of the platform [kg], in place of that in the files.
+    center_of_mass: in the platform frame [m], (3,), in place of that in the files.
+    tension_limits: least and greatest tension [N], (2,), in place of those in the files.
+    cable_set: cable set of CASPR; the default one if left out.
+
+    Raises InputError naming file, line and element, or what the files lack; FileError.
+    """
+    given = [files] if isinstance(files, (str, PathLike)) else list(files)
+    paths: list[str] = []
+    for path in map(Path, given):
+        of_folder = sorted(path.glob("*.xml")) if path.is_dir() else [path]
+        if not of_folder:
+            raise FileError(f"files is {path}: expected a folder with the XML files of CASPR")
+        paths += map(fspath, of_folder)
+    robot, notes = _core.import_robot(paths, cable, mass, center_of_mass, tension_limits, cable_set)
+    return Imported(robot, [Note(*note) for note in notes])
+
+
+class Exported(NamedTuple):
+    """A robot in the files of another program."""
+
+    #: Texts by the ends of the files' names: {".xml": ...}.
+    files: dict[str, str]
+    #: What was assumed, and what the format has no place for.
+    notes: list[str]
+
+    @property
+    def text(self) -> str:
+        """The text of the first file."""
+        return next(iter(self.files.values()))
+
+
+def export_robot(robot: Robot, pose: ArrayLike, to: str) -> Exported:
+    """Makes the files of a robot that rests at a pose for another program, as `cdpr export` does.
+
+    robot: a robot without what the format has no place for.
+    pose: (3,) or (7,).
+    to: "mjcf" (MuJoCo), "caspr" or "moorpy".
+
+    >>> import mujoco  # doctest: +SKIP
+    >>> model = mujoco.MjModel.from_xml_string(exported.text)  # doctest: +SKIP
+
+    Raises InputError for what the format has no place for, NoSolutionError where the robot does not hold the
+    pose.
+    """
+    files, notes = _core.export_robot(robot, pose, to)
+    return Exported(dict(files), notes)

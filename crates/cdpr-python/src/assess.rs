@@ -1,0 +1,271 @@
+//! Assessments of a robot and its cables, as the commands `check`, `tolerances`, `robustness`, `hysteresis`,
+//! `modulus` and `linear-density` make them. `assess.py` makes classes of these.
+
+use crate::convert::{Answer, Raised, Rows, run, to_json, watched, whole};
+use crate::robot::Robot;
+use crate::robot::inverse::coordinates;
+use cdpr_assess::{
+    Limit, Limited, PoseRegion, ProtocolSummary, RobustnessSummary, begin_robustness, inspect, protocols,
+    run_robustness, tolerance_budget, write_robustness,
+};
+use cdpr_cable::{Measured, Phase, SecantModulus, Specimen};
+use cdpr_robot::Pose;
+use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+use cdpr_study::{CableLaw, Study, elastic_laws, open_law, open_record, open_robot_in_any_unit};
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What is odd about a robot and yet no error, as JSON.
+#[pyfunction]
+pub(crate) fn check(py: Python, robot: &Robot) -> Answer<String> {
+    to_json(&run(py, |_| inspect(&robot.robot))?)
+}
+
+/// The same of a robot file, whatever its units.
+#[pyfunction]
+pub(crate) fn check_file(py: Python, path: PathBuf) -> Answer<String> {
+    let findings = run(py, |_| open_robot_in_any_unit(&path).map(|robot| inspect(&robot)))?;
+    to_json(&findings?)
+}
+
+/// The tolerances to tighten so that an error stays below a limit, as JSON.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn tolerances(
+    py: Python,
+    study: PathBuf,
+    sampling: &str,
+    limit_mm: f64,
+    of: &str,
+    quantile: f64,
+    costs: BTreeMap<String, f64>,
+    observations: Bound<PyAny>,
+    threads: Option<usize>,
+) -> Answer<String> {
+    let of = match of {
+        "deflection" => Limited::Deflection,
+        "position" => Limited::Position,
+        _ => return Err(Raised::Input(format!("of is {of:?}: expected deflection or position"))),
+    };
+    let verified_with = whole("observations", &observations)?;
+    let limit = Limit { of, limit_mm, quantile, costs: costs.into_iter().collect(), verified_with };
+    watched(
+        py,
+        threads,
+        |_| Ok(()),
+        |_| -> Answer<String> {
+            let study = Study::open(&study)?;
+            let sampling = study.sampling(sampling)?;
+            to_json(&tolerance_budget(&sampling, &limit)?)
+        },
+    )?
+}
+
+/// How often the direct model finds the true pose from a wrong start: `robustness.json`.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn robustness(
+    py: Python,
+    robot: &Robot,
+    poses: Bound<PyAny>,
+    modulus: Option<f64>,
+    region: Option<([f64; 3], [f64; 3])>,
+    free: Option<Vec<String>>,
+    seed: Bound<PyAny>,
+    out: Option<PathBuf>,
+    progress: Option<Py<PyAny>>,
+    threads: Option<usize>,
+) -> Answer<String> {
+    let (robot, free) = (&robot.robot, coordinates(free)?);
+    let max_angle = PoseRegion::of(robot).max_angle;
+    let region = region.map(|(low, high)| PoseRegion { low, high, max_angle });
+    let protocols = protocols(robot, whole("poses", &poses)?, modulus, region, &free, whole("seed", &seed)?);
+    let all: usize = protocols.iter().map(|protocol| protocol.poses + protocol.solves()).sum();
+    let done = AtomicUsize::new(0);
+    let poll = |py: Python| {
+        let done = done.load(Ordering::Relaxed);
+        progress.as_ref().map_or(Ok(()), |call| call.call1(py, (done, all)).map(|_| ()))
+    };
+    watched(py, threads, poll, |_| -> Answer<String> {
+        protocols.iter().try_for_each(cdpr_assess::Protocol::validate)?;
+        let folder = out.as_deref().map(begin_robustness).transpose()?;
+        let tick = || {
+            done.fetch_add(1, Ordering::Relaxed);
+        };
+        let run = |protocol| run_robustness(robot, protocol, &tick);
+        let results = protocols.iter().map(run).collect::<Result<Vec<_>, _>>()?;
+        let summary = RobustnessSummary {
+            robot: robot.name.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            protocols: results
+                .iter()
+                .map(|result| (result.protocol.name.to_owned(), ProtocolSummary::new(result)))
+                .collect(),
+        };
+        if let Some(folder) = folder {
+            let figures = [
+                ("found_poses", cdpr_report::found_poses(&results[0])),
+                ("success_share", cdpr_report::success_share(&summary.protocols[0])),
+            ];
+            // A figure that cannot be drawn is left out, as by the program.
+            let figures: Vec<(String, String)> =
+                figures.into_iter().filter_map(|(name, svg)| Some((name.to_owned(), svg.ok()?))).collect();
+            write_robustness(&folder, &summary, &results, &figures)?;
+        }
+        to_json(&summary)
+    })?
+}
+
+/// A payload that is put on and taken off, in SI units as JSON.
+///
+/// The cables follow a record (with length and section of its specimen), a law file, or the robot's own laws.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn hysteresis(
+    py: Python,
+    robot: &Robot,
+    pose: Bound<PyAny>,
+    payload: f64,
+    record: Option<PathBuf>,
+    length: Option<f64>,
+    section: Option<f64>,
+    law: Option<PathBuf>,
+    unloading: &str,
+    steps: Bound<PyAny>,
+    free: Option<Vec<String>>,
+) -> Answer<String> {
+    let (robot, free) = (&robot.robot, coordinates(free)?);
+    let from = match unloading {
+        "turning-point" => Unloading::TurningPoint,
+        "same-tension" => Unloading::SameTension,
+        _ => {
+            let message = format!("unloading is {unloading:?}: expected turning-point or same-tension");
+            return Err(Raised::Input(message));
+        }
+    };
+    let (pose, steps) = (single(&pose)?, whole("steps", &steps)?);
+    let law = match (record, length, law) {
+        (Some(_), _, Some(_)) => {
+            return Err(Raised::Input("record and law are both given: expected one of them".to_owned()));
+        }
+        (Some(record), Some(length), None) => {
+            let of_cables = robot.cables[0].properties.section;
+            if section.is_none() && robot.cables.iter().any(|of| of.properties.section != of_cables) {
+                let message = "the cables of the robot differ in their section: expected section, that of the \
+                               record's specimen";
+                return Err(Raised::Input(message.to_owned()));
+            }
+            let law = CableLaw::of_record(&open_record(&record)?, length, section.unwrap_or(of_cables));
+            Some(law.map_err(|error| Raised::Input(format!("{}: {error}", record.display())))?)
+        }
+        (Some(_), None, None) => {
+            return Err(Raised::Input(
+                "length is None: expected that of the record's specimen [m]".to_owned(),
+            ));
+        }
+        (None, _, Some(law)) => Some(open_law(&law)?),
+        (None, _, None) => None,
+    };
+    let laws = match law {
+        Some(law) => {
+            let curves = |(i, cable): (usize, &cdpr_robot::RobotCable)| {
+                let curves = law.curves(&cable.properties, from);
+                curves.map_err(|error| Raised::Input(format!("cable {}: {error}", i + 1)))
+            };
+            robot.cables.iter().enumerate().map(curves).collect::<Answer<Vec<HysteresisLaw>>>()?
+        }
+        None => elastic_laws(robot).map_err(|error| Raised::from(&error))?.ok_or_else(|| {
+            let expected = "expected record, law, or a `law` in the robot file";
+            Raised::Input(format!("no cable of the robot has a law: {expected}"))
+        })?,
+    };
+    let cycle = run(py, |_| load_cycle(robot, &laws, &pose, &free, payload, steps))??;
+    to_json(&followed(&cycle))
+}
+
+fn followed(cycle: &LoadCycle) -> Value {
+    let steps: Vec<&CycleStep> = cycle.loading.iter().chain(&cycle.unloading).collect();
+    let position = |step: &&CycleStep| -> [f64; 3] { step.solution.equilibrium.pose.position.into() };
+    json!({
+        "deflection": <[f64; 3]>::from(cycle.deflection()),
+        "residual": <[f64; 3]>::from(cycle.residual()),
+        "payload_work": cycle.payload_work,
+        "dissipated": cycle.dissipated,
+        "middle_tensions": cycle.tensions,
+        "lengths": cycle.lengths,
+        "turn": cycle.loading.len(),
+        "payloads": steps.iter().map(|step| step.payload).collect::<Vec<_>>(),
+        "positions": steps.iter().map(position).collect::<Vec<_>>(),
+        "tensions": steps.iter().map(|step| step.solution.equilibrium.tensions()).collect::<Vec<_>>(),
+    })
+}
+
+/// A pose that stands alone.
+pub(crate) fn single(pose: &Bound<PyAny>) -> Answer<Pose> {
+    let poses = Rows::poses("pose", pose)?;
+    if poses.number() == 1 {
+        Ok(poses.pose(0)?)
+    } else {
+        Err(Raised::Input(format!("pose has {} rows: expected one pose", poses.number())))
+    }
+}
+
+/// The secant moduli of a record over ranges of load, and the energy of its loop, as JSON.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn modulus(
+    record: PathBuf,
+    length: f64,
+    section: f64,
+    breaking_force: f64,
+    ranges: Vec<(f64, f64)>,
+    force_error: f64,
+    elongation_error: f64,
+    length_error: f64,
+    section_error: f64,
+) -> Answer<String> {
+    let record = open_record(&record)?;
+    let specimen = Specimen {
+        breaking_force,
+        section,
+        length,
+        force_error,
+        elongation_error,
+        length_error,
+        section_error,
+    };
+    let range = |(low, high): (f64, f64)| -> Answer<Value> {
+        let of = |phase| record.modulus(&specimen, phase, low, high).map(moduli);
+        let error = |error: cdpr_cable::RecordError| Raised::Input(error.to_string());
+        Ok(json!({
+            "range": format!("{low}-{high} %"),
+            "loading": of(Phase::Loading).map_err(error)?,
+            "unloading": of(Phase::Unloading).map_err(error)?,
+        }))
+    };
+    to_json(&json!({
+        "ranges": ranges.into_iter().map(range).collect::<Answer<Vec<_>>>()?,
+        "dissipated": record.dissipated_energy(),
+    }))
+}
+
+fn moduli(found: SecantModulus) -> Value {
+    json!({ "modulus": found.modulus, "standard": found.standard, "greatest": found.greatest })
+}
+
+/// Mass per length of a weighed piece of cable, and its greatest error [kg/m].
+#[pyfunction]
+pub(crate) fn linear_density(
+    mass: f64,
+    length: f64,
+    mass_error: f64,
+    length_error: f64,
+) -> Answer<(f64, f64)> {
+    let mass = Measured { value: mass, error: mass_error };
+    let found = cdpr_cable::linear_density(mass, Measured { value: length, error: length_error });
+    let found = found.map_err(|error| Raised::from(&error))?;
+    Ok((found.value, found.error))
+}

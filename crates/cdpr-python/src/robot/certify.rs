@@ -1,0 +1,83 @@
+//! `Robot.certify`: proofs of how close the exact equilibrium is.
+
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::robot::Robot;
+use cdpr_statics::{Certificate as Proof, DirectProblem, Start, StaticsError, check_lengths, rough_pose};
+use pyo3::prelude::*;
+
+answer! {
+    /// Bounds on how far the exact equilibrium is from the one that was found, proved by interval arithmetic.
+    ///
+    /// The answer is of one case, or of m: then every field has a first axis of m, with NaN (or False) where
+    /// there is no proof, and `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct Certificate {
+        /// Position and quaternion that were found, (7,).
+        pose: Py<PyAny>,
+        /// Bound on the distance of P from there [m].
+        position: Py<PyAny>,
+        /// Bound on the angle [rad].
+        rotation: Py<PyAny>,
+        /// Bound on the error of the force of every cable [N].
+        force: Py<PyAny>,
+        /// Lower bound of the stiffness of the softest motion [N/m].
+        least_stiffness: Py<PyAny>,
+        /// Whether the exact equilibrium is proved stable.
+        stable: Py<PyAny>,
+        /// Why there is no proof, None where there is one; None for one case.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, in the same form: `not_certified`, ...
+        kinds: Py<PyAny>,
+    }
+}
+
+#[pymethods]
+impl Robot {
+    /// Proves how close the exact equilibrium is to that of `Robot.direct`, and that it is stable.
+    ///
+    /// It is for six free motions, plain cables and a level base. Arguments are those of `Robot.direct`.
+    ///
+    /// Raises InputError; for one case NoSolutionError, of the kind `not_certified` where nothing is proved.
+    #[pyo3(signature = (lengths, *, force=None, moment=None, payload=None, start=None))]
+    fn certify(
+        &self,
+        py: Python,
+        lengths: Numbers,
+        force: Option<Numbers>,
+        moment: Option<Numbers>,
+        payload: Option<Numbers>,
+        start: Option<Numbers>,
+    ) -> Answer<Certificate> {
+        let robot = &self.robot;
+        let lengths = Rows::of_cables("lengths", &lengths, robot.cables.len())?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let start = start.map(|start| Rows::poses("start", &start)).transpose()?;
+        let cases = loads.cases([&lengths].into_iter().chain(&start))?;
+        let one = |case| -> Result<([f64; 7], Proof), StaticsError> {
+            let (lengths, load) = (lengths.row(case), loads.load(case)?);
+            check_lengths(robot, lengths)?;
+            let start = match &start {
+                Some(start) => start.pose(case)?,
+                None => rough_pose(robot, lengths),
+            };
+            let problem = DirectProblem::new(robot, lengths, &load)?;
+            let solution = problem.direct(Start::Pose(&start))?;
+            let mut pose = [0.0; 7];
+            pose[..3].copy_from_slice(solution.equilibrium.pose.position.as_slice());
+            pose[3..].copy_from_slice(&solution.equilibrium.pose.quaternion());
+            Ok((pose, problem.certify(&solution)?))
+        };
+        let outcomes = each(py, cases.count, one)?;
+        let all = Columns::new(py, cases, &outcomes)?;
+        Ok(Certificate {
+            pose: all.vector(|(pose, _)| *pose)?,
+            position: all.number(|(_, proof)| proof.position)?,
+            rotation: all.number(|(_, proof)| proof.rotation)?,
+            force: all.number(|(_, proof)| proof.force)?,
+            least_stiffness: all.number(|(_, proof)| proof.least_stiffness)?,
+            stable: all.array(false, &[], |(_, proof), out| out[0] = proof.is_stable())?,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
+        })
+    }
+}

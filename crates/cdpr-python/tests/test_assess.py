@@ -1,0 +1,235 @@
+"""Certificates and assessments, against the program and against what must hold, on robots that differ."""
+
+import json
+
+import numpy
+import pytest
+from conftest import answer, command, refusal
+
+import cdpr
+from cdpr import assess
+
+ROBOTS = {"cogiro": [0, 0, 2], "caroca": [0, 0, 1.75], "ipanema-3": [0, 0, 1.3], "fast": None, "four-cables": None,
+          "copacabana-handling": None}
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_findings_are_those_of_the_program(name):
+    done = command("check", name, "--format", "json")
+    theirs = json.loads(done.stdout)
+    ours = assess.check(cdpr.Robot.from_file(name))
+    assert [finding._asdict() for finding in ours] == theirs
+    assert assess.check(name) == ours
+    assert (done.returncode == 3) == any(finding.severity == "warning" for finding in ours)
+
+
+def test_a_file_in_other_units_is_checked_all_the_same(caroca, tmp_path):
+    content = caroca.to_dict()
+    content["cable"]["youngs_modulus"] = 100.0  # GPa
+    path = tmp_path / "robot.json"
+    path.write_text(json.dumps(content))
+    with pytest.raises(cdpr.InputError):
+        cdpr.Robot.from_file(path)
+    warned = [finding.field for finding in assess.check(path) if finding.severity == "warning"]
+    assert "cable.youngs_modulus" in warned
+    with pytest.raises(cdpr.FileError):
+        assess.check(tmp_path / "none.json")
+
+
+@pytest.mark.parametrize("name", ["cogiro", "caroca"])
+def test_certificates_are_those_of_the_program(name):
+    robot = cdpr.Robot.from_file(name)
+    lengths = robot.inverse(ROBOTS[name]).lengths
+    given = ",".join(map(repr, lengths.tolist()))
+    theirs = answer("direct", name, "--lengths", given, "--payload", "2", "--certify")["certificate"]
+    found = robot.certify(lengths, payload=2)
+    for field in ("position", "rotation", "force", "least_stiffness", "stable"):
+        assert getattr(found, field) == theirs[field]
+    numpy.testing.assert_array_equal(found.pose, robot.direct(lengths, payload=2).pose)
+    both = robot.certify([lengths, lengths + 1e-4], payload=2)
+    assert both.position.shape == (2,) and both.position[0] == found.position and both.stable.all()
+    assert both.reasons == [None, None]
+
+
+def test_what_cannot_be_certified_says_why():
+    robot = cdpr.Robot.from_file("ipanema-3")  # with pulleys
+    lengths = robot.inverse([0, 0, 1.3]).lengths
+    with pytest.raises(cdpr.NoSolutionError, match="certificates are for plain cables") as raised:
+        robot.certify(lengths)
+    found = robot.certify([lengths, lengths])
+    assert numpy.isnan(found.position).all() and found.kinds == [raised.value.kind] * 2
+
+
+def test_a_budget_of_tolerances_is_that_of_the_program(data):
+    pytest.importorskip("pandas", reason="pandas is not installed")
+    study = data / "studies" / "caroca.json"
+    theirs = answer("tolerances", study, "--sampling", "mechanical", "--limit", "1.4", "--observations", "1000",
+                    "--costs", "mass=2")
+    ours = assess.tolerances(study, "mechanical", 1.4, observations=1000, costs={"mass": 2})
+    assert ours.content == theirs
+    assert ours.names == [tolerance["name"] for tolerance in theirs["tolerances"]]
+    assert ours.tightened["within"]["value"] >= 0.9 and "limit_mm 1.4" in repr(ours)
+    assert list(ours.to_dataframe().index) == ours.names
+    for call, said in (
+        (lambda: assess.tolerances(study, "none", 1.4), "none"),
+        (lambda: assess.tolerances(study, "mechanical", -1.0), "limit"),
+        (lambda: assess.tolerances(study, "mechanical", 1.4, of="x"), "of is \"x\": expected deflection or position"),
+        (lambda: assess.tolerances(study, "mechanical", 1.4, costs={"zzz": 1}), "zzz"),
+    ):
+        with pytest.raises(cdpr.InputError, match=said):
+            call()
+    with pytest.raises(cdpr.InputError, match="expected one that tolerances reach"):
+        assess.tolerances(study, "mechanical", 1.0, observations=1000)
+
+
+@pytest.mark.parametrize("name, free", [("cogiro", None), ("four-cables", ["roll", "pitch"])])
+def test_robustness_is_that_of_the_program(name, free, tmp_path):
+    more = [] if free is None else ["--free", ",".join(free)]
+    theirs = answer("robustness", "--robot", name, "--poses", "5", "--out", tmp_path / "theirs", *more)
+    robot, calls = cdpr.Robot.from_file(name), []
+    ours = assess.robustness(
+        robot, poses=5, free=free, out=tmp_path / "ours", progress=lambda done, of: calls.append(done)
+    )
+
+    def untimed(content):
+        """Without times, which differ from run to run."""
+        if isinstance(content, dict):
+            return {key: untimed(value) for key, value in content.items() if key != "microseconds"}
+        return [untimed(value) for value in content] if isinstance(content, list) else content
+
+    assert untimed(ours.content) == untimed(theirs)
+    assert sorted(path.name for path in (tmp_path / "ours").iterdir()) == sorted(
+        path.name for path in (tmp_path / "theirs").iterdir()
+    )
+    found, all = ours.found("thirty_poses")
+    assert all == 60 and f"thirty_poses {found} of 60" in repr(ours)
+    assert calls == sorted(calls)
+    for call, said in (
+        (lambda: assess.robustness(robot, poses=0), "poses is 0"),
+        (lambda: assess.robustness(robot, poses=5, modulus=-1.0), "youngs_modulus is -1"),
+        (lambda: assess.robustness(robot, poses=5, free=["u"]), "u"),
+    ):
+        with pytest.raises(cdpr.InputError, match=said):
+            call()
+
+
+def test_a_load_cycle_is_that_of_the_program(caroca, caroca_file, data):
+    record = data / "cables" / "caroca-4mm-record.csv"
+    theirs = answer("hysteresis", caroca_file, "--record", record, "--length", "1", "--pose", "0,0,1.75",
+                    "--payload", "50")
+    ours = assess.hysteresis(caroca, [0, 0, 1.75], 50, record=record, length=1)
+    numpy.testing.assert_allclose(1e3 * ours.deflection, theirs["deflection_mm"], rtol=1e-12, atol=1e-15)
+    numpy.testing.assert_allclose(1e3 * ours.residual, theirs["residual_mm"], rtol=1e-12, atol=1e-15)
+    assert ours.payload_work == theirs["payload_work_j"]
+    numpy.testing.assert_array_equal(ours.dissipated, [cable["dissipated_j"] for cable in theirs["cables"]])
+    assert ours.middle_tensions[0, 1] == theirs["cables"][0]["tension_payload_n"]
+    # The work of the payload is the area of the loop of payload and height.
+    way = 9.81 * numpy.trapezoid(ours.payloads, -ours.positions[:, 2])
+    assert ours.payload_work == pytest.approx(way, rel=1e-3)
+    assert ours.payloads.max() == 50 and ours.tensions.shape == (len(ours.payloads), 8)
+    assert "50 kg" in repr(ours)
+    law = data / "cables" / "caroca-4mm-law.json"
+    assert assess.hysteresis(caroca, [0, 0, 1.75], 50, law=law).payload_work > 0
+    own = assess.hysteresis(cdpr.Robot.from_file(data / "robots" / "caroca-law.json"), [0, 0, 1.75], 50)
+    assert abs(own.payload_work) < 1e-6 * 50 * 9.81 and numpy.allclose(own.residual, 0, atol=1e-9)
+    for call, said in (
+        (lambda: assess.hysteresis(caroca, [0, 0, 1.75], 50), "no cable of the robot has a law"),
+        (lambda: assess.hysteresis(caroca, [0, 0, 1.75], 50, record=record), "length is None"),
+        (lambda: assess.hysteresis(caroca, [0, 0, 1.75], 50, record=record, law=law, length=1), "both given"),
+        (lambda: assess.hysteresis(caroca, [0, 0, 1.75], -5, law=law), "payload is -5"),
+        (lambda: assess.hysteresis(caroca, [[0, 0, 1.75]] * 2, 5, law=law), "pose has 2 rows"),
+        (lambda: assess.hysteresis(caroca, [0, 0, 1.75], 5, law=law, unloading="x"), "unloading is \"x\""),
+    ):
+        with pytest.raises(cdpr.InputError, match=said):
+            call()
+
+
+def test_moduli_of_a_record_and_a_weighing_are_those_of_the_program(data):
+    record = data / "cables" / "caroca-4mm-record.csv"
+    theirs = answer("modulus", record, "--breaking-force", "10290", "--section", "1.2566370614e-5", "--length", "1",
+                    "--range", "5-10", "--range", "10-30")
+    known = {"length": 1, "section": 1.2566370614e-5, "breaking_force": 10290}
+    ours = assess.modulus(record, **known, ranges=[(5, 10), (10, 30)])
+    for phase in ("loading", "unloading"):
+        expected = [found[phase]["modulus_gpa"] for found in theirs["ranges"]]
+        numpy.testing.assert_allclose(1e-9 * getattr(ours, phase), expected, rtol=1e-12)
+        expected = [found[phase]["greatest_uncertainty_gpa"] for found in theirs["ranges"]]
+        numpy.testing.assert_allclose(1e-9 * getattr(ours, f"{phase}_greatest"), expected, rtol=1e-12)
+    assert ours.dissipated == theirs["dissipated_energy_j"] and "10-30 %" in repr(ours)
+    with pytest.raises(cdpr.InputError, match="length"):
+        assess.modulus(record, **{**known, "length": 0}, ranges=[(5, 10)])
+    weighed = answer("linear-density", "--mass", "0.203", "--length", "2", "--mass-error", "0.001",
+                     "--length-error", "0.001")
+    assert assess.linear_density(0.203, 2, mass_error=0.001, length_error=0.001) == (
+        weighed["linear_density"], weighed["error"]
+    )
+    with pytest.raises(cdpr.InputError, match="mass = -1|mass is -1"):
+        assess.linear_density(-1, 2)
+
+
+@pytest.mark.parametrize("name, more", [
+    ("caroca", {"a": 0.002, "mass": 0.5}), ("cogiro", {"b": 0.005}), ("segesta", None), ("ipanema-3", {"a": 0.001}),
+])
+def test_a_path_is_that_of_the_program(name, more, tmp_path):
+    robot = cdpr.Robot.from_file(name)
+    middle = {"segesta": 0.5, "ipanema-3": 1.3}.get(name, 1.75)
+    poses = [[x, 0.02, middle] for x in (0.0, 0.05, 0.1)] + [[80.0, 0, middle], [0.1, 0.0, middle]]
+    file = tmp_path / "poses.csv"
+    file.write_text("\n".join(",".join(map(str, pose)) for pose in poses))
+    given = [] if more is None else ["--uncertainty", ",".join(f"{key}={value}" for key, value in more.items())]
+    done = command("path", name, "--poses", file, "--payload", "5", *given, "--format", "json")
+    theirs = [json.loads(line) for line in done.stdout.splitlines()]
+    ours = robot.path(poses, payload=5, uncertainty=more)
+    assert ours.kinds == [pose.get("error", {}).get("kind") for pose in theirs]
+    assert ours.kinds[:3] + ours.kinds[4:] == [None] * 4 and ours.kinds[3] is not None
+    for k, pose in enumerate(theirs):
+        if "error" in pose:
+            assert numpy.isnan(ours.lengths[k]).all()
+            continue
+        for field in ("jump", "lengths", "tensions", "exit_tensions", "sags", "least_stiffness"):
+            numpy.testing.assert_array_equal(getattr(ours, field)[k], pose[field])
+        assert 1e3 * ours.rms[k] == pytest.approx(pose["rms_mm"], rel=1e-12)
+        slack = [cable + 1 for cable in numpy.flatnonzero(ours.loaded.slack[k])]
+        assert slack == pose["slack_cables"]
+        if more is not None:
+            for field, std in pose["standard_deviations"].items():
+                expected = numpy.array(std, dtype=float)  # NaN for None
+                numpy.testing.assert_array_equal(ours.std[field][k], expected)
+    assert (ours.std is None) == (more is None)
+    with pytest.raises(cdpr.InputError, match="expected one load for the whole path"):
+        robot.path(poses, payload=[1, 2, 3, 4, 5])
+
+
+@pytest.mark.parametrize("name, plane, payload, way", [
+    ("cogiro", ("z", 1.5), 100, "anew"), ("caroca", ("z", 1.75), 50, "kept"), ("ipanema-3", ("z", 1.3), 10, "anew"),
+    ("segesta", ("z", 0.5), 1, "anew"),
+])
+def test_a_boundary_is_that_of_the_program(name, plane, payload, way, tmp_path):
+    done = command("workspace", name, "--plane", "{}={}".format(*plane), "--grid", "5x4", "--payload", payload,
+                   f"--boundary={way}", "--out", tmp_path / "theirs")
+    assert done.returncode == 0, done.stderr
+    theirs = json.loads((tmp_path / "theirs" / "workspace.json").read_text())["boundary"]
+    ours = cdpr.Robot.from_file(name).boundary(plane=plane, grid=(5, 4), payload=payload, way=way)
+    numbers = [value for value in theirs.values() if isinstance(value, (int, float))]
+    assert ours.measure in numbers and ours.error in numbers
+    assert ours.triangles.shape == (0, 3, 3)
+    # The area by the polygons, which have the region on their left.
+    area = sum(0.5 * numpy.sum(x * numpy.roll(y, -1) - numpy.roll(x, -1) * y)
+               for x, y in (polygon[:, :2].T for polygon in ours.polygons))
+    assert ours.measure > 0 and area == pytest.approx(ours.measure, rel=0.05, abs=3 * ours.error)
+    with pytest.raises(cdpr.InputError, match='way is "x": expected anew or kept'):
+        cdpr.Robot.from_file(name).boundary(plane=plane, payload=payload, way="x")
+
+
+def test_a_report_is_written_anew(data, tmp_path):
+    results = cdpr.study.run(data / "studies" / "caroca.json", tmp_path / "results", observations=64)
+    before = (tmp_path / "results" / "report.html").read_text()
+    (tmp_path / "results" / "report.html").unlink()
+    assert results.report() == tmp_path / "results" / "report.html"
+    assert (tmp_path / "results" / "report.html").read_text().count("<svg") == before.count("<svg") > 0
+    elsewhere = results.report(tmp_path / "other.html")
+    assert command("report", tmp_path / "results", "--out", tmp_path / "theirs.html").returncode == 0
+    assert elsewhere.read_bytes() == (tmp_path / "theirs.html").read_bytes()
+    with pytest.raises(cdpr.FileError) as raised:
+        cdpr.study.Results(tmp_path).report()
+    assert str(raised.value).startswith(refusal("report", tmp_path).splitlines()[0][:30])
