@@ -42,7 +42,8 @@ pub struct MorrisEffect {
     pub failed: usize,
     /// Mean μ (O2). It says nothing of a group of several inputs.
     pub mean: f64,
-    /// Mean μ* of the absolute values (O2) with Student's interval over the blocks.
+    /// Mean μ* of the absolute values (O2) with its interval over the blocks, whose skewness is removed: absolute values
+    /// of effects that are mostly small have a long tail.
     pub mean_absolute: Estimate,
     /// Standard deviation σ (O2).
     pub std: f64,
@@ -104,7 +105,7 @@ pub fn morris_effects(
             effects: effects.len(),
             failed,
             mean: spread.mean,
-            mean_absolute: Estimate::of_mean(&absolute, level)?,
+            mean_absolute: Estimate::of_skewed_mean(&absolute, level)?,
             std: spread.std(),
         })
     };
