@@ -205,7 +205,9 @@ export class App {
     const side = panels.map((make) => make(this));
     this.slicePanel = side[panels.indexOf(slicePanel)];
     side.splice(-3, 0, this.motions);
-    if (this.embedded && this.element.clientWidth < WHOLE) for (const panel of side) panel.element.open = false;
+    if (this.embedded && this.element.clientWidth < WHOLE) {
+      for (const panel of side) panel.element.open = false;
+    }
     this.panels = [this.stage, figures, this.charts, ...side];
     Object.assign(this, layout(this, { stage: this.stage, figures, charts: this.charts, side }));
     this.element.addEventListener("keydown", this.#keys);

@@ -41,7 +41,9 @@ const packed = (() => {
     try {
       if (typeof WebAssembly === "undefined") throw new Error("this browser has no WebAssembly");
       const id = WebAssembly.validate(new Uint8Array(WITH_LANES)) ? "module" : "module-scalar";
-      if (text(id) === undefined) throw new Error("WebAssembly has no vector unit here; cdpr explore needs none");
+      if (text(id) === undefined) {
+        throw new Error("WebAssembly has no vector unit here; the page of cdpr explore needs none");
+      }
       const [module] = await Promise.all([bytes(id), run("explorer-script")]);
       return cdprExplorer.mount(element, { ...options, module, worker: text("worker") });
     } catch (error) {

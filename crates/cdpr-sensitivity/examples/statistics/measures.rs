@@ -189,8 +189,9 @@ fn carry_out(function: &Function, study: &Study, studies: u64) -> Result<Vec<Val
             "| {} | {name} | {runs} | {studies} | {error:.5} | {held} | {milliseconds:.2} |",
             function.name
         );
+        let held = study.has_interval.then_some([mean, least]);
         json!({"program": "cdpr", "function": function.name, "measure": name, "runs": runs,
-            "studies": studies, "error": error, "held": study.has_interval.then_some([mean, least]), "ms": milliseconds})
+            "studies": studies, "error": error, "held": held, "ms": milliseconds})
     };
     Ok(study.measures.iter().zip(sums).map(row).collect())
 }

@@ -42,8 +42,8 @@ pub struct MorrisEffect {
     pub failed: usize,
     /// Mean μ (O2). It says nothing of a group of several inputs.
     pub mean: f64,
-    /// Mean μ* of the absolute values (O2) with its interval over the blocks, whose skewness is removed: absolute values
-    /// of effects that are mostly small have a long tail.
+    /// Mean μ* of the absolute values (O2) with its interval over the blocks, which allows for their skewness:
+    /// where most effects are small, the law of their absolute values has a long tail.
     pub mean_absolute: Estimate,
     /// Standard deviation σ (O2).
     pub std: f64,

@@ -107,8 +107,8 @@ impl<'a> Observer<'a> {
     ///
     /// An answer depends on its own row alone, to the last digit, and agrees with [`Observer::observe`] to
     /// rounding. Where a robot has several minima of its tensions, `observe` takes the one next to the nominal
-    /// robot's, and this may take the least of all, as [`deflection`] does. [`Observation::scalar`] says which ones were left to it, and why. An incomplete last row is a
-    /// failure.
+    /// robot's, and this may take the least of all, as [`deflection`] does. [`Observation::scalar`] says which
+    /// ones were left to the scalar models, and why. An incomplete last row is a failure.
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Observation, StaticsError>> {
         let rows = deviations.chunks_exact(self.parameters);
         let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
