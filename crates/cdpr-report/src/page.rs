@@ -141,7 +141,7 @@ fn page(results: &Results, sections: &[Section], json: &str) -> Markup {
                         }
                     }
                 }
-                (robot::live(&results.study.robot))
+                (inert(&robot::live(&results.study.robot)))
                 (data(json))
                 (packed("plotly", PLOTLY))
                 (models())
