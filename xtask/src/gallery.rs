@@ -28,9 +28,12 @@ Choose a robot; it computes in the frame below, in this browser and without a co
 explorer](explorer.md) says what one can do with it, and `cdpr explore NAME` writes its page as a file. The pages
 are part of the book that `cargo xtask dist` makes.
 
+";
+
+/// What comes after them.
+const FRAME: &str = "
 <iframe name=\"robot\" src=\"explorer/caroca.html\" title=\"The robot that was chosen\" loading=\"lazy\"
  style=\"width: 100%; height: 85vh; border: 1px solid\"></iframe>
-
 ";
 
 /// Writes the pages and their pictures.
@@ -64,13 +67,12 @@ pictures.
         // Writing to a string cannot fail.
         let _ = writeln!(
             live,
-            "- <a href=\"explorer/{name}.html\" target=\"robot\">{}</a>: {} cables, {} kg",
+            "<a href=\"explorer/{name}.html\" target=\"robot\">{}</a> ({} cables)",
             text(&robot["title"]),
             robot["cables"],
-            robot["mass_kg"],
         );
     }
-    write(&root().join("docs/live.md"), &live)?;
+    write(&root().join("docs/live.md"), &(live + FRAME))?;
     write(&root().join("docs/robots.md"), &page)
 }
 

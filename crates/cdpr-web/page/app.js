@@ -132,8 +132,8 @@ export class App {
 
   /** The tolerance with the largest share of the variance, in words. */
   most() {
-    const { effects, failure } = this.sampling;
-    if (!effects || failure) return null;
+    const { effects, failure, hasEffects } = this.sampling;
+    if (!hasEffects || failure) return null;
     const [top] = shares(effects.inputs, tolerances(this.robot.study));
     return top ? `${entryWords(top.entry)}, ${sharePercent(top.share)}` : null;
   }

@@ -25,7 +25,7 @@ export function affordable(time, rate, most) {
 export class Sampling {
   /** {summary, nominal, failed, milliseconds, coarse, key, observations} of the last observations. */
   sample = null;
-  /** {inputs, confidence, replicates, key} of the last effects. */
+  /** {inputs, confidence, replicates, key, observations} of the last effects, with those of a replicate. */
   effects = null;
   failure = null;
   busy = false;
@@ -51,7 +51,13 @@ export class Sampling {
     const key = JSON.stringify([position, rpy_deg, payload, free, factors, observations, changes, version]);
     if (key === this.#wanted?.key) return;
     this.#wanted = { key, state, since: performance.now() };
+    this.failure = null;
     if (!this.busy) this.#run();
+  }
+
+  /** Whether the effects are of the state on screen. */
+  get hasEffects() {
+    return this.effects !== null && this.effects.key === this.#wanted?.key;
   }
 
   /** Whether what is shown is of the state on screen. */
@@ -102,7 +108,7 @@ export class Sampling {
       milliseconds,
     } = await this.engine.ask("observe", asks);
     if (!this.#take(key, set, first, slow ? milliseconds : milliseconds / 3, true)) return false;
-    if (effects?.ok) this.effects = { ...effects.ok, key };
+    if (effects?.ok) this.effects = { ...effects.ok, key, observations: count };
     this.told();
     return true;
   }
@@ -150,7 +156,7 @@ export class Sampling {
     const {
       answers: [, effects],
     } = await this.engine.ask("observe", [text, { effects: { of } }]);
-    if (effects.ok) this.effects = { ...effects.ok, key };
+    if (effects.ok) this.effects = { ...effects.ok, key, observations: count };
     else this.failure = effects.error;
     this.told();
     return true;

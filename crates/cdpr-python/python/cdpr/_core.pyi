@@ -1473,4 +1473,4 @@ def calibration_plan(
 ) -> str:
     """The set of candidate poses that leaves least uncertainty, as JSON."""
 def explorer_parts() -> dict[str, Any]:
-    """The script, the worker, the style and the packed module of the explorer, for its widget."""
+    """The packed script, the worker, the style and the packed module of the explorer, for its widget."""

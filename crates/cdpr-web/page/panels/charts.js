@@ -19,7 +19,7 @@ export function chartsPanel(app) {
     h(
       "section",
       { "aria-label": "Histogram of the deflection" },
-      h("h2", { text: "Deflection of robots within the tolerances" }),
+      h("h2", { text: "Deflection under the payload, of robots within the tolerances" }),
       first,
       numbers,
       counted,
@@ -56,12 +56,12 @@ export function chartsPanel(app) {
     const { sample, effects, failure } = sampling;
     failed.hidden = !failure;
     if (failure) setText(failed, `No observations here: ${reasonWords(app, failure)}`);
-    element.classList.toggle("stale", Boolean(failure));
+    element.classList.toggle("stale", Boolean(failure) || !sampling.hasEffects);
     setText(says, sentence(app));
     const { palette } = app;
     const width = Math.max(240, Math.floor(first.clientWidth));
     firstOther([sample, width, palette], () => drawHistogram(sample, width));
-    if (sample) setText(counted, `${countWords(sample)} ${conditionWords(app)}`);
+    if (sample) setText(counted, `${countWords(app)} ${conditionWords(app)}`);
     secondOther([effects, width, palette], () => {
       if (!effects) return second.replaceChildren();
       second.innerHTML = effectBars(effects.inputs, { width, title: effectsTitle(effects) }, palette);
@@ -80,17 +80,27 @@ export function chartsPanel(app) {
 
 /** What matters most, in a sentence. */
 export function sentence({ sampling, robot }) {
-  const { effects } = sampling;
-  if (!effects || sampling.failure) return "";
+  const { effects, sample, failure, busy } = sampling;
+  if (failure) return "";
+  if (!effects) return busy ? "Robots within the tolerances are being observed …" : "";
   const [top] = shares(effects.inputs, tolerances(robot.study));
   const [one] = largest(effects.inputs, 1);
   if (!top || !one) return "";
+  const soFar = busy ? `, so far from ${effects.replicates} times ${effects.observations} robots` : "";
+  if (one.low_mm <= 0 && one.high_mm >= 0) return `No tolerance stands out${soFar}.`;
   return (
-    `The tolerance that matters most here: ${entryWords(top.entry)}, with ` +
-    `${sharePercent(top.share)} of the variance of the deflection. The largest effect of a parameter ` +
+    `The tolerance that matters most here${soFar}: ${entryWords(top.entry)}, with ` +
+    `${sharePercent(top.share)} of the variance that the effects explain. The largest effect of a parameter ` +
     `is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 4)} mm, ` +
-    `95 % interval ${digits(one.low_mm, 4)} to ${digits(one.high_mm, 4)} mm.`
+    `95 % interval ${digits(one.low_mm, 4)} to ${digits(one.high_mm, 4)} mm.${lossWords(sample)}`
   );
+}
+
+// Robots that have no deflection, where they are many.
+function lossWords(sample) {
+  const lost = Object.values(sample?.failed ?? {}).reduce((sum, count) => sum + count, 0);
+  const share = lost / (sample?.observations ?? 1);
+  return share < 0.05 ? "" : ` ${sharePercent(share)} of the robots cannot be held here: this is of the others.`;
 }
 
 /** Statistics of the observations in words. */
@@ -121,8 +131,11 @@ function reasonWords({ mechanics, store }, { reason }) {
   return reason.replace(/^study\.json: .*? that the nominal robot can hold: /, "");
 }
 
-function countWords({ observations, milliseconds, coarse, failed }) {
-  const time = `${observations} observations in ${digits(milliseconds, 3)} ms`;
+function countWords({ sampling: { sample }, store }) {
+  const { observations, milliseconds, coarse, failed } = sample;
+  const wanted = store.state.observations;
+  const count = observations < wanted ? `${observations} of ${wanted}` : String(observations);
+  const time = `${count} observations in ${digits(milliseconds, 3)} ms`;
   return `${time}${coarse ? ", few while it moves" : ""}; ${failuresWords(failed)}.`;
 }
 
@@ -131,7 +144,7 @@ function conditionWords({ store: { state }, sampling: { sample, busy } }) {
   const { way, force, moment, observations } = state;
   if (!busy && sample.observations < observations) {
     const each = digits(sample.milliseconds / sample.observations, 2);
-    return `One takes ${each} ms here: for ${observations} of them run the command below.`;
+    return `One takes ${each} ms here: the command of all is under “As commands”.`;
   }
   const more = [...force, ...moment].some((value) => value !== 0);
   if (way === "anew" && !more) return "";

@@ -31,7 +31,7 @@ export function tolerancesPanel(app) {
     });
     const share = h("span", {
       class: "share",
-      title: "share of the variance of the deflection here, of effects squared",
+      title: "share of the variance that the effects explain here",
     });
     one.element.append(share);
     return { name, nominal, share, ...one };
