@@ -30,8 +30,14 @@ impl Expansion {
     fn summary(&self) -> Answer<String> {
         let of = &self.expansion;
         let names: Vec<&str> = of.inputs.iter().map(|input| input.name.as_str()).collect();
-        let input = |(name, shares): (&&str, cdpr_sensitivity::Shares)| json!({"input": name, "first": shares.closed, "total": shares.total});
-        let pair = |pair: &cdpr_sensitivity::PairShare| json!({"inputs": pair.inputs.map(|input| names[input]), "share": pair.share});
+        let input = |(name, shares): (&&str, cdpr_sensitivity::Shares)| {
+            let (first, total) = (shares.closed, shares.total);
+            json!({"input": name, "first": first, "total": total})
+        };
+        let pair = |pair: &cdpr_sensitivity::PairShare| {
+            let inputs = pair.inputs.map(|input| names[input]);
+            json!({"inputs": inputs, "share": pair.share})
+        };
         to_json(&json!({
             "inputs": names.iter().zip(of.indices()).map(input).collect::<Vec<_>>(),
             "pairs": of.pairs().iter().map(pair).collect::<Vec<_>>(),

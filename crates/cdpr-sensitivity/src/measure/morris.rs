@@ -42,8 +42,9 @@ pub struct MorrisEffect {
     pub failed: usize,
     /// Mean μ (O2). It says nothing of a group of several inputs.
     pub mean: f64,
-    /// Mean μ* of the absolute values (O2) with its interval over the blocks, which allows for their skewness:
-    /// where most effects are small, the law of their absolute values has a long tail.
+    /// Mean μ* of the absolute values (O2) with its interval over the blocks, which allows for their
+    /// skewness: where most effects are small, the law of their absolute values has a long tail. Where nearly
+    /// all are zero, the interval is too short (docs/STATISTICS.md, Bratley's function).
     pub mean_absolute: Estimate,
     /// Standard deviation σ (O2).
     pub std: f64,

@@ -106,8 +106,9 @@ impl<'a> Observer<'a> {
     /// other.
     ///
     /// An answer depends on its own row alone, to the last digit, and agrees with [`Observer::observe`] to
-    /// rounding. Where a robot has several minima of its tensions, `observe` takes the one next to the nominal
-    /// robot's, and this may take the least of all, as [`deflection`] does. [`Observation::scalar`] says which
+    /// rounding, but for one row in 10^4 of random robots: where a robot has several minima of its
+    /// tensions, `observe` takes the one next to the nominal robot's, and this may take another, mostly the
+    /// least of all, as [`deflection`] does (docs/VALIDATION.md). [`Observation::scalar`] says which
     /// ones were left to the scalar models, and why. An incomplete last row is a failure.
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Observation, StaticsError>> {
         let rows = deviations.chunks_exact(self.parameters);
