@@ -12,6 +12,7 @@ mod lane_law;
 mod plane;
 mod response;
 mod series;
+mod tangent;
 
 pub use dual::Dual;
 pub use field::{Field, Lanewise, Real};
@@ -20,3 +21,4 @@ pub use plane::{closure_of_limp, in_plane_stiffness, stiffness_in_space};
 pub(crate) use response::Terms;
 pub use response::{LaneEnd, Response, lane_end, lane_response, response};
 pub use series::{FOLDED, TAUT};
+pub use tangent::Tangent;

@@ -1,5 +1,5 @@
 //! Observations of perturbed robots: one by the scalar chain, many in the lanes of the vector unit, over
-//! their number and over the number of cables.
+//! their number and over the number of cables, without and with the derivatives by all parameters.
 
 #![allow(clippy::unwrap_used)]
 
@@ -87,6 +87,10 @@ fn observation(criterion: &mut Criterion) {
         assert!(observer.observe_all(&rows).iter().all(Result::is_ok), "{}", robot.name);
         group.bench_function(BenchmarkId::new("robots", &robot.name), |b| {
             b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
+        });
+        assert!(observer.observe_all_slopes(&rows).iter().all(Result::is_ok), "{}", robot.name);
+        group.bench_function(BenchmarkId::new("slopes", &robot.name), |b| {
+            b.iter(|| counted(|| observer.observe_all_slopes(black_box(&rows))));
         });
     }
     group.finish();

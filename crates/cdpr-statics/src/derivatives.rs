@@ -61,7 +61,8 @@ mod winding;
 use crate::equations::ABOVE_LEAST;
 use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, read, solve};
 use crate::error::StaticsError;
-use crate::loading::{Deflection, deflection_from, wind, wind_free};
+use crate::inverse::Branch;
+use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_near};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Coordinate, Matrix6xX, Pose, Robot, Vector3};
@@ -149,9 +150,33 @@ pub fn derivatives(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Derivatives, StaticsError> {
-    let wound = wind(robot, pose, tension_offsets)?;
+    of_wound(robot, pose, tension_offsets, load, &wind(robot, pose, tension_offsets)?)
+}
+
+/// [`derivatives`] of a robot that differs a little from the one whose inverse model is known.
+///
+/// # Errors
+/// Those of [`derivatives`].
+pub(crate) fn derivatives_near(
+    branch: &Branch,
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+    load: &Load,
+) -> Result<Derivatives, StaticsError> {
+    of_wound(robot, pose, tension_offsets, load, &wind_near(branch, robot, pose, tension_offsets)?)
+}
+
+/// The derivatives of the deflection of cables that are wound.
+fn of_wound(
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+    load: &Load,
+    wound: &Wound,
+) -> Result<Derivatives, StaticsError> {
     let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.held)?;
-    let winding = Winding { robot, pose, inputs: Inputs::of(robot), wound: &wound };
+    let winding = Winding { robot, pose, inputs: Inputs::of(robot), wound };
     let set_points = winding.set_points(tension_offsets)?;
     let lengths = winding.lengths(&set_points.rows)?;
     of_lengths(robot, load, deflection, winding.inputs, set_points, lengths)

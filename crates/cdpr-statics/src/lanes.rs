@@ -1,6 +1,7 @@
 //! The models for cables that carry a force, taut or sagging, in the lanes of the vector unit: a robot in each
 //! lane, or a cable of one robot.
 
+mod adjoint;
 mod algebra;
 mod cable;
 mod chain;
@@ -14,6 +15,6 @@ mod reason;
 mod simd;
 mod tracker;
 
-pub use observer::{Observation, Observer};
+pub use observer::{Observation, ObservationSlopes, Observer};
 pub use reason::ScalarReason;
 pub use tracker::Tracker;

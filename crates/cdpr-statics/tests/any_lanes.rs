@@ -21,11 +21,11 @@ const ROWS: usize = 8;
 const AGREEMENT: f64 = 1e-11;
 
 /// A robot at a pose that it holds, its load and rows of deviations.
-struct Case {
-    robot: Robot,
-    pose: Pose,
-    load: Load,
-    rows: Vec<f64>,
+pub(crate) struct Case {
+    pub(crate) robot: Robot,
+    pub(crate) pose: Pose,
+    pub(crate) load: Load,
+    pub(crate) rows: Vec<f64>,
     longest: f64,
 }
 
@@ -41,7 +41,7 @@ fn in_cube(rng: &mut ChaCha8Rng) -> Vector3<f64> {
 /// and such that weigh more than the platform; with limits and preferred tensions that are active or not,
 /// linear or with an elastic law.
 /// `None` where the robot cannot be held.
-fn case(seed: u64) -> Option<Case> {
+pub(crate) fn case(seed: u64) -> Option<Case> {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let n = rng.random_range(6..=16);
     let size = log_uniform(rng, 1.0, 300.0);

@@ -8,6 +8,7 @@ use cdpr_cable::kernel::{
 };
 
 /// A cable of every robot, or several cables of one.
+#[derive(Clone)]
 pub(crate) struct LaneCable<'a, S: Simd> {
     /// Segments of the elastic law, the same in all lanes; none of a linear cable.
     pub(crate) law: &'a [LaneSegment],

@@ -129,10 +129,30 @@ const BALANCED: f64 = 1e-7;
 /// Iterations for the tensions, whose limits may change on the way.
 const MAX_DISTRIBUTIONS: usize = 20;
 
+/// What is kept of the links of a chain.
+pub(crate) trait Keep<'a, S: Simd> {
+    /// Cable `i` with its tension of the inverse model, found in the lanes `last`; `sides` are those where it is
+    /// at either limit.
+    fn chosen(&mut self, _i: usize, _cable: &LaneCable<'a, S>, _sides: [Mask<S>; 2], _last: Mask<S>) {}
+
+    /// The multipliers of the inverse model.
+    fn multipliers(&mut self, _multipliers: &Lanes6<S>) {}
+
+    /// The robots with their cables wound at the wanted pose, at rest without the load, and with it.
+    fn state(&mut self, _robots: &Robots<'a, S>) {}
+}
+
+/// Nothing is kept.
+impl<S: Simd> Keep<'_, S> for () {}
+
 /// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at
 /// the wanted pose.
 #[inline(always)]
-pub(crate) fn observe<S: Simd>(begin: ChainStart<'_, S>, shared: &Shared) -> Outcome<S> {
+pub(crate) fn observe<'a, S: Simd>(
+    begin: ChainStart<'a, S>,
+    shared: &Shared,
+    keep: &mut impl Keep<'a, S>,
+) -> Outcome<S> {
     let ChainStart { mut robots, offsets, multipliers, payload } = begin;
     let robots = &mut robots;
     let zero = robots.weight.all(0.0);
@@ -146,20 +166,23 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<'_, S>, shared: &Shared) -> Out
         spans.push(span);
     }
     let mut set_points = offsets;
-    let (converged, sound) = distribute(robots, multipliers, &mut set_points, &spans, shared);
+    let (converged, sound) = distribute(robots, multipliers, &mut set_points, &spans, shared, keep);
     let mut platform = LinearizedPlatform::new(zero, spans.len());
     let held = hold(robots, &mut platform, &set_points, &spans, shared);
+    keep.state(robots);
 
     let own = PlatformLoad { weight: robots.weight, force: [zero; 3] };
     robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
     let (standing, unloaded) = robots.settle(&own, &mut platform, &shared.scale, converged & sound & held);
     let stood = robots.position;
+    keep.state(robots);
 
     let load = PlatformLoad { weight: own.weight + payload.weight, force: payload.force };
     // The first step follows the linearisation at hand.
     let added = payload.wrench(&robots.center);
     platform.gradient = six(|k| platform.gradient[k] - added[k]);
     let (answered, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
+    keep.state(robots);
     // Eq. (4)
     let displacement = three(|k| robots.position[k] - stood[k]);
     Outcome { passed: [converged, sound, held, standing, answered], displacement, unloaded, loaded }
@@ -168,7 +191,7 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<'_, S>, shared: &Shared) -> Out
 impl<S: Simd> LaneCable<'_, S> {
     /// The tensions at the platform that the limits allow [N], as `limits_at` has them.
     #[inline(always)]
-    fn limits(&self, span: &Span<Lanes<S>>, choice: &Choice) -> [Lanes<S>; 2] {
+    pub(crate) fn limits(&self, span: &Span<Lanes<S>>, choice: &Choice) -> [Lanes<S>; 2] {
         let (least, greatest) = (self.length.all(choice.limits.min), self.length.all(choice.limits.max));
         match choice.max_at {
             CableEnd::Anchor => [least, greatest],
@@ -186,12 +209,13 @@ impl<S: Simd> LaneCable<'_, S> {
 /// to them and become set-points, towards which cables make a first step. Returns the lanes where they were
 /// found, and those where no cable is folded and no limits exclude each other.
 #[inline(always)]
-fn distribute<S: Simd>(
-    robots: &mut Robots<'_, S>,
+fn distribute<'a, S: Simd>(
+    robots: &mut Robots<'a, S>,
     mut multipliers: Lanes6<S>,
     offsets: &mut [Lanes<S>],
     spans: &[Span<Lanes<S>>],
     shared: &Shared,
+    keep: &mut impl Keep<'a, S>,
 ) -> (Mask<S>, Mask<S>) {
     let zero = robots.weight.all(0.0);
     let compared = [shared.tension, shared.scale.size];
@@ -287,7 +311,8 @@ fn distribute<S: Simd>(
                 }
             }
             let cables = rows.iter().zip(&all_held).zip(&mut robots.cables).zip(&mut *offsets);
-            for ((((row, held), cable), offset), [least, greatest]) in cables.zip(&limits) {
+            for (i, ((((row, held), cable), offset), [least, greatest])) in cables.zip(&limits).enumerate() {
+                keep.chosen(i, cable, row.sides, last);
                 let (least, greatest) = (*least, *greatest);
                 let tension = dot(&cable.force, &cable.force).sqrt();
                 let chosen = row.sides[0].select(least, row.sides[1].select(greatest, tension));
@@ -308,6 +333,7 @@ fn distribute<S: Simd>(
             break;
         }
     }
+    keep.multipliers(&multipliers);
     (!going, within)
 }
 

@@ -20,6 +20,7 @@ pub(crate) fn in_lanes(robot: &Robot) -> bool {
 }
 
 /// What the lanes hold.
+#[derive(Clone)]
 pub(crate) enum Layout<S: Simd> {
     /// Each lane holds a robot.
     Robots,
@@ -32,6 +33,7 @@ pub(crate) enum Layout<S: Simd> {
 const INLINE: usize = 4;
 
 /// Robots, in an equilibrium or near one.
+#[derive(Clone)]
 pub(crate) struct Robots<'a, S: Simd> {
     pub(crate) layout: Layout<S>,
     pub(crate) cables: SmallVec<[LaneCable<'a, S>; INLINE]>,
@@ -85,6 +87,7 @@ const SMALL_STEP: f64 = 1e-7;
 const FORCE_ROUNDING: f64 = 1e-12;
 
 /// What acts on a platform: a weight at its centre of mass and a force at P.
+#[derive(Clone)]
 pub(crate) struct PlatformLoad<S: Simd> {
     pub(crate) weight: Lanes<S>,
     pub(crate) force: Lanes3<S>,
@@ -122,6 +125,12 @@ impl<S: Simd> LinearizedPlatform<S> {
             gradient: [zero; 6],
             factored: SymmetricFactors::new([[zero; 6]; 6]),
         }
+    }
+
+    /// The twist by which the platform gives way to a small wrench.
+    #[inline(always)]
+    pub(crate) fn moved(&self, wrench: &Lanes6<S>) -> Lanes6<S> {
+        self.factored.solve(wrench)
     }
 }
 

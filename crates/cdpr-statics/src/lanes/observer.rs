@@ -9,21 +9,24 @@
 //! the one that it shares with the nominal robot, as long as it exists. [`deflection`] of the same robot may
 //! find another.
 
+mod slopes;
+
 use crate::error::StaticsError;
 use crate::inverse::{Branch, InverseSolution};
 use crate::lanes::algebra::{six, three};
 use crate::lanes::cable::LaneCable;
-use crate::lanes::chain::{ChainStart, Choice, Shape, Shared, observe};
+use crate::lanes::chain::{ChainStart, Choice, Outcome, Shape, Shared, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
-use crate::loading::{deflection, deflection_near};
+use crate::loading::{Deflection, deflection, deflection_near};
 use crate::problem::DirectProblem;
 use crate::state::{Load, Residual, rounding_of_closure};
 use cdpr_cable::kernel::{Field, LaneSegment};
 use cdpr_cable::{Catenary, PiecewiseLaw};
 use cdpr_robot::{Axis, Parameter, ParameterLayout, Pose, Robot, RobotCable, Vector3, Vector6};
+pub use slopes::ObservationSlopes;
 use smallvec::SmallVec;
 use std::array::from_fn;
 
@@ -44,6 +47,15 @@ impl Observation {
     /// |dp| [m], which the paper calls the RMS of the static deflection.
     pub fn rms(&self) -> f64 {
         self.displacement.norm()
+    }
+
+    fn one_by_one(deflection: &Deflection) -> Self {
+        Self {
+            displacement: deflection.displacement(),
+            unloaded: deflection.unloaded.report.residual,
+            loaded: deflection.loaded.report.residual,
+            scalar: Some(ScalarReason::OneByOne),
+        }
     }
 }
 
@@ -94,12 +106,7 @@ impl<'a> Observer<'a> {
             Some(branch) => deflection_near(branch, robot, &self.pose, offsets, &self.load)?,
             None => deflection(robot, &self.pose, offsets, &self.load)?,
         };
-        Ok(Observation {
-            displacement: deflection.displacement(),
-            unloaded: deflection.unloaded.report.residual,
-            loaded: deflection.loaded.report.residual,
-            scalar: Some(ScalarReason::OneByOne),
-        })
+        Ok(Observation::one_by_one(&deflection))
     }
 
     /// Deflections of any number of robots: `deviations` has a row of all parameters for each, one after the
@@ -193,35 +200,45 @@ impl WithSimd for Batch<'_> {
             let count = rows.len() / parameters;
             let rows = Rows { simd, rows, parameters: *parameters };
             let (start, level, sound) = rows.robots(robot, pose, load, nominal);
-            let outcome = observe(start, &nominal.shared);
-            let [converged, unfolded, held, standing, answered] = outcome.passed;
-            let passed = [
-                (sound, ScalarReason::InvalidRobot),
-                (converged, ScalarReason::Tensions),
-                (unfolded, ScalarReason::Folded),
-                (held, ScalarReason::Lengths),
-                (standing, ScalarReason::Unloaded),
-                (answered, ScalarReason::Loaded),
-            ];
-            let passed = passed.map(|(lanes, why)| (lanes.to_array(), why));
-            let displacement = match &level {
-                None => outcome.displacement,
-                Some(level) => level.to_base(&outcome.displacement),
-            };
-            let displacement = displacement.map(Lanes::to_array);
-            let (unloaded, loaded) = (norms(&outcome.unloaded), norms(&outcome.loaded));
-            found.extend((0..count).map(|lane| match passed.iter().find(|(lanes, _)| !lanes[lane]) {
-                Some((_, why)) => Err(*why),
-                None => Ok(Observation {
-                    displacement: Vector3::from_fn(|k, _| displacement[k][lane]),
-                    unloaded: unloaded[lane],
-                    loaded: loaded[lane],
-                    scalar: None,
-                }),
-            }));
+            let outcome = observe(start, &nominal.shared, &mut ());
+            found.extend(read(&outcome, level.as_ref(), sound).into_iter().take(count));
         }
         found
     }
+}
+
+/// The observation in each lane, or the first link that failed in those that were `sound`.
+#[inline(always)]
+fn read<S: Simd>(
+    outcome: &Outcome<S>,
+    level: Option<&LevelFrame<S>>,
+    sound: Mask<S>,
+) -> [Result<Observation, ScalarReason>; MAX_LANES] {
+    let [converged, unfolded, held, standing, answered] = outcome.passed;
+    let passed = [
+        (sound, ScalarReason::InvalidRobot),
+        (converged, ScalarReason::Tensions),
+        (unfolded, ScalarReason::Folded),
+        (held, ScalarReason::Lengths),
+        (standing, ScalarReason::Unloaded),
+        (answered, ScalarReason::Loaded),
+    ];
+    let passed = passed.map(|(lanes, why)| (lanes.to_array(), why));
+    let displacement = match level {
+        None => outcome.displacement,
+        Some(level) => level.to_base(&outcome.displacement),
+    };
+    let displacement = displacement.map(Lanes::to_array);
+    let (unloaded, loaded) = (norms(&outcome.unloaded), norms(&outcome.loaded));
+    from_fn(|lane| match passed.iter().find(|(lanes, _)| !lanes[lane]) {
+        Some((_, why)) => Err(*why),
+        None => Ok(Observation {
+            displacement: Vector3::from_fn(|k, _| displacement[k][lane]),
+            unloaded: unloaded[lane],
+            loaded: loaded[lane],
+            scalar: None,
+        }),
+    })
 }
 
 /// Rows of deviations, one for each lane; lanes without a row of their own repeat the last one.

@@ -37,11 +37,13 @@ pub enum ScalarReason {
     Unloaded,
     /// No stable equilibrium with the load was found.
     Loaded,
+    /// The derivatives by some parameter may differ on its two sides, or do not exist.
+    OneSided,
 }
 
 impl ScalarReason {
     /// All reasons with their names in files.
-    const NAMES: [(Self, &'static str); 15] = [
+    const NAMES: [(Self, &'static str); 16] = [
         (Self::OneByOne, "one_by_one"),
         (Self::Output, "output"),
         (Self::FreeCoordinates, "free_coordinates"),
@@ -57,6 +59,7 @@ impl ScalarReason {
         (Self::Lengths, "lengths"),
         (Self::Unloaded, "unloaded"),
         (Self::Loaded, "loaded"),
+        (Self::OneSided, "one_sided"),
     ];
 
     /// Its name in files.
@@ -99,6 +102,6 @@ mod tests {
         for (reason, name) in ScalarReason::NAMES {
             assert_eq!((reason.name(), ScalarReason::named(name)), (name, Some(reason)));
         }
-        assert_eq!(ScalarReason::NAMES[14].0 as usize, 14, "the last reason is the last of the list");
+        assert_eq!(ScalarReason::NAMES[15].0 as usize, 15, "the last reason is the last of the list");
     }
 }

@@ -103,9 +103,7 @@ pub(crate) fn deflection_near(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Deflection, StaticsError> {
-    check_offsets(robot, tension_offsets)?;
-    let wanted = branch.nearby(robot, pose)?;
-    let Wound { lengths, held, .. } = wind_from(robot, pose, tension_offsets, wanted)?;
+    let Wound { lengths, held, .. } = wind_near(branch, robot, pose, tension_offsets)?;
     deflection_from(robot, lengths, load, &held)
 }
 
@@ -171,6 +169,17 @@ pub fn wound_lengths(
 pub(crate) fn wind(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Result<Wound, StaticsError> {
     check_offsets(robot, tension_offsets)?;
     wind_from(robot, pose, tension_offsets, inverse(robot, pose, &Load::none(), None)?)
+}
+
+/// Winds the cables for `pose` of a robot that differs a little from the one whose inverse model is known.
+pub(crate) fn wind_near(
+    branch: &Branch,
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+) -> Result<Wound, StaticsError> {
+    check_offsets(robot, tension_offsets)?;
+    wind_from(robot, pose, tension_offsets, branch.nearby(robot, pose)?)
 }
 
 /// Winds the cables for `pose` with the answer of the inverse model at hand.

@@ -1,0 +1,357 @@
+//! Derivatives of a deflection by all parameters of a robot, one robot in each lane, by the adjoint of the
+//! equations of `derivatives.rs`.
+//!
+//! The output is |dp|, which grows by `n·(dp_1 - dp_0)` with n = dp/|dp|. At each equilibrium, with H the
+//! stiffness of the platform and `G = sum wrenches + w_ex`,
+//!
+//! ```text
+//! H y = ±(n, 0),      ±n·dp = y·( ∂G + sum [k_L; s x k_L] dL )                                         (L10)
+//! ```
+//!
+//! so that one twist y stands for all parameters; it moves anchor point i by `y_p + y_r x s_i`. What it takes
+//! from the lengths, Λ_i, goes over (L9) to the set-points and, with `a_i = Λ_i dL_i/dt_i`, to the inverse
+//! model. With c_i and D_i of (D6) and the tensions without active bound free,
+//!
+//! ```text
+//! [ sum_free c_i c_iᵀ/D_i ] η = sum_free c_i a_i/D_i,      α_i = (a_i - c_i·η)/D_i                     (L11)
+//! sum a_i dt_i = -sum_free α_i ∂ρ_i - η·∂G + sum_active (a_i - c_i·η) b_i
+//! ```
+//!
+//! The number of parameters does not matter: each cable is evaluated once more at each of its four states.
+
+mod cable;
+
+use crate::equations::LinearizedCable;
+use crate::equations::vector::{cross, dot, wrench};
+use crate::lanes::adjoint::cable::{Answer, CableSlopes, TensionSlopes, torque};
+use crate::lanes::algebra::{Lanes3, Lanes6, SymmetricFactors, halves, six, three};
+use crate::lanes::cable::LaneCable;
+use crate::lanes::chain::{Keep, Shared};
+use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots};
+use crate::lanes::simd::{Lanes, Mask, Simd};
+use cdpr_cable::kernel::Field;
+
+/// Two tensions that differ by a smaller share may be the same.
+const SAME: f64 = 1e-9;
+
+/// A multiplier of a bound below this share of the greatest tension may be rounding, as in `derivatives`.
+const NO_MULTIPLIER: f64 = 1e-7;
+
+/// A deflection below this share of the longest cable has no direction, as in `derivatives`.
+const NO_DEFLECTION: f64 = 1e-12;
+
+/// What an observation keeps for its adjoint.
+pub(crate) struct Record<'a, S: Simd> {
+    offsets: Vec<Lanes<S>>,
+    optimum: Vec<Chosen<'a, S>>,
+    multipliers: Lanes6<S>,
+    /// The robots with their cables wound, at rest without and with the load.
+    states: Vec<Robots<'a, S>>,
+}
+
+/// A cable with the tension of the inverse model.
+struct Chosen<'a, S: Simd> {
+    cable: LaneCable<'a, S>,
+    /// Whether its tension is at either limit.
+    sides: [Mask<S>; 2],
+}
+
+impl<'a, S: Simd> Record<'a, S> {
+    #[inline(always)]
+    pub(crate) fn new(offsets: Vec<Lanes<S>>, multipliers: Lanes6<S>) -> Self {
+        Self { offsets, optimum: Vec::new(), multipliers, states: Vec::with_capacity(3) }
+    }
+}
+
+impl<'a, S: Simd> Keep<'a, S> for Record<'a, S> {
+    #[inline(always)]
+    fn chosen(&mut self, i: usize, cable: &LaneCable<'a, S>, sides: [Mask<S>; 2], last: Mask<S>) {
+        let Some(before) = self.optimum.get_mut(i) else {
+            return self.optimum.push(Chosen { cable: cable.clone(), sides });
+        };
+        let old = &mut before.cable;
+        old.length = last.select(cable.length, old.length);
+        for k in 0..2 {
+            old.force[k] = last.select(cable.force[k], old.force[k]);
+            before.sides[k] = (last & sides[k]) | (!last & before.sides[k]);
+        }
+    }
+
+    #[inline(always)]
+    fn multipliers(&mut self, multipliers: &Lanes6<S>) {
+        self.multipliers = *multipliers;
+    }
+
+    #[inline(always)]
+    fn state(&mut self, robots: &Robots<'a, S>) {
+        self.states.push(robots.clone());
+    }
+}
+
+/// Derivatives of |dp| in the level frame, one robot in each lane.
+pub(crate) struct Adjoint<S: Simd> {
+    pub(crate) cables: Vec<CableAdjoint<S>>,
+    /// By the weight of the platform [m/N].
+    pub(crate) weight: Lanes<S>,
+    /// By the centre of mass in the platform frame [m/m].
+    pub(crate) center: Lanes3<S>,
+    /// By turns of gravity [m/rad].
+    pub(crate) turn: Lanes3<S>,
+    /// By the components of the weight of platform and payload together, for each newton of it [m].
+    pub(crate) heavier: Lanes3<S>,
+    /// The lanes in which all of them exist, and left and right derivatives are the same.
+    pub(crate) decided: Mask<S>,
+}
+
+/// Derivatives by what one cable is.
+#[derive(Clone, Copy)]
+pub(crate) struct CableAdjoint<S: Simd> {
+    /// By its exit point [m/m].
+    pub(crate) exit: Lanes3<S>,
+    /// By its anchor point in the platform frame [m/m].
+    pub(crate) anchor: Lanes3<S>,
+    /// By its weight per length [m²/N].
+    pub(crate) weight: Lanes<S>,
+    /// By its axial flexibility [m N].
+    pub(crate) flexibility: Lanes<S>,
+    /// By the offset of its tension set-point [m/N].
+    pub(crate) offset: Lanes<S>,
+}
+
+/// Derivatives of |dp| for the robots of `record`; the frame of each is its rotation matrix, by columns.
+#[inline(always)]
+pub(crate) fn adjoint<S: Simd>(
+    record: &Record<'_, S>,
+    displacement: &Lanes3<S>,
+    payload: &PlatformLoad<S>,
+    shared: &Shared,
+) -> Option<Adjoint<S>> {
+    let [wound, unloaded, loaded] = record.states.as_slice() else { return None };
+    let zero = wound.weight.all(0.0);
+    let square = dot(displacement, displacement);
+    let least = NO_DEFLECTION * shared.scale.size;
+    let rms_inv = square.sqrt().recip();
+    let none =
+        CableAdjoint { exit: [zero; 3], anchor: [zero; 3], weight: zero, flexibility: zero, offset: zero };
+    let mut found = Adjoint {
+        cables: vec![none; wound.cables.len()],
+        weight: zero,
+        center: [zero; 3],
+        turn: [zero; 3],
+        heavier: [zero; 3],
+        decided: zero.all(least * least).less_or_equal(square),
+    };
+    let mut lengths = vec![zero; wound.cables.len()];
+    let own = PlatformLoad { weight: unloaded.weight, force: [zero; 3] };
+    let load = PlatformLoad { weight: unloaded.weight + payload.weight, force: payload.force };
+    let back = three(|k| -(displacement[k] * rms_inv));
+    found.at_rest(unloaded, &own, &back, &mut lengths);
+    found.at_rest(loaded, &load, &three(|k| -back[k]), &mut lengths);
+    // From here on the slopes by the set-points.
+    for ((cable, found_cable), slope) in wound.cables.iter().zip(&mut found.cables).zip(&mut lengths) {
+        let span = cable.span(&wound.position);
+        let (slopes, per_tension) = Answer::of(cable).of_length(&span.plane, *slope);
+        *slope = per_tension;
+        found_cable.add(&slopes, &wound.frame, &slopes.span);
+        let r = three(|k| wound.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
+        add(&mut found.turn, &torque(&[zero; 3], &[zero; 3], &r, &slopes.span));
+    }
+    found.of_tensions(record, wound, &lengths, shared);
+    Some(found)
+}
+
+impl<S: Simd> CableAdjoint<S> {
+    /// Adds the slopes of a state with its frame, in which the anchor point has those in `anchor`.
+    #[inline(always)]
+    fn add(&mut self, slopes: &CableSlopes<S>, frame: &[Lanes3<S>], anchor: &Lanes3<S>) {
+        for k in 0..3 {
+            self.exit[k] -= slopes.span[k];
+        }
+        for (sum, column) in self.anchor.iter_mut().zip(frame) {
+            *sum += dot(column, anchor);
+        }
+        self.weight += slopes.weight;
+        self.flexibility += slopes.flexibility;
+    }
+}
+
+#[inline(always)]
+fn add<S: Simd>(sum: &mut Lanes3<S>, more: &Lanes3<S>) {
+    for (sum, more) in sum.iter_mut().zip(more) {
+        *sum += *more;
+    }
+}
+
+impl<S: Simd> Adjoint<S> {
+    /// Adds what the weight `weight` at the centre of mass adds to an output that grows by `twist`·dw_ex.
+    #[inline(always)]
+    fn add_weight(&mut self, robots: &Robots<'_, S>, weight: Lanes<S>, twist: &Lanes6<S>) {
+        let (moved, turned) = halves(twist);
+        let swung = cross(&turned, &robots.center);
+        let lever = three(|k| moved[k] + swung[k]);
+        self.weight -= lever[2];
+        for k in 0..3 {
+            self.heavier[k] += lever[k] * weight;
+        }
+        let zero = weight.all(0.0);
+        let arm = cross(&[zero, zero, -weight], &turned);
+        for (sum, column) in self.center.iter_mut().zip(&robots.frame) {
+            *sum += dot(column, &arm);
+        }
+    }
+
+    /// Adds the slopes of `motion`·dp at an equilibrium, equation (L10), and those by the lengths.
+    #[inline(always)]
+    fn at_rest(
+        &mut self,
+        robots: &Robots<'_, S>,
+        load: &PlatformLoad<S>,
+        motion: &Lanes3<S>,
+        lengths: &mut [Lanes<S>],
+    ) {
+        let zero = load.weight.all(0.0);
+        let all = zero.less_or_equal(zero);
+        let mut platform = LinearizedPlatform::new(zero, robots.cables.len());
+        let mut answers = Vec::with_capacity(robots.cables.len());
+        for (cable, linearized) in robots.cables.iter().zip(&mut platform.cables) {
+            let span = cable.span(&robots.position);
+            let answer = Answer::of(cable);
+            *linearized = LinearizedCable::new(&span, cable.force, &answer.response);
+            answers.push(answer);
+        }
+        robots.assemble(load, &mut platform, all);
+        let twist = platform.moved(&[motion[0], motion[1], motion[2], zero, zero, zero]);
+        let (moved, turned) = halves(&twist);
+        let cables = robots.cables.iter().zip(&platform.cables).zip(&answers).zip(&mut self.cables);
+        for ((((cable, linearized), answer), found), length) in cables.zip(lengths) {
+            let swung = cross(&turned, &cable.anchor_arm);
+            let twisted = three(|k| moved[k] + swung[k]);
+            let (slopes, per_length) = answer.at_length(linearized, &twisted);
+            *length += per_length;
+            let force = linearized.plane.lift(cable.force);
+            // -y_r·(ds x f)
+            let swings = cross(&turned, &force);
+            found.add(&slopes, &robots.frame, &three(|k| slopes.span[k] + swings[k]));
+            let r = three(|k| robots.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
+            add(&mut self.turn, &torque(&force, &three(|k| -twisted[k]), &r, &slopes.span));
+        }
+        self.add_weight(robots, load.weight, &twist);
+    }
+
+    /// Adds the slopes of `sum a_i d(set-point_i)`, equation (L11).
+    #[inline(always)]
+    fn of_tensions(
+        &mut self,
+        record: &Record<'_, S>,
+        wound: &Robots<'_, S>,
+        per_set_point: &[Lanes<S>],
+        shared: &Shared,
+    ) {
+        let zero = wound.weight.all(0.0);
+        let (translation, rotation) = halves(&record.multipliers);
+        let mut cables = Vec::with_capacity(per_set_point.len());
+        let mut matrix = [[zero; 6]; 6];
+        let mut right = [zero; 6];
+        let mut largest = zero;
+        for Chosen { cable, .. } in &record.optimum {
+            largest = largest.max(dot(&cable.force, &cable.force).sqrt());
+        }
+        for (i, Chosen { cable, sides }) in record.optimum.iter().enumerate() {
+            let choice = &shared.choices[i];
+            let span = cable.span(&wound.position);
+            let slopes = TensionSlopes::of(cable, &span);
+            let swung = cross(&rotation, &cable.anchor_arm);
+            let motion = three(|k| translation[k] + swung[k]);
+            let tension = dot(&cable.force, &cable.force).sqrt();
+            // ρ_i, without the bound's multiplier
+            let slope = tension + -choice.reference - dot(&slopes.force_per_tension, &motion);
+            let on_bound = sides[0] | sides[1];
+            let kept = !slope.abs().less_or_equal(largest * NO_MULTIPLIER);
+            let limits = cable.limits(&span, choice);
+            let set_point = SetPoint::new(tension, record.offsets[i], limits, *sides);
+            self.decided = self.decided & set_point.decided & (kept | !on_bound);
+            let a = per_set_point[i];
+            self.cables[i].offset += set_point.offset.select(a, zero);
+            let by_tension = set_point.follows.select(a, zero);
+            // -c_i
+            let column = wrench(&cable.anchor_arm, &slopes.force_per_tension);
+            let curvature = -dot(&slopes.curvature, &motion) + 1.0;
+            let curvature_inv = on_bound.select(zero, curvature.recip());
+            for row in 0..6 {
+                let share = column[row] * curvature_inv;
+                right[row] -= share * by_tension;
+                for (entry, other) in matrix[row].iter_mut().zip(&column).skip(row) {
+                    *entry += share * *other;
+                }
+            }
+            let by_bound = set_point.over.select(a, zero);
+            cables.push((span, slopes, motion, column, curvature_inv, by_tension, by_bound));
+        }
+        let balanced = SymmetricFactors::new(matrix).solve(&right);
+        let (moved, turned) = halves(&balanced);
+        for (i, (span, slopes, motion, column, curvature_inv, by_tension, mut by_bound)) in
+            cables.into_iter().enumerate()
+        {
+            let Chosen { cable, sides } = &record.optimum[i];
+            let swung = cross(&turned, &cable.anchor_arm);
+            let twisted = three(|k| moved[k] + swung[k]);
+            // a_i - c_i·η
+            let left = by_tension + dot(&column, &balanced);
+            let share = left * curvature_inv;
+            by_bound += sides[1].select(left, zero);
+            let mut own = slopes.slopes(&twisted, &motion, share);
+            own.add_bound(cable, &span.end[1], &shared.choices[i], by_bound);
+            let force = span.plane.lift(cable.force);
+            let r = three(|k| wound.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
+            add(&mut self.turn, &torque(&force, &twisted, &r, &own.span));
+            let shared_motion = three(|k| motion[k] * share);
+            add(&mut self.turn, &cross(&slopes.force_per_tension, &shared_motion));
+            // η_r·(ds x f) and α f_t·(λ_r x ds)
+            let (swings, follows) = (cross(&force, &turned), cross(&slopes.force_per_tension, &rotation));
+            let arm = three(|k| swings[k] + follows[k] * share);
+            let anchor = three(|k| own.span[k] + arm[k]);
+            self.cables[i].add(&own, &wound.frame, &anchor);
+        }
+        self.add_weight(wound, wound.weight, &six(|k| -balanced[k]));
+        for value in balanced {
+            self.decided = self.decided & (value * 0.0).less_or_equal(zero);
+        }
+    }
+}
+
+/// What a set-point follows.
+struct SetPoint<S: Simd> {
+    /// The tension of the inverse model.
+    follows: Mask<S>,
+    /// Its offset, as it falls.
+    offset: Mask<S>,
+    /// The greatest tension.
+    over: Mask<S>,
+    /// Whether left and right derivatives are known to be the same, but those by the offset of a cable on its
+    /// bound.
+    decided: Mask<S>,
+}
+
+impl<S: Simd> SetPoint<S> {
+    #[inline(always)]
+    fn new(tension: Lanes<S>, offset: Lanes<S>, limits: [Lanes<S>; 2], sides: [Mask<S>; 2]) -> Self {
+        let wanted = tension + offset;
+        let [least, greatest] = limits;
+        let at = [same(wanted, least), same(wanted, greatest)];
+        let under = !at[0] & wanted.less_or_equal(least);
+        let over = !at[1] & greatest.less_or_equal(wanted);
+        let [low, high] = sides;
+        let resting = [same(tension, least) & !low, same(tension, greatest) & !high];
+        Self {
+            follows: !(under | over),
+            offset: !(under | over | at[0]),
+            over,
+            decided: !(resting[0] | resting[1] | (at[0] & !low) | (at[1] & !high)),
+        }
+    }
+}
+
+#[inline(always)]
+fn same<S: Simd>(one: Lanes<S>, other: Lanes<S>) -> Mask<S> {
+    (one - other).abs().less_or_equal(one.max(other) * SAME)
+}

@@ -1,0 +1,170 @@
+//! Observations with the derivatives of |dp| by all parameters.
+
+use super::{Batch, Observation, Observer, Rows, read};
+use crate::derivatives::{Derivatives, derivatives, derivatives_near};
+use crate::equations::vector::dot;
+use crate::error::StaticsError;
+use crate::lanes::adjoint::{Adjoint, Record, adjoint};
+use crate::lanes::algebra::three;
+use crate::lanes::chain::observe;
+use crate::lanes::level::LevelFrame;
+use crate::lanes::reason::ScalarReason;
+use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
+use cdpr_cable::kernel::Field;
+use cdpr_robot::{Axis, Parameter, ParameterLayout, Robot};
+
+/// The deflection of one perturbed robot, with the derivatives of its length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObservationSlopes {
+    /// The deflection. [`Observation::scalar`] says why its derivatives were left to the scalar models.
+    pub observation: Observation,
+    /// d|dp| by every parameter in the order of [`Parameter::of`] [m per unit], as [`Derivatives::rms`].
+    pub rms: Vec<f64>,
+}
+
+impl Observer<'_> {
+    /// Deflections of any number of robots, as [`Observer::observe_all`], with the derivatives of |dp| by all
+    /// parameters.
+    ///
+    /// They agree with [`Observer::observe_slopes`] to 1e-8 of the largest change that a parameter of the same kind
+    /// makes. Robots in which left and right derivatives may differ are left to the scalar models.
+    pub fn observe_all_slopes(&self, deviations: &[f64]) -> Vec<Result<ObservationSlopes, StaticsError>> {
+        let rows = deviations.chunks_exact(self.parameters);
+        let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
+        let whole = &deviations[..rows.len() * self.parameters];
+        let in_lanes = dispatch(SlopesBatch(Batch { observer: self, deviations: whole }));
+        let alone = |row: &[f64], why| {
+            let found = self.observe_slopes(row)?;
+            let observation = Observation { scalar: Some(why), ..found.observation };
+            Ok(ObservationSlopes { observation, ..found })
+        };
+        let outcomes =
+            in_lanes.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)));
+        outcomes.chain(incomplete.map(|row| self.observe_slopes(row))).collect()
+    }
+
+    /// Deflection of the robot with `deviations` added to its parameters, with the left derivatives of |dp|, by the
+    /// scalar models.
+    ///
+    /// # Errors
+    /// Those of [`Observer::observe`] and [`Derivatives::rms`].
+    pub fn observe_slopes(&self, deviations: &[f64]) -> Result<ObservationSlopes, StaticsError> {
+        let perturbed = self.robot.perturbed(deviations)?;
+        let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
+        let found = match &self.branch {
+            Some(branch) => derivatives_near(branch, robot, &self.pose, offsets, &self.load)?,
+            None => derivatives(robot, &self.pose, offsets, &self.load)?,
+        };
+        let rms = found.rms()?.into_iter().take(self.parameters).collect();
+        let Derivatives { deflection, .. } = found;
+        Ok(ObservationSlopes { observation: Observation::one_by_one(&deflection), rms })
+    }
+}
+
+/// Rows of deviations for the lanes, whose derivatives are asked for.
+struct SlopesBatch<'a>(Batch<'a>);
+
+impl WithSimd for SlopesBatch<'_> {
+    type Output = Vec<Result<ObservationSlopes, ScalarReason>>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Batch { observer: Observer { robot, pose, load, parameters, nominal, .. }, deviations } = self.0;
+        let nominal = match nominal {
+            Ok(nominal) => nominal,
+            Err(why) => return vec![Err(*why); deviations.len() / parameters],
+        };
+        let mut found = Vec::with_capacity(deviations.len() / parameters);
+        let mut slopes = vec![[0.0; MAX_LANES]; *parameters];
+        for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
+            let count = rows.len() / parameters;
+            let rows = Rows { simd, rows, parameters: *parameters };
+            let (mut start, level, sound) = rows.robots(robot, pose, load, nominal);
+            let rotation = pose.rotation.matrix();
+            for k in 0..3 {
+                let column = three(|row| rows.all(rotation[(row, k)]));
+                start.robots.frame.push(match &level {
+                    None => column,
+                    Some(level) => level.to_level(&column),
+                });
+            }
+            let payload = start.payload.clone();
+            let mut record = Record::new(start.offsets.clone(), start.multipliers);
+            let outcome = observe(start, &nominal.shared, &mut record);
+            let adjoint = adjoint(&record, &outcome.displacement, &payload, &nominal.shared);
+            let mut decided = [false; MAX_LANES];
+            if let Some(adjoint) = &adjoint {
+                decided = adjoint.decided.to_array();
+                rows.write_slopes(robot, adjoint, level.as_ref(), &mut slopes);
+            }
+            let answers = read(&outcome, level.as_ref(), sound);
+            for (lane, answer) in answers.into_iter().enumerate().take(count) {
+                found.push(match answer {
+                    Ok(_) if !decided[lane] => Err(ScalarReason::OneSided),
+                    Ok(observation) => {
+                        let rms = slopes.iter().map(|slope| slope[lane]).collect();
+                        Ok(ObservationSlopes { observation, rms })
+                    }
+                    Err(why) => Err(why),
+                });
+            }
+        }
+        found
+    }
+}
+
+impl<S: Simd> Rows<'_, S> {
+    /// Writes the slopes by all parameters from those by what the robots are in their level frames.
+    #[inline(always)]
+    fn write_slopes(
+        &self,
+        robot: &Robot,
+        adjoint: &Adjoint<S>,
+        level: Option<&LevelFrame<S>>,
+        slopes: &mut [[f64; MAX_LANES]],
+    ) {
+        let layout = ParameterLayout::of(robot);
+        let directed = layout.index(Parameter::Gravity(Axis::X));
+        let gravity = match directed {
+            None => self.all(robot.gravity.magnitude()),
+            Some(first) => {
+                let vector = self.point(first, &robot.gravity.vector());
+                dot(&vector, &vector).sqrt()
+            }
+        };
+        let zero = self.all(0.0);
+        let (mut by_density, mut by_modulus, mut hanging) = (zero, zero, zero);
+        let mut point = |first: usize, of: &[Lanes<S>; 3]| {
+            for (slope, of) in slopes[first..].iter_mut().zip(of) {
+                *slope = of.to_array();
+            }
+        };
+        for (i, (cable, of)) in robot.cables.iter().zip(&adjoint.cables).enumerate() {
+            let density = self.parameter(layout.linear_density(), cable.properties.linear_density);
+            let modulus = self.parameter(layout.youngs_modulus(), cable.properties.youngs_modulus);
+            by_density += of.weight * gravity;
+            hanging += of.weight * density;
+            by_modulus -= of.flexibility / (modulus * modulus * cable.properties.section);
+            point(layout.anchor_point(i), &of.anchor);
+            let exit = match level {
+                None => of.exit,
+                Some(level) => level.to_base(&of.exit),
+            };
+            point(layout.exit_point(i), &exit);
+        }
+        point(layout.center_of_mass(), &adjoint.center);
+        if let (Some(first), Some(level)) = (directed, level) {
+            // -(τ x u)/g by the direction u, and -u by the magnitude.
+            let [x, y, _] = adjoint.turn;
+            let turned = [-y, x, -(hanging * gravity)];
+            let whole = three(|k| (turned[k] + adjoint.heavier[k]) / gravity);
+            point(first, &level.to_base(&whole));
+        }
+        for (i, of) in adjoint.cables.iter().enumerate() {
+            slopes[layout.tension_offset(i)] = of.offset.to_array();
+        }
+        slopes[layout.mass()] = (adjoint.weight * gravity).to_array();
+        slopes[layout.linear_density()] = by_density.to_array();
+        slopes[layout.youngs_modulus()] = by_modulus.to_array();
+    }
+}
