@@ -132,6 +132,9 @@ impl Found {
     }
 }
 
+/// Robots whose derivatives are taken in one call.
+const SLOPES_TOGETHER: usize = 64;
+
 impl<'a> Run<'a> {
     pub(crate) fn new(
         sampling: &'a Sampling<'a>,
@@ -179,21 +182,25 @@ impl<'a> Run<'a> {
         if let Some(slopes) = self.slopes.get() {
             return Ok((design, slopes));
         }
-        let at = |row: &mut Vec<f64>, index| {
-            design.row(index, row)?;
-            (self.session.tick)(1);
-            Ok(self.slopes(row).ok())
+        let inputs = self.inputs().len();
+        let together = |first: usize| {
+            let mut rows = vec![0.0; inputs * SLOPES_TOGETHER.min(points - first)];
+            for (index, row) in rows.chunks_mut(inputs).enumerate() {
+                design.row(first + index, row)?;
+            }
+            (self.session.tick)(rows.len() / inputs);
+            Ok(self.slopes(&rows).into_iter().map(Result::ok).collect())
         };
-        let found = (0..points).into_par_iter().map_init(|| vec![0.0; self.inputs().len()], at);
-        let found = found.collect::<Result<Vec<_>, SensitivityError>>()?;
+        let found = (0..points).into_par_iter().step_by(SLOPES_TOGETHER).map(together);
+        let found: Vec<_> = found.collect::<Result<Vec<Vec<_>>, SensitivityError>>()?.concat();
         Ok((design, self.slopes.get_or_init(|| found)))
     }
 
-    /// Output of the robot with these deviations of the inputs, and its derivatives per unit of the input.
-    fn slopes(&self, row: &[f64]) -> Result<Slopes, StaticsError> {
+    /// Outputs of the robots with these deviations of the inputs, and their derivatives per unit of the input.
+    fn slopes(&self, rows: &[f64]) -> Vec<Result<Slopes, StaticsError>> {
         let Sampling { errors, observer, .. } = self.sampling;
-        let (output, gradient) = observer.slopes(&errors.deviations(row), errors)?;
-        Ok(Slopes { output, gradient })
+        let found = observer.slopes(&errors.deviations(rows), errors).into_iter();
+        found.map(|found| found.map(|(output, gradient)| Slopes { output, gradient })).collect()
     }
 }
 
@@ -208,7 +215,8 @@ fn t_student(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<
 }
 
 fn nominal_derivatives(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
-    let slopes = run.slopes(&vec![0.0; run.inputs().len()])?;
+    let nominal = run.slopes(&vec![0.0; run.inputs().len()]);
+    let slopes = nominal.into_iter().next().transpose()?.ok_or("there is no nominal robot")?;
     let part = |(slope, input): (&f64, &Input)| (slope * input.law.std()).powi(2);
     let parts: Vec<f64> = slopes.gradient.iter().zip(run.inputs()).map(part).collect();
     let variance: f64 = parts.iter().sum();

@@ -8,7 +8,8 @@ use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
 use cdpr_robot::{Coordinate, Parameter, Perturbed, Pose, Robot, Vector3};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, Observer, ScalarReason, Start,
+    Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, ObservationSlopes, Observer,
+    ScalarReason, Start,
     StaticsError, deflection_free, derivatives_free, direct, held_at, wound_lengths,
 };
 use std::borrow::Cow;
@@ -167,13 +168,26 @@ impl<'a> OutputObserver<'a> {
         wound_lengths(self.robot, &self.pose, offsets, self.free).map(Cow::Owned)
     }
 
-    /// The output of a robot with these deviations in its unit, and its derivatives with respect to the
-    /// inputs of an error model.
-    ///
-    /// # Errors
-    /// [`StaticsError::NoDerivative`] where a length is zero or two motions are the softest; those of the
-    /// models.
+    /// The outputs of any number of robots in their unit, and their derivatives with respect to the inputs of
+    /// an error model: `deviations` has a row of all parameters for each. A robot without the output or
+    /// without derivatives is an error with the reason: [`StaticsError::NoDerivative`] where a length is zero
+    /// or two motions are the softest; those of the models.
     pub(crate) fn slopes(
+        &self,
+        deviations: &[f64],
+        errors: &ErrorModel,
+    ) -> Vec<Result<(f64, Vec<f64>), StaticsError>> {
+        if self.output == Output::Deflection && self.free.is_empty() {
+            let in_unit = |found: ObservationSlopes| {
+                (1e3 * found.observation.rms(), scaled(1e3, errors.gradient(&found.rms)))
+            };
+            let outcomes = self.lanes.observe_all_slopes(deviations).into_iter();
+            return outcomes.map(|found| found.map(in_unit)).collect();
+        }
+        self.rows(deviations).map(|row| self.slopes_one_by_one(row, errors)).collect()
+    }
+
+    fn slopes_one_by_one(
         &self,
         deviations: &[f64],
         errors: &ErrorModel,
