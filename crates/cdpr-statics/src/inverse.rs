@@ -46,6 +46,7 @@ use feasible::{holds, search};
 pub use free::{FreeSolution, FreeSolutions, held_at, inverse_free};
 pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub use limits::limits_at;
+pub(crate) use optimum::NEARLY_ROUNDING;
 use optimum::Optimum;
 use question::Question;
 

@@ -15,7 +15,7 @@
 //! steps that are small enough; where the least step fails, the branch has ended.
 
 use super::held::Strand;
-use super::optimum::{NEARLY_ROUNDING, Optimum, Point, ROUNDING};
+use super::optimum::{ELASTICITY, NEARLY_ROUNDING, Optimum, Point, ROUNDING};
 use super::question::Question;
 use crate::state::Load;
 use cdpr_robot::{Pose, Vector6, Wrench};
@@ -163,7 +163,7 @@ impl Point<'_> {
         for _ in 0..=2 * fixed.len() {
             let way = |(strand, side): (&Strand, &Option<usize>)| side.map(|side| strand.room()[side]);
             let ways: Vec<Option<f64>> = self.strands.iter().zip(&fixed).map(way).collect();
-            let (step, multipliers) = self.newton_step(&hessian, &ways)?;
+            let (step, multipliers) = self.newton_step(&hessian, &ways, ELASTICITY)?;
             let mut changed = false;
             for (i, strand) in self.strands.iter_mut().enumerate() {
                 let passed = |strand: &Strand| {

@@ -12,6 +12,16 @@
 //! each cable's for itself: other optima mostly differ in one cable or two. From every point where the
 //! balance holds the optimum is searched again.
 //!
+//! An optimum is the least of all if the tension of each cable makes its part of the Lagrangian least,
+//!
+//! ```text
+//! φ_i(t) = (t - r_i)²/2 + λ·w_i(t)   within the limits                                              (I6)
+//! ```
+//!
+//! (H. Everett, *Generalized Lagrange multiplier method*, Operations Research 11, 1963). It is tried on a grid of
+//! each cable's chord forces: where it holds, no other start is tried; where one cable has a smaller φ_i
+//! elsewhere, that is the next start.
+//!
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
 //! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual has
 //! that direction, if one exists and the cables are nearly straight; it is tried on a grid of each cable's
@@ -20,6 +30,7 @@
 use super::optimum::{ELASTICITY, Optimum, Point};
 use super::question::Question;
 use crate::error::{Blocked, StaticsError};
+use cdpr_cable::CableError;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector3, Vector6};
 use cdpr_tension::{Bound, BoxProblem, BoxUnknown};
 
@@ -31,18 +42,18 @@ pub(super) const BALANCED: f64 = 1e-8;
 const LEAST_GAIN: f64 = 1e-9;
 const CLEAR_GAIN: f64 = 1e-3;
 
-/// The optimum: of cables that sag little from the first start that leads to one, else the best of all
-/// starts.
+/// The optimum: of cables that sag little from the first start that leads to one, else the least of all by (I6)
+/// or the best of all starts.
 pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
     let straight = straight(question);
     let mut nearest = Point::new(question, &straight)?;
     let mut best = nearest.optimise().then(|| nearest.clone());
-    if let Some(best) = &best
-        && !best.may_have_others()
-    {
-        return Ok(best.optimum());
-    }
     let mut iterations = nearest.iterations;
+    if let Some(best) = &mut best
+        && (!best.may_have_others() || best.lessened(question, &mut iterations)?)
+    {
+        return Ok(Optimum { iterations, ..best.optimum() });
+    }
     for (k, tensions) in starts(question, straight).iter().enumerate() {
         let mut point = Point::new(question, tensions)?;
         let found = point.balance(LEAST_GAIN) && point.optimise();
@@ -59,7 +70,10 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
         }
     }
     match best {
-        Some(best) => Ok(Optimum { iterations, ..best.optimum() }),
+        Some(mut best) => {
+            best.lessened(question, &mut iterations)?;
+            Ok(Optimum { iterations, ..best.optimum() })
+        }
         None => Err(nearest.refusal(question, STARTS, iterations, false)),
     }
 }
@@ -109,7 +123,7 @@ fn starts(question: &Question, straight: Vec<f64>) -> [Vec<f64>; STARTS - 1] {
     [straight, question.reference.clone(), middle, a, b, c, d, e]
 }
 
-impl Point<'_> {
+impl<'a> Point<'a> {
     /// Makes the residual of the balance least, and forgets the multipliers, until a step gains less than a
     /// share of it. Returns whether it balances.
     fn balance(&mut self, least_gain: f64) -> bool {
@@ -161,9 +175,48 @@ impl Point<'_> {
         self.residual().norm() / self.size()
     }
 
-    /// Whether a cable sags so much, by about a tenth of its chord, that another optimum may be better.
+    /// Whether a cable sags so much, by about a thirtieth of its chord, that another optimum may be better.
     fn may_have_others(&self) -> bool {
-        self.strands.iter().any(|strand| strand.held.slackness() > 0.4)
+        self.strands.iter().any(|strand| strand.held.slackness() > 0.14)
+    }
+
+    /// Moves an optimum to better ones as long as (I6) leads to them. Returns whether it is the least of all.
+    fn lessened(&mut self, question: &Question<'a>, iterations: &mut usize) -> Result<bool, StaticsError> {
+        const MOST: usize = 4;
+        for _ in 0..MOST {
+            let Ok(start) = self.better_start() else { return Ok(false) };
+            let Some(tensions) = start else { return Ok(true) };
+            let mut point = Point::new(question, &tensions)?;
+            let found = point.balance(LEAST_GAIN) && point.optimise();
+            *iterations += point.iterations;
+            if !found || point.objective() >= (1.0 - 1e-12) * self.objective() {
+                return Ok(false);
+            }
+            *self = point;
+        }
+        Ok(false)
+    }
+
+    /// The tensions of an optimum [N], with that cable's changed whose part (I6) of the Lagrangian gains most;
+    /// `None` where none gains anything.
+    fn better_start(&mut self) -> Result<Option<Vec<f64>>, CableError> {
+        /// A gain below this share of a cable's part is rounding.
+        const ROUNDING: f64 = 1e-9;
+        let mut most = 0.0;
+        let mut changed = None;
+        for (i, strand) in self.strands.iter_mut().enumerate() {
+            let (here, (tension, least)) = strand.lagrangians(&self.multipliers, self.arm)?;
+            let gain = here - least;
+            if gain > most && gain > ROUNDING * (here.abs() + least.abs()) {
+                most = gain;
+                changed = Some((i, tension));
+            }
+        }
+        Ok(changed.map(|(i, tension)| {
+            let mut tensions: Vec<f64> = self.strands.iter().map(|strand| strand.held.tension()).collect();
+            tensions[i] = tension;
+            tensions
+        }))
     }
 
     /// Whether no tensions within the limits balance the wrench in the direction of the residual.
@@ -172,8 +225,8 @@ impl Point<'_> {
         let mut least = direction.dot(&self.external);
         for strand in &mut self.strands {
             match strand.least_along(&direction, self.arm) {
-                Some(value) => least += value,
-                None => return false,
+                Ok(value) => least += value,
+                Err(_) => return false,
             }
         }
         least > 1e-9 * self.size()

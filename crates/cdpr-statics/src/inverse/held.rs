@@ -152,24 +152,51 @@ impl<'a> Strand<'a> {
         (0..2).find(|side| self.chord_forces[*side] == Some(self.held.chord_force()))
     }
 
-    /// The least of y·w over the tensions within the limits, on a grid of chord forces; `None` where a cable
-    /// cannot be closed.
-    pub(super) fn least_along(&mut self, y: &Vector6<f64>, arm: f64) -> Option<f64> {
+    /// The least of y·w over the tensions within the limits, on a grid of chord forces.
+    ///
+    /// # Errors
+    /// [`CableError`] where the cable cannot be closed.
+    pub(super) fn least_along(&mut self, y: &Vector6<f64>, arm: f64) -> Result<f64, CableError> {
+        Ok(self.least_of(|strand, held| y.dot(&strand.wrench(strand.ends.force(held), arm)))?.1)
+    }
+
+    /// Its part (I6) of the Lagrangian: here, and where it is least on a grid of chord forces within the limits,
+    /// with the tension there [N].
+    ///
+    /// # Errors
+    /// [`CableError`] where the cable cannot be closed.
+    pub(super) fn lagrangians(
+        &mut self,
+        y: &Vector6<f64>,
+        arm: f64,
+    ) -> Result<(f64, (f64, f64)), CableError> {
+        let part = |strand: &Self, held: &Held| {
+            let beyond = held.tension() - strand.reference;
+            0.5 * beyond * beyond + y.dot(&strand.wrench(strand.ends.force(held), arm))
+        };
+        let here = part(self, &self.held);
+        Ok((here, self.least_of(part)?))
+    }
+
+    /// The tension within the limits, on a grid of chord forces, at which a function is least, and its value.
+    fn least_of(&mut self, function: impl Fn(&Self, &Held) -> f64) -> Result<(f64, f64), CableError> {
         const INTERVALS: i32 = 12;
         for side in 0..2 {
             if !self.knows(side) {
-                self.learn(side).ok()?;
+                self.learn(side)?;
             }
         }
-        let [Some(low), Some(high)] = self.chord_forces else { return None };
-        let mut least = f64::INFINITY;
-        let mut held = self.at(low).ok()?;
+        let [low, high] = self.chord_forces.map(Option::unwrap_or_default);
+        let mut least = (f64::NAN, f64::INFINITY);
+        let mut held = self.at(low)?;
         for k in 0..=INTERVALS {
-            held =
-                held.with_chord_force(low * (high / low).powf(f64::from(k) / f64::from(INTERVALS))).ok()?;
-            least = least.min(y.dot(&self.wrench(self.ends.force(&held), arm)));
+            held = held.with_chord_force(low * (high / low).powf(f64::from(k) / f64::from(INTERVALS)))?;
+            let value = function(self, &held);
+            if value < least.1 {
+                least = (held.tension(), value);
+            }
         }
-        Some(least)
+        Ok(least)
     }
 
     /// The cable at another chord force [N].

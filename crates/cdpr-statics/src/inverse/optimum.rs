@@ -61,7 +61,7 @@ const LEAST_CURVATURE: f64 = 0.01;
 
 /// A residual below this, relative to wrench and tensions, is rounding, or nearly.
 pub(super) const ROUNDING: f64 = 1e-14;
-pub(super) const NEARLY_ROUNDING: f64 = 1e-11;
+pub(crate) const NEARLY_ROUNDING: f64 = 1e-11;
 
 /// A residual above this, relative to wrench and tensions, is far above what elastic equations leave.
 const UNBALANCED: f64 = 1e-6;
@@ -204,7 +204,7 @@ impl<'a> Point<'a> {
                     None => return false,
                 }
             }
-            before = error;
+            let last_error = std::mem::replace(&mut before, error);
             self.iterations += 1;
             let largest = self.rows.iter().fold(0.0, |t: f64, row| t.max(row.tension));
             if self.multipliers.amax() > 1e4 * largest {
@@ -230,6 +230,12 @@ impl<'a> Point<'a> {
             }
             // Full steps near the optimum; elsewhere those that the merit function accepts.
             if error <= 1e-7 * size {
+                // Cables that hardly span all wrenches move little for large multipliers.
+                if error >= 0.5 * last_error
+                    && let Some(newton) = self.inelastic_step(&exact)
+                {
+                    (step, multipliers) = newton;
+                }
                 let Some(moved) = self.moved(&step) else { return false };
                 let rows = self.rows_of(&moved);
                 self.set(moved, rows);
@@ -302,8 +308,20 @@ impl<'a> Point<'a> {
     /// Newton's step on the free cables with the exact Hessian; `None` unless it leads to a minimum and stays
     /// within the limits.
     fn exact_step(&self, hessian: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
+        self.step_on_free_cables(hessian, ELASTICITY)
+    }
+
+    /// The same with the balance held exactly, which needs cables that can pull in all directions.
+    fn inelastic_step(&self, hessian: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
+        let (step, multipliers) = self.step_on_free_cables(hessian, 0.0)?;
+        let small =
+            step.iter().zip(&self.strands).all(|(d, strand)| d.abs() <= 1e-3 * strand.held.chord_force());
+        small.then_some((step, multipliers))
+    }
+
+    fn step_on_free_cables(&self, hessian: &[f64], elasticity: f64) -> Option<(Vec<f64>, Vector6<f64>)> {
         let fixed: Vec<_> = self.strands.iter().map(|strand| strand.at_limit().map(|_| 0.0)).collect();
-        let (step, multipliers) = self.newton_step(hessian, &fixed)?;
+        let (step, multipliers) = self.newton_step(hessian, &fixed, elasticity)?;
         let within = self.strands.iter().zip(&step).zip(&fixed).all(|((strand, d), fixed)| {
             let [low, high] = strand.room();
             fixed.is_some() || (low..=high).contains(d)
@@ -323,6 +341,7 @@ impl<'a> Point<'a> {
         &self,
         hessian: &[f64],
         fixed: &[Option<f64>],
+        elasticity: f64,
     ) -> Option<(Vec<f64>, Vector6<f64>)> {
         let mut step: Vec<f64> = fixed.iter().map(|fixed| fixed.unwrap_or(0.0)).collect();
         let residual =
@@ -340,8 +359,8 @@ impl<'a> Point<'a> {
             }
         }
         for row in 0..6 {
-            kkt[(k + row, k + row)] = -ELASTICITY;
-            right[k + row] = -residual[row] - ELASTICITY * self.multipliers[row];
+            kkt[(k + row, k + row)] = -elasticity;
+            right[k + row] = -residual[row] - elasticity * self.multipliers[row];
         }
         // The reduced Hessian is positive where the matrix has as many positive eigenvalues as free cables.
         if free.iter().any(|i| hessian[*i] <= 0.0) {

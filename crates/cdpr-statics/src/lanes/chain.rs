@@ -31,6 +31,7 @@
 
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
+use crate::inverse::NEARLY_ROUNDING;
 use crate::lanes::algebra::{Lanes3, Lanes6, halves, six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::held::HeldCable;
@@ -122,9 +123,6 @@ const SAGGING: f64 = 0.02;
 
 /// Least curvature of a step, relative to that of a straight cable.
 const LEAST_CURVATURE: f64 = 0.01;
-
-/// Greatest unbalanced force of an optimum, relative to the sum of tensions.
-const BALANCED: f64 = 1e-7;
 
 /// Iterations for the tensions, whose limits may change on the way.
 const MAX_DISTRIBUTIONS: usize = 20;
@@ -220,7 +218,7 @@ fn distribute<'a, S: Simd>(
     let zero = robots.weight.all(0.0);
     let compared = [shared.tension, shared.scale.size];
     let last_change = zero.all(LAST_DISTRIBUTION);
-    let unbalanced = BALANCED * shared.tension;
+    let unbalanced = NEARLY_ROUNDING * shared.tension;
     let arm = shared.scale.characteristic_length;
     let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
     let mut going = zero.less_or_equal(zero);

@@ -9,8 +9,7 @@ use crate::model::observed::{Measured, MeasuredQuantity};
 use cdpr_robot::{Coordinate, Parameter, Perturbed, Pose, Robot, Vector3};
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, ObservationSlopes, Observer,
-    ScalarReason, Start,
-    StaticsError, deflection_free, derivatives_free, direct, held_at, wound_lengths,
+    ScalarReason, Start, StaticsError, deflection_free, derivatives_free, direct, held_at, wound_lengths,
 };
 use std::borrow::Cow;
 
