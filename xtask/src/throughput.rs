@@ -1,9 +1,10 @@
-//! `cargo xtask throughput --all`: the time of an observation, for robots and poses that differ.
+//! `cargo xtask throughput --all`: the time of an observation, for robots and poses that differ, by the program
+//! as it is installed.
 
 #![allow(clippy::print_stdout)]
 
 use crate::cable::read;
-use crate::cargo::{cdpr_command, root};
+use crate::cargo::{cargo_command, root};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -160,7 +161,9 @@ impl Case {
 
     /// Observes the study at one pose.
     fn line(&self, study: &Path, pose: usize) -> Result<Line, String> {
-        let mut command = cdpr_command(&["study", "throughput", &study.display().to_string()]);
+        // As it is installed.
+        let mut command = cargo_command(&["run", "--release", "--quiet", "--bin", "cdpr", "--"]);
+        command.args(["study", "throughput", &study.display().to_string()]);
         command.args(["--sampling", &format!("all/{pose:04}"), "--threads", "1"]);
         command.args(["--observations", &self.observations.to_string()]);
         let output = command.stderr(Stdio::inherit()).output();
