@@ -5,7 +5,7 @@
 //! k_z, positive for a cable that enters from below,
 //!
 //! ```text
-//! B = (r - ρ τ_z, ρ τ_x),      a = r π/2 - ρ α,      L = Lf + (a + d)/(1 + ε(T0))                  (C28)
+//! B = (r - ρ τ_z, ρ τ_x),      a = r π/2 - ρ α,      L = Lf + (a + d)/(1 + ε(T0))                  (C30)
 //! dB = -ρ τ dα,   da = -ρ dα,      q = ρ n/((1 + ε) T0) + (a + d) ε' τ/(1 + ε)²,   n = (-τ_z, τ_x)
 //! ```
 //!
@@ -60,7 +60,7 @@ pub struct LaneWay<T> {
 }
 
 impl<T: Lanewise> LaneGuide<T> {
-    /// B for the direction τ, (C28).
+    /// B for the direction τ, (C30).
     #[inline(always)]
     pub fn leave_position(&self, [tx, tz]: [T; 2]) -> [T; 2] {
         [self.radius - self.signed_radius * tz, self.signed_radius * tx]

@@ -1,9 +1,9 @@
 //! Deflections of a robot with deviations of its parameters, many at a time.
 //!
-//! Robots with cables without pulleys and leads, linear or with an elastic law, taut or sagging, at their
-//! limits or not, are observed in the lanes of the vector unit (`lanes/chain.rs`), each from the tensions of
-//! the nominal robot. Any other robot is
-//! observed by the scalar models, which decide on every failure.
+//! Robots with cables that are linear or have an elastic law, taut or sagging, at their limits or not, behind
+//! leads and over pulleys with vertical axes or without, are observed in the lanes of the vector unit
+//! (`lanes/chain.rs`), each from the tensions of the nominal robot. Any other robot is observed by the scalar
+//! models, which decide on every failure.
 //!
 //! Where the sum of squares of the inverse model has several local minima, a perturbed robot is observed in
 //! the one that it shares with the nominal robot, as long as it exists. [`deflection`] of the same robot may
@@ -12,7 +12,7 @@
 use crate::error::StaticsError;
 use crate::inverse::{Branch, InverseSolution};
 use crate::lanes::algebra::{six, three};
-use crate::lanes::cable::LaneCable;
+use crate::lanes::cable::{Guided, LaneCable};
 use crate::lanes::chain::{ChainStart, Choice, Shape, Shared, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale};
@@ -21,9 +21,11 @@ use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{deflection, deflection_near};
 use crate::problem::DirectProblem;
 use crate::state::{Load, Residual, rounding_of_closure};
-use cdpr_cable::kernel::{Field, LaneSegment};
+use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
 use cdpr_cable::{Catenary, PiecewiseLaw};
-use cdpr_robot::{Axis, Parameter, ParameterLayout, Pose, Robot, RobotCable, Vector3, Vector6};
+use cdpr_robot::{
+    Axis, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector2, Vector3, Vector6,
+};
 use smallvec::SmallVec;
 use std::array::from_fn;
 
@@ -159,15 +161,22 @@ impl Nominal {
 
 /// The shape of a cable of the nominal robot at the wanted pose.
 fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape {
-    let span = robot.span(pose, i);
-    let (chord, height) = (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
     let (unstrained_length, force) = (solution.lengths[i], solution.equilibrium.cable_forces[i]);
-    let answer = Catenary { cable: robot.cable(i), unstrained_length, force }.response();
-    let chord_force = chord / answer.lateral_flexibility;
+    let cable = Catenary { cable: robot.cable(i), unstrained_length, force };
+    let span = robot.span(pose, i);
+    let (mut chord, mut height) = (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
+    let free = cable.free();
+    if cable.cable.guide.is_some() {
+        let across = (span.norm_squared() - height * height).max(0.0).sqrt();
+        let end = Vector2::new(across, height) - cable.leave_point();
+        (chord, height) = (end.norm(), end.y);
+    }
+    let chord_force = chord / free.response().lateral_flexibility;
     Shape {
+        tangent: [force.x / free.exit_tension(), free.exit_vertical_force() / free.exit_tension()],
         chord_force,
         sag_force: force.y - chord_force * height / chord,
-        longer: unstrained_length - chord,
+        longer: free.unstrained_length - chord,
     }
 }
 
@@ -192,11 +201,12 @@ impl WithSimd for Batch<'_> {
         for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows { simd, rows, parameters: *parameters };
-            let (start, level, sound) = rows.robots(robot, pose, load, nominal);
+            let (start, level, [sound, upright]) = rows.robots(robot, pose, load, nominal);
             let outcome = observe(start, &nominal.shared);
             let [converged, unfolded, held, standing, answered] = outcome.passed;
             let passed = [
                 (sound, ScalarReason::InvalidRobot),
+                (upright, ScalarReason::Pulleys),
                 (converged, ScalarReason::Tensions),
                 (unfolded, ScalarReason::Folded),
                 (held, ScalarReason::Lengths),
@@ -258,7 +268,7 @@ impl<S: Simd> Rows<'_, S> {
     }
 
     /// The perturbed robots in their level frames, these frames where they are not the base frame, and the
-    /// lanes whose robot is valid.
+    /// lanes whose robot is valid, and whose pulleys have vertical axes.
     #[inline(always)]
     fn robots<'a>(
         &self,
@@ -266,7 +276,7 @@ impl<S: Simd> Rows<'_, S> {
         pose: &Pose,
         load: &Load,
         nominal: &'a Nominal,
-    ) -> (ChainStart<'a, S>, Option<LevelFrame<S>>, Mask<S>) {
+    ) -> (ChainStart<'a, S>, Option<LevelFrame<S>>, [Mask<S>; 2]) {
         let n = robot.cables.len();
         let layout = ParameterLayout::of(robot);
         let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
@@ -315,12 +325,63 @@ impl<S: Simd> Rows<'_, S> {
                 anchor_arm: rotate(pose, &self.point(layout.anchor_point(i), &cable.anchor_point)),
                 length: zero,
                 force: [zero; 2],
+                guided: None,
             });
+        }
+        let mut upright = zero.less_or_equal(zero);
+        for (i, cable) in robot.cables.iter().enumerate() {
+            if cable.pulley.is_some() || cable.lead != 0.0 {
+                let (guide, valid, vertical) = self.guide(&layout, i, cable, level.as_ref());
+                start.robots.cables[i].guided = Some(Box::new(Guided { guide, whole_length: zero }));
+                (sound, upright) = (sound & valid, upright & vertical);
+            }
         }
         if let Some(level) = &level {
             start.rotate(level);
         }
-        (start, level, sound)
+        (start, level, [sound, upright])
+    }
+
+    /// A parameter that not every robot has.
+    #[inline(always)]
+    fn further(&self, layout: &ParameterLayout, parameter: Parameter, nominal: f64) -> Lanes<S> {
+        match layout.index(parameter) {
+            Some(index) => self.parameter(index, nominal),
+            None => self.all(nominal),
+        }
+    }
+
+    /// The guide of a cable, and the lanes in which it is valid, and vertical.
+    #[inline(always)]
+    fn guide(
+        &self,
+        layout: &ParameterLayout,
+        i: usize,
+        cable: &RobotCable,
+        level: Option<&LevelFrame<S>>,
+    ) -> (LaneGuide<Lanes<S>>, Mask<S>, Mask<S>) {
+        let zero = self.all(0.0);
+        let lead = self.further(layout, Parameter::Lead(i), cable.lead);
+        let mut guide = LaneGuide { lead, radius: zero, signed_radius: zero };
+        let mut vertical = zero.less_or_equal(zero);
+        if let Some(Pulley { radius, axis }) = cable.pulley {
+            let radius = self.further(layout, Parameter::PulleyRadius(i), radius);
+            let axis = three(|k| self.all(axis[k]));
+            let [x, y, z] = match level {
+                None => axis,
+                Some(level) => level.to_level(&axis),
+            };
+            let tolerance = z * Pulley::VERTICAL;
+            vertical = (x * x + y * y).less_or_equal(tolerance * tolerance);
+            for about in TiltAxis::ALL {
+                let tilt = self.further(layout, Parameter::Tilt(i, about), 0.0);
+                vertical = vertical & tilt.less_or_equal(zero) & zero.less_or_equal(tilt);
+            }
+            vertical = vertical | radius.less_or_equal(zero);
+            let upwards = zero.less_or_equal(z);
+            guide = LaneGuide { radius, signed_radius: upwards.select(radius, -radius), ..guide };
+        }
+        (guide, zero.less_or_equal(guide.lead) & zero.less_or_equal(guide.radius), vertical)
     }
 }
 
