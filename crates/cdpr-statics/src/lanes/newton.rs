@@ -81,6 +81,10 @@ pub(crate) const MAX_ITERATIONS: usize = 8;
 /// From there the stiffness is kept, and each further step reduces the residual by as much again.
 const SMALL_STEP: f64 = 1e-7;
 
+/// Square of the last step of guided cables, relative to that of a small one: they keep the symmetric part of
+/// their stiffness alone, so that a step leaves more than its square.
+const LAST_OF_GUIDED: f64 = 1e-6;
+
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
 
@@ -326,7 +330,10 @@ impl<S: Simd> Robots<'_, S> {
             let near = going & moved.less_or_equal(small_step);
             if near.any() {
                 let (left, holds) = self.revise(load, scale, platform, near);
-                let done = near & holds & platform.factored.positive;
+                let mut done = near & holds & platform.factored.positive;
+                if !platform.free.is_empty() {
+                    done = done & moved.less_or_equal(small_step * LAST_OF_GUIDED);
+                }
                 residual = left;
                 (found, going) = (found | done, going & !done);
             }
