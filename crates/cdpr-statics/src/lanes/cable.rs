@@ -100,33 +100,51 @@ impl<S: Simd> Guided<S> {
         self.guide.way(cable.weight_per_length, cable.length, leave, stretch)
     }
 
-    /// How the whole cable of this guide answers, with the end that (L12) gives it.
-    #[inline(always)]
-    pub(crate) fn response(&self, cable: &LaneCable<'_, S>) -> (Response<Lanes<S>>, FreeLength<S>) {
-        cable.length.apart(WholeResponse(self, cable))
+    /// Linearises the whole cable of this guide in the lanes that are `going`, with the end that (L12) gives it.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn linearise(
+        &self,
+        cable: &LaneCable<'_, S>,
+        span: &Span<Lanes<S>>,
+        linearized: &mut LinearizedCable<Lanes<S>>,
+        free: &mut FreeLength<S>,
+        going: Mask<S>,
+    ) {
+        cable.length.apart(Linearise { guided: self, cable, span: *span, linearized, free, going });
     }
 
     /// The end of the whole cable of this guide, (L12), and the missing length beyond its leave point. A
     /// cable that is too short for its guide has a slackness of 2.
-    #[inline(always)]
+    #[cold]
+    #[inline(never)]
     pub(crate) fn end(&self, cable: &LaneCable<'_, S>) -> (LaneEnd<Lanes<S>>, Lanes<S>) {
         cable.length.apart(WholeEnd(self, cable))
     }
 }
 
-struct WholeResponse<'a, 'b, S: Simd>(&'a Guided<S>, &'a LaneCable<'b, S>);
+struct Linearise<'a, 'b, S: Simd> {
+    guided: &'a Guided<S>,
+    cable: &'a LaneCable<'b, S>,
+    span: Span<Lanes<S>>,
+    linearized: &'a mut LinearizedCable<Lanes<S>>,
+    free: &'a mut FreeLength<S>,
+    going: Mask<S>,
+}
 
-impl<S: Simd> WithSimd for WholeResponse<'_, '_, S> {
-    type Output = (Response<Lanes<S>>, FreeLength<S>);
+impl<S: Simd> WithSimd for Linearise<'_, '_, S> {
+    type Output = ();
 
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        let Self(guided, cable) = self;
+    fn with_simd<Same: Simd>(self, _: Same) {
+        let Self { guided, cable, span, linearized, free, going } = self;
         let way = guided.way(cable);
         let response = way.response(cable.force[0], &cable.response());
         let missing = guided.whole_length - way.length;
-        let free = FreeLength { missing: missing * way.free_per_length, per_force: way.free_per_force };
-        (Response { end: moved(response.end, &way, missing), ..response }, free)
+        let response = Response { end: moved(response.end, &way, missing), ..response };
+        linearized.replace(&LinearizedCable::new(&span, cable.force, &response), going);
+        let change = FreeLength { missing: missing * way.free_per_length, per_force: way.free_per_force };
+        free.replace(&change, going);
     }
 }
 

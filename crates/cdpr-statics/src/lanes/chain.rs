@@ -210,7 +210,7 @@ fn distribute<S: Simd>(
         let mut balance = weight;
         let cables = spans.iter().zip(&robots.cables).zip(&shared.choices);
         for ((span, cable), choice) in cables {
-            let held = HeldCable::new(cable, span, &cable.response());
+            let held = HeldCable::new(cable, span);
             let [fx, fz] = cable.force;
             let closed = [fx, fz + held.closing[0]];
             let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(closed));
@@ -326,12 +326,15 @@ fn hold<S: Simd>(
     {
         let (mut going, mut taut) = (all, all);
         for _ in 0..MAX_ITERATIONS {
-            let response = cable.response();
-            let held = HeldCable::new(cable, span, &response);
+            let held = match &cable.guided {
+                None => {
+                    let response = cable.response();
+                    linearized.replace(&LinearizedCable::new(span, cable.force, &response), going);
+                    HeldCable::plain(cable, span, &response)
+                }
+                Some(guided) => HeldCable::leaving(guided, cable, span),
+            };
             taut = (!going & taut) | (going & held.is_taut(cable));
-            if cable.guided.is_none() {
-                linearized.replace(&LinearizedCable::new(span, cable.force, &response), going);
-            }
             let fx = cable.force[0];
             let inverse = (fx * held.tension_slope).recip();
             let d = (*set_point - held.closed) * fx * inverse;
@@ -346,9 +349,8 @@ fn hold<S: Simd>(
         }
         cable.keep_length();
         if let Some(guided) = &cable.guided {
-            let (response, free) = guided.response(cable);
-            platform.free[i] = free;
-            *linearized = LinearizedCable::new(span, cable.force, &response);
+            let everywhere = zero.less_or_equal(zero);
+            guided.linearise(cable, span, linearized, &mut platform.free[i], everywhere);
         }
         // The last change closes the cable to rounding.
         linearized.predicted = cable.force;

@@ -36,21 +36,46 @@ pub(crate) struct HeldCable<S: Simd> {
 }
 
 impl<S: Simd> HeldCable<S> {
-    /// A cable from the response of its part beyond the guide.
+    /// A cable between its ends.
     #[inline(always)]
-    pub(crate) fn new(
+    pub(crate) fn new(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
+        match &cable.guided {
+            None => Self::plain(cable, span, &cable.response()),
+            Some(guided) => Self::leaving(guided, cable, span),
+        }
+    }
+
+    /// A cable over a pulley.
+    #[cold]
+    #[inline(never)]
+    fn over_pulley(guided: &Guided<S>, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
+        cable.length.apart(Leaving { guided, cable, span })
+    }
+
+    /// A cable over a pulley. Its numbers are taken one by one, so that those of plain cables stay in registers.
+    #[inline(always)]
+    pub(crate) fn leaving(guided: &Guided<S>, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
+        let held = Self::over_pulley(guided, cable, span);
+        Self {
+            tension: held.tension,
+            closed: held.closed,
+            flatness: held.flatness,
+            slackness: held.slackness,
+            closing: [held.closing[0], held.closing[1]],
+            rise: held.rise,
+            length_slope: held.length_slope,
+            tension_slope: held.tension_slope,
+            curvatures: [held.curvatures[0], held.curvatures[1]],
+        }
+    }
+
+    /// A cable without guide, from its response.
+    #[inline(always)]
+    pub(crate) fn plain(
         cable: &LaneCable<'_, S>,
         span: &Span<Lanes<S>>,
         response: &Response<Lanes<S>>,
     ) -> Self {
-        match &cable.guided {
-            None => Self::free(cable, span, response),
-            Some(guided) => cable.length.apart(Leaving { guided, cable, span, response }),
-        }
-    }
-
-    #[inline(always)]
-    fn free(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
         let [xx, xz, zz] = response.flexibility;
         let [ux, uz] = response.direction;
         let miss = span.misclosure(response.end);
@@ -162,7 +187,6 @@ struct Leaving<'a, 'b, S: Simd> {
     guided: &'a Guided<S>,
     cable: &'a LaneCable<'b, S>,
     span: &'a Span<Lanes<S>>,
-    response: &'a Response<Lanes<S>>,
 }
 
 impl<S: Simd> WithSimd for Leaving<'_, '_, S> {
@@ -170,10 +194,11 @@ impl<S: Simd> WithSimd for Leaving<'_, '_, S> {
 
     #[inline(always)]
     fn with_simd<Same: Simd>(self, _: Same) -> HeldCable<S> {
-        let Self { guided, cable, span, response } = self;
+        let Self { guided, cable, span } = self;
         let LeavePoint { position, tangent: [tx, tz], tension_inv, .. } = guided.leave_point(cable);
         let span = Span { plane: span.plane, end: span.misclosure(position) };
-        let mut held = HeldCable::free(cable, &span, response);
+        let response = cable.response();
+        let mut held = HeldCable::plain(cable, &span, &response);
         let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
         let wound = guided.guide.signed_radius;
         let per_turn = wound / (ex * tx + ez * tz);

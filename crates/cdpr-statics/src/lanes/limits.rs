@@ -64,7 +64,7 @@ impl<S: Simd> WithSimd for BelowPulley<'_, '_, S> {
             let Some(guided) = &cable.guided else { break };
             let [_, rise] = guided.leave_point(cable).position;
             found = going.select(at_platform(cable, greatest, span.end[1] - rise), found);
-            let held = HeldCable::new(cable, span, &cable.response());
+            let held = HeldCable::leaving(guided, cable, span);
             let moved = held.change(cable, held.way_to(found), going, compared);
             going = going & !moved.less_or_equal(moved.all(LAST_CHANGE));
             if !going.any() {

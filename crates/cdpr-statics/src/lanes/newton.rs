@@ -142,15 +142,18 @@ impl<S: Simd> Robots<'_, S> {
         going: Mask<S>,
     ) {
         for (i, (cable, linearized)) in self.cables.iter().zip(&mut platform.cables).enumerate() {
+            if let Some(guided) = &cable.guided {
+                guided.linearise(
+                    cable,
+                    &cable.span(&self.position),
+                    linearized,
+                    &mut platform.free[i],
+                    going,
+                );
+                continue;
+            }
             let span = cable.span(&self.position);
-            let response = match &cable.guided {
-                None => cable.response(),
-                Some(guided) => {
-                    let (response, free) = guided.response(cable);
-                    platform.free[i].replace(&free, going);
-                    response
-                }
-            };
+            let response = cable.response();
             linearized.replace(&LinearizedCable::new(&span, cable.force, &response), going);
         }
         self.assemble(load, platform, going);
