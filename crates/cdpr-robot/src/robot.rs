@@ -158,6 +158,9 @@ impl RobotCable {
 }
 
 impl Pulley {
+    /// Horizontal part of a vertical axis at most, relative to its vertical part.
+    pub const VERTICAL: f64 = VERTICAL;
+
     /// How the cable enters, in the level frame to which `level` rotates.
     fn entry(&self, level: Option<&Matrix3<f64>>) -> Entry {
         let axis = level.map_or(self.axis, |level| level * self.axis);

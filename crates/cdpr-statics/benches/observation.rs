@@ -5,7 +5,7 @@
 
 mod problems;
 
-use cdpr_robot::{Parameter, Pose, Robot};
+use cdpr_robot::{Parameter, Pose, Pulley, Robot, Vector3};
 use cdpr_statics::{Load, Observer};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use problems::common::robots;
@@ -34,8 +34,21 @@ fn shares(robot: &Robot, robots: usize) -> Vec<f64> {
         Parameter::LinearDensity => 0.1 * cable.linear_density,
         Parameter::YoungsModulus => 0.2 * cable.youngs_modulus,
         Parameter::TensionOffset(_) => 0.04 * robot.platform.mass,
+        Parameter::PulleyRadius(_) => 0.0005,
+        Parameter::Lead(_) => 0.05,
+        Parameter::Tilt(..) => 0.0,
         _ => 0.01 * robot.platform_size(),
     })
+}
+
+/// The robot with a pulley and a lead for every cable.
+fn guided(mut robot: Robot) -> Robot {
+    for cable in &mut robot.cables {
+        cable.pulley = Some(Pulley { radius: 0.045, axis: Vector3::z() });
+        cable.lead = 3.0;
+    }
+    robot.name += ", pulleys and leads";
+    robot
 }
 
 fn sawtooths(robot: &Robot, robots: usize, half_range: impl Fn(&Parameter) -> f64) -> Vec<f64> {
@@ -80,7 +93,8 @@ fn observation(criterion: &mut Criterion) {
             b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
         });
     }
-    for (robot, pose) in robots() {
+    let guided = robots().map(|(robot, pose)| (guided(robot), pose));
+    for (robot, pose) in robots().into_iter().chain(guided) {
         let load = Load::payload(0.1 * robot.platform.mass);
         let observer = Observer::new(&robot, &pose, &load).unwrap();
         let rows = shares(&robot, BATCH);

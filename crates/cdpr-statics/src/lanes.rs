@@ -7,6 +7,7 @@ mod cable;
 mod chain;
 mod held;
 mod level;
+mod limits;
 mod minimum;
 mod newton;
 mod observer;

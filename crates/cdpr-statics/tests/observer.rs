@@ -1,8 +1,8 @@
 //! Observer robots in lanes: the answers of the scalar models, whoever else is in the batch.
 
 use crate::common::{caroca, cogiro, ipanema, robots};
-use cdpr_robot::{CableEnd, Parameter, Pose, Robot, RobotError, TensionReference, Vector3, library};
-use cdpr_statics::{Load, Observer, Residual, StaticsError};
+use cdpr_robot::{CableEnd, Parameter, Pose, Pulley, Robot, RobotError, TensionReference, Vector3, library};
+use cdpr_statics::{Load, Observer, Residual, ScalarReason, StaticsError};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
@@ -18,6 +18,11 @@ fn rows(robot: &Robot, count: usize, times: f64, seed: u64) -> Vec<f64> {
         .chain([0.03].repeat(3 * n))
         .chain([0.015].repeat(3))
         .chain([15.0].repeat(n))
+        .chain(Parameter::of(robot)[6 + 7 * n..].iter().map(|parameter| match parameter {
+            Parameter::PulleyRadius(_) => 0.0005,
+            Parameter::Lead(_) => 0.05,
+            _ => 0.0,
+        }))
         .collect();
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let mut row = || half.iter().map(|half| times * half * rng.random_range(-1.0..1.0)).collect::<Vec<_>>();
@@ -135,22 +140,106 @@ fn cables_at_their_limits_and_cables_that_sag_stay_in_the_lanes() {
     ];
     for (mut robot, pose) in robots().into_iter().chain(more) {
         robot.cables.iter_mut().for_each(|cable| (cable.pulley, cable.lead) = (None, 0.0));
-        let longest = (0..robot.cables.len()).map(|i| robot.span(&pose, i).norm()).fold(0.0, f64::max);
-        let size = (longest / 20.0).min(robot.platform_size());
-        let mut rows = rows(&robot, 200, 1.0, 11);
-        let parameters = Parameter::of(&robot);
-        for (k, value) in rows.iter_mut().enumerate() {
-            *value *= match parameters[k % parameters.len()] {
-                Parameter::Mass | Parameter::LinearDensity | Parameter::YoungsModulus => 0.5,
-                Parameter::TensionOffset(_) => robot.platform.mass / 400.0,
-                _ => 0.2 * size,
-            };
-        }
+        let rows = rows_by_size(&robot, &pose, 200, 1.0, 11);
         let load = Load::payload(0.1 * robot.platform.mass);
         let (left, failed) = compare(&robot, &pose, &load, &rows);
         println!("{}: {left} of 200 left to the scalar models, {failed} failed there", robot.name);
         assert!(left <= 2, "{}: {left}, {failed}", robot.name);
     }
+}
+
+/// Rows for a robot of any size, `times` as wide.
+fn rows_by_size(robot: &Robot, pose: &Pose, count: usize, times: f64, seed: u64) -> Vec<f64> {
+    let longest = (0..robot.cables.len()).map(|i| robot.span(pose, i).norm()).fold(0.0, f64::max);
+    let size = (longest / 20.0).min(robot.platform_size());
+    let mut rows = rows(robot, count, times, seed);
+    let parameters = Parameter::of(robot);
+    for (k, value) in rows.iter_mut().enumerate() {
+        *value *= match parameters[k % parameters.len()] {
+            Parameter::Mass | Parameter::LinearDensity | Parameter::YoungsModulus => 0.5,
+            Parameter::TensionOffset(_) => robot.platform.mass / 400.0,
+            Parameter::PulleyRadius(_) => longest / 10.0,
+            Parameter::Lead(_) => longest / 10.0,
+            _ => 0.2 * size,
+        };
+    }
+    rows
+}
+
+#[test]
+fn cables_over_vertical_pulleys_and_behind_leads_stay_in_the_lanes() {
+    let named = |name| Robot::from_json(library::named(library::ROBOTS, name).unwrap().text).unwrap();
+    let with_their_own = [
+        (named("copacabana-handling"), Pose::at(0.5, 0.3, 2.0)),
+        (named("hrpcables"), Pose::at(0.3, 0.2, 1.5)),
+        (named("ipanema-2"), Pose::at(0.3, 0.2, 1.5)),
+        (named("expo2015-roberto"), Pose::at(0.3, 0.2, 1.5)),
+    ];
+    let up = Vector3::z();
+    for (mut robot, pose) in robots().into_iter().chain(with_their_own) {
+        let own = robot.cables[0].pulley;
+        let longest = (0..robot.cables.len()).map(|i| robot.span(&pose, i).norm()).fold(0.0, f64::max);
+        let radius = own.map_or(0.006 * longest, |pulley| pulley.radius);
+        // All cables; some, from both sides and with other radii; leads alone.
+        for case in 0..3 {
+            for (i, cable) in robot.cables.iter_mut().enumerate() {
+                let axis = if i % 3 == 0 { -up } else { up };
+                let some = (i % 4 != 1).then_some(Pulley { radius: radius * (1.0 + 0.1 * i as f64), axis });
+                cable.pulley = [own.or(Some(Pulley { radius, axis: up })), some, None][case];
+                cable.lead = [0.0, if i % 2 == 0 { 0.1 * longest } else { 0.0 }, 0.2 * longest][case];
+            }
+            let load = Load::payload(0.1 * robot.platform.mass);
+            let rows = rows_by_size(&robot, &pose, 200, 1.0, 17);
+            let (left, failed) = compare(&robot, &pose, &load, &rows);
+            println!("{} {case}: {left} of 200 left to the scalar models, {failed} failed", robot.name);
+            assert!(left <= 2 && failed == 0, "{} {case}: {left}, {failed}", robot.name);
+        }
+    }
+}
+
+#[test]
+fn a_greatest_tension_at_the_leave_point_of_a_pulley_is_kept_in_lanes() {
+    for (mut robot, pose) in [(caroca(), Pose::at(0.5, 0.2, 1.75)), (ipanema(), Pose::at(0.3, 0.2, 1.5))] {
+        for cable in &mut robot.cables {
+            (cable.pulley, cable.lead) = (Some(Pulley { radius: 0.1, axis: Vector3::z() }), 1.0);
+        }
+        let load = Load::payload(0.2 * robot.platform.mass);
+        let rows = rows(&robot, 200, 0.5, 5);
+        let free = cdpr_statics::inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let tightest =
+            (0..free.tensions.len()).max_by(|a, b| free.tensions[*a].total_cmp(&free.tensions[*b])).unwrap();
+        let own = &mut robot.cables[tightest].tension_limits;
+        (own.max_at, own.max) = (Some(CableEnd::Exit), Some(free.tensions[tightest] + 4.0));
+        let (left, failed) = compare(&robot, &pose, &load, &rows);
+        println!("{}: {left} of 200 left to the scalar models, {failed} failed there", robot.name);
+        assert!(left <= 2 && failed < 20, "{}: {left}, {failed}", robot.name);
+    }
+}
+
+#[test]
+fn pulleys_whose_axes_tilt_are_left_to_the_scalar_models_alone() {
+    let mut robot = caroca();
+    for cable in &mut robot.cables {
+        cable.pulley = Some(Pulley { radius: 0.045, axis: Vector3::z() });
+    }
+    let (pose, load) = (Pose::at(0.0, 0.0, 1.75), Load::payload(50.0));
+    let mut rows = rows(&robot, 9, 1.0, 6);
+    let parameters = Parameter::of(&robot);
+    let tilt = parameters.iter().position(|parameter| matches!(parameter, Parameter::Tilt(..))).unwrap();
+    rows[4 * parameters.len() + tilt + 3] = 0.02;
+    let observer = Observer::new(&robot, &pose, &load).unwrap();
+    let reasons = observer.observe_all(&rows).into_iter().map(|found| found.unwrap().scalar);
+    let expected = (0..9).map(|row| (row == 4).then_some(ScalarReason::Pulleys));
+    assert!(reasons.eq(expected));
+    assert_eq!(compare(&robot, &pose, &load, &rows), (1, 0));
+    // A radius below zero is no robot.
+    let radius =
+        parameters.iter().position(|parameter| matches!(parameter, Parameter::PulleyRadius(_))).unwrap();
+    rows[radius + 2] = -0.1;
+    assert!(matches!(
+        &observer.observe_all(&rows)[0],
+        Err(StaticsError::Robot(RobotError::Invalid { field, .. })) if field == "r3"
+    ));
 }
 
 #[test]

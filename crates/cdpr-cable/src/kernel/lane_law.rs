@@ -101,6 +101,13 @@ pub fn lane_law_strain<T: Lanewise>(law: &[LaneSegment], axial_flexibility: T, t
     segments.alpha + -1.0 + tension * segments.flexibility
 }
 
+/// 1 + ε and ε' [1/N] at a tension [N].
+#[inline(always)]
+pub fn lane_law_stretch<T: Lanewise>(law: &[LaneSegment], axial_flexibility: T, tension: T) -> [T; 2] {
+    let segments = at(law, axial_flexibility, tension);
+    [segments.alpha + tension * segments.flexibility, segments.flexibility]
+}
+
 /// The segments at A and at B.
 #[inline(always)]
 fn segments<T: Lanewise>(law: &[LaneSegment], axial_flexibility: T, ends: &Terms<T>) -> [Segments<T>; 2] {

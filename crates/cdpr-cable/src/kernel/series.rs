@@ -74,6 +74,22 @@ pub(super) fn psi_by_halves<T: Lanewise>(q2: T, cosine: T) -> T {
     psi
 }
 
+/// Angle of the unit vector (x, z), x >= 0, above the level [rad].
+///
+/// Three times halved it is below π/16, where the series of ψ holds for a negative square:
+///
+/// ```text
+/// tan(α/2) = z/(1 + x),      tan(α/2) = tan α/(1 + sqrt(1 + tan² α)),      atan q = q (1 - q² ψ(-q²))  (C29)
+/// ```
+#[inline(always)]
+pub(super) fn elevation<T: Field>([x, z]: [T; 2]) -> T {
+    let half = z / (x + 1.0);
+    let quarter = half / ((half * half + 1.0).sqrt() + 1.0);
+    let eighth = quarter / ((quarter * quarter + 1.0).sqrt() + 1.0);
+    let square = -(eighth * eighth);
+    eighth * (square * psi_of_taut(square) + 1.0) * 8.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,6 +113,15 @@ mod tests {
             let logarithm = (((1.0 + q) / cosine).ln() / q - 1.0) / q2;
             let expected = if q2 < SERIES_LIMIT { psi_of_slack(q2) } else { logarithm };
             assert_relative_eq!(psi_by_halves(q2, cosine), expected, max_relative = 1e-14);
+        }
+    }
+
+    #[test]
+    fn elevations_are_those_of_the_arctangent() {
+        for k in -1000..=1000 {
+            let angle = f64::from(k) / 1000.0 * std::f64::consts::FRAC_PI_2;
+            let (sin, cos) = angle.sin_cos();
+            assert_relative_eq!(elevation([cos, sin]), angle, max_relative = 1e-15);
         }
     }
 }

@@ -1,10 +1,20 @@
 //! One cable in each lane: where it runs and how it answers.
+//!
+//! The length of a cable over a pulley is that beyond its leave point, which closes with the force in the same
+//! iteration: at the force F and the whole length L that it was given,
+//!
+//! ```text
+//! dLf = (L - L(F, Lf))/β + q·dF/β,      A(F, L) = A(F, Lf) + dA/dL (L - L(F, Lf))                   (L12)
+//! ```
+//!
+//! with (C21) to (C23) of `cdpr_cable`; what is left out is of second order.
 
 use crate::equations::{LinearizedCable, Span, between};
 use crate::lanes::algebra::{Lanes2, Lanes3, three};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::{
-    LaneEnd, LaneSegment, Response, lane_end, lane_law_end, lane_law_response, lane_law_strain, lane_response,
+    LaneEnd, LaneGuide, LaneSegment, LaneWay, LeavePoint, Response, lane_end, lane_law_end,
+    lane_law_response, lane_law_strain, lane_law_stretch, lane_response,
 };
 
 /// A cable of every robot, or several cables of one.
@@ -20,13 +30,160 @@ pub(crate) struct LaneCable<'a, S: Simd> {
     pub(crate) exit_point: Lanes3<S>,
     /// s = R a [m].
     pub(crate) anchor_arm: Lanes3<S>,
-    /// Unstrained length [m].
+    /// Unstrained length beyond the exit point, or beyond the leave point of a pulley [m].
     pub(crate) length: Lanes<S>,
     /// Force at A [N].
     pub(crate) force: Lanes2<S>,
+    /// What leads it to its exit point. Most cables have none.
+    pub(crate) guided: Option<Box<Guided<S>>>,
+}
+
+/// A guide, and the cable that was given to it.
+#[derive(Clone)]
+pub(crate) struct Guided<S: Simd> {
+    pub(crate) guide: LaneGuide<Lanes<S>>,
+    /// Unstrained length L, lead and arc included [m].
+    pub(crate) whole_length: Lanes<S>,
+}
+
+/// How the length beyond the leave point follows the force, (L12).
+#[derive(Clone, Copy)]
+pub(crate) struct FreeLength<S: Simd> {
+    /// (L - L(F, Lf))/β [m].
+    missing: Lanes<S>,
+    /// q/β [m/N].
+    per_force: Lanes2<S>,
+}
+
+impl<S: Simd> FreeLength<S> {
+    /// No length that changes.
+    #[inline(always)]
+    pub(crate) fn fixed(zero: Lanes<S>) -> Self {
+        Self { missing: zero, per_force: [zero; 2] }
+    }
+
+    /// Takes over another one in the lanes that are `going`.
+    #[inline(always)]
+    pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {
+        self.revise(other.missing, going);
+        for k in 0..2 {
+            self.per_force[k] = going.select(other.per_force[k], self.per_force[k]);
+        }
+    }
+
+    /// Takes over a missing length in the lanes that are `going`.
+    #[inline(always)]
+    pub(crate) fn revise(&mut self, missing: Lanes<S>, going: Mask<S>) {
+        self.missing = going.select(missing, self.missing);
+    }
+
+    /// dLf for a change of the force.
+    #[inline(always)]
+    pub(crate) fn change(&self, from: &Lanes2<S>, to: &Lanes2<S>) -> Lanes<S> {
+        self.missing + self.per_force[0] * (to[0] - from[0]) + self.per_force[1] * (to[1] - from[1])
+    }
+}
+
+impl<S: Simd> Guided<S> {
+    /// Where the cable leaves its guide.
+    #[inline(always)]
+    pub(crate) fn leave_point(&self, cable: &LaneCable<'_, S>) -> LeavePoint<Lanes<S>> {
+        self.guide.leave_point(cable.weight_per_length, cable.length, cable.force)
+    }
+
+    #[inline(always)]
+    fn way(&self, cable: &LaneCable<'_, S>) -> LaneWay<Lanes<S>> {
+        let leave = self.leave_point(cable);
+        let flexibility = cable.axial_flexibility;
+        let stretch = match cable.law {
+            [] => [leave.tension * flexibility + 1.0, flexibility],
+            law => lane_law_stretch(law, flexibility, leave.tension),
+        };
+        self.guide.way(cable.weight_per_length, cable.length, leave, stretch)
+    }
+
+    /// Linearises the whole cable of this guide in the lanes that are `going`, with the end that (L12) gives it.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn linearise(
+        &self,
+        cable: &LaneCable<'_, S>,
+        span: &Span<Lanes<S>>,
+        linearized: &mut LinearizedCable<Lanes<S>>,
+        free: &mut FreeLength<S>,
+        going: Mask<S>,
+    ) {
+        cable.length.apart(Linearise { guided: self, cable, span: *span, linearized, free, going });
+    }
+
+    /// The end of the whole cable of this guide, (L12), and the missing length beyond its leave point. A
+    /// cable that is too short for its guide has a slackness of 2.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn end(&self, cable: &LaneCable<'_, S>) -> (LaneEnd<Lanes<S>>, Lanes<S>) {
+        cable.length.apart(WholeEnd(self, cable))
+    }
+}
+
+struct Linearise<'a, 'b, S: Simd> {
+    guided: &'a Guided<S>,
+    cable: &'a LaneCable<'b, S>,
+    span: Span<Lanes<S>>,
+    linearized: &'a mut LinearizedCable<Lanes<S>>,
+    free: &'a mut FreeLength<S>,
+    going: Mask<S>,
+}
+
+impl<S: Simd> WithSimd for Linearise<'_, '_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) {
+        let Self { guided, cable, span, linearized, free, going } = self;
+        let way = guided.way(cable);
+        let response = way.response(cable.force[0], &cable.response());
+        let missing = guided.whole_length - way.length;
+        let response = Response { end: moved(response.end, &way, missing), ..response };
+        linearized.replace(&LinearizedCable::new(&span, cable.force, &response), going);
+        let change = FreeLength { missing: missing * way.free_per_length, per_force: way.free_per_force };
+        free.replace(&change, going);
+    }
+}
+
+struct WholeEnd<'a, 'b, S: Simd>(&'a Guided<S>, &'a LaneCable<'b, S>);
+
+impl<S: Simd> WithSimd for WholeEnd<'_, '_, S> {
+    type Output = (LaneEnd<Lanes<S>>, Lanes<S>);
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
+        let Self(guided, cable) = self;
+        let (way, LaneEnd { end: [x, z], tension, slackness }) = (guided.way(cable), cable.end());
+        let missing = guided.whole_length - way.length;
+        let [from_x, from_z] = way.leave.position;
+        let end = moved([from_x + x, from_z + z], &way, missing);
+        let zero = cable.length.all(0.0);
+        let slackness = zero.less_or_equal(cable.length).select(slackness, zero.all(2.0));
+        (LaneEnd { end, tension, slackness }, missing * way.free_per_length)
+    }
+}
+
+#[inline(always)]
+fn moved<S: Simd>([x, z]: Lanes2<S>, way: &LaneWay<Lanes<S>>, missing: Lanes<S>) -> Lanes2<S> {
+    [x + way.end_per_length[0] * missing, z + way.end_per_length[1] * missing]
 }
 
 impl<S: Simd> LaneCable<'_, S> {
+    /// Gives a guided cable the whole length that it has.
+    #[inline(always)]
+    pub(crate) fn keep_length(&mut self) {
+        let length = self.guided.as_ref().map(|guided| guided.way(self).length);
+        if let (Some(guided), Some(length)) = (&mut self.guided, length) {
+            guided.whole_length = length;
+        }
+    }
+
+    /// The end of the part beyond the guide.
     #[inline(always)]
     pub(crate) fn end(&self) -> LaneEnd<Lanes<S>> {
         let Self { law, weight_per_length, axial_flexibility, length, force, .. } = *self;
@@ -54,6 +211,7 @@ impl<S: Simd> LaneCable<'_, S> {
         Span::oblique(between(position, &self.anchor_arm, &self.exit_point))
     }
 
+    /// How the part beyond the guide answers.
     #[inline(always)]
     pub(crate) fn response(&self) -> Response<Lanes<S>> {
         let Self { law, weight_per_length, axial_flexibility, length, force, .. } = *self;

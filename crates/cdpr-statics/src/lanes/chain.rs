@@ -33,8 +33,9 @@ use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
 use crate::inverse::NEARLY_ROUNDING;
 use crate::lanes::algebra::{Lanes3, Lanes6, halves, six, three};
-use crate::lanes::cable::LaneCable;
+use crate::lanes::cable::{FreeLength, LaneCable};
 use crate::lanes::held::HeldCable;
+use crate::lanes::limits::limits_at;
 use crate::lanes::minimum::is_least;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots, Scale};
 use crate::lanes::program::{Row, newton, within_limits};
@@ -66,9 +67,12 @@ pub(crate) struct Choice {
     pub(crate) shape: Shape,
 }
 
-/// What a cable that is nearly a parabola keeps when its ends move.
+/// What a cable that is nearly a parabola keeps when its ends move; of a guided one, its part beyond the leave
+/// point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shape {
+    /// Direction of the cable where it leaves its exit point or guide.
+    pub(crate) tangent: [f64; 2],
     /// σ [N].
     pub(crate) chord_force: f64,
     /// Vertical force at A beyond that along the chord [N].
@@ -157,9 +161,16 @@ pub(crate) fn observe<'a, S: Simd>(
     let mut spans = Vec::with_capacity(robots.cables.len());
     for (cable, choice) in robots.cables.iter_mut().zip(&shared.choices) {
         let span = cable.span(&robots.position);
-        let chord = span.chord();
+        let end = match &cable.guided {
+            None => span.end,
+            Some(guided) => {
+                let [x, z] = choice.shape.tangent;
+                span.misclosure(guided.guide.leave_position([zero.all(x), zero.all(z)]))
+            }
+        };
+        let chord = Span { plane: span.plane, end }.chord();
         let per_length = chord.recip() * choice.shape.chord_force;
-        cable.force = [span.end[0] * per_length, span.end[1] * per_length + choice.shape.sag_force];
+        cable.force = [end[0] * per_length, end[1] * per_length + choice.shape.sag_force];
         cable.length = chord + choice.shape.longer;
         spans.push(span);
     }
@@ -184,23 +195,6 @@ pub(crate) fn observe<'a, S: Simd>(
     // Eq. (4)
     let displacement = three(|k| robots.position[k] - stood[k]);
     Outcome { passed: [converged, sound, held, standing, answered], displacement, unloaded, loaded }
-}
-
-impl<S: Simd> LaneCable<'_, S> {
-    /// The tensions at the platform that the limits allow [N], as `limits_at` has them.
-    #[inline(always)]
-    pub(crate) fn limits(&self, span: &Span<Lanes<S>>, choice: &Choice) -> [Lanes<S>; 2] {
-        let (least, greatest) = (self.length.all(choice.limits.min), self.length.all(choice.limits.max));
-        match choice.max_at {
-            CableEnd::Anchor => [least, greatest],
-            CableEnd::Exit => {
-                // (C26) of `cdpr_cable`, for a linear cable: t + t²/2EA grows with the height by its weight.
-                let half = self.axial_flexibility * 0.5;
-                let whole = greatest + greatest * greatest * half + self.weight_per_length * span.end[1];
-                [least, whole * 2.0 * ((whole * half * 4.0 + 1.0).sqrt() + 1.0).recip()]
-            }
-        }
-    }
 }
 
 /// The tensions nearest to their reference at the wanted pose, equations (L2) and (L3); `offsets` are added
@@ -228,8 +222,8 @@ fn distribute<'a, S: Simd>(
     let mut convex = Vec::with_capacity(spans.len());
     let mut rows = Vec::with_capacity(spans.len());
     let mut limits = Vec::with_capacity(spans.len());
-    for ((cable, span), choice) in robots.cables.iter().zip(spans).zip(&shared.choices) {
-        limits.push(cable.limits(span, choice));
+    for ((cable, span), choice) in robots.cables.iter_mut().zip(spans).zip(&shared.choices) {
+        limits.push(limits_at(cable, span, (choice.limits, choice.max_at), compared));
     }
     for _ in 0..MAX_DISTRIBUTIONS {
         all_held.clear();
@@ -238,7 +232,7 @@ fn distribute<'a, S: Simd>(
         let mut balance = weight;
         let cables = spans.iter().zip(&robots.cables).zip(&shared.choices);
         for ((span, cable), choice) in cables {
-            let held = HeldCable::new(cable, span, &cable.response());
+            let held = HeldCable::new(cable, span);
             let [fx, fz] = cable.force;
             let closed = [fx, fz + held.closing[0]];
             let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(closed));
@@ -348,14 +342,23 @@ fn hold<S: Simd>(
     let zero = robots.weight.all(0.0);
     let compared = [shared.tension, shared.scale.size];
     let mut all = zero.less_or_equal(zero);
+    if robots.cables.iter().any(|cable| cable.guided.is_some()) {
+        platform.free = vec![FreeLength::fixed(zero); spans.len()];
+    }
     let cables = robots.cables.iter_mut().zip(&mut platform.cables);
-    for ((span, set_point), (cable, linearized)) in spans.iter().zip(set_points).zip(cables) {
+    for (i, ((span, set_point), (cable, linearized))) in spans.iter().zip(set_points).zip(cables).enumerate()
+    {
         let (mut going, mut taut) = (all, all);
         for _ in 0..MAX_ITERATIONS {
-            let response = cable.response();
-            let held = HeldCable::new(cable, span, &response);
+            let held = match &cable.guided {
+                None => {
+                    let response = cable.response();
+                    linearized.replace(&LinearizedCable::new(span, cable.force, &response), going);
+                    HeldCable::plain(cable, span, &response)
+                }
+                Some(guided) => HeldCable::leaving(guided, cable, span),
+            };
             taut = (!going & taut) | (going & held.is_taut(cable));
-            linearized.replace(&LinearizedCable::new(span, cable.force, &response), going);
             let fx = cable.force[0];
             let inverse = (fx * held.tension_slope).recip();
             let d = (*set_point - held.closed) * fx * inverse;
@@ -367,6 +370,11 @@ fn hold<S: Simd>(
             if !going.any() {
                 break;
             }
+        }
+        cable.keep_length();
+        if let Some(guided) = &cable.guided {
+            let everywhere = zero.less_or_equal(zero);
+            guided.linearise(cable, span, linearized, &mut platform.free[i], everywhere);
         }
         // The last change closes the cable to rounding.
         linearized.predicted = cable.force;

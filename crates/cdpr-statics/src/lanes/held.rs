@@ -2,9 +2,9 @@
 
 use crate::equations::Span;
 use crate::lanes::algebra::Lanes2;
-use crate::lanes::cable::LaneCable;
-use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::kernel::{Field, Lanewise, Response, TAUT};
+use crate::lanes::cable::{Guided, LaneCable};
+use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
+use cdpr_cable::kernel::{Field, Lanewise, LeavePoint, Response, TAUT};
 
 /// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell.
 /// The scalar models hold cables at 0.001, which the estimate meets within a few percent.
@@ -36,8 +36,42 @@ pub(crate) struct HeldCable<S: Simd> {
 }
 
 impl<S: Simd> HeldCable<S> {
+    /// A cable between its ends.
     #[inline(always)]
-    pub(crate) fn new(
+    pub(crate) fn new(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
+        match &cable.guided {
+            None => Self::plain(cable, span, &cable.response()),
+            Some(guided) => Self::leaving(guided, cable, span),
+        }
+    }
+
+    /// A cable over a pulley.
+    #[cold]
+    #[inline(never)]
+    fn over_pulley(guided: &Guided<S>, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
+        cable.length.apart(Leaving { guided, cable, span })
+    }
+
+    /// A cable over a pulley. Its numbers are taken one by one, so that those of plain cables stay in registers.
+    #[inline(always)]
+    pub(crate) fn leaving(guided: &Guided<S>, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
+        let held = Self::over_pulley(guided, cable, span);
+        Self {
+            tension: held.tension,
+            closed: held.closed,
+            flatness: held.flatness,
+            slackness: held.slackness,
+            closing: [held.closing[0], held.closing[1]],
+            rise: held.rise,
+            length_slope: held.length_slope,
+            tension_slope: held.tension_slope,
+            curvatures: [held.curvatures[0], held.curvatures[1]],
+        }
+    }
+
+    /// A cable without guide, from its response.
+    #[inline(always)]
+    pub(crate) fn plain(
         cable: &LaneCable<'_, S>,
         span: &Span<Lanes<S>>,
         response: &Response<Lanes<S>>,
@@ -136,5 +170,48 @@ impl<S: Simd> HeldCable<S> {
         cable.length = going.select(cable.length + longer, cable.length);
         let force = (d.abs() + rise.abs()) * (1.0 / tension);
         force.max(longer.abs() * (1.0 / size))
+    }
+}
+
+/// A cable over a pulley. With `e = |d(x, z)/dLf|` of the part beyond the leave point, τ the direction there
+/// and ρ the radius with its sign, a turn α of τ winds ρ α off the wheel, along τ: forces are those of the part
+/// with a fixed leave point, and
+///
+/// ```text
+/// T0 dα = τ_x dfz - τ_z dfx - w τ_x dLf,      dLf = dLf|B + (ρ/e) dα                                (L13)
+/// fz'' = fz''|B - ρ α' α'|B/(τ x C_z)
+/// ```
+///
+/// where `|B` stands for a fixed leave point and C_z for the second column of the flexibility.
+struct Leaving<'a, 'b, S: Simd> {
+    guided: &'a Guided<S>,
+    cable: &'a LaneCable<'b, S>,
+    span: &'a Span<Lanes<S>>,
+}
+
+impl<S: Simd> WithSimd for Leaving<'_, '_, S> {
+    type Output = HeldCable<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> HeldCable<S> {
+        let Self { guided, cable, span } = self;
+        let LeavePoint { position, tangent: [tx, tz], tension_inv, .. } = guided.leave_point(cable);
+        let span = Span { plane: span.plane, end: span.misclosure(position) };
+        let response = cable.response();
+        let mut held = HeldCable::plain(cable, &span, &response);
+        let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
+        let wound = guided.guide.signed_radius;
+        let per_turn = wound / (ex * tx + ez * tz);
+        let falling = cable.weight_per_length * tx * tension_inv;
+        let whole = (per_turn * falling + 1.0).recip();
+        let [dz, longer] = held.closing;
+        held.closing[1] += per_turn * whole * (tx * tension_inv * dz - falling * longer);
+        let turn = (tx * held.rise - tz) * tension_inv - falling * held.length_slope;
+        held.length_slope += per_turn * whole * turn;
+        let bend = wound * whole * turn * turn / (tx * zz - tz * xz);
+        let [_, uz] = response.direction;
+        held.curvatures[0] -= uz * bend;
+        held.curvatures[1] -= bend;
+        held
     }
 }

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! (H. Everett, *Generalized Lagrange multiplier method*, Operations Research 11, 1963). φ is compared with
-//! that of inextensible catenaries (L4) at fixed values of u, from nearly straight to steep ones.
+//! that of inextensible catenaries (L4) at fixed values of u, from nearly straight to steep ones; over a pulley
+//! with that from the point where the one before would leave it.
 
 use crate::equations::Span;
 use crate::equations::vector::{dot, wrench};
@@ -44,7 +45,6 @@ pub(crate) fn is_least<S: Simd>(
     reference: f64,
     [least, greatest]: &Lanes2<S>,
 ) -> Mask<S> {
-    let [h, z] = span.end;
     let part = |tension: Lanes<S>, force: Lanes2<S>| {
         let miss = tension + -reference;
         let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(force));
@@ -55,12 +55,37 @@ pub(crate) fn is_least<S: Simd>(
     let half_weight = cable.weight_per_length * 0.5;
     let mut is_least = here.less_or_equal(here);
     for [u, coth, stretch] in CATENARIES {
-        // (L4)
-        let length = (z * z + h * h * stretch).sqrt();
-        let force = [half_weight * h * (1.0 / u), half_weight * (z * (coth / u) + length)];
+        let force = match &cable.guided {
+            None => catenary(span.end, half_weight, [u, coth, stretch]).1,
+            Some(guided) => {
+                let mut tangent = guided.leave_point(cable).tangent;
+                let mut force = cable.force;
+                for _ in 0..LEAVING {
+                    let end = span.misclosure(guided.guide.leave_position(tangent));
+                    let (length, closed) = catenary(end, half_weight, [u, coth, stretch]);
+                    force = closed;
+                    tangent = guided.guide.leave_point(cable.weight_per_length, length, force).tangent;
+                }
+                force
+            }
+        };
         let there = tension(&force);
         let allowed = least.less_or_equal(there) & there.less_or_equal(*greatest);
         is_least = is_least & (here.less_or_equal(part(there, force)) | !allowed);
     }
     is_least
+}
+
+/// Catenaries after which a leave point fits its catenary well enough for a comparison.
+const LEAVING: usize = 3;
+
+/// Length and force at A of an inextensible catenary to `end` with half the weight per length, (L4).
+#[inline(always)]
+fn catenary<S: Simd>(
+    [h, z]: Lanes2<S>,
+    half_weight: Lanes<S>,
+    [u, coth, stretch]: [f64; 3],
+) -> (Lanes<S>, Lanes2<S>) {
+    let length = (z * z + h * h * stretch).sqrt();
+    (length, [half_weight * h * (1.0 / u), half_weight * (z * (coth / u) + length)])
 }

@@ -8,7 +8,7 @@ use crate::direct::MAX_STRAIN;
 use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable};
 use crate::lanes::algebra::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, six, three};
-use crate::lanes::cable::LaneCable;
+use crate::lanes::cable::{FreeLength, LaneCable};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_cable::kernel::{FOLDED, Field, LaneEnd};
 use cdpr_robot::Robot;
@@ -83,6 +83,10 @@ pub(crate) const MAX_ITERATIONS: usize = 8;
 /// From there the stiffness is kept, and each further step reduces the residual by as much again.
 const SMALL_STEP: f64 = 1e-7;
 
+/// Square of the last step of guided cables, relative to that of a small one: they keep the symmetric part of
+/// their stiffness alone, so that a step leaves more than its square.
+const LAST_OF_GUIDED: f64 = 1e-6;
+
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
 
@@ -104,6 +108,8 @@ impl<S: Simd> PlatformLoad<S> {
 /// The platform between linearised cables.
 pub(crate) struct LinearizedPlatform<S: Simd> {
     pub(crate) cables: SmallVec<[LinearizedCable<Lanes<S>>; INLINE]>,
+    /// The lengths beyond the leave points of all cables, of robots with guided ones.
+    pub(crate) free: Vec<FreeLength<S>>,
     /// Gradient of the potential with the predicted forces.
     pub(crate) gradient: Lanes6<S>,
     /// Its derivative, factored.
@@ -122,6 +128,7 @@ impl<S: Simd> LinearizedPlatform<S> {
         };
         Self {
             cables: smallvec![cable; cables],
+            free: Vec::new(),
             gradient: [zero; 6],
             factored: SymmetricFactors::new([[zero; 6]; 6]),
         }
@@ -143,7 +150,17 @@ impl<S: Simd> Robots<'_, S> {
         platform: &mut LinearizedPlatform<S>,
         going: Mask<S>,
     ) {
-        for (cable, linearized) in self.cables.iter().zip(&mut platform.cables) {
+        for (i, (cable, linearized)) in self.cables.iter().zip(&mut platform.cables).enumerate() {
+            if let Some(guided) = &cable.guided {
+                guided.linearise(
+                    cable,
+                    &cable.span(&self.position),
+                    linearized,
+                    &mut platform.free[i],
+                    going,
+                );
+                continue;
+            }
             let span = cable.span(&self.position);
             let response = cable.response();
             linearized.replace(&LinearizedCable::new(&span, cable.force, &response), going);
@@ -258,7 +275,14 @@ impl<S: Simd> Robots<'_, S> {
         let (mut tensions, mut failed) = (zero, zero);
         for (i, (cable, linearized)) in self.cables.iter().zip(&mut platform.cables).enumerate() {
             let span = cable.span(&self.position);
-            let LaneEnd { end, tension, slackness } = cable.end();
+            let LaneEnd { end, tension, slackness } = match &cable.guided {
+                None => cable.end(),
+                Some(guided) => {
+                    let (end, missing) = guided.end(cable);
+                    platform.free[i].revise(missing, near);
+                    end
+                }
+            };
             let miss = span.misclosure(end);
             residual.closure = residual.closure.max(dot(&miss, &miss));
             let predicted = linearized.answer(cable.force, miss);
@@ -314,11 +338,14 @@ impl<S: Simd> Robots<'_, S> {
                 + turned * (scale.characteristic_length * scale.characteristic_length);
             // The linearisation is invalid farther away; a comparison with NaN is false, which ends the lane.
             going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
-            self.apply(&translation, &rotation, turned, &platform.cables, going);
+            self.apply(&translation, &rotation, turned, platform, going);
             let near = going & moved.less_or_equal(small_step);
             if near.any() {
                 let (left, holds) = self.revise(load, scale, platform, near);
-                let done = near & holds & platform.factored.positive;
+                let mut done = near & holds & platform.factored.positive;
+                if !platform.free.is_empty() {
+                    done = done & moved.less_or_equal(small_step * LAST_OF_GUIDED);
+                }
                 residual = left;
                 (found, going) = (found | done, going & !done);
             }
@@ -339,7 +366,7 @@ impl<S: Simd> Robots<'_, S> {
         translation: &Lanes3<S>,
         rotation: &Lanes3<S>,
         square: Lanes<S>,
-        linearized: &[LinearizedCable<Lanes<S>>],
+        platform: &LinearizedPlatform<S>,
         going: Mask<S>,
     ) {
         // sin φ/φ and (1 - cos φ)/φ² to rounding for φ up to 0.1.
@@ -350,10 +377,14 @@ impl<S: Simd> Robots<'_, S> {
         let b =
             (((x * (1.0 / 90.0) + 1.0) * x * (1.0 / 56.0) + 1.0) * x * (1.0 / 30.0) + 1.0) * x * (1.0 / 24.0)
                 + 0.5;
-        for (cable, linearized) in self.cables.iter_mut().zip(linearized) {
+        for (i, (cable, linearized)) in self.cables.iter_mut().zip(&platform.cables).enumerate() {
             let (swung, arm) = rotate(&cable.anchor_arm, rotation, a, b);
             let r = three(|k| translation[k] + swung[k]);
             let force = linearized.force_after(r);
+            if cable.guided.is_some() {
+                let length = cable.length + platform.free[i].change(&cable.force, &force);
+                cable.length = going.select(length, cable.length);
+            }
             cable.force = [going.select(force[0], cable.force[0]), going.select(force[1], cable.force[1])];
             cable.anchor_arm = three(|k| going.select(arm[k], cable.anchor_arm[k]));
         }

@@ -1,9 +1,9 @@
 //! Deflections of a robot with deviations of its parameters, many at a time.
 //!
-//! Robots with cables without pulleys and leads, linear or with an elastic law, taut or sagging, at their
-//! limits or not, are observed in the lanes of the vector unit (`lanes/chain.rs`), each from the tensions of
-//! the nominal robot. Any other robot is
-//! observed by the scalar models, which decide on every failure.
+//! Robots with cables that are linear or have an elastic law, taut or sagging, at their limits or not, behind
+//! leads and over pulleys with vertical axes or without, are observed in the lanes of the vector unit
+//! (`lanes/chain.rs`), each from the tensions of the nominal robot. Any other robot is observed by the scalar
+//! models, which decide on every failure.
 //!
 //! Where the sum of squares of the inverse model has several local minima, a perturbed robot is observed in
 //! the one that it shares with the nominal robot, as long as it exists. [`deflection`] of the same robot may
@@ -14,7 +14,7 @@ mod slopes;
 use crate::error::StaticsError;
 use crate::inverse::{Branch, InverseSolution};
 use crate::lanes::algebra::{six, three};
-use crate::lanes::cable::LaneCable;
+use crate::lanes::cable::{Guided, LaneCable};
 use crate::lanes::chain::{ChainStart, Choice, Outcome, Shape, Shared, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale};
@@ -23,9 +23,11 @@ use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{Deflection, deflection, deflection_near};
 use crate::problem::DirectProblem;
 use crate::state::{Load, Residual, rounding_of_closure};
-use cdpr_cable::kernel::{Field, LaneSegment};
+use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
 use cdpr_cable::{Catenary, PiecewiseLaw};
-use cdpr_robot::{Axis, Parameter, ParameterLayout, Pose, Robot, RobotCable, Vector3, Vector6};
+use cdpr_robot::{
+    Axis, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector2, Vector3, Vector6,
+};
 pub use slopes::ObservationSlopes;
 use smallvec::SmallVec;
 use std::array::from_fn;
@@ -166,15 +168,22 @@ impl Nominal {
 
 /// The shape of a cable of the nominal robot at the wanted pose.
 fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape {
-    let span = robot.span(pose, i);
-    let (chord, height) = (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
     let (unstrained_length, force) = (solution.lengths[i], solution.equilibrium.cable_forces[i]);
-    let answer = Catenary { cable: robot.cable(i), unstrained_length, force }.response();
-    let chord_force = chord / answer.lateral_flexibility;
+    let cable = Catenary { cable: robot.cable(i), unstrained_length, force };
+    let span = robot.span(pose, i);
+    let (mut chord, mut height) = (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
+    let free = cable.free();
+    if cable.cable.guide.is_some() {
+        let across = (span.norm_squared() - height * height).max(0.0).sqrt();
+        let end = Vector2::new(across, height) - cable.leave_point();
+        (chord, height) = (end.norm(), end.y);
+    }
+    let chord_force = chord / free.response().lateral_flexibility;
     Shape {
+        tangent: [force.x / free.exit_tension(), free.exit_vertical_force() / free.exit_tension()],
         chord_force,
         sag_force: force.y - chord_force * height / chord,
-        longer: unstrained_length - chord,
+        longer: free.unstrained_length - chord,
     }
 }
 
@@ -199,24 +208,25 @@ impl WithSimd for Batch<'_> {
         for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows { simd, rows, parameters: *parameters };
-            let (start, level, sound) = rows.robots(robot, pose, load, nominal);
+            let (start, level, valid) = rows.robots(robot, pose, load, nominal);
             let outcome = observe(start, &nominal.shared, &mut ());
-            found.extend(read(&outcome, level.as_ref(), sound).into_iter().take(count));
+            found.extend(read(&outcome, level.as_ref(), valid).into_iter().take(count));
         }
         found
     }
 }
 
-/// The observation in each lane, or the first link that failed in those that were `sound`.
+/// The observation in each lane, or the first link that failed; robots are `sound`, and their axes `upright`.
 #[inline(always)]
 fn read<S: Simd>(
     outcome: &Outcome<S>,
     level: Option<&LevelFrame<S>>,
-    sound: Mask<S>,
+    [sound, upright]: [Mask<S>; 2],
 ) -> [Result<Observation, ScalarReason>; MAX_LANES] {
     let [converged, unfolded, held, standing, answered] = outcome.passed;
     let passed = [
         (sound, ScalarReason::InvalidRobot),
+        (upright, ScalarReason::Pulleys),
         (converged, ScalarReason::Tensions),
         (unfolded, ScalarReason::Folded),
         (held, ScalarReason::Lengths),
@@ -275,7 +285,7 @@ impl<S: Simd> Rows<'_, S> {
     }
 
     /// The perturbed robots in their level frames, these frames where they are not the base frame, and the
-    /// lanes whose robot is valid.
+    /// lanes whose robot is valid, and whose pulleys have vertical axes.
     #[inline(always)]
     fn robots<'a>(
         &self,
@@ -283,7 +293,7 @@ impl<S: Simd> Rows<'_, S> {
         pose: &Pose,
         load: &Load,
         nominal: &'a Nominal,
-    ) -> (ChainStart<'a, S>, Option<LevelFrame<S>>, Mask<S>) {
+    ) -> (ChainStart<'a, S>, Option<LevelFrame<S>>, [Mask<S>; 2]) {
         let n = robot.cables.len();
         let layout = ParameterLayout::of(robot);
         let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
@@ -332,12 +342,63 @@ impl<S: Simd> Rows<'_, S> {
                 anchor_arm: rotate(pose, &self.point(layout.anchor_point(i), &cable.anchor_point)),
                 length: zero,
                 force: [zero; 2],
+                guided: None,
             });
+        }
+        let mut upright = zero.less_or_equal(zero);
+        for (i, cable) in robot.cables.iter().enumerate() {
+            if cable.pulley.is_some() || cable.lead != 0.0 {
+                let (guide, valid, vertical) = self.guide(&layout, i, cable, level.as_ref());
+                start.robots.cables[i].guided = Some(Box::new(Guided { guide, whole_length: zero }));
+                (sound, upright) = (sound & valid, upright & vertical);
+            }
         }
         if let Some(level) = &level {
             start.rotate(level);
         }
-        (start, level, sound)
+        (start, level, [sound, upright])
+    }
+
+    /// A parameter that not every robot has.
+    #[inline(always)]
+    fn further(&self, layout: &ParameterLayout, parameter: Parameter, nominal: f64) -> Lanes<S> {
+        match layout.index(parameter) {
+            Some(index) => self.parameter(index, nominal),
+            None => self.all(nominal),
+        }
+    }
+
+    /// The guide of a cable, and the lanes in which it is valid, and vertical.
+    #[inline(always)]
+    fn guide(
+        &self,
+        layout: &ParameterLayout,
+        i: usize,
+        cable: &RobotCable,
+        level: Option<&LevelFrame<S>>,
+    ) -> (LaneGuide<Lanes<S>>, Mask<S>, Mask<S>) {
+        let zero = self.all(0.0);
+        let lead = self.further(layout, Parameter::Lead(i), cable.lead);
+        let mut guide = LaneGuide { lead, radius: zero, signed_radius: zero };
+        let mut vertical = zero.less_or_equal(zero);
+        if let Some(Pulley { radius, axis }) = cable.pulley {
+            let radius = self.further(layout, Parameter::PulleyRadius(i), radius);
+            let axis = three(|k| self.all(axis[k]));
+            let [x, y, z] = match level {
+                None => axis,
+                Some(level) => level.to_level(&axis),
+            };
+            let tolerance = z * Pulley::VERTICAL;
+            vertical = (x * x + y * y).less_or_equal(tolerance * tolerance);
+            for about in TiltAxis::ALL {
+                let tilt = self.further(layout, Parameter::Tilt(i, about), 0.0);
+                vertical = vertical & tilt.less_or_equal(zero) & zero.less_or_equal(tilt);
+            }
+            vertical = vertical | radius.less_or_equal(zero);
+            let upwards = zero.less_or_equal(z);
+            guide = LaneGuide { radius, signed_radius: upwards.select(radius, -radius), ..guide };
+        }
+        (guide, zero.less_or_equal(guide.lead) & zero.less_or_equal(guide.radius), vertical)
     }
 }
 
@@ -380,7 +441,12 @@ mod tests {
     fn the_vector_unit_changes_no_bit() {
         let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap();
         let tilted = Robot { gravity: Vector3::new(0.6, -0.3, -9.7).into(), ..robot.clone() };
-        for (robot, parameters) in [(&robot, 62), (&tilted, 65)] {
+        let mut guided = robot.clone();
+        for (i, cable) in guided.cables.iter_mut().enumerate() {
+            cable.pulley = Some(Pulley { radius: 0.045, axis: Vector3::z() });
+            cable.lead = i as f64;
+        }
+        for (robot, parameters) in [(&robot, 62), (&tilted, 65), (&guided, 62 + 8 + 7 + 16)] {
             for pose in [Pose::at(0.0, 0.0, 1.75), Pose::at(3.2, 1.7, 3.0)] {
                 let observer = &Observer::new(robot, &pose, &Load::payload(50.0)).unwrap();
                 // A sawtooth through the ranges of the paper's Table 3; for gravity 0.1 m/s².
@@ -391,6 +457,8 @@ mod tests {
                     3..27 | 51..54 => 0.015,
                     27..51 => 0.03,
                     54..62 => 15.0,
+                    62..77 if parameters > 65 => 0.001,
+                    77.. => 0.0,
                     _ => 0.1,
                 };
                 let deviations: Vec<f64> = (0..parameters * 100)

@@ -14,10 +14,8 @@ pub enum ScalarReason {
     FreeCoordinates,
     /// There are fewer cables than free motions, or the platform is a point or moves in a plane.
     FewCables,
-    /// Cables run over pulleys.
+    /// Cables run over pulleys whose axes are not vertical.
     Pulleys,
-    /// Cables have leads behind their exit points.
-    Leads,
     /// Cables have an elastic law, and a greatest tension at their exit points.
     Laws,
     /// The load has a moment.
@@ -37,19 +35,19 @@ pub enum ScalarReason {
     Unloaded,
     /// No stable equilibrium with the load was found.
     Loaded,
-    /// The derivatives by some parameter may differ on its two sides, or do not exist.
-    OneSided,
+    /// Derivatives were asked for that lanes do not have: of cables over guides, and where those by some parameter
+    /// may differ on its two sides or do not exist.
+    Derivatives,
 }
 
 impl ScalarReason {
     /// All reasons with their names in files.
-    const NAMES: [(Self, &'static str); 16] = [
+    const NAMES: [(Self, &'static str); 15] = [
         (Self::OneByOne, "one_by_one"),
         (Self::Output, "output"),
         (Self::FreeCoordinates, "free_coordinates"),
         (Self::FewCables, "few_cables"),
         (Self::Pulleys, "pulleys"),
-        (Self::Leads, "leads"),
         (Self::Laws, "laws"),
         (Self::Moment, "moment"),
         (Self::NominalRobot, "nominal_robot"),
@@ -59,7 +57,7 @@ impl ScalarReason {
         (Self::Lengths, "lengths"),
         (Self::Unloaded, "unloaded"),
         (Self::Loaded, "loaded"),
-        (Self::OneSided, "one_sided"),
+        (Self::Derivatives, "derivatives"),
     ];
 
     /// Its name in files.
@@ -74,7 +72,6 @@ impl ScalarReason {
 
     /// Why all robots like this one under this load are left to the scalar models, if they are.
     pub(crate) fn of_all(robot: &Robot, load: &Load) -> Option<Self> {
-        let some = |property: fn(&cdpr_robot::RobotCable) -> bool| robot.cables.iter().any(property);
         // A greatest tension at the exit point has a closed form for linear cables only.
         let laws_at_exits = robot
             .cables
@@ -83,8 +80,7 @@ impl ScalarReason {
             .any(|(i, cable)| cable.properties.law.is_some() && robot.max_at(i) == CableEnd::Exit);
         let reasons = [
             (!robot.freedoms().are_all() || !robot.is_fully_actuated(), Self::FewCables),
-            (some(|cable| cable.pulley.is_some_and(|pulley| pulley.radius != 0.0)), Self::Pulleys),
-            (some(|cable| cable.lead != 0.0), Self::Leads),
+            ((0..robot.cables.len()).any(|i| robot.cable(i).leaves_its_plane()), Self::Pulleys),
             (laws_at_exits, Self::Laws),
             // A moment has no potential: pivots do not show whether its equilibria are stable.
             (load.wrench.moment != Vector3::zeros(), Self::Moment),
@@ -102,6 +98,6 @@ mod tests {
         for (reason, name) in ScalarReason::NAMES {
             assert_eq!((reason.name(), ScalarReason::named(name)), (name, Some(reason)));
         }
-        assert_eq!(ScalarReason::NAMES[15].0 as usize, 15, "the last reason is the last of the list");
+        assert_eq!(ScalarReason::NAMES[14].0 as usize, 14, "the last reason is the last of the list");
     }
 }

@@ -150,6 +150,7 @@ impl WithSimd for Update<'_, '_> {
                 anchor_arm: [column(5), column(6), column(7)],
                 length: column(8),
                 force: [column(9), column(10)],
+                guided: None,
             });
         }
         let load = PlatformLoad {

@@ -74,12 +74,15 @@ impl WithSimd for SlopesBatch<'_> {
             Ok(nominal) => nominal,
             Err(why) => return vec![Err(*why); deviations.len() / parameters],
         };
+        if robot.cables.iter().any(|cable| cable.guide(None).is_some()) {
+            return vec![Err(ScalarReason::Derivatives); deviations.len() / parameters];
+        }
         let mut found = Vec::with_capacity(deviations.len() / parameters);
         let mut slopes = vec![[0.0; MAX_LANES]; *parameters];
         for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows { simd, rows, parameters: *parameters };
-            let (mut start, level, sound) = rows.robots(robot, pose, load, nominal);
+            let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
             let rotation = pose.rotation.matrix();
             for k in 0..3 {
                 let column = three(|row| rows.all(rotation[(row, k)]));
@@ -97,10 +100,10 @@ impl WithSimd for SlopesBatch<'_> {
                 decided = adjoint.decided.to_array();
                 rows.write_slopes(robot, adjoint, level.as_ref(), &mut slopes);
             }
-            let answers = read(&outcome, level.as_ref(), sound);
+            let answers = read(&outcome, level.as_ref(), valid);
             for (lane, answer) in answers.into_iter().enumerate().take(count) {
                 found.push(match answer {
-                    Ok(_) if !decided[lane] => Err(ScalarReason::OneSided),
+                    Ok(_) if !decided[lane] => Err(ScalarReason::Derivatives),
                     Ok(observation) => {
                         let rms = slopes.iter().map(|slope| slope[lane]).collect();
                         Ok(ObservationSlopes { observation, rms })
