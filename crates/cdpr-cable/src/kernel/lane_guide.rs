@@ -103,7 +103,7 @@ impl<T: Lanewise> LaneGuide<T> {
 }
 
 impl<T: Lanewise> LaneWay<T> {
-    /// The response of the whole cable from that of its free part to the force `fx` [N] forwards, (C22), (C23).
+    /// The response of the whole cable from that of its free part to `fx` [N] forwards, (C22), (C23).
     #[inline(always)]
     pub fn response(&self, fx: T, free: &Response<T>) -> Response<T> {
         let Self { leave: LeavePoint { position, tangent: [tx, tz], .. }, kappa, coupled: [px, pz], .. } =

@@ -1,7 +1,7 @@
 //! One cable in each lane: where it runs and how it answers.
 //!
-//! The length of a cable over a pulley is that beyond its leave point, which closes with the force in the same
-//! iteration: at the force F and the whole length L that it was given,
+//! The length of a cable over a pulley is that beyond its leave point, which closes with the force in the
+//! same iteration: at the force F and the whole length L that it was given,
 //!
 //! ```text
 //! dLf = (L - L(F, Lf))/β + q·dF/β,      A(F, L) = A(F, Lf) + dA/dL (L - L(F, Lf))                   (L12)
@@ -102,7 +102,7 @@ impl<S: Simd> Guided<S> {
         self.guide.way(cable.weight_per_length, cable.length, leave, stretch)
     }
 
-    /// Linearises the whole cable of this guide in the lanes that are `going`, with the end that (L12) gives it.
+    /// Linearises the whole cable of this guide in the lanes that are `going`, with the end of (L12).
     #[cold]
     #[inline(never)]
     pub(crate) fn linearise(

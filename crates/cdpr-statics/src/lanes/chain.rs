@@ -67,8 +67,8 @@ pub(crate) struct Choice {
     pub(crate) shape: Shape,
 }
 
-/// What a cable that is nearly a parabola keeps when its ends move; of a guided one, its part beyond the leave
-/// point.
+/// What a cable that is nearly a parabola keeps when its ends move; of a guided one, its part beyond the
+/// leave point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shape {
     /// Direction of the cable where it leaves its exit point or guide.

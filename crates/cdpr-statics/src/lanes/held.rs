@@ -52,7 +52,7 @@ impl<S: Simd> HeldCable<S> {
         cable.length.apart(Leaving { guided, cable, span })
     }
 
-    /// A cable over a pulley. Its numbers are taken one by one, so that those of plain cables stay in registers.
+    /// A cable over a pulley. Its numbers are taken one by one: those of plain cables stay in registers.
     #[inline(always)]
     pub(crate) fn leaving(guided: &Guided<S>, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
         let held = Self::over_pulley(guided, cable, span);
@@ -174,8 +174,8 @@ impl<S: Simd> HeldCable<S> {
 }
 
 /// A cable over a pulley. With `e = |d(x, z)/dLf|` of the part beyond the leave point, τ the direction there
-/// and ρ the radius with its sign, a turn α of τ winds ρ α off the wheel, along τ: forces are those of the part
-/// with a fixed leave point, and
+/// and ρ the radius with its sign, a turn α of τ winds ρ α off the wheel, along τ: forces are those of the
+/// part with a fixed leave point, and
 ///
 /// ```text
 /// T0 dα = τ_x dfz - τ_z dfx - w τ_x dLf,      dLf = dLf|B + (ρ/e) dα                                (L13)

@@ -1,8 +1,9 @@
 //! The tensions at the platform that limits allow, as `inverse/limits.rs` has them.
 //!
-//! A greatest tension at the exit point of a linear cable leaves one at the platform that (C26) of `cdpr_cable`
-//! gives in closed form: t + t²/2EA grows with the height by the weight of the cable. Over a pulley the height
-//! is that above the leave point of the cable that has this tension, and is found together with it.
+//! A greatest tension at the exit point of a linear cable leaves one at the platform that (C26) of
+//! `cdpr_cable` gives in closed form: t + t²/2EA grows with the height by the weight of the cable. Over a
+//! pulley the height is that above the leave point of the cable that has this tension, and is found together
+//! with it.
 
 use crate::equations::Span;
 use crate::lanes::algebra::Lanes2;

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! (H. Everett, *Generalized Lagrange multiplier method*, Operations Research 11, 1963). φ is compared with
-//! that of inextensible catenaries (L4) at fixed values of u, from nearly straight to steep ones; over a pulley
-//! with that from the point where the one before would leave it.
+//! that of inextensible catenaries (L4) at fixed values of u, from nearly straight to steep ones; over a
+//! pulley with that from the point where the one before would leave it.
 
 use crate::equations::Span;
 use crate::equations::vector::{dot, wrench};
