@@ -1,12 +1,14 @@
-//! What decides an epidemic: the model of W. O. Kermack and A. G. McKendrick (1927) with uncertain parameters.
+//! What decides an epidemic: the model of W. O. Kermack and A. G. McKendrick (1927) with uncertain
+//! parameters.
 //!
 //! ```text
 //! s' = -β s i,   i' = β s i - γ i,   r' = γ i
 //! ```
 //!
-//! s, i and r are shares of the population, 1 / γ is the time for which a person infects others and β / γ the
-//! number of persons that one infects at first. A share v of the population is immune at the beginning, and
-//! i starts at i0. The outputs are the largest share that is ill at once, and the share that falls ill in all.
+//! s, i and r are shares of the population, 1 / γ is the time for which a person infects others and β /
+//! γ the number of persons that one infects at first. A share v of the population is immune at the
+//! beginning, and i starts at i0. The outputs are the largest share that is ill at once, and the share
+//! that falls ill in all.
 //!
 //! ```text
 //! cargo run --release -p cdpr-sensitivity --example epidemic

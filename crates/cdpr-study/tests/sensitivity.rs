@@ -207,7 +207,7 @@ fn what_a_study_asks_for_beside_agrees_with_sobol_indices() {
         assert!(index > means - 0.02 && of.bures_low.unwrap() < index && index < of.bures_high.unwrap());
     }
     assert_eq!(found.methods["gradient_expansion"].derivatives, Some(true));
-    assert!(found.methods["gradient_expansion"].leave_one_out < found.methods["expansion"].leave_one_out);
+    assert!(found.methods["gradient_expansion"].leave_one_out.unwrap() < 0.01);
     let modulus = input(&found, "youngs_modulus");
     assert!(modulus.bures.unwrap() > 0.5 && modulus.bures_means.unwrap() > 0.45, "{modulus:?}");
     let few = ("\"samplings\":", "\"sensitivity\": {\"bures_observations\": 10}, \"samplings\":");
@@ -283,7 +283,9 @@ fn all_measures_lead_with_the_modulus_and_their_ranks_are_correlated() {
     assert_eq!(agreement.first, 10);
     assert!(agreement.inputs.iter().any(|input| input == "youngs_modulus"), "{agreement:?}");
     assert_eq!(found.leading()[0].input, "youngs_modulus");
-    let ranking: Vec<_> = MEASURES.iter().filter(|measure| measure.ranks).map(|one| one.name).collect();
+    // Nobody has asked for an expansion of derivatives.
+    let ranks = |of: &&cdpr_study::Measure| of.ranks && of.name != "gradient_expansion_total";
+    let ranking: Vec<_> = MEASURES.iter().filter(ranks).map(|one| one.name).collect();
     assert_eq!(agreement.measures, ranking);
     for (i, row) in agreement.rank_correlation.iter().enumerate() {
         for (j, correlation) in row.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! How much the law of a vector changes when an input is fixed: the index of Wasserstein and Bures.
 //!
-//! With m and Σ the mean and covariance of an output y of several components in a common unit, and `m_x`, `Σ_x`
-//! those of y where input i has the value x,
+//! With m and Σ the mean and covariance of an output y of several components in a common unit, and `m_x`,
+//! `Σ_x` those of y where input i has the value x,
 //!
 //! ```text
 //! W² = |m - m_x|² + tr(Σ + Σ_x - 2 (Σ^½ Σ_x Σ^½)^½)                                   (BW1)
@@ -21,10 +21,10 @@
 //! - (BW4): the rows are cut into parts of equal size in the order of the input. The covariance within a part
 //!   is that of the residuals of a line, with C and c sums of products of deviations: what the input itself
 //!   causes within its part would count as spread of the others, and a root makes much of little.
-//! - A root of an estimate is too small in the mean. A jackknife over 20 groups of rows takes this bias of the
-//!   order 1/n away and gives the interval: B. Efron, C. Stein, *The jackknife estimate of variance*, Ann.
-//!   Stat. 9 (1981). It is of Student's form, for independent rows. Those of a sequence are refused ([`rank`](crate::given::rank),
-//!   Eq. (K7)): the correction would be wrong for them.
+//! - A root of an estimate is too small in the mean. A jackknife over 20 groups of rows takes this bias of
+//!   the order 1/n away and gives the interval: B. Efron, C. Stein, *The jackknife estimate of variance*,
+//!   Ann. Stat. 9 (1981). It is of Student's form, for independent rows. Those of a sequence are refused
+//!   ([`rank`](crate::given::rank), Eq. (K7)): the correction would be wrong for them.
 //!
 //! Correlated inputs count each for what they tell of the output. No unit.
 

@@ -38,8 +38,8 @@
 //! z_ij = (mean((u_j' - u_j)²) - (1 - r_ij²) / 6) / √(1 / (20 m))                       (K7)
 //! ```
 //!
-//! is at most 3.4 for 62 inputs of random rows and of Latin hypercubes, and from 256 rows on 6 to 45 for five and
-//! more inputs of Sobol's sequence, plain or scrambled. Rows with a z above 5 are refused.
+//! is at most 3.4 for 62 inputs of random rows and of Latin hypercubes, and from 256 rows on 6 to 34 for
+//! five and more inputs of Sobol's sequence, plain or scrambled. Rows with a z above 5 are refused.
 //!
 //! The inputs must be independent of each other: what a correlated input causes is counted for both. Rows of
 //! equal values of an input are put into random order. No unit.
@@ -91,7 +91,7 @@ pub(crate) fn order(values: &[f64], seed: u64, input: usize) -> Vec<usize> {
     order
 }
 
-/// Checks that neighbours in one input are no farther apart in another one than those of independent rows (K7).
+/// Checks that neighbours in one input are no farther apart in another than those of independent rows (K7).
 pub(crate) fn check_rows(columns: &[Vec<f64>], seed: u64) -> Result<(), SensitivityError> {
     /// Neighbours that are looked at, and largest z.
     const MOST: usize = 2048;

@@ -15,15 +15,16 @@
 //! - (GE1): J. Peng, J. Hampton, A. Doostan, *On polynomial chaos expansion via gradient-enhanced
 //!   l1-minimization*, J. Comput. Phys. 310 (2016), for normal inputs, where √τ is the standard deviation; L.
 //!   Guo, A. Narayan, T. Zhou, *A gradient enhanced l1-minimization for sparse approximation of polynomial
-//!   chaos expansions*, J. Comput. Phys. 367 (2018), for beta laws, with derivatives that are weighted so that
-//!   they are orthogonal again. (GE2), the kernel of C. Stein (1986), is the weight of both and gives one for
+//!   chaos expansions*, J. Comput. Phys. 367 (2018), for beta laws, with derivatives weighted so that they
+//!   are orthogonal again. (GE2), the kernel of C. Stein (1986), is the weight of both and gives one for
 //!   any other law.
-//! - (GE3) holds for the laws of K. Pearson, of which the uniform, the normal, the beta and the exponential one
-//!   are in use here. The columns of (GE1) are orthogonal in the mean then, and a derivative counts as much as
-//!   a value in a linear term, more in a curved one.
-//! - The leave-one-out error leaves out a point with all of its equations, and judges its value. The expansion
-//!   of the values alone is the other choice: where it has the smaller error, it is the result. Derivatives
-//!   then do not pay, such as at a kink, or where terms are missing whose slopes are steep.
+//! - (GE3) holds for the laws of K. Pearson, of which the uniform, the normal, the beta and the
+//!   exponential one are in use here. The columns of (GE1) are orthogonal in the mean then, and a
+//!   derivative counts as much as a value in a linear term, more in a curved one.
+//! - The leave-one-out error leaves out a point with all of its equations, and judges its value. The
+//!   expansion of the values alone is the other choice: where it has the smaller error, it is the
+//!   result. Derivatives then do not pay, such as at a kink, or where terms are missing whose slopes are
+//!   steep.
 //!
 //! The steps of an input are disregarded in τ and in the derivatives, as in [`crate::measure::dgsm`].
 

@@ -16,9 +16,9 @@
 //! μ* ranks the inputs. A large σ shows curvature or interactions. In a linear model of uniform inputs, e = b
 //! (max - min). If steps round the two values of an input to the same level, there is no elementary effect.
 //!
-//! (O3) is the number of effects on which μ* rests: n if all have the same size, 1 if all but one are zero. An
-//! interval that rests on few effects is too short: those that are rare and large may be missing. `cargo xtask
-//! statistics reliability` measures how often it holds.
+//! (O3) is the number of effects on which μ* rests: n if all have the same size, 1 if all but one are
+//! zero. An interval that rests on few effects is too short: those that are rare and large may be
+//! missing. `cargo xtask statistics reliability` measures how often it holds.
 //!
 //! (O1): M. D. Morris, *Factorial sampling plans for preliminary computational experiments*, Technometrics 33
 //! (1991). μ*: F. Campolongo, J. Cariboni, A. Saltelli, *An effective screening design for sensitivity
@@ -50,8 +50,8 @@ pub struct MorrisEffect {
     /// Mean μ* of the absolute values (O2) with its interval over the blocks, which allows for their
     /// skewness: where most effects are small, the law of their absolute values has a long tail.
     pub mean_absolute: Estimate,
-    /// Whether that interval has its level: from [`MorrisEffect::RELIABLE_EFFECTS`] effects on, if μ* rests on
-    /// at least [`MorrisEffect::RELIABLE_EFFECTIVE`] of them (O3). Otherwise it is an indication: the next
+    /// Whether that interval has its level: from [`MorrisEffect::RELIABLE_EFFECTS`] effects on, if μ* rests
+    /// on at least [`MorrisEffect::RELIABLE_EFFECTIVE`] of them (O3). Otherwise it is an indication: the next
     /// effect may be larger than all before. If all n effects are zero, the interval is reliable, but up to
     /// 3 / n of all effects may still differ from zero.
     pub reliable: bool,

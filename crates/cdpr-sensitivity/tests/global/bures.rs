@@ -1,4 +1,5 @@
-//! The index of Wasserstein and Bures against linear models, whose index is known, and one that moves no mean.
+//! The index of Wasserstein and Bures against linear models, whose index is known, and one that moves no
+//! mean.
 
 use crate::common::rows;
 use approx::assert_abs_diff_eq;

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 /// Values of the measures for one input; `None` for a method that has failed or is not asked for.
 ///
-/// Indices of vectors, Shapley effects and others that a study asks for have no column and no key without a value: not every study asks for
-/// them.
+/// Indices of vectors, Shapley effects and others that a study asks for have no column and no key without a
+/// value.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InputMeasures {
     /// Name of the input.

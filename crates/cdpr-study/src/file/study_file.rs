@@ -215,8 +215,8 @@ pub struct SensitivitySpec {
     /// variance between the inputs, also between correlated ones.
     #[serde(skip_serializing_if = "is_zero")]
     pub shapley_walks: usize,
-    /// Random observations behind the index of Wasserstein and Bures: how much a parameter moves the law of the
-    /// displacement as a vector, or of another output. 64 to 1048576, or 0 for none.
+    /// Random observations behind the index of Wasserstein and Bures: how much a parameter moves the law of
+    /// the displacement as a vector, or of another output. 64 to 1048576, or 0 for none.
     #[serde(skip_serializing_if = "is_zero")]
     pub bures_observations: usize,
     /// Whether an expansion is fitted to the derivatives as well, at the points where they are taken.

@@ -18,7 +18,14 @@ array([0.2, 0.8])
 from __future__ import annotations
 
 from .blocks import MorrisDesign, SaltelliDesign, ShapleyDesign
-from .designs import HaltonDesign, LatinHypercubeDesign, RandomDesign, SobolDesign, effect_intervals, wasserstein_bures
+from .designs import (
+    HaltonDesign,
+    LatinHypercubeDesign,
+    RandomDesign,
+    SobolDesign,
+    effect_intervals,
+    wasserstein_bures,
+)
 from .estimates import (
     ActiveSubspace,
     Brackets,

@@ -176,7 +176,7 @@ class WassersteinBures(Table):
 
     index = Column("index.value", "Index of Wasserstein and Bures, 0 to 1, (k,).")
     index_interval = Interval("index", "Intervals of these, (k, 2).")
-    means = Column("means.value", "Part of it by the means: half of the generalised first-order index, (k,).")
+    means = Column("means.value", "Part of it by the means: half of the generalised S, (k,).")
     means_interval = Interval("means", "Intervals of these, (k, 2).")
 
 
