@@ -210,7 +210,7 @@ fn what_a_study_asks_for_beside_agrees_with_sobol_indices() {
     assert!(found.methods["gradient_expansion"].leave_one_out.unwrap() < 0.01);
     let modulus = input(&found, "youngs_modulus");
     assert!(modulus.bures.unwrap() > 0.5 && modulus.bures_means.unwrap() > 0.45, "{modulus:?}");
-    let few = ("\"samplings\":", "\"sensitivity\": {\"bures_observations\": 10}, \"samplings\":");
+    let few = ("\"morris_blocks\": 128", "\"morris_blocks\": 128, \"bures_observations\": 10");
     let error = changed(&[few]).map(|_| ()).unwrap_err().to_string();
     assert!(error.contains("bures_observations") && error.contains("0, or at least 64"), "{error}");
 }
