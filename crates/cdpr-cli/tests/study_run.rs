@@ -201,9 +201,9 @@ fn measures_of_sensitivity_have_a_table_a_figure_a_part_of_the_summary_and_a_tab
         assert_eq!(
             header,
             "input,t_student,signed_effect_mm,derivative_share,regression_share,rank_regression_share,\
-             morris_mean_absolute_mm,morris_std_mm,dgsm_total_bound,first_lower,first_lower_low,total_lower,\
-             total_lower_low,total_upper,total_upper_high,expansion_first,expansion_total,sobol_first,\
-             sobol_first_low,sobol_first_high,sobol_total,sobol_total_low,sobol_total_high,vector_first,\
+             morris_mean_absolute_mm,morris_low_mm,morris_high_mm,morris_reliable,morris_std_mm,\
+             dgsm_total_bound,first_lower,first_lower_low,total_lower,total_lower_low,\
+             total_upper,total_upper_high,expansion_first,expansion_total,sobol_first,sobol_first_low,sobol_first_high,sobol_total,sobol_total_low,sobol_total_high,vector_first,\
              vector_first_low,vector_first_high,vector_total,vector_total_low,vector_total_high,activity"
         );
         assert_eq!((rows.lines().count(), &rows[..5]), (62, "mass,"));

@@ -59,7 +59,7 @@ mod _core {
     #[pymodule_export]
     use crate::robot::workspace::Workspace;
     #[pymodule_export]
-    use crate::sensitivity::analysis::analyse;
+    use crate::sensitivity::analysis::{analyse, wasserstein_bures};
     #[pymodule_export]
     use crate::sensitivity::designs::{Morris, Saltelli, Sample, Shapley, effect_intervals};
     #[pymodule_export]

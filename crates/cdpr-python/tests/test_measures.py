@@ -230,6 +230,8 @@ def all_results():
         sample.effects(outputs),
         sample.regression(outputs),
         sample.expansion(outputs),
+        sample.gradient_expansion(outputs, slopes),
+        sensitivity.wasserstein_bures(rows, numpy.stack([outputs, rows[:, 1]], axis=1)),
         sample.brackets(outputs, slopes),
         sample.derivative_measures(outputs, slopes),
         sample.active_subspace(outputs, slopes),
@@ -256,6 +258,49 @@ def test_every_result_prints_numbers_and_goes_to_pandas_and_matplotlib(found):
     assert repr(copy) == repr(found)
     for field in (name for name in dir(type(found)) if not name.startswith("_")):
         assert getattr(type(found), field).__doc__, field
+
+
+def test_gradients_bring_an_expansion_nearer():
+    design = SobolDesign({"x": uniform(0, 1), "y": normal(0, 0.3), "z": uniform(0, 2)}, 20, seed=1)
+    x, y, z = design.rows().T
+    outputs = numpy.exp(x + y) / (1 + z)
+    slopes = numpy.stack([outputs, outputs, -outputs / (1 + z)], axis=1)
+    many = SobolDesign(design.inputs, 4096, seed=2)
+    x, y, z = many.rows().T
+    exact = many.expansion(numpy.exp(x + y) / (1 + z)).total
+    plain, found = design.expansion(outputs), design.gradient_expansion(outputs, slopes)
+    assert found.derivatives and not plain.derivatives
+    errors = [numpy.abs(of.total - exact).max() for of in (found, plain)]
+    assert 3 * errors[0] < errors[1], errors
+    slopes[3] = numpy.nan
+    assert design.gradient_expansion(outputs, slopes).failed == 1
+
+
+def test_the_law_of_a_vector_moves_by_the_exact_index_of_a_linear_model():
+    rows = RandomDesign({name: normal(0, 1) for name in "abcd"}, 8192, seed=1).rows()
+    a, b, c, _ = rows.T
+    vectors = numpy.stack([3 * a + 4 * b, 2 * c], axis=1)
+    found = sensitivity.wasserstein_bures(rows, vectors, list("abcd"))
+    # Variances 25 and 4; 16 or 9 of the first are left.
+    exact, means = [5 / 29, 10 / 29, 4 / 29, 0], [9 / 58, 16 / 58, 4 / 58, 0]
+    numpy.testing.assert_allclose(found.index, exact, atol=0.02)
+    numpy.testing.assert_allclose(found.means, means, atol=0.02)
+    assert found.inputs == list("abcd") and (found.index_interval[:, 0] < found.index).all()
+    assert sensitivity.wasserstein_bures(rows[:200], vectors[:200]).inputs == ["x1", "x2", "x3", "x4"]
+    for call, said in (
+        (lambda: sensitivity.wasserstein_bures(rows, vectors[:-1]), "rows has 8192 rows and outputs 8191"),
+        (lambda: sensitivity.wasserstein_bures(rows, vectors, ["a"]), "names has 1 names: expected 4"),
+        (lambda: sensitivity.wasserstein_bures(rows[:9], vectors[:9]), "observed outputs = 9: expected 64"),
+    ):
+        with pytest.raises(cdpr.InputError, match=said):
+            call()
+
+
+def test_a_mean_of_effects_that_rests_on_few_is_not_called_reliable():
+    design = MorrisDesign({f"x{i}": uniform(0, 1) for i in range(10)}, 64, seed=1, levels=4)
+    products = numpy.cumprod(design.rows(), axis=1)
+    found = design.effects((products * (-1.0) ** numpy.arange(10)).sum(axis=1))
+    assert found.reliable[0] == 1 and found.reliable[9] == 0
 
 
 def test_wrong_arguments_are_named_with_their_values():

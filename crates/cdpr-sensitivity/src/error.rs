@@ -74,6 +74,20 @@ pub enum SensitivityError {
         /// Name of the input.
         name: String,
     },
+    /// The rows of a table depend on each other, as those of a sequence of low discrepancy do.
+    #[error(
+        "neighbours in column {} are farther apart in column {} than those of independent rows (z = {z:.1}): \
+         expected random rows or a Latin hypercube; rows of a sequence have estimators by design",
+        input + 1, other + 1
+    )]
+    DependentRows {
+        /// Index of the input in which they are neighbours.
+        input: usize,
+        /// Index of the other input.
+        other: usize,
+        /// How many standard deviations they are farther apart.
+        z: f64,
+    },
     /// All values of a sample are equal. No law of two parameters fits such a sample, and its variance has no
     /// shares.
     #[error("all {count} values of the sample are {value}: expected at least two different values")]

@@ -11,9 +11,12 @@
 //! | how much does an input move the distribution of the output? | [`pawn`], [`delta`] |
 //! | which share does it cause, and take part in, by a polynomial model? | [`expansion`] |
 //! | which way does it act? | [`halves`] |
+//! | how much does an input move the distribution of a vector? | `bures` |
 //! | all of these and regression beside each other | [`analysis`] |
 
 pub mod analysis;
+#[cfg(feature = "faer")]
+pub mod bures;
 pub mod data;
 pub mod delta;
 pub mod expansion;

@@ -12,6 +12,7 @@
 //! | the same by a linear model | [`measure::regression`] |
 //! | share the variance between the inputs and their interactions | [`measure::sobol_indices`] |
 //! | the same from any independent sample | [`measure::expansion`] |
+//! | the same from values and derivatives | [`measure::gradient_expansion`] |
 //! | analyse a table that was not made by a design of this crate | [`given`] |
 //! | tighten tolerances until a limit holds | [`measure::allocation`] |
 //! | judge the accuracy and the number of runs | [`sample::interval`], [`measure::convergence`] |
@@ -52,6 +53,8 @@
 //! # Ok(())
 //! # }
 //! ```
+//!
+#![doc = include_str!("../ESTIMATORS.md")]
 
 #[doc = include_str!("../README.md")]
 #[cfg(doctest)]
@@ -83,6 +86,8 @@ pub use family::Family;
 pub use given::analysis::{
     Analyser, Analysis, CorrelatedPair, InputAnalysis, InputAtLimit, Limit, LimitFailures,
 };
+#[cfg(feature = "faer")]
+pub use given::bures::{WassersteinBures, wasserstein_bures};
 pub use given::data::GivenData;
 pub use given::delta::{Delta, delta};
 pub use given::expansion::{GivenExpansion, given_expansion};
@@ -103,6 +108,7 @@ pub use measure::effect::{
 pub use measure::expansion::basis::Polynomials;
 pub use measure::expansion::polynomial::{Power, Truncation};
 pub use measure::expansion::{Expansion, PairShare, Shares, Term, expansion};
+pub use measure::gradient_expansion::gradient_expansion;
 pub use measure::morris::{MorrisEffect, morris_effects};
 pub use measure::poincare::poincare_constant;
 pub use measure::regression::{Coefficient, Regression, rank_correlation, rank_regression, regression};

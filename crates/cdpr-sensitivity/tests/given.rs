@@ -3,8 +3,9 @@
 use crate::common::unit;
 use crate::global::functions;
 use cdpr_sensitivity::{
-    Analyser, Bootstrap, GivenData, Input, Law, Limit, RandomDesign, Rows, SampleDesign, SensitivityError,
-    delta, dependence, dependence_of_event, given_expansion, halves, observe, pawn, rank_indices,
+    Analyser, Bootstrap, Correlated, GivenData, Input, JointSample, LatinHypercube, Law, Limit, RandomDesign,
+    Rows, SampleDesign, SensitivityError, SobolDesign, delta, dependence, dependence_of_event,
+    given_expansion, halves, observe, pawn, rank_indices,
 };
 
 fn table(
@@ -247,4 +248,32 @@ fn correlated_inputs_are_named_and_constant_ones_have_no_effect() {
     let constant = &found.inputs[2];
     assert_eq!((constant.standardised, constant.dependence.unwrap().p_value), (Some(0.0), 1.0));
     assert!(constant.half.effect == 0.0 && constant.shares.unwrap().total == 0.0);
+}
+
+#[test]
+fn first_order_indices_by_ranks_refuse_rows_of_a_sequence_and_take_random_ones_and_latin_hypercubes() {
+    let sum = |x: &[f64]| Some(x.iter().enumerate().map(|(i, x)| x / (1.0 + i as f64)).sum());
+    fn found<D: JointSample>(
+        design: &D,
+        model: impl Fn(&[f64]) -> Option<f64> + Sync,
+    ) -> Result<Vec<cdpr_sensitivity::Estimate>, SensitivityError> {
+        rank_indices(&GivenData::of_design(design, &observe(design, model).unwrap()).unwrap(), 0.95, 1)
+    }
+    for (inputs, rows) in [(5, 256), (20, 256), (62, 1024), (62, 5000)] {
+        for design in [
+            SobolDesign::new(unit(inputs), 1, rows).unwrap(),
+            SobolDesign::scrambled(unit(inputs), rows, 1).unwrap(),
+        ] {
+            let error = found(&design, sum).unwrap_err();
+            assert!(matches!(error, SensitivityError::DependentRows { z, .. } if z > 5.0), "{error}");
+        }
+        for seed in 0..5 {
+            found(&RandomDesign::new(unit(inputs), rows, seed).unwrap(), sum).unwrap();
+            found(&LatinHypercube::new(unit(inputs), rows, seed).unwrap(), sum).unwrap();
+        }
+    }
+    // Correlated inputs are not mistaken for a sequence.
+    let matrix = [[1.0, 0.8, 0.0], [0.8, 1.0, 0.5], [0.0, 0.5, 1.0]].map(Vec::from);
+    let correlated = Correlated::new(RandomDesign::new(unit(3), 2000, 1).unwrap(), &matrix).unwrap();
+    found(&correlated, sum).unwrap();
 }

@@ -1,8 +1,11 @@
 //! Global sensitivity: designs and estimators on functions whose indices are known.
 
 mod brackets;
+#[cfg(feature = "faer")]
+mod bures;
 mod dgsm;
 pub(crate) mod functions;
+mod gradient_pce;
 mod groups;
 mod indices;
 mod morris;

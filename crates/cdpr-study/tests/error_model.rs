@@ -85,10 +85,12 @@ fn a_cause_has_measures_of_its_own_that_agree() {
         observations: 1024,
         saltelli_blocks: 256,
         bootstrap_resamples: 200,
-        morris_blocks: 16,
+        morris_blocks: 32,
         morris_levels: None,
         derivative_points: 40,
         shapley_walks: 0,
+        bures_observations: 0,
+        gradient_expansion: false,
         expansion: Truncation { max_degree: 2, norm: 1.0, interactions: 2 },
     };
     let found = measure(&sampling, &spec, &tally, &session).unwrap();

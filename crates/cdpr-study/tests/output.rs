@@ -179,7 +179,7 @@ fn every_output_has_the_same_numbers_on_one_and_two_threads() {
 
 fn small_measures() -> SensitivitySpec {
     let spec = json!({
-        "observations": 40, "saltelli_blocks": 64, "bootstrap_resamples": 10, "morris_blocks": 4,
+        "observations": 40, "saltelli_blocks": 64, "bootstrap_resamples": 10, "morris_blocks": 24,
         "derivative_points": 40, "expansion": { "max_degree": 2, "norm": 0.75, "interactions": 2 }
     });
     serde_json::from_value(spec).unwrap()

@@ -21,10 +21,12 @@ const SMALL: SensitivitySpec = SensitivitySpec {
     observations: 500,
     saltelli_blocks: 256,
     bootstrap_resamples: 200,
-    morris_blocks: 16,
+    morris_blocks: 32,
     morris_levels: None,
     derivative_points: 64,
     shapley_walks: 0,
+    bures_observations: 0,
+    gradient_expansion: false,
     expansion: Truncation { max_degree: 2, norm: 0.75, interactions: 2 },
 };
 
@@ -190,6 +192,30 @@ fn a_parameter_that_acts_only_through_its_correlation_has_a_shapley_effect() {
 }
 
 #[test]
+fn what_a_study_asks_for_beside_agrees_with_sobol_indices() {
+    let mut study = changed(&[]).unwrap();
+    let spec = SensitivitySpec { bures_observations: 4096, gradient_expansion: true, ..SMALL };
+    study.file.sensitivity = Some(spec);
+    let found = measured(&study, "mechanical", &spec);
+    for of in &found.inputs {
+        let (first, total) = (of.gradient_expansion_first.unwrap(), of.gradient_expansion_total.unwrap());
+        assert!((total - of.expansion_total.unwrap()).abs() < 2e-3, "{of:?}");
+        assert!(first <= total && of.sobol_total_low.unwrap() < total + 1e-2, "{of:?}");
+        // The means are half of the first-order index of the vector.
+        let (means, index) = (of.bures_means.unwrap(), of.bures.unwrap());
+        assert!((2.0 * means - of.vector_first.unwrap()).abs() < 0.15, "{of:?}");
+        assert!(index > means - 0.02 && of.bures_low.unwrap() < index && index < of.bures_high.unwrap());
+    }
+    assert_eq!(found.methods["gradient_expansion"].derivatives, Some(true));
+    assert!(found.methods["gradient_expansion"].leave_one_out.unwrap() < 0.01);
+    let modulus = input(&found, "youngs_modulus");
+    assert!(modulus.bures.unwrap() > 0.5 && modulus.bures_means.unwrap() > 0.45, "{modulus:?}");
+    let few = ("\"morris_blocks\": 128", "\"morris_blocks\": 128, \"bures_observations\": 10");
+    let error = changed(&[few]).map(|_| ()).unwrap_err().to_string();
+    assert!(error.contains("bures_observations") && error.contains("0, or at least 64"), "{error}");
+}
+
+#[test]
 fn correlated_deviations_are_observed_as_such() {
     let study = changed(&[CORRELATED]).unwrap();
     let sampling = study.sampling("mechanical").unwrap();
@@ -257,7 +283,9 @@ fn all_measures_lead_with_the_modulus_and_their_ranks_are_correlated() {
     assert_eq!(agreement.first, 10);
     assert!(agreement.inputs.iter().any(|input| input == "youngs_modulus"), "{agreement:?}");
     assert_eq!(found.leading()[0].input, "youngs_modulus");
-    let ranking: Vec<_> = MEASURES.iter().filter(|measure| measure.ranks).map(|one| one.name).collect();
+    // Nobody has asked for an expansion of derivatives.
+    let ranks = |of: &&cdpr_study::Measure| of.ranks && of.name != "gradient_expansion_total";
+    let ranking: Vec<_> = MEASURES.iter().filter(ranks).map(|one| one.name).collect();
     assert_eq!(agreement.measures, ranking);
     for (i, row) in agreement.rank_correlation.iter().enumerate() {
         for (j, correlation) in row.iter().enumerate() {

@@ -57,6 +57,7 @@ __all__ = [
     "observations",
     "open_results",
     "status",
+    "wasserstein_bures",
 ]
 
 VERSION: str
@@ -1217,6 +1218,9 @@ class Sample:
     def effects(self, given: ArrayLike) -> str: ...
     def regression(self, given: ArrayLike, ranks: bool) -> str: ...
     def expansion(self, given: ArrayLike, max_degree: int, norm: float, interactions: int) -> Expansion: ...
+    def gradient_expansion(
+        self, given: ArrayLike, gradients: ArrayLike, max_degree: int, norm: float, interactions: int
+    ) -> Expansion: ...
     def derivative_measures(self, given: ArrayLike, gradients: ArrayLike, level: float) -> str: ...
     def brackets(self, given: ArrayLike, gradients: ArrayLike, level: float, seed: int) -> str: ...
     def active_subspace(
@@ -1279,6 +1283,8 @@ class Expansion:
 
 def effect_intervals(samples: list[Sample], given: list[ArrayLike], level: float) -> str:
     """Intervals of effects from the outputs of several samples that differ in their seeds, as JSON."""
+def wasserstein_bures(rows: ArrayLike, given: ArrayLike, level: float, seed: int) -> str:
+    """Indices of Wasserstein and Bures of rows of inputs, (n, k), and of vectors, (n, m), as JSON."""
 def law_values(law: _Law, of: str, values: ArrayLike) -> _Floats:
     """A function of a law at each value of an array."""
 def law_moments(law: _Law) -> tuple[float, float, float | None]:

@@ -1,6 +1,7 @@
 //! The analysis of a table that was not made by a design.
 
-use crate::convert::{Answer, Array, Numbers, Raised, run, to_json};
+use crate::convert::{Answer, Array, Numbers, Raised, run, to_json, whole};
+use crate::sensitivity::observed::vectors;
 use cdpr_sensitivity::{Analyser, Analysis, GivenData, Limit};
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -56,4 +57,28 @@ pub(crate) fn analyse(
         })
     })?;
     to_json(&found?)
+}
+
+/// Indices of Wasserstein and Bures of rows of inputs, (n, k), and of vectors, (n, m), as JSON.
+#[pyfunction]
+pub(crate) fn wasserstein_bures(
+    py: Python,
+    rows: Numbers,
+    given: Numbers,
+    level: f64,
+    seed: Bound<PyAny>,
+) -> Answer<String> {
+    let (x, outputs, seed) = (Array::new("rows", &rows)?, vectors(&given)?, whole("seed", &seed)?);
+    let [n, k] = x.shape[..] else {
+        return Err(Raised::Input(format!("rows has the shape {:?}: expected (n, k)", x.shape)));
+    };
+    if n != outputs.len() {
+        return Err(Raised::Input(format!(
+            "rows has {n} rows and outputs {}: expected as many",
+            outputs.len()
+        )));
+    }
+    let column = |input: usize| x.values.iter().skip(input).step_by(k).copied().collect();
+    let columns: Vec<Vec<f64>> = (0..k).map(column).collect();
+    to_json(&run(py, |_| cdpr_sensitivity::wasserstein_bures(&columns, &outputs, level, seed))??)
 }

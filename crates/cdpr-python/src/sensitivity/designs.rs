@@ -125,6 +125,23 @@ impl Sample {
         Ok(Expansion { expansion })
     }
 
+    #[allow(clippy::too_many_arguments)]
+    fn gradient_expansion(
+        &self,
+        py: Python,
+        given: Numbers,
+        gradients: Numbers,
+        max_degree: usize,
+        norm: f64,
+        interactions: usize,
+    ) -> Answer<Expansion> {
+        let design = self.independent("gradient_expansion")?;
+        let slopes = slopes(&given, &gradients, design.inputs().len())?;
+        let truncation = Truncation { max_degree, norm, interactions };
+        let expansion = run(py, |_| cdpr_sensitivity::gradient_expansion(design, &slopes, truncation))??;
+        Ok(Expansion { expansion })
+    }
+
     fn derivative_measures(
         &self,
         py: Python,

@@ -46,6 +46,7 @@ impl Expansion {
             "degree": of.degree,
             "terms": of.terms.len(),
             "leave_one_out": of.leave_one_out,
+            "derivatives": of.derivatives,
             "observed": of.observed,
             "failed": of.failed,
         }))

@@ -11,8 +11,12 @@ mod exact;
 mod expansions;
 mod functions;
 mod given;
+mod gradients;
 mod indices;
 mod measures;
+mod reliability;
+#[cfg(feature = "faer")]
+mod vectors;
 
 use cdpr_sensitivity::SensitivityError;
 
@@ -21,13 +25,16 @@ use cdpr_sensitivity::SensitivityError;
 type Table = fn(u64, &str) -> Result<(), SensitivityError>;
 
 fn main() -> Result<(), SensitivityError> {
-    let tables: [(&str, Table); 6] = [
+    let tables: [(&str, Table); 9] = [
         ("choice", |studies, _| choice::table(studies)),
         ("indices", |studies, _| indices::table(studies)),
         ("expansions", |studies, _| expansions::table(studies)),
         ("given", |studies, _| given::table(studies)),
         ("brackets", |studies, _| brackets::table(studies)),
+        ("gradients", gradients::table),
         ("measures", measures::table),
+        ("reliability", reliability::table),
+        ("vectors", |studies, _| vectors::table(studies)),
     ];
     let mut arguments = std::env::args().skip(1);
     let [name, count, part] = [(); 3].map(|()| arguments.next());

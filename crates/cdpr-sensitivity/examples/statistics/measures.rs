@@ -92,7 +92,7 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
         runs: 256 * (k + 1),
         measures: vec![("Shapley", &exact.shapley)],
         has_interval: true,
-        is_dear: k > 20,
+        is_dear: false,
         of_seed: Box::new(move |seed| {
             let design = ShapleyDesign::new(inputs(), 256, seed)?;
             let found = shapley_effects(&design, &observe(&design, function.model)?, 0.95)?;

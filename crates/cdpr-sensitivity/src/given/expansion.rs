@@ -77,13 +77,13 @@ pub(crate) fn of_observed(
     let degree = truncation.max_degree;
     let of_values: Vec<Polynomials> =
         observed.columns.iter().map(|column| Polynomials::of_values(column, degree)).collect();
-    let by_values = search(&observed.columns, &observed.outputs, &of_values, truncation)?;
+    let by_values = search(&observed.columns, &observed.outputs, None, &of_values, truncation)?;
     let unit = Input::continuous("", Law::Uniform { min: 0.0, max: 1.0 });
     let legendre = vec![Polynomials::new(&unit, degree); observed.columns.len()];
     let n = observed.outputs.len() as f64;
     let share = |column: &Vec<f64>| ranks(column).into_iter().map(|rank| (rank - 0.5) / n).collect();
     let columns: Vec<Vec<f64>> = observed.columns.iter().map(share).collect();
-    let by_ranks = search(&columns, &observed.outputs, &legendre, truncation)?;
+    let by_ranks = search(&columns, &observed.outputs, None, &legendre, truncation)?;
     let of_ranks = by_ranks.leave_one_out < by_values.leave_one_out;
     let Found { degree, mean, terms, leave_one_out } = if of_ranks { by_ranks } else { by_values };
     Ok(GivenExpansion { of_ranks, degree, mean, terms, leave_one_out })

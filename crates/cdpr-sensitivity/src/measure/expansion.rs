@@ -28,7 +28,7 @@ use crate::design::observation::Observed;
 use crate::error::{SensitivityError, check_length};
 use crate::measure::expansion::basis::Polynomials;
 use crate::measure::expansion::polynomial::{Power, Truncation};
-use crate::measure::expansion::pursuit::pursue;
+use crate::measure::expansion::pursuit::{Column, Rows, pursue};
 use crate::parallel::*;
 
 /// Largest number of values of candidate terms (terms times outputs): 1 GiB.
@@ -56,6 +56,9 @@ pub struct Expansion {
     pub observed: usize,
     /// Number of failed observations.
     pub failed: usize,
+    /// Whether derivatives took part in the fit ([`crate::gradient_expansion`]).
+    #[serde(default)]
+    pub derivatives: bool,
     /// Chosen degree.
     pub degree: usize,
     /// Mean `c_0`, in the unit of the output.
@@ -102,34 +105,59 @@ pub fn expansion<D: IndependentSample>(
     outputs: &[Option<f64>],
     truncation: Truncation,
 ) -> Result<Expansion, SensitivityError> {
-    let max_degree = truncation.max_degree;
     truncation.check()?;
     let observed = Observed::new(design, outputs, Expansion::MIN_OUTPUTS)?;
     let inputs = design.inputs();
-    let values = inputs.par_iter().map(|input| Polynomials::new(input, max_degree)).collect();
-    let best = fit(inputs, &observed, values, truncation)?;
-    if !inputs.iter().any(Polynomials::has_choice) {
-        return Ok(best);
-    }
-    let of_probability = |input: &Input| match Polynomials::has_choice(input) {
+    let of_polynomials = |polynomials| fit(inputs, &observed, polynomials, None, truncation);
+    best_of(choices(inputs, truncation.max_degree).map(of_polynomials))
+}
+
+/// Polynomials of the inputs: of their values and, where there is a choice, of their probabilities.
+pub(crate) fn choices(inputs: &[Input], max_degree: usize) -> impl Iterator<Item = Vec<Polynomials>> {
+    let of_probability = move |input: &Input| match Polynomials::has_choice(input) {
         true => Polynomials::of_probability(input, max_degree),
         false => Polynomials::new(input, max_degree),
     };
-    let other = fit(inputs, &observed, inputs.par_iter().map(of_probability).collect(), truncation)?;
-    Ok(if other.leave_one_out < best.leave_one_out { other } else { best })
+    let has_choice = inputs.iter().any(Polynomials::has_choice);
+    let others = move || -> Vec<Polynomials> { inputs.par_iter().map(of_probability).collect() };
+    let values: Vec<Polynomials> =
+        inputs.par_iter().map(|input| Polynomials::new(input, max_degree)).collect();
+    std::iter::once(values).chain(has_choice.then(others))
+}
+
+/// The expansion of the least error; of equal ones the first.
+pub(crate) fn best_of(
+    mut all: impl Iterator<Item = Result<Expansion, SensitivityError>>,
+) -> Result<Expansion, SensitivityError> {
+    let missing = SensitivityError::OutOfRange { field: "inputs", value: 0, minimum: 1, maximum: u64::MAX };
+    let first = all.next().ok_or(missing)??;
+    all.try_fold(first, |best, other| {
+        let other = other?;
+        Ok(if other.leave_one_out < best.leave_one_out { other } else { best })
+    })
 }
 
 /// Expansion of the degree with the least error, in these polynomials of the inputs.
-fn fit(
+pub(crate) fn fit(
     inputs: &[Input],
     observed: &Observed,
     polynomials: Vec<Polynomials>,
+    slopes: Option<&ScaledSlopes>,
     truncation: Truncation,
 ) -> Result<Expansion, SensitivityError> {
     let Found { degree, mean, terms, leave_one_out } =
-        search(&observed.columns, &observed.outputs, &polynomials, truncation)?;
+        search(&observed.columns, &observed.outputs, slopes, &polynomials, truncation)?;
     let (inputs, failed, observed) = (inputs.to_vec(), observed.failed, observed.outputs.len());
-    Ok(Expansion { inputs, polynomials, observed, failed, degree, mean, terms, leave_one_out })
+    let derivatives = slopes.is_some();
+    Ok(Expansion { inputs, polynomials, observed, failed, derivatives, degree, mean, terms, leave_one_out })
+}
+
+/// Derivatives of the output by each input, one per observation.
+pub(crate) struct ScaledSlopes {
+    /// By which each derivative is multiplied, in the unit of the input.
+    pub(crate) scales: Vec<Vec<f64>>,
+    /// The derivatives times these, in the unit of the output.
+    pub(crate) slopes: Vec<Vec<f64>>,
 }
 
 /// What [`search`] finds, as an [`Expansion`] has it.
@@ -144,22 +172,43 @@ pub(crate) struct Found {
 pub(crate) fn search(
     columns: &[Vec<f64>],
     outputs: &[f64],
+    slopes: Option<&ScaledSlopes>,
     polynomials: &[Polynomials],
     truncation: Truncation,
 ) -> Result<Found, SensitivityError> {
-    let n = outputs.len();
+    let (n, k) = (outputs.len(), columns.len());
     // values[input][observation][degree]
     let of_input = |(polynomials, column): (&Polynomials, &Vec<f64>)| -> Vec<Vec<f64>> {
         column.iter().map(|&x| polynomials.values(x)).collect()
     };
     let values: Vec<_> = polynomials.par_iter().zip(columns).map(of_input).collect();
-    let column = |powers: &Vec<Power>| -> Vec<f64> {
-        let value = |i: usize| powers.iter().map(|power| values[power.input][i][power.degree]).product();
-        (0..n).map(value).collect()
+    let of_input = |(input, (polynomials, column)): (usize, (&Polynomials, &Vec<f64>))| -> Vec<Vec<f64>> {
+        let scales = slopes.into_iter().flat_map(|of| &of.scales[input]);
+        let scaled = |(x, scale): (&f64, &f64)| polynomials.slopes(*x).iter().map(|of| scale * of).collect();
+        column.iter().zip(scales).map(scaled).collect()
     };
+    let derivatives: Vec<_> = polynomials.par_iter().zip(columns).enumerate().map(of_input).collect();
+    // The product of a term at an observation, where one input has its derivative.
+    let product = |powers: &[Power], i: usize, derived: Option<usize>| -> f64 {
+        let of = |power: &Power| match derived == Some(power.input) {
+            true => derivatives[power.input][i][power.degree],
+            false => values[power.input][i][power.degree],
+        };
+        powers.iter().map(of).product()
+    };
+    let column = |powers: &Vec<Power>| {
+        let part = |derived| -> Vec<f64> { (0..n).map(|i| product(powers, i, derived)).collect() };
+        let of_slopes = powers.iter().filter(|_| slopes.is_some()).map(|power| power.input);
+        let mut parts: Vec<_> = of_slopes.map(|input| (input, part(Some(input)))).collect();
+        parts.push((if slopes.is_some() { k } else { 0 }, part(None)));
+        Column(parts)
+    };
+    let rows = slopes.into_iter().flat_map(|of| of.slopes.iter().map(Vec::as_slice)).chain([outputs]);
+    let rows = Rows(rows.collect());
     // An input of m levels has no polynomials above the degree m - 1.
     let exists = |power: &Power| power.degree <= polynomials[power.input].degree();
-    let limit = MAX_VALUES / n;
+    let parts = if slopes.is_some() { 1 + truncation.interactions.min(k) } else { 1 };
+    let limit = MAX_VALUES / n / parts;
     let of_degree = |degree| {
         let mut products =
             truncation.products(columns.len(), degree, limit).ok_or(SensitivityError::OutOfRange {
@@ -169,8 +218,8 @@ pub(crate) fn search(
                 maximum: limit as u64,
             })?;
         products.retain(|powers| powers.iter().all(exists));
-        let columns: Vec<Vec<f64>> = products.par_iter().map(column).collect();
-        let found = pursue(&columns, outputs);
+        let columns: Vec<Column> = products.par_iter().map(column).collect();
+        let found = pursue(&columns, &rows);
         let term = |(j, coefficient): (usize, f64)| Term { powers: products[j].clone(), coefficient };
         let terms = found.terms.into_iter().map(term).collect();
         Ok(Found { degree, mean: found.constant, terms, leave_one_out: found.error })

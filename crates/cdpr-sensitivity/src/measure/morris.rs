@@ -6,6 +6,7 @@
 //! ```text
 //! e_i = (y(x') - y(x)) / (F_i(x'_i) - F_i(x_i))                           (O1)
 //! μ_i = mean(e_i),   μ*_i = mean(|e_i|),   σ_i² = Σ (e_i - μ_i)² / (n - 1)              (O2)
+//! n_eff = (Σ |e_i|)² / Σ e_i²                                             (O3)
 //! ```
 //!
 //! In a design with groups an effect is that of a group, whose change is divided by the root mean square of
@@ -15,9 +16,13 @@
 //! μ* ranks the inputs. A large σ shows curvature or interactions. In a linear model of uniform inputs, e = b
 //! (max - min). If steps round the two values of an input to the same level, there is no elementary effect.
 //!
+//! (O3) is the number of effects on which μ* rests: n if all have the same size, 1 if all but one are
+//! zero. An interval that rests on few effects is too short: those that are rare and large may be
+//! missing. `cargo xtask statistics reliability` measures how often it holds.
+//!
 //! (O1): M. D. Morris, *Factorial sampling plans for preliminary computational experiments*, Technometrics 33
 //! (1991). μ*: F. Campolongo, J. Cariboni, A. Saltelli, *An effective screening design for sensitivity
-//! analysis of large models* (2007).
+//! analysis of large models* (2007). (O3): L. Kish, *Survey sampling* (1965).
 
 use serde::{Deserialize, Serialize};
 
@@ -43,11 +48,22 @@ pub struct MorrisEffect {
     /// Mean μ (O2). It says nothing of a group of several inputs.
     pub mean: f64,
     /// Mean μ* of the absolute values (O2) with its interval over the blocks, which allows for their
-    /// skewness: where most effects are small, the law of their absolute values has a long tail. Where nearly
-    /// all are zero, the interval is too short (docs/STATISTICS.md, Bratley's function).
+    /// skewness: where most effects are small, the law of their absolute values has a long tail.
     pub mean_absolute: Estimate,
+    /// Whether that interval has its level: from [`MorrisEffect::RELIABLE_EFFECTS`] effects on, if μ* rests
+    /// on at least [`MorrisEffect::RELIABLE_EFFECTIVE`] of them (O3). Otherwise it is an indication: the next
+    /// effect may be larger than all before. If all n effects are zero, the interval is reliable, but up to
+    /// 3 / n of all effects may still differ from zero.
+    pub reliable: bool,
     /// Standard deviation σ (O2).
     pub std: f64,
+}
+
+impl MorrisEffect {
+    /// Least number of elementary effects of a reliable interval.
+    pub const RELIABLE_EFFECTS: usize = 24;
+    /// Least number of effects on which the mean of a reliable interval rests, Eq. (O3).
+    pub const RELIABLE_EFFECTIVE: f64 = 5.0;
 }
 
 /// Estimates the moments (O2) of the elementary effects (O1) of all inputs.
@@ -107,10 +123,19 @@ pub fn morris_effects(
             failed,
             mean: spread.mean,
             mean_absolute: Estimate::of_skewed_mean(&absolute, level)?,
+            reliable: is_reliable(&absolute),
             std: spread.std(),
         })
     };
     groups.iter().zip(found).map(summary).collect()
+}
+
+/// [`MorrisEffect::reliable`] of the sizes of effects.
+fn is_reliable(sizes: &[f64]) -> bool {
+    let (sum, squares): (f64, f64) = (sizes.iter().sum(), sizes.iter().map(|size| size * size).sum());
+    // Zeros alone are equal: they rest on all.
+    let effective = if squares == 0.0 { sizes.len() as f64 } else { sum * sum / squares };
+    sizes.len() >= MorrisEffect::RELIABLE_EFFECTS && effective >= MorrisEffect::RELIABLE_EFFECTIVE
 }
 
 /// Probability by which a group has moved: of one input with its sign, of several the root mean square.

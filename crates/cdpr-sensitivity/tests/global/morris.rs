@@ -210,3 +210,25 @@ fn a_constant_output_has_no_effects_and_a_value_that_is_not_finite_is_an_error()
     let error = morris_effects(&design, &outputs, 0.9).unwrap_err();
     assert!(matches!(error, SensitivityError::NotFinite { field: "outputs", index: 7, .. }));
 }
+
+#[test]
+fn the_interval_of_a_mean_that_rests_on_few_effects_is_not_called_reliable() {
+    // The last input acts where all others are large: one effect in sixty is not zero.
+    let rare = |x: &[f64]| if x[..4].iter().all(|x| *x > 0.64) { x[4] } else { 0.0 };
+    let found = |blocks, seed| {
+        effects(&MorrisDesign::trajectories(unit(5), blocks, 4, seed).unwrap(), |x| rare(x) + 0.1 * x[0])
+    };
+    // On four levels each of the four is large half the time: 4 of 64 effects are 1.
+    let (mut flagged, mut false_alarms) = (0, 0);
+    for seed in 0..100 {
+        let effects = found(64, seed);
+        flagged += u32::from(!effects[4].reliable);
+        false_alarms += u32::from(!effects[0].reliable);
+    }
+    // Binomial: fewer than 5 of 64 with 1/16, less those without any, 0.61.
+    assert!((45..80).contains(&flagged) && false_alarms < 5, "{flagged} {false_alarms}");
+    assert!(found(16, 1).iter().all(|effect| !effect.reliable));
+    // Inputs without any effect, and linear ones.
+    let linear = effects(&MorrisDesign::radial(unit(3), 32, 1).unwrap(), |x| x[0] - x[1]);
+    assert!(linear.iter().all(|effect| effect.reliable));
+}

@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
 /// The names that change, as deflections have them.
-const NAMES: [&str; 11] = [
+const NAMES: [&str; 13] = [
     "rms_mm",
     "signed_effects_mm",
     "nominal_mm",
@@ -19,6 +19,8 @@ const NAMES: [&str; 11] = [
     "dominant_effect_mm",
     "signed_effect_mm",
     "morris_mean_absolute_mm",
+    "morris_low_mm",
+    "morris_high_mm",
     "morris_std_mm",
 ];
 

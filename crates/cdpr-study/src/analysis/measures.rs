@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 /// Values of the measures for one input; `None` for a method that has failed or is not asked for.
 ///
-/// Indices of vectors and Shapley effects have no column and no key without a value: not every study asks for
-/// them.
+/// Indices of vectors, Shapley effects and others that a study asks for have no column and no key without a
+/// value.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InputMeasures {
     /// Name of the input.
@@ -24,6 +24,16 @@ pub struct InputMeasures {
     /// Morris's mean absolute elementary effect, between probabilities 0 and 1, in the same unit.
     #[serde(rename = "morris_mean_absolute_mm")]
     pub morris_mean_absolute: Option<f64>,
+    /// Lower end of its interval.
+    #[serde(rename = "morris_low_mm", default)]
+    pub morris_low: Option<f64>,
+    /// Upper end of its interval.
+    #[serde(rename = "morris_high_mm", default)]
+    pub morris_high: Option<f64>,
+    /// Whether that interval has its confidence: the mean rests on enough effects
+    /// ([`cdpr_sensitivity::MorrisEffect::reliable`]).
+    #[serde(default)]
+    pub morris_reliable: Option<bool>,
     /// Deviation of its elementary effects, in the same unit.
     #[serde(rename = "morris_std_mm")]
     pub morris_std: Option<f64>,
@@ -45,6 +55,12 @@ pub struct InputMeasures {
     pub expansion_first: Option<f64>,
     /// Its total index.
     pub expansion_total: Option<f64>,
+    /// Index of the first order of the expansion that is fitted to derivatives as well.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gradient_expansion_first: Option<f64>,
+    /// Its total index.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gradient_expansion_total: Option<f64>,
     /// Sobol' index of the first order.
     pub sobol_first: Option<f64>,
     /// Lower end of its interval.
@@ -75,6 +91,18 @@ pub struct InputMeasures {
     /// Upper end of its interval.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_total_high: Option<f64>,
+    /// Index of Wasserstein and Bures of the displacement as a vector, or of another output.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bures: Option<f64>,
+    /// Lower end of its interval.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bures_low: Option<f64>,
+    /// Upper end of its interval.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bures_high: Option<f64>,
+    /// Part of it that the means cause.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bures_means: Option<f64>,
     /// Shapley effect.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapley: Option<f64>,
@@ -98,6 +126,9 @@ pub struct GroupMeasures {
     /// Morris's mean absolute elementary effect of the whole group, in the unit of the output.
     #[serde(rename = "morris_mean_absolute_mm")]
     pub morris_mean_absolute: Option<f64>,
+    /// Whether it rests on enough effects for an interval.
+    #[serde(default)]
+    pub morris_reliable: Option<bool>,
     /// Share of the variance that its inputs cause alone and with each other.
     pub sobol_first: Option<f64>,
     /// Lower end of its interval.
@@ -178,7 +209,7 @@ pub enum Quantity {
 }
 
 /// All measures, in the order of tables.
-pub const MEASURES: [Measure; 15] = [
+pub const MEASURES: [Measure; 18] = [
     Measure::new("t_student", "t-Student", Quantity::Index, |input| input.t_student).ranking(),
     Measure::new("signed_effect_mm", "signed effect", Quantity::Change, |input| input.signed_effect),
     Measure::new("derivative_share", "derivatives", Quantity::Share, |input| input.derivative_share)
@@ -191,6 +222,7 @@ pub const MEASURES: [Measure; 15] = [
     Measure::new("morris_mean_absolute_mm", "Morris \u{b5}*", Quantity::Change, |input| {
         input.morris_mean_absolute
     })
+    .within(|input| Some([input.morris_low?, input.morris_high?]))
     .ranking(),
     Measure::new("morris_std_mm", "Morris \u{3c3}", Quantity::Change, |input| input.morris_std),
     Measure::new("dgsm_total_bound", "DGSM bound", Quantity::Bound, |input| input.dgsm_total_bound).ranking(),
@@ -199,6 +231,13 @@ pub const MEASURES: [Measure; 15] = [
         .within(|input| Some([input.sobol_first_low?, input.sobol_first_high?])),
     Measure::new("expansion_total", "expansion total", Quantity::Share, |input| input.expansion_total)
         .ranking(),
+    Measure::new("gradient_expansion_first", "gradient expansion", Quantity::Share, |input| {
+        input.gradient_expansion_first
+    }),
+    Measure::new("gradient_expansion_total", "gradient expansion total", Quantity::Share, |input| {
+        input.gradient_expansion_total
+    })
+    .ranking(),
     Measure::new("sobol_total", "Sobol' total", Quantity::Share, |input| input.sobol_total)
         .within(|input| Some([input.sobol_total_low?, input.sobol_total_high?]))
         .ranking(),
@@ -206,6 +245,8 @@ pub const MEASURES: [Measure; 15] = [
         .within(|input| Some([input.vector_first_low?, input.vector_first_high?])),
     Measure::new("vector_total", "vector total", Quantity::Share, |input| input.vector_total)
         .within(|input| Some([input.vector_total_low?, input.vector_total_high?])),
+    Measure::new("bures", "Wasserstein-Bures", Quantity::Index, |input| input.bures)
+        .within(|input| Some([input.bures_low?, input.bures_high?])),
     Measure::new("shapley", "Shapley", Quantity::Share, |input| input.shapley)
         .within(|input| Some([input.shapley_low?, input.shapley_high?])),
 ];

@@ -8,9 +8,9 @@ use crate::model::observed::{Measured, MeasuredQuantity};
 use crate::model::study::Sampling;
 use crate::observe::observation::{Session, Tally, observe_quantities};
 use cdpr_sensitivity::{
-    Bootstrap, Correlated, Input, Regression, SampleDesign, SensitivityError, Slopes, SobolDesign,
-    active_subspace, brackets, dgsm, expansion, morris_effects, rank_regression, regression, shapley_effects,
-    sobol_indices, student_effects, vector_sobol_indices,
+    Bootstrap, Correlated, Expansion, Input, Regression, SampleDesign, SensitivityError, Slopes, SobolDesign,
+    active_subspace, brackets, dgsm, expansion, gradient_expansion, morris_effects, rank_regression,
+    regression, shapley_effects, sobol_indices, student_effects, vector_sobol_indices, wasserstein_bures,
 };
 use cdpr_statics::StaticsError;
 use rayon::prelude::*;
@@ -29,7 +29,8 @@ pub struct MethodSummary {
     /// is one of the two points on which all inputs of a block rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failed_blocks: Option<usize>,
-    /// Whether the intervals of Sobol' indices have their confidence: they have from 64 blocks on.
+    /// Whether all intervals have their confidence: those of Sobol' indices have from 64 blocks on, those of
+    /// Morris's means where these rest on enough effects.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reliable: Option<bool>,
     /// Share of the variance that a linear model explains.
@@ -38,6 +39,10 @@ pub struct MethodSummary {
     /// Share of the variance that the expansion does not predict: its corrected leave-one-out error.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub leave_one_out: Option<f64>,
+    /// Whether derivatives took part in an expansion that may be fitted to them: they are left out where the
+    /// values alone predict the output better.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub derivatives: Option<bool>,
     /// Wall time [s]; not in files, which are the same from run to run.
     #[serde(skip)]
     pub seconds: f64,
@@ -86,7 +91,7 @@ pub(crate) struct Run<'a> {
 const SUBSPACE_RESAMPLES: usize = 200;
 
 /// All methods, in the order of their cost.
-pub(crate) const METHODS: [Method; 13] = [
+pub(crate) const METHODS: [Method; 15] = [
     Method::new("t_student", Needs::Independent, t_student),
     Method::new("derivatives", Needs::Independent, nominal_derivatives),
     Method::new("regression", Needs::Joint, |run, found| {
@@ -103,9 +108,11 @@ pub(crate) const METHODS: [Method; 13] = [
     Method::new("brackets", Needs::Independent, derivative_brackets),
     Method::new("active_subspace", Needs::Independent, subspace),
     Method::new("expansion", Needs::Independent, chaos_expansion),
+    Method::new("gradient_expansion", Needs::Independent, chaos_expansion_of_slopes),
     Method::new("sobol", Needs::Independent, sobol),
     Method::new("morris_of_groups", Needs::Independent, morris_of_groups),
     Method::new("sobol_of_groups", Needs::Independent, sobol_of_groups),
+    Method::new("bures", Needs::Joint, bures),
     Method::new("shapley", Needs::Joint, shapley),
 ];
 
@@ -251,10 +258,14 @@ fn morris(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn
     let outputs = run.observe(Design::Morris(run.spec.morris_levels), &design)?;
     let effects = morris_effects(&design, &outputs, run.settings.confidence)?;
     for (input, effect) in found.inputs.iter_mut().zip(effects) {
-        input.morris_mean_absolute = Some(effect.mean_absolute.value);
+        let mean = effect.mean_absolute;
+        [input.morris_mean_absolute, input.morris_low, input.morris_high] =
+            [mean.value, mean.low, mean.high].map(Some);
+        input.morris_reliable = Some(effect.reliable);
         input.morris_std = Some(effect.std);
     }
-    Ok(Some(MethodSummary::of(&outputs)))
+    let reliable = Some(found.inputs.iter().all(|input| input.morris_reliable == Some(true)));
+    Ok(Some(MethodSummary { reliable, ..MethodSummary::of(&outputs) }))
 }
 
 fn morris_of_groups(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
@@ -268,8 +279,10 @@ fn morris_of_groups(run: &Run, found: &mut Found) -> Result<Option<MethodSummary
     let effects = morris_effects(&design, &outputs, run.settings.confidence)?;
     for (group, effect) in found.groups.iter_mut().zip(effects) {
         group.morris_mean_absolute = Some(effect.mean_absolute.value);
+        group.morris_reliable = Some(effect.reliable);
     }
-    Ok(Some(MethodSummary::of(&outputs)))
+    let reliable = Some(found.groups.iter().all(|group| group.morris_reliable == Some(true)));
+    Ok(Some(MethodSummary { reliable, ..MethodSummary::of(&outputs) }))
 }
 
 fn derivative_bounds(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
@@ -315,15 +328,34 @@ fn subspace(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<d
 
 fn chaos_expansion(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
     let (design, outputs) = run.first()?;
-    let model = expansion(&design, &outputs, run.spec.expansion)?;
-    if model.terms.is_empty() {
-        return Err("no polynomial predicts the output better than its mean".into());
-    }
+    let model = useful(expansion(&design, &outputs, run.spec.expansion)?)?;
     for (input, shares) in found.inputs.iter_mut().zip(model.indices()) {
         input.expansion_first = Some(shares.closed);
         input.expansion_total = Some(shares.total);
     }
     Ok(Some(MethodSummary { leave_one_out: Some(model.leave_one_out), ..MethodSummary::of(&outputs) }))
+}
+
+fn chaos_expansion_of_slopes(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    if !run.spec.gradient_expansion {
+        return Ok(None);
+    }
+    let (design, slopes) = run.sloped()?;
+    let model = useful(gradient_expansion(&design, slopes, run.spec.expansion)?)?;
+    for (input, shares) in found.inputs.iter_mut().zip(model.indices()) {
+        input.gradient_expansion_first = Some(shares.closed);
+        input.gradient_expansion_total = Some(shares.total);
+    }
+    let (leave_one_out, derivatives) = (Some(model.leave_one_out), Some(model.derivatives));
+    Ok(Some(MethodSummary { leave_one_out, derivatives, ..MethodSummary::of(slopes) }))
+}
+
+/// An expansion that has a term.
+fn useful(model: Expansion) -> Result<Expansion, Box<dyn Error>> {
+    match model.terms.is_empty() {
+        true => Err("no polynomial predicts the output better than its mean".into()),
+        false => Ok(model),
+    }
 }
 
 fn sobol(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
@@ -367,6 +399,28 @@ fn sobol_of_groups(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>
     }
     let (failed_blocks, reliable) = (Some(indices.failed_blocks), Some(indices.reliable));
     Ok(Some(MethodSummary { failed_blocks, reliable, ..MethodSummary::of(&outputs) }))
+}
+
+fn bures(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    if run.spec.bures_observations == 0 {
+        return Ok(None);
+    }
+    let design = run.sampling.random_design(run.spec.bures_observations)?;
+    let measured = run.observe_quantities(Design::Random, &*design)?;
+    let k = run.inputs().len();
+    let mut rows = vec![0.0; k * design.size()];
+    design.fill(0, &mut rows);
+    let columns: Vec<Vec<f64>> =
+        (0..k).map(|input| rows.iter().skip(input).step_by(k).copied().collect()).collect();
+    let vector = |of: &Measured| displacement(of).unwrap_or_else(|| vec![of.value()]);
+    let vectors: Vec<_> = measured.iter().map(|of| of.as_ref().map(vector)).collect();
+    let indices = wasserstein_bures(&columns, &vectors, run.settings.confidence, run.settings.seed)?;
+    for (input, of) in found.inputs.iter_mut().zip(indices) {
+        [input.bures, input.bures_low, input.bures_high] =
+            [of.index.value, of.index.low, of.index.high].map(Some);
+        input.bures_means = Some(of.means.value);
+    }
+    Ok(Some(MethodSummary::of(&vectors)))
 }
 
 fn shapley(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {

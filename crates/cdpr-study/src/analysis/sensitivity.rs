@@ -11,7 +11,9 @@
 //! | `dgsm` | bound on the total index | exact derivatives at points of a scrambled Sobol sequence |
 //! | `brackets` | bounds of first-order and total indices on both sides | the same derivatives |
 //! | `expansion` | first-order and total indices of a polynomial model | first observations |
+//! | `gradient_expansion` | the same of a model fitted to derivatives as well | the derivatives of `dgsm` |
 //! | `sobol` | first-order and total indices, with intervals; of vectors, too | Saltelli's blocks |
+//! | `bures` | index of Wasserstein and Bures of the displacement | random observations |
 //! | `shapley` | Shapley effects, with intervals | walks through the joint law of the inputs |
 //! | `active_subspace` | directions of all inputs, activity scores | the derivatives of `dgsm` |
 //! | `morris_of_groups`, `sobol_of_groups` | the same of groups | blocks that move groups |
@@ -97,7 +99,10 @@ pub fn measure(
             Ok(None) => {}
             Ok(Some(summary)) => {
                 if summary.reliable == Some(false) {
-                    notes.push(format!("{name}: too few blocks, the intervals are an indication only"));
+                    notes.push(format!(
+                        "{name}: {}, the intervals are an indication only",
+                        doubt(name, &found)
+                    ));
                 }
                 methods.insert(
                     name.to_owned(),
@@ -114,6 +119,25 @@ pub fn measure(
     let Found { inputs, groups, subspace } = found;
     let (sums, agreement) = (sums(sampling, &inputs), Agreement::of(&inputs));
     Ok(SensitivitySummary { inputs, groups, subspace, methods, sums, agreement, notes })
+}
+
+/// Why intervals of a method are not reliable: the means of these inputs or groups rest on few of Morris's
+/// effects, or there are few blocks.
+fn doubt(method: &str, found: &Found) -> String {
+    let inputs = found.inputs.iter().map(|input| (&input.input, input.morris_reliable));
+    let groups = found.groups.iter().map(|group| (&group.group, group.morris_reliable));
+    let of_morris: Vec<_> = match method {
+        "morris" => inputs.collect(),
+        "morris_of_groups" => groups.collect(),
+        _ => return "too few blocks".to_owned(),
+    };
+    let count = of_morris.len();
+    let few = of_morris.into_iter().filter(|(_, reliable)| *reliable == Some(false));
+    let names: Vec<&str> = few.map(|(name, _)| name.as_str()).collect();
+    if names.len() == count {
+        return "too few blocks".to_owned();
+    }
+    format!("few effects decide the means of {}", names.join(", "))
 }
 
 impl SensitivitySummary {

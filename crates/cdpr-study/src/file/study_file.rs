@@ -6,6 +6,7 @@ use crate::file::grid::GridSpec;
 use crate::file::output::Output;
 use crate::file::value::Value;
 use cdpr_robot::{Coordinate, TensionReference};
+use cdpr_sensitivity::given::bures::MIN_ROWS;
 use cdpr_sensitivity::measure::shapley::MIN_WALKS;
 use cdpr_sensitivity::{Expansion, Law, SobolIndices, Steps, Truncation};
 use indexmap::IndexMap;
@@ -214,6 +215,13 @@ pub struct SensitivitySpec {
     /// variance between the inputs, also between correlated ones.
     #[serde(skip_serializing_if = "is_zero")]
     pub shapley_walks: usize,
+    /// Random observations behind the index of Wasserstein and Bures: how much a parameter moves the law of
+    /// the displacement as a vector, or of another output. 64 to 1048576, or 0 for none.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub bures_observations: usize,
+    /// Whether an expansion is fitted to the derivatives as well, at the points where they are taken.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub gradient_expansion: bool,
     /// Products of polynomials that the chaos expansion chooses from.
     pub expansion: Truncation,
 }
@@ -228,6 +236,8 @@ impl Default for SensitivitySpec {
             morris_levels: None,
             derivative_points: 256,
             shapley_walks: 0,
+            bures_observations: 0,
+            gradient_expansion: false,
             expansion: Truncation { max_degree: 3, norm: 0.75, interactions: 2 },
         }
     }
@@ -243,6 +253,7 @@ impl SensitivitySpec {
         self.morris_blocks = power(fewer(self.morris_blocks, 2));
         self.derivative_points = fewer(self.derivative_points, 2);
         self.shapley_walks = fewer(self.shapley_walks, MIN_WALKS);
+        self.bures_observations = fewer(self.bures_observations, MIN_ROWS);
     }
 
     /// The first invalid setting: field, value, and what is expected.
@@ -256,12 +267,19 @@ impl SensitivitySpec {
             ("morris_blocks", self.morris_blocks, 2..=MOST),
             ("derivative_points", self.derivative_points, 2..=MOST),
             ("shapley_walks", self.shapley_walks.max(MIN_WALKS), MIN_WALKS..=MOST),
+            ("bures_observations", self.bures_observations.max(MIN_ROWS), MIN_ROWS..=MOST),
             ("expansion.max_degree", max_degree, 1..=Expansion::MAX_DEGREE),
             ("expansion.interactions", interactions, 1..=MOST),
         ];
-        let few_walks = (1..MIN_WALKS).contains(&self.shapley_walks);
-        let of_walks =
-            || ("shapley_walks", self.shapley_walks.to_string(), format!("0, or at least {MIN_WALKS}"));
+        // Zero leaves these out.
+        let few = [
+            ("shapley_walks", self.shapley_walks, MIN_WALKS),
+            ("bures_observations", self.bures_observations, MIN_ROWS),
+        ];
+        let few = few.into_iter().find(|(_, value, least)| (1..*least).contains(value));
+        let of_few = |(field, value, least): (_, usize, usize)| {
+            (field, value.to_string(), format!("0, or at least {least}"))
+        };
         let count = counts.into_iter().find(|(_, value, range)| !range.contains(value));
         let of_count = |(field, value, range): (_, usize, std::ops::RangeInclusive<usize>)| {
             (field, value.to_string(), format!("{} to {}", range.start(), range.end()))
@@ -274,7 +292,7 @@ impl SensitivitySpec {
         let of_norm = || ("expansion.norm", norm.to_string(), "a number above 0, at most 1".to_owned());
         count
             .map(of_count)
-            .or_else(|| few_walks.then(of_walks))
+            .or_else(|| few.map(of_few))
             .or_else(|| uneven.map(of_levels))
             .or_else(|| (!sound_norm).then(of_norm))
     }

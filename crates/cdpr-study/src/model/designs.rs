@@ -6,8 +6,8 @@ use crate::error::StudyError;
 use crate::file::study_file::{SamplingSpec, SensitivitySpec};
 use crate::model::study::{Sampling, Study};
 use cdpr_sensitivity::{
-    Correlated, Group, MorrisDesign, Order, SaltelliDesign, SampleDesign, SensitivityError, ShapleyDesign,
-    SobolDesign, derived_seed,
+    Correlated, Group, MorrisDesign, Order, RandomDesign, SaltelliDesign, SampleDesign, SensitivityError,
+    ShapleyDesign, SobolDesign, derived_seed,
 };
 
 /// Name of the sampling's own design.
@@ -51,6 +51,8 @@ pub(crate) enum Design {
     Morris(Option<u32>),
     Saltelli,
     Shapley,
+    /// Independent rows.
+    Random,
     /// One of these over groups, whose key tells them from other groups.
     Groups(Grouped, u32),
 }
@@ -71,6 +73,7 @@ impl Design {
             Self::Morris(Some(levels)) => format!("morris-{levels}-levels"),
             Self::Saltelli => "saltelli".to_owned(),
             Self::Shapley => "shapley".to_owned(),
+            Self::Random => "random".to_owned(),
             Self::Groups(Grouped::Morris(levels), key) => {
                 format!("{}-of-groups-{key:08x}", Self::Morris(levels).name())
             }
@@ -88,6 +91,7 @@ impl Design {
             Self::Morris(_) => Box::new(sampling.morris_design(&spec)?),
             Self::Saltelli => Box::new(sampling.saltelli_design(spec.saltelli_blocks)?),
             Self::Shapley => Box::new(sampling.shapley_design(spec.shapley_walks)?),
+            Self::Random => sampling.random_design(spec.bures_observations)?,
             Self::Groups(Grouped::Morris(_), _) => {
                 Box::new(sampling.morris_design(&spec)?.grouped(sampling.groups.clone())?)
             }
@@ -159,6 +163,9 @@ impl Study {
                 ]);
             }
         }
+        if measures.bures_observations > 0 {
+            designs.push((Design::Random, measures.bures_observations));
+        }
         if measures.shapley_walks > 0 {
             designs.push((Design::Shapley, measures.shapley_walks * (inputs + 1)));
         }
@@ -191,6 +198,15 @@ impl Sampling<'_> {
             Some(matrix) => design.correlated(matrix),
             None => Ok(design),
         }
+    }
+
+    /// Independent rows of the joint law.
+    pub(crate) fn random_design(&self, points: usize) -> Result<Box<dyn Points>, SensitivityError> {
+        let design = RandomDesign::new(self.design.inputs().to_vec(), points, self.study.file.seed)?;
+        Ok(match &self.correlation {
+            Some(matrix) => Box::new(Correlated::new(design, matrix)?),
+            None => Box::new(design),
+        })
     }
 
     /// A scrambled replicate of the sampling's design.

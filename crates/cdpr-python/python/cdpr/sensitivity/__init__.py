@@ -18,7 +18,14 @@ array([0.2, 0.8])
 from __future__ import annotations
 
 from .blocks import MorrisDesign, SaltelliDesign, ShapleyDesign
-from .designs import HaltonDesign, LatinHypercubeDesign, RandomDesign, SobolDesign, effect_intervals
+from .designs import (
+    HaltonDesign,
+    LatinHypercubeDesign,
+    RandomDesign,
+    SobolDesign,
+    effect_intervals,
+    wasserstein_bures,
+)
 from .estimates import (
     ActiveSubspace,
     Brackets,
@@ -30,6 +37,7 @@ from .estimates import (
     Regression,
     ShapleyEffects,
     SobolIndices,
+    WassersteinBures,
 )
 from .inputs import laws_of_problem
 from .laws import (
@@ -77,6 +85,7 @@ __all__ = [
     "ShapleyEffects",
     "SobolDesign",
     "SobolIndices",
+    "WassersteinBures",
     "allocate",
     "beta",
     "cdf",
@@ -98,5 +107,6 @@ __all__ = [
     "triangular",
     "truncated_normal",
     "uniform",
+    "wasserstein_bures",
     "weibull",
 ]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Optional, TypeVar, U
 
 from .. import _core
 from .._table import by_output
+from ..errors import InputError
 from .estimates import (
     ActiveSubspace,
     Brackets,
@@ -16,6 +17,7 @@ from .estimates import (
     Effects,
     Expansion,
     Regression,
+    WassersteinBures,
 )
 from .inputs import Correlation, Inputs, laws_of, matrix_of, native_inputs
 from .laws import Law
@@ -118,6 +120,28 @@ class _Sample(Design):
         return by_output(
             outputs, lambda _, y: Expansion(self._native.expansion(y, max_degree, norm, interactions))
         )
+
+    def gradient_expansion(
+        self,
+        outputs: Outputs,
+        gradients: Any,
+        *,
+        max_degree: int = 5,
+        norm: float = 1.0,
+        interactions: int = 2,
+    ) -> Annotated[Any, Expansion]:
+        """Fits an expansion to outputs and gradients together, which takes fewer rows.
+
+        `derivatives` of the result says whether the gradients took part: they are left out where the outputs
+        alone predict better. Other arguments are as of `expansion`.
+
+        gradients: as `derivative_measures` takes them.
+        """
+
+        def one(_: str, y: Any, slopes: Any) -> Expansion:
+            return Expansion(self._native.gradient_expansion(y, slopes, max_degree, norm, interactions))
+
+        return by_output(outputs, one, gradients)
 
     def derivative_measures(
         self, outputs: Outputs, gradients: Any, *, level: float = 0.95
@@ -269,3 +293,30 @@ def effect_intervals(
     """
     samples, outputs = [design._native for design, _ in replicates], [given for _, given in replicates]
     return EffectIntervals({"inputs": json.loads(_core.effect_intervals(samples, outputs, level))})
+
+
+def wasserstein_bures(
+    rows: ArrayLike,
+    outputs: ArrayLike,
+    names: Optional[Sequence[str]] = None,
+    *,
+    level: float = 0.95,
+    seed: int = 2017,
+) -> WassersteinBures:
+    """Estimates how much each input moves the law of a vector, its mean and its covariance, from any table.
+
+    The rows are independent of each other, as those of `RandomDesign`: rows of a sequence are refused. The
+    inputs may be correlated.
+
+    rows: values of the inputs, (n, k), at least 64 rows.
+    outputs: components in a common unit, (n, m); a row with NaN has failed.
+    names: of the inputs; x1, x2, ... if left out.
+    seed: deals the rows to the groups of the jackknife, which makes the intervals.
+
+    Raises InputError.
+    """
+    found = json.loads(_core.wasserstein_bures(rows, outputs, level, seed))
+    given = [f"x{i + 1}" for i in range(len(found))] if names is None else list(names)
+    if len(given) != len(found):
+        raise InputError(f"names has {len(given)} names: expected {len(found)}, one for each input")
+    return WassersteinBures({"inputs": [{"input": name, **of} for name, of in zip(given, found)]})

@@ -94,6 +94,10 @@ class MorrisEffects(Table):
     mean_absolute = Column("mean_absolute.value", "mu*: mean of absolute values, (k,).")
     mean_absolute_interval = Interval("mean_absolute", "Intervals of these, (k, 2).")
     std = Column("std", "sigma: standard deviation, (k,).")
+    reliable = Column(
+        "reliable",
+        "Whether the intervals have their level, (k,): not where few effects decide the mean, 1 for yes.",
+    )
     failed = Column("failed", "Number of effects lost to failed observations, (k,).")
 
 
@@ -165,6 +169,17 @@ class ActiveSubspace(Table):
         return numpy.array(self.content["directions"])
 
 
+class WassersteinBures(Table):
+    """How much each of k inputs moves the law of a vector: its mean and its covariance."""
+
+    _drawn = ("index",)
+
+    index = Column("index.value", "Index of Wasserstein and Bures, 0 to 1, (k,).")
+    index_interval = Interval("index", "Intervals of these, (k, 2).")
+    means = Column("means.value", "Part of it by the means: half of the generalised S, (k,).")
+    means_interval = Interval("means", "Intervals of these, (k, 2).")
+
+
 class Expansion(Table):
     """A sparse polynomial chaos expansion of the output in k inputs."""
 
@@ -180,6 +195,7 @@ class Expansion(Table):
     variance = Value("variance", "Variance of the output.")
     degree = Value("degree", "Degree of the expansion.")
     terms = Value("terms", "Number of terms beside the mean.")
+    derivatives = Value("derivatives", "Whether gradients took part in the fit.")
     leave_one_out = Value("leave_one_out", "Leave-one-out error, as a share of the variance of the outputs.")
     observed = Value("observed", "Number of outputs.")
     failed = Value("failed", "Number of observations without an output.")

@@ -104,6 +104,20 @@ impl Polynomials {
         }
         values
     }
+
+    /// Derivatives of `ψ_0` .. `ψ_degree` at x, per unit of the input.
+    pub(crate) fn slopes(&self, x: f64) -> Vec<f64> {
+        let values = self.values(x);
+        let inner = self.probability.map_or(1.0, |law| law.ln_pdf(x).exp()) / self.scale;
+        let xi = (self.probability.map_or(x, |law| law.cdf(x)) - self.centre) / self.scale;
+        let (mut before, mut last, mut b_last) = (0.0, 0.0, 0.0);
+        let mut slopes = vec![0.0];
+        for ((a, b), value) in self.a.iter().zip(&self.b).zip(values) {
+            (before, last, b_last) = (last, (value + (xi - a) * last - b_last * before) / b, *b);
+            slopes.push(inner * last);
+        }
+        slopes
+    }
 }
 
 /// `a_n` and `b_(n+1)` of Jacobi's polynomials on [-1, 1], of the weight (1 - ξ)^p (1 + ξ)^q: W. Gautschi

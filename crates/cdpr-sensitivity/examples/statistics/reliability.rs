@@ -1,0 +1,79 @@
+//! Intervals of Morris's μ* that are not called reliable: how many, and how often these and the others hold.
+
+use cdpr_sensitivity::{MorrisDesign, SensitivityError, morris_effects, observe};
+
+use crate::exact::Exact;
+use crate::functions::{Function, twelve};
+
+/// Studies and intervals that hold, of one input.
+#[derive(Clone, Copy, Default)]
+struct Tally {
+    studies: f64,
+    held: f64,
+}
+
+impl Tally {
+    fn share(self) -> String {
+        if self.studies == 0.0 { "-".to_owned() } else { format!("{:.1}", 100.0 * self.held / self.studies) }
+    }
+}
+
+/// Prints, for each function and number of trajectories, the input whose intervals hold least often, and all
+/// inputs of which some interval is not reliable.
+pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
+    println!(
+        "share of the intervals of 95 % of mu* that hold [%]: all, those called reliable, the others; share"
+    );
+    println!("of the studies whose interval is not called reliable [%]");
+    println!("| function | effects | input | all | reliable | others | not reliable |");
+    println!("|---|---|---|---|---|---|---|");
+    let functions = twelve().into_iter().filter(|of| of.name.contains(part) && of.name != "constant");
+    for function in functions {
+        let exact = Exact::of(&function)?;
+        for blocks in [16, 24, 32, 64, 256] {
+            rows(&function, &exact.morris, blocks, studies)?;
+        }
+    }
+    Ok(())
+}
+
+fn rows(function: &Function, exact: &[f64], blocks: usize, studies: u64) -> Result<(), SensitivityError> {
+    // Errors of the values that count as true.
+    const NEAR: f64 = 1e-4;
+    // One input of a sum behaves as the others do.
+    let studies = if exact.len() > 20 { studies.div_ceil(10) } else { studies };
+    let mut tallies = vec![[Tally::default(); 2]; exact.len()];
+    for seed in 0..studies {
+        let design = MorrisDesign::trajectories(function.inputs.clone(), blocks, 4, seed)?;
+        let found = morris_effects(&design, &observe(&design, function.model)?, 0.95)?;
+        for ((found, exact), tallies) in found.iter().zip(exact).zip(&mut tallies) {
+            let near = NEAR * exact.abs().max(1.0);
+            let interval = found.mean_absolute;
+            let holds = interval.low - near <= *exact && *exact <= interval.high + near;
+            let tally = &mut tallies[usize::from(!found.reliable)];
+            tally.studies += 1.0;
+            tally.held += f64::from(u8::from(holds));
+        }
+    }
+    let whole = |[one, other]: [Tally; 2]| Tally {
+        studies: one.studies + other.studies,
+        held: one.held + other.held,
+    };
+    let least = (0..exact.len()).min_by(|&i, &j| whole(tallies[i]).held.total_cmp(&whole(tallies[j]).held));
+    for (i, of) in tallies.iter().enumerate() {
+        // All intervals of too few effects are not reliable.
+        let differs = of[0].studies > 0.0 && of[1].studies >= 0.01 * studies as f64;
+        if Some(i) == least || differs {
+            println!(
+                "| {} | {blocks} | {} | {} | {} | {} | {:.1} |",
+                function.name,
+                function.inputs[i].name,
+                whole(*of).share(),
+                of[0].share(),
+                of[1].share(),
+                100.0 * of[1].studies / studies as f64
+            );
+        }
+    }
+    Ok(())
+}
