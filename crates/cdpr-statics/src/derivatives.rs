@@ -61,7 +61,8 @@ mod winding;
 use crate::equations::ABOVE_LEAST;
 use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, read, solve};
 use crate::error::StaticsError;
-use crate::loading::{Deflection, deflection_from, wind, wind_free};
+use crate::inverse::InverseSolution;
+use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_from};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Coordinate, Matrix6xX, Pose, Robot, Vector3};
@@ -149,9 +150,34 @@ pub fn derivatives(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Derivatives, StaticsError> {
-    let wound = wind(robot, pose, tension_offsets)?;
+    of_wound(robot, pose, tension_offsets, load, &wind(robot, pose, tension_offsets)?)
+}
+
+/// [`derivatives`] without offsets, with the answer of the inverse model under the platform's own weight at
+/// hand.
+///
+/// # Errors
+/// As [`derivatives`].
+pub fn derivatives_from(
+    robot: &Robot,
+    pose: &Pose,
+    load: &Load,
+    wanted: InverseSolution,
+) -> Result<Derivatives, StaticsError> {
+    let offsets = vec![0.0; robot.cables.len()];
+    let wound = wind_from(robot, pose, &offsets, wanted)?;
+    of_wound(robot, pose, &offsets, load, &wound)
+}
+
+fn of_wound(
+    robot: &Robot,
+    pose: &Pose,
+    tension_offsets: &[f64],
+    load: &Load,
+    wound: &Wound,
+) -> Result<Derivatives, StaticsError> {
     let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.held)?;
-    let winding = Winding { robot, pose, inputs: Inputs::of(robot), wound: &wound };
+    let winding = Winding { robot, pose, inputs: Inputs::of(robot), wound };
     let set_points = winding.set_points(tension_offsets)?;
     let lengths = winding.lengths(&set_points.rows)?;
     of_lengths(robot, load, deflection, winding.inputs, set_points, lengths)

@@ -9,11 +9,13 @@ mod level;
 mod minimum;
 mod newton;
 mod observer;
+mod poses;
 mod program;
 mod reason;
 mod simd;
 mod tracker;
 
 pub use observer::{Observation, Observer};
+pub use poses::inverse_all;
 pub use reason::ScalarReason;
 pub use tracker::Tracker;

@@ -118,7 +118,7 @@ const LAST_DISTRIBUTION: f64 = 1e-9;
 const LONGEST_STEP: f64 = 0.3;
 
 /// q² from which a cable sags.
-const SAGGING: f64 = 0.02;
+pub(crate) const SAGGING: f64 = 0.02;
 
 /// Least curvature of a step, relative to that of a straight cable.
 const LEAST_CURVATURE: f64 = 0.01;
@@ -146,7 +146,9 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<'_, S>, shared: &Shared) -> Out
         spans.push(span);
     }
     let mut set_points = offsets;
-    let (converged, sound) = distribute(robots, multipliers, &mut set_points, &spans, shared);
+    let mut multipliers = multipliers;
+    let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
+    let (converged, sound) = distribute(robots, &weight, &mut multipliers, &mut set_points, &spans, shared);
     let mut platform = LinearizedPlatform::new(zero, spans.len());
     let held = hold(robots, &mut platform, &set_points, &spans, shared);
 
@@ -168,7 +170,7 @@ pub(crate) fn observe<S: Simd>(begin: ChainStart<'_, S>, shared: &Shared) -> Out
 impl<S: Simd> LaneCable<'_, S> {
     /// The tensions at the platform that the limits allow [N], as `limits_at` has them.
     #[inline(always)]
-    fn limits(&self, span: &Span<Lanes<S>>, choice: &Choice) -> [Lanes<S>; 2] {
+    pub(crate) fn limits(&self, span: &Span<Lanes<S>>, choice: &Choice) -> [Lanes<S>; 2] {
         let (least, greatest) = (self.length.all(choice.limits.min), self.length.all(choice.limits.max));
         match choice.max_at {
             CableEnd::Anchor => [least, greatest],
@@ -182,13 +184,15 @@ impl<S: Simd> LaneCable<'_, S> {
     }
 }
 
-/// The tensions nearest to their reference at the wanted pose, equations (L2) and (L3); `offsets` are added
+/// The tensions nearest to their reference at the wanted pose under the wrench `external`, equations (L2) and
+/// (L3); `offsets` are added
 /// to them and become set-points, towards which cables make a first step. Returns the lanes where they were
 /// found, and those where no cable is folded and no limits exclude each other.
 #[inline(always)]
-fn distribute<S: Simd>(
+pub(crate) fn distribute<S: Simd>(
     robots: &mut Robots<'_, S>,
-    mut multipliers: Lanes6<S>,
+    external: &Lanes6<S>,
+    multipliers: &mut Lanes6<S>,
     offsets: &mut [Lanes<S>],
     spans: &[Span<Lanes<S>>],
     shared: &Shared,
@@ -198,7 +202,6 @@ fn distribute<S: Simd>(
     let last_change = zero.all(LAST_DISTRIBUTION);
     let unbalanced = BALANCED * shared.tension;
     let arm = shared.scale.characteristic_length;
-    let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
     let mut going = zero.less_or_equal(zero);
     let mut within = going;
     let mut jumped = !going;
@@ -213,7 +216,7 @@ fn distribute<S: Simd>(
         all_held.clear();
         convex.clear();
         rows.clear();
-        let mut balance = weight;
+        let mut balance = *external;
         let cables = spans.iter().zip(&robots.cables).zip(&shared.choices);
         for ((span, cable), choice) in cables {
             let held = HeldCable::new(cable, span, &cable.response());
@@ -236,7 +239,7 @@ fn distribute<S: Simd>(
                 wrench(&cable.anchor_arm, &along),
                 (held.closed + -choice.reference) * held.tension_slope,
                 curvature.recip(),
-                &multipliers,
+                multipliers,
             ));
             all_held.push(held);
         }
@@ -267,7 +270,7 @@ fn distribute<S: Simd>(
             jumped = jumped | (going & !near & !held.slackness.less_or_equal(d.all(SAGGING)));
             moved = moved.max(held.change(cable, d, going, compared));
         }
-        multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
+        *multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
         let (force, moment) = halves(&balance);
         let balanced = dot(&force, &force).less_or_equal(zero.all(unbalanced * unbalanced))
             & dot(&moment, &moment).less_or_equal(zero.all(unbalanced * arm * unbalanced * arm));
@@ -282,7 +285,7 @@ fn distribute<S: Simd>(
             if doubted.any() {
                 let places = spans.iter().zip(&shared.choices).zip(&limits);
                 for (cable, ((span, choice), limits)) in robots.cables.iter().zip(places) {
-                    let least = is_least(cable, span, &multipliers, choice.reference, limits);
+                    let least = is_least(cable, span, multipliers, choice.reference, limits);
                     within = within & (least | !doubted);
                 }
             }
@@ -314,7 +317,7 @@ fn distribute<S: Simd>(
 /// Lengths that give the tensions `set_points` at the wanted pose, and the cables linearised there. Returns
 /// the lanes where all were found.
 #[inline(always)]
-fn hold<S: Simd>(
+pub(crate) fn hold<S: Simd>(
     robots: &mut Robots<'_, S>,
     platform: &mut LinearizedPlatform<S>,
     set_points: &[Lanes<S>],

@@ -157,8 +157,8 @@ impl Nominal {
     }
 }
 
-/// The shape of a cable of the nominal robot at the wanted pose.
-fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape {
+/// The shape of a cable at the wanted pose.
+pub(crate) fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape {
     let span = robot.span(pose, i);
     let (chord, height) = (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
     let (unstrained_length, force) = (solution.lengths[i], solution.equilibrium.cable_forces[i]);
