@@ -10,8 +10,8 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use std::hint::black_box;
 use std::time::Duration;
 
-/// A map: its name, the robot, half of the extent along x and y and the height [m], the payload [kg], and whether
-/// more than half of the positions are held.
+/// A map: its name, the robot, half of the extent along x and y and the height [m], the payload [kg], and
+/// whether more than half of the positions are held.
 type Map = (&'static str, &'static str, [f64; 3], f64, bool);
 
 const MAPS: [Map; 5] = [

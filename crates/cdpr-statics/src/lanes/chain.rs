@@ -185,9 +185,8 @@ impl<S: Simd> LaneCable<'_, S> {
 }
 
 /// The tensions nearest to their reference at the wanted pose under the wrench `external`, equations (L2) and
-/// (L3); `offsets` are added
-/// to them and become set-points, towards which cables make a first step. Returns the lanes where they were
-/// found, and those where no cable is folded and no limits exclude each other.
+/// (L3); `offsets` are added to them and become set-points, towards which cables make a first step. Returns
+/// the lanes where they were found, and those where no cable is folded and no limits exclude each other.
 #[inline(always)]
 pub(crate) fn distribute<S: Simd>(
     robots: &mut Robots<'_, S>,

@@ -3,8 +3,8 @@
 //! Poses come in blocks of [`BLOCK`]. The scalar model answers a block from its first pose on until one is
 //! held. The poses after it are cut into [`SEQUENCES`] sequences, and the lanes go along them together: each
 //! pose starts from the last answer of its own sequence, with the horizontal forces and multipliers of its
-//! cables. What a lane does not decide, and what is not proved to be the least of all minima where cables sag,
-//! is left to the scalar model. No answer depends on the vector unit, because no sequence knows another.
+//! cables. What a lane does not decide, and what is not proved to be the least of all minima where cables
+//! sag, is left to the scalar model. No answer depends on the vector unit, because no sequence knows another.
 
 use crate::equations::Span;
 use crate::equations::vector::{dot, wrench};
@@ -33,8 +33,8 @@ const BLOCK: usize = 64;
 /// Sequences of a block: as many as the widest vector unit has lanes.
 const SEQUENCES: usize = MAX_LANES;
 
-/// Forces that changes are compared with, relative to the sum of tensions: steps end when even a small tension
-/// is exact to nine digits.
+/// Forces that changes are compared with, relative to the sum of tensions: steps end when even a small
+/// tension is exact to nine digits.
 const NARROWER: f64 = 0.01;
 
 /// Greatest error of (I2) in a cable, relative to the sum of tensions.
