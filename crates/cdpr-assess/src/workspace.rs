@@ -14,8 +14,9 @@ use crate::clearance::{Clearance, clearance_under};
 use crate::tilt::{Tilt, tilt_at};
 use cdpr_robot::{Axis, Coordinate, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, Limit, Load, OutOfLimits, StaticsError, deflection_free,
-    derivatives_free, held_at, inverse, is_held, out_of_limits,
+    Deflection, Derivatives, DirectProblem, InverseSolution, Limit, Load, OutOfLimits, StaticsError,
+    deflection_free, deflection_from, derivatives_free, derivatives_from, held_at, inverse, inverse_all,
+    is_held, out_of_limits,
 };
 use cdpr_study::{ErrorModel, Grid, StudyError};
 use rayon::prelude::*;
@@ -148,6 +149,9 @@ pub struct Dominant {
     pub std: f64,
 }
 
+/// Positions that are computed together: those of a block of [`inverse_all`].
+const BLOCK: usize = 64;
+
 /// The status of a position that is held with all tensions within the limits.
 pub const HELD: &str = "held";
 
@@ -165,16 +169,10 @@ pub fn compute_workspace(
 ) -> Result<Vec<WorkspacePose>, StudyError> {
     check(workspace)?;
     let Workspace { robot, rotation, load, free, further, .. } = *workspace;
-    let one = |level: Pose| {
+    let one = |pose: Pose, outcome: Result<Held, StaticsError>, anew: Option<Result<Anew, StaticsError>>| {
         if stop() {
             return Err(StudyError::Stopped);
         }
-        let pose = Pose { rotation, ..level };
-        let outcome = held(workspace, &pose);
-        let anew = (load != Load::none()).then(|| {
-            let [least_tension, greatest_tension] = range(&tensions_anew(workspace, &pose)?);
-            Ok(Anew { least_tension, greatest_tension })
-        });
         let capacity = further.capacity.map(|set| capacity_at(robot, &pose, &load, set, free));
         let clearance = further.distances.then(|| clearance_under(robot, &pose, &load, free));
         let tilt = further
@@ -183,7 +181,43 @@ pub fn compute_workspace(
         tick();
         Ok(WorkspacePose { pose, outcome, anew, capacity, clearance, tilt })
     };
-    workspace.grid.poses().into_par_iter().map(one).collect()
+    let poses: Vec<_> = workspace.grid.poses().into_iter().map(|level| Pose { rotation, ..level }).collect();
+    let of_block = |poses: &[Pose]| {
+        if stop() {
+            return vec![Err(StudyError::Stopped)];
+        }
+        let (outcomes, anew) = (outcomes(workspace, poses), all_anew(workspace, poses));
+        let each = poses.par_iter().copied().zip(outcomes).zip(anew);
+        each.map(|((pose, outcome), anew)| one(pose, outcome, anew)).collect()
+    };
+    poses.par_chunks(BLOCK).flat_map(of_block).collect()
+}
+
+/// The results of poses that follow each other.
+fn outcomes(workspace: &Workspace, poses: &[Pose]) -> Vec<Result<Held, StaticsError>> {
+    let Workspace { robot, free, .. } = *workspace;
+    if !free.is_empty() {
+        return poses.par_iter().map(|pose| held(workspace, pose, None)).collect();
+    }
+    let wanted = inverse_all(robot, poses, &Load::none());
+    poses.par_iter().zip(wanted).map(|(pose, wanted)| held(workspace, pose, Some(wanted?))).collect()
+}
+
+/// The tensions distributed anew at poses that follow each other; `None` without a load.
+fn all_anew(workspace: &Workspace, poses: &[Pose]) -> Vec<Option<Result<Anew, StaticsError>>> {
+    let Workspace { robot, ref load, free, .. } = *workspace;
+    if *load == Load::none() {
+        return vec![None; poses.len()];
+    }
+    let anew = |tensions: Vec<f64>| {
+        let [least_tension, greatest_tension] = range(&tensions);
+        Anew { least_tension, greatest_tension }
+    };
+    let tensions: Vec<Result<Vec<f64>, StaticsError>> = match free {
+        [] => inverse_all(robot, poses, load).into_iter().map(|found| Ok(found?.tensions)).collect(),
+        _ => poses.par_iter().map(|pose| tensions_anew(workspace, pose)).collect(),
+    };
+    tensions.into_iter().map(|tensions| Some(tensions.map(anew))).collect()
 }
 
 /// The boundary of the positions that are held with all tensions within the limits, the load borne in one
@@ -200,12 +234,15 @@ pub fn workspace_boundary(
     let Workspace { robot, rotation, grid, ref load, free, .. } = *workspace;
     // Quicker than the inverse model to say no.
     let has_tensions = |pose: &Pose, load: &Load| is_held(robot, pose, load).unwrap_or(false);
+    let wanted = |pose: &Pose| free.is_empty().then(|| inverse(robot, pose, &Load::none(), None)).transpose();
     let is_inside = |position: &Vector3<f64>| {
         let pose = Pose { position: *position, rotation };
         match (way, free) {
             (Way::Anew, []) => has_tensions(&pose, load),
             (Way::Kept, []) if !has_tensions(&pose, &Load::none()) => false,
-            (Way::Kept, _) => held(workspace, &pose).is_ok_and(|held| held.is_within_limits()),
+            (Way::Kept, _) => wanted(&pose)
+                .and_then(|wanted| held(workspace, &pose, wanted))
+                .is_ok_and(|held| held.is_within_limits()),
             // Free coordinates are found whatever the limits are.
             (Way::Anew, _) => tensions_anew(workspace, &pose).is_ok_and(|tensions| {
                 let within = |(i, t): (usize, &f64)| *t <= robot.limits(i).max && *t >= robot.limits(i).min;
@@ -264,17 +301,29 @@ fn check(workspace: &Workspace) -> Result<(), StudyError> {
     Ok(())
 }
 
-fn held(workspace: &Workspace, pose: &Pose) -> Result<Held, StaticsError> {
+/// A pose with the lengths kept, `wanted` without free coordinates.
+fn held(workspace: &Workspace, pose: &Pose, wanted: Option<InverseSolution>) -> Result<Held, StaticsError> {
     let Workspace { robot, ref load, tolerances, free, .. } = *workspace;
     let offsets = vec![0.0; robot.cables.len()];
-    let deflected = || deflection_free(robot, pose, &offsets, load, free);
-    let Some(model) = tolerances else {
-        return Ok(Held::new(robot, load, &deflected()?, None));
+    let deflected = |wanted: Option<&InverseSolution>| match wanted {
+        Some(InverseSolution { lengths, equilibrium, .. }) => {
+            deflection_from(robot, lengths.clone(), load, equilibrium)
+        }
+        None => deflection_free(robot, pose, &offsets, load, free),
     };
-    match derivatives_free(robot, pose, &offsets, load, free) {
+    let Some(model) = tolerances else {
+        return Ok(Held::new(robot, load, &deflected(wanted.as_ref())?, None));
+    };
+    let found = match &wanted {
+        Some(wanted) => derivatives_from(robot, pose, load, wanted.clone()),
+        None => derivatives_free(robot, pose, &offsets, load, free),
+    };
+    match found {
         Ok(found) => Ok(Held::new(robot, load, &found.deflection, Dominant::of(&found, model))),
         // A pose without a derivative is held nevertheless.
-        Err(StaticsError::NoDerivative { .. }) => Ok(Held::new(robot, load, &deflected()?, None)),
+        Err(StaticsError::NoDerivative { .. }) => {
+            Ok(Held::new(robot, load, &deflected(wanted.as_ref())?, None))
+        }
         Err(error) => Err(error),
     }
 }

@@ -4,6 +4,7 @@
 
 mod capacity;
 mod inspection;
+mod maps;
 mod robustness;
 mod tolerance;
 mod workspace;

@@ -15,6 +15,18 @@ fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
 }
 
+/// Greatest relative difference of a map, which lanes answer, from the scalar models.
+const SAME: f64 = 1e-9;
+
+/// These are the least and the greatest of the tensions.
+fn assert_range(tensions: &[f64], range: [f64; 2]) {
+    let exact = [
+        tensions.iter().copied().fold(f64::INFINITY, f64::min),
+        tensions.iter().copied().fold(0.0, f64::max),
+    ];
+    assert!(range.iter().zip(exact).all(|(found, exact)| (found - exact).abs() < SAME * exact), "{range:?}");
+}
+
 fn grid() -> Grid {
     let axis = |min, max, points| GridAxis { min, max, points };
     Grid::new([axis(-1.0, 1.0, 3), axis(-0.5, 0.5, 2), axis(1.0, 9.0, 2)]).unwrap()
@@ -50,18 +62,18 @@ fn every_position_is_what_the_models_say_of_it() {
             }
             (found, exact) => panic!("{found:?} for {exact:?}"),
         };
-        assert_eq!(held.displacement, exact.deflection.displacement());
+        let displacement = exact.deflection.displacement();
+        assert!((held.displacement - displacement).norm() < SAME * displacement.norm());
         let both = [&exact.deflection.unloaded, &exact.deflection.loaded];
         let tensions: Vec<f64> = both.iter().flat_map(|solution| solution.equilibrium.tensions()).collect();
-        assert!(tensions.iter().all(|t| (held.least_tension..=held.greatest_tension).contains(t)));
-        assert!(tensions.contains(&held.least_tension) && tensions.contains(&held.greatest_tension));
-        assert_eq!(held.least_stiffness, exact.deflection.loaded.stability.least_stiffness());
+        assert_range(&tensions, [held.least_tension, held.greatest_tension]);
+        let stiffness = exact.deflection.loaded.stability.least_stiffness();
+        assert!((held.least_stiffness - stiffness).abs() < SAME * stiffness);
         assert_eq!(held.lowest_frequency, None);
         assert!(held.is_within_limits());
         let anew = inverse(&robot, &pose, &Load::payload(50.0), None).unwrap().tensions;
         let found = found.anew.clone().unwrap().unwrap();
-        assert!(anew.contains(&found.least_tension) && anew.contains(&found.greatest_tension));
-        assert!(anew.iter().all(|t| (found.least_tension..=found.greatest_tension).contains(t)));
+        assert_range(&anew, [found.least_tension, found.greatest_tension]);
 
         let variances: Vec<f64> = deviations.iter().map(|std| std * std).collect();
         let budget = exact.variance_budget(&variances).unwrap();
@@ -184,7 +196,7 @@ fn a_platform_with_an_inertia_has_its_lowest_frequency_under_the_load() {
             let exact = deflection(&robot, &found.pose, &[0.0; 8], &load).unwrap();
             let problem = DirectProblem::new(&robot, &exact.lengths, &load).unwrap();
             let modes = problem.modes(&exact.loaded.equilibrium).unwrap();
-            assert!(modes.iter().all(|mode| mode.frequency >= frequency));
+            assert!(modes.iter().all(|mode| mode.frequency >= frequency * (1.0 - SAME)));
             assert!((modes[0].frequency / frequency - 1.0).abs() < 1e-9);
             lowest = lowest.min(frequency);
         }

@@ -61,8 +61,8 @@ mod winding;
 use crate::equations::ABOVE_LEAST;
 use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, read, solve};
 use crate::error::StaticsError;
-use crate::inverse::Branch;
-use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_near};
+use crate::inverse::{Branch, InverseSolution};
+use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_from, wind_near};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Coordinate, Matrix6xX, Pose, Robot, Vector3};
@@ -151,6 +151,22 @@ pub fn derivatives(
     load: &Load,
 ) -> Result<Derivatives, StaticsError> {
     of_wound(robot, pose, tension_offsets, load, &wind(robot, pose, tension_offsets)?)
+}
+
+/// [`derivatives`] without offsets, with the answer of the inverse model under the platform's own weight at
+/// hand.
+///
+/// # Errors
+/// As [`derivatives`].
+pub fn derivatives_from(
+    robot: &Robot,
+    pose: &Pose,
+    load: &Load,
+    wanted: InverseSolution,
+) -> Result<Derivatives, StaticsError> {
+    let offsets = vec![0.0; robot.cables.len()];
+    let wound = wind_from(robot, pose, &offsets, wanted)?;
+    of_wound(robot, pose, &offsets, load, &wound)
 }
 
 /// [`derivatives`] of a robot that differs a little from the one whose inverse model is known.

@@ -63,7 +63,7 @@ pub struct InverseSolution {
     pub multipliers: Vector6<f64>,
     /// The pose with the cables' forces.
     pub equilibrium: Equilibrium,
-    /// Iterations of Newton's method, of all starts.
+    /// Iterations of Newton's method, of all starts; zero where [`crate::inverse_all`] found it in lanes.
     pub iterations: usize,
     /// What is left of (I2) in the worst cable [N].
     pub stationarity: f64,

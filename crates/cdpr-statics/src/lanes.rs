@@ -11,11 +11,13 @@ mod limits;
 mod minimum;
 mod newton;
 mod observer;
+mod poses;
 mod program;
 mod reason;
 mod simd;
 mod tracker;
 
 pub use observer::{Observation, ObservationSlopes, Observer};
+pub use poses::inverse_all;
 pub use reason::ScalarReason;
 pub use tracker::Tracker;

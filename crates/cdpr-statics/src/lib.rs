@@ -57,7 +57,7 @@ mod state;
 pub use certificate::Certificate;
 pub use derivatives::{
     AtBound, Derivatives, EquilibriumDerivatives, ForceDerivatives, OneSided, VarianceBudget, derivatives,
-    derivatives_free,
+    derivatives_free, derivatives_from,
 };
 pub use direct::{
     DirectMethod, DirectSolution, Equilibria, Found, Loss, LossKind, Mode, Path, PathStep, Report, Setting,
@@ -70,7 +70,7 @@ pub use inverse::{
     greatest_payload, held_at, inverse, inverse_free, is_held, lengths_for_tensions, limits_at,
     tension_margin,
 };
-pub use lanes::{Observation, ObservationSlopes, Observer, ScalarReason, Tracker};
+pub use lanes::{Observation, ObservationSlopes, Observer, ScalarReason, Tracker, inverse_all};
 pub use loading::{
     CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes, PoseStiffness,
     Unloading, deflection, deflection_free, deflection_from, deflections, follow, load_cycle, modes_at,

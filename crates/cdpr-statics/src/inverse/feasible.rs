@@ -100,7 +100,9 @@ pub(super) fn straight(question: &Question) -> Vec<f64> {
         })
         .collect();
     let (residual, multipliers) = (question.external, Vector6::zeros());
-    BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers }.solve().values
+    let program =
+        BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers, start: multipliers };
+    program.solve().values
 }
 
 /// The first start, and those of [`starts`].
@@ -130,6 +132,8 @@ impl<'a> Point<'a> {
         const MAX_ITERATIONS: usize = 60;
         self.multipliers = Vector6::zeros();
         let mut damping = 1e-6;
+        // What is left of the balance after one step is much like that after the next.
+        let mut left = self.multipliers;
         let mut residual = self.residual().norm();
         for _ in 0..MAX_ITERATIONS {
             let size = self.size();
@@ -143,7 +147,8 @@ impl<'a> Point<'a> {
                 .iter()
                 .map(|strand| damping * (1.0 + largest / strand.held.chord_force()).powi(2))
                 .collect();
-            let Some((step, _)) = self.step(&curvature, false, 1.0) else { return false };
+            let Some((step, multipliers)) = self.step(&curvature, false, 1.0, left) else { return false };
+            left = multipliers;
             let moved = self.moved(&step);
             let next = moved.map(|moved| {
                 let rows = self.rows_of(&moved);

@@ -127,12 +127,14 @@ impl<'a> Point<'a> {
         self.rows = rows;
     }
 
-    /// Solves a program for a step, and asks for the chord forces of all limits that it meets.
+    /// Solves a program for a step, from multipliers of one nearby, and asks for the chord forces of all limits
+    /// that it meets.
     pub(super) fn step(
         &mut self,
         curvature: &[f64],
         with_objective: bool,
         elasticity: f64,
+        mut start: Vector6<f64>,
     ) -> Option<(Vec<f64>, Vector6<f64>)> {
         let multipliers = if with_objective { self.multipliers } else { Vector6::zeros() };
         let residual = self.residual();
@@ -149,7 +151,8 @@ impl<'a> Point<'a> {
             for (unknown, strand) in unknowns.iter_mut().zip(&self.strands) {
                 unknown.bounds = strand.room();
             }
-            let solution = BoxProblem { unknowns: &unknowns, residual, elasticity, multipliers }.solve();
+            let program = BoxProblem { unknowns: &unknowns, residual, elasticity, multipliers, start };
+            let solution = program.solve();
             if !solution.values.iter().all(|d| d.is_finite()) {
                 return None;
             }
@@ -165,6 +168,7 @@ impl<'a> Point<'a> {
             if !learned {
                 return Some((solution.values, solution.multipliers));
             }
+            start = solution.multipliers;
         }
     }
 
@@ -212,7 +216,8 @@ impl<'a> Point<'a> {
             }
             let exact = self.hessian();
             let convex: Vec<f64> = exact.iter().map(|h| h.abs().max(LEAST_CURVATURE)).collect();
-            let Some((mut step, mut multipliers)) = self.step(&convex, true, ELASTICITY) else {
+            let Some((mut step, mut multipliers)) = self.step(&convex, true, ELASTICITY, self.multipliers)
+            else {
                 return false;
             };
             // Within the limits no change of the tensions brings the balance nearer: the search for a balance
@@ -300,7 +305,13 @@ impl<'a> Point<'a> {
             })
             .collect();
         let multipliers = Vector6::zeros();
-        let program = BoxProblem { unknowns: &unknowns, residual: end, elasticity: ELASTICITY, multipliers };
+        let program = BoxProblem {
+            unknowns: &unknowns,
+            residual: end,
+            elasticity: ELASTICITY,
+            multipliers,
+            start: multipliers,
+        };
         let change = program.solve().values;
         Some(step.iter().zip(change).map(|(d, change)| d + change).collect())
     }

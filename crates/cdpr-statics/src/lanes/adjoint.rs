@@ -27,7 +27,7 @@ use crate::lanes::adjoint::cable::{Answer, CableSlopes, TensionSlopes, torque};
 use crate::lanes::algebra::{Lanes3, Lanes6, SymmetricFactors, halves, six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::{Keep, Shared};
-use crate::lanes::limits::limits_at;
+use crate::lanes::limits::plain_limits_at;
 use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::Field;
@@ -249,7 +249,6 @@ impl<S: Simd> Adjoint<S> {
         shared: &Shared,
     ) {
         let zero = wound.weight.all(0.0);
-        let compared = [shared.tension, shared.scale.size];
         let (translation, rotation) = halves(&record.multipliers);
         let mut cables = Vec::with_capacity(per_set_point.len());
         let mut matrix = [[zero; 6]; 6];
@@ -269,7 +268,7 @@ impl<S: Simd> Adjoint<S> {
             let slope = tension + -choice.reference - dot(&slopes.force_per_tension, &motion);
             let on_bound = sides[0] | sides[1];
             let kept = !slope.abs().less_or_equal(largest * NO_MULTIPLIER);
-            let limits = limits_at(&mut cable.clone(), &span, (choice.limits, choice.max_at), compared);
+            let limits = plain_limits_at(cable, &span, (choice.limits, choice.max_at));
             let set_point = SetPoint::new(tension, record.offsets[i], limits, *sides);
             self.decided = self.decided & set_point.decided & (kept | !on_bound);
             let a = per_set_point[i];

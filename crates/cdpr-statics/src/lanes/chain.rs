@@ -88,6 +88,8 @@ pub(crate) struct Shared {
     pub(crate) choices: Vec<Choice>,
     /// Sum of the tensions that changes are compared with [N].
     pub(crate) tension: f64,
+    /// Sum of the forces that their balance is compared with [N].
+    pub(crate) forces: f64,
     /// Lengths that positions are compared with.
     pub(crate) scale: Scale,
 }
@@ -123,7 +125,7 @@ const LAST_DISTRIBUTION: f64 = 1e-9;
 const LONGEST_STEP: f64 = 0.3;
 
 /// q² from which a cable sags.
-const SAGGING: f64 = 0.02;
+pub(crate) const SAGGING: f64 = 0.02;
 
 /// Least curvature of a step, relative to that of a straight cable.
 const LEAST_CURVATURE: f64 = 0.01;
@@ -175,7 +177,10 @@ pub(crate) fn observe<'a, S: Simd>(
         spans.push(span);
     }
     let mut set_points = offsets;
-    let (converged, sound) = distribute(robots, multipliers, &mut set_points, &spans, shared, keep);
+    let mut multipliers = multipliers;
+    let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
+    let (converged, sound) =
+        distribute(robots, &weight, &mut multipliers, &mut set_points, &spans, shared, keep);
     let mut platform = LinearizedPlatform::new(zero, spans.len());
     let held = hold(robots, &mut platform, &set_points, &spans, shared);
     keep.state(robots);
@@ -197,13 +202,14 @@ pub(crate) fn observe<'a, S: Simd>(
     Outcome { passed: [converged, sound, held, standing, answered], displacement, unloaded, loaded }
 }
 
-/// The tensions nearest to their reference at the wanted pose, equations (L2) and (L3); `offsets` are added
-/// to them and become set-points, towards which cables make a first step. Returns the lanes where they were
-/// found, and those where no cable is folded and no limits exclude each other.
+/// The tensions nearest to their reference at the wanted pose under the wrench `external`, equations (L2) and
+/// (L3); `offsets` are added to them and become set-points, towards which cables make a first step. Returns
+/// the lanes where they were found, and those where no cable is folded and no limits exclude each other.
 #[inline(always)]
-fn distribute<'a, S: Simd>(
+pub(crate) fn distribute<'a, S: Simd>(
     robots: &mut Robots<'a, S>,
-    mut multipliers: Lanes6<S>,
+    external: &Lanes6<S>,
+    multipliers: &mut Lanes6<S>,
     offsets: &mut [Lanes<S>],
     spans: &[Span<Lanes<S>>],
     shared: &Shared,
@@ -212,9 +218,8 @@ fn distribute<'a, S: Simd>(
     let zero = robots.weight.all(0.0);
     let compared = [shared.tension, shared.scale.size];
     let last_change = zero.all(LAST_DISTRIBUTION);
-    let unbalanced = NEARLY_ROUNDING * shared.tension;
+    let unbalanced = NEARLY_ROUNDING * shared.forces;
     let arm = shared.scale.characteristic_length;
-    let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
     let mut going = zero.less_or_equal(zero);
     let mut within = going;
     let mut jumped = !going;
@@ -229,7 +234,7 @@ fn distribute<'a, S: Simd>(
         all_held.clear();
         convex.clear();
         rows.clear();
-        let mut balance = weight;
+        let mut balance = *external;
         let cables = spans.iter().zip(&robots.cables).zip(&shared.choices);
         for ((span, cable), choice) in cables {
             let held = HeldCable::new(cable, span);
@@ -252,7 +257,7 @@ fn distribute<'a, S: Simd>(
                 wrench(&cable.anchor_arm, &along),
                 (held.closed + -choice.reference) * held.tension_slope,
                 curvature.recip(),
-                &multipliers,
+                multipliers,
             ));
             all_held.push(held);
         }
@@ -283,7 +288,7 @@ fn distribute<'a, S: Simd>(
             jumped = jumped | (going & !near & !held.slackness.less_or_equal(d.all(SAGGING)));
             moved = moved.max(held.change(cable, d, going, compared));
         }
-        multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
+        *multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
         let (force, moment) = halves(&balance);
         let balanced = dot(&force, &force).less_or_equal(zero.all(unbalanced * unbalanced))
             & dot(&moment, &moment).less_or_equal(zero.all(unbalanced * arm * unbalanced * arm));
@@ -298,7 +303,7 @@ fn distribute<'a, S: Simd>(
             if doubted.any() {
                 let places = spans.iter().zip(&shared.choices).zip(&limits);
                 for (cable, ((span, choice), limits)) in robots.cables.iter().zip(places) {
-                    let least = is_least(cable, span, &multipliers, choice.reference, limits);
+                    let least = is_least(cable, span, multipliers, choice.reference, limits);
                     within = within & (least | !doubted);
                 }
             }
@@ -325,14 +330,14 @@ fn distribute<'a, S: Simd>(
             break;
         }
     }
-    keep.multipliers(&multipliers);
+    keep.multipliers(multipliers);
     (!going, within)
 }
 
 /// Lengths that give the tensions `set_points` at the wanted pose, and the cables linearised there. Returns
 /// the lanes where all were found.
 #[inline(always)]
-fn hold<S: Simd>(
+pub(crate) fn hold<S: Simd>(
     robots: &mut Robots<'_, S>,
     platform: &mut LinearizedPlatform<S>,
     set_points: &[Lanes<S>],

@@ -27,13 +27,27 @@ pub(crate) fn limits_at<S: Simd>(
     (limits, max_at): (TensionLimits, CableEnd),
     compared: [f64; 2],
 ) -> Lanes2<S> {
+    match (max_at, &cable.guided) {
+        (CableEnd::Exit, Some(_)) => {
+            let (least, greatest) = (cable.length.all(limits.min), cable.length.all(limits.max));
+            [least, cable.length.apart(BelowPulley { cable, span, greatest, compared })]
+        }
+        _ => plain_limits_at(cable, span, (limits, max_at)),
+    }
+}
+
+/// The same of a cable without pulley.
+#[inline(always)]
+pub(crate) fn plain_limits_at<S: Simd>(
+    cable: &LaneCable<'_, S>,
+    span: &Span<Lanes<S>>,
+    (limits, max_at): (TensionLimits, CableEnd),
+) -> Lanes2<S> {
     let (least, greatest) = (cable.length.all(limits.min), cable.length.all(limits.max));
-    let greatest = match (max_at, &cable.guided) {
-        (CableEnd::Anchor, _) => greatest,
-        (CableEnd::Exit, None) => at_platform(cable, greatest, span.end[1]),
-        (CableEnd::Exit, Some(_)) => cable.length.apart(BelowPulley { cable, span, greatest, compared }),
-    };
-    [least, greatest]
+    match max_at {
+        CableEnd::Anchor => [least, greatest],
+        CableEnd::Exit => [least, at_platform(cable, greatest, span.end[1])],
+    }
 }
 
 /// The tension at the platform [N] of a cable with the tension `exit` [N] at its exit, `height` [m] below it.

@@ -154,6 +154,7 @@ impl Nominal {
         let shared = Shared {
             choices: reference.iter().enumerate().map(choice).collect(),
             tension: solution.tensions.iter().sum(),
+            forces: solution.tensions.iter().sum(),
             scale: Scale {
                 size: problem.size(),
                 characteristic_length: problem.characteristic_length(),
@@ -166,8 +167,8 @@ impl Nominal {
     }
 }
 
-/// The shape of a cable of the nominal robot at the wanted pose.
-fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape {
+/// The shape of a cable at the wanted pose.
+pub(crate) fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape {
     let (unstrained_length, force) = (solution.lengths[i], solution.equilibrium.cable_forces[i]);
     let cable = Catenary { cable: robot.cable(i), unstrained_length, force };
     let span = robot.span(pose, i);

@@ -183,7 +183,7 @@ pub(crate) fn wind_near(
 }
 
 /// Winds the cables for `pose` with the answer of the inverse model at hand.
-fn wind_from(
+pub(crate) fn wind_from(
     robot: &Robot,
     pose: &Pose,
     tension_offsets: &[f64],
@@ -216,7 +216,10 @@ pub fn deflection_from(
     start: &Equilibrium,
 ) -> Result<Deflection, StaticsError> {
     let unloaded = direct(robot, &lengths, &Load::none(), Start::Near(start))?;
-    let loaded = direct(robot, &lengths, load, Start::Near(&unloaded.equilibrium))?;
+    let loaded = match *load == Load::none() {
+        true => unloaded.clone(),
+        false => direct(robot, &lengths, load, Start::Near(&unloaded.equilibrium))?,
+    };
     Ok(Deflection { lengths, unloaded, loaded })
 }
 

@@ -1,0 +1,441 @@
+//! The inverse model at many poses of one robot, one pose in each lane.
+//!
+//! Poses come in blocks of [`BLOCK`]. The scalar model answers a block from its first pose on until one is
+//! held. The poses after it are cut into [`SEQUENCES`] sequences, and the lanes go along them together: each
+//! pose starts from the last answer of its own sequence, with the horizontal forces and multipliers of its
+//! cables. What a lane does not decide, and what is not proved to be the least of all minima where cables
+//! sag, is left to the scalar model. No answer depends on the vector unit, because no sequence knows another.
+
+use crate::equations::Span;
+use crate::equations::vector::{dot, wrench};
+use crate::error::StaticsError;
+use crate::inverse::{InverseSolution, inverse};
+use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, six, three};
+use crate::lanes::cable::LaneCable;
+use crate::lanes::chain::{Choice, SAGGING, Shape, Shared, distribute, hold};
+use crate::lanes::held::HeldCable;
+use crate::lanes::limits::plain_limits_at;
+use crate::lanes::minimum::is_least;
+use crate::lanes::newton::{Layout, LinearizedPlatform, PlatformLoad, Robots, Scale};
+use crate::lanes::observer::shape;
+use crate::lanes::reason::ScalarReason;
+use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
+use crate::problem::DirectProblem;
+use crate::state::{Equilibrium, Load, Residual};
+use cdpr_cable::PiecewiseLaw;
+use cdpr_cable::kernel::{Field, LaneSegment};
+use cdpr_robot::{Pose, Robot, RobotCable, Vector2, Vector3, Vector6};
+use cdpr_tension::Bound;
+use smallvec::SmallVec;
+
+/// Poses that share a first answer.
+const BLOCK: usize = 64;
+
+/// Sequences of a block: as many as the widest vector unit has lanes.
+const SEQUENCES: usize = MAX_LANES;
+
+/// Forces that changes are compared with, relative to the sum of tensions: steps end when even a small
+/// tension is exact to nine digits.
+const NARROWER: f64 = 0.01;
+
+/// Greatest error of (I2) in a cable, relative to the sum of tensions.
+const STATIONARY: f64 = 1e-10;
+
+/// [`inverse`] at every pose, with the robot's own reference of the tensions.
+///
+/// Poses that follow each other should be near each other, as along the lines of a grid: robots without
+/// pulleys, leads and free coordinates are then answered in the lanes of the vector unit, each from the pose
+/// before it, and all others one by one. An answer found in lanes counts no iterations. It depends on the
+/// poses before it in its block of 64, in the last digits; it does not depend on the vector unit.
+///
+/// Where (I1) has several minima, [`inverse`] takes the best that several starts lead to. An answer in lanes
+/// with a cable that sags is proved to be the least of all on a grid of its tensions.
+///
+/// # Errors
+/// Those of [`inverse`], for each pose.
+pub fn inverse_all(robot: &Robot, poses: &[Pose], load: &Load) -> Vec<Result<InverseSolution, StaticsError>> {
+    match Setting::of(robot, load) {
+        Some(setting) => poses.chunks(BLOCK).flat_map(|block| setting.block(block)).collect(),
+        None => poses.iter().map(|pose| inverse(robot, pose, load, None)).collect(),
+    }
+}
+
+/// What all poses have in common.
+struct Setting<'a> {
+    robot: &'a Robot,
+    load: &'a Load,
+    /// Segments of the elastic law of each cable; none of a linear one.
+    laws: Vec<Vec<LaneSegment>>,
+    shared: Shared,
+}
+
+/// An answer, from which the next one is found.
+#[derive(Clone)]
+struct Near {
+    shapes: Vec<Shape>,
+    multipliers: Vector6<f64>,
+}
+
+/// Poses in a row.
+struct Sequence<'a> {
+    poses: &'a [Pose],
+    near: Near,
+    answers: Vec<Result<InverseSolution, StaticsError>>,
+}
+
+/// A pose with what its lane starts from.
+struct Asked<'a> {
+    pose: &'a Pose,
+    near: &'a Near,
+}
+
+impl<'a> Setting<'a> {
+    /// `None` for a robot that is not one for the lanes.
+    fn of(robot: &'a Robot, load: &'a Load) -> Option<Self> {
+        let guided = robot.cables.iter().any(|cable| cable.guide(None).is_some());
+        // A moment of the load matters to the stability alone.
+        if guided || ScalarReason::of_all(robot, &Load::none()).is_some() || robot.gravity.level().is_some() {
+            return None;
+        }
+        let reference = robot.reference();
+        let nowhere = Shape { tangent: [0.0; 2], chord_force: 0.0, sag_force: 0.0, longer: 0.0 };
+        let choice = |(i, reference): (usize, &f64)| Choice {
+            reference: *reference,
+            limits: robot.limits(i),
+            max_at: robot.max_at(i),
+            shape: nowhere,
+        };
+        let choices: Vec<_> = reference.iter().enumerate().map(choice).collect();
+        let law = |cable: &RobotCable| cable.properties.law.as_ref().map(PiecewiseLaw::lane_segments);
+        let exits = || robot.cables.iter().map(|cable| cable.exit_point);
+        let size = exits().map(|b| exits().map(|c| (b - c).norm()).fold(0.0, f64::max)).fold(0.0, f64::max);
+        // No more than the sum of all tensions, or twice as much.
+        let least: f64 = choices.iter().map(|choice| choice.limits.min).sum();
+        let weight = (robot.platform.mass + load.payload) * robot.gravity.magnitude();
+        let scale =
+            Scale { size, characteristic_length: robot.platform_size().max(1e-3 * size), rounding: 0.0 };
+        Some(Self {
+            robot,
+            load,
+            laws: robot.cables.iter().map(|cable| law(cable).unwrap_or_default()).collect(),
+            shared: Shared { choices, tension: NARROWER * (weight + least), forces: weight + least, scale },
+        })
+    }
+
+    fn block(&self, poses: &[Pose]) -> Vec<Result<InverseSolution, StaticsError>> {
+        let mut answers = Vec::with_capacity(poses.len());
+        let mut first = None;
+        for pose in poses {
+            let answer = self.alone(pose);
+            first = answer.as_ref().ok().map(|solution| Near::of(self.robot, pose, solution));
+            answers.push(answer);
+            if first.is_some() {
+                break;
+            }
+        }
+        let Some(near) = first else { return answers };
+        let rest = &poses[answers.len()..];
+        let length = rest.len().div_ceil(SEQUENCES);
+        let sequence = |poses| Sequence { poses, near: near.clone(), answers: Vec::with_capacity(length) };
+        let mut sequences: Vec<_> = rest.chunks(length.max(1)).map(sequence).collect();
+        for k in 0..length {
+            // The last sequence is the shortest.
+            let asked: Vec<_> = sequences
+                .iter()
+                .filter_map(|sequence| Some(Asked { pose: sequence.poses.get(k)?, near: &sequence.near }))
+                .collect();
+            let found = dispatch(Batch { setting: self, asked: &asked });
+            for (sequence, found) in sequences.iter_mut().zip(found) {
+                let pose = &sequence.poses[k];
+                let answer = match found {
+                    Some((solution, near)) => {
+                        sequence.near = near;
+                        Ok(solution)
+                    }
+                    None => self.alone(pose).inspect(|solution| {
+                        sequence.near = Near::of(self.robot, pose, solution);
+                    }),
+                };
+                sequence.answers.push(answer);
+            }
+        }
+        answers.extend(sequences.into_iter().flat_map(|sequence| sequence.answers));
+        answers
+    }
+
+    fn alone(&self, pose: &Pose) -> Result<InverseSolution, StaticsError> {
+        inverse(self.robot, pose, self.load, None)
+    }
+
+    /// The answer of a lane, if its equations hold to rounding.
+    fn solution(&self, pose: &Pose, answer: &Answer) -> Option<InverseSolution> {
+        let lengths = answer.cables.iter().map(|cable| cable.length).collect::<Vec<_>>();
+        let cable_forces = answer.cables.iter().map(|cable| cable.force).collect();
+        let equilibrium = Equilibrium { pose: *pose, cable_forces };
+        let problem = DirectProblem::new(self.robot, &lengths, self.load).ok()?;
+        let residual = Residual::of(&problem, &equilibrium);
+        let tensions: Vec<f64> = answer.cables.iter().map(|cable| cable.tension).collect();
+        let stationarity = answer.cables.iter().map(|cable| cable.stationarity).fold(0.0, f64::max);
+        let holds = residual.is_rounding(&problem, &equilibrium)
+            && stationarity <= STATIONARY * tensions.iter().sum::<f64>();
+        holds.then(|| InverseSolution {
+            tensions,
+            active: answer.cables.iter().map(|cable| cable.active).collect(),
+            multipliers: answer.multipliers,
+            iterations: 0,
+            stationarity,
+            residual,
+            lengths,
+            equilibrium,
+        })
+    }
+}
+
+impl Near {
+    fn of(robot: &Robot, pose: &Pose, solution: &InverseSolution) -> Self {
+        let shapes = (0..robot.cables.len()).map(|i| shape(robot, pose, i, solution)).collect();
+        Self { shapes, multipliers: solution.multipliers }
+    }
+}
+
+/// What a lane says of a pose.
+struct Answer {
+    cables: SmallVec<[CableAnswer; 8]>,
+    multipliers: Vector6<f64>,
+}
+
+struct CableAnswer {
+    length: f64,
+    force: Vector2<f64>,
+    tension: f64,
+    active: Option<Bound>,
+    stationarity: f64,
+    shape: Shape,
+}
+
+/// Poses for the lanes.
+struct Batch<'a> {
+    setting: &'a Setting<'a>,
+    asked: &'a [Asked<'a>],
+}
+
+impl WithSimd for Batch<'_> {
+    type Output = Vec<Option<(InverseSolution, Near)>>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let mut found = Vec::with_capacity(self.asked.len());
+        for asked in self.asked.chunks(Lanes::<S>::COUNT) {
+            let answers = InLanes { simd, setting: self.setting, asked }.answers();
+            found.extend(answers.into_iter().zip(asked).map(|(answer, Asked { pose, .. })| {
+                let answer = answer?;
+                let shapes = answer.cables.iter().map(|cable| cable.shape).collect();
+                let near = Near { shapes, multipliers: answer.multipliers };
+                Some((self.setting.solution(pose, &answer)?, near))
+            }));
+        }
+        found
+    }
+}
+
+/// Poses, one for each lane; lanes without a pose of their own repeat the last one.
+struct InLanes<'a, S> {
+    simd: S,
+    setting: &'a Setting<'a>,
+    asked: &'a [Asked<'a>],
+}
+
+/// Cables at the wanted poses.
+struct Placed<'a, S: Simd> {
+    robots: Robots<'a, S>,
+    spans: Vec<Span<Lanes<S>>>,
+}
+
+impl<'a, S: Simd> InLanes<'a, S> {
+    #[inline(always)]
+    fn answers(&self) -> Vec<Option<Answer>> {
+        let Setting { robot, load, ref shared, .. } = *self.setting;
+        let zero = self.all(0.0);
+        let Placed { mut robots, spans } = self.placed();
+        let gravity = robot.gravity.magnitude();
+        let whole = PlatformLoad {
+            weight: self.all((robot.platform.mass + load.payload) * gravity),
+            force: three(|k| self.all(load.wrench.force[k])),
+        };
+        let mut external = whole.wrench(&robots.center);
+        for k in 0..3 {
+            external[3 + k] += self.all(load.wrench.moment[k]);
+        }
+        let mut multipliers = six(|k| self.each(&|asked| asked.near.multipliers[k]));
+        let mut set_points = vec![zero; spans.len()];
+        let (converged, sound) =
+            distribute(&mut robots, &external, &mut multipliers, &mut set_points, &spans, shared, &mut ());
+        let mut platform = LinearizedPlatform::new(zero, spans.len());
+        let held = hold(&mut robots, &mut platform, &set_points, &spans, shared);
+        let found = converged & sound & held;
+        let found = found & self.is_least(&robots, &spans, &multipliers);
+        self.read(found, &robots, &spans, &multipliers, &set_points)
+    }
+
+    #[inline(always)]
+    fn all(&self, value: f64) -> Lanes<S> {
+        Lanes::splat(self.simd, value)
+    }
+
+    #[inline(always)]
+    fn each(&self, value: &dyn Fn(&Asked) -> f64) -> Lanes<S> {
+        let last = self.asked.len() - 1;
+        Lanes::from_fn(self.simd, |lane| value(&self.asked[lane.min(last)]))
+    }
+
+    #[inline(always)]
+    fn vector(&self, value: &dyn Fn(&Asked) -> Vector3<f64>) -> Lanes3<S> {
+        three(|k| self.each(&|asked| value(asked)[k]))
+    }
+
+    /// The robot at the poses, its cables as they were at the poses before, between their new ends.
+    #[inline(always)]
+    fn placed(&self) -> Placed<'a, S> {
+        let Setting { robot, ref laws, .. } = *self.setting;
+        let gravity = robot.gravity.magnitude();
+        let mut robots = Robots {
+            layout: Layout::Robots,
+            cables: SmallVec::new(),
+            position: self.vector(&|asked| asked.pose.position),
+            center: self.vector(&|asked| asked.pose.rotation * robot.platform.center_of_mass),
+            frame: SmallVec::new(),
+            weight: self.all(robot.platform.mass * gravity),
+        };
+        let mut spans = Vec::with_capacity(robot.cables.len());
+        for (i, cable) in robot.cables.iter().enumerate() {
+            let mut placed = LaneCable {
+                law: &laws[i],
+                weight_per_length: self.all(cable.properties.linear_density * gravity),
+                axial_flexibility: self.all(cable.properties.axial_stiffness()).recip(),
+                exit_point: three(|k| self.all(cable.exit_point[k])),
+                anchor_arm: self.vector(&|asked| robot.anchor_arm(asked.pose, i)),
+                length: self.all(0.0),
+                force: [self.all(0.0); 2],
+                guided: None,
+            };
+            let span = placed.span(&robots.position);
+            let chord = span.chord();
+            let per_length = self.each(&|asked| asked.near.shapes[i].chord_force) / chord;
+            let sag_force = self.each(&|asked| asked.near.shapes[i].sag_force);
+            placed.force = [span.end[0] * per_length, span.end[1] * per_length + sag_force];
+            placed.length = chord + self.each(&|asked| asked.near.shapes[i].longer);
+            robots.cables.push(placed);
+            spans.push(span);
+        }
+        Placed { robots, spans }
+    }
+
+    /// The lanes without another minimum: no cable sags, or none has another tension that is better.
+    #[inline(always)]
+    fn is_least(&self, robots: &Robots<'_, S>, spans: &[Span<Lanes<S>>], multipliers: &Lanes6<S>) -> Mask<S> {
+        let zero = self.all(0.0);
+        let mut straight = zero.less_or_equal(zero);
+        for cable in &robots.cables {
+            straight = straight & cable.end().slackness.less_or_equal(self.all(SAGGING));
+        }
+        let mut least = zero.less_or_equal(zero);
+        if (!straight).any() {
+            let choices = &self.setting.shared.choices;
+            for ((cable, span), choice) in robots.cables.iter().zip(spans).zip(choices) {
+                let limits = plain_limits_at(cable, span, (choice.limits, choice.max_at));
+                least = least & is_least(cable, span, multipliers, choice.reference, &limits);
+            }
+        }
+        straight | least
+    }
+
+    /// The answers of the lanes that `found` one.
+    #[inline(always)]
+    fn read(
+        &self,
+        found: Mask<S>,
+        robots: &Robots<'_, S>,
+        spans: &[Span<Lanes<S>>],
+        multipliers: &Lanes6<S>,
+        set_points: &[Lanes<S>],
+    ) -> Vec<Option<Answer>> {
+        let found = found.to_array();
+        let multipliers_of = multipliers.map(Lanes::to_array);
+        let answer = |lane: usize| Answer {
+            cables: SmallVec::new(),
+            multipliers: Vector6::from_fn(|k, _| multipliers_of[k][lane]),
+        };
+        let mut answers: Vec<_> =
+            (0..self.asked.len()).map(|lane| found[lane].then(|| answer(lane))).collect();
+        let choices = &self.setting.shared.choices;
+        for (i, (cable, span)) in robots.cables.iter().zip(spans).enumerate() {
+            let held = HeldCable::new(cable, span);
+            let limits: Lanes2<S> = plain_limits_at(cable, span, (choices[i].limits, choices[i].max_at));
+            let along = span.plane.force_on_platform([self.all(1.0), held.rise]);
+            let pull = wrench(&cable.anchor_arm, &along);
+            // (I2)
+            let slope = (held.tension + -choices[i].reference) + dot(multipliers, &pull) / held.tension_slope;
+            let chord = span.chord();
+            let per_length = cable.force[0] / span.end[0];
+            let [slope, per_length, chord, length, tension, x, z, height, least, greatest] = [
+                slope,
+                per_length,
+                chord,
+                cable.length,
+                set_points[i],
+                cable.force[0],
+                cable.force[1],
+                span.end[1],
+                limits[0],
+                limits[1],
+            ]
+            .map(Lanes::to_array);
+            for (lane, answer) in answers.iter_mut().enumerate() {
+                let Some(answer) = answer else { continue };
+                let (active, stationarity) = match tension[lane] {
+                    t if t == least[lane] => (Some(Bound::Min), (-slope[lane]).max(0.0)),
+                    t if t == greatest[lane] => (Some(Bound::Max), slope[lane].max(0.0)),
+                    _ => (None, slope[lane].abs()),
+                };
+                let shape = Shape {
+                    tangent: [0.0; 2],
+                    chord_force: per_length[lane] * chord[lane],
+                    sag_force: z[lane] - per_length[lane] * height[lane],
+                    longer: length[lane] - chord[lane],
+                };
+                answer.cables.push(CableAnswer {
+                    length: length[lane],
+                    force: Vector2::new(x[lane], z[lane]),
+                    tension: tension[lane],
+                    active,
+                    stationarity,
+                    shape,
+                });
+            }
+        }
+        answers
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::simd::Scalar;
+
+    #[test]
+    fn the_vector_unit_changes_no_bit_of_a_pose() {
+        let robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json")).unwrap();
+        let load = Load::payload(50.0);
+        let setting = Setting::of(&robot, &load).unwrap();
+        let nearby = Pose::at(1.0, 0.5, 1.5);
+        let near = Near::of(&robot, &nearby, &setting.alone(&nearby).unwrap());
+        let poses: Vec<_> = (0..21).map(|k| Pose::at(0.9 + 0.03 * f64::from(k), 0.4, 1.6)).collect();
+        let asked: Vec<_> = poses.iter().map(|pose| Asked { pose, near: &near }).collect();
+        let of = |batch: Vec<Option<(InverseSolution, Near)>>| -> Vec<_> {
+            batch.into_iter().map(|found| found.map(|(solution, _)| solution)).collect()
+        };
+        let scalar = of(Batch { setting: &setting, asked: &asked }.with_simd(Scalar));
+        assert_eq!(scalar, of(dispatch(Batch { setting: &setting, asked: &asked })));
+        assert!(scalar.iter().filter(|found| found.is_some()).count() > 15);
+    }
+}
