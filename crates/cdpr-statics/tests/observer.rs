@@ -238,7 +238,7 @@ fn pulleys_whose_axes_tilt_are_left_to_the_scalar_models_alone() {
     rows[radius + 2] = -0.1;
     assert!(matches!(
         &observer.observe_all(&rows)[0],
-        Err(StaticsError::Robot(RobotError::Invalid { field, .. })) if field == "r3"
+        Err(StaticsError::Robot(RobotError::Invalid { field, .. })) if field == "cables[2].pulley.radius"
     ));
 }
 

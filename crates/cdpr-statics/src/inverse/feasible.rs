@@ -188,13 +188,15 @@ impl<'a> Point<'a> {
     /// Moves an optimum to better ones as long as (I6) leads to them. Returns whether it is the least of all.
     fn lessened(&mut self, question: &Question<'a>, iterations: &mut usize) -> Result<bool, StaticsError> {
         const MOST: usize = 4;
+        /// A smaller gain may be rounding of the same optimum, where cables on their bounds leave few others.
+        const BETTER: f64 = 1e-9;
         for _ in 0..MOST {
             let Ok(start) = self.better_start() else { return Ok(false) };
             let Some(tensions) = start else { return Ok(true) };
             let mut point = Point::new(question, &tensions)?;
             let found = point.balance(LEAST_GAIN) && point.optimise();
             *iterations += point.iterations;
-            if !found || point.objective() >= (1.0 - 1e-12) * self.objective() {
+            if !found || point.objective() >= (1.0 - BETTER) * self.objective() {
                 return Ok(false);
             }
             *self = point;

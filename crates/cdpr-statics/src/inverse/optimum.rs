@@ -324,7 +324,8 @@ impl<'a> Point<'a> {
 
     /// The same with the balance held exactly, which needs cables that can pull in all directions.
     fn inelastic_step(&self, hessian: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
-        let (step, multipliers) = self.step_on_free_cables(hessian, 0.0)?;
+        let free = self.strands.iter().filter(|strand| strand.at_limit().is_none()).count();
+        let (step, multipliers) = self.step_on_free_cables(hessian, 0.0).filter(|_| free >= 6)?;
         let small =
             step.iter().zip(&self.strands).all(|(d, strand)| d.abs() <= 1e-3 * strand.held.chord_force());
         small.then_some((step, multipliers))

@@ -52,7 +52,7 @@ impl Size {
 }
 
 const SALTELLI_BLOCKS: usize = 128;
-const MORRIS_BLOCKS: usize = 16;
+const MORRIS_BLOCKS: usize = 32;
 const DERIVATIVE_POINTS: usize = 64;
 
 /// How many observations each part of the template makes, for people.
