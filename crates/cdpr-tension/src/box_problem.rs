@@ -39,11 +39,8 @@ pub struct BoxProblem<'a> {
     pub residual: Vector6<f64>,
     /// ε, positive.
     pub elasticity: f64,
-    /// λ_0.
+    /// λ_0, where Newton's method starts, too.
     pub multipliers: Vector6<f64>,
-    /// λ from which Newton's method starts: that of a program nearby saves iterations. The solution is the
-    /// same from everywhere.
-    pub start: Vector6<f64>,
 }
 
 /// The solution of a [`BoxProblem`].
@@ -93,13 +90,11 @@ impl BoxProblem<'_> {
     /// The solution: for a positive ε there is exactly one.
     pub fn solve(&self) -> BoxSolution {
         const MAX_ITERATIONS: usize = 100;
-        let mut multipliers = self.start;
-        // From λ_0 the first step sees no bound.
-        let unbounded = self.start == self.multipliers;
+        let mut multipliers = self.multipliers;
+        // The first step sees no bound.
         let each = self.unknowns.iter().map(|unknown| unknown.column.amax());
         let mut kept: Vec<_> = each.map(|largest| Kept { largest, moving: true, moves: true }).collect();
-        let mut dual = self.dual(&multipliers, &mut kept, unbounded);
-        kept.iter_mut().for_each(|kept| kept.moving = kept.moves);
+        let mut dual = self.dual(&multipliers, &mut kept, true);
         let mut factors = self.slope(&kept).cholesky();
         for _ in 0..MAX_ITERATIONS {
             let error = dual.gradient.amax();
@@ -140,10 +135,8 @@ impl BoxProblem<'_> {
             gradient += column * d;
             kept.moves = ignored || (*least < d && d < *greatest);
             if kept.moves {
-                // d is the sum of terms as large as this. Without a solution multipliers are so large that
-                // J_i·λ is mostly rounding.
-                let along = column.component_mul(multipliers).abs().max();
-                let terms = (unknown.gradient.abs() + along) / curvature * kept.largest;
+                // d is the difference of two terms as large as this.
+                let terms = (unknown.gradient.abs() + along.abs()) / curvature * kept.largest;
                 size = if terms > size { terms } else { size };
             }
         }

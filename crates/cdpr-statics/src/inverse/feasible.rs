@@ -19,8 +19,8 @@
 //! ```
 //!
 //! (H. Everett, *Generalized Lagrange multiplier method*, Operations Research 11, 1963). It is tried on a grid of
-//! each cable's chord forces: where it holds, no other start is tried; where one cable has a smaller φ_i
-//! elsewhere, that is the next start.
+//! each cable's chord forces where cables sag: where one cable has a smaller φ_i elsewhere, that is the next
+//! start.
 //!
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
 //! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual has
@@ -42,16 +42,23 @@ pub(super) const BALANCED: f64 = 1e-8;
 const LEAST_GAIN: f64 = 1e-9;
 const CLEAR_GAIN: f64 = 1e-3;
 
-/// The optimum: of cables that sag little from the first start that leads to one, else the least of all by (I6)
-/// or the best of all starts.
+/// Slackness q from which (I6) is tried, at a sag of about a thirtieth of the chord, and from which all starts
+/// are, at a tenth.
+const SOME: f64 = 0.14;
+const MUCH: f64 = 0.4;
+
+/// The optimum: of cables that sag little from the first start that leads to one, else the best of all starts.
 pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
     let straight = straight(question);
     let mut nearest = Point::new(question, &straight)?;
     let mut best = nearest.optimise().then(|| nearest.clone());
     let mut iterations = nearest.iterations;
     if let Some(best) = &mut best
-        && (!best.may_have_others() || best.lessened(question, &mut iterations)?)
+        && !best.sags(MUCH)
     {
+        if best.sags(SOME) {
+            best.lessened(question, &mut iterations)?;
+        }
         return Ok(Optimum { iterations, ..best.optimum() });
     }
     for (k, tensions) in starts(question, straight).iter().enumerate() {
@@ -100,9 +107,7 @@ pub(super) fn straight(question: &Question) -> Vec<f64> {
         })
         .collect();
     let (residual, multipliers) = (question.external, Vector6::zeros());
-    let program =
-        BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers, start: multipliers };
-    program.solve().values
+    BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers }.solve().values
 }
 
 /// The first start, and those of [`starts`].
@@ -132,8 +137,6 @@ impl<'a> Point<'a> {
         const MAX_ITERATIONS: usize = 60;
         self.multipliers = Vector6::zeros();
         let mut damping = 1e-6;
-        // What is left of the balance after one step is much like that after the next.
-        let mut left = self.multipliers;
         let mut residual = self.residual().norm();
         for _ in 0..MAX_ITERATIONS {
             let size = self.size();
@@ -147,8 +150,7 @@ impl<'a> Point<'a> {
                 .iter()
                 .map(|strand| damping * (1.0 + largest / strand.held.chord_force()).powi(2))
                 .collect();
-            let Some((step, multipliers)) = self.step(&curvature, false, 1.0, left) else { return false };
-            left = multipliers;
+            let Some((step, _)) = self.step(&curvature, false, 1.0) else { return false };
             let moved = self.moved(&step);
             let next = moved.map(|moved| {
                 let rows = self.rows_of(&moved);
@@ -180,28 +182,27 @@ impl<'a> Point<'a> {
         self.residual().norm() / self.size()
     }
 
-    /// Whether a cable sags so much, by about a thirtieth of its chord, that another optimum may be better.
-    fn may_have_others(&self) -> bool {
-        self.strands.iter().any(|strand| strand.held.slackness() > 0.14)
+    /// Whether a cable has more than this slackness.
+    fn sags(&self, slackness: f64) -> bool {
+        self.strands.iter().any(|strand| strand.held.slackness() > slackness)
     }
 
-    /// Moves an optimum to better ones as long as (I6) leads to them. Returns whether it is the least of all.
-    fn lessened(&mut self, question: &Question<'a>, iterations: &mut usize) -> Result<bool, StaticsError> {
+    /// Moves an optimum to better ones as long as (I6) leads to them.
+    fn lessened(&mut self, question: &Question<'a>, iterations: &mut usize) -> Result<(), StaticsError> {
         const MOST: usize = 4;
         /// A smaller gain may be rounding of the same optimum, where cables on their bounds leave few others.
         const BETTER: f64 = 1e-9;
         for _ in 0..MOST {
-            let Ok(start) = self.better_start() else { return Ok(false) };
-            let Some(tensions) = start else { return Ok(true) };
+            let Ok(Some(tensions)) = self.better_start() else { break };
             let mut point = Point::new(question, &tensions)?;
             let found = point.balance(LEAST_GAIN) && point.optimise();
             *iterations += point.iterations;
             if !found || point.objective() >= (1.0 - BETTER) * self.objective() {
-                return Ok(false);
+                break;
             }
             *self = point;
         }
-        Ok(false)
+        Ok(())
     }
 
     /// The tensions of an optimum [N], with that cable's changed whose part (I6) of the Lagrangian gains most;

@@ -63,6 +63,9 @@ const LEAST_CURVATURE: f64 = 0.01;
 pub(super) const ROUNDING: f64 = 1e-14;
 pub(crate) const NEARLY_ROUNDING: f64 = 1e-11;
 
+/// Steps near the optimum that gain nothing, before one holds the balance exactly.
+const MOST_STALLED: usize = 3;
+
 /// A residual above this, relative to wrench and tensions, is far above what elastic equations leave.
 const UNBALANCED: f64 = 1e-6;
 
@@ -127,14 +130,12 @@ impl<'a> Point<'a> {
         self.rows = rows;
     }
 
-    /// Solves a program for a step, from multipliers of one nearby, and asks for the chord forces of all limits
-    /// that it meets.
+    /// Solves a program for a step, and asks for the chord forces of all limits that it meets.
     pub(super) fn step(
         &mut self,
         curvature: &[f64],
         with_objective: bool,
         elasticity: f64,
-        mut start: Vector6<f64>,
     ) -> Option<(Vec<f64>, Vector6<f64>)> {
         let multipliers = if with_objective { self.multipliers } else { Vector6::zeros() };
         let residual = self.residual();
@@ -151,8 +152,7 @@ impl<'a> Point<'a> {
             for (unknown, strand) in unknowns.iter_mut().zip(&self.strands) {
                 unknown.bounds = strand.room();
             }
-            let program = BoxProblem { unknowns: &unknowns, residual, elasticity, multipliers, start };
-            let solution = program.solve();
+            let solution = BoxProblem { unknowns: &unknowns, residual, elasticity, multipliers }.solve();
             if !solution.values.iter().all(|d| d.is_finite()) {
                 return None;
             }
@@ -168,7 +168,6 @@ impl<'a> Point<'a> {
             if !learned {
                 return Some((solution.values, solution.multipliers));
             }
-            start = solution.multipliers;
         }
     }
 
@@ -198,6 +197,7 @@ impl<'a> Point<'a> {
     /// Newton's method from here. Returns whether it ended at an optimum.
     pub(super) fn optimise(&mut self) -> bool {
         let mut before = f64::INFINITY;
+        let mut stalled = 0;
         for _ in 0..MAX_ITERATIONS {
             let (size, residual) = (self.size(), self.residual());
             let error = residual.norm().max(self.stationarity());
@@ -216,8 +216,7 @@ impl<'a> Point<'a> {
             }
             let exact = self.hessian();
             let convex: Vec<f64> = exact.iter().map(|h| h.abs().max(LEAST_CURVATURE)).collect();
-            let Some((mut step, mut multipliers)) = self.step(&convex, true, ELASTICITY, self.multipliers)
-            else {
+            let Some((mut step, mut multipliers)) = self.step(&convex, true, ELASTICITY) else {
                 return false;
             };
             // Within the limits no change of the tensions brings the balance nearer: the search for a balance
@@ -236,7 +235,8 @@ impl<'a> Point<'a> {
             // Full steps near the optimum; elsewhere those that the merit function accepts.
             if error <= 1e-7 * size {
                 // Cables that hardly span all wrenches move little for large multipliers.
-                if error >= 0.5 * last_error
+                stalled = if error >= 0.5 * last_error { stalled + 1 } else { 0 };
+                if stalled >= MOST_STALLED
                     && let Some(newton) = self.inelastic_step(&exact)
                 {
                     (step, multipliers) = newton;
@@ -305,13 +305,7 @@ impl<'a> Point<'a> {
             })
             .collect();
         let multipliers = Vector6::zeros();
-        let program = BoxProblem {
-            unknowns: &unknowns,
-            residual: end,
-            elasticity: ELASTICITY,
-            multipliers,
-            start: multipliers,
-        };
+        let program = BoxProblem { unknowns: &unknowns, residual: end, elasticity: ELASTICITY, multipliers };
         let change = program.solve().values;
         Some(step.iter().zip(change).map(|(d, change)| d + change).collect())
     }
