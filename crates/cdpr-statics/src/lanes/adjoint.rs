@@ -72,9 +72,11 @@ impl<'a, S: Simd> Keep<'a, S> for Record<'a, S> {
         };
         let old = &mut before.cable;
         old.length = last.select(cable.length, old.length);
-        for k in 0..2 {
-            old.force[k] = last.select(cable.force[k], old.force[k]);
-            before.sides[k] = (last & sides[k]) | (!last & before.sides[k]);
+        for (old, new) in old.force.iter_mut().zip(cable.force) {
+            *old = last.select(new, *old);
+        }
+        for (old, new) in before.sides.iter_mut().zip(sides) {
+            *old = (last & new) | (!last & *old);
         }
     }
 
@@ -191,8 +193,8 @@ impl<S: Simd> Adjoint<S> {
         let swung = cross(&turned, &robots.center);
         let lever = three(|k| moved[k] + swung[k]);
         self.weight -= lever[2];
-        for k in 0..3 {
-            self.heavier[k] += lever[k] * weight;
+        for (sum, lever) in self.heavier.iter_mut().zip(lever) {
+            *sum += lever * weight;
         }
         let zero = weight.all(0.0);
         let arm = cross(&[zero, zero, -weight], &turned);
