@@ -25,7 +25,7 @@ use cdpr_sensitivity::SensitivityError;
 type Table = fn(u64, &str) -> Result<(), SensitivityError>;
 
 fn main() -> Result<(), SensitivityError> {
-    let tables: [(&str, Table); 9] = [
+    let tables: &[(&str, Table)] = &[
         ("choice", |studies, _| choice::table(studies)),
         ("indices", |studies, _| indices::table(studies)),
         ("expansions", |studies, _| expansions::table(studies)),
@@ -34,12 +34,14 @@ fn main() -> Result<(), SensitivityError> {
         ("gradients", gradients::table),
         ("measures", measures::table),
         ("reliability", reliability::table),
+        #[cfg(feature = "faer")]
         ("vectors", |studies, _| vectors::table(studies)),
     ];
     let mut arguments = std::env::args().skip(1);
     let [name, count, part] = [(); 3].map(|()| arguments.next());
     let Some((_, table)) = tables.iter().find(|(table, _)| Some(*table) == name.as_deref()) else {
-        println!("statistics TABLE [STUDIES [FUNCTION]], TABLE one of {:?}", tables.map(|(table, _)| table));
+        let names: Vec<&str> = tables.iter().map(|(table, _)| *table).collect();
+        println!("statistics TABLE [STUDIES [FUNCTION]], TABLE one of {names:?}");
         return Ok(());
     };
     table(count.and_then(|count| count.parse().ok()).unwrap_or(1000), &part.unwrap_or_default())
