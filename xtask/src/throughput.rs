@@ -1,5 +1,5 @@
-//! `cargo xtask throughput --all`: the time of an observation, for robots and poses that differ, by the program
-//! as it is installed.
+//! `cargo xtask throughput --all`: the time of an observation, for robots and poses that differ, by the
+//! program as it is installed.
 
 #![allow(clippy::print_stdout)]
 

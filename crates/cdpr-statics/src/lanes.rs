@@ -1,5 +1,5 @@
-//! The models for cables that carry a force, taut or sagging, in the lanes of the vector unit: a robot in each
-//! lane, or a cable of one robot.
+//! The models for cables that carry a force, taut or sagging, in the lanes of the vector unit: a robot in
+//! each lane, or a cable of one robot.
 
 mod adjoint;
 mod algebra;

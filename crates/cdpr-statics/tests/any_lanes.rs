@@ -37,9 +37,9 @@ fn in_cube(rng: &mut ChaCha8Rng) -> Vector3<f64> {
     Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0))
 }
 
-/// Robots of 1 m to 300 m with 6 to 16 cables, suspended or held from all sides, level or not; straight cables
-/// and such that weigh more than the platform; with limits and preferred tensions that are active or not,
-/// linear or with an elastic law; with pulleys with vertical axes, on some cables or all, and leads.
+/// Robots of 1 m to 300 m with 6 to 16 cables, suspended or held from all sides, level or not; straight
+/// cables and such that weigh more than the platform; with limits and preferred tensions that are active or
+/// not, linear or with an elastic law; with pulleys with vertical axes, on some cables or all, and leads.
 /// `None` where the robot cannot be held.
 pub(crate) fn case(seed: u64) -> Option<Case> {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);

@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 /// Random robots; `CDPR_CASES` takes the place of this number.
 const CASES: u64 = 1_000;
 
-/// Largest difference of two slopes times the range of their parameter, relative to the longest cable: as that of
-/// two observations in `any_lanes.rs`.
+/// Largest difference of two slopes times the range of their parameter, relative to the longest cable: as
+/// that of two observations in `any_lanes.rs`.
 const AGREEMENT: f64 = 1e-11;
 
 /// What became of each row, with the greatest difference of two slopes times the range of their parameter,

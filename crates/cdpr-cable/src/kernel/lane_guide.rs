@@ -1,12 +1,12 @@
 //! Cables over pulleys with vertical axes and behind leads in lanes, (C19) to (C23) of `catenary/guided.rs`.
 //!
 //! The unknowns are the force at A and the unstrained length Lf beyond the leave point B, from which all else
-//! follows without iteration. With τ the direction at B, α its elevation, and ρ the radius r with the sign of
-//! k_z, positive for a cable that enters from below,
+//! follows without iteration. With τ the direction at B, α its elevation, and ρ the radius r with the sign
+//! of k_z, positive for a cable that enters from below,
 //!
 //! ```text
-//! B = (r - ρ τ_z, ρ τ_x),      a = r π/2 - ρ α,      L = Lf + (a + d)/(1 + ε(T0))                  (C30)
-//! dB = -ρ τ dα,   da = -ρ dα,      q = ρ n/((1 + ε) T0) + (a + d) ε' τ/(1 + ε)²,   n = (-τ_z, τ_x)
+//! B = (r - ρ τ_z, ρ τ_x),      a = r π/2 - ρ α,      L = Lf + (a + d)/(1 + ε(T0))              (C30)
+//! dB = -ρ τ dα,   da = -ρ dα,   q = ρ n/((1 + ε) T0) + (a + d) ε' τ/(1 + ε)²,   n = (-τ_z, τ_x)
 //! ```
 //!
 //! (C22) gives the flexibility in the plane; across it A swings about the axis, x/fx with the distance x from

@@ -1,9 +1,10 @@
 //! Cables with a piecewise elastic law in lanes, (C12) and (C13) of `catenary/pieces.rs`.
 //!
-//! The tension of a short cable spans few newtons, so that it stays within a segment of its law or crosses one
-//! kink. A cable in one segment has the equations of a linear one, with 1/EA_k and its inextensible part times
-//! α_k. One that crosses the kink T_k is the sum of two such pieces, cut at `V = ±sqrt(T_k² - fx²)`. Cables
-//! that cross more than one kink, or dip below the segments of their ends, have a slackness of 2 here.
+//! The tension of a short cable spans few newtons, so that it stays within a segment of its law or crosses
+//! one kink. A cable in one segment has the equations of a linear one, with 1/EA_k and its inextensible part
+//! times α_k. One that crosses the kink T_k is the sum of two such pieces, cut at
+//! `V = ±sqrt(T_k² - fx²)`. Cables that cross more than one kink, or dip below the segments of their ends,
+//! have a slackness of 2 here.
 
 use super::field::Lanewise;
 use super::response::{LaneEnd, Response, Terms};

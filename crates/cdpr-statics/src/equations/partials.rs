@@ -2,12 +2,12 @@
 //! the pose.
 //!
 //! Between held ends the force of a cable follows from its span, its length and its material. The catenary
-//! `(h, z) = (x, z)(f, L, w, EA)` with the stiffness K3 in space (S3), `K = C⁻¹` in its plane, `w = ρ g` and
-//! `EA = E S` gives for the force F_i on the platform
+//! `(h, z) = (x, z)(f, L, w, EA)` with the stiffness K3 in space (S3), `K = C⁻¹` in its plane, `w = ρ g`
+//! and `EA = E S` gives for the force F_i on the platform
 //!
 //! ```text
 //! dF_i = -K3_i dr_i + k_L dL_i + k_ρ dρ + k_E dE                                                  (D1)
-//!        k_L = K ∂(x, z)/∂L,   k_ρ = g K ∂(x, z)/∂w,   k_E = S K ∂(x, z)/∂EA   (lifted from its plane)
+//!  k_L = K ∂(x, z)/∂L,  k_ρ = g K ∂(x, z)/∂w,   k_E = S K ∂(x, z)/∂EA   (lifted from its plane)
 //! ds_i = dφ x s_i + R da_i,   dr_i = dp + ds_i - db_i                                             (D2)
 //! ```
 //!
@@ -18,15 +18,15 @@
 //! dF_i = Q_i (-K3_i dr_i + k_ρ dρ + k_E dE) + v_i dt_i,   v_i = k_L/(u_i·k_L),   Q_i = 1 - v_i u_iᵀ  (D3)
 //! ```
 //!
-//! which is (D1) with other coefficients. So are the derivatives by lead and radius of a guide, `K ∂A/∂d` and
-//! `K ∂A/∂r`, and by its axis k, which a tilt by an angle τ about e turns by `dk = e x k dτ`.
+//! which is (D1) with other coefficients. So are the derivatives by lead and radius of a guide, `K ∂A/∂d`
+//! and `K ∂A/∂r`, and by its axis k, which a tilt by an angle τ about e turns by `dk = e x k dτ`.
 //!
 //! Gravity γ = -g u acts on cable i by its magnitude, `dg = -u·dγ`, and by the direction u of "up", which
-//! turns by `δ = -(u x dγ)/g`. If span, pulley and up turn together, the force turns with them; the span does
-//! not, and hence
+//! turns by `δ = -(u x dγ)/g`. If span, pulley and up turn together, the force turns with them; the span
+//! does not, and hence
 //!
 //! ```text
-//! dF_i = δ x F_i + K3_i (δ x r_i) - K3_i ∂A/∂k (δ x k) + k_ρ (ρ/g) dg                             (D10)
+//! dF_i = δ x F_i + K3_i (δ x r_i) - K3_i ∂A/∂k (δ x k) + k_ρ (ρ/g) dg                         (D10)
 //! ```
 //!
 //! because the axis of a pulley does not turn either. The left-hand side of the paper's Eq. (3),
@@ -510,8 +510,8 @@ pub(crate) fn each_effect_on_weight(
     }
 }
 
-/// `matrix⁻¹ right`, in place. At 6 x 6 the inverse, applied column by column, is the fastest and as exact as
-/// the factors.
+/// `matrix⁻¹ right`, in place. At 6 x 6 the inverse, applied column by column, is the fastest and as exact
+/// as the factors.
 pub(crate) fn solve(
     matrix: Matrix6<f64>,
     right: &mut Matrix6xX<f64>,

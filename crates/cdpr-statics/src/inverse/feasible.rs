@@ -18,14 +18,14 @@
 //! φ_i(t) = (t - r_i)²/2 + λ·w_i(t)   within the limits                                              (I6)
 //! ```
 //!
-//! (H. Everett, *Generalized Lagrange multiplier method*, Operations Research 11, 1963). It is tried on a grid of
-//! each cable's chord forces where cables sag: where one cable has a smaller φ_i elsewhere, that is the next
-//! start.
+//! (H. Everett, *Generalized Lagrange multiplier method*, Operations Research 11, 1963). It is tried on a
+//! grid of each cable's chord forces where cables sag: where one cable has a smaller φ_i elsewhere, that is
+//! the next start.
 //!
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
-//! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual has
-//! that direction, if one exists and the cables are nearly straight; it is tried on a grid of each cable's
-//! chord forces. Then no other start is tried.
+//! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual
+//! has that direction, if one exists and the cables are nearly straight; it is tried on a grid of each
+//! cable's chord forces. Then no other start is tried.
 
 use super::optimum::{ELASTICITY, Optimum, Point};
 use super::question::Question;
@@ -42,12 +42,13 @@ pub(super) const BALANCED: f64 = 1e-8;
 const LEAST_GAIN: f64 = 1e-9;
 const CLEAR_GAIN: f64 = 1e-3;
 
-/// Slackness q from which (I6) is tried, at a sag of about a thirtieth of the chord, and from which all starts
-/// are, at a tenth.
+/// Slackness q from which (I6) is tried, at a sag of about a thirtieth of the chord, and from which all
+/// starts are, at a tenth.
 const SOME: f64 = 0.14;
 const MUCH: f64 = 0.4;
 
-/// The optimum: of cables that sag little from the first start that leads to one, else the best of all starts.
+/// The optimum: of cables that sag little from the first start that leads to one, else the best of all
+/// starts.
 pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
     let straight = straight(question);
     let mut nearest = Point::new(question, &straight)?;
@@ -205,8 +206,8 @@ impl<'a> Point<'a> {
         Ok(())
     }
 
-    /// The tensions of an optimum [N], with that cable's changed whose part (I6) of the Lagrangian gains most;
-    /// `None` where none gains anything.
+    /// The tensions of an optimum [N], with that cable's changed whose part (I6) of the Lagrangian gains
+    /// most; `None` where none gains anything.
     fn better_start(&mut self) -> Result<Option<Vec<f64>>, CableError> {
         /// A gain below this share of a cable's part is rounding.
         const ROUNDING: f64 = 1e-9;

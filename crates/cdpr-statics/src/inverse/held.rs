@@ -160,8 +160,8 @@ impl<'a> Strand<'a> {
         Ok(self.least_of(|strand, held| y.dot(&strand.wrench(strand.ends.force(held), arm)))?.1)
     }
 
-    /// Its part (I6) of the Lagrangian: here, and where it is least on a grid of chord forces within the limits,
-    /// with the tension there [N].
+    /// Its part (I6) of the Lagrangian: here, and where it is least on a grid of chord forces within the
+    /// limits, with the tension there [N].
     ///
     /// # Errors
     /// [`CableError`] where the cable cannot be closed.

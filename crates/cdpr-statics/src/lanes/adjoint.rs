@@ -5,7 +5,7 @@
 //! stiffness of the platform and `G = sum wrenches + w_ex`,
 //!
 //! ```text
-//! H y = ±(n, 0),      ±n·dp = y·( ∂G + sum [k_L; s x k_L] dL )                                         (L10)
+//! H y = ±(n, 0),      ±n·dp = y·( ∂G + sum [k_L; s x k_L] dL )                                   (L10)
 //! ```
 //!
 //! so that one twist y stands for all parameters; it moves anchor point i by `y_p + y_r x s_i`. What it takes
@@ -13,7 +13,7 @@
 //! model. With c_i and D_i of (D6) and the tensions without active bound free,
 //!
 //! ```text
-//! [ sum_free c_i c_iᵀ/D_i ] η = sum_free c_i a_i/D_i,      α_i = (a_i - c_i·η)/D_i                     (L11)
+//! [ sum_free c_i c_iᵀ/D_i ] η = sum_free c_i a_i/D_i,      α_i = (a_i - c_i·η)/D_i               (L11)
 //! sum a_i dt_i = -sum_free α_i ∂ρ_i - η·∂G + sum_active (a_i - c_i·η) b_i
 //! ```
 //!

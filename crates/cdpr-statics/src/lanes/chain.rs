@@ -17,7 +17,7 @@
 //!
 //! ```text
 //! (t - r) t' + J·λ = 0,      sum w + w_ex = 0                                                        (L2)
-//! [ sum J Jᵀ/h ] dλ = R2 - sum J R1/h,      dfx = -(R1 + J·dλ)/h,                                    (L3)
+//! [ sum J Jᵀ/h ] dλ = R2 - sum J R1/h,      dfx = -(R1 + J·dλ)/h,                                  (L3)
 //!      R1 = (t + û_z dz - r) t' + J·λ,   R2 = sum w + w_ex,   h = t'² + (t - r) t'' + λ·w''
 //! ```
 //!
@@ -135,8 +135,8 @@ const MAX_DISTRIBUTIONS: usize = 20;
 
 /// What is kept of the links of a chain.
 pub(crate) trait Keep<'a, S: Simd> {
-    /// Cable `i` with its tension of the inverse model, found in the lanes `last`; `sides` are those where it is
-    /// at either limit.
+    /// Cable `i` with its tension of the inverse model, found in the lanes `last`; `sides` are those where it
+    /// is at either limit.
     fn chosen(&mut self, _i: usize, _cable: &LaneCable<'a, S>, _sides: [Mask<S>; 2], _last: Mask<S>) {}
 
     /// The multipliers of the inverse model.

@@ -113,7 +113,7 @@ impl<S: Simd> HeldCable<S> {
     /// fz'' of the inextensible catenary. With u = w h/(2 fx), q = tanh u, φ = u/q and S = sinh u/u,
     ///
     /// ```text
-    /// fz = fx (z/h) u coth u + w L/2,     L² = z² + h² S²                                               (L4)
+    /// fz = fx (z/h) u coth u + w L/2,     L² = z² + h² S²                                           (L4)
     /// fz'' = (2 z/(h fx)) φ² (1 - q²) (φ - 1) + (w/2) L''
     /// L' = -h² S² (φ - 1)/(fx L),     L L'' = h² S² ((φ - 1)² + u²)/fx² - L'²
     /// ```
@@ -174,11 +174,11 @@ impl<S: Simd> HeldCable<S> {
 }
 
 /// A cable over a pulley. With `e = |d(x, z)/dLf|` of the part beyond the leave point, τ the direction there
-/// and ρ the radius with its sign, a turn α of τ winds ρ α off the wheel, along τ: forces are those of the
-/// part with a fixed leave point, and
+/// and ρ the radius with its sign, a turn α of τ winds ρ α off the wheel, along τ: forces are those of
+/// the part with a fixed leave point, and
 ///
 /// ```text
-/// T0 dα = τ_x dfz - τ_z dfx - w τ_x dLf,      dLf = dLf|B + (ρ/e) dα                                (L13)
+/// T0 dα = τ_x dfz - τ_z dfx - w τ_x dLf,      dLf = dLf|B + (ρ/e) dα                             (L13)
 /// fz'' = fz''|B - ρ α' α'|B/(τ x C_z)
 /// ```
 ///

@@ -203,7 +203,8 @@ impl<'a> Run<'a> {
         Ok((design, self.slopes.get_or_init(|| found)))
     }
 
-    /// Outputs of the robots with these deviations of the inputs, and their derivatives per unit of the input.
+    /// Outputs of the robots with these deviations of the inputs, and their derivatives per unit of the
+    /// input.
     fn slopes(&self, rows: &[f64]) -> Vec<Result<Slopes, StaticsError>> {
         let Sampling { errors, observer, .. } = self.sampling;
         let found = observer.slopes(&errors.deviations(rows), errors).into_iter();

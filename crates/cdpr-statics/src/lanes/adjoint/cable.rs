@@ -1,19 +1,19 @@
 //! What the adjoint of an observation takes from each cable: how its force and its length answer to its ends
 //! and its material.
 //!
-//! At constant force and length the end of a cable moves with its weight w and its axial flexibility `f = 1/EA`
-//! by `e_w dw + e_f df`. With `y = d(h, z) - e_w dw - e_f df`, C the flexibility, K its inverse and e the end
-//! per length, the force at A changes by
+//! At constant force and length the end of a cable moves by `e_w dw + e_f dφ` with its weight per length w
+//! and its axial flexibility `φ = 1/EA`. With `y = d(h, z) - e_w dw - e_f dφ`, C the flexibility, K its
+//! inverse and e the end per length, the force at A changes by
 //!
 //! ```text
 //! df = K (y - e dL)   in the plane,      k_l dl   across it                                           (L8)
 //! ```
 //!
-//! where the length is given. Where the tension is, the force can only turn: with u its direction, n̂ across it
-//! in the plane, `N = C n̂` and `Δ = e x N`,
+//! where the length is given. Where the tension is, the force can only turn: with u its direction, n̂ across
+//! it in the plane, `N = C n̂` and `Δ = e x N`,
 //!
 //! ```text
-//! df = n̂ (e x y)/Δ + f_t dt,      dL = (y x N - det C dt)/Δ,      f_t = u - n̂ (e x C u)/Δ             (L9)
+//! df = n̂ (e x y)/Δ + f_t dt,      dL = (y x N - det C dt)/Δ,      f_t = u - n̂ (e x C u)/Δ        (L9)
 //! ```
 //!
 //! Second derivatives of the force by its tension are those of (L9) along `(f_t, L_t)`, found by tangents.
@@ -41,8 +41,8 @@ pub(super) struct CableSlopes<S: Simd> {
 }
 
 impl<S: Simd> CableSlopes<S> {
-    /// Adds those of an output that grows by `by_bound` for each newton of the greatest tension at the platform.
-    /// It changes where that at the exit point is given: (C26) of `cdpr_cable`, for a linear cable.
+    /// Adds those of an output that grows by `by_bound` for each newton of the greatest tension at the
+    /// platform. It changes where that at the exit point is given: (C26) of `cdpr_cable`, for a linear cable.
     #[inline(always)]
     pub(super) fn add_bound(
         &mut self,
@@ -122,8 +122,8 @@ impl<S: Simd> Answer<Lanes<S>> {
         cable.length.apart(Question { law: cable.law, numbers, force: cable.force })
     }
 
-    /// Slopes of an output that falls by `twisted`·df with the force (L8) on a cable of given length, and its
-    /// derivative by the length.
+    /// Slopes of an output that falls by `twisted`·df with the force (L8) on a cable of given length, and
+    /// its derivative by the length.
     #[inline(always)]
     pub(super) fn at_length(
         &self,
@@ -138,8 +138,8 @@ impl<S: Simd> Answer<Lanes<S>> {
         (slopes, dot(&pulled, &self.response.end_per_length))
     }
 
-    /// Slopes of an output that grows by `share`·dL with the length (L9) of a cable of given tension, and its
-    /// derivative by the tension.
+    /// Slopes of an output that grows by `share`·dL with the length (L9) of a cable of given tension, and
+    /// its derivative by the tension.
     #[inline(always)]
     pub(super) fn of_length(
         &self,

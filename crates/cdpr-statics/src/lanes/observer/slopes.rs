@@ -26,8 +26,9 @@ impl Observer<'_> {
     /// Deflections of any number of robots, as [`Observer::observe_all`], with the derivatives of |dp| by all
     /// parameters.
     ///
-    /// They agree with [`Observer::observe_slopes`] to 1e-8 of the largest change that a parameter of the same kind
-    /// makes. Robots in which left and right derivatives may differ are left to the scalar models.
+    /// A slope times the range of its parameter agrees with [`Observer::observe_slopes`] to 1e-11 of the
+    /// longest cable (docs/VALIDATION.md). Robots in which left and right derivatives may differ are left to
+    /// the scalar models, and so are those with pulleys or leads.
     pub fn observe_all_slopes(&self, deviations: &[f64]) -> Vec<Result<ObservationSlopes, StaticsError>> {
         let rows = deviations.chunks_exact(self.parameters);
         let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
@@ -43,8 +44,8 @@ impl Observer<'_> {
         outcomes.chain(incomplete.map(|row| self.observe_slopes(row))).collect()
     }
 
-    /// Deflection of the robot with `deviations` added to its parameters, with the left derivatives of |dp|, by the
-    /// scalar models.
+    /// Deflection of the robot with `deviations` added to its parameters, with the left derivatives of |dp|,
+    /// by the scalar models.
     ///
     /// # Errors
     /// Those of [`Observer::observe`] and [`Derivatives::rms`].
