@@ -24,7 +24,7 @@ mod cable;
 use crate::equations::LinearizedCable;
 use crate::equations::vector::{cross, dot, wrench};
 use crate::lanes::adjoint::cable::{Answer, CableSlopes, TensionSlopes, torque};
-use crate::lanes::algebra::{Lanes3, Lanes6, SymmetricFactors, halves, six, three};
+use crate::lanes::algebra::{Lanes3, Lanes6, SymmetricFactors, halves, replace, six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::{Keep, Shared};
 use crate::lanes::limits::plain_limits_at;
@@ -71,10 +71,8 @@ impl<'a, S: Simd> Keep<'a, S> for Record<'a, S> {
             return self.optimum.push(Chosen { cable: cable.clone(), sides });
         };
         let old = &mut before.cable;
-        old.length = last.select(cable.length, old.length);
-        for (old, new) in old.force.iter_mut().zip(cable.force) {
-            *old = last.select(new, *old);
-        }
+        old.length.replace(cable.length, last);
+        replace(&mut old.force, &cable.force, last);
         for (old, new) in before.sides.iter_mut().zip(sides) {
             *old = (last & new) | (!last & *old);
         }
@@ -147,16 +145,16 @@ pub(crate) fn adjoint<S: Simd>(
     let mut lengths = vec![zero; wound.cables.len()];
     let own = PlatformLoad { weight: unloaded.weight, force: [zero; 3] };
     let load = PlatformLoad { weight: unloaded.weight + payload.weight, force: payload.force };
-    let back = three(|k| -(displacement[k] * rms_inv));
+    let back = three!(|k| -(displacement[k] * rms_inv));
     found.at_rest(unloaded, &own, &back, &mut lengths);
-    found.at_rest(loaded, &load, &three(|k| -back[k]), &mut lengths);
+    found.at_rest(loaded, &load, &three!(|k| -back[k]), &mut lengths);
     // From here on the slopes by the set-points.
     for ((cable, found_cable), slope) in wound.cables.iter().zip(&mut found.cables).zip(&mut lengths) {
         let span = cable.span(&wound.position);
         let (slopes, per_tension) = Answer::of(cable).of_length(&span.plane, *slope);
         *slope = per_tension;
         found_cable.add(&slopes, &wound.frame, &slopes.span);
-        let r = three(|k| wound.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
+        let r = three!(|k| wound.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
         add(&mut found.turn, &torque(&[zero; 3], &[zero; 3], &r, &slopes.span));
     }
     found.of_tensions(record, wound, &lengths, shared);
@@ -191,7 +189,7 @@ impl<S: Simd> Adjoint<S> {
     fn add_weight(&mut self, robots: &Robots<'_, S>, weight: Lanes<S>, twist: &Lanes6<S>) {
         let (moved, turned) = halves(twist);
         let swung = cross(&turned, &robots.center);
-        let lever = three(|k| moved[k] + swung[k]);
+        let lever = three!(|k| moved[k] + swung[k]);
         self.weight -= lever[2];
         for (sum, lever) in self.heavier.iter_mut().zip(lever) {
             *sum += lever * weight;
@@ -228,15 +226,15 @@ impl<S: Simd> Adjoint<S> {
         let cables = robots.cables.iter().zip(&platform.cables).zip(&answers).zip(&mut self.cables);
         for ((((cable, linearized), answer), found), length) in cables.zip(lengths) {
             let swung = cross(&turned, &cable.anchor_arm);
-            let twisted = three(|k| moved[k] + swung[k]);
+            let twisted = three!(|k| moved[k] + swung[k]);
             let (slopes, per_length) = answer.at_length(linearized, &twisted);
             *length += per_length;
             let force = linearized.plane.lift(cable.force);
             // -y_r·(ds x f)
             let swings = cross(&turned, &force);
-            found.add(&slopes, &robots.frame, &three(|k| slopes.span[k] + swings[k]));
-            let r = three(|k| robots.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
-            add(&mut self.turn, &torque(&force, &three(|k| -twisted[k]), &r, &slopes.span));
+            found.add(&slopes, &robots.frame, &three!(|k| slopes.span[k] + swings[k]));
+            let r = three!(|k| robots.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
+            add(&mut self.turn, &torque(&force, &three!(|k| -twisted[k]), &r, &slopes.span));
         }
         self.add_weight(robots, load.weight, &twist);
     }
@@ -264,7 +262,7 @@ impl<S: Simd> Adjoint<S> {
             let span = cable.span(&wound.position);
             let slopes = TensionSlopes::of(cable, &span);
             let swung = cross(&rotation, &cable.anchor_arm);
-            let motion = three(|k| translation[k] + swung[k]);
+            let motion = three!(|k| translation[k] + swung[k]);
             let tension = dot(&cable.force, &cable.force).sqrt();
             // ρ_i, without the bound's multiplier
             let slope = tension + -choice.reference - dot(&slopes.force_per_tension, &motion);
@@ -283,8 +281,8 @@ impl<S: Simd> Adjoint<S> {
             for row in 0..6 {
                 let share = column[row] * curvature_inv;
                 right[row] -= share * by_tension;
-                for (entry, other) in matrix[row].iter_mut().zip(&column).skip(row) {
-                    *entry += share * *other;
+                for other in row..6 {
+                    matrix[row][other] += share * column[other];
                 }
             }
             let by_bound = set_point.over.select(a, zero);
@@ -297,7 +295,7 @@ impl<S: Simd> Adjoint<S> {
         {
             let Chosen { cable, sides } = &record.optimum[i];
             let swung = cross(&turned, &cable.anchor_arm);
-            let twisted = three(|k| moved[k] + swung[k]);
+            let twisted = three!(|k| moved[k] + swung[k]);
             // a_i - c_i·η
             let left = by_tension + dot(&column, &balanced);
             let share = left * curvature_inv;
@@ -305,17 +303,17 @@ impl<S: Simd> Adjoint<S> {
             let mut own = slopes.slopes(&twisted, &motion, share);
             own.add_bound(cable, &span.end[1], &shared.choices[i], by_bound);
             let force = span.plane.lift(cable.force);
-            let r = three(|k| wound.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
+            let r = three!(|k| wound.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
             add(&mut self.turn, &torque(&force, &twisted, &r, &own.span));
-            let shared_motion = three(|k| motion[k] * share);
+            let shared_motion = three!(|k| motion[k] * share);
             add(&mut self.turn, &cross(&slopes.force_per_tension, &shared_motion));
             // η_r·(ds x f) and α f_t·(λ_r x ds)
             let (swings, follows) = (cross(&force, &turned), cross(&slopes.force_per_tension, &rotation));
-            let arm = three(|k| swings[k] + follows[k] * share);
-            let anchor = three(|k| own.span[k] + arm[k]);
+            let arm = three!(|k| swings[k] + follows[k] * share);
+            let anchor = three!(|k| own.span[k] + arm[k]);
             self.cables[i].add(&own, &wound.frame, &anchor);
         }
-        self.add_weight(wound, wound.weight, &six(|k| -balanced[k]));
+        self.add_weight(wound, wound.weight, &six!(|k| -balanced[k]));
         for value in balanced {
             self.decided = self.decided & (value * 0.0).less_or_equal(zero);
         }

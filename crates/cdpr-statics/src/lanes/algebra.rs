@@ -58,10 +58,10 @@ impl<S: Simd> SymmetricFactors<S> {
     pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {
         for row in 0..6 {
             for column in row + 1..6 {
-                self.upper[row][column] = going.select(other.upper[row][column], self.upper[row][column]);
+                self.upper[row][column].replace(other.upper[row][column], going);
             }
         }
-        self.pivots_inv = six(|k| going.select(other.pivots_inv[k], self.pivots_inv[k]));
+        replace(&mut self.pivots_inv, &other.pivots_inv, going);
         self.positive = (going & other.positive) | (!going & self.positive);
     }
 
@@ -83,20 +83,46 @@ impl<S: Simd> SymmetricFactors<S> {
     }
 }
 
-// Closures of `std::array::from_fn` would not be compiled for the vector unit.
-#[inline(always)]
-pub(crate) fn three<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Lanes3<S> {
-    [component(0), component(1), component(2)]
+/// Three components of one formula. Closures may be compiled apart from their caller, without the vector unit.
+macro_rules! three {
+    (|$k:ident| $component:expr) => {
+        $crate::lanes::algebra::components!(|$k| $component; 0, 1, 2)
+    };
 }
 
-#[inline(always)]
-pub(crate) fn six<S: Simd>(component: impl Fn(usize) -> Lanes<S>) -> Lanes6<S> {
-    [component(0), component(1), component(2), component(3), component(4), component(5)]
+/// Six components of one formula.
+macro_rules! six {
+    (|$k:ident| $component:expr) => {
+        $crate::lanes::algebra::components!(|$k| $component; 0, 1, 2, 3, 4, 5)
+    };
 }
+
+macro_rules! components {
+    (|$k:ident| $component:expr; $($index:literal),+) => {
+        [$({
+            let $k: usize = $index;
+            $component
+        }),+]
+    };
+}
+
+pub(crate) use {components, six, three};
 
 #[inline(always)]
 pub(crate) fn halves<S: Simd>(wrench: &Lanes6<S>) -> (Lanes3<S>, Lanes3<S>) {
-    (three(|k| wrench[k]), three(|k| wrench[3 + k]))
+    (three!(|k| wrench[k]), three!(|k| wrench[3 + k]))
+}
+
+/// Takes over other components in the lanes that are `going`.
+#[inline(always)]
+pub(crate) fn replace<S: Simd, const N: usize>(
+    own: &mut [Lanes<S>; N],
+    other: &[Lanes<S>; N],
+    going: Mask<S>,
+) {
+    for k in 0..N {
+        own[k].replace(other[k], going);
+    }
 }
 
 /// Adds [F; s x F].

@@ -10,7 +10,7 @@
 //! with (C21) to (C23) of `cdpr_cable`; what is left out is of second order.
 
 use crate::equations::{LinearizedCable, Span, between};
-use crate::lanes::algebra::{Lanes2, Lanes3, three};
+use crate::lanes::algebra::{Lanes2, Lanes3, replace};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::{
     LaneEnd, LaneGuide, LaneSegment, LaneWay, LeavePoint, Response, lane_end, lane_law_end,
@@ -66,15 +66,13 @@ impl<S: Simd> FreeLength<S> {
     #[inline(always)]
     pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {
         self.revise(other.missing, going);
-        for k in 0..2 {
-            self.per_force[k] = going.select(other.per_force[k], self.per_force[k]);
-        }
+        replace(&mut self.per_force, &other.per_force, going);
     }
 
     /// Takes over a missing length in the lanes that are `going`.
     #[inline(always)]
     pub(crate) fn revise(&mut self, missing: Lanes<S>, going: Mask<S>) {
-        self.missing = going.select(missing, self.missing);
+        self.missing.replace(missing, going);
     }
 
     /// dLf for a change of the force.
@@ -266,11 +264,9 @@ impl<S: Simd> LinearizedCable<Lanes<S>> {
     /// Takes over another one in the lanes that are `going`.
     #[inline(always)]
     pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {
-        for k in 0..2 {
-            self.plane.azimuth[k] = going.select(other.plane.azimuth[k], self.plane.azimuth[k]);
-            self.predicted[k] = going.select(other.predicted[k], self.predicted[k]);
-        }
-        self.stiffness = three(|k| going.select(other.stiffness[k], self.stiffness[k]));
-        self.lateral_stiffness = going.select(other.lateral_stiffness, self.lateral_stiffness);
+        replace(&mut self.plane.azimuth, &other.plane.azimuth, going);
+        replace(&mut self.predicted, &other.predicted, going);
+        replace(&mut self.stiffness, &other.stiffness, going);
+        self.lateral_stiffness.replace(other.lateral_stiffness, going);
     }
 }

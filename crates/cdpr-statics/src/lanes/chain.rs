@@ -32,7 +32,7 @@
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
 use crate::inverse::NEARLY_ROUNDING;
-use crate::lanes::algebra::{Lanes3, Lanes6, halves, six, three};
+use crate::lanes::algebra::{Lanes3, Lanes6, halves, replace, six, three};
 use crate::lanes::cable::{FreeLength, LaneCable};
 use crate::lanes::held::HeldCable;
 use crate::lanes::limits::limits_at;
@@ -194,11 +194,11 @@ pub(crate) fn observe<'a, S: Simd>(
     let load = PlatformLoad { weight: own.weight + payload.weight, force: payload.force };
     // The first step follows the linearisation at hand.
     let added = payload.wrench(&robots.center);
-    platform.gradient = six(|k| platform.gradient[k] - added[k]);
+    platform.gradient = six!(|k| platform.gradient[k] - added[k]);
     let (answered, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
     keep.state(robots);
     // Eq. (4)
-    let displacement = three(|k| robots.position[k] - stood[k]);
+    let displacement = three!(|k| robots.position[k] - stood[k]);
     Outcome { passed: [converged, sound, held, standing, answered], displacement, unloaded, loaded }
 }
 
@@ -277,7 +277,7 @@ pub(crate) fn distribute<'a, S: Simd>(
                 row.ways = [held.way_to(*least), held.way_to(*greatest)];
             }
             let (raised, solved) = within_limits(&mut rows, &balance, bounded);
-            step = six(|k| bounded.select(raised[k], step[k]));
+            replace(&mut step, &raised, bounded);
             settled = settled | solved;
         }
         let mut moved = zero;
@@ -288,7 +288,7 @@ pub(crate) fn distribute<'a, S: Simd>(
             jumped = jumped | (going & !near & !held.slackness.less_or_equal(d.all(SAGGING)));
             moved = moved.max(held.change(cable, d, going, compared));
         }
-        *multipliers = six(|k| going.select(multipliers[k] + step[k], multipliers[k]));
+        replace(multipliers, &six!(|k| multipliers[k] + step[k]), going);
         let (force, moment) = halves(&balance);
         let balanced = dot(&force, &force).less_or_equal(zero.all(unbalanced * unbalanced))
             & dot(&moment, &moment).less_or_equal(zero.all(unbalanced * arm * unbalanced * arm));
@@ -320,7 +320,7 @@ pub(crate) fn distribute<'a, S: Simd>(
                     & held.is_taut(cable)
                     & least.less_or_equal(greatest);
                 within = within & (sound | !last);
-                *offset = last.select(set_point, *offset);
+                offset.replace(set_point, last);
                 let there = HeldCable { closed: tension, closing: [zero; 2], ..*held };
                 there.change(cable, there.way_to(set_point), last, compared);
             }

@@ -1,7 +1,7 @@
 //! A cable at its held ends, one in each lane.
 
 use crate::equations::Span;
-use crate::lanes::algebra::Lanes2;
+use crate::lanes::algebra::{Lanes2, replace};
 use crate::lanes::cable::{Guided, LaneCable};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::{Field, Lanewise, LeavePoint, Response, TAUT};
@@ -166,8 +166,8 @@ impl<S: Simd> HeldCable<S> {
         let d = d.max(fx * -GREATEST_LOSS);
         let rise = self.closing[0] + self.rise * d;
         let longer = self.closing[1] + self.length_slope * d;
-        cable.force = [going.select(fx + d, fx), going.select(fz + rise, fz)];
-        cable.length = going.select(cable.length + longer, cable.length);
+        replace(&mut cable.force, &[fx + d, fz + rise], going);
+        cable.length.replace(cable.length + longer, going);
         let force = (d.abs() + rise.abs()) * (1.0 / tension);
         force.max(longer.abs() * (1.0 / size))
     }

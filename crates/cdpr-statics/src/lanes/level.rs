@@ -24,7 +24,7 @@ impl<S: Simd> LevelFrame<S> {
         let magnitude = dot(gravity, gravity).sqrt();
         let directed = zero.all(f64::MIN_POSITIVE).less_or_equal(magnitude)
             & magnitude.less_or_equal(zero.all(f64::MAX));
-        let [x, y, z] = three(|k| -gravity[k] / magnitude);
+        let [x, y, z] = three!(|k| -gravity[k] / magnitude);
         let square = x * x + y * y;
         let horizontal = square.sqrt();
         let vertical = horizontal.less_or_equal(zero);
@@ -39,7 +39,7 @@ impl<S: Simd> LevelFrame<S> {
     /// Coordinates in the level frame of a vector with coordinates `v` in the base frame.
     #[inline(always)]
     pub(crate) fn to_level(&self, v: &Lanes3<S>) -> Lanes3<S> {
-        three(|i| dot(&self.rows[i], v))
+        three!(|i| dot(&self.rows[i], v))
     }
 
     /// The same of a wrench or a twist.
@@ -53,6 +53,6 @@ impl<S: Simd> LevelFrame<S> {
     /// Coordinates in the base frame of a vector with coordinates `v` in the level frame.
     #[inline(always)]
     pub(crate) fn to_base(&self, v: &Lanes3<S>) -> Lanes3<S> {
-        three(|k| self.rows[0][k] * v[0] + self.rows[1][k] * v[1] + self.rows[2][k] * v[2])
+        three!(|k| self.rows[0][k] * v[0] + self.rows[1][k] * v[1] + self.rows[2][k] * v[2])
     }
 }

@@ -78,7 +78,7 @@ impl<S: Simd> WithSimd for BelowPulley<'_, '_, S> {
         for _ in 0..MAX_ITERATIONS {
             let Some(guided) = &cable.guided else { break };
             let [_, rise] = guided.leave_point(cable).position;
-            found = going.select(at_platform(cable, greatest, span.end[1] - rise), found);
+            found.replace(at_platform(cable, greatest, span.end[1] - rise), going);
             let held = HeldCable::leaving(guided, cable, span);
             let moved = held.change(cable, held.way_to(found), going, compared);
             going = going & !moved.less_or_equal(moved.all(LAST_CHANGE));

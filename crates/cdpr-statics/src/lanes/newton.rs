@@ -7,7 +7,7 @@
 use crate::direct::MAX_STRAIN;
 use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable};
-use crate::lanes::algebra::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, six, three};
+use crate::lanes::algebra::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, replace, six, three};
 use crate::lanes::cable::{FreeLength, LaneCable};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_cable::kernel::{FOLDED, Field, LaneEnd};
@@ -190,7 +190,7 @@ impl<S: Simd> Robots<'_, S> {
                     self.counted(i, linearized.predicted[0]),
                     self.counted(i, linearized.predicted[1]),
                 ],
-                stiffness: three(|j| self.counted(i, linearized.stiffness[j])),
+                stiffness: three!(|j| self.counted(i, linearized.stiffness[j])),
                 lateral_stiffness: self.counted(i, linearized.lateral_stiffness),
             };
             // -F_i
@@ -213,7 +213,7 @@ impl<S: Simd> Robots<'_, S> {
         hessian[3][5] += load.weight * cx * 0.5;
         hessian[4][5] += load.weight * cy * 0.5;
         let wrench = load.wrench(&self.center);
-        platform.gradient = six(|k| going.select(gradient[k] - wrench[k], platform.gradient[k]));
+        replace(&mut platform.gradient, &six!(|k| gradient[k] - wrench[k]), going);
         platform.factored.replace(&SymmetricFactors::new(hessian), going);
     }
 
@@ -300,8 +300,8 @@ impl<S: Simd> Robots<'_, S> {
             failed = failed.max((!sound).select(zero.all(1.0), zero));
         }
         residual.closure = self.largest(residual.closure);
-        residual.wrench = six(|k| self.total(residual.wrench[k]) - wrench[k]);
-        platform.gradient = six(|k| near.select(self.total(gradient[k]) - wrench[k], platform.gradient[k]));
+        residual.wrench = six!(|k| self.total(residual.wrench[k]) - wrench[k]);
+        replace(&mut platform.gradient, &six!(|k| self.total(gradient[k]) - wrench[k]), near);
         tensions = self.total(tensions) + load.weight;
         let (force, moment) = halves(&residual.wrench);
         let unbalanced =
@@ -330,7 +330,7 @@ impl<S: Simd> Robots<'_, S> {
         let (mut going, mut found) = (alive, alive & !alive);
         let mut residual = LaneResidual { closure: small_step, wrench: platform.gradient };
         for _ in 0..MAX_ITERATIONS {
-            let gradient = six(|k| -platform.gradient[k]);
+            let gradient = six!(|k| -platform.gradient[k]);
             let step = platform.factored.solve(&gradient);
             let (translation, rotation) = halves(&step);
             let turned = dot(&rotation, &rotation);
@@ -379,20 +379,21 @@ impl<S: Simd> Robots<'_, S> {
                 + 0.5;
         for (i, (cable, linearized)) in self.cables.iter_mut().zip(&platform.cables).enumerate() {
             let (swung, arm) = rotate(&cable.anchor_arm, rotation, a, b);
-            let r = three(|k| translation[k] + swung[k]);
+            let r = three!(|k| translation[k] + swung[k]);
             let force = linearized.force_after(r);
             if cable.guided.is_some() {
                 let length = cable.length + platform.free[i].change(&cable.force, &force);
-                cable.length = going.select(length, cable.length);
+                cable.length.replace(length, going);
             }
-            cable.force = [going.select(force[0], cable.force[0]), going.select(force[1], cable.force[1])];
-            cable.anchor_arm = three(|k| going.select(arm[k], cable.anchor_arm[k]));
+            replace(&mut cable.force, &force, going);
+            replace(&mut cable.anchor_arm, &arm, going);
         }
         for vector in self.frame.iter_mut().chain([&mut self.center]) {
             let (_, turned) = rotate(vector, rotation, a, b);
-            *vector = three(|k| going.select(turned[k], vector[k]));
+            replace(vector, &turned, going);
         }
-        self.position = three(|k| going.select(self.position[k] + translation[k], self.position[k]));
+        let position = three!(|k| self.position[k] + translation[k]);
+        replace(&mut self.position, &position, going);
     }
 }
 
@@ -401,7 +402,7 @@ impl<S: Simd> Robots<'_, S> {
 fn rotate<S: Simd>(v: &Lanes3<S>, rotation: &Lanes3<S>, a: Lanes<S>, b: Lanes<S>) -> (Lanes3<S>, Lanes3<S>) {
     let once = cross(rotation, v);
     let twice = cross(rotation, &once);
-    (once, three(|k| v[k] + a * once[k] + b * twice[k]))
+    (once, three!(|k| v[k] + a * once[k] + b * twice[k]))
 }
 
 /// Adds a cable with the stiffness K3 and the force -F_i = `f` at the arm s to the upper triangle of the
@@ -431,7 +432,7 @@ fn add_stiffness<S: Simd>(hessian: &mut Lanes6x6<S>, s: &Lanes3<S>, f: &Lanes3<S
     hessian[3][3] -= y + z;
     hessian[4][4] -= x + z;
     hessian[5][5] -= x + y;
-    let half = three(|j| s[j] * 0.5);
+    let half = three!(|j| s[j] * 0.5);
     hessian[3][4] += half[0] * f[1] + half[1] * f[0];
     hessian[3][5] += half[0] * f[2] + half[2] * f[0];
     hessian[4][5] += half[1] * f[2] + half[2] * f[1];

@@ -67,7 +67,7 @@ pub struct Observer<'a> {
     robot: &'a Robot,
     pose: Pose,
     load: Load,
-    parameters: usize,
+    layout: ParameterLayout,
     /// The inverse model of the nominal robot; `None` where it has no answer.
     branch: Option<Branch>,
     /// What the lanes start from, or why they would find nothing.
@@ -91,10 +91,10 @@ impl<'a> Observer<'a> {
     pub fn new(robot: &'a Robot, pose: &Pose, load: &Load) -> Result<Self, StaticsError> {
         robot.validate()?;
         load.validate()?;
-        let parameters = ParameterLayout::of(robot).count();
         let (solution, branch) = Branch::of(robot, pose).ok().unzip();
         let nominal = Nominal::new(robot, pose, load, solution);
-        Ok(Self { robot, pose: *pose, load: *load, parameters, branch, nominal })
+        let layout = ParameterLayout::of(robot);
+        Ok(Self { robot, pose: *pose, load: *load, layout, branch, nominal })
     }
 
     /// Deflection of the robot with `deviations` added to its parameters, in the order of [`Parameter::of`].
@@ -120,10 +120,10 @@ impl<'a> Observer<'a> {
     /// least of all, as [`deflection`] does (docs/VALIDATION.md). [`Observation::scalar`] says which
     /// ones were left to the scalar models, and why. An incomplete last row is a failure.
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Observation, StaticsError>> {
-        let rows = deviations.chunks_exact(self.parameters);
+        let rows = deviations.chunks_exact(self.layout.count());
         let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
-        let in_lanes =
-            dispatch(Batch { observer: self, deviations: &deviations[..rows.len() * self.parameters] });
+        let whole = &deviations[..deviations.len() - rows.remainder().len()];
+        let in_lanes = dispatch(Batch { observer: self, deviations: whole });
         let alone = |row: &[f64], why| Ok(Observation { scalar: Some(why), ..self.observe(row)? });
         let outcomes =
             in_lanes.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)));
@@ -199,7 +199,8 @@ impl WithSimd for Batch<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Observer { robot, pose, load, parameters, nominal, .. } = self.observer;
+        let Observer { robot, pose, load, layout, nominal, .. } = self.observer;
+        let parameters = layout.count();
         let rows = self.deviations.len() / parameters;
         let nominal = match nominal {
             Ok(nominal) => nominal,
@@ -208,7 +209,7 @@ impl WithSimd for Batch<'_> {
         let mut found = Vec::with_capacity(rows);
         for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
-            let rows = Rows { simd, rows, parameters: *parameters };
+            let rows = Rows::new(simd, rows, layout);
             let (start, level, valid) = rows.robots(robot, pose, load, nominal);
             let outcome = observe(start, &nominal.shared, &mut ());
             found.extend(read(&outcome, level.as_ref(), valid).into_iter().take(count));
@@ -225,7 +226,7 @@ fn read<S: Simd>(
     [sound, upright]: [Mask<S>; 2],
 ) -> [Result<Observation, ScalarReason>; MAX_LANES] {
     let [converged, unfolded, held, standing, answered] = outcome.passed;
-    let passed = [
+    let links = [
         (sound, ScalarReason::InvalidRobot),
         (upright, ScalarReason::Pulleys),
         (converged, ScalarReason::Tensions),
@@ -234,14 +235,18 @@ fn read<S: Simd>(
         (standing, ScalarReason::Unloaded),
         (answered, ScalarReason::Loaded),
     ];
-    let passed = passed.map(|(lanes, why)| (lanes.to_array(), why));
+    let mut first = outcome.displacement[0].all(links.len() as f64);
+    for (i, (passed, _)) in links.iter().enumerate().rev() {
+        first = passed.select(first, first.all(i as f64));
+    }
+    let first_failed = first.to_array();
     let displacement = match level {
         None => outcome.displacement,
         Some(level) => level.to_base(&outcome.displacement),
     };
-    let displacement = displacement.map(Lanes::to_array);
+    let displacement = three!(|k| displacement[k].to_array());
     let (unloaded, loaded) = (norms(&outcome.unloaded), norms(&outcome.loaded));
-    from_fn(|lane| match passed.iter().find(|(lanes, _)| !lanes[lane]) {
+    from_fn(|lane| match links.get(first_failed[lane] as usize) {
         Some((_, why)) => Err(*why),
         None => Ok(Observation {
             displacement: Vector3::from_fn(|k, _| displacement[k][lane]),
@@ -255,11 +260,21 @@ fn read<S: Simd>(
 /// Rows of deviations, one for each lane; lanes without a row of their own repeat the last one.
 struct Rows<'a, S> {
     simd: S,
-    rows: &'a [f64],
-    parameters: usize,
+    rows: [&'a [f64]; MAX_LANES],
+    layout: &'a ParameterLayout,
 }
 
-impl<S: Simd> Rows<'_, S> {
+impl<'a, S: Simd> Rows<'a, S> {
+    #[inline(always)]
+    fn new(simd: S, rows: &'a [f64], layout: &'a ParameterLayout) -> Self {
+        let (parameters, mut each) = (layout.count(), [rows; MAX_LANES]);
+        let last = rows.len() - parameters;
+        for (lane, row) in each.iter_mut().enumerate() {
+            *row = &rows[last.min(lane * parameters)..];
+        }
+        Self { simd, rows: each, layout }
+    }
+
     #[inline(always)]
     fn all(&self, value: f64) -> Lanes<S> {
         Lanes::splat(self.simd, value)
@@ -268,10 +283,9 @@ impl<S: Simd> Rows<'_, S> {
     /// One parameter, in the order of [`Parameter::of`]: its nominal value and deviations.
     #[inline(always)]
     fn parameter(&self, index: usize, nominal: f64) -> Lanes<S> {
-        let last = self.rows.len() - self.parameters;
         let mut values = [0.0; MAX_LANES];
-        for (lane, value) in values.iter_mut().enumerate() {
-            *value = self.rows[last.min(lane * self.parameters) + index];
+        for (value, row) in values[..Lanes::<S>::COUNT].iter_mut().zip(&self.rows) {
+            *value = row[index];
         }
         Lanes::from_array(self.simd, &values) + nominal
     }
@@ -288,15 +302,15 @@ impl<S: Simd> Rows<'_, S> {
     /// The perturbed robots in their level frames, these frames where they are not the base frame, and the
     /// lanes whose robot is valid, and whose pulleys have vertical axes.
     #[inline(always)]
-    fn robots<'a>(
+    fn robots<'n>(
         &self,
         robot: &Robot,
         pose: &Pose,
         load: &Load,
-        nominal: &'a Nominal,
-    ) -> (ChainStart<'a, S>, Option<LevelFrame<S>>, [Mask<S>; 2]) {
+        nominal: &'n Nominal,
+    ) -> (ChainStart<'n, S>, Option<LevelFrame<S>>, [Mask<S>; 2]) {
         let n = robot.cables.len();
-        let layout = ParameterLayout::of(robot);
+        let layout = self.layout;
         let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
         let mass = self.parameter(layout.mass(), robot.platform.mass);
         let mut sound = tiny.less_or_equal(mass);
@@ -312,17 +326,17 @@ impl<S: Simd> Rows<'_, S> {
         let mut start = ChainStart {
             robots: Robots {
                 layout: Layout::Robots,
-                cables: SmallVec::new(),
-                position: three(|k| self.all(pose.position[k])),
+                cables: SmallVec::with_capacity(n),
+                position: three!(|k| self.all(pose.position[k])),
                 center: rotate(pose, &self.point(layout.center_of_mass(), &robot.platform.center_of_mass)),
                 frame: SmallVec::new(),
                 weight: mass * gravity,
             },
             offsets: Vec::with_capacity(n),
-            multipliers: six(|k| self.all(nominal.multipliers[k])),
+            multipliers: six!(|k| self.all(nominal.multipliers[k])),
             payload: PlatformLoad {
                 weight: gravity * load.payload,
-                force: three(|k| self.all(load.wrench.force[k])),
+                force: three!(|k| self.all(load.wrench.force[k])),
             },
         };
         for (i, cable) in robot.cables.iter().enumerate() {
@@ -349,7 +363,7 @@ impl<S: Simd> Rows<'_, S> {
         let mut upright = zero.less_or_equal(zero);
         for (i, cable) in robot.cables.iter().enumerate() {
             if cable.pulley.is_some() || cable.lead != 0.0 {
-                let (guide, valid, vertical) = self.guide(&layout, i, cable, level.as_ref());
+                let (guide, valid, vertical) = self.guide(i, cable, level.as_ref());
                 start.robots.cables[i].guided = Some(Box::new(Guided { guide, whole_length: zero }));
                 (sound, upright) = (sound & valid, upright & vertical);
             }
@@ -362,8 +376,8 @@ impl<S: Simd> Rows<'_, S> {
 
     /// A parameter that not every robot has.
     #[inline(always)]
-    fn further(&self, layout: &ParameterLayout, parameter: Parameter, nominal: f64) -> Lanes<S> {
-        match layout.index(parameter) {
+    fn further(&self, parameter: Parameter, nominal: f64) -> Lanes<S> {
+        match self.layout.index(parameter) {
             Some(index) => self.parameter(index, nominal),
             None => self.all(nominal),
         }
@@ -373,18 +387,17 @@ impl<S: Simd> Rows<'_, S> {
     #[inline(always)]
     fn guide(
         &self,
-        layout: &ParameterLayout,
         i: usize,
         cable: &RobotCable,
         level: Option<&LevelFrame<S>>,
     ) -> (LaneGuide<Lanes<S>>, Mask<S>, Mask<S>) {
         let zero = self.all(0.0);
-        let lead = self.further(layout, Parameter::Lead(i), cable.lead);
+        let lead = self.further(Parameter::Lead(i), cable.lead);
         let mut guide = LaneGuide { lead, radius: zero, signed_radius: zero };
         let mut vertical = zero.less_or_equal(zero);
         if let Some(Pulley { radius, axis }) = cable.pulley {
-            let radius = self.further(layout, Parameter::PulleyRadius(i), radius);
-            let axis = three(|k| self.all(axis[k]));
+            let radius = self.further(Parameter::PulleyRadius(i), radius);
+            let axis = three!(|k| self.all(axis[k]));
             let [x, y, z] = match level {
                 None => axis,
                 Some(level) => level.to_level(&axis),
@@ -392,7 +405,7 @@ impl<S: Simd> Rows<'_, S> {
             let tolerance = z * Pulley::VERTICAL;
             vertical = (x * x + y * y).less_or_equal(tolerance * tolerance);
             for about in TiltAxis::ALL {
-                let tilt = self.further(layout, Parameter::Tilt(i, about), 0.0);
+                let tilt = self.further(Parameter::Tilt(i, about), 0.0);
                 vertical = vertical & tilt.less_or_equal(zero) & zero.less_or_equal(tilt);
             }
             vertical = vertical | radius.less_or_equal(zero);
@@ -423,7 +436,7 @@ impl<S: Simd> ChainStart<'_, S> {
 #[inline(always)]
 fn rotate<S: Simd>(pose: &Pose, v: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
     let r = pose.rotation.matrix();
-    three(|k| v[0] * r[(k, 0)] + v[1] * r[(k, 1)] + v[2] * r[(k, 2)])
+    three!(|k| v[0] * r[(k, 0)] + v[1] * r[(k, 1)] + v[2] * r[(k, 2)])
 }
 
 #[inline(always)]

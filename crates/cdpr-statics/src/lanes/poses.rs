@@ -260,13 +260,13 @@ impl<'a, S: Simd> InLanes<'a, S> {
         let gravity = robot.gravity.magnitude();
         let whole = PlatformLoad {
             weight: self.all((robot.platform.mass + load.payload) * gravity),
-            force: three(|k| self.all(load.wrench.force[k])),
+            force: three!(|k| self.all(load.wrench.force[k])),
         };
         let mut external = whole.wrench(&robots.center);
         for k in 0..3 {
             external[3 + k] += self.all(load.wrench.moment[k]);
         }
-        let mut multipliers = six(|k| self.each(&|asked| asked.near.multipliers[k]));
+        let mut multipliers = six!(|k| self.each(&|asked| asked.near.multipliers[k]));
         let mut set_points = vec![zero; spans.len()];
         let (converged, sound) =
             distribute(&mut robots, &external, &mut multipliers, &mut set_points, &spans, shared, &mut ());
@@ -290,7 +290,7 @@ impl<'a, S: Simd> InLanes<'a, S> {
 
     #[inline(always)]
     fn vector(&self, value: &dyn Fn(&Asked) -> Vector3<f64>) -> Lanes3<S> {
-        three(|k| self.each(&|asked| value(asked)[k]))
+        three!(|k| self.each(&|asked| value(asked)[k]))
     }
 
     /// The robot at the poses, its cables as they were at the poses before, between their new ends.
@@ -312,7 +312,7 @@ impl<'a, S: Simd> InLanes<'a, S> {
                 law: &laws[i],
                 weight_per_length: self.all(cable.properties.linear_density * gravity),
                 axial_flexibility: self.all(cable.properties.axial_stiffness()).recip(),
-                exit_point: three(|k| self.all(cable.exit_point[k])),
+                exit_point: three!(|k| self.all(cable.exit_point[k])),
                 anchor_arm: self.vector(&|asked| robot.anchor_arm(asked.pose, i)),
                 length: self.all(0.0),
                 force: [self.all(0.0); 2],

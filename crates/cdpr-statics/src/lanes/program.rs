@@ -87,6 +87,8 @@ impl<S: Simd> Row<S> {
 }
 
 /// Newton's step of the multipliers, in which the cables that are at no side change, and G before it.
+// Indices as in the formula; iterators that skip would keep the matrix in memory.
+#[allow(clippy::needless_range_loop)]
 #[inline(always)]
 pub(crate) fn newton<S: Simd>(rows: &[Row<S>], balance: &Lanes6<S>) -> (Lanes6<S>, Lanes6<S>) {
     let zero = balance[0].all(0.0);
@@ -98,8 +100,8 @@ pub(crate) fn newton<S: Simd>(rows: &[Row<S>], balance: &Lanes6<S>) -> (Lanes6<S
         for k in 0..6 {
             let c = row.slope[k] * free_inv;
             right[k] += row.slope[k] * d;
-            for (entry, slope) in matrix[k].iter_mut().zip(&row.slope).skip(k) {
-                *entry += c * *slope;
+            for column in k..6 {
+                matrix[k][column] += c * row.slope[column];
             }
         }
     }
@@ -137,7 +139,7 @@ pub(crate) fn within_limits<S: Simd>(
         }
         let share = search(rows, &step, balance, -dot(&before, &step), same);
         let moving = going.select(share, zero);
-        raised = six(|k| raised[k] + step[k] * moving);
+        raised = six!(|k| raised[k] + step[k] * moving);
         for row in rows.iter_mut() {
             row.wanted -= row.change * moving;
             let [low, high] = row.beyond(row.wanted);

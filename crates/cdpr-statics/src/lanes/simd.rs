@@ -68,13 +68,13 @@ impl<S: Simd> Lanes<S> {
         Self::splat(self.simd, value)
     }
 
-    /// The value of each lane; zeros beyond the last one.
     /// Carries out `task` with this vector unit in a function of its own.
     #[inline(always)]
     pub(crate) fn apart<T: WithSimd>(self, task: T) -> T::Output {
         self.simd.vectorize(task)
     }
 
+    /// The value of each lane; zeros beyond the last one.
     #[inline(always)]
     pub(crate) fn to_array(self) -> [f64; MAX_LANES] {
         let mut values = [0.0; MAX_LANES];
@@ -98,6 +98,12 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(crate) fn max(self, other: Self) -> Self {
         other.less_or_equal(self).select(self, other)
+    }
+
+    /// Takes over another number in the lanes that are `going`.
+    #[inline(always)]
+    pub(crate) fn replace(&mut self, other: Self, going: Mask<S>) {
+        *self = going.select(other, *self);
     }
 
     /// False where one of them is NaN.
@@ -176,7 +182,8 @@ impl<S: Simd> Neg for Lanes<S> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { values: self.simd.neg_f64s(self.values), ..self }
+        // pulp's own is a function call.
+        self.all(-0.0) - self
     }
 }
 

@@ -280,5 +280,5 @@ pub(super) fn torque<S: Simd>(
     by_span: &Lanes3<S>,
 ) -> Lanes3<S> {
     let (turned, opposite) = (cross(force, by_force), cross(r, by_span));
-    three(|k| turned[k] - opposite[k])
+    three!(|k| turned[k] - opposite[k])
 }

@@ -11,7 +11,7 @@ use crate::lanes::level::LevelFrame;
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use cdpr_cable::kernel::Field;
-use cdpr_robot::{Axis, Parameter, ParameterLayout, Robot};
+use cdpr_robot::{Axis, Parameter, Robot};
 
 /// The deflection of one perturbed robot, with the derivatives of its length.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,9 +30,9 @@ impl Observer<'_> {
     /// longest cable (docs/VALIDATION.md). Robots in which left and right derivatives may differ are left to
     /// the scalar models, and so are those with pulleys or leads.
     pub fn observe_all_slopes(&self, deviations: &[f64]) -> Vec<Result<ObservationSlopes, StaticsError>> {
-        let rows = deviations.chunks_exact(self.parameters);
+        let rows = deviations.chunks_exact(self.layout.count());
         let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
-        let whole = &deviations[..rows.len() * self.parameters];
+        let whole = &deviations[..deviations.len() - rows.remainder().len()];
         let in_lanes = dispatch(SlopesBatch(Batch { observer: self, deviations: whole }));
         let alone = |row: &[f64], why| {
             let found = self.observe_slopes(row)?;
@@ -56,7 +56,7 @@ impl Observer<'_> {
             Some(branch) => derivatives_near(branch, robot, &self.pose, offsets, &self.load)?,
             None => derivatives(robot, &self.pose, offsets, &self.load)?,
         };
-        let rms = found.rms()?.into_iter().take(self.parameters).collect();
+        let rms = found.rms()?.into_iter().take(self.layout.count()).collect();
         let Derivatives { deflection, .. } = found;
         Ok(ObservationSlopes { observation: Observation::one_by_one(&deflection), rms })
     }
@@ -70,7 +70,8 @@ impl WithSimd for SlopesBatch<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Batch { observer: Observer { robot, pose, load, parameters, nominal, .. }, deviations } = self.0;
+        let Batch { observer: Observer { robot, pose, load, layout, nominal, .. }, deviations } = self.0;
+        let parameters = layout.count();
         let nominal = match nominal {
             Ok(nominal) => nominal,
             Err(why) => return vec![Err(*why); deviations.len() / parameters],
@@ -79,14 +80,14 @@ impl WithSimd for SlopesBatch<'_> {
             return vec![Err(ScalarReason::Derivatives); deviations.len() / parameters];
         }
         let mut found = Vec::with_capacity(deviations.len() / parameters);
-        let mut slopes = vec![[0.0; MAX_LANES]; *parameters];
+        let mut slopes = vec![[0.0; MAX_LANES]; parameters];
         for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
-            let rows = Rows { simd, rows, parameters: *parameters };
+            let rows = Rows::new(simd, rows, layout);
             let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
             let rotation = pose.rotation.matrix();
             for k in 0..3 {
-                let column = three(|row| rows.all(rotation[(row, k)]));
+                let column = three!(|row| rows.all(rotation[(row, k)]));
                 start.robots.frame.push(match &level {
                     None => column,
                     Some(level) => level.to_level(&column),
@@ -127,7 +128,7 @@ impl<S: Simd> Rows<'_, S> {
         level: Option<&LevelFrame<S>>,
         slopes: &mut [[f64; MAX_LANES]],
     ) {
-        let layout = ParameterLayout::of(robot);
+        let layout = self.layout;
         let directed = layout.index(Parameter::Gravity(Axis::X));
         let gravity = match directed {
             None => self.all(robot.gravity.magnitude()),
@@ -161,7 +162,7 @@ impl<S: Simd> Rows<'_, S> {
             // -(τ x u)/g by the direction u, and -u by the magnitude.
             let [x, y, _] = adjoint.turn;
             let turned = [-y, x, -(hanging * gravity)];
-            let whole = three(|k| (turned[k] + adjoint.heavier[k]) / gravity);
+            let whole = three!(|k| (turned[k] + adjoint.heavier[k]) / gravity);
             point(first, &level.to_base(&whole));
         }
         for (i, of) in adjoint.cables.iter().enumerate() {
