@@ -12,7 +12,7 @@ use cdpr_robot::{CableEnd, Pose, Robot, TensionLimits};
 ///
 /// # Errors
 /// [`StaticsError::ExitLimit`] where the greatest tension at an exit point leaves less than the least one at
-/// the platform; [`StaticsError::Cable`] where it leaves less than the weight of a cable on a pulley demands.
+/// the platform; [`StaticsError::Cable`] where the weight of a cable on a pulley demands more than either.
 pub fn limits_at(robot: &Robot, pose: &Pose) -> Result<Vec<TensionLimits>, StaticsError> {
     let at_platform = |i: usize| {
         let limits = robot.limits(i);
@@ -37,10 +37,8 @@ fn below_exit(
     let mut max = allowed(height);
     if ends.cable.guide.is_some_and(|guide| guide.radius > 0.0) {
         for _ in 0..MAX_ITERATIONS {
-            if max < min {
-                break;
-            }
-            height = ends.end.z - ends.leave_height(max).map_err(StaticsError::cable(index))?;
+            // A limit below the least tension is no tension that the cable has.
+            height = ends.end.z - ends.leave_height(max.max(min)).map_err(StaticsError::cable(index))?;
             let before = std::mem::replace(&mut max, allowed(height));
             if (max - before).abs() <= 1e-14 * max {
                 break;
