@@ -69,7 +69,7 @@ pub use error::StudyError;
 pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema};
 pub use file::errors_file::{ERRORS_FORMAT, ErrorsFile, errors_schema};
 pub use file::grid::{GridAxis, GridSpec};
-pub use file::output::Output;
+pub use file::output::{Output, VectorOutput};
 pub use file::record::{open_record, read_record};
 pub use file::study_file::{
     AxisSpec, ComparisonSpec, CorrelationSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec,
