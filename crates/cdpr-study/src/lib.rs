@@ -82,7 +82,8 @@ pub use fs::input::read_text;
 pub use fs::manifest::ResultsOf;
 pub use fs::owned::{Access, ResultsFolder, write_text};
 pub use given::{
-    BadCell, GivenTable, TableAnalysis, TableRequest, analyse_table, open_table, write_analysis,
+    BadCell, GivenTable, TableAnalysis, TableRequest, VectorAnalysis, analyse_table, open_table,
+    write_analysis,
 };
 pub use indexmap::IndexMap;
 pub use kind::InputKind;
