@@ -29,6 +29,23 @@ fn a_table_with_failed_rows_says_which_inputs_matter_and_which_rows_failed() {
 }
 
 #[test]
+fn a_vector_of_columns_has_an_index_for_each_input() {
+    let table = data_path("tables/ishigami.csv");
+    let found = json_of(&["analyse", &table, "--input", "x1,x2,x3", "--vector", "y,x4"]);
+    assert_eq!(found["vector"]["columns"], json!(["y", "x4"]));
+    let index = |input: &str, of: &str, end: &str| found["vector"]["bures"][input][of][end].as_f64().unwrap();
+    // Half of the first-order indices 0.314 and 0.442, of 13.8 of the variance 13.8 + 3.3.
+    for (input, share) in [("x1", 0.314), ("x2", 0.442), ("x3", 0.0)] {
+        let exact = 0.5 * share * 13.8 / (13.8 + std::f64::consts::PI.powi(2) / 3.0);
+        assert!((index(input, "means", "value") - exact).abs() < 0.05, "{input}");
+        assert!(index(input, "index", "low") < index(input, "index", "high"));
+    }
+    assert!(index("x3", "index", "value") > 0.03, "x3 changes the spread of y");
+    let printed = answered(cdpr(&["analyse", &table, "--vector", "y"]));
+    assert!(printed.contains("(y): how much an input moves the law of this vector"), "{printed}");
+}
+
+#[test]
 fn the_same_table_gives_the_same_numbers_on_any_number_of_threads() {
     let table = data_path("tables/ishigami.csv");
     let on = |threads: &str| json_of(&["analyse", &table, "--threads", threads]);
@@ -76,6 +93,7 @@ fn wrong_columns_limits_and_tables_are_refused_with_what_would_be_right() {
     for (arguments, code, words) in [
         (vec!["--output", "z"], 1, "output is z: expected a column of numbers, one of x1, x2, x3, x4, y"),
         (vec!["--input", "x*", "--output", "x1"], 1, "input is x1: expected a column that is no output"),
+        (vec!["--vector", "z"], 1, "vector is z: expected a column of numbers"),
         (vec!["--limit", "y=3"], 2, "expected COLUMN<VALUE, with <, <=, > or >="),
         (vec!["--output", "status"], 1, "output is status"),
         (vec!["--level", "1.5"], 1, "level = 1.5: expected a number between 0 and 1"),

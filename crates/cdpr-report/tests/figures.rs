@@ -113,6 +113,7 @@ fn measured() -> SamplingSummary {
         methods: IndexMap::new(),
         sums: IndexMap::new(),
         agreement,
+        vector: cdpr_study::VectorOutput::Displacement,
         notes: Vec::new(),
     };
     SamplingSummary { sensitivity: Some(sensitivity), ..sampling() }

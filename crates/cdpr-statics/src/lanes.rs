@@ -17,7 +17,7 @@ mod reason;
 mod simd;
 mod tracker;
 
-pub use observer::{Observation, ObservationSlopes, Observer};
+pub use observer::{Observation, ObservationMotion, ObservationSlopes, Observer};
 pub use poses::inverse_all;
 pub use reason::ScalarReason;
 pub use tracker::Tracker;

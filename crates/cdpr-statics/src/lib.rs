@@ -70,7 +70,9 @@ pub use inverse::{
     greatest_payload, held_at, inverse, inverse_free, is_held, lengths_for_tensions, limits_at,
     tension_margin,
 };
-pub use lanes::{Observation, ObservationSlopes, Observer, ScalarReason, Tracker, inverse_all};
+pub use lanes::{
+    Observation, ObservationMotion, ObservationSlopes, Observer, ScalarReason, Tracker, inverse_all,
+};
 pub use loading::{
     CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes, PoseStiffness,
     Unloading, deflection, deflection_free, deflection_from, deflections, follow, load_cycle, modes_at,

@@ -8,7 +8,7 @@ mod open;
 mod parquet;
 mod write;
 
-pub use analyse::{TableAnalysis, TableRequest, analyse_table};
+pub use analyse::{TableAnalysis, TableRequest, VectorAnalysis, analyse_table};
 pub use columns::{BadCell, GivenTable};
 pub use open::open_table;
 pub use write::write_analysis;

@@ -69,7 +69,7 @@ pub use error::StudyError;
 pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema};
 pub use file::errors_file::{ERRORS_FORMAT, ErrorsFile, errors_schema};
 pub use file::grid::{GridAxis, GridSpec};
-pub use file::output::Output;
+pub use file::output::{Output, VectorOutput};
 pub use file::record::{open_record, read_record};
 pub use file::study_file::{
     AxisSpec, ComparisonSpec, CorrelationSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec,
@@ -82,7 +82,8 @@ pub use fs::input::read_text;
 pub use fs::manifest::ResultsOf;
 pub use fs::owned::{Access, ResultsFolder, write_text};
 pub use given::{
-    BadCell, GivenTable, TableAnalysis, TableRequest, analyse_table, open_table, write_analysis,
+    BadCell, GivenTable, TableAnalysis, TableRequest, VectorAnalysis, analyse_table, open_table,
+    write_analysis,
 };
 pub use indexmap::IndexMap;
 pub use kind::InputKind;

@@ -90,6 +90,7 @@ fn a_cause_has_measures_of_its_own_that_agree() {
         derivative_points: 40,
         shapley_walks: 0,
         bures_observations: 0,
+        vector: cdpr_study::VectorOutput::Displacement,
         gradient_expansion: false,
         expansion: Truncation { max_degree: 2, norm: 1.0, interactions: 2 },
     };

@@ -9,3 +9,4 @@ mod parquet;
 mod record;
 mod sensitivity;
 mod shared_folder;
+mod tables;

@@ -4,7 +4,7 @@ use cdpr_robot::Robot;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
     InputMeasures, MEASURES, SensitivitySpec, SensitivitySummary, Session, Study, StudyError, Truncation,
-    measure, observe, template, template_cost,
+    VectorOutput, measure, observe, template, template_cost,
 };
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -26,6 +26,7 @@ const SMALL: SensitivitySpec = SensitivitySpec {
     derivative_points: 64,
     shapley_walks: 0,
     bures_observations: 0,
+    vector: VectorOutput::Displacement,
     gradient_expansion: false,
     expansion: Truncation { max_degree: 2, norm: 0.75, interactions: 2 },
 };
@@ -213,6 +214,65 @@ fn what_a_study_asks_for_beside_agrees_with_sobol_indices() {
     let few = ("\"morris_blocks\": 128", "\"morris_blocks\": 128, \"bures_observations\": 10");
     let error = changed(&[few]).map(|_| ()).unwrap_err().to_string();
     assert!(error.contains("bures_observations") && error.contains("0, or at least 64"), "{error}");
+}
+
+#[test]
+fn indices_of_poses_count_rotations_by_their_length() {
+    let of = |length: f64| {
+        let mut study = changed(&[]).unwrap();
+        let vector = VectorOutput::Pose { characteristic_length: length };
+        let spec = SensitivitySpec { bures_observations: 1024, vector, ..SMALL };
+        study.file.sensitivity = Some(spec);
+        measured(&study, "geometrical_asymmetric", &spec)
+    };
+    let spec = SensitivitySpec { bures_observations: 1024, ..SMALL };
+    let plain = measured(&changed(&[]).unwrap(), "geometrical_asymmetric", &spec);
+    // A length of nothing leaves the displacement; the output itself is the same in any case.
+    let [short, long] = [1e-9, 1e3].map(of);
+    let near = |one: Option<f64>, other: Option<f64>| (one.unwrap() - other.unwrap()).abs() < 1e-6;
+    let mut moved = 0.0_f64;
+    for ((plain, short), long) in plain.inputs.iter().zip(&short.inputs).zip(&long.inputs) {
+        assert_eq!((plain.sobol_first, plain.sobol_total), (short.sobol_first, long.sobol_total));
+        assert!(near(plain.vector_first, short.vector_first) && near(plain.bures, short.bures), "{short:?}");
+        moved = moved.max((long.vector_total.unwrap() - plain.vector_total.unwrap()).abs());
+    }
+    assert!(moved > 0.1, "{moved}");
+    assert_eq!(short.vector, VectorOutput::Pose { characteristic_length: 1e-9 });
+
+    let of_vector = |vector: &str| {
+        let to = format!("\"morris_blocks\": 128, \"vector\": {vector}");
+        changed(&[("\"morris_blocks\": 128", &to)]).map(|study| study.file.sensitivity.unwrap().vector)
+    };
+    let pose = of_vector("{\"pose\": {\"characteristic_length\": 0.5}}").unwrap();
+    assert_eq!(pose, VectorOutput::Pose { characteristic_length: 0.5 });
+    assert_eq!(of_vector("\"displacement\"").unwrap(), VectorOutput::Displacement);
+    let error = of_vector("{\"pose\": {\"characteristic_length\": 0.0}}").unwrap_err().to_string();
+    assert!(error.contains("vector.pose.characteristic_length is 0: expected a length above 0"), "{error}");
+    let stiffness = ("\"payload\"", "\"output\": \"stiffness\", \"payload\"");
+    let to = "\"morris_blocks\": 128, \"vector\": {\"pose\": {\"characteristic_length\": 0.5}}";
+    let error = changed(&[stiffness, ("\"morris_blocks\": 128", to)]).map(|_| ()).unwrap_err().to_string();
+    assert!(error.contains("sensitivity.vector is pose: expected no pose, or"), "{error}");
+}
+
+#[test]
+fn errors_of_the_position_have_indices_of_the_pose() {
+    let mut study = changed(&[]).unwrap();
+    study.file.output = cdpr_study::Output::Position;
+    let mut of = |vector| {
+        let spec = SensitivitySpec { saltelli_blocks: 16, vector, ..SMALL };
+        study.file.sensitivity = Some(spec);
+        let found = measured(&study, "mechanical", &spec);
+        let total = |of: &InputMeasures| [of.vector_total.unwrap(), of.sobol_total.unwrap()];
+        found.inputs.iter().map(total).collect::<Vec<_>>()
+    };
+    let plain = of(VectorOutput::Displacement);
+    let [short, long] = [1e-9, 1e3].map(|length| of(VectorOutput::Pose { characteristic_length: length }));
+    let mut moved = 0.0_f64;
+    for ((plain, short), long) in plain.iter().zip(&short).zip(&long) {
+        assert!((plain[0] - short[0]).abs() < 1e-6 && plain[1] == short[1] && plain[1] == long[1]);
+        moved = moved.max((plain[0] - long[0]).abs());
+    }
+    assert!(moved > 0.01, "{moved}");
 }
 
 #[test]

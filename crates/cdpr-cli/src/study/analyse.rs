@@ -5,8 +5,8 @@ use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use cdpr_report::analysis_report;
 use cdpr_study::{
-    Analyser, Analysis, Dependence, InputAnalysis, OutputLimit, TableAnalysis, TableRequest, analyse_table,
-    open_table, write_analysis,
+    Analyser, Analysis, Dependence, Estimate, InputAnalysis, OutputLimit, TableAnalysis, TableRequest,
+    VectorAnalysis, analyse_table, open_table, write_analysis,
 };
 use std::path::PathBuf;
 
@@ -24,6 +24,10 @@ pub(crate) struct Settings {
     /// Columns of outputs [default: those with a limit, else the last column of numbers].
     #[arg(long = "output", visible_alias = "outputs", value_name = "COLUMN", value_delimiter = ',')]
     outputs: Vec<String>,
+    /// Columns that are the components of one vector, in a common unit: how much each input moves its law
+    /// (index of Wasserstein and Bures).
+    #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
+    vector: Vec<String>,
     /// What an output is to satisfy, such as `rms_mm<1.4`: `<`, `<=`, `>` or `>=`. The analysis then says
     /// which inputs make it fail.
     #[arg(long = "limit", value_name = "COLUMN<VALUE", value_parser = limit)]
@@ -83,6 +87,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         inputs: settings.inputs.clone(),
         outputs: settings.outputs.clone(),
         limits: settings.limits.clone(),
+        vector: settings.vector.clone(),
         analyser,
     };
     let found = patiently("analysing the table", || -> Result<_, ProgramError> {
@@ -132,6 +137,22 @@ fn print(found: &TableAnalysis) {
             println!("note: {note}");
         }
     }
+    if let Some(vector) = &found.vector {
+        print_vector(vector);
+    }
+}
+
+/// Inputs by their index, the greatest first.
+fn print_vector(vector: &VectorAnalysis) {
+    println!("\n({}): how much an input moves the law of this vector", vector.columns.join(", "));
+    let mut leading: Vec<_> = vector.bures.iter().collect();
+    leading.sort_by(|one, other| other.1.index.value.total_cmp(&one.1.index.value));
+    let mut rows = table(&["input", "Wasserstein-Bures", "of which by the means"]);
+    let cell = |of: &Estimate| format!("{:.3} \u{b1} {:.3}", of.value, 0.5 * of.width());
+    for (input, of) in leading.into_iter().take(MOST) {
+        rows.add_row([input.clone(), cell(&of.index), cell(&of.means)]);
+    }
+    println!("{rows}");
 }
 
 fn print_summary(name: &str, analysis: &Analysis) {

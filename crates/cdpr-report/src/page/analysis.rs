@@ -6,7 +6,8 @@ use crate::page::analysis::drawings::{cobweb, scatter};
 use crate::page::elements::{cell, numeric, plain_page, table};
 use crate::text;
 use cdpr_robot::shown;
-use cdpr_study::{Analysis, Dependence, GivenTable, InputAnalysis, TableAnalysis};
+use cdpr_sensitivity::WassersteinBures;
+use cdpr_study::{Analysis, Dependence, GivenTable, InputAnalysis, TableAnalysis, VectorAnalysis};
 use maud::{Markup, html};
 
 /// Inputs with a scatter plot, and axes of a cobweb, at most.
@@ -54,6 +55,12 @@ pub fn analysis_report(table: &GivenTable, found: &TableAnalysis) -> String {
                 }
             }
         }
+        @if let Some(vector) = &found.vector {
+            section id="vector" {
+                h2 { "Vector (" (vector.columns.join(", ")) ")" }
+                (of_vector(vector))
+            }
+        }
     };
     plain_page(&title, env!("CARGO_PKG_VERSION"), &body)
 }
@@ -89,6 +96,20 @@ fn summary(name: &str, analysis: &Analysis) -> Markup {
             }
         }
     }
+}
+
+fn of_vector(vector: &VectorAnalysis) -> Markup {
+    let row = |(input, of): (&String, &WassersteinBures)| -> Vec<Markup> {
+        let numbers = [of.index.value, of.index.low, of.index.high, of.means.value];
+        [cell(input)].into_iter().chain(numbers.map(|value| numeric(value, 3))).collect()
+    };
+    let rows: Vec<_> = vector.bures.iter().map(row).collect();
+    let head = ["input", "Wasserstein-Bures", "from", "to", "of which by the means"];
+    table(
+        "How much each input moves the law of the vector (0: not at all, 1: it alone decides it)",
+        &head,
+        &rows,
+    )
 }
 
 fn measures(analysis: &Analysis) -> Markup {

@@ -220,10 +220,17 @@ pub(crate) fn measures(results: &Results, figures: &[Figure]) -> Option<Section>
     (!with.is_empty()).then(|| Section::new("measures", "Measures of sensitivity", body))
 }
 
-/// Table of the leading parameters with a column for each measure that ranks them.
+/// Measures of the study's vector that stand beside those that rank.
+const OF_VECTOR: [&str; 2] = ["vector_total", "bures"];
+
+/// Table of the leading parameters with a column for each measure that ranks them, and those of the vector.
 fn side_by_side(found: &SensitivitySummary, output: Output) -> Markup {
     let measured = |measure: &&Measure| found.inputs.iter().any(|input| (measure.value)(input).is_some());
-    let measures: Vec<&Measure> = MEASURES.iter().filter(|measure| measure.ranks).filter(measured).collect();
+    let measures: Vec<&Measure> = MEASURES
+        .iter()
+        .filter(|measure| measure.ranks || OF_VECTOR.contains(&measure.name))
+        .filter(measured)
+        .collect();
     let label = |measure: &&Measure| match measure.quantity {
         Quantity::Change => format!("{} [{}]", measure.label, output.unit()),
         _ => measure.label.to_owned(),
@@ -241,10 +248,17 @@ fn side_by_side(found: &SensitivitySummary, output: Output) -> Markup {
     };
     let rows: Vec<_> = found.leading().into_iter().take(LEADING).map(row).collect();
     let agreed: Vec<&str> = found.agreement.inputs.iter().map(|name| parameters::symbol(name)).collect();
-    let caption =
-        "The leading parameters by each measure. Numbers without a unit are shares of the variance.";
+    let of_vector = match measures.iter().any(|measure| OF_VECTOR.contains(&measure.name)) {
+        true => {
+            format!(" Vector total and Wasserstein-Bures, which is no share, are of the {}.", found.vector)
+        }
+        false => String::new(),
+    };
+    let caption = format!(
+        "The leading parameters by each measure. Numbers without a unit are shares of the variance.{of_vector}"
+    );
     html! {
-        (table(caption, &head, &rows))
+        (table(&caption, &head, &rows))
         @if !agreed.is_empty() {
             p { "All measures put " (agreed.join(", ")) " among their " (found.agreement.first) " largest." }
         }

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::functions::Function;
 use crate::indices::indices;
+use crate::tables::OfTables;
 
 /// Blocks and walks behind the values that no formula gives.
 const BLOCKS: usize = 1 << 18;
@@ -31,6 +32,9 @@ pub(crate) struct Exact {
     /// Morris's μ* on four levels.
     pub(crate) morris: Vec<f64>,
     pub(crate) shapley: Vec<f64>,
+    /// Measures of tables.
+    #[serde(default)]
+    pub(crate) tables: OfTables,
 }
 
 impl Exact {
@@ -38,16 +42,18 @@ impl Exact {
     pub(crate) fn of(function: &Function) -> Result<Self, SensitivityError> {
         let mut known = known();
         let (point, output) = check(function);
-        if let Some(exact) = known.remove(function.name)
-            && (&exact.inputs, &exact.point, exact.output) == (&function.inputs, &point, output)
-        {
-            return Ok(exact);
-        }
-        let found = match additive(function) {
+        let same =
+            |exact: &Self| (&exact.inputs, &exact.point, exact.output) == (&function.inputs, &point, output);
+        let mut exact = match known.remove(function.name).filter(same) {
+            Some(exact) if exact.tables != OfTables::default() => return Ok(exact),
             Some(exact) => exact,
-            None => sampled(function)?,
+            None => match additive(function) {
+                Some(exact) => exact,
+                None => sampled(function)?,
+            },
         };
-        let exact = Self { point, output, inputs: function.inputs.clone(), ..found };
+        exact.tables = OfTables::of(function)?;
+        let exact = Self { point, output, inputs: function.inputs.clone(), ..exact };
         known.insert(function.name.to_owned(), exact.clone());
         keep(&known);
         Ok(exact)
@@ -91,6 +97,7 @@ fn additive(function: &Function) -> Option<Exact> {
         total: shares.clone(),
         shapley: shares,
         morris,
+        tables: OfTables::default(),
     })
 }
 
@@ -108,5 +115,6 @@ fn sampled(function: &Function) -> Result<Exact, SensitivityError> {
         total: found.inputs.iter().map(|of| of.total.value).collect(),
         morris: morris.iter().map(|of| of.mean_absolute.value).collect(),
         shapley: shapley.iter().map(|of| of.effect.value).collect(),
+        tables: OfTables::default(),
     })
 }

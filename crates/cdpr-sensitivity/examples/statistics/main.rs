@@ -15,13 +15,14 @@ mod gradients;
 mod indices;
 mod measures;
 mod reliability;
+mod tables;
 #[cfg(feature = "faer")]
 mod vectors;
 
 use cdpr_sensitivity::SensitivityError;
 
-/// Prints a table of this many studies. The text is a part of the names of functions, where the table takes
-/// one.
+/// Prints a table of this many studies. The text is a part of the names of functions, or of measures, where
+/// the table takes one.
 type Table = fn(u64, &str) -> Result<(), SensitivityError>;
 
 fn main() -> Result<(), SensitivityError> {

@@ -5,9 +5,9 @@ use std::fs;
 use std::time::Instant;
 
 use cdpr_sensitivity::{
-    Bracket, Estimate, GivenData, LatinHypercube, MorrisDesign, RandomDesign, SensitivityError,
-    ShapleyDesign, SobolDesign, Truncation, brackets, expansion, morris_effects, observe, rank_indices,
-    regression, shapley_effects,
+    Bootstrap, Bracket, Estimate, GivenData, LatinHypercube, MorrisDesign, RandomDesign, Rows,
+    SensitivityError, ShapleyDesign, SobolDesign, Truncation, brackets, delta, dependence, expansion,
+    morris_effects, observe, pawn, rank_indices, regression, shapley_effects,
 };
 use serde_json::{Value, json};
 
@@ -40,13 +40,21 @@ pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
     println!("| function | measure | runs | studies | error | held | ms |");
     println!("|---|---|---|---|---|---|---|");
     let mut rows = Vec::new();
-    for function in twelve().into_iter().filter(|function| function.name.contains(part)) {
+    // A part of the name of no function is that of measures.
+    let of_functions = twelve().iter().any(|function| function.name.contains(part));
+    let of_measures = if of_functions { "" } else { part };
+    for function in twelve().into_iter().filter(|of| !of_functions || of.name.contains(part)) {
         if function.name == "constant" {
-            constant(&function)?;
+            if of_functions {
+                constant(&function)?;
+            }
             continue;
         }
         let exact = Exact::of(&function)?;
-        for study in plan(&function, &exact) {
+        for study in plan(&function, &exact)
+            .into_iter()
+            .filter(|of| of.measures.iter().any(|(measure, _)| measure.contains(of_measures)))
+        {
             let studies = if study.is_dear { studies.div_ceil(10) } else { studies };
             rows.extend(carry_out(&function, &study, studies)?);
         }
@@ -82,11 +90,7 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
         measures: vec![("S by ranks", &exact.first)],
         has_interval: true,
         is_dear: false,
-        of_seed: Box::new(move |seed| {
-            let design = RandomDesign::new(inputs(), 256, seed)?;
-            let data = GivenData::of_design(&design, &observe(&design, function.model)?)?;
-            Ok(vec![rank_indices(&data, 0.95, seed)?])
-        }),
+        of_seed: Box::new(move |seed| Ok(vec![rank_indices(&random(function, seed)?, 0.95, seed)?])),
     });
     all.push(Study {
         runs: 256 * (k + 1),
@@ -135,6 +139,30 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
             Ok(vec![found.inputs.iter().map(|of| point(of.share)).collect()])
         }),
     });
+    all.push(Study {
+        runs: 256,
+        measures: vec![("delta", &exact.tables.delta)],
+        has_interval: true,
+        is_dear: true,
+        of_seed: Box::new(move |seed| {
+            let found = delta(&random(function, seed)?, Bootstrap { resamples: 30, seed }, 0.95)?;
+            Ok(vec![found.into_iter().map(|of| of.delta).collect()])
+        }),
+    });
+    all.push(Study {
+        runs: 256,
+        measures: vec![("PAWN", &exact.tables.pawn), ("HSIC R2", &exact.tables.r_squared)],
+        has_interval: false,
+        is_dear: many,
+        of_seed: Box::new(move |seed| {
+            let data = random(function, seed)?;
+            let dependent = dependence(&data, Rows { most: 256, seed })?;
+            Ok(vec![
+                pawn(&data, seed)?.iter().map(|of| point(of.median)).collect(),
+                dependent.iter().map(|of| point(of.r_squared)).collect(),
+            ])
+        }),
+    });
     if is_smooth(function) {
         all.push(Study {
             runs: 256,
@@ -154,6 +182,12 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
         });
     }
     all
+}
+
+/// A table of 256 independent rows.
+fn random(function: &Function, seed: u64) -> Result<GivenData, SensitivityError> {
+    let design = RandomDesign::new(function.inputs.clone(), 256, seed)?;
+    GivenData::of_design(&design, &observe(&design, function.model)?)
 }
 
 fn point(value: f64) -> Estimate {

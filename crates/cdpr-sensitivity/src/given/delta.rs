@@ -33,7 +33,10 @@ use crate::sample::summary::Spread;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Delta {
-    /// Corrected estimate (B2) with the interval over the resamples, which shows its scatter.
+    /// Corrected estimate (B2) with the interval over the resamples.
+    ///
+    /// The interval shows the scatter alone. What smoothing and the width of the parts take away is not in it:
+    /// with few hundred rows it is below the true δ of strong inputs (docs/STATISTICS.md).
     pub delta: Estimate,
     /// Corrected estimate that an input without an effect stays below in 95 of 100 tables.
     pub noise: f64,

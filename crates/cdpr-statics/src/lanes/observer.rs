@@ -9,6 +9,7 @@
 //! the one that it shares with the nominal robot, as long as it exists. [`deflection`] of the same robot may
 //! find another.
 
+mod motions;
 mod slopes;
 
 use crate::error::StaticsError;
@@ -28,6 +29,7 @@ use cdpr_cable::{Catenary, PiecewiseLaw};
 use cdpr_robot::{
     Axis, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector2, Vector3, Vector6,
 };
+pub use motions::ObservationMotion;
 pub use slopes::ObservationSlopes;
 use smallvec::SmallVec;
 use std::array::from_fn;
@@ -102,13 +104,7 @@ impl<'a> Observer<'a> {
     /// # Errors
     /// [`StaticsError`] says why this robot has no deflection.
     pub fn observe(&self, deviations: &[f64]) -> Result<Observation, StaticsError> {
-        let perturbed = self.robot.perturbed(deviations)?;
-        let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
-        let deflection = match &self.branch {
-            Some(branch) => deflection_near(branch, robot, &self.pose, offsets, &self.load)?,
-            None => deflection(robot, &self.pose, offsets, &self.load)?,
-        };
-        Ok(Observation::one_by_one(&deflection))
+        Ok(Observation::one_by_one(&self.deflection(deviations)?))
     }
 
     /// Deflections of any number of robots: `deviations` has a row of all parameters for each, one after the
@@ -128,6 +124,15 @@ impl<'a> Observer<'a> {
         let outcomes =
             in_lanes.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)));
         outcomes.chain(incomplete.map(|row| self.observe(row))).collect()
+    }
+
+    fn deflection(&self, deviations: &[f64]) -> Result<Deflection, StaticsError> {
+        let perturbed = self.robot.perturbed(deviations)?;
+        let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
+        match &self.branch {
+            Some(branch) => deflection_near(branch, robot, &self.pose, offsets, &self.load),
+            None => deflection(robot, &self.pose, offsets, &self.load),
+        }
     }
 }
 
@@ -372,6 +377,15 @@ impl<'a, S: Simd> Rows<'a, S> {
             start.rotate(level);
         }
         (start, level, [sound, upright])
+    }
+
+    /// The platform frame at the wanted pose by its columns, in the level frames.
+    #[inline(always)]
+    fn frame(&self, pose: &Pose, level: Option<&LevelFrame<S>>) -> [[Lanes<S>; 3]; 3] {
+        from_fn(|k| {
+            let column = three!(|row| self.all(pose.rotation.matrix()[(row, k)]));
+            level.map_or(column, |level| level.to_level(&column))
+        })
     }
 
     /// A parameter that not every robot has.

@@ -10,7 +10,7 @@ use crate::error::StaticsError;
 use crate::inverse::{Branch, HeldPose, InverseSolution, held_at, inverse, lengths_for_tensions, limits_at};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, rounding_of_closure};
-use cdpr_robot::{Coordinate, Pose, Robot, TensionLimits, Vector3, Wrench};
+use cdpr_robot::{Coordinate, Pose, Robot, TensionLimits, Vector3, Vector6, Wrench};
 use cdpr_tension::offset;
 
 /// The platform without and with a load, on the same cable lengths.
@@ -29,6 +29,11 @@ impl Deflection {
     pub fn displacement(&self) -> Vector3<f64> {
         // Eq. (4)
         self.loaded.equilibrium.pose.position - self.unloaded.equilibrium.pose.position
+    }
+
+    /// The motion of the platform under the load [m, rad]: dp, and the rotation vector in the base frame.
+    pub fn motion(&self) -> Vector6<f64> {
+        self.unloaded.equilibrium.pose.motion_to(&self.loaded.equilibrium.pose)
     }
 
     /// Euclidean norm of dp [m], which the paper calls the RMS of the static deflection.

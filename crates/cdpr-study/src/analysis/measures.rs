@@ -73,7 +73,8 @@ pub struct InputMeasures {
     pub sobol_total_low: Option<f64>,
     /// Upper end of its interval.
     pub sobol_total_high: Option<f64>,
-    /// First-order index of the displacement as a vector: of the sum of the variances of its components.
+    /// First-order index of the study's vector ([`crate::VectorOutput`]): of the sum of the variances of its
+    /// components.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_first: Option<f64>,
     /// Lower end of its interval.
@@ -82,7 +83,7 @@ pub struct InputMeasures {
     /// Upper end of its interval.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_first_high: Option<f64>,
-    /// Total index of the displacement as a vector.
+    /// Total index of this vector.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_total: Option<f64>,
     /// Lower end of its interval.
@@ -91,7 +92,7 @@ pub struct InputMeasures {
     /// Upper end of its interval.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vector_total_high: Option<f64>,
-    /// Index of Wasserstein and Bures of the displacement as a vector, or of another output.
+    /// Index of Wasserstein and Bures of this vector, or of another output.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bures: Option<f64>,
     /// Lower end of its interval.

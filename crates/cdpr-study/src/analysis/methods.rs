@@ -2,11 +2,12 @@
 
 use crate::analysis::measures::{GroupMeasures, InputMeasures, SubspaceSummary};
 use crate::error::StudyError;
+use crate::file::output::VectorOutput;
 use crate::file::study_file::{SensitivitySpec, StudyFile};
 use crate::model::designs::{Design, Grouped, Points, key};
-use crate::model::observed::{Measured, MeasuredQuantity};
+use crate::model::observed::Measured;
 use crate::model::study::Sampling;
-use crate::observe::observation::{Session, Tally, observe_quantities};
+use crate::observe::observation::{Session, Tally, Task, observe_quantities};
 use cdpr_sensitivity::{
     Bootstrap, Correlated, Expansion, Input, Regression, SampleDesign, SensitivityError, Slopes, SobolDesign,
     active_subspace, brackets, dgsm, expansion, gradient_expansion, morris_effects, rank_regression,
@@ -167,7 +168,8 @@ impl<'a> Run<'a> {
         of: Design,
         design: &dyn Points,
     ) -> Result<Vec<Option<Measured>>, StudyError> {
-        observe_quantities(self.sampling, (&of.name(), design), self.session)
+        let task = Task { name: &of.name(), points: design, recorded: of.recorded() };
+        observe_quantities(self.sampling, task, self.session)
     }
 
     fn bootstrap(&self) -> Bootstrap {
@@ -361,7 +363,7 @@ fn useful(model: Expansion) -> Result<Expansion, Box<dyn Error>> {
 
 fn sobol(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
     let design = run.sampling.saltelli_design(run.spec.saltelli_blocks)?;
-    let measured = run.observe_quantities(Design::Saltelli, &design)?;
+    let measured = run.observe_quantities(Design::Saltelli(run.spec.vector.recorded()), &design)?;
     let outputs: Vec<_> = measured.iter().map(|of| of.as_ref().map(Measured::value)).collect();
     let indices = sobol_indices(&design, &outputs, run.bootstrap(), run.settings.confidence)?;
     for (input, index) in found.inputs.iter_mut().zip(indices.inputs) {
@@ -371,7 +373,8 @@ fn sobol(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn 
             [index.total.value, index.total.low, index.total.high].map(Some);
     }
     if run.sampling.output().is_length() {
-        let vectors: Vec<_> = measured.iter().map(|of| of.as_ref().and_then(displacement)).collect();
+        let vector = |of: &Measured| components(of, run.spec.vector);
+        let vectors: Vec<_> = measured.iter().map(|of| of.as_ref().and_then(vector)).collect();
         let of_vectors = vector_sobol_indices(&design, &vectors, run.bootstrap(), run.settings.confidence)?;
         for (input, index) in found.inputs.iter_mut().zip(of_vectors.inputs) {
             [input.vector_first, input.vector_first_low, input.vector_first_high] =
@@ -407,13 +410,13 @@ fn bures(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn 
         return Ok(None);
     }
     let design = run.sampling.random_design(run.spec.bures_observations)?;
-    let measured = run.observe_quantities(Design::Random, &*design)?;
+    let measured = run.observe_quantities(Design::Random(run.spec.vector.recorded()), &*design)?;
     let k = run.inputs().len();
     let mut rows = vec![0.0; k * design.size()];
     design.fill(0, &mut rows);
     let columns: Vec<Vec<f64>> =
         (0..k).map(|input| rows.iter().skip(input).step_by(k).copied().collect()).collect();
-    let vector = |of: &Measured| displacement(of).unwrap_or_else(|| vec![of.value()]);
+    let vector = |of: &Measured| components(of, run.spec.vector).unwrap_or_else(|| vec![of.value()]);
     let vectors: Vec<_> = measured.iter().map(|of| of.as_ref().map(vector)).collect();
     let indices = wasserstein_bures(&columns, &vectors, run.settings.confidence, run.settings.seed)?;
     for (input, of) in found.inputs.iter_mut().zip(indices) {
@@ -438,12 +441,14 @@ fn shapley(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dy
     Ok(Some(MethodSummary::of(&outputs)))
 }
 
-/// The components of an output that is a displacement [mm].
-fn displacement(of: &Measured) -> Option<Vec<f64>> {
-    match &of.quantity {
-        MeasuredQuantity::Displacement(displacement) => Some(displacement.iter().map(|x| 1e3 * x).collect()),
-        MeasuredQuantity::Number(_) => None,
-    }
+/// The components of the vector of an output that is a length [mm].
+fn components(of: &Measured, vector: VectorOutput) -> Option<Vec<f64>> {
+    let displacement = of.quantity.displacement()?;
+    let turned = match vector {
+        VectorOutput::Displacement => None,
+        VectorOutput::Pose { characteristic_length } => Some(of.quantity.rotation()? * characteristic_length),
+    };
+    Some([Some(displacement), turned].iter().flatten().flatten().map(|x| 1e3 * x).collect())
 }
 
 impl MethodSummary {

@@ -13,7 +13,7 @@
 //! | `expansion` | first-order and total indices of a polynomial model | first observations |
 //! | `gradient_expansion` | the same of a model fitted to derivatives as well | the derivatives of `dgsm` |
 //! | `sobol` | first-order and total indices, with intervals; of vectors, too | Saltelli's blocks |
-//! | `bures` | index of Wasserstein and Bures of the displacement | random observations |
+//! | `bures` | index of Wasserstein and Bures of the same vectors | random observations |
 //! | `shapley` | Shapley effects, with intervals | walks through the joint law of the inputs |
 //! | `active_subspace` | directions of all inputs, activity scores | the derivatives of `dgsm` |
 //! | `morris_of_groups`, `sobol_of_groups` | the same of groups | blocks that move groups |
@@ -24,6 +24,7 @@
 use crate::analysis::measures::{GroupMeasures, InputMeasures, MEASURES, Measure, Quantity, SubspaceSummary};
 use crate::analysis::methods::{Found, METHODS, MethodSummary, Needs, Run};
 use crate::error::StudyError;
+use crate::file::output::VectorOutput;
 use crate::file::study_file::SensitivitySpec;
 use crate::model::study::Sampling;
 use crate::observe::observation::{Session, Tally};
@@ -50,6 +51,9 @@ pub struct SensitivitySummary {
     pub sums: IndexMap<String, IndexMap<String, f64>>,
     /// Where the measures agree.
     pub agreement: Agreement,
+    /// What the indices of vectors are of.
+    #[serde(default, skip_serializing_if = "VectorOutput::is_displacement")]
+    pub vector: VectorOutput,
     /// What could not be measured, and why.
     pub notes: Vec<String>,
 }
@@ -118,7 +122,7 @@ pub fn measure(
     }
     let Found { inputs, groups, subspace } = found;
     let (sums, agreement) = (sums(sampling, &inputs), Agreement::of(&inputs));
-    Ok(SensitivitySummary { inputs, groups, subspace, methods, sums, agreement, notes })
+    Ok(SensitivitySummary { inputs, groups, subspace, methods, sums, agreement, vector: spec.vector, notes })
 }
 
 /// Why intervals of a method are not reliable: the means of these inputs or groups rest on few of Morris's

@@ -23,6 +23,68 @@ pub enum Output {
     Stiffness,
 }
 
+/// The vector whose indices (`vector_first`, `vector_total`, `bures`) a study has beside those of its output,
+/// where this is a length.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum VectorOutput {
+    /// The displacement of P.
+    #[default]
+    Displacement,
+    /// The displacement of P, and the rotation of the platform that belongs to it as a rotation vector in the
+    /// base frame times a length: how far a point at this distance from P moves.
+    Pose {
+        /// This length [m], such as the distance of the tool from P. It says how much a rotation counts
+        /// beside a displacement.
+        characteristic_length: f64,
+    },
+}
+
+impl VectorOutput {
+    /// What is kept of an observation for it.
+    pub(crate) fn recorded(self) -> Recorded {
+        match self {
+            Self::Displacement => Recorded::Output,
+            Self::Pose { .. } => Recorded::Motion,
+        }
+    }
+
+    /// Whether it is the displacement, the only vector of earlier versions.
+    #[allow(clippy::trivially_copy_pass_by_ref)]
+    pub(crate) fn is_displacement(&self) -> bool {
+        *self == Self::Displacement
+    }
+}
+
+impl fmt::Display for VectorOutput {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Displacement => f.write_str("displacement as a vector"),
+            Self::Pose { characteristic_length } => {
+                write!(f, "displacement and the rotation times {characteristic_length} m as a vector")
+            }
+        }
+    }
+}
+
+/// What is kept of an observation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Recorded {
+    /// The output, with its displacement where it is a length.
+    #[default]
+    Output,
+    /// The displacement whose length is the output, and its rotation.
+    Motion,
+}
+
+impl Recorded {
+    #[allow(clippy::trivially_copy_pass_by_ref)]
+    pub(crate) fn is_output(&self) -> bool {
+        *self == Self::Output
+    }
+}
+
 /// What an output is called.
 struct Words {
     columns: &'static [&'static str],

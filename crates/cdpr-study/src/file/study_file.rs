@@ -3,7 +3,7 @@
 
 use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
-use crate::file::output::Output;
+use crate::file::output::{Output, VectorOutput};
 use crate::file::value::Value;
 use cdpr_robot::{Coordinate, TensionReference};
 use cdpr_sensitivity::given::bures::MIN_ROWS;
@@ -216,9 +216,13 @@ pub struct SensitivitySpec {
     #[serde(skip_serializing_if = "is_zero")]
     pub shapley_walks: usize,
     /// Random observations behind the index of Wasserstein and Bures: how much a parameter moves the law of
-    /// the displacement as a vector, or of another output. 64 to 1048576, or 0 for none.
+    /// the vector below, or of another output. 64 to 1048576, or 0 for none.
     #[serde(skip_serializing_if = "is_zero")]
     pub bures_observations: usize,
+    /// The vector of the indices of vectors and of Wasserstein and Bures: "displacement" without the field, or
+    /// {"pose": {"characteristic_length": L}} for displacement and rotation times L [m].
+    #[serde(skip_serializing_if = "VectorOutput::is_displacement")]
+    pub vector: VectorOutput,
     /// Whether an expansion is fitted to the derivatives as well, at the points where they are taken.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub gradient_expansion: bool,
@@ -237,6 +241,7 @@ impl Default for SensitivitySpec {
             derivative_points: 256,
             shapley_walks: 0,
             bures_observations: 0,
+            vector: VectorOutput::Displacement,
             gradient_expansion: false,
             expansion: Truncation { max_degree: 3, norm: 0.75, interactions: 2 },
         }
@@ -288,12 +293,21 @@ impl SensitivitySpec {
             self.morris_levels.filter(|levels| !(levels.is_multiple_of(2) && (2..=1024).contains(levels)));
         let of_levels =
             |levels: u32| ("morris_levels", levels.to_string(), "an even number from 2 to 1024".to_owned());
+        let length = match self.vector {
+            VectorOutput::Pose { characteristic_length: length } => Some(length),
+            VectorOutput::Displacement => None,
+        };
+        let unsound = length.filter(|length| !(length.is_finite() && *length > 0.0));
+        let of_length = |length: f64| {
+            ("vector.pose.characteristic_length", length.to_string(), "a length above 0 [m]".to_owned())
+        };
         let sound_norm = norm > 0.0 && norm <= 1.0;
         let of_norm = || ("expansion.norm", norm.to_string(), "a number above 0, at most 1".to_owned());
         count
             .map(of_count)
             .or_else(|| few.map(of_few))
             .or_else(|| uneven.map(of_levels))
+            .or_else(|| unsound.map(of_length))
             .or_else(|| (!sound_norm).then(of_norm))
     }
 }

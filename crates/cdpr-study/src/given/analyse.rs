@@ -2,7 +2,9 @@
 
 use crate::error::StudyError;
 use crate::given::columns::{BadCell, GivenTable};
-use cdpr_sensitivity::{Analyser, Analysis, GivenData, Limit, SensitivityError};
+use cdpr_sensitivity::{
+    Analyser, Analysis, GivenData, Limit, SensitivityError, WassersteinBures, wasserstein_bures,
+};
 use indexmap::IndexMap;
 use serde::Serialize;
 
@@ -15,6 +17,8 @@ pub struct TableRequest {
     pub outputs: Vec<String>,
     /// Limits of outputs by their columns.
     pub limits: Vec<(String, Limit)>,
+    /// Columns that are the components of one vector, in a common unit; none for no vector.
+    pub vector: Vec<String>,
     /// Level, seed and rows of the estimators.
     pub analyser: Analyser,
 }
@@ -38,6 +42,18 @@ pub struct TableAnalysis {
     pub unused: Vec<String>,
     /// What each output says.
     pub outputs: IndexMap<String, Analysis>,
+    /// What the vector says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vector: Option<VectorAnalysis>,
+}
+
+/// How much each input moves the law of a vector.
+#[derive(Clone, Debug, Serialize)]
+pub struct VectorAnalysis {
+    /// Its columns.
+    pub columns: Vec<String>,
+    /// Index of Wasserstein and Bures by input.
+    pub bures: IndexMap<String, WassersteinBures>,
 }
 
 /// Number of bad cells that are named.
@@ -50,7 +66,8 @@ const NAMED: usize = 10;
 ///
 /// # Errors
 /// [`StudyError::Invalid`] for a name that no column of numbers has, an input that is an output, no input or
-/// no output; [`StudyError::Statistics`] with the column for outputs that are constant or too few.
+/// no output; [`StudyError::Statistics`] with the column for outputs that are constant or too few, and with
+/// those of a vector that has no index, such as one at rows of a sequence.
 pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<TableAnalysis, StudyError> {
     let limited: Vec<String> = request.limits.iter().map(|(name, _)| name.clone()).collect();
     let mut outputs = table.named("output", &request.outputs)?;
@@ -62,12 +79,14 @@ pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<Table
     if outputs.is_empty() {
         outputs.extend(table.usual_output());
     }
+    let components = table.named("vector", &request.vector)?;
+    let depends = |column: &usize| outputs.contains(column) || components.contains(column);
     let inputs = match request.inputs.is_empty() {
-        true => table.usual_inputs(&outputs),
+        true => table.usual_inputs(&[&outputs[..], &components].concat()),
         false => table.named("input", &request.inputs)?,
     };
     let name = |&column: &usize| table.columns[column].0.clone();
-    if let Some(both) = inputs.iter().find(|column| outputs.contains(column)) {
+    if let Some(both) = inputs.iter().find(|column| depends(column)) {
         return Err(table.invalid("input", &name(both), "a column that is no output"));
     }
     if inputs.is_empty() || outputs.is_empty() {
@@ -92,7 +111,24 @@ pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<Table
         let analysis = Analyser { limit, ..request.analyser }.analyse(&data).map_err(statistics)?;
         Ok((column.clone(), analysis))
     };
-    let used = |column: &String| inputs.iter().chain(&outputs).any(|used| name(used) == *column);
+    let vector = (!components.is_empty()).then(|| {
+        let names_of_vector: Vec<String> = components.iter().map(name).collect();
+        let of_row = |&row: &usize| -> Option<Vec<f64>> {
+            components
+                .iter()
+                .map(|&column| Some(values(column)[row]).filter(|value| !value.is_nan()))
+                .collect()
+        };
+        let vectors: Vec<_> = complete.iter().map(of_row).collect();
+        let Analyser { level, seed, .. } = request.analyser;
+        let found = wasserstein_bures(&columns, &vectors, level, seed).map_err(|source| {
+            StudyError::Statistics { path: table.path.clone(), field: names_of_vector.join(", "), source }
+        })?;
+        let bures = names.iter().cloned().zip(found).collect();
+        Ok::<_, StudyError>(VectorAnalysis { columns: names_of_vector, bures })
+    });
+    let used =
+        |column: &String| inputs.iter().chain(&outputs).chain(&components).any(|used| name(used) == *column);
     let bad: Vec<&BadCell> = table.bad.iter().filter(|cell| used(&cell.column)).collect();
     Ok(TableAnalysis {
         table: table.path.to_string_lossy().into_owned(),
@@ -109,6 +145,7 @@ pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<Table
             .cloned()
             .collect(),
         outputs: outputs.iter().map(of_output).collect::<Result<_, StudyError>>()?,
+        vector: vector.transpose()?,
         inputs: names,
     })
 }

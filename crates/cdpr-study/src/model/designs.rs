@@ -3,6 +3,7 @@
 //! grows.
 
 use crate::error::StudyError;
+use crate::file::output::Recorded;
 use crate::file::study_file::{SamplingSpec, SensitivitySpec};
 use crate::model::study::{Sampling, Study};
 use cdpr_sensitivity::{
@@ -12,6 +13,9 @@ use cdpr_sensitivity::{
 
 /// Name of the sampling's own design.
 pub(crate) const OWN: &str = "sampling";
+
+/// Name of Saltelli's blocks.
+const SALTELLI: &str = "saltelli";
 
 /// Rows of inputs, of a design of any type.
 pub(crate) trait Points: Sync {
@@ -49,10 +53,11 @@ pub(crate) enum Design {
     Replicate(usize),
     /// Levels of trajectories; without them, radial blocks.
     Morris(Option<u32>),
-    Saltelli,
+    /// Saltelli's blocks, of which this is kept.
+    Saltelli(Recorded),
     Shapley,
-    /// Independent rows.
-    Random,
+    /// Independent rows, of which this is kept.
+    Random(Recorded),
     /// One of these over groups, whose key tells them from other groups.
     Groups(Grouped, u32),
 }
@@ -71,15 +76,25 @@ impl Design {
             Self::Replicate(number) => replicate_name(number),
             Self::Morris(None) => "morris".to_owned(),
             Self::Morris(Some(levels)) => format!("morris-{levels}-levels"),
-            Self::Saltelli => "saltelli".to_owned(),
+            Self::Saltelli(Recorded::Output) => SALTELLI.to_owned(),
+            Self::Saltelli(Recorded::Motion) => format!("{SALTELLI}-poses"),
             Self::Shapley => "shapley".to_owned(),
-            Self::Random => "random".to_owned(),
+            Self::Random(Recorded::Output) => "random".to_owned(),
+            Self::Random(Recorded::Motion) => "random-poses".to_owned(),
             Self::Groups(Grouped::Morris(levels), key) => {
                 format!("{}-of-groups-{key:08x}", Self::Morris(levels).name())
             }
             Self::Groups(Grouped::Saltelli, key) => {
-                format!("{}-of-groups-{key:08x}", Self::Saltelli.name())
+                format!("{SALTELLI}-of-groups-{key:08x}")
             }
+        }
+    }
+
+    /// What is kept of its observations.
+    pub(crate) fn recorded(self) -> Recorded {
+        match self {
+            Self::Saltelli(recorded) | Self::Random(recorded) => recorded,
+            _ => Recorded::Output,
         }
     }
 
@@ -89,9 +104,9 @@ impl Design {
             Self::Own => sampling.own()?,
             Self::Replicate(number) => Box::new(sampling.replicate(number)),
             Self::Morris(_) => Box::new(sampling.morris_design(&spec)?),
-            Self::Saltelli => Box::new(sampling.saltelli_design(spec.saltelli_blocks)?),
+            Self::Saltelli(_) => Box::new(sampling.saltelli_design(spec.saltelli_blocks)?),
             Self::Shapley => Box::new(sampling.shapley_design(spec.shapley_walks)?),
-            Self::Random => sampling.random_design(spec.bures_observations)?,
+            Self::Random(_) => sampling.random_design(spec.bures_observations)?,
             Self::Groups(Grouped::Morris(_), _) => {
                 Box::new(sampling.morris_design(&spec)?.grouped(sampling.groups.clone())?)
             }
@@ -155,7 +170,8 @@ impl Study {
             let (levels, key) = (measures.morris_levels, key(&groups));
             let morris = |moved: usize| measures.morris_blocks * (moved + 1);
             let saltelli = |exchanged: usize| measures.saltelli_blocks * (exchanged + 2);
-            designs.extend([(Design::Morris(levels), morris(inputs)), (Design::Saltelli, saltelli(inputs))]);
+            let of_saltelli = Design::Saltelli(measures.vector.recorded());
+            designs.extend([(Design::Morris(levels), morris(inputs)), (of_saltelli, saltelli(inputs))]);
             if !groups.is_empty() {
                 designs.extend([
                     (Design::Groups(Grouped::Morris(levels), key), morris(groups.len())),
@@ -164,7 +180,7 @@ impl Study {
             }
         }
         if measures.bures_observations > 0 {
-            designs.push((Design::Random, measures.bures_observations));
+            designs.push((Design::Random(measures.vector.recorded()), measures.bures_observations));
         }
         if measures.shapley_walks > 0 {
             designs.push((Design::Shapley, measures.shapley_walks * (inputs + 1)));

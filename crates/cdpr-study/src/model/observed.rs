@@ -1,7 +1,7 @@
 //! The result of an observation, or the reason of its failure.
 
-use crate::file::output::Output;
-use cdpr_robot::Vector3;
+use crate::file::output::{Output, Recorded};
+use cdpr_robot::{Vector3, Vector6};
 use cdpr_statics::{ScalarReason, StaticsError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub type Observed = Result<Measured, Failure>;
 
 /// What was observed of a robot.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// What was observed.
     pub quantity: MeasuredQuantity,
@@ -19,10 +19,13 @@ pub struct Measured {
 }
 
 /// An output of a robot.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum MeasuredQuantity {
     /// A displacement [m], whose length is the output.
     Displacement(Vector3<f64>),
+    /// The same with the rotation vector [rad] in the base frame, for indices of the pose. Its place is
+    /// elsewhere, so that other observations take no more memory.
+    Motion(Box<Vector6<f64>>),
     /// The output in its unit.
     Number(f64),
 }
@@ -30,27 +33,42 @@ pub enum MeasuredQuantity {
 impl Measured {
     /// The output in its unit.
     pub fn value(&self) -> f64 {
-        match &self.quantity {
-            MeasuredQuantity::Displacement(displacement) => 1e3 * displacement.norm(),
-            MeasuredQuantity::Number(number) => *number,
+        match (&self.quantity, self.quantity.displacement()) {
+            (MeasuredQuantity::Number(number), _) => *number,
+            (_, displacement) => 1e3 * displacement.map_or(f64::NAN, |of| of.norm()),
         }
     }
 
     /// Its cells in tables, under [`Output::columns`].
     pub fn cells(&self) -> impl Iterator<Item = f64> {
-        let displacement = match &self.quantity {
-            MeasuredQuantity::Displacement(displacement) => Some(1e3 * displacement),
-            MeasuredQuantity::Number(_) => None,
-        };
+        let displacement = self.quantity.displacement().map(|displacement| 1e3 * displacement);
         displacement.into_iter().flat_map(<[f64; 3]>::from).chain([self.value()])
     }
 }
 
 impl MeasuredQuantity {
+    /// The displacement [m] whose length is the output.
+    pub fn displacement(&self) -> Option<Vector3<f64>> {
+        match self {
+            Self::Displacement(displacement) => Some(*displacement),
+            Self::Motion(motion) => Some(motion.fixed_rows::<3>(0).into()),
+            Self::Number(_) => None,
+        }
+    }
+
+    /// The rotation vector that belongs to it [rad], where it is kept.
+    pub fn rotation(&self) -> Option<Vector3<f64>> {
+        match self {
+            Self::Motion(motion) => Some(motion.fixed_rows::<3>(3).into()),
+            Self::Displacement(_) | Self::Number(_) => None,
+        }
+    }
+
     /// Its numbers in blocks.
     pub(crate) fn numbers(&self) -> &[f64] {
         match self {
             Self::Displacement(displacement) => displacement.as_slice(),
+            Self::Motion(motion) => motion.as_slice(),
             Self::Number(number) => std::slice::from_ref(number),
         }
     }
@@ -59,10 +77,15 @@ impl MeasuredQuantity {
 impl Output {
     /// What stands for a failed observation where there has to be a number.
     pub fn nothing(self) -> Measured {
-        let quantity = if self.is_length() {
-            MeasuredQuantity::Displacement(Vector3::repeat(f64::NAN))
-        } else {
-            MeasuredQuantity::Number(f64::NAN)
+        self.nothing_recorded(Recorded::Output)
+    }
+
+    /// The same where this is kept of observations.
+    pub(crate) fn nothing_recorded(self, recorded: Recorded) -> Measured {
+        let quantity = match recorded {
+            Recorded::Motion => MeasuredQuantity::Motion(Box::new(Vector6::repeat(f64::NAN))),
+            Recorded::Output if self.is_length() => MeasuredQuantity::Displacement(Vector3::repeat(f64::NAN)),
+            Recorded::Output => MeasuredQuantity::Number(f64::NAN),
         };
         Measured { quantity, scalar: None }
     }
@@ -136,5 +159,16 @@ impl ScalarCount {
             Some(known) => *known += count,
             None => drop(self.why.insert(why.to_owned(), count)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses_cost_other_observations_no_memory() {
+        // Three numbers, which of the quantities it is, and why the scalar models observed it.
+        assert!(size_of::<Option<Measured>>() <= 40);
     }
 }

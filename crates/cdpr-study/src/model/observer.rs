@@ -6,10 +6,11 @@
 use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
-use cdpr_robot::{Coordinate, Parameter, Perturbed, Pose, Robot, Vector3};
+use cdpr_robot::{Coordinate, Parameter, Perturbed, Pose, Robot, Vector3, Vector6};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, ObservationSlopes, Observer,
-    ScalarReason, Start, StaticsError, deflection_free, derivatives_free, direct, held_at, wound_lengths,
+    Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, ObservationMotion,
+    ObservationSlopes, Observer, ScalarReason, Start, StaticsError, deflection_free, derivatives_free,
+    direct, held_at, wound_lengths,
 };
 use std::borrow::Cow;
 
@@ -68,16 +69,43 @@ impl<'a> OutputObserver<'a> {
             let outcomes = self.lanes.observe_all(deviations).into_iter();
             return outcomes.map(|found| found.map(Measured::from)).collect();
         }
-        let why = if self.free.is_empty() { ScalarReason::Output } else { ScalarReason::FreeCoordinates };
         let observed = |row: &[f64]| {
             let perturbed = self.robot.perturbed(row)?;
             let quantity = match self.output {
                 Output::Position => MeasuredQuantity::Displacement(self.displaced(&perturbed)?),
                 _ => self.of_deflection(&perturbed.robot, &self.deflection(&perturbed)?)?.quantity,
             };
-            Ok(Measured { quantity, scalar: Some(why) })
+            Ok(Measured { quantity, scalar: Some(self.why_scalar()) })
         };
         self.rows(deviations).map(observed).collect()
+    }
+
+    /// The same with the rotation of the platform, for an output that is a length.
+    pub(crate) fn observe_all_motions(&self, deviations: &[f64]) -> Vec<Result<Measured, StaticsError>> {
+        let moved =
+            |motion, scalar| Measured { quantity: MeasuredQuantity::Motion(Box::new(motion)), scalar };
+        if self.output == Output::Deflection && self.free.is_empty() {
+            let in_lanes = |found: ObservationMotion| {
+                let Observation { displacement: p, scalar, .. } = found.observation;
+                let r = found.rotation;
+                moved(Vector6::new(p.x, p.y, p.z, r.x, r.y, r.z), scalar)
+            };
+            let outcomes = self.lanes.observe_all_motions(deviations).into_iter();
+            return outcomes.map(|found| found.map(in_lanes)).collect();
+        }
+        let observed = |row: &[f64]| {
+            let perturbed = self.robot.perturbed(row)?;
+            let motion = match self.output {
+                Output::Position => self.moved(&perturbed)?,
+                _ => self.deflection(&perturbed)?.motion(),
+            };
+            Ok(moved(motion, Some(self.why_scalar())))
+        };
+        self.rows(deviations).map(observed).collect()
+    }
+
+    fn why_scalar(&self) -> ScalarReason {
+        if self.free.is_empty() { ScalarReason::Output } else { ScalarReason::FreeCoordinates }
     }
 
     /// Displacements under the load [m] of any number of robots, whatever the output is.
@@ -125,10 +153,15 @@ impl<'a> OutputObserver<'a> {
     /// # Errors
     /// Those of the models.
     pub fn displaced(&self, perturbed: &Perturbed) -> Result<Vector3<f64>, StaticsError> {
+        Ok(self.moved(perturbed)?.fixed_rows::<3>(0).into())
+    }
+
+    /// The same with the rotation vector [rad].
+    fn moved(&self, perturbed: &Perturbed) -> Result<Vector6<f64>, StaticsError> {
         let rest = &self.nominal.unloaded.equilibrium;
         let lengths = self.lengths(perturbed)?;
         let found = direct(&perturbed.robot, &lengths, &Load::none(), Start::Near(rest))?;
-        Ok(found.equilibrium.pose.position - rest.pose.position)
+        Ok(rest.pose.motion_to(&found.equilibrium.pose))
     }
 
     /// [`OutputObserver::displaced`] with its derivatives with respect to the parameters [m per unit]; those

@@ -1,7 +1,7 @@
 //! A study read from its file and checked.
 
 use crate::error::StudyError;
-use crate::file::output::Output;
+use crate::file::output::{Output, VectorOutput};
 use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic, StudyFile};
 use crate::file::value::Value;
 use crate::fs::files::open_robot_from;
@@ -233,6 +233,13 @@ impl Study {
             let expected = "a robot with `platform.inertia`, the inertia about the centre of mass, 3 x 3 in \
                             the platform frame [kg m²]: frequencies depend on it";
             return Err(self.invalid("output", output, expected));
+        }
+        let vector = self.file.sensitivity.map_or(VectorOutput::Displacement, |spec| spec.vector);
+        if !output.is_length() && vector != VectorOutput::Displacement {
+            let expected = format!(
+                "no pose, or \"deflection\" or \"position\" as output: the {output} belongs to no displacement"
+            );
+            return Err(self.invalid("sensitivity.vector", "pose", &expected));
         }
         if output != Output::Deflection && rows > 0 {
             let expected =

@@ -12,7 +12,7 @@
 //! the blocks that existed before.
 
 use crate::error::StudyError;
-use crate::file::output::Output;
+use crate::file::output::{Output, Recorded};
 use crate::model::designs::{OWN, Points, replicate_name};
 use crate::model::observed::{Failure, Measured, Observed, ScalarCount, count_failed, failures, value_of};
 use crate::model::study::Sampling;
@@ -44,6 +44,16 @@ pub struct Part {
     pub outcomes: Vec<Observed>,
     /// What is observed.
     pub output: Output,
+}
+
+/// A design to be observed.
+#[derive(Clone, Copy)]
+pub(crate) struct Task<'a> {
+    /// Name of its blocks.
+    pub(crate) name: &'a str,
+    pub(crate) points: &'a dyn Points,
+    /// What is kept of an observation.
+    pub(crate) recorded: Recorded,
 }
 
 /// Where observations are kept, and who is notified of them.
@@ -139,7 +149,7 @@ pub fn observe_into<T: Send>(
     })?;
     observe_design(
         sampling,
-        (OWN, own.as_ref()),
+        Task { name: OWN, points: own.as_ref(), recorded: Recorded::Output },
         session,
         |part| (Tally::of_part(sampling, part), each(part)),
         |(tally, made)| {
@@ -155,15 +165,12 @@ pub fn observe_into<T: Send>(
 /// # Errors
 /// As [`observe`].
 pub fn observe_replicate(sampling: &Sampling, number: usize, session: &Session) -> Result<Tally, StudyError> {
-    observe_tally(sampling, (&replicate_name(number), &sampling.replicate(number)), session)
+    let (name, points) = (&replicate_name(number), &sampling.replicate(number));
+    observe_tally(sampling, Task { name, points, recorded: Recorded::Output }, session)
 }
 
-/// [`observe`] for another design over the same inputs, with the name of its blocks.
-fn observe_tally(
-    sampling: &Sampling,
-    design: (&str, &dyn Points),
-    session: &Session,
-) -> Result<Tally, StudyError> {
+/// [`observe`] for another design over the same inputs.
+fn observe_tally(sampling: &Sampling, design: Task, session: &Session) -> Result<Tally, StudyError> {
     let mut whole = Tally::new(sampling);
     let each = |part: &Part| Tally::of_part(sampling, part);
     observe_design(sampling, design, session, each, |tally| {
@@ -176,11 +183,11 @@ fn observe_tally(
 /// What is observed at each row of a design over the inputs of the sampling, `None` where it fails.
 pub(crate) fn observe_quantities(
     sampling: &Sampling,
-    design: (&str, &dyn Points),
+    design: Task,
     session: &Session,
 ) -> Result<Vec<Option<Measured>>, StudyError> {
-    let mut all = Vec::with_capacity(design.1.size());
-    let each = |part: &Part| part.outcomes.iter().map(|of| of.as_ref().ok().copied()).collect::<Vec<_>>();
+    let mut all = Vec::with_capacity(design.points.size());
+    let each = |part: &Part| part.outcomes.iter().map(|of| of.as_ref().ok().cloned()).collect::<Vec<_>>();
     observe_design(sampling, design, session, each, |values| {
         all.extend(values);
         Ok(())
@@ -201,12 +208,12 @@ pub fn observe_rows<T: Send>(
 
 fn observe_design<T: Send>(
     sampling: &Sampling,
-    design: (&str, &dyn Points),
+    design: Task,
     session: &Session,
     each: impl Fn(&Part) -> T + Sync,
     mut sink: impl FnMut(T) -> Result<(), StudyError>,
 ) -> Result<(), StudyError> {
-    for (number, range) in blocks(design.1.size()) {
+    for (number, range) in blocks(design.points.size()) {
         let made = observe_block(sampling, design, (number, range), session, &each)?;
         made.into_iter().try_for_each(&mut sink)?;
     }
@@ -217,7 +224,7 @@ fn observe_design<T: Send>(
 /// the block is written.
 pub(crate) fn observe_block<T: Send>(
     sampling: &Sampling,
-    (name, design): (&str, &dyn Points),
+    design: Task,
     (number, range): (usize, Range<usize>),
     session: &Session,
     each: &(impl Fn(&Part) -> T + Sync),
@@ -226,7 +233,7 @@ pub(crate) fn observe_block<T: Send>(
     if (session.stop)() {
         return Err(StudyError::Stopped);
     }
-    let id = BlockId { sampling: &sampling.name, design: name, number };
+    let id = BlockId { sampling: &sampling.name, design: design.name, number, recorded: design.recorded };
     let known = match session.blocks {
         Some(blocks) => blocks.known(&id, session.warn)?,
         None => Vec::new(),
@@ -248,11 +255,15 @@ pub(crate) fn observe_block<T: Send>(
 }
 
 /// A part of a design, whose first observations may be known already.
-fn observe_part(sampling: &Sampling, design: &dyn Points, range: Range<usize>, known: &[Observed]) -> Part {
-    let rows = draw(design, range.clone());
+fn observe_part(sampling: &Sampling, design: Task, range: Range<usize>, known: &[Observed]) -> Part {
+    let rows = draw(design.points, range.clone());
     let unknown = &rows[known.len() * sampling.errors.inputs.len()..];
-    let observed = sampling.observer.observe_all(&sampling.errors.deviations(unknown)).into_iter();
-    let observed = observed.map(|outcome| outcome.map_err(Failure::from));
+    let (observer, unknown) = (&sampling.observer, sampling.errors.deviations(unknown));
+    let observed = match design.recorded {
+        Recorded::Output => observer.observe_all(&unknown),
+        Recorded::Motion => observer.observe_all_motions(&unknown),
+    };
+    let observed = observed.into_iter().map(|outcome| outcome.map_err(Failure::from));
     let outcomes = known.iter().cloned().chain(observed).collect();
     Part { first: range.start, rows, outcomes, output: sampling.output() }
 }

@@ -4,7 +4,7 @@ use crate::error::StudyError;
 use crate::model::designs::{Design, Points};
 use crate::model::pose_set::PoseSet;
 use crate::model::study::{Sampling, Study};
-use crate::observe::observation::{Session, observe_block};
+use crate::observe::observation::{Session, Task, observe_block};
 use crate::observe::shard::Shard;
 use crate::store::block;
 use crate::store::blocks::BlockId;
@@ -123,7 +123,7 @@ impl<'a> BlockMaker<'a> {
             return Err(StudyError::setting("block", block, expected));
         };
         let design_name = kind.name();
-        let id = BlockId { sampling: &name, design: &design_name, number };
+        let id = BlockId { sampling: &name, design: &design_name, number, recorded: kind.recorded() };
         if let Some(blocks) = self.session.blocks
             && blocks.known(&id, self.session.warn)?.len() >= range.len()
         {
@@ -149,8 +149,9 @@ impl<'a> BlockMaker<'a> {
             self.design = Some((kind, design));
         }
         if let Some((_, design)) = &self.design {
-            let design = (design_name.as_str(), design.as_ref());
-            observe_block(sampling, design, (number, range), &self.session, &|_| ())?;
+            let recorded = kind.recorded();
+            let task = Task { name: &design_name, points: design.as_ref(), recorded };
+            observe_block(sampling, task, (number, range), &self.session, &|_| ())?;
         }
         Ok(())
     }

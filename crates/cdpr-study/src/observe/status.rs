@@ -218,7 +218,8 @@ fn visit(
     };
     for block in (0..plan.blocks()).filter_map(|number| plan.block(number)).filter(wanted) {
         let design = block.design.name();
-        let id = BlockId { sampling: &block.sampling, design: &design, number: block.number };
+        let (number, recorded) = (block.number, block.design.recorded());
+        let id = BlockId { sampling: &block.sampling, design: &design, number, recorded };
         let outcomes = match blocks.read(&id) {
             Ok(outcomes) if outcomes.is_empty() && block.sampling != block.entry && !is_held(&block)? => None,
             Ok(mut outcomes) => {

@@ -5,14 +5,15 @@
 //! cdpr-block/2 CHECKSUM        BLAKE3, in hexadecimal digits, of all that follows this line
 //! {"version":.., "study":.., "sampling":.., "design":.., "first":.., "observations":.., "failed":{..}}
 //! dx dy dz ...                 displacement [m] of each observation as little-endian 64-bit floats; NaN
-//!                              where it failed; of an output that is no length one number in its unit
+//!                              where it failed; of an output that is no length one number in its unit;
+//!                              with "recorded":"motion" also the rotation vector rx ry rz [rad]
 //! [[index, kind, reason], ...] failed observations, counted from the first of the block
 //! [[index, count, why], ...]   runs of observations by the scalar models, and why lanes did not make them
 //! ```
 
-use crate::file::output::Output;
+use crate::file::output::{Output, Recorded};
 use crate::model::observed::{Failure, Measured, MeasuredQuantity, Observed};
-use cdpr_robot::Vector3;
+use cdpr_robot::{Vector3, Vector6};
 use cdpr_statics::ScalarReason;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -46,6 +47,9 @@ pub(crate) struct BlockHeader {
     /// What is observed.
     #[serde(default, skip_serializing_if = "Output::is_deflection")]
     pub(crate) output: Output,
+    /// What it keeps of each observation.
+    #[serde(default, skip_serializing_if = "Recorded::is_output")]
+    pub(crate) recorded: Recorded,
     /// Failed ones by kind.
     pub(crate) failed: BTreeMap<String, usize>,
 }
@@ -72,7 +76,7 @@ pub(crate) fn range(points: usize, number: usize) -> Range<usize> {
 pub(crate) fn encode(header: &BlockHeader, outcomes: &[Observed]) -> Result<Vec<u8>, serde_json::Error> {
     let mut body = serde_json::to_vec(header)?;
     body.push(b'\n');
-    let none = header.output.nothing();
+    let none = header.output.nothing_recorded(header.recorded);
     for measured in outcomes.iter().map(|outcome| outcome.as_ref().unwrap_or(&none)) {
         measured.quantity.numbers().iter().for_each(|value| body.extend_from_slice(&value.to_le_bytes()));
     }
@@ -104,7 +108,7 @@ pub(crate) fn decode(file: &[u8]) -> Result<(BlockHeader, Vec<Observed>), String
     }
     let (header, payload) = line(body).ok_or("no header in it")?;
     let header: BlockHeader = serde_json::from_slice(header).map_err(|error| format!("header: {error}"))?;
-    let nothing = header.output.nothing().quantity;
+    let nothing = header.output.nothing_recorded(header.recorded).quantity;
     let each = NUMBER * nothing.numbers().len();
     let bytes = header.observations.checked_mul(each).filter(|bytes| *bytes <= payload.len());
     let (measured, rest) = payload.split_at(bytes.ok_or("fewer observations than its header says")?);
@@ -113,6 +117,9 @@ pub(crate) fn decode(file: &[u8]) -> Result<(BlockHeader, Vec<Observed>), String
     let one = |bytes| match nothing {
         MeasuredQuantity::Displacement(_) => {
             MeasuredQuantity::Displacement(Vector3::from_fn(|k, _| number(bytes, k)))
+        }
+        MeasuredQuantity::Motion(_) => {
+            MeasuredQuantity::Motion(Box::new(Vector6::from_fn(|k, _| number(bytes, k))))
         }
         MeasuredQuantity::Number(_) => MeasuredQuantity::Number(number(bytes, 0)),
     };
@@ -181,6 +188,7 @@ mod tests {
             first: BLOCK,
             observations: 3,
             output: Output::Deflection,
+            recorded: Recorded::Output,
             failed: [("infeasible_tension".to_owned(), 1)].into(),
         };
         let numbers = [Vector3::new(1.5e-3, -0.0, 5e-324), Vector3::new(-1e300, 0.1, 1.0 / 3.0)];
@@ -211,6 +219,12 @@ mod tests {
         let numbers = [number(1.0 / 3.0), outcomes[1].clone(), number(-0.0)];
         let file = encode(&header, &numbers).unwrap();
         assert_eq!(bits(&decode(&file).unwrap().1), bits(&numbers));
+        let header = BlockHeader { output: Output::Position, recorded: Recorded::Motion, ..header };
+        let motion = Vector6::new(1.5e-3, -0.0, 5e-324, 1.0 / 3.0, 1e-9, -0.2);
+        let quantity = MeasuredQuantity::Motion(Box::new(motion));
+        let motions = [outcomes[1].clone(), Ok(Measured { quantity, scalar: None })];
+        let file = encode(&BlockHeader { observations: 2, ..header }, &motions).unwrap();
+        assert_eq!(bits(&decode(&file).unwrap().1), bits(&motions));
     }
 
     #[test]

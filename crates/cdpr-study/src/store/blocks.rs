@@ -3,7 +3,7 @@
 //! are not followed.
 
 use crate::error::StudyError;
-use crate::file::output::Output;
+use crate::file::output::{Output, Recorded};
 use crate::fs::atomic::{is_unfinished, remove_unfinished, write_atomic};
 use crate::fs::disk;
 use crate::fs::input::{read_bytes, read_start};
@@ -43,6 +43,8 @@ pub(crate) struct BlockId<'a> {
     pub(crate) sampling: &'a str,
     pub(crate) design: &'a str,
     pub(crate) number: usize,
+    /// What it keeps of each observation.
+    pub(crate) recorded: Recorded,
 }
 
 impl Blocks {
@@ -141,6 +143,7 @@ impl Blocks {
             ("study", &header.study, &wanted.study),
             ("sampling", &header.sampling, &wanted.sampling),
             ("design", &header.design, &wanted.design),
+            ("recorded", &format!("{:?}", header.recorded), &format!("{:?}", wanted.recorded)),
             ("first index", &header.first.to_string(), &wanted.first.to_string()),
         ] {
             if found != expected {
@@ -240,6 +243,7 @@ impl Blocks {
             first: id.number * BLOCK,
             observations: outcomes.len(),
             output: self.output,
+            recorded: id.recorded,
             failed: count_failed(failures(outcomes)),
         }
     }
@@ -341,7 +345,8 @@ mod tests {
     fn a_summary_goes_with_a_block_that_it_does_not_know_and_with_no_other() {
         let results = tempfile::tempdir().unwrap();
         let (blocks, summary) = (blocks(results.path()), results.path().join(SUMMARY_NAME));
-        let id = BlockId { sampling: "mechanical", design: "sampling", number: 0 };
+        let id =
+            BlockId { sampling: "mechanical", design: "sampling", number: 0, recorded: Recorded::Output };
         for (observations, stays) in [(2, false), (2, true), (1, true), (3, false)] {
             fs::write(&summary, "of all blocks").unwrap();
             blocks.write(&id, &vec![Ok(Output::Deflection.nothing()); observations]).unwrap();

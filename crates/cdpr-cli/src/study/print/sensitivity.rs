@@ -51,7 +51,8 @@ fn print_inputs(output: Output, found: &SensitivitySummary) {
     println!(
         "signed effect, Morris \u{b5}* and \u{3c3} [{unit}]; t-Student [-]; all others in % of the variance, \
          first order unless total; DGSM a bound on the total; within: bounds on both sides by derivatives, \
-         each with the confidence of the study; vector: of the displacement as a vector"
+         each with the confidence of the study; vector: of the {}",
+        found.vector
     );
 }
 

@@ -85,14 +85,7 @@ impl WithSimd for SlopesBatch<'_> {
             let count = rows.len() / parameters;
             let rows = Rows::new(simd, rows, layout);
             let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
-            let rotation = pose.rotation.matrix();
-            for k in 0..3 {
-                let column = three!(|row| rows.all(rotation[(row, k)]));
-                start.robots.frame.push(match &level {
-                    None => column,
-                    Some(level) => level.to_level(&column),
-                });
-            }
+            start.robots.frame.extend(rows.frame(pose, level.as_ref()));
             let payload = start.payload.clone();
             let mut record = Record::new(start.offsets.clone(), start.multipliers);
             let outcome = observe(start, &nominal.shared, &mut record);

@@ -1,0 +1,110 @@
+//! Observations with the rotation of the platform under the load.
+
+use super::{Batch, Observation, Observer, Rows, read};
+use crate::error::StaticsError;
+use crate::lanes::algebra::Lanes3;
+use crate::lanes::chain::{Keep, observe};
+use crate::lanes::level::LevelFrame;
+use crate::lanes::newton::Robots;
+use crate::lanes::reason::ScalarReason;
+use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
+use cdpr_robot::{Matrix3, Pose, Vector3, orthonormalized};
+use smallvec::SmallVec;
+
+/// The deflection of one perturbed robot, with the rotation that belongs to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObservationMotion {
+    /// The deflection.
+    pub observation: Observation,
+    /// Rotation vector from the unloaded to the loaded platform in the base frame [rad], as
+    /// [`Pose::motion_to`].
+    pub rotation: Vector3<f64>,
+}
+
+impl Observer<'_> {
+    /// Deflections of any number of robots, the same as those of [`Observer::observe_all`], with the rotation
+    /// of the platform.
+    pub fn observe_all_motions(&self, deviations: &[f64]) -> Vec<Result<ObservationMotion, StaticsError>> {
+        let rows = deviations.chunks_exact(self.layout.count());
+        let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
+        let whole = &deviations[..deviations.len() - rows.remainder().len()];
+        let in_lanes = dispatch(MotionBatch(Batch { observer: self, deviations: whole }));
+        let alone = |row: &[f64], why| {
+            let found = self.observe_motion(row)?;
+            let observation = Observation { scalar: Some(why), ..found.observation };
+            Ok(ObservationMotion { observation, ..found })
+        };
+        let outcomes =
+            in_lanes.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)));
+        outcomes.chain(incomplete.map(|row| self.observe_motion(row))).collect()
+    }
+
+    /// Deflection and rotation of the robot with `deviations` added to its parameters, by the scalar models.
+    ///
+    /// # Errors
+    /// Those of [`Observer::observe`].
+    pub fn observe_motion(&self, deviations: &[f64]) -> Result<ObservationMotion, StaticsError> {
+        let found = self.deflection(deviations)?;
+        let rotation = found.motion().fixed_rows::<3>(3).into();
+        Ok(ObservationMotion { observation: Observation::one_by_one(&found), rotation })
+    }
+}
+
+/// Rows of deviations for the lanes, whose rotations are asked for.
+struct MotionBatch<'a>(Batch<'a>);
+
+impl WithSimd for MotionBatch<'_> {
+    type Output = Vec<Result<ObservationMotion, ScalarReason>>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Batch { observer: Observer { robot, pose, load, layout, nominal, .. }, deviations } = self.0;
+        let parameters = layout.count();
+        let nominal = match nominal {
+            Ok(nominal) => nominal,
+            Err(why) => return vec![Err(*why); deviations.len() / parameters],
+        };
+        let mut found = Vec::with_capacity(deviations.len() / parameters);
+        for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
+            let count = rows.len() / parameters;
+            let rows = Rows::new(simd, rows, layout);
+            let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
+            start.robots.frame.extend(rows.frame(pose, level.as_ref()));
+            let mut frames = Frames { before: SmallVec::new(), last: SmallVec::new() };
+            let outcome = observe(start, &nominal.shared, &mut frames);
+            let [unloaded, loaded] = [&frames.before, &frames.last].map(|of| in_base(of, level.as_ref()));
+            let answers = read(&outcome, level.as_ref(), valid).into_iter().enumerate().take(count);
+            found.extend(answers.map(|(lane, answer)| {
+                let at = |frame: &Columns| {
+                    let rotation = Matrix3::from_fn(|row, column| frame[column][row][lane]);
+                    Pose { position: Vector3::zeros(), rotation: orthonormalized(&rotation) }
+                };
+                let rotation = at(&unloaded).motion_to(&at(&loaded)).fixed_rows::<3>(3).into();
+                answer.map(|observation| ObservationMotion { observation, rotation })
+            }));
+        }
+        found
+    }
+}
+
+/// The platform frames of the last state of a chain and of the one before it, by their columns.
+struct Frames<S: Simd> {
+    before: SmallVec<[Lanes3<S>; 3]>,
+    last: SmallVec<[Lanes3<S>; 3]>,
+}
+
+impl<'a, S: Simd> Keep<'a, S> for Frames<S> {
+    #[inline(always)]
+    fn state(&mut self, robots: &Robots<'a, S>) {
+        self.before = std::mem::replace(&mut self.last, robots.frame.clone());
+    }
+}
+
+/// The components of a platform frame in the base frame, by its columns, in each lane.
+type Columns = SmallVec<[[[f64; MAX_LANES]; 3]; 3]>;
+
+#[inline(always)]
+fn in_base<S: Simd>(frame: &[Lanes3<S>], level: Option<&LevelFrame<S>>) -> Columns {
+    let to_base = |column: &Lanes3<S>| level.map_or(*column, |level| level.to_base(column));
+    frame.iter().map(|column| to_base(column).map(Lanes::to_array)).collect()
+}
