@@ -181,7 +181,9 @@ pub fn compute_workspace(
         tick();
         Ok(WorkspacePose { pose, outcome, anew, capacity, clearance, tilt })
     };
-    let poses: Vec<_> = workspace.grid.poses().into_iter().map(|level| Pose { rotation, ..level }).collect();
+    let order = without_jumps(&workspace.grid);
+    let at = |number: &usize| Pose { rotation, ..workspace.grid.pose(*number) };
+    let poses: Vec<_> = order.iter().map(at).collect();
     let of_block = |poses: &[Pose]| {
         if stop() {
             return vec![Err(StudyError::Stopped)];
@@ -190,7 +192,20 @@ pub fn compute_workspace(
         let each = poses.par_iter().copied().zip(outcomes).zip(anew);
         each.map(|((pose, outcome), anew)| one(pose, outcome, anew)).collect()
     };
-    poses.par_chunks(BLOCK).flat_map(of_block).collect()
+    let found: Vec<_> = poses.par_chunks(BLOCK).flat_map(of_block).collect::<Result<_, _>>()?;
+    let mut found: Vec<_> = order.into_iter().zip(found).collect();
+    found.sort_unstable_by_key(|(number, _)| *number);
+    Ok(found.into_iter().map(|(_, pose)| pose).collect())
+}
+
+/// The numbers of all positions in an order in which each is a neighbour of the one before: lines run to and
+/// fro.
+fn without_jumps(grid: &Grid) -> Vec<usize> {
+    let [columns, rows, layers] = Axis::ALL.map(|axis| grid.axis(axis).points);
+    let turned = |k: usize, count: usize, back: bool| if back { count - 1 - k } else { k };
+    let lines = (0..columns).flat_map(|i| (0..rows).map(move |j| i * rows + turned(j, rows, i % 2 == 1)));
+    let line = |(number, line)| (0..layers).map(move |k| line * layers + turned(k, layers, number % 2 == 1));
+    lines.enumerate().flat_map(line).collect()
 }
 
 /// The results of poses that follow each other.
@@ -364,5 +379,30 @@ impl Dominant {
         let variance: f64 = parts.iter().sum();
         let (input, part) = parts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
         (variance > 0.0).then(|| Self { input, share: part / variance, std: variance.sqrt() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cdpr_study::GridAxis;
+
+    #[test]
+    fn neighbours_follow_each_other() {
+        let axis = |points| GridAxis { min: 0.0, max: if points == 1 { 0.0 } else { 1.0 }, points };
+        for counts in [[3, 4, 5], [2, 3, 2], [1, 4, 3], [5, 1, 1]] {
+            let grid = Grid::new(counts.map(axis)).unwrap();
+            let order = without_jumps(&grid);
+            let mut all = order.clone();
+            all.sort_unstable();
+            assert!(all.into_iter().eq(0..grid.count()));
+            let [_, rows, layers] = counts;
+            let place = |k: usize| [k / layers / rows, k / layers % rows, k % layers];
+            for pair in order.windows(2) {
+                let (one, other) = (place(pair[0]), place(pair[1]));
+                let steps: usize = one.iter().zip(other).map(|(a, b)| a.abs_diff(b)).sum();
+                assert_eq!(steps, 1, "{one:?} to {other:?} of {counts:?}");
+            }
+        }
     }
 }

@@ -86,6 +86,29 @@ fn a_map_says_of_each_position_what_the_scalar_models_say() {
     }
 }
 
+#[test]
+fn threads_change_no_bit_of_a_map() {
+    for Map { name, robot, axes, load } in maps() {
+        let robot = Robot::from_json(robot).unwrap();
+        let grid = Grid::new(axes.map(|(min, max, points)| GridAxis { min, max, points })).unwrap();
+        let workspace = Workspace {
+            robot: &robot,
+            grid,
+            rotation: Rotation3::identity(),
+            load,
+            tolerances: None,
+            free: &[],
+            further: Further::default(),
+        };
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| compute_workspace(&workspace, &|| (), &|| false).unwrap())
+        };
+        let one = on(1);
+        assert!([2, 3].into_iter().all(|threads| on(threads) == one), "{name}");
+    }
+}
+
 /// What differs, if anything does.
 fn check(robot: &Robot, load: &Load, found: &WorkspacePose) -> Result<(), String> {
     let offsets = vec![0.0; robot.cables.len()];

@@ -41,9 +41,10 @@ pub enum StaticsError {
     #[error(
         "at position ({x}, {y}, {z}) m: no tensions between {min} N and {max} N balance the wrench{why}: \
          the best \
-         from {starts} starts leave a residual of {force:.3} N and {moment:.3} N m beside tensions up to \
+         from {from} leave a residual of {force:.3} N and {moment:.3} N m beside tensions up to \
          {largest:.3} N{blocked}; change the pose, the load or the limits",
         x = position[0], y = position[1], z = position[2],
+        from = if *starts == 1 { "one start".to_owned() } else { format!("{starts} starts") },
         largest = tensions.iter().copied().fold(0.0, f64::max),
         why = if *rank_deficient { ", and cables at this pose cannot resist every wrench" } else { "" },
         blocked = Blocked::list(blocked)

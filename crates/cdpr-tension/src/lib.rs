@@ -46,11 +46,13 @@
 
 mod box_problem;
 mod distribution;
+mod least_squares;
 mod linear_program;
 mod problem;
 mod quadratic_program;
 
 pub use box_problem::{BoxProblem, BoxSolution, BoxUnknown};
 pub use distribution::{Distribution, DistributionMethod, closed_form, distribute, offset};
+pub use least_squares::bounded_least_squares;
 pub use linear_program::{LinearProgram, LinearSolution};
 pub use problem::{Bound, Problem, TensionError};

@@ -9,6 +9,7 @@ use crate::figure::pose_map::NamedMap;
 use crate::text::number;
 use cdpr_assess::{HELD, WorkspaceRow, WorkspaceSummary};
 use cdpr_robot::Robot;
+use rayon::prelude::*;
 
 /// Quantity that is drawn over the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -211,19 +212,19 @@ fn names(plane: &Plane, robot: &Robot, summary: &WorkspaceSummary) -> Result<Str
 
 /// Draws all maps of a plane, or of each layer of a box. The names of layers end in `_z00`, ...
 pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary) -> Vec<NamedMap> {
-    let mut maps = Vec::new();
-    for plane in Plane::of(&summary.grid) {
+    let shown: Vec<_> = MapQuantity::ALL.into_iter().filter(|of| of.exists(summary)).collect();
+    let of_plane = |plane: &Plane| {
         let name = |quantity: &str| format!("{quantity}{}", plane.suffix());
-        let shown = MapQuantity::ALL.into_iter().filter(|of| of.exists(summary));
-        maps.extend(
-            shown.map(|of| NamedMap { name: name(of.name()), svg: values(&plane, robot, summary, of) }),
-        );
+        let map =
+            |of: &MapQuantity| NamedMap { name: name(of.name()), svg: values(plane, robot, summary, *of) };
+        let mut maps: Vec<_> = shown.iter().map(map).collect();
         if !summary.uncertainties.is_empty() {
-            let svg = names(&plane, robot, summary);
+            let svg = names(plane, robot, summary);
             maps.push(NamedMap { name: name("dominant_tolerance"), svg });
         }
-    }
-    maps
+        maps
+    };
+    Plane::of(&summary.grid).par_iter().flat_map(of_plane).collect()
 }
 
 fn plane_of(summary: &WorkspaceSummary) -> Result<Plane, ReportError> {

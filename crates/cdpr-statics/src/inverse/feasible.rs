@@ -25,14 +25,15 @@
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
 //! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual
 //! has that direction, if one exists and the cables are nearly straight; it is tried on a grid of each
-//! cable's chord forces. Then no other start is tried.
+//! cable's chord forces. Then no other start is tried. Where straight cables leave a residual, this is asked
+//! first; beside a pose that was refused it is asked from the tensions that came nearest there.
 
 use super::optimum::{ELASTICITY, Optimum, Point};
 use super::question::Question;
 use crate::error::{Blocked, StaticsError};
 use cdpr_cable::CableError;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector3, Vector6};
-use cdpr_tension::{Bound, BoxProblem, BoxUnknown};
+use cdpr_tension::{Bound, BoxProblem, BoxSolution, BoxUnknown, bounded_least_squares};
 
 /// A residual below this, relative to wrench and tensions, balances.
 pub(super) const BALANCED: f64 = 1e-8;
@@ -42,6 +43,9 @@ pub(super) const BALANCED: f64 = 1e-8;
 const LEAST_GAIN: f64 = 1e-9;
 const CLEAR_GAIN: f64 = 1e-3;
 
+/// A residual of straight cables above this, relative to wrench and tensions, makes a balance doubtful.
+const CLEAR_RESIDUE: f64 = 1e-3;
+
 /// Slackness q from which (I6) is tried, at a sag of about a thirtieth of the chord, and from which all
 /// starts are, at a tenth.
 const SOME: f64 = 0.14;
@@ -50,8 +54,14 @@ const MUCH: f64 = 0.4;
 /// The optimum: of cables that sag little from the first start that leads to one, else the best of all
 /// starts.
 pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
-    let straight = straight(question);
-    let mut nearest = Point::new(question, &straight)?;
+    let (straight, residue) = straight(question);
+    let first = Point::new(question, &straight)?;
+    if residue > CLEAR_RESIDUE
+        && let Some(refusal) = refused(question, &first)
+    {
+        return Err(refusal);
+    }
+    let mut nearest = first.clone();
     let mut best = nearest.optimise().then(|| nearest.clone());
     let mut iterations = nearest.iterations;
     if let Some(best) = &mut best
@@ -62,8 +72,9 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
         }
         return Ok(Optimum { iterations, ..best.optimum() });
     }
-    for (k, tensions) in starts(question, straight).iter().enumerate() {
-        let mut point = Point::new(question, tensions)?;
+    let others = starts(question).map(|tensions| Point::new(question, &tensions));
+    for (k, start) in std::iter::once(Ok(first)).chain(others).enumerate() {
+        let mut point = start?;
         let found = point.balance(LEAST_GAIN) && point.optimise();
         iterations += point.iterations;
         if found {
@@ -86,13 +97,21 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
     }
 }
 
-/// Whether tensions within the limits that hold the pose are found from those of straight cables alone.
-pub(super) fn holds(question: &Question) -> Result<bool, StaticsError> {
-    Ok(Point::new(question, &straight(question))?.balance(CLEAR_GAIN))
+/// The refusal of a pose that the least residual near `start` proves to be infeasible.
+pub(super) fn refused<'a>(question: &Question<'a>, start: &Point<'a>) -> Option<StaticsError> {
+    let mut point = start.clone();
+    let refuted = !point.balance(LEAST_GAIN) && point.refutes();
+    refuted.then(|| point.refusal(question, 1, point.iterations, true))
 }
 
-/// Tensions of the optimum for cables along their chords, or the nearest to a balance.
-pub(super) fn straight(question: &Question) -> Vec<f64> {
+/// Whether tensions within the limits that hold the pose are found from those of straight cables alone.
+pub(super) fn holds(question: &Question) -> Result<bool, StaticsError> {
+    Ok(Point::new(question, &straight(question).0)?.balance(CLEAR_GAIN))
+}
+
+/// Tensions of the optimum for cables along their chords, or the nearest to a balance, and the residual that
+/// they leave, relative to wrench and tensions.
+pub(super) fn straight(question: &Question) -> (Vec<f64>, f64) {
     let (robot, pose) = (question.robot, question.pose);
     let pulls: Vec<Vector3<f64>> = (0..question.cables()).map(|i| -robot.span(pose, i).normalize()).collect();
     let mut matrix = robot.wrench_matrix(pose, &pulls);
@@ -108,15 +127,17 @@ pub(super) fn straight(question: &Question) -> Vec<f64> {
         })
         .collect();
     let (residual, multipliers) = (question.external, Vector6::zeros());
-    BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers }.solve().values
+    let program = BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers };
+    let BoxSolution { values, multipliers, .. } = program.solve();
+    let size = question.external.norm() + values.iter().sum::<f64>();
+    (values, ELASTICITY * multipliers.norm() / size)
 }
 
-/// The first start, and those of [`starts`].
+/// The first start, a balance from there, and those of [`starts`].
 const STARTS: usize = 9;
 
-/// Tensions to start from: those of straight cables, the reference, the middle, and others spread over the
-/// limits.
-fn starts(question: &Question, straight: Vec<f64>) -> [Vec<f64>; STARTS - 1] {
+/// Tensions to start from besides: the reference, the middle, and others spread over the limits.
+fn starts(question: &Question) -> [Vec<f64>; STARTS - 2] {
     let middle = question.limits.iter().map(|limits| 0.5 * (limits.min + limits.max)).collect();
     // Multiples of a step that is another one for each cable, but for whole numbers: on the unit interval
     // these are spread evenly (additive recurrence of the plastic number).
@@ -128,7 +149,7 @@ fn starts(question: &Question, straight: Vec<f64>) -> [Vec<f64>; STARTS - 1] {
         question.limits.iter().enumerate().map(tension).collect()
     };
     let [a, b, c, d, e] = [1, 2, 3, 4, 5].map(spread);
-    [straight, question.reference.clone(), middle, a, b, c, d, e]
+    [question.reference.clone(), middle, a, b, c, d, e]
 }
 
 impl<'a> Point<'a> {
@@ -151,7 +172,7 @@ impl<'a> Point<'a> {
                 .iter()
                 .map(|strand| damping * (1.0 + largest / strand.held.chord_force()).powi(2))
                 .collect();
-            let Some((step, _)) = self.step(&curvature, false, 1.0) else { return false };
+            let Some(step) = self.least_step(&curvature) else { return false };
             let moved = self.moved(&step);
             let next = moved.map(|moved| {
                 let rows = self.rows_of(&moved);
@@ -176,6 +197,29 @@ impl<'a> Point<'a> {
             }
         }
         residual <= BALANCED * self.size()
+    }
+
+    /// Solves (I4) for a step, and asks for the chord forces of all limits that it meets.
+    fn least_step(&mut self, curvature: &[f64]) -> Option<Vec<f64>> {
+        let residual = self.residual();
+        loop {
+            let each = self.rows.iter().zip(curvature).zip(&self.strands);
+            let unknowns: Vec<BoxUnknown> = each
+                .map(|((row, curvature), strand)| BoxUnknown {
+                    gradient: 0.0,
+                    curvature: *curvature,
+                    column: row.slope,
+                    bounds: strand.room(),
+                })
+                .collect();
+            let step = bounded_least_squares(&unknowns, &residual)?;
+            if !step.iter().all(|d| d.is_finite()) {
+                return None;
+            }
+            if !self.learns_reached(&step, &unknowns)? {
+                return Some(step);
+            }
+        }
     }
 
     /// |F|, relative to wrench and tensions.

@@ -250,7 +250,7 @@ impl<'a> Search<'a> {
         let start = self.pose(&changes);
         let question = self.question_at(&start);
         let least = 1e-2 * self.question.external.norm() / self.question.cables() as f64;
-        let mut chord_forces: Vec<f64> = straight(&question).into_iter().map(|t| t.max(least)).collect();
+        let mut chord_forces: Vec<f64> = straight(&question).0.into_iter().map(|t| t.max(least)).collect();
         let Some(mut point) = self.point(&changes, &chord_forces) else { return Outcome::Lost };
         let mut damping = 1e-3;
         for iteration in 0..MAX_ITERATIONS {

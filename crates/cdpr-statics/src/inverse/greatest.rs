@@ -225,7 +225,7 @@ const MAX_ITERATIONS: usize = 100;
 impl Rise {
     /// The greatest z and the cables there; `own` is the question with the limits as they are.
     fn top<'a>(&self, question: &Question<'a>, own: &Question<'a>) -> Result<(f64, Top<'a>), StaticsError> {
-        let (mut point, top) = self.climb(question, &straight(question))?;
+        let (mut point, top) = self.climb(question, &straight(question).0)?;
         if let Some(top) = top {
             return Ok(top);
         }

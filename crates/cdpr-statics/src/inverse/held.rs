@@ -134,6 +134,12 @@ impl<'a> Strand<'a> {
                 return Err(CableError::TensionTooSmall { tension: self.limits.max, least });
             }
             self.limits.min = self.limits.min.max(ABOVE_LEAST * least);
+            // Beside the least tension, where it has no slope: t = t_0 + t'' (σ - σ_0)²/2.
+            let (_, curvature) = self.ends.curvatures(&nearby);
+            let beyond = (2.0 * (self.limits.min - least) / curvature).sqrt();
+            if let Ok(beside) = nearby.with_chord_force(nearby.chord_force() + beyond) {
+                nearby = beside;
+            }
         }
         self.chord_forces[0] = Some(nearby.with_tension(self.limits.min)?.chord_force());
         Ok(())

@@ -131,18 +131,12 @@ impl<'a> Point<'a> {
     }
 
     /// Solves a program for a step, and asks for the chord forces of all limits that it meets.
-    pub(super) fn step(
-        &mut self,
-        curvature: &[f64],
-        with_objective: bool,
-        elasticity: f64,
-    ) -> Option<(Vec<f64>, Vector6<f64>)> {
-        let multipliers = if with_objective { self.multipliers } else { Vector6::zeros() };
-        let residual = self.residual();
+    fn step(&mut self, curvature: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
+        let (elasticity, multipliers, residual) = (ELASTICITY, self.multipliers, self.residual());
         let each = self.rows.iter().zip(curvature);
         let mut unknowns: Vec<BoxUnknown> = each
             .map(|(row, curvature)| BoxUnknown {
-                gradient: if with_objective { row.gradient() } else { 0.0 },
+                gradient: row.gradient(),
                 curvature: *curvature,
                 column: row.slope,
                 bounds: [0.0; 2],
@@ -156,19 +150,24 @@ impl<'a> Point<'a> {
             if !solution.values.iter().all(|d| d.is_finite()) {
                 return None;
             }
-            let mut learned = false;
-            for ((strand, d), unknown) in self.strands.iter_mut().zip(&solution.values).zip(&unknowns) {
-                for side in 0..2 {
-                    if *d == unknown.bounds[side] && !strand.knows(side) {
-                        strand.learn(side).ok()?;
-                        learned = true;
-                    }
-                }
-            }
-            if !learned {
+            if !self.learns_reached(&solution.values, &unknowns)? {
                 return Some((solution.values, solution.multipliers));
             }
         }
+    }
+
+    /// Whether a step reaches a limit that has not been asked for; asks for it.
+    pub(super) fn learns_reached(&mut self, values: &[f64], unknowns: &[BoxUnknown]) -> Option<bool> {
+        let mut learned = false;
+        for ((strand, d), unknown) in self.strands.iter_mut().zip(values).zip(unknowns) {
+            for side in 0..2 {
+                if *d == unknown.bounds[side] && !strand.knows(side) {
+                    strand.learn(side).ok()?;
+                    learned = true;
+                }
+            }
+        }
+        Some(learned)
     }
 
     /// Twice the objective of (I1) [N²].
@@ -216,7 +215,7 @@ impl<'a> Point<'a> {
             }
             let exact = self.hessian();
             let convex: Vec<f64> = exact.iter().map(|h| h.abs().max(LEAST_CURVATURE)).collect();
-            let Some((mut step, mut multipliers)) = self.step(&convex, true, ELASTICITY) else {
+            let Some((mut step, mut multipliers)) = self.step(&convex) else {
                 return false;
             };
             // Within the limits no change of the tensions brings the balance nearer: the search for a balance

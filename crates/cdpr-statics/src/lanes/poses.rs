@@ -4,12 +4,14 @@
 //! held. The poses after it are cut into [`SEQUENCES`] sequences, and the lanes go along them together: each
 //! pose starts from the last answer of its own sequence, with the horizontal forces and multipliers of its
 //! cables. What a lane does not decide, and what is not proved to be the least of all minima where cables
-//! sag, is left to the scalar model. No answer depends on the vector unit, because no sequence knows another.
+//! sag, is left to the scalar model. After a pose without tensions the next one is first asked for a proof
+//! that it has none, from the tensions that came nearest there. No answer depends on the vector unit, because
+//! no sequence knows another.
 
 use crate::equations::Span;
 use crate::equations::vector::{dot, wrench};
 use crate::error::StaticsError;
-use crate::inverse::{InverseSolution, inverse};
+use crate::inverse::{InTurn, InverseSolution};
 use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::{Choice, SAGGING, Shape, Shared, distribute, hold};
@@ -56,7 +58,13 @@ const STATIONARY: f64 = 1e-10;
 pub fn inverse_all(robot: &Robot, poses: &[Pose], load: &Load) -> Vec<Result<InverseSolution, StaticsError>> {
     match Setting::of(robot, load) {
         Some(setting) => poses.chunks(BLOCK).flat_map(|block| setting.block(block)).collect(),
-        None => poses.iter().map(|pose| inverse(robot, pose, load, None)).collect(),
+        None => poses
+            .chunks(BLOCK)
+            .flat_map(|block| {
+                let mut scalar = InTurn::new(robot, load);
+                block.iter().map(move |pose| scalar.answer(pose))
+            })
+            .collect(),
     }
 }
 
@@ -80,6 +88,7 @@ struct Near {
 struct Sequence<'a> {
     poses: &'a [Pose],
     near: Near,
+    scalar: InTurn<'a>,
     answers: Vec<Result<InverseSolution, StaticsError>>,
 }
 
@@ -124,9 +133,10 @@ impl<'a> Setting<'a> {
 
     fn block(&self, poses: &[Pose]) -> Vec<Result<InverseSolution, StaticsError>> {
         let mut answers = Vec::with_capacity(poses.len());
+        let mut scalar = InTurn::new(self.robot, self.load);
         let mut first = None;
         for pose in poses {
-            let answer = self.alone(pose);
+            let answer = scalar.answer(pose);
             first = answer.as_ref().ok().map(|solution| Near::of(self.robot, pose, solution));
             answers.push(answer);
             if first.is_some() {
@@ -136,35 +146,46 @@ impl<'a> Setting<'a> {
         let Some(near) = first else { return answers };
         let rest = &poses[answers.len()..];
         let length = rest.len().div_ceil(SEQUENCES);
-        let sequence = |poses| Sequence { poses, near: near.clone(), answers: Vec::with_capacity(length) };
+        let sequence = |poses| Sequence {
+            poses,
+            near: near.clone(),
+            scalar: InTurn::new(self.robot, self.load),
+            answers: Vec::with_capacity(length),
+        };
         let mut sequences: Vec<_> = rest.chunks(length.max(1)).map(sequence).collect();
         for k in 0..length {
-            // The last sequence is the shortest.
-            let asked: Vec<_> = sequences
-                .iter()
-                .filter_map(|sequence| Some(Asked { pose: sequence.poses.get(k)?, near: &sequence.near }))
-                .collect();
-            let found = dispatch(Batch { setting: self, asked: &asked });
-            for (sequence, found) in sequences.iter_mut().zip(found) {
-                let pose = &sequence.poses[k];
-                let answer = match found {
-                    Some((solution, near)) => {
-                        sequence.near = near;
-                        Ok(solution)
-                    }
-                    None => self.alone(pose).inspect(|solution| {
-                        sequence.near = Near::of(self.robot, pose, solution);
-                    }),
-                };
-                sequence.answers.push(answer);
-            }
+            self.next(&mut sequences, k);
         }
         answers.extend(sequences.into_iter().flat_map(|sequence| sequence.answers));
         answers
     }
 
-    fn alone(&self, pose: &Pose) -> Result<InverseSolution, StaticsError> {
-        inverse(self.robot, pose, self.load, None)
+    /// Answers pose number `k` of every sequence; the last sequence may be shorter.
+    fn next(&self, sequences: &mut [Sequence], k: usize) {
+        let mut open = Vec::with_capacity(sequences.len());
+        for sequence in sequences {
+            let Some(pose) = sequence.poses.get(k) else { continue };
+            match sequence.scalar.refusal(pose) {
+                Some(refusal) => sequence.answers.push(Err(refusal)),
+                None => open.push((pose, sequence)),
+            }
+        }
+        let asked: Vec<_> =
+            open.iter().map(|(pose, sequence)| Asked { pose, near: &sequence.near }).collect();
+        let found = dispatch(Batch { setting: self, asked: &asked });
+        for ((pose, sequence), found) in open.into_iter().zip(found) {
+            let answer = match found {
+                Some((solution, near)) => {
+                    sequence.scalar.held();
+                    sequence.near = near;
+                    Ok(solution)
+                }
+                None => sequence.scalar.solution(pose).inspect(|solution| {
+                    sequence.near = Near::of(self.robot, pose, solution);
+                }),
+            };
+            sequence.answers.push(answer);
+        }
     }
 
     /// The answer of a lane, if its equations hold to rounding.
@@ -420,6 +441,7 @@ impl<'a, S: Simd> InLanes<'a, S> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::inverse::inverse;
     use crate::lanes::simd::Scalar;
 
     #[test]
@@ -428,7 +450,7 @@ mod tests {
         let load = Load::payload(50.0);
         let setting = Setting::of(&robot, &load).unwrap();
         let nearby = Pose::at(1.0, 0.5, 1.5);
-        let near = Near::of(&robot, &nearby, &setting.alone(&nearby).unwrap());
+        let near = Near::of(&robot, &nearby, &inverse(&robot, &nearby, &load, None).unwrap());
         let poses: Vec<_> = (0..21).map(|k| Pose::at(0.9 + 0.03 * f64::from(k), 0.4, 1.6)).collect();
         let asked: Vec<_> = poses.iter().map(|pose| Asked { pose, near: &near }).collect();
         let of = |batch: Vec<Option<(InverseSolution, Near)>>| -> Vec<_> {
