@@ -18,8 +18,8 @@
 % Observation: inverse model of the robot with deviations, tension offsets dt, lengths for these, direct model
 % without and with the payload, difference of the positions.
 %
-% Solvers: lsqnonlin of package optim (Levenberg-Marquardt), or fsolve (dog leg), with forward differences; sqp
-% for the inverse model.
+% Solvers: lsqnonlin of package optim (Levenberg-Marquardt), or fsolve (dog leg), with forward differences;
+% sqp for the inverse model.
 
 1; % a script, not a function file
 
@@ -221,4 +221,5 @@ for i = 1:numel(problem.cases)
     answers{i} = answer_of(problem.cases(i), problem.repeats);
   end
 end
-disp(jsonencode(struct("version", OCTAVE_VERSION, "solver", [args{2} ", sqp; differences"], "cases", {answers})));
+disp(jsonencode(struct("version", OCTAVE_VERSION, "solver", [args{2} ", sqp; differences"], ...
+                        "cases", {answers})));

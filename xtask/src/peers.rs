@@ -1,4 +1,4 @@
-//! `cargo xtask bench-peers`: the same direct problems, inverse models and observations, solved by cdpr and by
+//! `cargo xtask bench-peers`: the same direct problems, inverse models and observations, by cdpr and by
 //! other programs.
 //!
 //! `crates/cdpr-statics/examples/peer_problem.rs` writes a list of cases with the answers and times of cdpr.
