@@ -11,8 +11,8 @@
 //
 // Inverse model: the stationary point of sum t_i^2 / 2 + l . (balance) at R = 1, as 3m + 6 equations. Unknowns
 // are the tension, angle s and length of every cable and the multipliers l; equations (2a), (2b) with
-// fx = t cos s, fz = t sin s, (3), and t_i + l . dw_i/dt_i = 0, where the angle follows the tension by (2). Ceres
-// has no constraints beside bounds: where a tension of this point is beyond its limit there is no answer.
+// fx = t cos s, fz = t sin s, (3), and t_i + l . dw_i/dt_i = 0, where the angle follows the tension by (2).
+// Ceres has no constraints beside bounds: where a tension of this point is beyond its limit there is no answer.
 //
 // Observation: inverse model of the robot with deviations, tension offsets dt, lengths for these, direct
 // model without and with the payload, difference of the positions.

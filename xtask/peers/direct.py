@@ -34,6 +34,8 @@ from scipy.optimize import least_squares, minimize
 OPTIONS = {"method": "lm", "x_scale": "jac", "xtol": 1e-8, "ftol": 1e-15, "gtol": 1e-15}
 # Unknowns and residuals are of order one.
 SLSQP = {"ftol": 1e-12, "maxiter": 1000}
+# Largest residual that an answer may leave.
+CLOSED = 1e-11
 
 
 def catenary(fx, fz, length, w, ea):
@@ -136,8 +138,11 @@ class Robot:
         angles = np.arctan2(z, h)
         pulls = np.column_stack([np.cos(angles)[:, None] * e, np.sin(angles)])
         straight = np.linalg.pinv(np.vstack([pulls.T, np.cross(self.a, pulls).T])) @ weight
-        start = np.concatenate([np.clip(straight, self.least, self.greatest) / force, angles, np.ones(self.m)])
-        bounds = [*zip(self.least / force, self.greatest / force), *[(None, None)] * (2 * self.m)]
+        within = np.clip(straight, self.least, self.greatest)
+        start = np.concatenate([within / force, angles, np.ones(self.m)])
+        # A cable leaves its anchor point towards its exit point: else it would push.
+        quarter, free = (-0.5 * np.pi, 0.5 * np.pi), (None, None)
+        bounds = [*zip(self.least / force, self.greatest / force), *[quarter] * self.m, *[free] * self.m]
         found = minimize(
             lambda x: 0.5 * x[: self.m] @ x[: self.m],
             start,
@@ -148,7 +153,7 @@ class Robot:
             options=SLSQP,
         )
         # Rounding ends the line search of nearly straight cables before `ftol` does.
-        if not np.abs(open_equations(found.x)).max() < 1e-9:
+        if not np.abs(open_equations(found.x)).max() < CLOSED:
             raise RuntimeError(f"SLSQP: {found.message}")
         t, angles, lengths = found.x.reshape(3, self.m)
         return force * t, angles, chord * lengths
@@ -157,7 +162,8 @@ class Robot:
         """Displacement dp under the payload."""
         tensions, angles, lengths = self.inverse(position)
         _, h, z = self.span(position, self.a)
-        tensions = tensions + self.dt
+        # A set-point stays within the limits.
+        tensions = np.clip(tensions + self.dt, self.least, self.greatest)
         angles, lengths = self.held(tensions, h, z, np.concatenate([angles, lengths]))
         forces = np.column_stack([tensions * np.cos(angles), tensions * np.sin(angles)])
         unloaded = self.direct(lengths, 0.0, np.concatenate([position, np.zeros(3), forces.ravel()]))
@@ -183,20 +189,22 @@ def answer(problem, repeats):
     direct, direct_times = timed(lambda: robot.direct(lengths, payload, start), repeats)
     held, inverse_times = timed(lambda: robot.inverse(position), repeats)
     displacements, times = [], []
-    # Where limits are active SLSQP does not converge for all rows.
-    bounded = any(problem["at_limits"])
-    for deviation in [] if bounded else np.array(problem["deviations"]):
-        observe = lambda: Robot(problem, nominal + deviation).observation(position, payload)
-        result, taken = timed(observe, repeats)
-        displacements.append(result.tolist())
-        times += taken
+    try:
+        for deviation in np.array(problem["deviations"]):
+            observe = lambda: Robot(problem, nominal + deviation).observation(position, payload)
+            result, taken = timed(observe, repeats)
+            displacements.append(result.tolist())
+            times += taken
+    except RuntimeError as error:
+        print(f"{problem['name']}, observation {len(displacements) + 1}: {error}", file=sys.stderr)
+        displacements = times = None
     return {
         "direct_us": np.median(direct_times),
         "direct_position": direct[:3].tolist(),
         "inverse_us": np.median(inverse_times),
         "tensions": held[0].tolist(),
-        "observation_us": None if bounded else np.median(times),
-        "displacements": None if bounded else displacements,
+        "observation_us": np.median(times) if times else None,
+        "displacements": displacements,
     }
 
 

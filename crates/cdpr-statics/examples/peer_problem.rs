@@ -10,13 +10,13 @@
 //! position             wanted position of P [m]; the wanted rotation is the identity
 //! payload              mass added at the centre of mass [kg]
 //! least, greatest      inverse model: limits of every cable's tension at the platform [N]
-//! lengths, forces      direct problem: unstrained lengths [m]; (fx, fz) of every cable [N] at the start, where the
-//!                      platform rests at `position` without the payload
+//! lengths, forces      direct problem: unstrained lengths [m]; (fx, fz) of every cable [N] at the start, where
+//!                      the platform rests at `position` without the payload
 //! deviations           observations: what is added to `parameters`, one row each
 //! at_limits            tensions on a limit, in the nominal robot and in each row
 //! cdpr                 direct_us, direct_position [m], inverse_us, tensions [N], observation_us,
-//!                      displacements [m]: solves one after the other by `Tracker`, observations in batches by
-//!                      `Observer`, `inverse` alone
+//!                      displacements [m]: solves one after the other by `Tracker`, observations in batches
+//!                      by `Observer`, `inverse` alone
 //! cdpr_alone           each direct solve and observation alone; inverse_us and tensions are null
 //! ```
 
