@@ -9,9 +9,10 @@
 //   h = fx L/EA + fx/w (asinh(fz/fx) - asinh((fz - w L)/fx))                           [mm]    Eq. (2a)
 //   z = fz L/EA - w L^2/(2 EA) + (sqrt(fx^2 + fz^2) - sqrt(fx^2 + (fz - w L)^2))/w     [mm]    Eq. (2b)
 //
-// Inverse model: least-norm tensions t = -W^T (W W^T)^-1 w_ex, W from the directions of the cables at the
-// platform; then for every cable the unknowns (angle, L) of Eq. (2a), (2b) with fx = t cos, fz = t sin;
-// again, until the directions stop moving.
+// Inverse model: the stationary point of sum t_i^2 / 2 + l . (balance) at R = 1, as 3m + 6 equations. Unknowns
+// are the tension, angle s and length of every cable and the multipliers l; equations (2a), (2b) with
+// fx = t cos s, fz = t sin s, (3), and t_i + l . dw_i/dt_i = 0, where the angle follows the tension by (2).
+// Ceres has no constraints beside bounds: where a tension of this point is beyond its limit there is no answer.
 //
 // Observation: inverse model of the robot with deviations, tension offsets dt, lengths for these, direct
 // model without and with the payload, difference of the positions.
@@ -35,7 +36,8 @@
 using nlohmann::json;
 template <int N>
 using Vector = Eigen::Matrix<double, N, 1>;
-using Vector8 = Vector<8>;
+template <int M>
+using Points = Eigen::Matrix<double, 3, M>;
 
 template <typename T>
 T asinh_of(const T& u) {
@@ -53,27 +55,29 @@ void catenary(const T& fx, const T& fz, const L& length, double w, double ea, T&
       (sqrt(fx * fx + fz * fz) - sqrt(fx * fx + v0 * v0)) / w;
 }
 
-// Robot with the parameter vector: mass, density, modulus, a (24), b (24), centre of mass, dt (8).
+// Robot with the parameter vector: mass, density, modulus, a (3m), b (3m), centre of mass, dt (m).
+template <int M>
 struct Robot {
   double g, mass, w, ea;
-  Eigen::Matrix<double, 3, 8> a, b;
+  Points<M> a, b;
   Vector<3> center;
-  Vector8 dt;
+  Vector<M> dt;
 
   Robot(double gravity, double section, const Eigen::VectorXd& parameters)
       : g(gravity), mass(parameters[0]), w(parameters[1] * g), ea(parameters[2] * section) {
-    a = Eigen::Map<const Eigen::Matrix<double, 3, 8>>(&parameters[3]);
-    b = Eigen::Map<const Eigen::Matrix<double, 3, 8>>(&parameters[27]);
-    center = parameters.segment<3>(51);
-    dt = parameters.segment<8>(54);
+    a = Eigen::Map<const Points<M>>(&parameters[3]);
+    b = Eigen::Map<const Points<M>>(&parameters[3 + 3 * M]);
+    center = parameters.segment<3>(3 + 6 * M);
+    dt = parameters.segment<M>(6 + 6 * M);
   }
 };
 
-// The 22 equations.
+// The 6 + 2m equations.
+template <int M>
 struct Direct {
-  enum { NUM_RESIDUALS = 22, NUM_PARAMETERS = 22 };
-  const Robot& robot;
-  const Vector8& lengths;
+  enum { NUM_RESIDUALS = 6 + 2 * M, NUM_PARAMETERS = 6 + 2 * M };
+  const Robot<M>& robot;
+  const Vector<M>& lengths;
   double mass;
 
   template <typename T>
@@ -85,7 +89,7 @@ struct Direct {
     rotated(rotation, robot.center, center);
     const T wrench[6] = {T(0), T(0), T(mg), center[1] * mg, -center[0] * mg, T(0)};
     for (int k = 0; k < 6; ++k) open[k] = -wrench[k];
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < M; ++i) {
       const T &fx = x[6 + 2 * i], &fz = x[7 + 2 * i];
       T arm[3], xc, zc;
       rotated(rotation, robot.a.col(i), arm);
@@ -117,17 +121,65 @@ struct Direct {
 // One cable with given end and tension; unknowns: angle and length.
 struct Held {
   enum { NUM_RESIDUALS = 2, NUM_PARAMETERS = 2 };
-  const Robot& robot;
-  double tension, h, z;
+  double w, ea, tension, h, z;
 
   template <typename T>
   bool operator()(const T* x, T* open) const {
     using std::cos, std::sin;
     const T fx = tension * cos(x[0]), fz = tension * sin(x[0]);
     T xc, zc;
-    catenary(fx, fz, x[1], robot.w, robot.ea, xc, zc);
+    catenary(fx, fz, x[1], w, ea, xc, zc);
     open[0] = 1e3 * (h - xc);
     open[1] = 1e3 * (z - zc);
+    return true;
+  }
+};
+
+// Stationarity; tensions and multipliers in units of the weight, x = (t, s, L) of every cable, l.
+template <int M>
+struct LeastNorm {
+  enum { NUM_RESIDUALS = 3 * M + 6, NUM_PARAMETERS = 3 * M + 6 };
+  const Robot<M>& robot;
+  const Points<M>& r;
+
+  template <typename T>
+  bool operator()(const T* x, T* open) const {
+    using std::cos, std::sin, std::sqrt;
+    const double mg = robot.mass * robot.g;
+    const T* multipliers = x + 3 * M;
+    T* balance = open + 3 * M;
+    const double weight[6] = {0, 0, -1, -robot.center[1], robot.center[0], 0};
+    for (int k = 0; k < 6; ++k) balance[k] = T(-mg * weight[k]);
+    for (int i = 0; i < M; ++i) {
+      const double h = r.col(i).template head<2>().norm();
+      const T t = mg * x[3 * i], c = cos(x[3 * i + 1]), s = sin(x[3 * i + 1]), fx = t * c, fz = t * s;
+      const T &length = x[3 * i + 2], v0 = fz - robot.w * length;
+      const T upper = t, lower = sqrt(fx * fx + v0 * v0);
+      T xc, zc;
+      catenary(fx, fz, length, robot.w, robot.ea, xc, zc);
+      open[3 * i] = 1e3 * (h - xc);
+      open[3 * i + 1] = 1e3 * (r(2, i) - zc);
+      // Derivatives of the end by fx, fz and L, then that of the angle by the tension, with both ends held.
+      const T x_fx = xc / fx + (v0 / lower - fz / upper) / robot.w, x_fz = (fx / upper - fx / lower) / robot.w;
+      const T z_fz = length / robot.ea + (fz / upper - v0 / lower) / robot.w;
+      const T x_l = fx / robot.ea + fx / lower, z_l = v0 / robot.ea + v0 / lower;
+      const T x_t = x_fx * c + x_fz * s, z_t = x_fz * c + z_fz * s;
+      const T x_s = t * (x_fz * c - x_fx * s), z_s = t * (z_fz * c - x_fz * s);
+      const T slope = -(x_t * z_l - z_t * x_l) / (x_s * z_l - z_s * x_l);
+      const T f_h = c - t * s * slope, f_z = s + t * c * slope;  // dF/dt
+      const double e[2] = {r(0, i) / h, r(1, i) / h};
+      const T f[3] = {fx * e[0], fx * e[1], fz}, df[3] = {f_h * e[0], f_h * e[1], f_z};
+      T arm[3] = {T(robot.a(0, i)), T(robot.a(1, i)), T(robot.a(2, i))}, moment[3], dm[3];
+      ceres::CrossProduct(arm, f, moment);
+      ceres::CrossProduct(arm, df, dm);
+      T gradient = mg * x[3 * i];
+      for (int k = 0; k < 3; ++k) {
+        balance[k] += f[k];
+        balance[3 + k] += moment[k];
+        gradient += multipliers[k] * df[k] + multipliers[3 + k] * dm[k];
+      }
+      open[3 * i + 2] = gradient;
+    }
     return true;
   }
 };
@@ -173,50 +225,59 @@ void solve(const std::vector<Equations>& equations,
   if (!(summary.final_cost < 1e-16)) throw std::runtime_error(summary.BriefReport());
 }
 
-Vector<22> direct(const Robot& robot, const Vector8& lengths, double payload, Vector<22> x) {
-  solve<Direct, 1>({{robot, lengths, robot.mass + payload}}, x);
+template <int M>
+Vector<6 + 2 * M> direct(const Robot<M>& robot, const Vector<M>& lengths, double payload, Vector<6 + 2 * M> x) {
+  solve<Direct<M>, 1>({{robot, lengths, robot.mass + payload}}, x);
   return x;
 }
 
+// Tension, angle and length of every cable in a column, at a position with R = 1.
+template <int M>
+Points<M> inverse(const Robot<M>& robot, const Vector<3>& position) {
+  const Points<M> r = (robot.a - robot.b).colwise() + position;
+  const double mg = robot.mass * robot.g;
+  Eigen::Matrix<double, 6, M> wrenches;  // of straight cables
+  for (int i = 0; i < M; ++i) {
+    const Eigen::Vector3d pull = r.col(i).normalized(), arm = robot.a.col(i);
+    wrenches.col(i) << pull, arm.cross(pull);
+  }
+  Vector<6> weight;
+  weight << 0, 0, -mg, -robot.center[1] * mg, robot.center[0] * mg, 0;
+  const Vector<6> multipliers = -(wrenches * wrenches.transpose()).ldlt().solve(weight);
+  const Vector<M> tensions = -wrenches.transpose() * multipliers;
+  Vector<3 * M + 6> x;
+  for (int i = 0; i < M; ++i) {
+    x.template segment<3>(3 * i) << tensions[i] / mg,
+        std::atan2(r(2, i), r.col(i).template head<2>().norm()), r.col(i).norm();
+  }
+  x.template tail<6>() = multipliers;
+  solve<LeastNorm<M>, 1>({{robot, r}}, x);
+  Points<M> held = Eigen::Map<const Points<M>>(x.data());
+  held.row(0) *= mg;
+  return held;
+}
+
 // Displacement dp under the payload.
-Vector<3> observation(const Robot& robot, const Vector<3>& position, double payload) {
-  const Eigen::Matrix<double, 3, 8> r = (robot.a - robot.b).colwise() + position;
-  const Vector8 h = r.topRows<2>().colwise().norm(), z = r.row(2);
-  Eigen::Matrix<double, 2, 8> held;  // angle, length
-  for (int i = 0; i < 8; ++i) held.col(i) << std::atan2(z[i], h[i]), r.col(i).norm();
-  const auto hold = [&](const Vector8& tensions) {
-    std::vector<Held> cables;
-    for (int i = 0; i < 8; ++i) cables.push_back({robot, tensions[i], h[i], z[i]});
-    solve<Held, 8>(cables, held);
-  };
-  // Inverse model: least-norm tensions at the position with R = 1.
-  const double mg = -robot.mass * robot.g;
-  Vector<6> wrench;
-  wrench << 0, 0, mg, robot.center[1] * mg, -robot.center[0] * mg, 0;
-  Vector8 tensions;
-  for (double moved = 1; moved >= 1e-12;) {
-    Eigen::Matrix<double, 6, 8> matrix;
-    for (int i = 0; i < 8; ++i) {
-      const double c = std::cos(held(0, i)), s = std::sin(held(0, i));
-      const Eigen::Vector3d pull(-c * r(0, i) / h[i], -c * r(1, i) / h[i], -s), arm = robot.a.col(i);
-      matrix.col(i) << pull, arm.cross(pull);
-    }
-    tensions = -matrix.transpose() * (matrix * matrix.transpose()).ldlt().solve(wrench);
-    const Vector8 before = held.row(0);
-    hold(tensions);
-    moved = (held.row(0).transpose() - before).cwiseAbs().maxCoeff();
+template <int M>
+Vector<3> observation(const Robot<M>& robot, const Vector<3>& position, double payload) {
+  const Points<M> r = (robot.a - robot.b).colwise() + position;
+  const Points<M> wanted = inverse(robot, position);
+  const Vector<M> tensions = wanted.row(0).transpose() + robot.dt;
+  Eigen::Matrix<double, 2, M> held = wanted.template bottomRows<2>();  // angle, length
+  std::vector<Held> cables;
+  for (int i = 0; i < M; ++i) {
+    cables.push_back({robot.w, robot.ea, tensions[i], r.col(i).template head<2>().norm(), r(2, i)});
   }
-  tensions += robot.dt;
-  hold(tensions);
-  Vector<22> start = Vector<22>::Zero();
-  start.head<3>() = position;
-  for (int i = 0; i < 8; ++i) {
+  solve<Held, M>(cables, held);
+  Vector<6 + 2 * M> start = Vector<6 + 2 * M>::Zero();
+  start.template head<3>() = position;
+  for (int i = 0; i < M; ++i) {
     const double angle = held(0, i);
-    start.segment<2>(6 + 2 * i) << tensions[i] * std::cos(angle), tensions[i] * std::sin(angle);
+    start.template segment<2>(6 + 2 * i) << tensions[i] * std::cos(angle), tensions[i] * std::sin(angle);
   }
-  const Vector8 lengths = held.row(1);
-  const Vector<22> unloaded = direct(robot, lengths, 0, start);
-  return direct(robot, lengths, payload, unloaded).head<3>() - unloaded.head<3>();
+  const Vector<M> lengths = held.row(1);
+  const Vector<6 + 2 * M> unloaded = direct<M>(robot, lengths, 0, start);
+  return direct<M>(robot, lengths, payload, unloaded).template head<3>() - unloaded.template head<3>();
 }
 
 double cpu_time_us() {
@@ -247,38 +308,72 @@ Eigen::VectorXd vector(const json& list) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
 }
 
-int main(int count, char** arguments) try {
-  if (count < 2) throw std::invalid_argument("usage: ceres PROBLEM.json [tiny]");
-  tiny = count > 2 && std::string(arguments[2]) == "tiny";
-  const json problem = json::parse(std::ifstream(arguments[1]));
+// Answers and times of a case of m cables; null where limits are active.
+template <int M>
+json answer(const json& problem, int repeats) {
   const double gravity = problem["gravity"], section = problem["section"], payload = problem["payload"];
   const Eigen::VectorXd nominal = vector(problem["parameters"]);
   const Vector<3> position = vector(problem["position"]);
-  const Vector8 lengths = vector(problem["lengths"]);
-  const int repeats = 100 * problem["repeats"].get<int>();
-  Vector<22> start = Vector<22>::Zero();
-  start.head<3>() = position;
-  for (int i = 0; i < 8; ++i) start.segment<2>(6 + 2 * i) = vector(problem["forces"][i]);
+  const Vector<M> lengths = vector(problem["lengths"]);
+  const Vector<M> least = vector(problem["least"]), greatest = vector(problem["greatest"]);
+  Vector<6 + 2 * M> start = Vector<6 + 2 * M>::Zero();
+  start.template head<3>() = position;
+  for (int i = 0; i < M; ++i) start.template segment<2>(6 + 2 * i) = vector(problem["forces"][i]);
 
-  const Robot robot(gravity, section, nominal);
-  std::vector<double> direct_times, times;
-  const Vector<22> loaded =
-      timed([&] { return direct(robot, lengths, payload, start); }, repeats, direct_times);
+  const Robot<M> robot(gravity, section, nominal);
+  std::vector<double> direct_times, inverse_times, times;
+  const auto loaded =
+      timed([&] { return direct<M>(robot, lengths, payload, start); }, repeats, direct_times);
+  json found = {{"direct_us", median(direct_times)},
+                {"direct_position", {loaded[0], loaded[1], loaded[2]}},
+                {"inverse_us", nullptr},
+                {"tensions", nullptr},
+                {"observation_us", nullptr},
+                {"displacements", nullptr}};
+  const auto limits_are_active = [&] {
+    for (const json& count : problem["at_limits"]) {
+      if (count.get<int>() > 0) return true;
+    }
+    return false;
+  };
+  if (limits_are_active()) return found;
+  const Points<M> held = timed([&] { return inverse<M>(robot, position); }, repeats, inverse_times);
+  const Vector<M> tensions = held.row(0);
+  if (!((tensions - least).minCoeff() >= 0 && (greatest - tensions).minCoeff() >= 0)) {
+    throw std::runtime_error("a tension is beyond its limits");
+  }
   json displacements;
   for (const json& row : problem["deviations"]) {
     const Eigen::VectorXd deviation = vector(row);
     const auto observe = [&] {
-      return observation(Robot(gravity, section, nominal + deviation), position, payload);
+      return observation<M>(Robot<M>(gravity, section, nominal + deviation), position, payload);
     };
     const Vector<3> dp = timed(observe, repeats, times);
     displacements.push_back({dp[0], dp[1], dp[2]});
   }
+  found["inverse_us"] = median(inverse_times);
+  found["tensions"] = std::vector<double>(tensions.data(), tensions.data() + M);
+  found["observation_us"] = median(times);
+  found["displacements"] = displacements;
+  return found;
+}
+
+int main(int count, char** arguments) try {
+  if (count < 2) throw std::invalid_argument("usage: ceres PROBLEM.json [tiny]");
+  tiny = count > 2 && std::string(arguments[2]) == "tiny";
+  const json problem = json::parse(std::ifstream(arguments[1]));
+  const int repeats = 100 * problem["repeats"].get<int>();
+  json answers;
+  for (const json& item : problem["cases"]) {
+    switch (item["lengths"].size()) {  // sizes are fixed when compiled
+      case 6: answers.push_back(answer<6>(item, repeats)); break;
+      case 8: answers.push_back(answer<8>(item, repeats)); break;
+      default: throw std::invalid_argument("expected 6 or 8 cables");
+    }
+  }
   std::cout << json{{"version", CERES_VERSION_STRING},
-                    {"solver", tiny ? "TinySolver, LU, autodiff" : "ceres::Solve, dense Cholesky, autodiff"},
-                    {"direct_us", median(direct_times)},
-                    {"direct_position", {loaded[0], loaded[1], loaded[2]}},
-                    {"observation_us", median(times)},
-                    {"displacements", displacements}};
+                    {"solver", tiny ? "TinySolver, LU, autodiff" : "ceres::Solve, Cholesky, autodiff"},
+                    {"cases", answers}};
   return 0;
 } catch (const std::exception& error) {
   std::cerr << "error: " << error.what() << "\n";

@@ -10,14 +10,16 @@
 %   h = fx L/EA + fx/w (asinh(fz/fx) - asinh((fz - w L)/fx))                           [mm]    Eq. (2a)
 %   z = fz L/EA - w L^2/(2 EA) + (sqrt(fx^2 + fz^2) - sqrt(fx^2 + (fz - w L)^2))/w     [mm]    Eq. (2b)
 %
-% Inverse model: least-norm tensions t = -W^T (W W^T)^-1 w_ex, W from the directions of the cables at the
-% platform; then for every cable the unknowns (angle, L) of Eq. (2a), (2b) with fx = t cos, fz = t sin; again,
-% until the directions stop moving.
+% Inverse model, with the direction (cos s, sin s) of each cable's force, R = 1:
+%
+%   minimise  sum t_i^2  over t, s, L   subject to   (3) without payload, (2a), (2b) with fx = t cos s,
+%   fz = t sin s, and least_i <= t_i <= greatest_i
 %
 % Observation: inverse model of the robot with deviations, tension offsets dt, lengths for these, direct model
 % without and with the payload, difference of the positions.
 %
-% Solver: lsqnonlin of package optim (Levenberg-Marquardt), or fsolve (dog leg); forward differences.
+% Solvers: lsqnonlin of package optim (Levenberg-Marquardt), or fsolve (dog leg), with forward differences;
+% sqp for the inverse model.
 
 1; % a script, not a function file
 
@@ -31,15 +33,18 @@ function matrix = cross_matrix(v)
   matrix = [0, -v(3), v(2); v(3), 0, -v(1); -v(2), v(1), 0];
 end
 
-% Points and forces are the columns of 3 x 8 matrices; angles, lengths and tensions are rows.
+% Points and forces are the columns of 3 x m matrices; angles, lengths and tensions are rows.
 function robot = make_robot(problem, parameters)
   robot.mg = -problem.gravity * parameters(1);
   robot.w = problem.gravity * parameters(2);
   robot.ea = problem.section * parameters(3);
-  robot.a = reshape(parameters(4:27), 3, 8);
-  robot.b = reshape(parameters(28:51), 3, 8);
-  robot.center = parameters(52:54);
-  robot.dt = parameters(55:62)';
+  m = numel(problem.lengths);
+  robot.a = reshape(parameters(3 + (1:3*m)), 3, m);
+  robot.b = reshape(parameters(3 + 3*m + (1:3*m)), 3, m);
+  robot.center = parameters(6*m + (4:6));
+  robot.dt = parameters(6*m + 6 + (1:m))';
+  robot.least = problem.least;
+  robot.greatest = problem.greatest;
 end
 
 function wrench = weight(mg, center)
@@ -53,10 +58,10 @@ function [e, h, z] = spans(robot, position, arms)
   z = r(3, :);
 end
 
-% The 22 equations; mg is the weight of the platform with what it carries.
+% The 6 + 2m equations; mg is the weight of the platform with what it carries.
 function open = residual(robot, x, lengths, mg)
   rotation = turned(x(4:6));
-  f = reshape(x(7:22), 2, 8);
+  f = reshape(x(7:end), 2, []);
   arms = rotation * robot.a;
   [e, h, z] = spans(robot, x(1:3), arms);
   forces = [f(1, :) .* e; f(2, :)];
@@ -77,41 +82,81 @@ function rotation = turned(v)
 end
 
 function x = direct(robot, lengths, payload, start)
-  global solve problem
-  x = solve(@(x) residual(robot, x, lengths, robot.mg - problem.gravity * payload), start);
+  global solve gravity
+  x = solve(@(x) residual(robot, x, lengths, robot.mg - gravity * payload), start);
 end
 
 % Angles and lengths of cables with given ends and tensions.
 function [angles, lengths] = held(robot, tensions, h, z, angles, lengths)
   global solve
   x = solve(@(x) open_ends(robot, tensions, h, z, x), [angles, lengths]');
-  angles = x(1:8)';
-  lengths = x(9:16)';
+  m = numel(h);
+  angles = x(1:m)';
+  lengths = x(m+1:end)';
 end
 
 function open = open_ends(robot, tensions, h, z, x)
-  [xc, zc] = catenary(tensions .* cos(x(1:8)'), tensions .* sin(x(1:8)'), x(9:16)', robot.w, robot.ea);
+  m = numel(h);
+  fx = tensions .* cos(x(1:m)');
+  fz = tensions .* sin(x(1:m)');
+  [xc, zc] = catenary(fx, fz, x(m+1:end)', robot.w, robot.ea);
   open = [h - xc, z - zc]';
 end
 
-% Least-norm tensions, angles, lengths at a position with R = 1.
+% Least-norm tensions within the limits, angles, lengths at a position with R = 1. The unknowns of sqp are the
+% tensions in units of the weight, angles, lengths in units of the chord.
 function [tensions, angles, lengths] = inverse(robot, position)
   [e, h, z] = spans(robot, position, robot.a);
+  m = numel(h);
+  chord = hypot(h, z);
   angles = atan2(z, h);
-  lengths = hypot(h, z);
-  do
-    pulls = -[cos(angles) .* e; sin(angles)];
-    matrix = [pulls; cross(robot.a, pulls)];
-    tensions = -(matrix' * ((matrix * matrix') \ weight(robot.mg, robot.center)))';
-    before = angles;
-    [angles, lengths] = held(robot, tensions, h, z, angles, lengths);
-  until max(abs(angles - before)) < 1e-12
+  force = abs(robot.mg);
+  pulls = [cos(angles) .* e; sin(angles)];
+  straight = pinv([pulls; cross(robot.a, pulls)]) * weight(robot.mg, robot.center);
+  start = [min(max(straight, robot.least), robot.greatest) / force; angles'; ones(m, 1)];
+  objective = {@(x) x(1:m)' * x(1:m) / 2, @(x) [x(1:m); zeros(2*m, 1)]};
+  constraints = {@(x) open_inverse(robot, e, h, z, force, x), ...
+                 @(x) complex_step(@(x) open_inverse(robot, e, h, z, force, x), x)};
+  free = [pi / 2 * ones(m, 1); inf(m, 1)]; % a cable of which cos s < 0 would push
+  [x, ~, info] = sqp(start, objective, constraints, [], [robot.least / force; -free], ...
+                     [robot.greatest / force; free], 200, 1e-10);
+  if !any(info == [101, 104]) || max(abs(constraints{1}(x))) > 1e-11 % 104: the steps have become too small
+    error("sqp: info %d", info);
+  end
+  tensions = force * x(1:m)';
+  angles = x(m+1:2*m)';
+  lengths = chord .* x(2*m+1:end)';
+end
+
+function open = open_inverse(robot, e, h, z, force, x)
+  m = numel(h);
+  chord = hypot(h, z);
+  t = force * x(1:m).';
+  fx = t .* cos(x(m+1:2*m).');
+  fz = t .* sin(x(m+1:2*m).');
+  forces = [fx .* e; fz];
+  [xc, zc] = catenary(fx, fz, chord .* x(2*m+1:end).', robot.w, robot.ea);
+  moments = robot.a * forces.';
+  moment = [moments(2, 3) - moments(3, 2); moments(3, 1) - moments(1, 3); moments(1, 2) - moments(2, 1)];
+  balance = [sum(forces, 2); moment] - weight(robot.mg, robot.center);
+  arm = max(abs(robot.a(:)));
+  open = [balance ./ (force * [1; 1; 1; arm; arm; arm]); ((h - xc) ./ chord).'; ((z - zc) ./ chord).'];
+end
+
+function jacobian = complex_step(f, x)
+  n = numel(x);
+  for k = 1:n
+    step = zeros(n, 1);
+    step(k) = 1e-30i;
+    jacobian(:, k) = imag(f(x + step)) / 1e-30;
+  end
 end
 
 function dp = observation(robot, position, payload)
   [tensions, angles, lengths] = inverse(robot, position);
   [~, h, z] = spans(robot, position, robot.a);
-  tensions += robot.dt;
+  % A set-point stays within the limits.
+  tensions = min(max(tensions + robot.dt, robot.least'), robot.greatest');
   [angles, lengths] = held(robot, tensions, h, z, angles, lengths);
   forces = [tensions .* cos(angles); tensions .* sin(angles)];
   unloaded = direct(robot, lengths, 0, [position; 0; 0; 0; forces(:)]);
@@ -130,7 +175,33 @@ function [result, times] = timed(run, repeats)
   end
 end
 
-global solve problem
+% Answers and times of a case.
+function answer = answer_of(problem, repeats)
+  global gravity
+  gravity = problem.gravity;
+  start = [problem.position; 0; 0; 0; problem.forces'(:)];
+  robot = make_robot(problem, problem.parameters);
+  [loaded, direct_times] = timed(@() direct(robot, problem.lengths', problem.payload, start), repeats);
+  [tensions, inverse_times] = timed(@() inverse(robot, problem.position), repeats);
+  displacements = [];
+  times = [];
+  try
+    for deviation = problem.deviations'
+      run = @() observation(make_robot(problem, problem.parameters + deviation), ...
+                            problem.position, problem.payload);
+      [displacements(end + 1, :), taken] = timed(run, repeats);
+      times = [times, taken];
+    end
+  catch failure
+    fprintf(stderr, "%s: %s\n", problem.name, failure.message);
+    times = displacements = NaN; % null in JSON
+  end
+  answer = struct("direct_us", median(direct_times), "direct_position", loaded(1:3), ...
+                  "inverse_us", median(inverse_times), "tensions", tensions, ...
+                  "observation_us", median(times), "displacements", displacements);
+end
+
+global solve
 warning("off", "Octave:shadowed-function");
 args = argv();
 if strcmp(args{2}, "lsqnonlin")
@@ -142,18 +213,13 @@ else
   solve = @(f, start) fsolve(f, start, options);
 end
 problem = jsondecode(fileread(args{1}));
-start = [problem.position; 0; 0; 0; problem.forces'(:)];
-robot = make_robot(problem, problem.parameters);
-[loaded, direct_times] = timed(@() direct(robot, problem.lengths', problem.payload, start), problem.repeats);
-displacements = [];
-times = [];
-for deviation = problem.deviations'
-  run = @() observation(make_robot(problem, problem.parameters + deviation), ...
-                        problem.position, problem.payload);
-  [displacements(end + 1, :), taken] = timed(run, problem.repeats);
-  times = [times, taken];
+answers = {};
+for i = 1:numel(problem.cases)
+  if iscell(problem.cases)
+    answers{i} = answer_of(problem.cases{i}, problem.repeats);
+  else
+    answers{i} = answer_of(problem.cases(i), problem.repeats);
+  end
 end
-answer = struct("version", OCTAVE_VERSION, "solver", [args{2} ", forward differences"], ...
-                "direct_us", median(direct_times), "direct_position", loaded(1:3), ...
-                "observation_us", median(times), "displacements", displacements);
-disp(jsonencode(answer));
+disp(jsonencode(struct("version", OCTAVE_VERSION, "solver", [args{2} ", sqp; differences"], ...
+                        "cases", {answers})));

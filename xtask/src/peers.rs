@@ -1,18 +1,22 @@
-//! `cargo xtask bench-peers`: the same direct problem and observations, solved by cdpr and by other programs.
+//! `cargo xtask bench-peers`: the same direct problems, inverse models and observations, by cdpr and by
+//! other programs.
 //!
-//! `crates/cdpr-statics/examples/peer_problem.rs` writes the problem with the answers and times of cdpr. Each
-//! program in `xtask/peers` reads it and prints `version`, `solver`, `direct_us`, `direct_position`,
-//! `observation_us` and `displacements` as JSON.
+//! `crates/cdpr-statics/examples/peer_problem.rs` writes a list of cases with the answers and times of cdpr.
+//! Each program in `xtask/peers` reads it and prints as JSON `version`, `solver` and `cases`, a list of
+//! `direct_us`, `direct_position`, `inverse_us`, `tensions`, `observation_us` and `displacements`; `null` for
+//! what it cannot solve.
 
 #![allow(clippy::print_stdout)]
 
-use crate::cargo::{cargo, root};
+use crate::cargo::{cargo, done, root};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
 /// Largest accepted distance between the positions of a peer and of cdpr [mm].
 const AGREEMENT_MM: f64 = 1e-6;
+/// Largest accepted difference of a tension, relative to the greatest tension of cdpr.
+const AGREEMENT_TENSION: f64 = 1e-6;
 
 /// A way to solve the problem outside of cdpr.
 struct Peer {
@@ -27,28 +31,27 @@ struct Peer {
     run: &'static [&'static str],
 }
 
-/// The answer of a peer.
-struct Answer {
-    direct_us: f64,
-    observation_us: f64,
-    difference_mm: f64,
-    /// Its line in the table.
-    row: String,
-}
-
 impl Peer {
-    fn answer(&self, ours: &Value) -> Result<Answer, String> {
+    fn answer(&self) -> Result<Value, String> {
         if !self.build.is_empty() {
             output(self.build)?;
         }
-        let answer: Value = serde_json::from_str(&output(self.run)?).map_err(|error| error.to_string())?;
-        let difference_mm = difference_mm(&answer, ours)?;
-        Ok(Answer {
-            direct_us: number(&answer, "direct_us")?,
-            observation_us: number(&answer, "observation_us")?,
-            difference_mm,
-            row: row(self.name, &answer, ours, Some(difference_mm))?,
-        })
+        serde_json::from_str(&output(self.run)?).map_err(|error| error.to_string())
+    }
+}
+
+/// Largest differences from cdpr.
+#[derive(Clone, Copy, Default)]
+struct Apart {
+    /// Of positions and displacements [mm].
+    mm: f64,
+    /// Of tensions, relative to the greatest.
+    tension: f64,
+}
+
+impl Apart {
+    fn max(self, other: Self) -> Self {
+        Self { mm: self.mm.max(other.mm), tension: self.tension.max(other.tension) }
     }
 }
 
@@ -77,7 +80,11 @@ const CERES_PROBE: [&str; 9] = [
     "/dev/null",
 ];
 const CERES_PACKAGES: &str = "apt install g++ libceres-dev nlohmann-json3-dev";
-const SCIPY_PROBE: [&str; 3] = ["python3", "-c", "import scipy.optimize"];
+const SCIPY: &str = "scipy==1.17.1";
+/// The Python of an environment with SciPy, which the command makes.
+const PYTHON: &str =
+    if cfg!(windows) { "target/peers/scipy/Scripts/python.exe" } else { "target/peers/scipy/bin/python" };
+const SCIPY_PROBE: [&str; 3] = [PYTHON, "-c", "import scipy.optimize"];
 const OCTAVE: &str = "octave-cli";
 const PROBLEM: &str = "target/peers/problem.json";
 const RESULT: &str = "target/bench-peers.json";
@@ -101,10 +108,10 @@ const PEERS: [Peer; 5] = [
     },
     Peer {
         name: "scipy",
-        packages: "apt install python3-scipy, or pip install scipy",
+        packages: "pip could not install it into target/peers/scipy",
         probe: &SCIPY_PROBE,
         build: &[],
-        run: &["python3", "xtask/peers/direct.py", PROBLEM],
+        run: &[PYTHON, "xtask/peers/direct.py", PROBLEM],
     },
     Peer {
         name: "octave",
@@ -115,7 +122,7 @@ const PEERS: [Peer; 5] = [
     },
     Peer {
         name: "octave",
-        packages: "apt install octave",
+        packages: "apt install octave octave-optim",
         probe: &[OCTAVE, "--version"],
         build: &[],
         run: &[OCTAVE, "-q", "xtask/peers/direct.m", PROBLEM, "fsolve"],
@@ -124,9 +131,12 @@ const PEERS: [Peer; 5] = [
 
 pub(crate) fn bench() -> ExitCode {
     match compare() {
-        Ok(agreement) if agreement <= AGREEMENT_MM => ExitCode::SUCCESS,
-        Ok(agreement) => {
-            eprintln!("error: the answers differ by {agreement:.1e} mm, more than {AGREEMENT_MM:.0e} mm");
+        Ok(apart) if apart.mm <= AGREEMENT_MM && apart.tension <= AGREEMENT_TENSION => ExitCode::SUCCESS,
+        Ok(Apart { mm, tension }) => {
+            eprintln!(
+                "error: the answers differ by {mm:.1e} mm and {tension:.1e} of a tension, more than \
+                 {AGREEMENT_MM:.0e} mm or {AGREEMENT_TENSION:.0e}"
+            );
             ExitCode::FAILURE
         }
         Err(error) => {
@@ -136,94 +146,151 @@ pub(crate) fn bench() -> ExitCode {
     }
 }
 
-/// Runs all installed peers, prints the table and writes the result file; returns the largest difference
-/// [mm].
-fn compare() -> Result<f64, String> {
+/// Runs all installed peers, prints a table for each case and writes the result file; returns the largest
+/// differences.
+fn compare() -> Result<Apart, String> {
     let folder = root().join("target/peers");
     std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let problem = root().join(PROBLEM);
     eprintln!("cdpr: building and running");
     let path = problem.display().to_string();
-    let example = ["run", "--quiet", "--example", "peer_problem"];
+    let example = ["run", "--quiet", "--release", "-p", "cdpr-statics", "--example", "peer_problem"];
     if cargo(&[&example[..], &["--", &path]].concat()) != ExitCode::SUCCESS {
         return Err("the example peer_problem of cdpr-statics has failed".to_owned());
     }
-    let mut problem = read(&problem)?;
-    let (ours, alone) = (problem["cdpr"].take(), problem["cdpr_alone"].take());
+    let problem = read(&problem)?;
+    let cases = problem["cases"].as_array().ok_or("the problem has no cases")?;
+    install_scipy(&folder);
 
-    let mut direct =
-        json!({"cdpr": rounded(number(&ours, "direct_us")?), "ceres": null, "scipy": null, "octave": null});
-    let mut observation = direct.clone();
-    observation["cdpr"] = rounded(number(&ours, "observation_us")?);
-    let apart = difference_mm(&alone, &ours)?;
-    let mut rows = vec![row("cdpr", &ours, &ours, None)?, row("cdpr", &alone, &ours, Some(apart))?];
-    let mut agreement = apart;
-    let mut failure = None;
+    let (mut answers, mut notes, mut failure) = (Vec::new(), Vec::new(), None);
     for peer in &PEERS {
         let Peer { name, packages, probe, build, run } = peer;
         if output(probe).is_err() {
-            let missing = format!("{name:<8}not installed");
-            if !rows.iter().any(|row| row.starts_with(&missing)) {
-                rows.push(format!("{missing}: {packages}"));
-            }
+            notes.push(format!("{name} is not installed: {packages}"));
             continue;
         }
         if !build.is_empty() {
             eprintln!("{name}: building");
         }
         eprintln!("{name}: {}", run.join(" "));
-        let answer = match peer.answer(&ours) {
-            Ok(answer) => answer,
-            Err(error) => {
-                rows.push(format!("{name:<8}failed"));
-                failure = Some(format!("{name}: {error}"));
-                continue;
-            }
-        };
-        agreement = agreement.max(answer.difference_mm);
-        rows.push(answer.row);
-        if direct[*name].is_null() {
-            direct[*name] = rounded(answer.direct_us);
-            observation[*name] = rounded(answer.observation_us);
+        match peer.answer() {
+            Ok(answer) => answers.push((*name, answer)),
+            Err(error) => failure = Some(format!("{name}: {error}")),
         }
     }
-    println!(
-        "\n{:<8}{:<9}{:<39}{:>12}{:>9}{:>18}{:>9}{:>12}",
-        "program", "version", "solver", "direct [us]", "ratio", "observation [us]", "ratio", "apart [mm]"
-    );
-    println!("{}", rows.join("\n"));
-    let result = json!({"direct_us": direct, "observation_us": observation, "agreement_mm": agreement});
+
+    let (mut results, mut all) = (Vec::new(), Apart::default());
+    for (i, case) in cases.iter().enumerate() {
+        let (result, apart) = table(case, &answers, i)?;
+        results.push(result);
+        all = all.max(apart);
+    }
+    notes.dedup();
+    println!("\n{}", notes.join("\n"));
+    // The first case is CAROCA.
+    let mut result = results[0].clone();
+    result["cases"] = json!(results);
     let file = root().join(RESULT);
     std::fs::write(&file, format!("{result:#}\n")).map_err(|error| format!("{}: {error}", file.display()))?;
-    println!("\nwritten: {RESULT}");
-    failure.map_or(Ok(agreement), Err)
+    println!("written: {RESULT}");
+    failure.map_or(Ok(all), Err)
 }
 
-/// A line of the table: the times of `answer`, also as multiples of `ours`.
-fn row(name: &str, answer: &Value, ours: &Value, difference: Option<f64>) -> Result<String, String> {
-    let (direct, observation) = (number(answer, "direct_us")?, number(answer, "observation_us")?);
-    Ok(format!(
-        "{name:<8}{:<9}{:<39}{direct:>12.1}{:>9.1}{observation:>18.1}{:>9.1}{:>12}",
-        answer["version"].as_str().unwrap_or("?"),
-        answer["solver"].as_str().unwrap_or("?"),
-        direct / number(ours, "direct_us")?,
-        observation / number(ours, "observation_us")?,
-        difference.map_or_else(|| "-".to_owned(), |mm| format!("{mm:.1e}")),
-    ))
+/// An environment with SciPy; without it the peer is listed as not installed.
+fn install_scipy(folder: &Path) {
+    if output(&SCIPY_PROBE).is_ok() {
+        return;
+    }
+    let system = if cfg!(windows) { "python" } else { "python3" };
+    let made = done(Command::new(system).args(["-m", "venv"]).arg(folder.join("scipy"))).and_then(|()| {
+        done(Command::new(root().join(PYTHON)).args(["-m", "pip", "install", "--quiet", SCIPY]))
+    });
+    if let Err(error) = made {
+        eprintln!("scipy: {error}");
+    }
 }
 
-/// Largest distance between the positions and displacements [m] of two answers [mm].
-fn difference_mm(answer: &Value, ours: &Value) -> Result<f64, String> {
-    let mut largest = distance(&answer["direct_position"], &ours["direct_position"])?;
-    let list = |answer: &Value| answer["displacements"].as_array().cloned().unwrap_or_default();
-    let (theirs, ours) = (list(answer), list(ours));
-    if theirs.len() != ours.len() {
-        return Err(format!("{} displacements for {} observations", theirs.len(), ours.len()));
+/// Prints the table of a case; returns its part of the result file and the largest differences.
+fn table(case: &Value, answers: &[(&str, Value)], i: usize) -> Result<(Value, Apart), String> {
+    let ours = &case["cdpr"];
+    println!("\n{}; tensions on a limit: {}", text(&case["name"]), case["at_limits"]);
+    println!(
+        "{:<8}{:<9}{:<37}{:>12}{:>9}{:>13}{:>9}{:>17}{:>9}{:>12}{:>12}",
+        "program",
+        "version",
+        "solver",
+        "direct [us]",
+        "ratio",
+        "inverse [us]",
+        "ratio",
+        "observation [us]",
+        "ratio",
+        "apart [mm]",
+        "tensions"
+    );
+    let mut times = json!({});
+    for question in QUESTIONS {
+        times[question] =
+            json!({"cdpr": rounded(&ours[question]), "ceres": null, "scipy": null, "octave": null});
     }
-    for (a, b) in theirs.iter().zip(&ours) {
-        largest = largest.max(distance(a, b)?);
+    let mut largest = Apart::default();
+    let alone = &case["cdpr_alone"];
+    let peers = answers.iter().map(|(name, answer)| (*name, answer, &answer["cases"][i]));
+    for (name, program, answer) in [("cdpr", ours, ours), ("cdpr", alone, alone)].into_iter().chain(peers) {
+        let apart = apart(answer, ours).map_err(|error| format!("{name}: {error}"))?;
+        largest = largest.max(apart);
+        let mut row = format!("{name:<8}{:<9}{:<37}", text(&program["version"]), text(&program["solver"]));
+        for (question, width) in QUESTIONS.into_iter().zip([12, 13, 17]) {
+            let (time, our) = (&answer[question], number(ours, question)?);
+            row += &cell(time.as_f64(), width);
+            row += &cell(time.as_f64().map(|time| time / our), 9);
+            if name != "cdpr" && times[question][name].is_null() {
+                times[question][name] = rounded(time);
+            }
+        }
+        println!("{row}{:>12.1e}{:>12.1e}", apart.mm, apart.tension);
     }
-    Ok(1e3 * largest)
+    times["name"] = case["name"].clone();
+    times["agreement_mm"] = json!(largest.mm);
+    times["agreement_tension"] = json!(largest.tension);
+    Ok((times, largest))
+}
+
+const QUESTIONS: [&str; 3] = ["direct_us", "inverse_us", "observation_us"];
+
+fn cell(value: Option<f64>, width: usize) -> String {
+    value.map_or_else(|| format!("{:>width$}", "-"), |value| format!("{value:>width$.1}"))
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().unwrap_or("?")
+}
+
+/// Largest differences of two answers; those that a program does not give do not count.
+fn apart(answer: &Value, ours: &Value) -> Result<Apart, String> {
+    let mut mm = distance(&answer["direct_position"], &ours["direct_position"])?;
+    for (a, b) in pairs(answer, ours, "displacements")? {
+        mm = mm.max(distance(a, b)?);
+    }
+    let (mut difference, mut greatest) = (0.0_f64, 0.0_f64);
+    for (a, b) in pairs(answer, ours, "tensions")? {
+        let (Some(a), Some(b)) = (a.as_f64(), b.as_f64()) else {
+            return Err(format!("{a} beside {b}, expected two tensions"));
+        };
+        difference = difference.max((a - b).abs());
+        greatest = greatest.max(b);
+    }
+    Ok(Apart { mm: 1e3 * mm, tension: if greatest > 0.0 { difference / greatest } else { 0.0 } })
+}
+
+/// The entries of a list of two answers, none where the first is `null`.
+fn pairs<'a>(answer: &'a Value, ours: &'a Value, list: &str) -> Result<Vec<(&'a Value, &'a Value)>, String> {
+    let of = |answer: &'a Value| answer[list].as_array().map_or(&[][..], Vec::as_slice);
+    let (theirs, ours) = (of(answer), of(ours));
+    if !answer[list].is_null() && theirs.len() != ours.len() {
+        return Err(format!("{} {list}, expected {}", theirs.len(), ours.len()));
+    }
+    Ok(theirs.iter().zip(ours).collect())
 }
 
 fn distance(a: &Value, b: &Value) -> Result<f64, String> {
@@ -242,8 +309,8 @@ fn number(answer: &Value, field: &str) -> Result<f64, String> {
 }
 
 /// Time rounded to a nanosecond.
-fn rounded(microseconds: f64) -> Value {
-    json!((1e3 * microseconds).round() / 1e3)
+fn rounded(microseconds: &Value) -> Value {
+    json!(microseconds.as_f64().map(|time| (1e3 * time).round() / 1e3))
 }
 
 fn read(path: &Path) -> Result<Value, String> {
