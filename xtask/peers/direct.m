@@ -175,6 +175,27 @@ function [result, times] = timed(run, repeats)
   end
 end
 
+% Displacements, one a row, and CPU times [us].
+function [displacements, times] = observations(problem, repeats)
+  displacements = times = [];
+  for deviation = problem.deviations'
+    run = @() observation(make_robot(problem, problem.parameters + deviation), ...
+                          problem.position, problem.payload);
+    [displacements(end + 1, :), taken] = timed(run, repeats);
+    times = [times, taken];
+  end
+end
+
+% Both results; NaN, which is null in JSON, if a solver has not converged.
+function [result, times] = or_nan(problem, run)
+  try
+    [result, times] = run();
+  catch failure
+    fprintf(stderr, "%s: %s\n", problem.name, failure.message);
+    result = times = NaN;
+  end
+end
+
 % Answers and times of a case.
 function answer = answer_of(problem, repeats)
   global gravity
@@ -182,20 +203,8 @@ function answer = answer_of(problem, repeats)
   start = [problem.position; 0; 0; 0; problem.forces'(:)];
   robot = make_robot(problem, problem.parameters);
   [loaded, direct_times] = timed(@() direct(robot, problem.lengths', problem.payload, start), repeats);
-  [tensions, inverse_times] = timed(@() inverse(robot, problem.position), repeats);
-  displacements = [];
-  times = [];
-  try
-    for deviation = problem.deviations'
-      run = @() observation(make_robot(problem, problem.parameters + deviation), ...
-                            problem.position, problem.payload);
-      [displacements(end + 1, :), taken] = timed(run, repeats);
-      times = [times, taken];
-    end
-  catch failure
-    fprintf(stderr, "%s: %s\n", problem.name, failure.message);
-    times = displacements = NaN; % null in JSON
-  end
+  [tensions, inverse_times] = or_nan(problem, @() timed(@() inverse(robot, problem.position), repeats));
+  [displacements, times] = or_nan(problem, @() observations(problem, repeats));
   answer = struct("direct_us", median(direct_times), "direct_position", loaded(1:3), ...
                   "inverse_us", median(inverse_times), "tensions", tensions, ...
                   "observation_us", median(times), "displacements", displacements);
