@@ -59,6 +59,18 @@ fn maps() -> Vec<Map> {
     ]
 }
 
+fn workspace(robot: &Robot, axes: [(f64, f64, usize); 3], load: Load) -> Workspace<'_> {
+    Workspace {
+        robot,
+        grid: Grid::new(axes.map(|(min, max, points)| GridAxis { min, max, points })).unwrap(),
+        rotation: Rotation3::identity(),
+        load,
+        tolerances: None,
+        free: &[],
+        further: Further::default(),
+    }
+}
+
 /// The greatest relative difference of two positive numbers that a map may show.
 const SAME: f64 = 1e-9;
 
@@ -66,16 +78,7 @@ const SAME: f64 = 1e-9;
 fn a_map_says_of_each_position_what_the_scalar_models_say() {
     for Map { name, robot, axes, load } in maps() {
         let robot = Robot::from_json(robot).unwrap();
-        let grid = Grid::new(axes.map(|(min, max, points)| GridAxis { min, max, points })).unwrap();
-        let workspace = Workspace {
-            robot: &robot,
-            grid,
-            rotation: Rotation3::identity(),
-            load,
-            tolerances: None,
-            free: &[],
-            further: Further::default(),
-        };
+        let workspace = workspace(&robot, axes, load);
         let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
         let held = poses.iter().filter(|pose| pose.outcome.is_ok()).count();
         println!("{name}: {held} of {} positions held", poses.len());
@@ -90,16 +93,7 @@ fn a_map_says_of_each_position_what_the_scalar_models_say() {
 fn threads_change_no_bit_of_a_map() {
     for Map { name, robot, axes, load } in maps() {
         let robot = Robot::from_json(robot).unwrap();
-        let grid = Grid::new(axes.map(|(min, max, points)| GridAxis { min, max, points })).unwrap();
-        let workspace = Workspace {
-            robot: &robot,
-            grid,
-            rotation: Rotation3::identity(),
-            load,
-            tolerances: None,
-            free: &[],
-            further: Further::default(),
-        };
+        let workspace = workspace(&robot, axes, load);
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| compute_workspace(&workspace, &|| (), &|| false).unwrap())

@@ -5,8 +5,8 @@
 //! Cables answer to their inputs by (D1)-(D4) of `equations/partials.rs`.
 //!
 //! **Inverse model.** With `v_i = dF_i/dt_i` at held ends, the multipliers `λ = (λ_p, λ_r)` of the balance
-//! make a twist that moves anchor point A_i by `μ_i = λ_p + λ_r x s_i`. Tensions without active bound and the
-//! balance of the platform are equation (I2) of `inverse.rs` and Eq. (3),
+//! make a twist that moves anchor point A_i by `μ_i = λ_p + λ_r x s_i`. Tensions without active bound and
+//! the balance of the platform are equation (I2) of `inverse.rs` and Eq. (3),
 //!
 //! ```text
 //! ρ_i = t_i - r_i + v_i·μ_i = 0,      G = sum [F_i; s_i x F_i] + w_ex = 0                         (D5)
@@ -16,7 +16,7 @@
 //! constant t and λ,
 //!
 //! ```text
-//! dt_i = -( ∂ρ_i + c_i·dλ )/D_i,      ∂ρ_i = μ_i·∂v_i + v_i·(λ_r x ∂s_i)                          (D6)
+//! dt_i = -( ∂ρ_i + c_i·dλ )/D_i,      ∂ρ_i = μ_i·∂v_i + v_i·(λ_r x ∂s_i)                (D6)
 //! [ sum_free c_i c_iᵀ/D_i ] dλ = ∂G - sum_free c_i ∂ρ_i/D_i + sum_active c_i dt_i
 //! ```
 //!

@@ -3,8 +3,8 @@
 //! The expansion ([`crate::measure::expansion`], Eq. (X1)) is the least-squares solution of all equations
 //!
 //! ```text
-//! y(x) = Σ c_α Ψ_α(x),   √τ_i(x_i) ∂y/∂x_i = √τ_i(x_i) Σ c_α ∂Ψ_α/∂x_i                (GE1)
-//! τ(x) = (1 / p(x)) ∫_x^∞ (t - mean) p(t) dt,   E τ = std²                              (GE2)
+//! y(x) = Σ c_α Ψ_α(x),   √τ_i(x_i) ∂y/∂x_i = √τ_i(x_i) Σ c_α ∂Ψ_α/∂x_i        (GE1)
+//! τ(x) = (1 / p(x)) ∫_x^∞ (t - mean) p(t) dt,   E τ = std²                      (GE2)
 //! uniform:  τ = (x - min) (max - x) / 2           normal:  τ = std²
 //! beta:     τ = (x - min) (max - x) / (alpha + beta)
 //! E τ ψ_m' ψ_n' = 0 for m ≠ n,   E τ ψ_1'² = 1                                          (GE3)
@@ -13,8 +13,8 @@
 //! at each point: k + 1 of them, where k is the number of inputs.
 //!
 //! - (GE1): J. Peng, J. Hampton, A. Doostan, *On polynomial chaos expansion via gradient-enhanced
-//!   l1-minimization*, J. Comput. Phys. 310 (2016), for normal inputs, where √τ is the standard deviation; L.
-//!   Guo, A. Narayan, T. Zhou, *A gradient enhanced l1-minimization for sparse approximation of polynomial
+//!   l1-minimization*, J. Comput. Phys. 310 (2016), for normal inputs, where √τ is the standard deviation;
+//!   L. Guo, A. Narayan, T. Zhou, *A gradient enhanced l1-minimization for sparse approximation of polynomial
 //!   chaos expansions*, J. Comput. Phys. 367 (2018), for beta laws, with derivatives weighted so that they
 //!   are orthogonal again. (GE2), the kernel of C. Stein (1986), is the weight of both and gives one for
 //!   any other law.

@@ -1,7 +1,7 @@
 //! Best constants C of Poincaré's inequality `Var g(x) ≤ C E g'(x)²` of the laws.
 //!
-//! 1 / C is the smallest positive eigenvalue λ of `-(ρ g')' = λ ρ g` with `ρ g' = 0` at both ends, where ρ is
-//! the density:
+//! 1 / C is the smallest positive eigenvalue λ of `-(ρ g')' = λ ρ g` with `ρ g' = 0` at both ends, where
+//! ρ is the density:
 //!
 //! ```text
 //! uniform:                    C = (max - min)² / π²                       (P1)
@@ -9,13 +9,13 @@
 //! logistic, Gumbel, Laplace:  C = 4 scale²                                (P3)
 //! ```
 //!
-//! For (P3) the substitution g = h / √ρ gives Schrödinger's equation, whose potentials (of Pöschl and Teller,
-//! of Morse, a well of no width) have no bound state but that of the constant; all other λ are at least
+//! For (P3) the substitution g = h / √ρ gives Schrödinger's equation, whose potentials (of Pöschl and
+//! Teller, of Morse, a well of no width) have no bound state but that of the constant; all other λ are at least
 //! 1 / (4 scale²).
 //!
 //! The other laws have linear finite elements with lumped masses on a grid that is finer at the ends: O.
-//! Roustant, F. Barthe, B. Iooss, *Poincaré inequalities on intervals - application to sensitivity analysis*,
-//! Electron. J. Stat. 11 (2017). With ρ at the nodes `c_i` and at the ends `e_i` of the elements, and
+//! Roustant, F. Barthe, B. Iooss, *Poincaré inequalities on intervals - application to sensitivity
+//! analysis*, Electron. J. Stat. 11 (2017). With ρ at the nodes `c_i` and at the ends `e_i` of the elements, and
 //! their lengths h,
 //!
 //! ```text

@@ -13,14 +13,14 @@
 //! The law of (mean - μ)/s is skewed where that of the values is. With their skewness γ and Student's t,
 //!
 //! ```text
-//! mean - s h(t) <= μ <= mean - s h(-t),   h(t) = (3/γ) [(1 + γ (t/√n - γ/(6 n)))^(1/3) - 1]         (CI5)
+//! mean - s h(t) <= μ <= mean - s h(-t),   h(t) = (3/γ) [(1 + γ (t/√n - γ/(6 n)))^(1/3) - 1]      (CI5)
 //! ```
 //!
 //! is the interval by the inverse of a cubic that removes the skewness: P. Hall, *On the removal of skewness
 //! by transformation*, J. R. Stat. Soc. B 54 (1992).
 //!
-//! If k of n independent values lie below a limit, with B⁻¹ the inverse of the beta distribution function and
-//! `b_q` the inverse of the binomial one,
+//! If k of n independent values lie below a limit, with B⁻¹ the inverse of the beta distribution function
+//! and `b_q` the inverse of the binomial one,
 //!
 //! ```text
 //! B⁻¹((1 - level)/2; k, n - k + 1) <= share <= B⁻¹((1 + level)/2; k + 1, n - k)       (CI3)

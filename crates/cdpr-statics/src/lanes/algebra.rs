@@ -83,7 +83,8 @@ impl<S: Simd> SymmetricFactors<S> {
     }
 }
 
-/// Three components of one formula. Closures may be compiled apart from their caller, without the vector unit.
+/// Three components of one formula. Closures may be compiled apart from their caller, without the vector
+/// unit.
 macro_rules! three {
     (|$k:ident| $component:expr) => {
         $crate::lanes::algebra::components!(|$k| $component; 0, 1, 2)

@@ -116,14 +116,25 @@ impl<'a> Observer<'a> {
     /// least of all, as [`deflection`] does (docs/VALIDATION.md). [`Observation::scalar`] says which
     /// ones were left to the scalar models, and why. An incomplete last row is a failure.
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Observation, StaticsError>> {
+        self.each(deviations, dispatch, |row, why| {
+            Ok(Observation { scalar: Some(why), ..self.observe(row)? })
+        })
+    }
+
+    /// The answers of the lanes, and of `alone` to rows that they leave, for a reason, or that are incomplete.
+    fn each<'o, T>(
+        &'o self,
+        deviations: &'o [f64],
+        in_lanes: impl FnOnce(Batch<'o>) -> Vec<Result<T, ScalarReason>>,
+        alone: impl Fn(&[f64], ScalarReason) -> Result<T, StaticsError>,
+    ) -> Vec<Result<T, StaticsError>> {
         let rows = deviations.chunks_exact(self.layout.count());
-        let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
-        let whole = &deviations[..deviations.len() - rows.remainder().len()];
-        let in_lanes = dispatch(Batch { observer: self, deviations: whole });
-        let alone = |row: &[f64], why| Ok(Observation { scalar: Some(why), ..self.observe(row)? });
-        let outcomes =
-            in_lanes.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)));
-        outcomes.chain(incomplete.map(|row| self.observe(row))).collect()
+        let rest = rows.remainder();
+        let whole = &deviations[..deviations.len() - rest.len()];
+        let found = in_lanes(Batch { observer: self, deviations: whole });
+        let answers = found.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)));
+        let incomplete = (!rest.is_empty()).then(|| alone(rest, ScalarReason::OneByOne));
+        answers.chain(incomplete).collect()
     }
 
     fn deflection(&self, deviations: &[f64]) -> Result<Deflection, StaticsError> {

@@ -25,18 +25,15 @@ impl Observer<'_> {
     /// Deflections of any number of robots, the same as those of [`Observer::observe_all`], with the rotation
     /// of the platform.
     pub fn observe_all_motions(&self, deviations: &[f64]) -> Vec<Result<ObservationMotion, StaticsError>> {
-        let rows = deviations.chunks_exact(self.layout.count());
-        let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
-        let whole = &deviations[..deviations.len() - rows.remainder().len()];
-        let in_lanes = dispatch(MotionBatch(Batch { observer: self, deviations: whole }));
-        let alone = |row: &[f64], why| {
-            let found = self.observe_motion(row)?;
-            let observation = Observation { scalar: Some(why), ..found.observation };
-            Ok(ObservationMotion { observation, ..found })
-        };
-        let outcomes =
-            in_lanes.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)));
-        outcomes.chain(incomplete.map(|row| self.observe_motion(row))).collect()
+        self.each(
+            deviations,
+            |batch| dispatch(MotionBatch(batch)),
+            |row, why| {
+                let mut found = self.observe_motion(row)?;
+                found.observation.scalar = Some(why);
+                Ok(found)
+            },
+        )
     }
 
     /// Deflection and rotation of the robot with `deviations` added to its parameters, by the scalar models.

@@ -30,18 +30,15 @@ impl Observer<'_> {
     /// longest cable (docs/VALIDATION.md). Robots in which left and right derivatives may differ are left to
     /// the scalar models, and so are those with pulleys or leads.
     pub fn observe_all_slopes(&self, deviations: &[f64]) -> Vec<Result<ObservationSlopes, StaticsError>> {
-        let rows = deviations.chunks_exact(self.layout.count());
-        let incomplete = Some(rows.remainder()).filter(|rest| !rest.is_empty());
-        let whole = &deviations[..deviations.len() - rows.remainder().len()];
-        let in_lanes = dispatch(SlopesBatch(Batch { observer: self, deviations: whole }));
-        let alone = |row: &[f64], why| {
-            let found = self.observe_slopes(row)?;
-            let observation = Observation { scalar: Some(why), ..found.observation };
-            Ok(ObservationSlopes { observation, ..found })
-        };
-        let outcomes =
-            in_lanes.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)));
-        outcomes.chain(incomplete.map(|row| self.observe_slopes(row))).collect()
+        self.each(
+            deviations,
+            |batch| dispatch(SlopesBatch(batch)),
+            |row, why| {
+                let mut found = self.observe_slopes(row)?;
+                found.observation.scalar = Some(why);
+                Ok(found)
+            },
+        )
     }
 
     /// Deflection of the robot with `deviations` added to its parameters, with the left derivatives of |dp|,
