@@ -45,13 +45,12 @@ pub(crate) fn is_least<S: Simd>(
     reference: f64,
     [least, greatest]: &Lanes2<S>,
 ) -> Mask<S> {
-    let part = |tension: Lanes<S>, force: Lanes2<S>| {
-        let miss = tension + -reference;
-        let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(force));
-        miss * miss * 0.5 + dot(multipliers, &pull)
-    };
-    let tension = |force: &Lanes2<S>| dot(force, force).sqrt();
-    let here = part(tension(&cable.force), cable.force);
+    // λ·w of a unit force at A: w is linear in the force.
+    let (zero, one) = (cable.length.all(0.0), cable.length.all(1.0));
+    let level = wrench(&cable.anchor_arm, &span.plane.force_on_platform([one, zero]));
+    let upright = wrench(&cable.anchor_arm, &span.plane.force_on_platform([zero, one]));
+    let gain = [dot(multipliers, &level), dot(multipliers, &upright)];
+    let here = lagrangian(dot(&cable.force, &cable.force).sqrt(), &cable.force, &gain, reference);
     let half_weight = cable.weight_per_length * 0.5;
     let mut is_least = here.less_or_equal(here);
     for [u, coth, stretch] in CATENARIES {
@@ -69,11 +68,18 @@ pub(crate) fn is_least<S: Simd>(
                 force
             }
         };
-        let there = tension(&force);
+        let there = dot(&force, &force).sqrt();
         let allowed = least.less_or_equal(there) & there.less_or_equal(*greatest);
-        is_least = is_least & (here.less_or_equal(part(there, force)) | !allowed);
+        is_least = is_least & (here.less_or_equal(lagrangian(there, &force, &gain, reference)) | !allowed);
     }
     is_least
+}
+
+/// φ, with λ·w of unit forces at A.
+#[inline(always)]
+fn lagrangian<S: Simd>(tension: Lanes<S>, force: &Lanes2<S>, gain: &Lanes2<S>, reference: f64) -> Lanes<S> {
+    let miss = tension + -reference;
+    miss * miss * 0.5 + dot(gain, force)
 }
 
 /// Catenaries after which a leave point fits its catenary well enough for a comparison.

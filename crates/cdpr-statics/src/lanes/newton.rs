@@ -324,9 +324,9 @@ impl<S: Simd> Robots<'_, S> {
         scale: &Scale,
         alive: Mask<S>,
     ) -> (Mask<S>, LaneResidual<S>) {
-        let square = |length: f64| self.weight.all(length * length);
-        let (farthest, turned_most) = (square(0.3 * scale.size), square(0.1));
-        let small_step = square(SMALL_STEP * scale.size);
+        let zero = self.weight.all(0.0);
+        let (farthest, turned_most) = (zero + (0.3 * scale.size).powi(2), zero + 0.1 * 0.1);
+        let small_step = zero + (SMALL_STEP * scale.size).powi(2);
         let (mut going, mut found) = (alive, alive & !alive);
         let mut residual = LaneResidual { closure: small_step, wrench: platform.gradient };
         for _ in 0..MAX_ITERATIONS {
