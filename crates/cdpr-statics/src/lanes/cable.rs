@@ -13,7 +13,7 @@ use crate::equations::{LinearizedCable, Span, between};
 use crate::lanes::algebra::{Lanes2, Lanes3, replace};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::{
-    LaneEnd, LaneGuide, LaneSegment, LaneWay, LeavePoint, Response, lane_end, lane_law_end,
+    Field, LaneEnd, LaneGuide, LaneSegment, LaneWay, LeavePoint, Response, lane_end, lane_law_end,
     lane_law_response, lane_law_strain, lane_law_stretch, lane_response,
 };
 
@@ -209,6 +209,38 @@ impl<S: Simd> LaneCable<'_, S> {
         Span::oblique(between(position, &self.anchor_arm, &self.exit_point))
     }
 
+    /// Horizontal distance and height of A from the exit point, or from the leave point of a pulley [m].
+    #[inline(always)]
+    pub(crate) fn held_end(&self, span: &Span<Lanes<S>>) -> Lanes2<S> {
+        match &self.guided {
+            None => span.end,
+            Some(guided) => span.misclosure(guided.leave_point(self).position),
+        }
+    }
+
+    /// In lanes that are `far` from the shape that the cable had: takes over vertical force and length of the
+    /// inextensible catenary to `end` with its horizontal force, stretched by its tension. With u = w h/(2 fx)
+    /// and S = sinh u/u, `u coth u = sqrt(u² + 1/S²)` in (L4). A cable steeper than the series reaches keeps
+    /// what it has.
+    #[inline(always)]
+    pub(crate) fn hang(&mut self, [h, z]: Lanes2<S>, far: Mask<S>) {
+        let [fx, _] = self.force;
+        let half_weight = self.weight_per_length * 0.5;
+        let u = half_weight * h / fx;
+        let square = u * u;
+        let mut stretch = square.all(SINH_SQUARES[0]);
+        for coefficient in &SINH_SQUARES[1..] {
+            stretch = stretch * square + *coefficient;
+        }
+        let length = (z * z + h * h * stretch).sqrt();
+        let fz = fx * z / h * (square + stretch.recip()).sqrt() + half_weight * length;
+        let tension = (fx * fx + fz * fz).sqrt();
+        let unstrained = length / (self.strain(tension) + 1.0);
+        let far = far & u.less_or_equal(u.all(STEEPEST));
+        self.force[1].replace(fz, far);
+        self.length.replace(unstrained, far);
+    }
+
     /// How the part beyond the guide answers.
     #[inline(always)]
     pub(crate) fn response(&self) -> Response<Lanes<S>> {
@@ -225,6 +257,12 @@ impl<S: Simd> LaneCable<'_, S> {
         }
     }
 }
+
+/// Coefficients of S² = sinh²u/u² = sum 2 (2u)^2k/(2k + 2)! for u², the highest first.
+const SINH_SQUARES: [f64; 6] = [2.0 / 467_775.0, 2.0 / 14_175.0, 1.0 / 315.0, 2.0 / 45.0, 1.0 / 3.0, 1.0];
+
+/// u up to which [`SINH_SQUARES`] gives S² to a hundredth.
+const STEEPEST: f64 = 2.5;
 
 /// A cable with a law. It is evaluated in functions of their own: most robots have linear cables, and their
 /// code is faster without it.

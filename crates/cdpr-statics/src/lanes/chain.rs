@@ -281,12 +281,18 @@ pub(crate) fn distribute<'a, S: Simd>(
             settled = settled | solved;
         }
         let mut moved = zero;
-        for ((row, held), cable) in rows.iter_mut().zip(&all_held).zip(&mut robots.cables) {
+        let cables = spans.iter().zip(&mut robots.cables);
+        for ((row, held), (span, cable)) in rows.iter_mut().zip(&all_held).zip(cables) {
             row.sides = [bounded & row.sides[0], bounded & row.sides[1]];
             let d = bounded.select(row.value(), row.wanted - row.change);
             let near = d.abs().less_or_equal(cable.force[0] * LONGEST_STEP);
-            jumped = jumped | (going & !near & !held.slackness.less_or_equal(d.all(SAGGING)));
+            let far = going & !near & !held.slackness.less_or_equal(d.all(SAGGING));
+            jumped = jumped | far;
+            let end = far.any().then(|| cable.held_end(span));
             moved = moved.max(held.change(cable, d, going, compared));
+            if let Some(end) = end {
+                cable.hang(end, far);
+            }
         }
         replace(multipliers, &six!(|k| multipliers[k] + step[k]), going);
         let (force, moment) = halves(&balance);
