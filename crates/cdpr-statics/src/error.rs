@@ -149,6 +149,19 @@ pub enum StaticsError {
         /// Its largest strain: the larger of its two end tensions over EA.
         strain: f64,
     },
+    /// The lengths hold the platform only as long as nothing disturbs it: it leaves the pose by itself.
+    #[error(
+        "the equilibrium at ({:.4}, {:.4}, {:.4}) m is unstable: its softest motion has a stiffness of \
+        {least_stiffness:.3e} N/m, and the platform leaves the pose along it; change the pose, lower the \
+        centre of mass or raise the tensions",
+        pose.position.x, pose.position.y, pose.position.z
+    )]
+    Unstable {
+        /// The pose of the equilibrium.
+        pose: Box<Pose>,
+        /// Stiffness of the softest motion [N/m], see [`crate::Stability`].
+        least_stiffness: f64,
+    },
     /// No stable equilibrium was found under the load's moment, and the one without it disappears while the
     /// moment is raised.
     #[error(
@@ -250,6 +263,7 @@ impl StaticsError {
             Self::InverseNotConverged { .. } => "inverse_not_converged",
             Self::Overstrained { .. } => "cable_overstrained",
             Self::Indifferent { .. } => "indifferent",
+            Self::Unstable { .. } => "unstable",
             Self::EquilibriumLost { .. } => "equilibrium_lost",
             Self::NoDerivative { .. } => "no_derivative",
             Self::NotCertified { .. } => "not_certified",

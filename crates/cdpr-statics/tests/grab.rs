@@ -2,8 +2,8 @@
 //! what motion capture recorded (`data/reference/grab.json`, docs/grab.md).
 
 use crate::equilibria::{number, vector};
-use cdpr_robot::{Pose, Robot, Rotation3, Vector3};
-use cdpr_statics::{DirectProblem, Load, Start};
+use cdpr_robot::{Coordinate, Pose, Robot, Rotation3, Vector3};
+use cdpr_statics::{DirectProblem, Load, Start, StaticsError, deflection_free, inverse_free};
 use serde_json::Value;
 
 fn grab() -> Robot {
@@ -128,4 +128,22 @@ fn lengths_averaged_over_a_record_give_the_frequencies_of_20_digits() {
         compared += 1;
     }
     assert_eq!(compared, 6);
+}
+
+#[test]
+fn a_pose_that_is_held_upside_down_alone_has_no_deflection() {
+    let (robot, free) = (grab(), [Coordinate::Roll, Coordinate::Pitch]);
+    let at = |x, y| Pose::at(x, y, -0.92);
+    let load = Load::payload(0.5);
+    let near_the_middle = deflection_free(&robot, &at(1.36, 0.06), &[0.0; 4], &load, &free).unwrap();
+    assert!(near_the_middle.unloaded.stability.is_stable());
+    // The only solutions from 49 x 32 starts have the platform turned over.
+    for (x, y) in [(0.1, 0.48), (0.52, -0.78), (1.36, 0.48), (1.78, -1.2)] {
+        let only = inverse_free(&robot, &at(x, y), &Load::none(), &free).unwrap().first;
+        assert!(!only.stability.is_stable() && only.equilibrium.pose.rotation.angle() > 2.0, "{x}, {y}");
+        let error = deflection_free(&robot, &at(x, y), &[0.0; 4], &load, &free).unwrap_err();
+        let StaticsError::Unstable { pose, least_stiffness } = error else { panic!("{error}") };
+        assert!(least_stiffness < -1.0, "{least_stiffness} N/m");
+        assert!((pose.position - at(x, y).position).norm() < 1e-9, "{:?}", pose.position);
+    }
 }

@@ -86,7 +86,7 @@ pub(crate) struct Wound {
 /// the inverse model and these kept within the limits.
 ///
 /// # Errors
-/// Those of the inverse and the direct model.
+/// Those of the inverse model and of [`deflection_from`].
 pub fn deflection(
     robot: &Robot,
     pose: &Pose,
@@ -116,7 +116,7 @@ pub(crate) fn deflection_near(
 /// found. Set-points that are not offset are not kept within the limits.
 ///
 /// # Errors
-/// Those of [`held_at`] and of the direct model.
+/// Those of [`held_at`] and of [`deflection_from`].
 pub fn deflection_free(
     robot: &Robot,
     pose: &Pose,
@@ -213,14 +213,21 @@ fn check_offsets(robot: &Robot, tension_offsets: &[f64]) -> Result<(), StaticsEr
 /// Deflection under `load` for given unstrained lengths [m], searched from `start`.
 ///
 /// # Errors
-/// Those of the direct model.
+/// [`StaticsError::Unstable`] where the equilibrium without the load is unstable, from which the platform
+/// would fall elsewhere; those of the direct model.
 pub fn deflection_from(
     robot: &Robot,
     lengths: Vec<f64>,
     load: &Load,
     start: &Equilibrium,
 ) -> Result<Deflection, StaticsError> {
-    let unloaded = direct(robot, &lengths, &Load::none(), Start::Near(start))?;
+    let unloaded = DirectProblem::new(robot, &lengths, &Load::none())?.direct_any(Start::Near(start))?;
+    if !unloaded.stability.is_stable() {
+        return Err(StaticsError::Unstable {
+            pose: Box::new(unloaded.equilibrium.pose),
+            least_stiffness: unloaded.stability.least_stiffness(),
+        });
+    }
     let loaded = match *load == Load::none() {
         true => unloaded.clone(),
         false => direct(robot, &lengths, load, Start::Near(&unloaded.equilibrium))?,
