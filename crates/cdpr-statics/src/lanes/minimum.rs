@@ -45,13 +45,7 @@ pub(crate) fn is_least<S: Simd>(
     reference: f64,
     [least, greatest]: &Lanes2<S>,
 ) -> Mask<S> {
-    let part = |tension: Lanes<S>, force: Lanes2<S>| {
-        let miss = tension + -reference;
-        let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(force));
-        miss * miss * 0.5 + dot(multipliers, &pull)
-    };
-    let tension = |force: &Lanes2<S>| dot(force, force).sqrt();
-    let here = part(tension(&cable.force), cable.force);
+    let here = part(cable, span, multipliers, reference, (tension(&cable.force), cable.force));
     let half_weight = cable.weight_per_length * 0.5;
     let mut is_least = here.less_or_equal(here);
     for [u, coth, stretch] in CATENARIES {
@@ -71,9 +65,29 @@ pub(crate) fn is_least<S: Simd>(
         };
         let there = tension(&force);
         let allowed = least.less_or_equal(there) & there.less_or_equal(*greatest);
-        is_least = is_least & (here.less_or_equal(part(there, force)) | !allowed);
+        let part = part(cable, span, multipliers, reference, (there, force));
+        is_least = is_least & (here.less_or_equal(part) | !allowed);
     }
     is_least
+}
+
+/// φ at a force with its tension. Not a closure: those are compiled apart, without the vector unit.
+#[inline(always)]
+fn part<S: Simd>(
+    cable: &LaneCable<'_, S>,
+    span: &Span<Lanes<S>>,
+    multipliers: &Lanes6<S>,
+    reference: f64,
+    (tension, force): (Lanes<S>, Lanes2<S>),
+) -> Lanes<S> {
+    let miss = tension + -reference;
+    let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(force));
+    miss * miss * 0.5 + dot(multipliers, &pull)
+}
+
+#[inline(always)]
+fn tension<S: Simd>(force: &Lanes2<S>) -> Lanes<S> {
+    dot(force, force).sqrt()
 }
 
 /// Catenaries after which a leave point fits its catenary well enough for a comparison.
