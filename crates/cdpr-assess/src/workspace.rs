@@ -93,11 +93,11 @@ pub struct WorkspacePose {
     /// The tensions distributed anew under the load, or the reason why they cannot be; `None` without a load.
     pub anew: Option<Result<Anew, StaticsError>>,
     /// What can be carried, if asked for.
-    pub capacity: Option<Capacity>,
+    pub capacity: Option<Box<Capacity>>,
     /// Distances of the cables that bear the load, tensions distributed anew, if asked for.
-    pub clearance: Option<Result<Clearance, StaticsError>>,
+    pub clearance: Option<Box<Result<Clearance, StaticsError>>>,
     /// How far the platform may tilt under the load, if asked for.
-    pub tilt: Option<Result<Tilt, StaticsError>>,
+    pub tilt: Option<Box<Result<Tilt, StaticsError>>>,
 }
 
 /// Tensions within the limits that hold a pose under the load.
@@ -149,8 +149,12 @@ pub struct Dominant {
     pub std: f64,
 }
 
-/// Positions that are computed together: those of a block of [`inverse_all`].
+/// Positions that are computed together are a multiple of this: the poses of a block of [`inverse_all`].
 const BLOCK: usize = 64;
+
+/// Parts that a large map is cut into. The answers depend on them in the last digits, but not on the
+/// threads.
+const PARTS: usize = 128;
 
 /// The status of a position that is held with all tensions within the limits.
 pub const HELD: &str = "held";
@@ -173,18 +177,18 @@ pub fn compute_workspace(
         if stop() {
             return Err(StudyError::Stopped);
         }
-        let capacity = further.capacity.map(|set| capacity_at(robot, &pose, &load, set, free));
-        let clearance = further.distances.then(|| clearance_under(robot, &pose, &load, free));
-        let tilt = further
-            .tilt
-            .map(|TiltDirections { count, accuracy }| tilt_at(robot, &pose, &load, count, accuracy));
+        let capacity = further.capacity.map(|set| Box::new(capacity_at(robot, &pose, &load, set, free)));
+        let clearance = further.distances.then(|| Box::new(clearance_under(robot, &pose, &load, free)));
+        let tilt = further.tilt.map(|TiltDirections { count, accuracy }| {
+            Box::new(tilt_at(robot, &pose, &load, count, accuracy))
+        });
         tick();
         Ok(WorkspacePose { pose, outcome, anew, capacity, clearance, tilt })
     };
     let order = without_jumps(&workspace.grid);
     let at = |number: &usize| Pose { rotation, ..workspace.grid.pose(*number) };
     let poses: Vec<_> = order.iter().map(at).collect();
-    let of_block = |poses: &[Pose]| {
+    let of_part = |poses: &[Pose]| {
         if stop() {
             return vec![Err(StudyError::Stopped)];
         }
@@ -192,10 +196,14 @@ pub fn compute_workspace(
         let each = poses.par_iter().copied().zip(outcomes).zip(anew);
         each.map(|((pose, outcome), anew)| one(pose, outcome, anew)).collect()
     };
-    let found: Vec<_> = poses.par_chunks(BLOCK).flat_map(of_block).collect::<Result<_, _>>()?;
-    let mut found: Vec<_> = order.into_iter().zip(found).collect();
-    found.sort_unstable_by_key(|(number, _)| *number);
-    Ok(found.into_iter().map(|(_, pose)| pose).collect())
+    let part = BLOCK * (poses.len() / (BLOCK * PARTS)).max(1);
+    let mut found: Vec<_> =
+        poses.par_chunks(part).flat_map(of_part).map(|pose| pose.map(Some)).collect::<Result<_, _>>()?;
+    let mut places = vec![0; order.len()];
+    for (place, number) in order.into_iter().enumerate() {
+        places[number] = place;
+    }
+    Ok(places.into_iter().filter_map(|place| found[place].take()).collect())
 }
 
 /// The numbers of all positions in an order in which each is a neighbour of the one before: lines run to and

@@ -90,8 +90,8 @@ fn a_study_and_a_map_run_for_every_robot() {
         let map = format!("{name}-map");
         let free: &[&str] = if robot(name).is_fully_actuated() { &[] } else { &["--free", "roll,pitch"] };
         run(&[&["workspace", name, &part, "--out", &map], free].concat());
-        let rows = &json_file(folder.path().join(map).join("workspace.json"))["rows"];
-        assert_eq!(rows[4]["status"], "held", "{name}: {rows}");
+        let columns = &json_file(folder.path().join(map).join("workspace.json"))["columns"];
+        assert_eq!(columns["status"][4], "held", "{name}: {columns}");
     }
 }
 
@@ -123,8 +123,8 @@ fn a_study_and_a_map_of_robots_with_four_cables_find_roll_and_pitch() {
         let summary = json_file(folder.path().join(results).join("summary.json"));
         let spread = &summary["studies"]["all"]["rms_mm"]["std"];
         assert!(spread.as_f64().is_some_and(|spread| spread > 0.0), "{name}: {summary}");
-        let rows = &json_file(folder.path().join(map).join("workspace.json"))["rows"];
-        assert_eq!(rows[0]["status"], "held", "{name}: {rows}");
+        let columns = &json_file(folder.path().join(map).join("workspace.json"))["columns"];
+        assert_eq!(columns["status"][0], "held", "{name}: {columns}");
     }
 }
 

@@ -52,15 +52,19 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
     assert_eq!(summary, serde_json::from_slice::<Value>(&written[6].1).unwrap());
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 25);
     let robot = Robot::from_json(&std::fs::read_to_string(data("robots/caroca.json")).unwrap()).unwrap();
-    let center = &summary["rows"][31];
+    assert_eq!(summary["format"], "cdpr-workspace/2");
+    let columns = &summary["columns"];
+    let center = |name: &str| columns[name][31].as_f64().unwrap();
     let exact = deflection(&robot, &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0)).unwrap();
-    assert_eq!((center["x"].as_f64(), center["y"].as_f64()), (Some(0.0), Some(0.0)));
-    assert!((center["rms_mm"].as_f64().unwrap() - 1e3 * exact.rms()).abs() < 1e-11 * 1e3 * exact.rms());
-    assert_eq!((&center["status"], &center["dominant"]), (&"held".into(), &"youngs_modulus".into()));
+    assert_eq!((center("x"), center("y")), (0.0, 0.0));
+    assert!((center("rms_mm") - 1e3 * exact.rms()).abs() < 1e-11 * 1e3 * exact.rms());
     assert_eq!(
-        (&summary["rows"][0]["status"], &summary["rows"][0]["rms_mm"]),
-        (&"infeasible_tension".into(), &Value::Null)
+        (&columns["status"][31], &columns["dominant"][31]),
+        (&"held".into(), &"youngs_modulus".into())
     );
+    assert_eq!(columns.get("payload_anew_kg"), None, "what was not asked for has no column");
+    assert!(columns.as_object().unwrap().values().all(|column| column.as_array().unwrap().len() == 63));
+    assert_eq!((&columns["status"][0], &columns["rms_mm"][0]), (&"infeasible_tension".into(), &Value::Null));
 
     let table = text(written[5].1.clone());
     let lines: Vec<_> = table.lines().collect();
@@ -82,7 +86,7 @@ fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
     let place = ["--box=-1:1:3,0:0:1,1:2:2", "--out", "out", "--format", "json"];
     let summary: Value =
         serde_json::from_str(&run(folder.path(), &[&place, &tolerances[..]].concat())).unwrap();
-    assert_eq!(summary["rows"].as_array().unwrap().len(), 6);
+    assert_eq!(summary["columns"]["status"].as_array().unwrap().len(), 6);
     assert_eq!(summary["uncertainties"].as_object().unwrap().len(), 62);
     // A uniform law of half width 18 kg.
     assert!((summary["uncertainties"]["mass"].as_f64().unwrap() - 18.0 / 3f64.sqrt()).abs() < 1e-12);
@@ -93,6 +97,11 @@ fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
         .map(|name| [format!("{name}_z00.svg"), format!("{name}_z01.svg")]);
     assert_eq!(names[..8], layers.concat());
     assert_eq!(names[8..], ["workspace.csv", "workspace.json"]);
+    let printed = run(folder.path(), &["--box=-1:1:2,0:1:2,1:2:5", "--draw", "3", "--out", "high"]);
+    assert!(printed.contains("3 of 5 layers are drawn: --draw 5 draws all of them"), "{printed}");
+    let names: Vec<_> = files(&folder.path().join("high")).into_iter().map(|(name, _)| name).collect();
+    let layers = ["00", "02", "04"].map(|layer| format!("least_stiffness_z{layer}.svg"));
+    assert!(layers.iter().all(|layer| names.contains(layer)) && names.len() == 3 * 2 + 2, "{names:?}");
 }
 
 #[test]
@@ -108,7 +117,7 @@ fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_d
     let pose = Pose::with_quaternion(Vector3::new(0.0, 0.0, 1.75), [1.0, 0.0, 0.0, 0.05]).unwrap();
     let wrench = Wrench { force: Vector3::new(0.0, 200.0, 0.0), moment: Vector3::new(0.0, 0.0, 10.0) };
     let exact = deflection(&robot, &pose, &[0.0; 8], &Load::wrench(wrench)).unwrap();
-    let rms = turned["rows"][4]["rms_mm"].as_f64().unwrap();
+    let rms = turned["columns"]["rms_mm"][4].as_f64().unwrap();
     assert!((rms - 1e3 * exact.rms()).abs() < 1e-11 * rms);
     let map = std::fs::read_to_string(folder.path().join("out/deflection.svg")).unwrap();
     assert!(map.contains("force (0, 200, 0) N, moment (0, 0, 10) N m, quaternion (0.9988, "), "{map}");
@@ -116,8 +125,8 @@ fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_d
     // The map of the load goes, and a file of the user stays.
     std::fs::write(folder.path().join("out/mine.svg"), "mine").unwrap();
     let unloaded = summary(&[]);
-    assert_eq!((&unloaded["anew_status"], &unloaded["rows"][4]["anew_status"]), (&json!({}), &Value::Null));
-    assert_eq!((&unloaded["rms_mm"], &unloaded["rows"][4]["rms_mm"]), (&Value::Null, &Value::Null));
+    assert_eq!((&unloaded["anew_status"], unloaded["columns"].get("anew_status")), (&json!({}), None));
+    assert_eq!((&unloaded["rms_mm"], unloaded["columns"].get("rms_mm")), (&Value::Null, None));
     assert!(unloaded["least_stiffness"]["min"].as_f64().unwrap() > 0.0);
     assert!(!folder.path().join("out/deflection.svg").exists());
     assert_eq!(std::fs::read(folder.path().join("out/mine.svg")).unwrap(), b"mine");

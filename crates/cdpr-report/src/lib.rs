@@ -51,7 +51,7 @@ pub use draw::{draw, figures};
 pub use error::ReportError;
 pub use explorer::{EXPLORER_MARK, Explored, explorer};
 pub use figure::cycle::{Cycle, CycleBranch, cycle};
-pub use figure::heat_map::{MapQuantity, heat_map, tolerance_map, workspace_maps};
+pub use figure::heat_map::{MapQuantity, heat_map, layers, tolerance_map, workspace_maps};
 pub use figure::histogram::histogram;
 pub use figure::path::{PATH_MARK, path_view};
 pub use figure::points::{NamedSampling, Points, point_effects};

@@ -167,7 +167,7 @@ fn workspaces_of_which_nothing_is_held_or_without_load() {
         };
         let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
         let summary = WorkspaceSummary::new(&workspace, &poses);
-        let maps = workspace_maps(&robot, &summary).into_iter();
+        let maps = workspace_maps(&robot, &summary, usize::MAX).into_iter();
         let maps: Vec<_> = maps.filter_map(|map| Some((map.name, map.svg.ok()?))).collect();
         write_workspace(&owned, &summary, &maps, None).unwrap();
         assert_finite(what, &format!("{summary:?}"));

@@ -4,11 +4,12 @@ use super::{Dominant, HELD, Workspace, WorkspacePose};
 use crate::capacity::{Capacity, Figure};
 use crate::clearance::CableDistance;
 use cdpr_statics::{Load, OutOfLimits, StaticsError};
-use serde::Serialize;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// A row of `workspace.csv` and `workspace.json`: positions [m], deflection [mm], tensions [N], stiffness
-/// [N/m], frequencies [Hz]. Values that do not exist are empty.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// A row of `workspace.csv`, and an element of each column of `workspace.json`: positions [m], deflection
+/// [mm],
+/// tensions [N], stiffness [N/m], frequencies [Hz]. Values that do not exist are empty.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[allow(missing_docs)]
 pub struct WorkspaceRow {
     pub x: f64,
@@ -84,9 +85,9 @@ impl WorkspaceRow {
                 .and_then(|capacity| of(capacity).as_ref().ok())
                 .filter(|f| f.value.is_finite())
         };
-        let clearance = pose.clearance.as_ref().and_then(|clearance| clearance.as_ref().ok());
+        let clearance = pose.clearance.as_deref().and_then(|clearance| clearance.as_ref().ok());
         let (cables, platform) = (clearance.and_then(|c| c.cables), clearance.and_then(|c| c.platform));
-        let tilt = pose.tilt.as_ref().and_then(|tilt| tilt.as_ref().ok()?.least());
+        let tilt = pose.tilt.as_deref().and_then(|tilt| tilt.as_ref().ok()?.least());
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {
             x,
@@ -141,4 +142,65 @@ impl WorkspaceRow {
 /// Tensions out of limits, in one cell.
 fn in_words(list: &[OutOfLimits]) -> String {
     list.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+/// Values of all rows as one array for each; those that exist nowhere are left out.
+pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Result<S::Ok, S::Error> {
+    let mut columns = serializer.serialize_map(None)?;
+    macro_rules! columns {
+        ($($name:ident),+) => {$(
+            columns.serialize_entry(stringify!($name), &Column(rows, |row: &WorkspaceRow| row.$name))?;
+        )+};
+    }
+    macro_rules! existing_columns {
+        ($($name:ident),+ $(,)?) => {$(
+            if rows.iter().any(|row| row.$name.is_some()) {
+                let column = Column(rows, |row: &WorkspaceRow| row.$name.clone());
+                columns.serialize_entry(stringify!($name), &column)?;
+            }
+        )+};
+    }
+    columns!(x, y, z, status);
+    existing_columns!(
+        least_tension,
+        greatest_tension,
+        dx_mm,
+        dy_mm,
+        dz_mm,
+        rms_mm,
+        least_stiffness,
+        lowest_frequency_hz,
+        slack_cables,
+        out_of_limits,
+        dominant,
+        dominant_share,
+        std_mm,
+        reason,
+        anew_status,
+        anew_least_tension,
+        anew_greatest_tension,
+        anew_reason,
+        payload_anew_kg,
+        payload_anew_blocked_by,
+        payload_kept_kg,
+        payload_kept_blocked_by,
+        margin_anew,
+        margin_kept,
+        nearest_cables_mm,
+        nearest_cables,
+        nearest_to_platform_mm,
+        nearest_to_platform,
+        tilt_deg,
+        tilt_azimuth_deg
+    );
+    columns.end()
+}
+
+/// One value of all rows.
+struct Column<'a, F>(&'a [WorkspaceRow], F);
+
+impl<T: Serialize, F: Fn(&WorkspaceRow) -> T> Serialize for Column<'_, F> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.iter().map(&self.1))
+    }
 }

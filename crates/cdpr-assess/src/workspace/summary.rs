@@ -1,6 +1,6 @@
 //! A workspace in numbers: settings, counts, extremes.
 
-use super::{HELD, Way, Workspace, WorkspacePose, WorkspaceRow};
+use super::{HELD, Way, Workspace, WorkspacePose, WorkspaceRow, row};
 use crate::boundary::Boundary;
 use cdpr_robot::{Pose, Vector3};
 use cdpr_statics::Limit;
@@ -9,9 +9,14 @@ use indexmap::IndexMap;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
+/// The first format, which did not state its name, had `rows` in place of `columns`.
+const WORKSPACE_FORMAT: &str = "cdpr-workspace/2";
+
 /// A workspace with its settings; `workspace.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorkspaceSummary {
+    /// `cdpr-workspace/2`.
+    pub format: &'static str,
     /// Name of the robot.
     pub robot: String,
     /// Version of the program.
@@ -70,7 +75,8 @@ pub struct WorkspaceSummary {
     pub tilt_deg: Option<Extremes>,
     /// The boundary of the positions that are held, if asked for.
     pub boundary: Option<BoundarySummary>,
-    /// Every position, in the order of the grid.
+    /// Every position, in the order of the grid; in the file an array for each of their values (`columns`).
+    #[serde(rename = "columns", serialize_with = "row::columns")]
     pub rows: Vec<WorkspaceRow>,
 }
 
@@ -144,6 +150,7 @@ impl WorkspaceSummary {
         }
         let causes = workspace.tolerances.map(|model| model.inputs.as_slice()).unwrap_or_default();
         Self {
+            format: WORKSPACE_FORMAT,
             robot: workspace.robot.name.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             payload: workspace.load.payload,

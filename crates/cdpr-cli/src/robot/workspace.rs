@@ -11,7 +11,7 @@ use cdpr_assess::{
     BoundarySummary, Further, TiltDirections, Way, Workspace, WorkspaceSummary, begin_workspace,
     compute_workspace, workspace_boundary, write_workspace,
 };
-use cdpr_report::workspace_maps;
+use cdpr_report::{layers, workspace_maps};
 use cdpr_robot::{Axis, Rotation3, shown};
 use cdpr_study::{Extremes, Grid};
 use std::collections::BTreeMap;
@@ -50,6 +50,9 @@ pub(crate) struct Settings {
     errors: ErrorModelArguments,
     #[command(flatten)]
     further: FurtherArguments,
+    /// Layers of a box that are drawn, spread evenly from the lowest to the highest one; 0 draws nothing.
+    #[arg(long, value_name = "LAYERS", default_value = "12")]
+    draw: usize,
     /// Folder for the results; made if missing.
     #[arg(long, default_value = "workspace")]
     out: PathBuf,
@@ -171,11 +174,15 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         summary.boundary = Some(BoundarySummary::new(way.into(), &found));
         boundary = Some(found);
     }
-    let maps = workspace_maps(&robot, &summary).into_iter();
+    let maps = workspace_maps(&robot, &summary, settings.draw).into_iter();
     let maps: Vec<_> = maps.filter_map(|map| drawn(&map.name, map.svg)).collect();
     write_workspace(&folder, &summary, &maps, boundary.as_ref())?;
     settings.format.print(&summary, |summary| {
         print(summary);
+        let (drawn, all) = (settings.draw, layers(summary));
+        if drawn < all {
+            println!("{drawn} of {all} layers are drawn: --draw {all} draws all of them");
+        }
         println!("{} poses in {seconds:.2} s; results in {}", poses.len(), settings.out.display());
     })?;
     Ok(if summary.too_much > 0 { Ending::SomethingWrong } else { Ending::Well })

@@ -210,8 +210,9 @@ fn names(plane: &Plane, robot: &Robot, summary: &WorkspaceSummary) -> Result<Str
     name_map(plane, robot, &title, line, &names)
 }
 
-/// Draws all maps of a plane, or of each layer of a box. The names of layers end in `_z00`, ...
-pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary) -> Vec<NamedMap> {
+/// Draws all maps of a plane, or of `most` layers of a box, spread evenly from the lowest to the highest one.
+/// The names of layers end in their numbers, `_z00`, ...
+pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary, most: usize) -> Vec<NamedMap> {
     let shown: Vec<_> = MapQuantity::ALL.into_iter().filter(|of| of.exists(summary)).collect();
     let of_plane = |plane: &Plane| {
         let name = |quantity: &str| format!("{quantity}{}", plane.suffix());
@@ -224,7 +225,21 @@ pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary) -> Vec<NamedMap
         }
         maps
     };
-    Plane::of(&summary.grid).par_iter().flat_map(of_plane).collect()
+    let planes = Plane::of(&summary.grid);
+    spread(planes.len(), most).into_par_iter().flat_map(|layer| of_plane(&planes[layer])).collect()
+}
+
+/// The number of layers that maps have: one of a plane, none where a line or a point was asked for.
+pub fn layers(summary: &WorkspaceSummary) -> usize {
+    Plane::of(&summary.grid).len()
+}
+
+/// At most `most` of `count` numbers from 0, spread evenly; the first one and, of several, the last one are
+/// among them.
+fn spread(count: usize, most: usize) -> Vec<usize> {
+    let chosen = count.min(most);
+    let last = count.saturating_sub(1);
+    (0..chosen).map(|k| if chosen > 1 { (k * last + (chosen - 1) / 2) / (chosen - 1) } else { 0 }).collect()
 }
 
 fn plane_of(summary: &WorkspaceSummary) -> Result<Plane, ReportError> {

@@ -12,6 +12,20 @@ pub(crate) const ABOVE_LEAST: f64 = 1.001;
 /// No span demands a tension above this, relative to the weight of a cable as long as the chord.
 pub(crate) const ABOVE_ANY_LEAST: f64 = 1.3;
 
+/// No cable without a guide whose tension rises with its chord force is longer than this many chords: the one
+/// of least tension over a level span has 1.2584.
+const LONGEST: f64 = 1.3;
+
+/// Bounds of the force of a cable without a guide on the platform, `σ along + V sag` with V from zero to the
+/// cable's weight: with W that weight and x its centre of gravity as a share of the horizontal distance from
+/// the exit point, moments about the exit point give V = x W.
+pub(crate) struct Bounds {
+    pub(crate) along: [f64; 3],
+    pub(crate) sag: [f64; 3],
+    /// Of the longest cable [N].
+    pub(crate) weight: f64,
+}
+
 /// The two points of a cable at a pose, in the level frame.
 #[derive(Clone, Copy)]
 pub(crate) struct Ends<'a> {
@@ -86,6 +100,19 @@ impl<'a> Ends<'a> {
             return Ok(tension);
         }
         Ok(tension.max(ABOVE_LEAST * self.at_least_tension()?.tension()))
+    }
+
+    /// Bounds of the force on the platform; `None` for a cable with a guide.
+    pub(crate) fn bounds(&self) -> Option<Bounds> {
+        if self.cable.guide.is_some() {
+            return None;
+        }
+        let chord = self.end.norm();
+        Some(Bounds {
+            along: self.on_platform((self.end / chord).into()),
+            sag: self.on_platform([0.0, 0.0, 1.0]),
+            weight: LONGEST * self.cable.weight_per_length * chord,
+        })
     }
 
     /// F_i [N], the force on the platform.

@@ -5,7 +5,7 @@
 //! fails, the residual of the balance itself is made least, by steps
 //!
 //! ```text
-//! minimise  |J d + F|² + η sum (d_i/σ_i)²   within the limits,                                      (I4)
+//! minimise  |J d + F|² + sum (max(F·w_i'', 0) + η/σ_i²) d_i²   within the limits,          (I4)
 //! ```
 //!
 //! from that start, from the reference, from the middle of the limits and from tensions spread over them,
@@ -24,9 +24,10 @@
 //!
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
 //! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual
-//! has that direction, if one exists and the cables are nearly straight; it is tried on a grid of each
-//! cable's chord forces. Then no other start is tried. Where straight cables leave a residual, this is asked
-//! first; beside a pose that was refused it is asked from the tensions that came nearest there.
+//! has that direction, if one exists and the cables are nearly straight. Bounds by the weight of each cable
+//! prove most of it; where they do not, y is tried on a grid of each cable's chord forces. Then no other
+//! start is tried. Where straight cables leave a residual, this is asked first; beside a pose that was
+//! refused it is asked from the tensions that came nearest there.
 
 use super::optimum::{ELASTICITY, Optimum, Point};
 use super::question::Question;
@@ -167,10 +168,14 @@ impl<'a> Point<'a> {
             }
             self.iterations += 1;
             let largest = self.rows.iter().map(|row| row.tension).fold(0.0, f64::max);
+            let open = self.residual();
             let curvature: Vec<f64> = self
                 .strands
                 .iter()
-                .map(|strand| damping * (1.0 + largest / strand.held.chord_force()).powi(2))
+                .map(|strand| {
+                    damping * (1.0 + largest / strand.held.chord_force()).powi(2)
+                        + strand.bend(&open, self.arm).max(0.0)
+                })
                 .collect();
             let Some(step) = self.least_step(&curvature) else { return false };
             let moved = self.moved(&step);
@@ -275,14 +280,20 @@ impl<'a> Point<'a> {
     /// Whether no tensions within the limits balance the wrench in the direction of the residual.
     pub(super) fn refutes(&mut self) -> bool {
         let direction = self.residual().normalize();
-        let mut least = direction.dot(&self.external);
+        let clear = 1e-9 * self.size();
+        let along = direction.dot(&self.external);
+        let bounds = self.strands.iter().map(|strand| strand.bound_along(&direction, self.arm));
+        if bounds.sum::<Option<f64>>().is_some_and(|least| along + least > clear) {
+            return true;
+        }
+        let mut least = along;
         for strand in &mut self.strands {
             match strand.least_along(&direction, self.arm) {
                 Ok(value) => least += value,
                 Err(_) => return false,
             }
         }
-        least > 1e-9 * self.size()
+        least > clear
     }
 
     pub(super) fn refusal(

@@ -1,7 +1,7 @@
 //! The cables of a robot whose platform is held at a pose, each with its chord force as its only unknown.
 
 use super::question::Question;
-use crate::equations::{ABOVE_LEAST, Ends, Held, wrench};
+use crate::equations::{ABOVE_LEAST, Bounds, Ends, Held, wrench};
 use crate::error::StaticsError;
 use cdpr_cable::CableError;
 use cdpr_robot::{Freedoms, TensionLimits, Vector3, Vector6};
@@ -101,6 +101,11 @@ impl<'a> Strand<'a> {
             + multipliers.dot(&self.wrench(force, arm))
     }
 
+    /// y·w'' [1/N].
+    pub(super) fn bend(&self, y: &Vector6<f64>, arm: f64) -> f64 {
+        y.dot(&self.wrench(self.ends.curvatures(&self.held).0, arm))
+    }
+
     /// Changes of the chord force [N] that lead to the limits; where a limit's chord force has not been asked
     /// for, a change that does not pass it, because t(σ) is convex with a slope of at most one.
     pub(super) fn room(&self) -> [f64; 2] {
@@ -156,6 +161,16 @@ impl<'a> Strand<'a> {
     /// The limit that the chord force is at.
     pub(super) fn at_limit(&self) -> Option<usize> {
         (0..2).find(|side| self.chord_forces[*side] == Some(self.held.chord_force()))
+    }
+
+    /// No more than y·w at any tension within the limits: the tension differs from the chord force by no
+    /// more than the cable's weight. `None` for a cable with a guide.
+    pub(super) fn bound_along(&self, y: &Vector6<f64>, arm: f64) -> Option<f64> {
+        let Bounds { along, sag, weight } = self.ends.bounds()?;
+        let [along, sag] = [along, sag].map(|force| y.dot(&self.wrench(force, arm)));
+        let chord_forces = [(self.limits.min - weight).max(0.0), self.limits.max + weight];
+        let [low, high] = chord_forces.map(|chord_force| along * chord_force);
+        Some(low.min(high) + (sag * weight).min(0.0))
     }
 
     /// The least of y·w over the tensions within the limits, on a grid of chord forces.

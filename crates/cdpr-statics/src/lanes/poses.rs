@@ -1,12 +1,12 @@
 //! The inverse model at many poses of one robot, one pose in each lane.
 //!
-//! Poses come in blocks of [`BLOCK`]. The scalar model answers a block from its first pose on until one is
-//! held. The poses after it are cut into [`SEQUENCES`] sequences, and the lanes go along them together: each
-//! pose starts from the last answer of its own sequence, with the horizontal forces and multipliers of its
-//! cables. What a lane does not decide, and what is not proved to be the least of all minima where cables
-//! sag, is left to the scalar model. After a pose without tensions the next one is first asked for a proof
-//! that it has none, from the tensions that came nearest there. No answer depends on the vector unit, because
-//! no sequence knows another.
+//! The scalar model answers the first poses until one is held. Those after it come in blocks of [`BLOCK`],
+//! cut into [`SEQUENCES`] sequences, and the lanes go along them together: each pose starts from the last
+//! answer of its own sequence, with the horizontal forces and multipliers of its cables, and each sequence
+//! from the nearest end of one of the block before. What a lane does not decide, and what is not proved to be
+//! the least of all minima where cables sag, is left to the scalar model. After a pose without tensions the
+//! next one is first asked for a proof that it has none, from the tensions that came nearest there. No answer
+//! depends on the vector unit, because no sequence of a block knows another.
 
 use crate::equations::Span;
 use crate::equations::vector::{dot, wrench};
@@ -30,7 +30,7 @@ use cdpr_robot::{Pose, Robot, RobotCable, Vector2, Vector3, Vector6};
 use cdpr_tension::Bound;
 use smallvec::SmallVec;
 
-/// Poses that share a first answer.
+/// Poses that are cut into sequences together.
 const BLOCK: usize = 64;
 
 /// Sequences of a block: as many as the widest vector unit has lanes.
@@ -48,7 +48,7 @@ const STATIONARY: f64 = 1e-10;
 /// Poses that follow each other should be near each other, as along the lines of a grid: robots without
 /// pulleys, leads and free coordinates are then answered in the lanes of the vector unit, each from the pose
 /// before it, and all others one by one. An answer found in lanes counts no iterations. It depends on the
-/// poses before it in its block of 64, in the last digits; it does not depend on the vector unit.
+/// poses before it in the same call, in the last digits; it does not depend on the vector unit.
 ///
 /// Where (I1) has several minima, [`inverse`] takes the best that several starts lead to. An answer in lanes
 /// with a cable that sags is proved to be the least of all on a grid of its tensions.
@@ -57,14 +57,14 @@ const STATIONARY: f64 = 1e-10;
 /// Those of [`inverse`], for each pose.
 pub fn inverse_all(robot: &Robot, poses: &[Pose], load: &Load) -> Vec<Result<InverseSolution, StaticsError>> {
     match Setting::of(robot, load) {
-        Some(setting) => poses.chunks(BLOCK).flat_map(|block| setting.block(block)).collect(),
-        None => poses
-            .chunks(BLOCK)
-            .flat_map(|block| {
-                let mut scalar = InTurn::new(robot, load);
-                block.iter().map(move |pose| scalar.answer(pose))
-            })
-            .collect(),
+        Some(setting) => {
+            let mut ends = Vec::with_capacity(SEQUENCES);
+            poses.chunks(BLOCK).flat_map(|block| setting.block(block, &mut ends)).collect()
+        }
+        None => {
+            let mut scalar = InTurn::new(robot, load);
+            poses.iter().map(|pose| scalar.answer(pose)).collect()
+        }
     }
 }
 
@@ -80,6 +80,8 @@ struct Setting<'a> {
 /// An answer, from which the next one is found.
 #[derive(Clone)]
 struct Near {
+    /// Of the platform [m].
+    position: Vector3<f64>,
     shapes: Vec<Shape>,
     multipliers: Vector6<f64>,
 }
@@ -131,32 +133,36 @@ impl<'a> Setting<'a> {
         })
     }
 
-    fn block(&self, poses: &[Pose]) -> Vec<Result<InverseSolution, StaticsError>> {
+    /// Answers a block from the `ends` of the sequences before it, and leaves its own there.
+    fn block(&self, poses: &'a [Pose], ends: &mut Vec<Near>) -> Vec<Result<InverseSolution, StaticsError>> {
         let mut answers = Vec::with_capacity(poses.len());
         let mut scalar = InTurn::new(self.robot, self.load);
-        let mut first = None;
-        for pose in poses {
+        while let (true, Some(pose)) = (ends.is_empty(), poses.get(answers.len())) {
             let answer = scalar.answer(pose);
-            first = answer.as_ref().ok().map(|solution| Near::of(self.robot, pose, solution));
+            ends.extend(answer.as_ref().ok().map(|solution| Near::of(self.robot, pose, solution)));
             answers.push(answer);
-            if first.is_some() {
-                break;
-            }
         }
-        let Some(near) = first else { return answers };
         let rest = &poses[answers.len()..];
-        let length = rest.len().div_ceil(SEQUENCES);
-        let sequence = |poses| Sequence {
-            poses,
-            near: near.clone(),
-            scalar: InTurn::new(self.robot, self.load),
-            answers: Vec::with_capacity(length),
+        let length = rest.len().div_ceil(SEQUENCES).max(1);
+        let sequence = |poses: &'a [Pose]| {
+            let first = poses.first()?.position;
+            let way = |near: &Near| (near.position - first).norm();
+            // The last one of several.
+            let near = ends.iter().rev().min_by(|one, other| way(one).total_cmp(&way(other)))?.clone();
+            let scalar = InTurn::new(self.robot, self.load);
+            Some(Sequence { poses, near, scalar, answers: Vec::with_capacity(length) })
         };
-        let mut sequences: Vec<_> = rest.chunks(length.max(1)).map(sequence).collect();
+        let mut sequences: Vec<_> = rest.chunks(length).filter_map(sequence).collect();
         for k in 0..length {
             self.next(&mut sequences, k);
         }
-        answers.extend(sequences.into_iter().flat_map(|sequence| sequence.answers));
+        if !sequences.is_empty() {
+            ends.clear();
+        }
+        for Sequence { near, answers: found, .. } in sequences {
+            ends.push(near);
+            answers.extend(found);
+        }
         answers
     }
 
@@ -215,7 +221,7 @@ impl<'a> Setting<'a> {
 impl Near {
     fn of(robot: &Robot, pose: &Pose, solution: &InverseSolution) -> Self {
         let shapes = (0..robot.cables.len()).map(|i| shape(robot, pose, i, solution)).collect();
-        Self { shapes, multipliers: solution.multipliers }
+        Self { position: pose.position, shapes, multipliers: solution.multipliers }
     }
 }
 
@@ -251,7 +257,7 @@ impl WithSimd for Batch<'_> {
             found.extend(answers.into_iter().zip(asked).map(|(answer, Asked { pose, .. })| {
                 let answer = answer?;
                 let shapes = answer.cables.iter().map(|cable| cable.shape).collect();
-                let near = Near { shapes, multipliers: answer.multipliers };
+                let near = Near { position: pose.position, shapes, multipliers: answer.multipliers };
                 Some((self.setting.solution(pose, &answer)?, near))
             }));
         }
