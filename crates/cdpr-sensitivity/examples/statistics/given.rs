@@ -102,8 +102,8 @@ fn levels(function: &Function, rows: usize, studies: u64) -> Result<(), Sensitiv
         count(&mut event_one, p <= 0.01);
         let found = pawn(&dealt, seed)?[0];
         count(&mut noisy, found.median > found.noise);
-        let found = delta(&dealt, Bootstrap { resamples: 30, seed }, 0.95)?[0];
-        count(&mut noisy_delta, found.delta.value > found.noise);
+        let found = delta(&dealt, 0.95, seed)?[0];
+        count(&mut noisy_delta, found.delta > found.noise);
     }
     let both = |five: f64, one: f64| format!("{five:.1} ({one:.1})");
     println!(

@@ -5,9 +5,9 @@ use std::fs;
 use std::time::Instant;
 
 use cdpr_sensitivity::{
-    Bootstrap, Bracket, Estimate, GivenData, LatinHypercube, MorrisDesign, RandomDesign, Rows,
-    SensitivityError, ShapleyDesign, SobolDesign, Truncation, brackets, delta, dependence, expansion,
-    morris_effects, observe, pawn, rank_indices, regression, shapley_effects,
+    Bracket, Delta, Estimate, GivenData, LatinHypercube, MorrisDesign, RandomDesign, Rows, SensitivityError,
+    ShapleyDesign, SobolDesign, Truncation, brackets, delta, dependence, expansion, morris_effects, observe,
+    pawn, rank_indices, regression, shapley_effects,
 };
 use serde_json::{Value, json};
 
@@ -90,7 +90,7 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
         measures: vec![("S by ranks", &exact.first)],
         has_interval: true,
         is_dear: false,
-        of_seed: Box::new(move |seed| Ok(vec![rank_indices(&random(function, seed)?, 0.95, seed)?])),
+        of_seed: Box::new(move |seed| Ok(vec![rank_indices(&random(function, 256, seed)?, 0.95, seed)?])),
     });
     all.push(Study {
         runs: 256 * (k + 1),
@@ -139,23 +139,26 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
             Ok(vec![found.inputs.iter().map(|of| point(of.share)).collect()])
         }),
     });
-    all.push(Study {
-        runs: 256,
-        measures: vec![("delta", &exact.tables.delta)],
-        has_interval: true,
-        is_dear: true,
-        of_seed: Box::new(move |seed| {
-            let found = delta(&random(function, seed)?, Bootstrap { resamples: 30, seed }, 0.95)?;
-            Ok(vec![found.into_iter().map(|of| of.delta).collect()])
-        }),
-    });
+    for (rows, name) in [(256, "delta, 256"), (1024, "delta, 1024"), (4096, "delta, 4096")] {
+        all.push(Study {
+            runs: rows,
+            measures: vec![(name, &exact.tables.delta)],
+            has_interval: true,
+            is_dear: true,
+            of_seed: Box::new(move |seed| {
+                let found = delta(&random(function, rows, seed)?, 0.95, seed)?;
+                let above = |of: &Delta| Estimate { value: of.delta, low: of.at_least, high: 1.0 };
+                Ok(vec![found.iter().map(above).collect()])
+            }),
+        });
+    }
     all.push(Study {
         runs: 256,
         measures: vec![("PAWN", &exact.tables.pawn), ("HSIC R2", &exact.tables.r_squared)],
         has_interval: false,
         is_dear: many,
         of_seed: Box::new(move |seed| {
-            let data = random(function, seed)?;
+            let data = random(function, 256, seed)?;
             let dependent = dependence(&data, Rows { most: 256, seed })?;
             Ok(vec![
                 pawn(&data, seed)?.iter().map(|of| point(of.median)).collect(),
@@ -184,9 +187,9 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
     all
 }
 
-/// A table of 256 independent rows.
-fn random(function: &Function, seed: u64) -> Result<GivenData, SensitivityError> {
-    let design = RandomDesign::new(function.inputs.clone(), 256, seed)?;
+/// A table of independent rows.
+fn random(function: &Function, rows: usize, seed: u64) -> Result<GivenData, SensitivityError> {
+    let design = RandomDesign::new(function.inputs.clone(), rows, seed)?;
     GivenData::of_design(&design, &observe(&design, function.model)?)
 }
 
