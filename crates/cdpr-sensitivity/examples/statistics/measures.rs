@@ -32,7 +32,7 @@ struct Study<'a> {
     of_seed: Box<dyn Fn(u64) -> Result<Vec<Found>, SensitivityError> + 'a>,
 }
 
-/// Prints a row for each function and measure.
+/// Prints a row for each function and measure whose names contain a part, or `FUNCTION/MEASURE`.
 pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
     println!("error: largest root mean square error of an input; held: share of the intervals of 95 % that");
     println!("hold the true value [%], mean and least over the inputs; *: an interval that holds less than");
@@ -41,11 +41,12 @@ pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
     println!("|---|---|---|---|---|---|---|");
     let mut rows = Vec::new();
     // A part of the name of no function is that of measures.
-    let of_functions = twelve().iter().any(|function| function.name.contains(part));
-    let of_measures = if of_functions { "" } else { part };
-    for function in twelve().into_iter().filter(|of| !of_functions || of.name.contains(part)) {
+    let is_function = twelve().iter().any(|function| function.name.contains(part));
+    let (of_functions, of_measures) =
+        part.split_once('/').unwrap_or(if is_function { (part, "") } else { ("", part) });
+    for function in twelve().into_iter().filter(|of| of.name.contains(of_functions)) {
         if function.name == "constant" {
-            if of_functions {
+            if of_measures.is_empty() {
                 constant(&function)?;
             }
             continue;
