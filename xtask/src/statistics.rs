@@ -58,7 +58,11 @@ fn peers(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     let ours = std::fs::read_to_string(folder.join("measures.json"))?;
     let mut rows: Vec<Value> = serde_json::from_str(&ours)?;
     let mut command = Command::new(python);
-    command.arg(root().join("xtask/peers/statistics.py")).arg(folder.join("exact.json")).arg(studies).arg(part);
+    command
+        .arg(root().join("xtask/peers/statistics.py"))
+        .arg(folder.join("exact.json"))
+        .arg(studies)
+        .arg(part);
     for variable in ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"] {
         command.env(variable, "1");
     }
