@@ -1,6 +1,6 @@
 """SALib and OpenTURNS on the functions of `cargo xtask statistics measures`.
 
-    statistics.py EXACT.json STUDIES
+    statistics.py EXACT.json STUDIES [PART_OF_THE_NAMES_OF_MEASURES]
 
 `EXACT.json` is what `crates/cdpr-sensitivity/examples/statistics` has written: laws of the inputs, values
 that count as true, and one point with its output, which the functions below must have as well. Prints a row
@@ -17,7 +17,7 @@ from functools import partial
 
 import numpy as np
 import openturns as ot
-from SALib.analyze import delta, morris as morris_analysis, rbd_fast, sobol as sobol_analysis
+from SALib.analyze import delta, morris as morris_analysis, pawn, rbd_fast, sobol as sobol_analysis
 from SALib.sample import latin, morris as morris_sample, sobol as sobol_sample
 
 NEAR = 1e-4
@@ -147,11 +147,13 @@ def salib_morris(of, f):
     return study
 
 
-def salib_given(of, f, analyse):
+def salib_given(of, f, analyse, name="S1"):
     def study(seed):
         x = latin.sample(of, ROWS, seed=seed)
         found = analyse(of, x, f(x), seed=seed)
-        return [around(found["S1"], found["S1_conf"])]
+        if f"{name}_conf" in found:
+            return [around(found[name], found[f"{name}_conf"])]
+        return [(np.array(found[name], float), None, None)]
 
     return study
 
@@ -176,6 +178,21 @@ def turns_ranks(law, f):
         x = law.getSample(ROWS)
         found = ot.RankSobolSensitivityAlgorithm(x, sample(f(np.array(x))))
         return [within(found.getFirstOrderIndices(), found.getFirstOrderIndicesInterval())]
+
+    return study
+
+
+def turns_hsic(law, f):
+    """R2 of the statistic with Gaussian kernels of the deviations of the sample, as ours."""
+
+    def study(seed):
+        ot.RandomGenerator.SetSeed(seed)
+        x = law.getSample(ROWS)
+        y = sample(f(np.array(x)))
+        columns = [x.getMarginal(i) for i in range(law.getDimension())] + [y]
+        kernels = [ot.SquaredExponential([of.computeStandardDeviation()[0]], [1.0]) for of in columns]
+        found = ot.HSICEstimatorGlobalSensitivity(kernels, x, y, ot.HSICVStat())
+        return [(np.array(found.getR2HSICIndices()), None, None)]
 
     return study
 
@@ -255,7 +272,7 @@ def row(program, function, names, truths, runs, studies, study):
     ]
 
 
-def rows(name, f, exact, studies):
+def rows(name, f, exact, studies, part):
     inputs = exact["inputs"]
     k, of, law = len(inputs), problem(inputs), distribution(inputs)
     first, total = exact["first"], exact["total"]
@@ -263,9 +280,11 @@ def rows(name, f, exact, studies):
     # One study of many inputs, of a bootstrap of ranks or of an expansion takes up to seconds.
     few, fewest = max(studies // 4, 2), max(studies // 10, 2)
     if k > 20:
-        studies, few = fewest, max(studies // 20, 2)
+        studies, few, fewest = fewest, max(studies // 20, 2), 2
 
     def add(program, names, truths, runs, count, study):
+        if not any(part in of for of in names):
+            return
         for found in row(program, name, names, truths, runs, count, study):
             print(json.dumps(found), flush=True)
 
@@ -284,12 +303,17 @@ def rows(name, f, exact, studies):
     if k <= 20:
         names = ["expansion S", "expansion T"]
         add("OpenTURNS", names, [first, total], ROWS, fewest, turns_expansion(law, f))
+    tables = exact["tables"]
+    study = salib_given(of, f, partial(delta.analyze, method="delta"), "delta_raw")
+    add("SALib", ["delta, 256"], [tables["delta"]], ROWS, fewest, study)
+    add("SALib", ["PAWN"], [tables["pawn"]], ROWS, few, salib_given(of, f, pawn.analyze, "median"))
+    add("OpenTURNS", ["HSIC R2"], [tables["r_squared"]], ROWS, few, turns_hsic(law, f))
 
 
 def main():
     warnings.simplefilter("ignore")
     ot.Log.Show(ot.Log.NONE)
-    path, studies = sys.argv[1], int(sys.argv[2])
+    path, studies, part = sys.argv[1], int(sys.argv[2]), (sys.argv + [""])[3]
     with open(path) as file:
         exact = json.load(file)
     for name, of in exact.items():
@@ -299,9 +323,10 @@ def main():
             if abs(ours - theirs) > 1e-12 * max(abs(ours), 1):
                 sys.exit(f"{name} is {ours} at {of['point']}, but {theirs} here")
         print(f"{name}", file=sys.stderr)
-        rows(name, f, of, studies)
+        rows(name, f, of, studies, part)
     zero = {"inputs": exact["Ishigami"]["inputs"], **{key: [0.0] * 3 for key in ("first", "total", "morris")}}
-    rows("constant", lambda x: np.ones(len(x)), zero, 2)
+    zero["tables"] = {key: [0.0] * 3 for key in ("delta", "pawn", "r_squared")}
+    rows("constant", lambda x: np.ones(len(x)), zero, 2, part)
 
 
 main()

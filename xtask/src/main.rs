@@ -58,9 +58,10 @@ tasks:
   statistics TABLE [STUDIES [FUNCTION]]
                  measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
                  choice (of a fitted law), indices (of Sobol'), expansions,
-                 given (estimators of tables), brackets (bounds by derivatives), measures (all of them, of
-                 functions with FUNCTION in their names; docs/STATISTICS.md) or peers (beside SALib and
-                 OpenTURNS, which pip installs into target/peers/statistics)
+                 given (first-order indices of tables), levels (of tests of tables), brackets (bounds by
+                 derivatives), measures (all of them, of functions with FUNCTION in their names, or of
+                 FUNCTION/MEASURE; docs/STATISTICS.md) or peers (beside SALib and OpenTURNS, which pip
+                 installs into target/peers/statistics; there FUNCTION is a part of the names of measures)
   calibration PART [CAMPAIGNS | FILES]
                  prints the figures of calibration in docs/VALIDATION.md and docs/calibration.md; PART is
                  recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,

@@ -16,8 +16,17 @@ use std::process::{Command, ExitCode};
 /// What pip installs, of these versions.
 const PACKAGES: [&str; 2] = ["SALib==1.6.0", "openturns==1.27"];
 /// The measures that the others have as well.
-const MEASURES: [&str; 6] =
-    ["Sobol' S, 256", "Sobol' T, 256", "S by ranks", "Morris mu*", "expansion S", "expansion T"];
+const MEASURES: [&str; 9] = [
+    "Sobol' S, 256",
+    "Sobol' T, 256",
+    "S by ranks",
+    "Morris mu*",
+    "expansion S",
+    "expansion T",
+    "delta, 256",
+    "PAWN",
+    "HSIC R2",
+];
 
 pub(crate) fn run(arguments: &[String]) -> ExitCode {
     let of_peers = arguments.first().is_some_and(|table| table == "peers");
@@ -35,17 +44,25 @@ fn example(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     done(cargo_command(&example).args(arguments).current_dir(root()))
 }
 
-/// Runs our studies and those of the others, one after the other on one thread, and prints a table.
+/// Runs our studies and those of the others, one after the other on one thread, and prints a table. The second
+/// argument is a part of the names of measures.
 fn peers(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     let studies = arguments.first().map_or("100", String::as_str);
+    let part = arguments.get(1).map_or("", String::as_str);
     let python = environment()?;
     let example = ["run", "--release", "-p", "cdpr-sensitivity", "--example", "statistics", "--", "measures"];
-    done(cargo_command(&example).arg(studies).current_dir(root()).env("RAYON_NUM_THREADS", "1"))?;
+    let mut ours = cargo_command(&example);
+    ours.arg(studies).arg(format!("/{part}")).current_dir(root()).env("RAYON_NUM_THREADS", "1");
+    done(&mut ours)?;
     let folder = root().join("target/statistics");
     let ours = std::fs::read_to_string(folder.join("measures.json"))?;
     let mut rows: Vec<Value> = serde_json::from_str(&ours)?;
     let mut command = Command::new(python);
-    command.arg(root().join("xtask/peers/statistics.py")).arg(folder.join("exact.json")).arg(studies);
+    command
+        .arg(root().join("xtask/peers/statistics.py"))
+        .arg(folder.join("exact.json"))
+        .arg(studies)
+        .arg(part);
     for variable in ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"] {
         command.env(variable, "1");
     }
@@ -78,6 +95,9 @@ fn environment() -> Result<PathBuf, Box<dyn Error>> {
 fn print(rows: &[Value]) {
     for measure in MEASURES {
         let rows: Vec<&Value> = rows.iter().filter(|row| row["measure"] == measure).collect();
+        if rows.is_empty() {
+            continue;
+        }
         let of = |field: &str| {
             let mut values: Vec<&str> = Vec::new();
             for row in &rows {

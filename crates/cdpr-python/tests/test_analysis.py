@@ -22,6 +22,8 @@ def test_ishigamis_function_is_recognised_from_its_rows_alone():
     numpy.testing.assert_allclose(found.expansion_total, [0.5576, 0.4424, 0.2437, 0.0], atol=0.02)
     assert numpy.all(found.p_value[:3] < 1e-3) and found.p_value[3] > 1e-3
     assert found.delta[3] < 2 * found.delta_noise[3] and found.pawn[1] > found.pawn_noise[1]
+    # x2 has 0.42.
+    assert 0.3 < found.delta_at_least[1] < 0.42 and numpy.all(found.delta_at_least <= found.delta)
     assert len(repr(found)) < 400 and "x2" in repr(found)
 
 

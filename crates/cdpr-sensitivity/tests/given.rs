@@ -3,9 +3,9 @@
 use crate::common::unit;
 use crate::global::functions;
 use cdpr_sensitivity::{
-    Analyser, Bootstrap, Correlated, GivenData, Input, JointSample, LatinHypercube, Law, Limit, RandomDesign,
-    Rows, SampleDesign, SensitivityError, SobolDesign, delta, dependence, dependence_of_event,
-    given_expansion, halves, observe, pawn, rank_indices,
+    Analyser, Correlated, GivenData, Input, JointSample, LatinHypercube, Law, Limit, RandomDesign, Rows,
+    SampleDesign, SensitivityError, SobolDesign, delta, dependence, dependence_of_event, given_expansion,
+    halves, observe, pawn, rank_indices,
 };
 
 fn table(
@@ -171,19 +171,57 @@ fn delta_and_pawn_of_a_normal_sum_are_those_by_quadrature() {
         (all.iter().map(|found| found.0).sum::<f64>() / 200.0, reach[100])
     };
     let data = table(normal(3), 5000, 2, |x| Some(2.0 * x[0] + x[1]));
-    let found = delta(&data, Bootstrap { resamples: 20, seed: 1 }, 0.95).unwrap();
+    let found = delta(&data, 0.95, 1).unwrap();
     let by_pawn = pawn(&data, 1).unwrap();
     for (input, (slope, rest)) in [(2.0, 1.0), (1.0, 2.0)].into_iter().enumerate() {
         let (exact, reach) = distances(slope, rest);
-        let value = found[input].delta.value;
+        let value = found[input].delta;
         assert!((value - exact).abs() < 0.03, "input {input}: {value} {exact}");
+        let at_least = found[input].at_least;
+        assert!(at_least < exact && exact - at_least < 0.06, "input {input}: {at_least} {exact}");
         assert!((by_pawn[input].median - reach).abs() < 0.04, "{:?} {reach}", by_pawn[input]);
         assert!(value > 3.0 * found[input].noise && by_pawn[input].median > 2.0 * by_pawn[input].noise);
     }
-    assert!(
-        found[2].delta.value < 1.5 * found[2].noise && by_pawn[2].median < 1.5 * by_pawn[2].noise,
-        "{found:?}"
-    );
+    assert!(found[2].delta < 1.5 * found[2].noise && by_pawn[2].median < 1.5 * by_pawn[2].noise, "{found:?}");
+}
+
+#[test]
+fn lower_bounds_of_delta_are_above_it_as_seldom_as_their_level_allows() {
+    // δ of a step y = 1 for x1 > 0.7 with the probability p = 0.3 is the mean of |1 - p| and |p|: 2 p (1 - p).
+    let (tables, exact) = (100, [2.0 * 0.3 * 0.7, 0.0]);
+    let mut above = [0; 2];
+    for seed in 0..tables {
+        let data = table(unit(2), 100, seed, |x| Some(f64::from(x[0] > 0.7)));
+        let found = delta(&data, 0.8, seed).unwrap();
+        for ((found, exact), above) in found.iter().zip(exact).zip(&mut above) {
+            *above += usize::from(found.at_least > exact + 1e-12);
+        }
+    }
+    // At most 10 % of 100; 19 is three standard deviations more. The bound is not trivial.
+    assert!(above.iter().all(|above| *above < 20), "{above:?}");
+    let found = delta(&table(unit(2), 100, 1, |x| Some(f64::from(x[0] > 0.7))), 0.8, 1).unwrap();
+    assert!(found[0].at_least > 0.5 * exact[0], "{found:?}");
+}
+
+#[test]
+fn delta_knows_ranks_alone_and_inputs_of_few_values() {
+    let levels = |x: f64| (3.0 * x).floor();
+    let data = table(unit(2), 900, 3, |x| Some(x[0] + 0.1 * x[1]));
+    let [columns, exponents] = [|x: f64| x, f64::exp].map(|f| -> Vec<Vec<f64>> {
+        data.columns().iter().map(|column| column.iter().map(|x| f(*x)).collect()).collect()
+    });
+    let names = || data.names().to_vec();
+    let stretched = data.outputs().iter().map(|y| y.map(|y| y.powi(3))).collect();
+    let one = delta(&GivenData::new(names(), columns.clone(), data.outputs().to_vec()).unwrap(), 0.95, 1);
+    let other = delta(&GivenData::new(names(), exponents, stretched).unwrap(), 0.95, 1);
+    assert_eq!(one.unwrap(), other.unwrap());
+
+    // y is the level of x: the densities do not overlap, and δ is 1 - 1/3.
+    let of_levels = vec![columns[0].iter().map(|x| levels(*x)).collect(), vec![1.0; 900]];
+    let outputs = columns[0].iter().map(|x| Some(levels(*x) + 5.0)).collect();
+    let found = delta(&GivenData::new(names(), of_levels, outputs).unwrap(), 0.95, 1).unwrap();
+    assert!((found[0].delta - 2.0 / 3.0).abs() < 0.02 && found[0].at_least > 0.6, "{found:?}");
+    assert_eq!((found[1].delta, found[1].at_least, found[1].noise), (0.0, 0.0, 0.0));
 }
 
 #[test]

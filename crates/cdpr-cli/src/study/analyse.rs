@@ -205,7 +205,7 @@ fn print_inputs(analysis: &Analysis) {
         "HSIC R\u{b2}",
         "p",
         "PAWN",
-        "\u{3b4}",
+        "\u{3b4}, at least",
     ];
     let mut rows = table(&header);
     let leading = leading(analysis, |input| input.dependence.map_or(0.0, |dependence| dependence.r_squared));
@@ -230,7 +230,9 @@ fn print_inputs(analysis: &Analysis) {
             input.dependence.map_or_else(String::new, |dependence| format!("{:.3}", dependence.r_squared)),
             p_value(input.dependence),
             input.pawn.map_or_else(String::new, |pawn| over(pawn.median, pawn.noise)),
-            input.delta.map_or_else(String::new, |delta| over(delta.delta.value, delta.noise)),
+            input.delta.map_or_else(String::new, |delta| {
+                format!("{}, {:.3}", over(delta.delta, delta.noise), delta.at_least)
+            }),
         ]);
     }
     println!("{rows}");

@@ -73,8 +73,10 @@ class Analysis(Table):
     pawn_noise = Column(
         "pawn.noise", "PAWN index that an input without an effect stays below in 95 of 100 tables."
     )
-    delta = Column("delta.delta.value", "Borgonovo's delta.")
-    delta_interval = Interval("delta.delta", "Intervals of these, (k, 2).")
+    delta = Column("delta.delta", "Borgonovo's delta.")
+    delta_at_least = Column(
+        "delta.at_least", "Lower bounds of these. No table bounds delta from above: there is no interval."
+    )
     delta_noise = Column("delta.noise", "Delta that an input without an effect stays below in 95 of 100 tables.")
     target = Column(
         "limit.target.r_squared",

@@ -127,6 +127,7 @@ fn measures(analysis: &Analysis) -> Markup {
         "PAWN",
         "noise",
         "\u{3b4}",
+        "at least",
         "noise",
     ];
     let estimate = |estimate: Option<cdpr_study::Estimate>| match estimate {
@@ -147,7 +148,8 @@ fn measures(analysis: &Analysis) -> Markup {
             p_value(input.dependence),
             numeric(input.pawn.map(|pawn| pawn.median), 3),
             numeric(input.pawn.map(|pawn| pawn.noise), 2),
-            estimate(input.delta.map(|delta| delta.delta)),
+            numeric(input.delta.map(|delta| delta.delta), 3),
+            numeric(input.delta.map(|delta| delta.at_least), 2),
             numeric(input.delta.map(|delta| delta.noise), 2),
         ]
     };

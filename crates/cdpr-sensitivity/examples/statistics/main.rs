@@ -31,6 +31,7 @@ fn main() -> Result<(), SensitivityError> {
         ("indices", |studies, _| indices::table(studies)),
         ("expansions", |studies, _| expansions::table(studies)),
         ("given", |studies, _| given::table(studies)),
+        ("levels", |studies, _| given::table_of_levels(studies)),
         ("brackets", |studies, _| brackets::table(studies)),
         ("gradients", gradients::table),
         ("measures", measures::table),

@@ -5,9 +5,9 @@ use std::fs;
 use std::time::Instant;
 
 use cdpr_sensitivity::{
-    Bootstrap, Bracket, Estimate, GivenData, LatinHypercube, MorrisDesign, RandomDesign, Rows,
-    SensitivityError, ShapleyDesign, SobolDesign, Truncation, brackets, delta, dependence, expansion,
-    morris_effects, observe, pawn, rank_indices, regression, shapley_effects,
+    Bracket, Delta, Estimate, GivenData, LatinHypercube, MorrisDesign, RandomDesign, Rows, SensitivityError,
+    ShapleyDesign, SobolDesign, Truncation, brackets, delta, dependence, expansion, morris_effects, observe,
+    pawn, rank_indices, regression, shapley_effects,
 };
 use serde_json::{Value, json};
 
@@ -32,7 +32,7 @@ struct Study<'a> {
     of_seed: Box<dyn Fn(u64) -> Result<Vec<Found>, SensitivityError> + 'a>,
 }
 
-/// Prints a row for each function and measure.
+/// Prints a row for each function and measure whose names contain a part, or `FUNCTION/MEASURE`.
 pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
     println!("error: largest root mean square error of an input; held: share of the intervals of 95 % that");
     println!("hold the true value [%], mean and least over the inputs; *: an interval that holds less than");
@@ -41,11 +41,12 @@ pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
     println!("|---|---|---|---|---|---|---|");
     let mut rows = Vec::new();
     // A part of the name of no function is that of measures.
-    let of_functions = twelve().iter().any(|function| function.name.contains(part));
-    let of_measures = if of_functions { "" } else { part };
-    for function in twelve().into_iter().filter(|of| !of_functions || of.name.contains(part)) {
+    let is_function = twelve().iter().any(|function| function.name.contains(part));
+    let (of_functions, of_measures) =
+        part.split_once('/').unwrap_or(if is_function { (part, "") } else { ("", part) });
+    for function in twelve().into_iter().filter(|of| of.name.contains(of_functions)) {
         if function.name == "constant" {
-            if of_functions {
+            if of_measures.is_empty() {
                 constant(&function)?;
             }
             continue;
@@ -90,7 +91,7 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
         measures: vec![("S by ranks", &exact.first)],
         has_interval: true,
         is_dear: false,
-        of_seed: Box::new(move |seed| Ok(vec![rank_indices(&random(function, seed)?, 0.95, seed)?])),
+        of_seed: Box::new(move |seed| Ok(vec![rank_indices(&random(function, 256, seed)?, 0.95, seed)?])),
     });
     all.push(Study {
         runs: 256 * (k + 1),
@@ -139,23 +140,26 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
             Ok(vec![found.inputs.iter().map(|of| point(of.share)).collect()])
         }),
     });
-    all.push(Study {
-        runs: 256,
-        measures: vec![("delta", &exact.tables.delta)],
-        has_interval: true,
-        is_dear: true,
-        of_seed: Box::new(move |seed| {
-            let found = delta(&random(function, seed)?, Bootstrap { resamples: 30, seed }, 0.95)?;
-            Ok(vec![found.into_iter().map(|of| of.delta).collect()])
-        }),
-    });
+    for (rows, name) in [(256, "delta, 256"), (1024, "delta, 1024"), (4096, "delta, 4096")] {
+        all.push(Study {
+            runs: rows,
+            measures: vec![(name, &exact.tables.delta)],
+            has_interval: true,
+            is_dear: true,
+            of_seed: Box::new(move |seed| {
+                let found = delta(&random(function, rows, seed)?, 0.95, seed)?;
+                let above = |of: &Delta| Estimate { value: of.delta, low: of.at_least, high: 1.0 };
+                Ok(vec![found.iter().map(above).collect()])
+            }),
+        });
+    }
     all.push(Study {
         runs: 256,
         measures: vec![("PAWN", &exact.tables.pawn), ("HSIC R2", &exact.tables.r_squared)],
         has_interval: false,
         is_dear: many,
         of_seed: Box::new(move |seed| {
-            let data = random(function, seed)?;
+            let data = random(function, 256, seed)?;
             let dependent = dependence(&data, Rows { most: 256, seed })?;
             Ok(vec![
                 pawn(&data, seed)?.iter().map(|of| point(of.median)).collect(),
@@ -184,9 +188,9 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
     all
 }
 
-/// A table of 256 independent rows.
-fn random(function: &Function, seed: u64) -> Result<GivenData, SensitivityError> {
-    let design = RandomDesign::new(function.inputs.clone(), 256, seed)?;
+/// A table of independent rows.
+fn random(function: &Function, rows: usize, seed: u64) -> Result<GivenData, SensitivityError> {
+    let design = RandomDesign::new(function.inputs.clone(), rows, seed)?;
     GivenData::of_design(&design, &observe(&design, function.model)?)
 }
 

@@ -71,9 +71,8 @@ impl Analyser {
 
 /// Largest number of rows of fits, PAWN, δ and expansion. If there are more, so many are drawn at random.
 pub const MOST_ROWS: usize = 10_000;
-/// Resamples of fits and of δ.
+/// Resamples of fits.
 const FIT_RESAMPLES: usize = 199;
-const DELTA_RESAMPLES: usize = 30;
 /// Least number of rows on either side of a limit.
 const LEAST_FAILING: usize = 5;
 
@@ -210,9 +209,8 @@ impl Analyser {
             "PAWN",
             enough_rows.clone().map(|()| pawn::of_columns(&drawn.columns, &drawn.outputs, seed(4))),
         );
-        let bootstrap = Bootstrap { resamples: DELTA_RESAMPLES, seed: seed(5) };
-        let delta = enough_rows
-            .and_then(|()| delta::of_columns(&drawn.columns, &drawn.outputs, bootstrap, self.level));
+        let delta =
+            enough_rows.and_then(|()| delta::of_columns(&drawn.columns, &drawn.outputs, self.level, seed(5)));
         let delta = notes.unless("delta", delta);
         let truncation = affordable(names.len(), drawn.outputs.len());
         let expansion = enough(&drawn, crate::measure::expansion::Expansion::MIN_OUTPUTS)
