@@ -14,9 +14,9 @@ use crate::clearance::{Clearance, clearance_under};
 use crate::tilt::{Tilt, tilt_at};
 use cdpr_robot::{Axis, Coordinate, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, InverseSolution, Limit, Load, OutOfLimits, StaticsError,
-    deflection_free, deflection_from, derivatives_free, derivatives_from, held_at, inverse, inverse_all,
-    is_held, out_of_limits,
+    Deflection, Derivatives, DirectProblem, HeldPose, InverseSolution, Limit, Load, OutOfLimits, Start,
+    StaticsError, deflection_free, deflection_from, derivatives_free, derivatives_from, held_at, inverse,
+    inverse_all, is_held, out_of_limits,
 };
 use cdpr_study::{ErrorModel, Grid, StudyError};
 use rayon::prelude::*;
@@ -281,7 +281,13 @@ fn tensions_anew(workspace: &Workspace, pose: &Pose) -> Result<Vec<f64>, Statics
     let Workspace { robot, ref load, free, .. } = *workspace;
     Ok(match free {
         [] => inverse(robot, pose, load, None)?.tensions,
-        _ => held_at(robot, pose, load, free)?.equilibrium.tensions(),
+        _ => {
+            let HeldPose { lengths, equilibrium } = held_at(robot, pose, load, free)?;
+            let problem = DirectProblem::new(robot, &lengths, load)?;
+            let stability = problem.direct_any(Start::Near(&equilibrium))?.stability;
+            stability.required(&equilibrium.pose)?;
+            equilibrium.tensions()
+        }
     })
 }
 

@@ -269,6 +269,30 @@ fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
 }
 
 #[test]
+fn a_position_that_is_held_upside_down_alone_is_unstable() {
+    let robot = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
+    let axis = |min, max, points| GridAxis { min, max, points };
+    let workspace = Workspace {
+        robot: &robot,
+        grid: Grid::new([axis(0.52, 1.36, 2), axis(0.06, 0.48, 2), axis(-0.92, -0.92, 1)]).unwrap(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(0.5),
+        tolerances: None,
+        free: &[Coordinate::Roll, Coordinate::Pitch],
+        further: Further::default(),
+    };
+    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
+    let kind = |error: &StaticsError| error.kind();
+    for found in poses {
+        // The platform is upright on the line y = 0.06 m alone.
+        let upright = found.pose.position.y < 0.1;
+        let anew = found.anew.as_ref().unwrap();
+        assert_eq!(found.outcome.as_ref().err().map(kind), (!upright).then_some("unstable"));
+        assert_eq!(anew.as_ref().err().map(kind), (!upright).then_some("unstable"));
+    }
+}
+
+#[test]
 fn further_columns_are_what_is_said_of_each_pose() {
     let robot = caroca();
     let set = WrenchSet::of(Vec::new());

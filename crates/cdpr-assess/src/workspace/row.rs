@@ -7,8 +7,7 @@ use cdpr_statics::{Load, OutOfLimits, StaticsError};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// A row of `workspace.csv`, and an element of each column of `workspace.json`: positions [m], deflection
-/// [mm],
-/// tensions [N], stiffness [N/m], frequencies [Hz]. Values that do not exist are empty.
+/// [mm], tensions [N], stiffness [N/m], frequencies [Hz]. Values that do not exist are empty.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[allow(missing_docs)]
 pub struct WorkspaceRow {

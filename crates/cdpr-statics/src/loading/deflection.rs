@@ -222,12 +222,7 @@ pub fn deflection_from(
     start: &Equilibrium,
 ) -> Result<Deflection, StaticsError> {
     let unloaded = DirectProblem::new(robot, &lengths, &Load::none())?.direct_any(Start::Near(start))?;
-    if !unloaded.stability.is_stable() {
-        return Err(StaticsError::Unstable {
-            pose: Box::new(unloaded.equilibrium.pose),
-            least_stiffness: unloaded.stability.least_stiffness(),
-        });
-    }
+    unloaded.stability.required(&unloaded.equilibrium.pose)?;
     let loaded = match *load == Load::none() {
         true => unloaded.clone(),
         false => direct(robot, &lengths, load, Start::Near(&unloaded.equilibrium))?,
