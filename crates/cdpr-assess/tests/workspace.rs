@@ -274,7 +274,7 @@ fn a_position_that_is_held_upside_down_alone_is_unstable() {
     let axis = |min, max, points| GridAxis { min, max, points };
     let workspace = Workspace {
         robot: &robot,
-        grid: Grid::new([axis(0.52, 1.36, 2), axis(0.06, 0.48, 2), axis(-0.92, -0.92, 1)]).unwrap(),
+        grid: Grid::new([axis(0.94, 1.36, 2), axis(0.06, 0.48, 2), axis(-0.92, -0.92, 1)]).unwrap(),
         rotation: Rotation3::identity(),
         load: Load::payload(0.5),
         tolerances: None,

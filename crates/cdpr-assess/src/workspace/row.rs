@@ -146,21 +146,24 @@ fn in_words(list: &[OutOfLimits]) -> String {
 /// Values of all rows as one array for each; those that exist nowhere are left out.
 pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Result<S::Ok, S::Error> {
     let mut columns = serializer.serialize_map(None)?;
+    // The pattern has all fields, or the compiler refuses it.
     macro_rules! columns {
-        ($($name:ident),+) => {$(
-            columns.serialize_entry(stringify!($name), &Column(rows, |row: &WorkspaceRow| row.$name))?;
-        )+};
+        ($($always:ident),+; $($existing:ident),+ $(,)?) => {
+            let _complete = |WorkspaceRow { $($always: _,)+ $($existing: _,)+ }: &WorkspaceRow| ();
+            $(
+                let column = Column(rows, |row: &WorkspaceRow| row.$always);
+                columns.serialize_entry(stringify!($always), &column)?;
+            )+
+            $(
+                if rows.iter().any(|row| row.$existing.is_some()) {
+                    let column = Column(rows, |row: &WorkspaceRow| row.$existing.clone());
+                    columns.serialize_entry(stringify!($existing), &column)?;
+                }
+            )+
+        };
     }
-    macro_rules! existing_columns {
-        ($($name:ident),+ $(,)?) => {$(
-            if rows.iter().any(|row| row.$name.is_some()) {
-                let column = Column(rows, |row: &WorkspaceRow| row.$name.clone());
-                columns.serialize_entry(stringify!($name), &column)?;
-            }
-        )+};
-    }
-    columns!(x, y, z, status);
-    existing_columns!(
+    columns!(
+        x, y, z, status;
         least_tension,
         greatest_tension,
         dx_mm,
