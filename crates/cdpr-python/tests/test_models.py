@@ -185,14 +185,18 @@ def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
     found = caroca.workspace(x=(-3, 3, 7), y=(-1, 1, 3), z=1.75, payload=50,
                              uncertainty={"a": 0.002, "b": 0.002})
     assert found.shape == (7, 3, 1)
-    assert found.status == [row["status"] for row in printed["rows"]]
-    assert found.reasons == [row["reason"] for row in printed["rows"]]
-    assert found.dominant == [row["dominant"] for row in printed["rows"]]
-    assert found.anew_status == [row["anew_status"] for row in printed["rows"]]
-    assert found.anew_reasons == [row["anew_reason"] for row in printed["rows"]]
+
+    def column(name):
+        return printed["columns"].get(name, [None] * 21)
+
+    assert found.status == column("status")
+    assert found.reasons == column("reason")
+    assert found.dominant == column("dominant")
+    assert found.anew_status == column("anew_status")
+    assert found.anew_reasons == column("anew_reason")
     for name in ("least_tension", "greatest_tension", "least_stiffness", "dominant_share",
                  "anew_least_tension", "anew_greatest_tension"):
-        same(getattr(found, name), [numpy.nan if row[name] is None else row[name] for row in printed["rows"]])
+        same(getattr(found, name), [numpy.nan if value is None else value for value in column(name)])
     bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
     assert numpy.isnan(bare.rms).all() and not numpy.isnan(bare.least_stiffness).any()
     assert numpy.isnan(bare.lowest_frequency).all()
