@@ -107,12 +107,16 @@ impl<'a> Ends<'a> {
         if self.cable.guide.is_some() {
             return None;
         }
-        let chord = self.end.norm();
         Some(Bounds {
-            along: self.on_platform((self.end / chord).into()),
+            along: self.chord_pull(),
             sag: self.on_platform([0.0, 0.0, 1.0]),
-            weight: LONGEST * self.cable.weight_per_length * chord,
+            weight: LONGEST * self.cable.weight_per_length * self.end.norm(),
         })
+    }
+
+    /// The force on the platform of a straight cable from the exit point, of one newton.
+    pub(crate) fn chord_pull(&self) -> [f64; 3] {
+        self.on_platform((self.end / self.end.norm()).into())
     }
 
     /// F_i [N], the force on the platform.

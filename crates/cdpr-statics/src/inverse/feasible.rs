@@ -318,8 +318,10 @@ impl<'a> Point<'a> {
                 tension: [strand.limits.min, strand.limits.max][side],
             })
         });
+        // Of straight cables: those that sag have no slope along a residual that is the least one.
         let rank_deficient = {
-            let matrix = Matrix6xX::from_columns(&self.rows.iter().map(|row| row.slope).collect::<Vec<_>>());
+            let columns: Vec<_> = self.strands.iter().map(|strand| strand.chord_wrench(self.arm)).collect();
+            let matrix = Matrix6xX::from_columns(&columns);
             // The singular values of a matrix that is not finite are never found.
             matrix.iter().all(|entry| entry.is_finite()) && {
                 let values = matrix.select_rows(&question.robot.freedoms().components()).singular_values();

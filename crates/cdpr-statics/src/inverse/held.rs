@@ -101,6 +101,11 @@ impl<'a> Strand<'a> {
             + multipliers.dot(&self.wrench(force, arm))
     }
 
+    /// The wrench of a straight cable from the exit point, of one newton.
+    pub(super) fn chord_wrench(&self, arm: f64) -> Vector6<f64> {
+        self.wrench(self.ends.chord_pull(), arm)
+    }
+
     /// y·w'' [1/N].
     pub(super) fn bend(&self, y: &Vector6<f64>, arm: f64) -> f64 {
         y.dot(&self.wrench(self.ends.curvatures(&self.held).0, arm))
