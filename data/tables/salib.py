@@ -57,13 +57,14 @@ for name, model, bounds in (
         seconds[label] = time.perf_counter() - start
     print(f"{name}, {rows} rows; all of cdpr analyse {ours:.2f} s, SALib", end=" ")
     print(", ".join(f"{label} {time:.2f} s" for label, time in seconds.items()))
-    print("| input | S ranks | SALib delta S1 | RBD-FAST | delta | SALib | PAWN | SALib |")
+    print("| input | S ranks | SALib delta S1 | RBD-FAST | delta | at least | SALib | PAWN | SALib |")
     for k, of in enumerate(inputs):
         numbers = [
             of["first"]["value"],
             theirs["delta"]["S1"][k],
             theirs["rbd_fast"]["S1"][k],
-            of["delta"]["delta"]["value"],
+            of["delta"]["delta"],
+            of["delta"]["at_least"],
             theirs["delta"]["delta_balanced"][k],
             of["pawn"]["median"],
             theirs["pawn"]["median"][k],
