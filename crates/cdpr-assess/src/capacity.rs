@@ -19,8 +19,8 @@
 
 use cdpr_robot::{CableEnd, Coordinate, Pose, Robot, Wrench, decimal};
 use cdpr_statics::{
-    Blocking, Bound, Equilibrium, FreeSolution, FreeSolutions, Greatest, HeldPose, Limit, Load, Start,
-    StaticsError, direct, greatest_payload, held_at, inverse_free, tension_margin,
+    Blocking, Bound, DirectProblem, Equilibrium, FreeSolution, FreeSolutions, Greatest, HeldPose, Limit,
+    Load, Start, StaticsError, direct, greatest_payload, held_at, inverse_free, tension_margin,
 };
 use std::fmt;
 
@@ -150,9 +150,14 @@ pub fn capacity_at(
     let set = set.shifted(load.wrench);
     let loaded = |payload: f64, wrench: &Wrench| Load { payload, wrench: *wrench };
     let wound_up = held_at(robot, pose, &Load::none(), free);
+    // Lengths that are kept hold no unstable pose.
+    let held = wound_up.as_ref().map_err(Clone::clone).and_then(|HeldPose { lengths, equilibrium }| {
+        DirectProblem::new(robot, lengths, &Load::none())?.direct_held(Start::Near(equilibrium))?;
+        Ok(lengths)
+    });
     let anew = |load: &Load, near: &Equilibrium| rest_near(robot, near, load, free);
     let kept = |load: &Load, near: &Equilibrium| {
-        let HeldPose { lengths, .. } = wound_up.as_ref().map_err(Clone::clone)?;
+        let lengths = held.clone()?;
         let found = direct(robot, lengths, load, Start::Near(near))?;
         Ok((lengths.clone(), found.equilibrium))
     };

@@ -283,9 +283,7 @@ fn tensions_anew(workspace: &Workspace, pose: &Pose) -> Result<Vec<f64>, Statics
         [] => inverse(robot, pose, load, None)?.tensions,
         _ => {
             let HeldPose { lengths, equilibrium } = held_at(robot, pose, load, free)?;
-            let problem = DirectProblem::new(robot, &lengths, load)?;
-            let stability = problem.direct_any(Start::Near(&equilibrium))?.stability;
-            stability.required(&equilibrium.pose)?;
+            DirectProblem::new(robot, &lengths, load)?.direct_held(Start::Near(&equilibrium))?;
             equilibrium.tensions()
         }
     })

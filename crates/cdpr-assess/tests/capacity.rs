@@ -114,6 +114,8 @@ fn few_cables_points_and_planes_have_a_capacity_or_say_why_not() {
     assert!(matches!(refused, StaticsError::FreeCoordinates { cables: 4, .. }));
     let free = [Coordinate::Roll, Coordinate::Yaw];
     let found = capacity_at(&few, &pose, &Load::none(), &set, &free);
+    // No stable solution has this pose.
+    assert!(matches!(found.payload_kept, Err(StaticsError::Unstable { .. })));
     let payload = found.payload_anew.unwrap();
     let Block::Limit { cable, limit: Limit::Max, value, .. } = payload.blocking[0] else { panic!() };
     let rests = inverse_free(&few, &pose, &Load::payload(payload.value), &free).unwrap();

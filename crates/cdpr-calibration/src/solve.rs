@@ -1,10 +1,10 @@
 //! Linear least squares for many rows with unknowns of their own. No other module names faer.
 //!
-//! A row of measurements has residuals `ρ + A δ + B η` with the unknowns δ of all rows and η of its own. The
-//! orthogonal factor of `B = Q [S; 0]` leaves rows without η (the Schur complement, without squares):
+//! A row of measurements has residuals `ρ + A δ + B η` with the unknowns δ of all rows and η of its own.
+//! The orthogonal factor of `B = Q [S; 0]` leaves rows without η (the Schur complement, without squares):
 //!
 //! ```text
-//! Qᵀ [A ρ] = [A_1 ρ_1; A_2 ρ_2],     S η = -(ρ_1 + A_1 δ)                                          (L1)
+//! Qᵀ [A ρ] = [A_1 ρ_1; A_2 ρ_2],     S η = -(ρ_1 + A_1 δ)                                       (L1)
 //! ```
 //!
 //! and the triangular factor of all `[A_2 ρ_2]` is all that the unknowns of all rows depend on.

@@ -27,7 +27,8 @@ pub(crate) const BODIES: &str = r#"<?xml version="1.0" encoding="utf-8"?>
 "#;
 
 /// Two cables, one over a pulley of CAROCA's, one between points, and a set of springs.
-pub(crate) const CABLES_OF_CASPR: &str = r#"<cables default_cable_set="pulleys">
+pub(crate) const CABLES_OF_CASPR: &str = concat!(
+    r#"<cables default_cable_set="pulleys">
   <cable_set id="pulleys">
     <cable_ideal name="1" attachment_reference="joint">
       <properties> <force_min>0</force_min> <force_max>1000</force_max> </properties>
@@ -41,7 +42,8 @@ pub(crate) const CABLES_OF_CASPR: &str = r#"<cables default_cable_set="pulleys">
       </attachments>
     </cable_ideal>
     <cable_ideal name="2" attachment_reference="com">
-      <properties> <force_min>5</force_min> <force_max>800</force_max> <diameter>0.004</diameter> </properties>
+      <properties> <force_min>5</force_min> <force_max>800</force_max>"#,
+    r#" <diameter>0.004</diameter> </properties>
       <attachments>
         <attachment> <link>0</link> <location>1.350 -3.159 3.221</location> </attachment>
         <attachment> <link>1</link> <location>-0.13 -0.21 -0.105</location> </attachment>
@@ -58,14 +60,17 @@ pub(crate) const CABLES_OF_CASPR: &str = r#"<cables default_cable_set="pulleys">
     </cable_linear_spring>
   </cable_set>
 </cables>
-"#;
+"#
+);
 
 /// Two chains: one with a tilted axis, one of WireX's template.
-pub(crate) const WIREX: &str = r#"<models version="0.31">
+pub(crate) const WIREX: &str = concat!(
+    r#"<models version="0.31">
   <robot name="CoGiRo" author="Fraunhofer IPA" description="of the template" motionpattern="3R3T">
     <geometry>
       <chain id="1" winchtype="IPAnema-Winde">
-        <base x="-7.175" y="-5.244" z="5.462" a11="1" a21="0" a31="0" a12="0" a22="0" a32="1" a13="0.6" a23="0" a33="0.8" radius="0.1"/>
+        <base x="-7.175" y="-5.244" z="5.462" a11="1" a21="0" a31="0""#,
+    r#" a12="0" a22="0" a32="1" a13="0.6" a23="0" a33="0.8" radius="0.1"/>
         <platform x="0.503" y="-0.493" z="0" a11="1" a33="1"/>
       </chain>
       <chain id="2" winchtype="IPAnema-Winde">
@@ -78,10 +83,13 @@ pub(crate) const WIREX: &str = r#"<models version="0.31">
     </platform>
     <controller ipo_clock="4"/>
   </robot>
-  <cable name="defaultCable" elasticity="110000000000" radius="0.006" breaking_load="40000" damping="1" weight="0.023" minimum_load="0"/>
-  <winch name="IPAnema-Winde"> <cable nr_cables="1" f_max="720" spring_constant="0"/> <drum r_drum="0.1"/> </winch>
+  <cable name="defaultCable" elasticity="110000000000" radius="0.006""#,
+    r#" breaking_load="40000" damping="1" weight="0.023" minimum_load="0"/>
+  <winch name="IPAnema-Winde">"#,
+    r#" <cable nr_cables="1" f_max="720" spring_constant="0"/> <drum r_drum="0.1"/> </winch>
 </models>
-"#;
+"#
+);
 
 /// The whole robot of oKermorgant's cdpr.
 pub(crate) const YAML: &str = include_str!("../../../data/reference/exchange/caroca.yaml");

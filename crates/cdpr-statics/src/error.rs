@@ -152,7 +152,7 @@ pub enum StaticsError {
     /// The lengths hold the platform only as long as nothing disturbs it: it leaves the pose by itself.
     #[error(
         "the equilibrium at ({:.4}, {:.4}, {:.4}) m is unstable: its softest motion has a stiffness of \
-        {least_stiffness:.3e} N/m, and the platform leaves the pose along it; change the pose, lower the \
+        {least_stiffness:.3} N/m, and the platform leaves the pose along it; change the pose, lower the \
         centre of mass or raise the tensions",
         pose.position.x, pose.position.y, pose.position.z
     )]

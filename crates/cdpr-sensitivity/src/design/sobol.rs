@@ -5,7 +5,8 @@
 //! ```text
 //! g = i ⊕ (i >> 1)                                                        (S1)
 //! x_j = ⊕_k g_k V_j,k / 2^32                                              (S2)
-//! m_k = 2 a_1 m_(k-1) ⊕ .. ⊕ 2^(s-1) a_(s-1) m_(k-s+1) ⊕ 2^s m_(k-s) ⊕ m_(k-s),   V_k = 2^(32-k) m_k   (S3)
+//! m_k = 2 a_1 m_(k-1) ⊕ .. ⊕ 2^(s-1) a_(s-1) m_(k-s+1) ⊕ 2^s m_(k-s) ⊕ m_(k-s)
+//! V_k = 2^(32-k) m_k                                                      (S3)
 //! ```
 //!
 //! (S1), (S2): I. A. Antonov, V. M. Saleev, *An economic method of computing LP-tau sequences* (1979). (S3)
@@ -26,7 +27,7 @@
 //! dimension j, and N. Vegdahl's constants (*Building a better LK hash*, 2021),
 //!
 //! ```text
-//! n ⊕= 3d20adea n,  n += c,  n *= c/2^16 | 1,  n ⊕= 05526c56 n,  n ⊕= 53a22864 n    (modulo 2^32)    (S5)
+//! n ⊕= 3d20adea n,  n += c,  n *= c/2^16 | 1,  n ⊕= 05526c56 n,  n ⊕= 53a22864 n  (modulo 2^32)  (S5)
 //! ```
 //!
 //! A net stays a net of the same quality, and each point is uniform. The coins are not independent of each

@@ -280,6 +280,8 @@ fn inside(excess: &[f64], set: &[bool]) -> f64 {
 struct Smoother {
     /// For each cell the first cell that it gives weight to, and the weights from there on. They add up to 1.
     weights: Vec<(usize, Vec<f64>)>,
+    /// The same weights by the cell that receives them: the first cell that gives any, and from there on.
+    received: Vec<(usize, Vec<f64>)>,
 }
 
 impl Smoother {
@@ -304,7 +306,14 @@ impl Smoother {
             let sum: f64 = weights.iter().sum();
             (first, weights.iter().map(|weight| weight / sum).collect())
         };
-        Self { weights: (0..GRID).map(of_cell).collect() }
+        let weights: Vec<(usize, Vec<f64>)> = (0..GRID).map(of_cell).collect();
+        let from = |to: usize| {
+            let given = |(first, weights): &(usize, Vec<f64>)| weights.get(to.checked_sub(*first)?).copied();
+            let first = weights.iter().position(|of| given(of).is_some()).unwrap_or(0);
+            (first, weights[first..].iter().map_while(given).collect())
+        };
+        let received = (0..GRID).map(from).collect();
+        Self { weights, received }
     }
 
     /// Smooths each row of cells by itself.
@@ -321,10 +330,17 @@ impl Smoother {
 
     /// Smooths from one row of cells to the others.
     fn along_columns(&self, values: &[f64]) -> Vec<f64> {
+        /// Sums that are kept in registers.
+        const TOGETHER: usize = 16;
         let mut smooth = vec![0.0; values.len()];
-        for (row, (first, weights)) in values.chunks(GRID).zip(&self.weights) {
-            for (to, weight) in smooth[first * GRID..].chunks_mut(GRID).zip(weights) {
-                to.iter_mut().zip(row).for_each(|(sum, value)| *sum += weight * value);
+        for (smooth, (first, weights)) in smooth.chunks_mut(GRID).zip(&self.received) {
+            for (block, smooth) in smooth.chunks_mut(TOGETHER).enumerate() {
+                let mut sums = [0.0; TOGETHER];
+                for (row, weight) in values.chunks(GRID).skip(*first).zip(weights) {
+                    let row = &row[block * TOGETHER..][..TOGETHER];
+                    sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += weight * value);
+                }
+                smooth.copy_from_slice(&sums);
             }
         }
         smooth

@@ -22,9 +22,10 @@
 //!   neighbours share an output, and from two places apart on only the part is left that x itself causes. The
 //!   bootstrap fails for statistics of ranks: Z. Lin, F. Han, *On the failure of the bootstrap for
 //!   Chatterjee's rank correlation*, Biometrika 111 (2024).
-//! - (K5): with σ²(x) the variance of y given x, n V² Var θ is the variance of (y - E (y | x))² - θ (y - ȳ)²
-//!   plus `E σ⁴(x) >= (E σ²(x))² = θ² V²` (Jensen's inequality). No estimate is below that; without an effect
-//!   it is the variance itself. The 8 and Student's factor of n / 8 allow for few rows.
+//! - (K5): with σ²(x) the variance of y given x, n V² Var θ is the variance of
+//!   `(y - E (y | x))² - θ (y - ȳ)²` plus `E σ⁴(x) >= (E σ²(x))² = θ² V²` (Jensen's inequality).
+//!   No estimate is below that; without an effect it is the variance itself. The 8 and Student's factor of
+//!   n / 8 allow for few rows.
 //! - (K6): θ is a quotient of variances, whose law is skewed towards large values; its logarithm is less so
 //!   and gives the lower end. The upper end is of the first order, as a logarithm never holds S = 1.
 //!

@@ -10,13 +10,13 @@
 //! ```
 //!
 //! For (P3) the substitution g = h / √ρ gives Schrödinger's equation, whose potentials (of Pöschl and
-//! Teller, of Morse, a well of no width) have no bound state but that of the constant; all other λ are at least
-//! 1 / (4 scale²).
+//! Teller, of Morse, a well of no width) have no bound state but that of the constant; all other λ are at
+//! least 1 / (4 scale²).
 //!
 //! The other laws have linear finite elements with lumped masses on a grid that is finer at the ends: O.
 //! Roustant, F. Barthe, B. Iooss, *Poincaré inequalities on intervals - application to sensitivity
-//! analysis*, Electron. J. Stat. 11 (2017). With ρ at the nodes `c_i` and at the ends `e_i` of the elements, and
-//! their lengths h,
+//! analysis*, Electron. J. Stat. 11 (2017). With ρ at the nodes `c_i` and at the ends `e_i` of the elements,
+//! and their lengths h,
 //!
 //! ```text
 //! λ ρ(c_i) h_i g_i = ρ(e_(i+1)) (g_i - g_(i+1)) / (c_(i+1) - c_i)         (P4)

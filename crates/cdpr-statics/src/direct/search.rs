@@ -63,6 +63,20 @@ impl DirectProblem<'_> {
     pub fn direct_any(&self, start: Start) -> Result<DirectSolution, StaticsError> {
         search(self, start, |_| true)
     }
+
+    /// As [`DirectProblem::direct`], but an unstable equilibrium to which Newton's method converges is an
+    /// error: `direct` leaves it for the one that the platform falls to.
+    ///
+    /// # Errors
+    /// [`StaticsError::Unstable`], and those of [`DirectProblem::direct`].
+    pub fn direct_held(&self, start: Start) -> Result<DirectSolution, StaticsError> {
+        let found = self.direct_any(start)?;
+        if found.stability.is_stable() {
+            return Ok(found);
+        }
+        let pose = Box::new(found.equilibrium.pose);
+        Err(StaticsError::Unstable { pose, least_stiffness: found.stability.least_stiffness() })
+    }
 }
 
 /// A level pose to start from where none is known: where straight cables of these lengths [m] would hold a

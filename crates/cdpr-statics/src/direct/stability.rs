@@ -1,10 +1,9 @@
 //! Stability of an equilibrium, and the stiffness of its motions.
 
 use crate::equations::{Motions, is_definite, per_length};
-use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
-use cdpr_robot::{Pose, Vector3};
+use cdpr_robot::Vector3;
 use nalgebra::{Matrix6, Vector6};
 
 /// Stability of an equilibrium: stable where all eigenvalues of the potential's Hessian are positive, except
@@ -82,15 +81,6 @@ impl Stability {
     /// back.
     pub fn is_stable(&self) -> bool {
         self.stable
-    }
-
-    /// # Errors
-    /// [`StaticsError::Unstable`] unless the equilibrium, which is at `pose`, is stable.
-    pub fn required(&self, pose: &Pose) -> Result<(), StaticsError> {
-        if self.is_stable() {
-            return Ok(());
-        }
-        Err(StaticsError::Unstable { pose: Box::new(*pose), least_stiffness: self.least_stiffness() })
     }
 
     /// Eigenvalues of the stiffness, ascending, of all motions that are neither held nor neutral [N/m].

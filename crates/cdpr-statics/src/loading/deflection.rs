@@ -221,8 +221,7 @@ pub fn deflection_from(
     load: &Load,
     start: &Equilibrium,
 ) -> Result<Deflection, StaticsError> {
-    let unloaded = DirectProblem::new(robot, &lengths, &Load::none())?.direct_any(Start::Near(start))?;
-    unloaded.stability.required(&unloaded.equilibrium.pose)?;
+    let unloaded = DirectProblem::new(robot, &lengths, &Load::none())?.direct_held(Start::Near(start))?;
     let loaded = match *load == Load::none() {
         true => unloaded.clone(),
         false => direct(robot, &lengths, load, Start::Near(&unloaded.equilibrium))?,

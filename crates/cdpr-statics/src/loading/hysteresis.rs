@@ -160,7 +160,7 @@ pub fn load_cycle(
     let mut ways = Vec::with_capacity(2);
     let mut middles = Vec::with_capacity(3);
     let mut energies = vec![0.0; n];
-    let first = direct(&robot, &lengths, &Load::none(), Start::Near(&held))?;
+    let first = DirectProblem::new(&robot, &lengths, &Load::none())?.direct_held(Start::Near(&held))?;
     let mut here = CycleStep { payload: 0.0, solution: first };
     middles.push(middle_tensions(&robot, &lengths, &here.solution.equilibrium)?);
     for up in [true, false] {
