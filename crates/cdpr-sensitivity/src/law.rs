@@ -197,7 +197,7 @@ impl Law {
     pub fn middle(&self) -> f64 {
         let support = self.support();
         let Support { min, max } = support;
-        if support.is_bounded() { min + 0.5 * (max - min) } else { self.quantile(0.5) }
+        if support.is_bounded() { between(min, max, 0.5) } else { self.quantile(0.5) }
     }
 
     /// Quantile: the value that is not exceeded with probability `u`.
@@ -205,12 +205,22 @@ impl Law {
     /// At u = 0 and u = 1 it is an end of the support, which may be infinite. For `u` outside [0, 1] it is
     /// NaN.
     #[must_use]
+    #[inline]
     pub fn quantile(&self, u: f64) -> f64 {
         if !(0.0..=1.0).contains(&u) {
             return f64::NAN;
         }
         match *self {
-            Self::Uniform { min, max } => min + u * (max - min),
+            Self::Uniform { min, max } => between(min, max, u),
+            _ => self.nonuniform_quantile(u),
+        }
+    }
+
+    /// The quantile for `u` in [0, 1], in a function of its own: uniform laws, which most studies have, need
+    /// no call.
+    fn nonuniform_quantile(&self, u: f64) -> f64 {
+        match *self {
+            Self::Uniform { min, max } => between(min, max, u),
             Self::Normal { mean, std } => mean + std * standard_normal_quantile(u),
             Self::TruncatedNormal { mean, std, min, max } => {
                 Truncated::new(mean, std, min, max).quantile(u).clamp(min, max)
@@ -225,7 +235,7 @@ impl Law {
             }
             Self::Beta { alpha, beta, min, max } => {
                 if alpha > 0.0 && beta > 0.0 {
-                    min + beta::inv_beta_reg(alpha, beta, u) * (max - min)
+                    between(min, max, beta::inv_beta_reg(alpha, beta, u))
                 } else {
                     f64::NAN
                 }
@@ -368,6 +378,11 @@ impl Law {
             Self::Laplace { scale, .. } => scale * SQRT_2,
         }
     }
+}
+
+/// The point at a share of the way from one end to the other.
+fn between(min: f64, max: f64, share: f64) -> f64 {
+    min + share * (max - min)
 }
 
 /// Computes p ln x, with the limit 0 for p = 0.

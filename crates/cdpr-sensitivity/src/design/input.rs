@@ -178,13 +178,7 @@ impl Prepared {
             return self.law.quantile(u);
         };
         let (level, step) = match steps {
-            Steps::Nearest { step } => {
-                let quantile = match self.law {
-                    Law::Uniform { min, max } => min + u * (max - min),
-                    law => law.quantile(u),
-                };
-                (round((quantile - middle) / step), step)
-            }
+            Steps::Nearest { step } => (round((self.law.quantile(u) - middle) / step), step),
             Steps::EqualMass { step } => (lowest + (u * (highest - lowest + 1.0)).floor(), step),
         };
         within(middle + within(level, lowest, highest) * step, min, max)
