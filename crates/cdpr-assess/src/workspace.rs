@@ -14,9 +14,9 @@ use crate::clearance::{Clearance, clearance_under};
 use crate::tilt::{Tilt, tilt_at};
 use cdpr_robot::{Axis, Coordinate, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, HeldPose, InverseSolution, Limit, Load, OutOfLimits, Start,
-    StaticsError, deflection_free, deflection_from, derivatives_free, derivatives_from, held_at, inverse,
-    inverse_all, is_held, out_of_limits,
+    Deflection, Derivatives, DirectProblem, HeldPose, InverseSolution, Limit, Load, LoadedPose, OutOfLimits,
+    Start, StaticsError, deflection_free, deflection_from, derivatives_free, derivatives_from, held_at,
+    inverse, inverse_all, is_held, loaded_poses, tensions_out_of_limits,
 };
 use cdpr_study::{ErrorModel, Grid, StudyError};
 use rayon::prelude::*;
@@ -223,7 +223,30 @@ fn outcomes(workspace: &Workspace, poses: &[Pose]) -> Vec<Result<Held, StaticsEr
         return poses.par_iter().map(|pose| held(workspace, pose, None)).collect();
     }
     let wanted = inverse_all(robot, poses, &Load::none());
-    poses.par_iter().zip(wanted).map(|(pose, wanted)| held(workspace, pose, Some(wanted?))).collect()
+    if workspace.tolerances.is_some() {
+        return poses
+            .par_iter()
+            .zip(wanted)
+            .map(|(pose, wanted)| held(workspace, pose, Some(wanted?)))
+            .collect();
+    }
+    // No answer depends on those beside it.
+    wanted.par_chunks(BLOCK).flat_map_iter(|wanted| loaded_from(workspace, wanted)).collect()
+}
+
+/// The results with the lengths kept from answers of the inverse model, without tolerances.
+fn loaded_from(
+    workspace: &Workspace,
+    wanted: &[Result<InverseSolution, StaticsError>],
+) -> Vec<Result<Held, StaticsError>> {
+    let Workspace { robot, ref load, .. } = *workspace;
+    let answered: Vec<_> = wanted.iter().filter_map(|wanted| wanted.as_ref().ok()).collect();
+    let mut loaded = loaded_poses(robot, &answered, load).into_iter();
+    let one = |wanted: &Result<InverseSolution, StaticsError>| match wanted {
+        Err(refusal) => Some(Err(refusal.clone())),
+        Ok(_) => Some(loaded.next()?.map(|loaded| Held::new(robot, loaded, None))),
+    };
+    wanted.iter().filter_map(one).collect()
 }
 
 /// The tensions distributed anew at poses that follow each other; `None` without a load.
@@ -328,7 +351,7 @@ fn check(workspace: &Workspace) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// A pose with the lengths kept, `wanted` without free coordinates.
+/// A pose with the lengths kept by the scalar models, `wanted` without free coordinates.
 fn held(workspace: &Workspace, pose: &Pose, wanted: Option<InverseSolution>) -> Result<Held, StaticsError> {
     let Workspace { robot, ref load, tolerances, free, .. } = *workspace;
     let offsets = vec![0.0; robot.cables.len()];
@@ -338,19 +361,20 @@ fn held(workspace: &Workspace, pose: &Pose, wanted: Option<InverseSolution>) -> 
         }
         None => deflection_free(robot, pose, &offsets, load, free),
     };
+    let alone = |deflection: &Deflection, dominant| {
+        Held::new(robot, LoadedPose::of(robot, load, deflection), dominant)
+    };
     let Some(model) = tolerances else {
-        return Ok(Held::new(robot, load, &deflected(wanted.as_ref())?, None));
+        return Ok(alone(&deflected(wanted.as_ref())?, None));
     };
     let found = match &wanted {
         Some(wanted) => derivatives_from(robot, pose, load, wanted.clone()),
         None => derivatives_free(robot, pose, &offsets, load, free),
     };
     match found {
-        Ok(found) => Ok(Held::new(robot, load, &found.deflection, Dominant::of(&found, model))),
+        Ok(found) => Ok(alone(&found.deflection, Dominant::of(&found, model))),
         // A pose without a derivative is held nevertheless.
-        Err(StaticsError::NoDerivative { .. }) => {
-            Ok(Held::new(robot, load, &deflected(wanted.as_ref())?, None))
-        }
+        Err(StaticsError::NoDerivative { .. }) => Ok(alone(&deflected(wanted.as_ref())?, None)),
         Err(error) => Err(error),
     }
 }
@@ -361,19 +385,16 @@ fn range(tensions: &[f64]) -> [f64; 2] {
 }
 
 impl Held {
-    fn new(robot: &Robot, load: &Load, deflection: &Deflection, dominant: Option<Dominant>) -> Self {
-        let Deflection { lengths, unloaded, loaded } = deflection;
-        let [least_before, greatest_before] = range(&unloaded.equilibrium.tensions());
-        let [least, greatest] = range(&loaded.equilibrium.tensions());
-        let frequency = || DirectProblem::new(robot, lengths, load)?.lowest_frequency(&loaded.equilibrium);
+    fn new(robot: &Robot, loaded: LoadedPose, dominant: Option<Dominant>) -> Self {
+        let each = || loaded.tensions.iter().flatten().map(|[at_platform, _]| *at_platform);
         Self {
-            least_tension: least.min(least_before),
-            greatest_tension: greatest.max(greatest_before),
-            out_of_limits: out_of_limits(robot, lengths, &[&unloaded.equilibrium, &loaded.equilibrium]),
-            displacement: deflection.displacement(),
-            least_stiffness: loaded.stability.least_stiffness(),
-            lowest_frequency: frequency().ok(),
-            slack: loaded.report.slack.clone(),
+            least_tension: each().fold(f64::INFINITY, f64::min),
+            greatest_tension: each().fold(0.0, f64::max),
+            out_of_limits: tensions_out_of_limits(robot, &loaded.tensions),
+            displacement: loaded.displacement,
+            least_stiffness: loaded.least_stiffness,
+            lowest_frequency: loaded.lowest_frequency,
+            slack: loaded.slack,
             dominant,
         }
     }

@@ -71,14 +71,15 @@ pub use inverse::{
     tension_margin,
 };
 pub use lanes::{
-    Observation, ObservationMotion, ObservationSlopes, Observer, ScalarReason, Tracker, inverse_all,
+    LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observer, ScalarReason, Tracker,
+    inverse_all, loaded_poses,
 };
 pub use loading::{
     CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes, PoseStiffness,
     Unloading, deflection, deflection_free, deflection_from, deflections, follow, load_cycle, modes_at,
     stiffness_at, wound_lengths,
 };
-pub use out_of_limits::{Limit, OutOfLimits, out_of_limits};
+pub use out_of_limits::{Limit, OutOfLimits, out_of_limits, tensions_out_of_limits};
 pub use problem::{DirectProblem, check_lengths};
 pub use state::{Equilibrium, Load, Residual};
 

@@ -76,12 +76,24 @@ impl OutOfLimits {
 /// The tensions of a robot with these unstrained lengths [m] that are out of limits in any of the equilibria,
 /// at either end: at most one for each cable, that beyond the most serious limit.
 pub fn out_of_limits(robot: &Robot, lengths: &[f64], equilibria: &[&Equilibrium]) -> Vec<OutOfLimits> {
-    let ends: Vec<_> =
-        equilibria.iter().map(|at| (at.tensions(), at.exit_tensions(robot, lengths))).collect();
-    let of_cable = |cable| {
-        OutOfLimits::of_cable(robot, cable, ends.iter().map(|(anchor, exit)| [anchor[cable], exit[cable]]))
-    };
-    (0..lengths.len()).filter_map(of_cable).collect()
+    let ends: Vec<_> = equilibria.iter().map(|at| at.end_tensions(robot, lengths)).collect();
+    tensions_out_of_limits(robot, &ends)
+}
+
+/// The same for equilibria that are known by the tension of every cable at the platform and at its exit point
+/// [N].
+pub fn tensions_out_of_limits(robot: &Robot, equilibria: &[Vec<[f64; 2]>]) -> Vec<OutOfLimits> {
+    let of_cable = |cable| OutOfLimits::of_cable(robot, cable, equilibria.iter().map(|ends| ends[cable]));
+    let cables = equilibria.iter().map(Vec::len).min().unwrap_or(0);
+    (0..cables.min(robot.cables.len())).filter_map(of_cable).collect()
+}
+
+impl Equilibrium {
+    /// Tension of every cable at the platform and at its exit point [N], see [`Equilibrium::exit_tensions`].
+    pub(crate) fn end_tensions(&self, robot: &Robot, lengths: &[f64]) -> Vec<[f64; 2]> {
+        let exits = self.exit_tensions(robot, lengths);
+        self.tensions().into_iter().zip(exits).map(|(anchor, exit)| [anchor, exit]).collect()
+    }
 }
 
 impl fmt::Display for OutOfLimits {

@@ -16,6 +16,30 @@ pub(crate) type Lanes6<S> = [Lanes<S>; 6];
 /// Six rows of six.
 pub(crate) type Lanes6x6<S> = [[Lanes<S>; 6]; 6];
 
+/// Three components of one formula. Closures may be compiled apart from their caller, without the vector
+/// unit.
+macro_rules! three {
+    (|$k:ident| $component:expr) => {
+        $crate::lanes::algebra::components!(|$k| $component; 0, 1, 2)
+    };
+}
+
+/// Six components of one formula.
+macro_rules! six {
+    (|$k:ident| $component:expr) => {
+        $crate::lanes::algebra::components!(|$k| $component; 0, 1, 2, 3, 4, 5)
+    };
+}
+
+macro_rules! components {
+    (|$k:ident| $component:expr; $($index:literal),+) => {
+        [$({
+            let $k: usize = $index;
+            $component
+        }),+]
+    };
+}
+
 /// Factors Uᵀ D U of a symmetric matrix, U with ones on its diagonal.
 #[derive(Clone, Copy)]
 pub(crate) struct SymmetricFactors<S: Simd> {
@@ -67,12 +91,7 @@ impl<S: Simd> SymmetricFactors<S> {
 
     #[inline(always)]
     pub(crate) fn solve(&self, right: &Lanes6<S>) -> Lanes6<S> {
-        let mut x = *right;
-        for row in 1..6 {
-            for column in 0..row {
-                x[row] -= self.upper[column][row] * x[column];
-            }
-        }
+        let mut x = self.forwards(right);
         for row in (0..6).rev() {
             x[row] = x[row] * self.pivots_inv[row];
             for column in row + 1..6 {
@@ -81,30 +100,53 @@ impl<S: Simd> SymmetricFactors<S> {
         }
         x
     }
+
+    /// U⁻ᵀ times a vector.
+    #[inline(always)]
+    fn forwards(&self, right: &Lanes6<S>) -> Lanes6<S> {
+        let mut x = *right;
+        for row in 1..6 {
+            for column in 0..row {
+                x[row] -= self.upper[column][row] * x[column];
+            }
+        }
+        x
+    }
+
+    /// D^-½ U⁻ᵀ K U⁻¹ D^-½ for a symmetric matrix K, of which the upper triangle is read: with this one as M,
+    /// its eigenvalues are those of `K v = λ M v`.
+    // Indices as in the formula.
+    #[allow(clippy::needless_range_loop)]
+    #[inline(always)]
+    pub(crate) fn reduced(&self, matrix: &Lanes6x6<S>) -> Lanes6x6<S> {
+        let roots = six!(|k| self.pivots_inv[k].sqrt());
+        let mut rows = *matrix;
+        for row in 1..6 {
+            for column in 0..row {
+                rows[row][column] = matrix[column][row];
+            }
+        }
+        for _ in 0..2 {
+            let mut columns = rows;
+            for i in 0..6 {
+                let solved = self.forwards(&rows[i]);
+                for j in 0..6 {
+                    columns[j][i] = solved[j] * roots[j];
+                }
+            }
+            rows = columns;
+        }
+        rows
+    }
 }
 
-/// Three components of one formula. Closures may be compiled apart from their caller, without the vector
-/// unit.
-macro_rules! three {
-    (|$k:ident| $component:expr) => {
-        $crate::lanes::algebra::components!(|$k| $component; 0, 1, 2)
-    };
-}
+/// The columns of a frame.
+pub(crate) type Frame<S> = [Lanes3<S>; 3];
 
-/// Six components of one formula.
-macro_rules! six {
-    (|$k:ident| $component:expr) => {
-        $crate::lanes::algebra::components!(|$k| $component; 0, 1, 2, 3, 4, 5)
-    };
-}
-
-macro_rules! components {
-    (|$k:ident| $component:expr; $($index:literal),+) => {
-        [$({
-            let $k: usize = $index;
-            $component
-        }),+]
-    };
+/// R v.
+#[inline(always)]
+pub(crate) fn rotated<S: Simd>(frame: &Frame<S>, v: &Lanes3<S>) -> Lanes3<S> {
+    three!(|k| v[0] * frame[0][k] + v[1] * frame[1][k] + v[2] * frame[2][k])
 }
 
 pub(crate) use {components, six, three};

@@ -38,6 +38,34 @@ pub(crate) struct LaneCable<'a, S: Simd> {
     pub(crate) guided: Option<Box<Guided<S>>>,
 }
 
+/// What a cable that is nearly a parabola keeps when its ends move; of a guided one, its part beyond the
+/// leave point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shape<T> {
+    /// Direction of the cable where it leaves its exit point or guide.
+    pub(crate) tangent: [T; 2],
+    /// σ [N].
+    pub(crate) chord_force: T,
+    /// Vertical force at A beyond that along the chord [N].
+    pub(crate) sag_force: T,
+    /// Unstrained length less the chord [m].
+    pub(crate) longer: T,
+}
+
+impl Shape<f64> {
+    /// The same in all lanes.
+    #[inline(always)]
+    pub(crate) fn all<S: Simd>(&self, lanes: Lanes<S>) -> Shape<Lanes<S>> {
+        let [x, z] = self.tangent;
+        Shape {
+            tangent: [lanes.all(x), lanes.all(z)],
+            chord_force: lanes.all(self.chord_force),
+            sag_force: lanes.all(self.sag_force),
+            longer: lanes.all(self.longer),
+        }
+    }
+}
+
 /// A guide, and the cable that was given to it.
 #[derive(Clone)]
 pub(crate) struct Guided<S: Simd> {
@@ -199,6 +227,39 @@ impl<S: Simd> LaneCable<'_, S> {
         match self.law {
             [] => tension * self.axial_flexibility,
             law => lane_law_strain(law, self.axial_flexibility, tension),
+        }
+    }
+
+    /// Takes a shape over `span`.
+    #[inline(always)]
+    pub(crate) fn take(&mut self, shape: &Shape<Lanes<S>>, span: &Span<Lanes<S>>) {
+        let end = match &self.guided {
+            None => span.end,
+            Some(guided) => span.misclosure(guided.guide.leave_position(shape.tangent)),
+        };
+        let chord = Span { plane: span.plane, end }.chord();
+        let per_length = chord.recip() * shape.chord_force;
+        self.force = [end[0] * per_length, end[1] * per_length + shape.sag_force];
+        self.length = chord + shape.longer;
+    }
+
+    /// The shape that it has over `span`.
+    #[inline(always)]
+    pub(crate) fn shape(&self, span: &Span<Lanes<S>>) -> Shape<Lanes<S>> {
+        let (tangent, end) = match &self.guided {
+            None => ([self.length.all(0.0); 2], span.end),
+            Some(guided) => {
+                let leave = guided.leave_point(self);
+                (leave.tangent, span.misclosure(leave.position))
+            }
+        };
+        let chord = Span { plane: span.plane, end }.chord();
+        let per_length = self.force[0] / end[0];
+        Shape {
+            tangent,
+            chord_force: per_length * chord,
+            sag_force: self.force[1] - per_length * end[1],
+            longer: self.length - chord,
         }
     }
 

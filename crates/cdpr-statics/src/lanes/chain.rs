@@ -32,8 +32,8 @@
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
 use crate::inverse::NEARLY_ROUNDING;
-use crate::lanes::algebra::{Lanes3, Lanes6, halves, replace, six, three};
-use crate::lanes::cable::{FreeLength, LaneCable};
+use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, halves, replace, six, three};
+use crate::lanes::cable::{FreeLength, LaneCable, Shape};
 use crate::lanes::held::HeldCable;
 use crate::lanes::limits::limits_at;
 use crate::lanes::minimum::is_least;
@@ -64,21 +64,7 @@ pub(crate) struct Choice {
     /// Where the greatest tension is limited.
     pub(crate) max_at: CableEnd,
     /// The shape that the nominal robot gives it.
-    pub(crate) shape: Shape,
-}
-
-/// What a cable that is nearly a parabola keeps when its ends move; of a guided one, its part beyond the
-/// leave point.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Shape {
-    /// Direction of the cable where it leaves its exit point or guide.
-    pub(crate) tangent: [f64; 2],
-    /// σ [N].
-    pub(crate) chord_force: f64,
-    /// Vertical force at A beyond that along the chord [N].
-    pub(crate) sag_force: f64,
-    /// Unstrained length less the chord [m].
-    pub(crate) longer: f64,
+    pub(crate) shape: Shape<f64>,
 }
 
 /// What all robots of a batch share.
@@ -142,6 +128,9 @@ pub(crate) trait Keep<'a, S: Simd> {
     /// The multipliers of the inverse model.
     fn multipliers(&mut self, _multipliers: &Lanes6<S>) {}
 
+    /// Least and greatest tension of each cable [N].
+    fn limits(&mut self, _limits: &[Lanes2<S>]) {}
+
     /// The robots with their cables wound at the wanted pose, at rest without the load, and with it.
     fn state(&mut self, _robots: &Robots<'a, S>) {}
 }
@@ -163,17 +152,7 @@ pub(crate) fn observe<'a, S: Simd>(
     let mut spans = Vec::with_capacity(robots.cables.len());
     for (cable, choice) in robots.cables.iter_mut().zip(&shared.choices) {
         let span = cable.span(&robots.position);
-        let end = match &cable.guided {
-            None => span.end,
-            Some(guided) => {
-                let [x, z] = choice.shape.tangent;
-                span.misclosure(guided.guide.leave_position([zero.all(x), zero.all(z)]))
-            }
-        };
-        let chord = Span { plane: span.plane, end }.chord();
-        let per_length = chord.recip() * choice.shape.chord_force;
-        cable.force = [end[0] * per_length, end[1] * per_length + choice.shape.sag_force];
-        cable.length = chord + choice.shape.longer;
+        cable.take(&choice.shape.all(zero), &span);
         spans.push(span);
     }
     let mut set_points = offsets;
@@ -230,6 +209,7 @@ pub(crate) fn distribute<'a, S: Simd>(
     for ((cable, span), choice) in robots.cables.iter_mut().zip(spans).zip(&shared.choices) {
         limits.push(limits_at(cable, span, (choice.limits, choice.max_at), compared));
     }
+    keep.limits(&limits);
     for _ in 0..MAX_DISTRIBUTIONS {
         all_held.clear();
         convex.clear();

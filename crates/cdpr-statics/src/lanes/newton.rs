@@ -10,9 +10,11 @@ use crate::equations::{CablePlane, LinearizedCable};
 use crate::lanes::algebra::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, replace, six, three};
 use crate::lanes::cable::{FreeLength, LaneCable};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
+use crate::state::Residual;
 use cdpr_cable::kernel::{FOLDED, Field, LaneEnd};
 use cdpr_robot::Robot;
 use smallvec::{SmallVec, smallvec};
+use std::array::from_fn;
 
 /// Whether a robot is one for the lanes: plain cables, six free motions, and cables for all of them.
 pub(crate) fn in_lanes(robot: &Robot) -> bool {
@@ -48,11 +50,14 @@ pub(crate) struct Robots<'a, S: Simd> {
 }
 
 impl<S: Simd> LaneResidual<S> {
-    /// Norms of force [N] and moment [N m], one for each lane.
+    /// The norms in each lane.
     #[inline(always)]
-    pub(crate) fn norms(&self) -> [[f64; MAX_LANES]; 2] {
+    pub(crate) fn norms(&self) -> [Residual; MAX_LANES] {
         let (force, moment) = halves(&self.wrench);
-        [dot(&force, &force).sqrt().to_array(), dot(&moment, &moment).sqrt().to_array()]
+        let (force, moment) =
+            (dot(&force, &force).sqrt().to_array(), dot(&moment, &moment).sqrt().to_array());
+        let closure = self.closure.sqrt().to_array();
+        from_fn(|lane| Residual { closure: closure[lane], force: force[lane], moment: moment[lane] })
     }
 }
 
@@ -142,7 +147,7 @@ impl<S: Simd> LinearizedPlatform<S> {
 }
 
 impl<S: Simd> Robots<'_, S> {
-    /// Linearises all cables in the lanes that are `going`.
+    /// Linearises all cables in the lanes that are `going`, and puts the platform between them.
     #[inline(always)]
     pub(crate) fn linearise(
         &self,
@@ -150,6 +155,12 @@ impl<S: Simd> Robots<'_, S> {
         platform: &mut LinearizedPlatform<S>,
         going: Mask<S>,
     ) {
+        self.linearise_cables(platform, going);
+        self.assemble(load, platform, going);
+    }
+
+    #[inline(always)]
+    fn linearise_cables(&self, platform: &mut LinearizedPlatform<S>, going: Mask<S>) {
         for (i, (cable, linearized)) in self.cables.iter().zip(&mut platform.cables).enumerate() {
             if let Some(guided) = &cable.guided {
                 guided.linearise(
@@ -165,15 +176,21 @@ impl<S: Simd> Robots<'_, S> {
             let response = cable.response();
             linearized.replace(&LinearizedCable::new(&span, cable.force, &response), going);
         }
-        self.assemble(load, platform, going);
+    }
+
+    /// The upper triangle of the stiffness here (S5), with all cables linearised anew.
+    #[inline(always)]
+    pub(crate) fn stiffness(
+        &self,
+        load: &PlatformLoad<S>,
+        platform: &mut LinearizedPlatform<S>,
+    ) -> Lanes6x6<S> {
+        self.linearise_cables(platform, load.weight.less_or_equal(load.weight));
+        let (_, hessian) = self.balance(load, platform);
+        hessian
     }
 
     /// Puts the platform between its linearised cables in the lanes that are `going`.
-    ///
-    /// Where moments are out of balance the derivative of the gradient is not symmetric. The skew part is
-    /// dropped: it is proportional to the residual moment, which vanishes at equilibrium.
-    // Indices as in the formula.
-    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     pub(crate) fn assemble(
         &self,
@@ -181,6 +198,19 @@ impl<S: Simd> Robots<'_, S> {
         platform: &mut LinearizedPlatform<S>,
         going: Mask<S>,
     ) {
+        let (gradient, hessian) = self.balance(load, platform);
+        replace(&mut platform.gradient, &gradient, going);
+        platform.factored.replace(&SymmetricFactors::new(hessian), going);
+    }
+
+    /// Gradient of the potential with the predicted forces, and the upper triangle of its derivative.
+    ///
+    /// Where moments are out of balance the derivative of the gradient is not symmetric. The skew part is
+    /// dropped: it is proportional to the residual moment, which vanishes at equilibrium.
+    // Indices as in the formula.
+    #[allow(clippy::needless_range_loop)]
+    #[inline(always)]
+    fn balance(&self, load: &PlatformLoad<S>, platform: &LinearizedPlatform<S>) -> (Lanes6<S>, Lanes6x6<S>) {
         let zero = self.weight.all(0.0);
         let (mut gradient, mut hessian) = ([zero; 6], [[zero; 6]; 6]);
         for (i, (cable, linearized)) in self.cables.iter().zip(&platform.cables).enumerate() {
@@ -213,8 +243,7 @@ impl<S: Simd> Robots<'_, S> {
         hessian[3][5] += load.weight * cx * 0.5;
         hessian[4][5] += load.weight * cy * 0.5;
         let wrench = load.wrench(&self.center);
-        replace(&mut platform.gradient, &six!(|k| gradient[k] - wrench[k]), going);
-        platform.factored.replace(&SymmetricFactors::new(hessian), going);
+        (six!(|k| gradient[k] - wrench[k]), hessian)
     }
 
     /// The value in the lanes of cable `i` that count, zero in the others.

@@ -14,18 +14,19 @@ mod slopes;
 
 use crate::error::StaticsError;
 use crate::inverse::{Branch, InverseSolution};
-use crate::lanes::algebra::{six, three};
-use crate::lanes::cable::{Guided, LaneCable};
-use crate::lanes::chain::{ChainStart, Choice, Outcome, Shape, Shared, observe};
+use crate::lanes::algebra::{Frame, rotated, six, three};
+use crate::lanes::cable::{Guided, LaneCable, Shape};
+use crate::lanes::chain::{ChainStart, Choice, Outcome, Shared, observe};
 use crate::lanes::level::LevelFrame;
-use crate::lanes::newton::{LaneResidual, Layout, PlatformLoad, Robots, Scale};
+use crate::lanes::newton::{Layout, PlatformLoad, Robots, Scale};
+use crate::lanes::placed::laws;
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{Deflection, deflection, deflection_near};
 use crate::problem::DirectProblem;
 use crate::state::{Load, Residual, rounding_of_closure};
+use cdpr_cable::Catenary;
 use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
-use cdpr_cable::{Catenary, PiecewiseLaw};
 use cdpr_robot::{
     Axis, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector2, Vector3, Vector6,
 };
@@ -177,14 +178,12 @@ impl Nominal {
                 rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
             },
         };
-        let law = |cable: &RobotCable| cable.properties.law.as_ref().map(PiecewiseLaw::lane_segments);
-        let laws = robot.cables.iter().map(|cable| law(cable).unwrap_or_default()).collect();
-        Ok(Self { multipliers: solution.multipliers, laws, shared })
+        Ok(Self { multipliers: solution.multipliers, laws: laws(robot), shared })
     }
 }
 
 /// The shape of a cable at the wanted pose.
-pub(crate) fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape {
+pub(crate) fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape<f64> {
     let (unstrained_length, force) = (solution.lengths[i], solution.equilibrium.cable_forces[i]);
     let cable = Catenary { cable: robot.cable(i), unstrained_length, force };
     let span = robot.span(pose, i);
@@ -261,7 +260,7 @@ fn read<S: Simd>(
         Some(level) => level.to_base(&outcome.displacement),
     };
     let displacement = three!(|k| displacement[k].to_array());
-    let (unloaded, loaded) = (norms(&outcome.unloaded), norms(&outcome.loaded));
+    let (unloaded, loaded) = (outcome.unloaded.norms(), outcome.loaded.norms());
     from_fn(|lane| match links.get(first_failed[lane] as usize) {
         Some((_, why)) => Err(*why),
         None => Ok(Observation {
@@ -326,7 +325,7 @@ impl<'a, S: Simd> Rows<'a, S> {
         nominal: &'n Nominal,
     ) -> (ChainStart<'n, S>, Option<LevelFrame<S>>, [Mask<S>; 2]) {
         let n = robot.cables.len();
-        let layout = self.layout;
+        let (layout, frame) = (self.layout, self.frame(pose, None));
         let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
         let mass = self.parameter(layout.mass(), robot.platform.mass);
         let mut sound = tiny.less_or_equal(mass);
@@ -344,7 +343,7 @@ impl<'a, S: Simd> Rows<'a, S> {
                 layout: Layout::Robots,
                 cables: SmallVec::with_capacity(n),
                 position: three!(|k| self.all(pose.position[k])),
-                center: rotate(pose, &self.point(layout.center_of_mass(), &robot.platform.center_of_mass)),
+                center: rotated(&frame, &self.point(layout.center_of_mass(), &robot.platform.center_of_mass)),
                 frame: SmallVec::new(),
                 weight: mass * gravity,
             },
@@ -370,7 +369,7 @@ impl<'a, S: Simd> Rows<'a, S> {
                 weight_per_length: density * gravity,
                 axial_flexibility: (modulus * cable.properties.section).recip(),
                 exit_point: self.point(layout.exit_point(i), &cable.exit_point),
-                anchor_arm: rotate(pose, &self.point(layout.anchor_point(i), &cable.anchor_point)),
+                anchor_arm: rotated(&frame, &self.point(layout.anchor_point(i), &cable.anchor_point)),
                 length: zero,
                 force: [zero; 2],
                 guided: None,
@@ -392,7 +391,7 @@ impl<'a, S: Simd> Rows<'a, S> {
 
     /// The platform frame at the wanted pose by its columns, in the level frames.
     #[inline(always)]
-    fn frame(&self, pose: &Pose, level: Option<&LevelFrame<S>>) -> [[Lanes<S>; 3]; 3] {
+    fn frame(&self, pose: &Pose, level: Option<&LevelFrame<S>>) -> Frame<S> {
         from_fn(|k| {
             let column = three!(|row| self.all(pose.rotation.matrix()[(row, k)]));
             level.map_or(column, |level| level.to_level(&column))
@@ -455,20 +454,6 @@ impl<S: Simd> ChainStart<'_, S> {
         *multipliers = level.both_to_level(multipliers);
         payload.force = level.to_level(&payload.force);
     }
-}
-
-/// R v.
-#[inline(always)]
-fn rotate<S: Simd>(pose: &Pose, v: &[Lanes<S>; 3]) -> [Lanes<S>; 3] {
-    let r = pose.rotation.matrix();
-    three!(|k| v[0] * r[(k, 0)] + v[1] * r[(k, 1)] + v[2] * r[(k, 2)])
-}
-
-#[inline(always)]
-fn norms<S: Simd>(residual: &LaneResidual<S>) -> [Residual; MAX_LANES] {
-    let closure = residual.closure.to_array();
-    let [force, moment] = residual.norms();
-    from_fn(|lane| Residual { closure: closure[lane].sqrt(), force: force[lane], moment: moment[lane] })
 }
 
 #[cfg(test)]

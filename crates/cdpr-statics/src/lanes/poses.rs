@@ -12,21 +12,18 @@ use crate::equations::Span;
 use crate::equations::vector::{dot, wrench};
 use crate::error::StaticsError;
 use crate::inverse::{InTurn, InverseSolution};
-use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, six, three};
-use crate::lanes::cable::LaneCable;
-use crate::lanes::chain::{Choice, SAGGING, Shape, Shared, distribute, hold};
+use crate::lanes::algebra::{Lanes2, Lanes6, six, three};
+use crate::lanes::cable::Shape;
+use crate::lanes::chain::{Choice, Keep, SAGGING, Shared, distribute, hold};
 use crate::lanes::held::HeldCable;
-use crate::lanes::limits::plain_limits_at;
 use crate::lanes::minimum::is_least;
-use crate::lanes::newton::{Layout, LinearizedPlatform, PlatformLoad, Robots, Scale};
+use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots};
 use crate::lanes::observer::shape;
-use crate::lanes::reason::ScalarReason;
+use crate::lanes::placed::{PlacedRobot, each};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
-use cdpr_cable::PiecewiseLaw;
-use cdpr_cable::kernel::{Field, LaneSegment};
-use cdpr_robot::{Pose, Robot, RobotCable, Vector2, Vector3, Vector6};
+use cdpr_robot::{Pose, Robot, Vector2, Vector3, Vector6};
 use cdpr_tension::Bound;
 use smallvec::SmallVec;
 
@@ -45,10 +42,11 @@ const STATIONARY: f64 = 1e-10;
 
 /// [`inverse`] at every pose, with the robot's own reference of the tensions.
 ///
-/// Poses that follow each other should be near each other, as along the lines of a grid: robots without
-/// pulleys, leads and free coordinates are then answered in the lanes of the vector unit, each from the pose
-/// before it, and all others one by one. An answer found in lanes counts no iterations. It depends on the
-/// poses before it in the same call, in the last digits; it does not depend on the vector unit.
+/// Poses that follow each other should be near each other, as along the lines of a grid: robots with six free
+/// motions and a cable for each of them, over pulleys with vertical axes or none, are then answered in the
+/// lanes of the vector unit, each from the pose before it, and all others one by one. An answer found in
+/// lanes counts no iterations. It depends on the poses before it in the same call, in the last digits; it does
+/// not depend on the vector unit.
 ///
 /// Where (I1) has several minima, [`inverse`] takes the best that several starts lead to. An answer in lanes
 /// with a cable that sags is proved to be the least of all on a grid of its tensions.
@@ -70,10 +68,8 @@ pub fn inverse_all(robot: &Robot, poses: &[Pose], load: &Load) -> Vec<Result<Inv
 
 /// What all poses have in common.
 struct Setting<'a> {
-    robot: &'a Robot,
+    placed: PlacedRobot<'a>,
     load: &'a Load,
-    /// Segments of the elastic law of each cable; none of a linear one.
-    laws: Vec<Vec<LaneSegment>>,
     shared: Shared,
 }
 
@@ -82,7 +78,8 @@ struct Setting<'a> {
 struct Near {
     /// Of the platform [m].
     position: Vector3<f64>,
-    shapes: Vec<Shape>,
+    shapes: Vec<Shape<f64>>,
+    /// λ in the level frame.
     multipliers: Vector6<f64>,
 }
 
@@ -103,11 +100,7 @@ struct Asked<'a> {
 impl<'a> Setting<'a> {
     /// `None` for a robot that is not one for the lanes.
     fn of(robot: &'a Robot, load: &'a Load) -> Option<Self> {
-        let guided = robot.cables.iter().any(|cable| cable.guide(None).is_some());
-        // A moment of the load matters to the stability alone.
-        if guided || ScalarReason::of_all(robot, &Load::none()).is_some() || robot.gravity.level().is_some() {
-            return None;
-        }
+        let placed = PlacedRobot::of(robot)?;
         let reference = robot.reference();
         let nowhere = Shape { tangent: [0.0; 2], chord_force: 0.0, sag_force: 0.0, longer: 0.0 };
         let choice = |(i, reference): (usize, &f64)| Choice {
@@ -117,29 +110,21 @@ impl<'a> Setting<'a> {
             shape: nowhere,
         };
         let choices: Vec<_> = reference.iter().enumerate().map(choice).collect();
-        let law = |cable: &RobotCable| cable.properties.law.as_ref().map(PiecewiseLaw::lane_segments);
-        let exits = || robot.cables.iter().map(|cable| cable.exit_point);
-        let size = exits().map(|b| exits().map(|c| (b - c).norm()).fold(0.0, f64::max)).fold(0.0, f64::max);
         // No more than the sum of all tensions, or twice as much.
         let least: f64 = choices.iter().map(|choice| choice.limits.min).sum();
         let weight = (robot.platform.mass + load.payload) * robot.gravity.magnitude();
-        let scale =
-            Scale { size, characteristic_length: robot.platform_size().max(1e-3 * size), rounding: 0.0 };
-        Some(Self {
-            robot,
-            load,
-            laws: robot.cables.iter().map(|cable| law(cable).unwrap_or_default()).collect(),
-            shared: Shared { choices, tension: NARROWER * (weight + least), forces: weight + least, scale },
-        })
+        let (tension, forces) = (NARROWER * (weight + least), weight + least);
+        let shared = Shared { choices, tension, forces, scale: placed.scale };
+        Some(Self { placed, load, shared })
     }
 
     /// Answers a block from the `ends` of the sequences before it, and leaves its own there.
     fn block(&self, poses: &'a [Pose], ends: &mut Vec<Near>) -> Vec<Result<InverseSolution, StaticsError>> {
         let mut answers = Vec::with_capacity(poses.len());
-        let mut scalar = InTurn::new(self.robot, self.load);
+        let mut scalar = InTurn::new(self.placed.robot, self.load);
         while let (true, Some(pose)) = (ends.is_empty(), poses.get(answers.len())) {
             let answer = scalar.answer(pose);
-            ends.extend(answer.as_ref().ok().map(|solution| Near::of(self.robot, pose, solution)));
+            ends.extend(answer.as_ref().ok().map(|solution| self.near(pose, solution)));
             answers.push(answer);
         }
         let rest = &poses[answers.len()..];
@@ -149,7 +134,7 @@ impl<'a> Setting<'a> {
             let way = |near: &Near| (near.position - first).norm();
             // The last one of several.
             let near = ends.iter().rev().min_by(|one, other| way(one).total_cmp(&way(other)))?.clone();
-            let scalar = InTurn::new(self.robot, self.load);
+            let scalar = InTurn::new(self.placed.robot, self.load);
             Some(Sequence { poses, near, scalar, answers: Vec::with_capacity(length) })
         };
         let mut sequences: Vec<_> = rest.chunks(length).filter_map(sequence).collect();
@@ -187,7 +172,7 @@ impl<'a> Setting<'a> {
                     Ok(solution)
                 }
                 None => sequence.scalar.solution(pose).inspect(|solution| {
-                    sequence.near = Near::of(self.robot, pose, solution);
+                    sequence.near = self.near(pose, solution);
                 }),
             };
             sequence.answers.push(answer);
@@ -199,7 +184,7 @@ impl<'a> Setting<'a> {
         let lengths = answer.cables.iter().map(|cable| cable.length).collect::<Vec<_>>();
         let cable_forces = answer.cables.iter().map(|cable| cable.force).collect();
         let equilibrium = Equilibrium { pose: *pose, cable_forces };
-        let problem = DirectProblem::new(self.robot, &lengths, self.load).ok()?;
+        let problem = DirectProblem::new(self.placed.robot, &lengths, self.load).ok()?;
         let residual = Residual::of(&problem, &equilibrium);
         let tensions: Vec<f64> = answer.cables.iter().map(|cable| cable.tension).collect();
         let stationarity = answer.cables.iter().map(|cable| cable.stationarity).fold(0.0, f64::max);
@@ -208,7 +193,7 @@ impl<'a> Setting<'a> {
         holds.then(|| InverseSolution {
             tensions,
             active: answer.cables.iter().map(|cable| cable.active).collect(),
-            multipliers: answer.multipliers,
+            multipliers: self.placed.both(PlacedRobot::to_base, &answer.multipliers),
             iterations: 0,
             stationarity,
             residual,
@@ -216,12 +201,13 @@ impl<'a> Setting<'a> {
             equilibrium,
         })
     }
-}
 
-impl Near {
-    fn of(robot: &Robot, pose: &Pose, solution: &InverseSolution) -> Self {
+    /// What an answer of the scalar model is for the next pose.
+    fn near(&self, pose: &Pose, solution: &InverseSolution) -> Near {
+        let robot = self.placed.robot;
         let shapes = (0..robot.cables.len()).map(|i| shape(robot, pose, i, solution)).collect();
-        Self { position: pose.position, shapes, multipliers: solution.multipliers }
+        let multipliers = self.placed.both(PlacedRobot::to_level, &solution.multipliers);
+        Near { position: pose.position, shapes, multipliers }
     }
 }
 
@@ -237,7 +223,7 @@ struct CableAnswer {
     tension: f64,
     active: Option<Bound>,
     stationarity: f64,
-    shape: Shape,
+    shape: Shape<f64>,
 }
 
 /// Poses for the lanes.
@@ -272,36 +258,49 @@ struct InLanes<'a, S> {
     asked: &'a [Asked<'a>],
 }
 
-/// Cables at the wanted poses.
-struct Placed<'a, S: Simd> {
-    robots: Robots<'a, S>,
-    spans: Vec<Span<Lanes<S>>>,
+/// The limits of the tensions [N].
+struct Limits<S: Simd>(SmallVec<[Lanes2<S>; 8]>);
+
+impl<S: Simd> Keep<'_, S> for Limits<S> {
+    fn limits(&mut self, limits: &[Lanes2<S>]) {
+        self.0.extend_from_slice(limits);
+    }
 }
 
-impl<'a, S: Simd> InLanes<'a, S> {
+impl<S: Simd> InLanes<'_, S> {
     #[inline(always)]
     fn answers(&self) -> Vec<Option<Answer>> {
-        let Setting { robot, load, ref shared, .. } = *self.setting;
-        let zero = self.all(0.0);
-        let Placed { mut robots, spans } = self.placed();
-        let gravity = robot.gravity.magnitude();
+        let Setting { placed, load, shared } = self.setting;
+        let (robot, zero) = (placed.robot, self.all(0.0));
+        let (mut robots, spans) = self.shaped();
+        let force = placed.to_level(load.wrench.force);
         let whole = PlatformLoad {
-            weight: self.all((robot.platform.mass + load.payload) * gravity),
-            force: three!(|k| self.all(load.wrench.force[k])),
+            weight: self.all((robot.platform.mass + load.payload) * robot.gravity.magnitude()),
+            force: three!(|k| self.all(force[k])),
         };
         let mut external = whole.wrench(&robots.center);
+        let moment = placed.to_level(load.wrench.moment);
         for k in 0..3 {
-            external[3 + k] += self.all(load.wrench.moment[k]);
+            external[3 + k] += self.all(moment[k]);
         }
         let mut multipliers = six!(|k| self.each(&|asked| asked.near.multipliers[k]));
         let mut set_points = vec![zero; spans.len()];
-        let (converged, sound) =
-            distribute(&mut robots, &external, &mut multipliers, &mut set_points, &spans, shared, &mut ());
+        let mut limits = Limits(SmallVec::new());
+        let (converged, sound) = distribute(
+            &mut robots,
+            &external,
+            &mut multipliers,
+            &mut set_points,
+            &spans,
+            shared,
+            &mut limits,
+        );
         let mut platform = LinearizedPlatform::new(zero, spans.len());
         let held = hold(&mut robots, &mut platform, &set_points, &spans, shared);
+        let Limits(limits) = limits;
         let found = converged & sound & held;
-        let found = found & self.is_least(&robots, &spans, &multipliers);
-        self.read(found, &robots, &spans, &multipliers, &set_points)
+        let found = found & self.is_least(&robots, &spans, &multipliers, &limits);
+        self.read(found, &robots, &spans, &multipliers, &set_points, &limits)
     }
 
     #[inline(always)]
@@ -311,55 +310,45 @@ impl<'a, S: Simd> InLanes<'a, S> {
 
     #[inline(always)]
     fn each(&self, value: &dyn Fn(&Asked) -> f64) -> Lanes<S> {
-        let last = self.asked.len() - 1;
-        Lanes::from_fn(self.simd, |lane| value(&self.asked[lane.min(last)]))
-    }
-
-    #[inline(always)]
-    fn vector(&self, value: &dyn Fn(&Asked) -> Vector3<f64>) -> Lanes3<S> {
-        three!(|k| self.each(&|asked| value(asked)[k]))
+        each(self.simd, self.asked, value)
     }
 
     /// The robot at the poses, its cables as they were at the poses before, between their new ends.
     #[inline(always)]
-    fn placed(&self) -> Placed<'a, S> {
-        let Setting { robot, ref laws, .. } = *self.setting;
-        let gravity = robot.gravity.magnitude();
-        let mut robots = Robots {
-            layout: Layout::Robots,
-            cables: SmallVec::new(),
-            position: self.vector(&|asked| asked.pose.position),
-            center: self.vector(&|asked| asked.pose.rotation * robot.platform.center_of_mass),
-            frame: SmallVec::new(),
-            weight: self.all(robot.platform.mass * gravity),
-        };
-        let mut spans = Vec::with_capacity(robot.cables.len());
-        for (i, cable) in robot.cables.iter().enumerate() {
-            let mut placed = LaneCable {
-                law: &laws[i],
-                weight_per_length: self.all(cable.properties.linear_density * gravity),
-                axial_flexibility: self.all(cable.properties.axial_stiffness()).recip(),
-                exit_point: three!(|k| self.all(cable.exit_point[k])),
-                anchor_arm: self.vector(&|asked| robot.anchor_arm(asked.pose, i)),
-                length: self.all(0.0),
-                force: [self.all(0.0); 2],
-                guided: None,
+    fn shaped(&self) -> (Robots<'_, S>, Vec<Span<Lanes<S>>>) {
+        let poses: SmallVec<[&Pose; MAX_LANES]> = self.asked.iter().map(|asked| asked.pose).collect();
+        let (mut robots, _) = self.setting.placed.at(self.simd, &poses);
+        let mut spans = Vec::with_capacity(robots.cables.len());
+        for (i, cable) in robots.cables.iter_mut().enumerate() {
+            let span = cable.span(&robots.position);
+            let mut tangent = [self.all(0.0); 2];
+            if cable.guided.is_some() {
+                tangent = [
+                    self.each(&|asked| asked.near.shapes[i].tangent[0]),
+                    self.each(&|asked| asked.near.shapes[i].tangent[1]),
+                ];
+            }
+            let shape = Shape {
+                tangent,
+                chord_force: self.each(&|asked| asked.near.shapes[i].chord_force),
+                sag_force: self.each(&|asked| asked.near.shapes[i].sag_force),
+                longer: self.each(&|asked| asked.near.shapes[i].longer),
             };
-            let span = placed.span(&robots.position);
-            let chord = span.chord();
-            let per_length = self.each(&|asked| asked.near.shapes[i].chord_force) / chord;
-            let sag_force = self.each(&|asked| asked.near.shapes[i].sag_force);
-            placed.force = [span.end[0] * per_length, span.end[1] * per_length + sag_force];
-            placed.length = chord + self.each(&|asked| asked.near.shapes[i].longer);
-            robots.cables.push(placed);
+            cable.take(&shape, &span);
             spans.push(span);
         }
-        Placed { robots, spans }
+        (robots, spans)
     }
 
     /// The lanes without another minimum: no cable sags, or none has another tension that is better.
     #[inline(always)]
-    fn is_least(&self, robots: &Robots<'_, S>, spans: &[Span<Lanes<S>>], multipliers: &Lanes6<S>) -> Mask<S> {
+    fn is_least(
+        &self,
+        robots: &Robots<'_, S>,
+        spans: &[Span<Lanes<S>>],
+        multipliers: &Lanes6<S>,
+        limits: &[Lanes2<S>],
+    ) -> Mask<S> {
         let zero = self.all(0.0);
         let mut straight = zero.less_or_equal(zero);
         for cable in &robots.cables {
@@ -368,9 +357,10 @@ impl<'a, S: Simd> InLanes<'a, S> {
         let mut least = zero.less_or_equal(zero);
         if (!straight).any() {
             let choices = &self.setting.shared.choices;
-            for ((cable, span), choice) in robots.cables.iter().zip(spans).zip(choices) {
-                let limits = plain_limits_at(cable, span, (choice.limits, choice.max_at));
-                least = least & is_least(cable, span, multipliers, choice.reference, &limits);
+            for ((cable, span), (choice, limits)) in
+                robots.cables.iter().zip(spans).zip(choices.iter().zip(limits))
+            {
+                least = least & is_least(cable, span, multipliers, choice.reference, limits);
             }
         }
         straight | least
@@ -385,6 +375,7 @@ impl<'a, S: Simd> InLanes<'a, S> {
         spans: &[Span<Lanes<S>>],
         multipliers: &Lanes6<S>,
         set_points: &[Lanes<S>],
+        limits: &[Lanes2<S>],
     ) -> Vec<Option<Answer>> {
         let found = found.to_array();
         let multipliers_of = multipliers.map(Lanes::to_array);
@@ -397,26 +388,18 @@ impl<'a, S: Simd> InLanes<'a, S> {
         let choices = &self.setting.shared.choices;
         for (i, (cable, span)) in robots.cables.iter().zip(spans).enumerate() {
             let held = HeldCable::new(cable, span);
-            let limits: Lanes2<S> = plain_limits_at(cable, span, (choices[i].limits, choices[i].max_at));
             let along = span.plane.force_on_platform([self.all(1.0), held.rise]);
             let pull = wrench(&cable.anchor_arm, &along);
             // (I2)
             let slope = (held.tension + -choices[i].reference) + dot(multipliers, &pull) / held.tension_slope;
-            let chord = span.chord();
-            let per_length = cable.force[0] / span.end[0];
-            let [slope, per_length, chord, length, tension, x, z, height, least, greatest] = [
-                slope,
-                per_length,
-                chord,
-                cable.length,
-                set_points[i],
-                cable.force[0],
-                cable.force[1],
-                span.end[1],
-                limits[0],
-                limits[1],
-            ]
-            .map(Lanes::to_array);
+            let shape = cable.shape(span);
+            let length = cable.guided.as_ref().map_or(cable.length, |guided| guided.whole_length);
+            let [slope, length, tension, x, z, least, greatest] =
+                [slope, length, set_points[i], cable.force[0], cable.force[1], limits[i][0], limits[i][1]]
+                    .map(Lanes::to_array);
+            let [tx, tz, chord_force, sag_force, longer] =
+                [shape.tangent[0], shape.tangent[1], shape.chord_force, shape.sag_force, shape.longer]
+                    .map(Lanes::to_array);
             for (lane, answer) in answers.iter_mut().enumerate() {
                 let Some(answer) = answer else { continue };
                 let (active, stationarity) = match tension[lane] {
@@ -425,10 +408,10 @@ impl<'a, S: Simd> InLanes<'a, S> {
                     _ => (None, slope[lane].abs()),
                 };
                 let shape = Shape {
-                    tangent: [0.0; 2],
-                    chord_force: per_length[lane] * chord[lane],
-                    sag_force: z[lane] - per_length[lane] * height[lane],
-                    longer: length[lane] - chord[lane],
+                    tangent: [tx[lane], tz[lane]],
+                    chord_force: chord_force[lane],
+                    sag_force: sag_force[lane],
+                    longer: longer[lane],
                 };
                 answer.cables.push(CableAnswer {
                     length: length[lane],
@@ -456,7 +439,7 @@ mod tests {
         let load = Load::payload(50.0);
         let setting = Setting::of(&robot, &load).unwrap();
         let nearby = Pose::at(1.0, 0.5, 1.5);
-        let near = Near::of(&robot, &nearby, &inverse(&robot, &nearby, &load, None).unwrap());
+        let near = setting.near(&nearby, &inverse(&robot, &nearby, &load, None).unwrap());
         let poses: Vec<_> = (0..21).map(|k| Pose::at(0.9 + 0.03 * f64::from(k), 0.4, 1.6)).collect();
         let asked: Vec<_> = poses.iter().map(|pose| Asked { pose, near: &near }).collect();
         let of = |batch: Vec<Option<(InverseSolution, Near)>>| -> Vec<_> {

@@ -1,0 +1,375 @@
+//! What a load does to one robot at many poses with the lengths kept, one pose in each lane.
+//!
+//! From the cables that the inverse model wound, both equilibria follow by Newton's method of
+//! `lanes/newton.rs`. The stiffness K of the loaded platform is linearised at the second one. Its least
+//! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it, and that of
+//! `K v = (2π f)² M v` with the mass matrix of (V1) gives the lowest natural frequency. What a lane does not
+//! decide is left to the scalar models.
+
+use crate::error::StaticsError;
+use crate::inverse::InverseSolution;
+use crate::lanes::algebra::{Lanes3, Lanes6x6, SymmetricFactors, six, three};
+use crate::lanes::cable::FreeLength;
+use crate::lanes::eigen::least_eigenvalue;
+use crate::lanes::newton::{LaneResidual, LinearizedPlatform, PlatformLoad, Robots};
+use crate::lanes::placed::{PlacedRobot, each};
+use crate::lanes::reason::ScalarReason;
+use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
+use crate::loading::{Deflection, deflection_from};
+use crate::problem::DirectProblem;
+use crate::state::{Load, Residual};
+use cdpr_cable::Catenary;
+use cdpr_cable::kernel::Field;
+use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
+use smallvec::SmallVec;
+use std::f64::consts::TAU;
+
+/// A robot at a pose with a load on it that its cables, of kept lengths, yield to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedPose {
+    /// dp, Eq. (4) [m].
+    pub displacement: Vector3<f64>,
+    /// Tension of every cable at the platform and at its exit point, over a pulley where the cable leaves it
+    /// [N]: without the load, and with it.
+    pub tensions: [Vec<[f64; 2]>; 2],
+    /// Residuals of both equilibria.
+    pub residuals: [Residual; 2],
+    /// Stiffness of the softest motion with the load [N/m], see [`crate::Stability::least_stiffness`].
+    pub least_stiffness: f64,
+    /// Lowest natural frequency with the load [Hz], see [`DirectProblem::lowest_frequency`]; `None` for a
+    /// robot that lacks `platform.inertia`.
+    pub lowest_frequency: Option<f64>,
+    /// Cables (from 0) that are slack with the load.
+    pub slack: Vec<usize>,
+    /// Why the scalar models found it; `None` for one found in lanes.
+    pub scalar: Option<ScalarReason>,
+}
+
+impl LoadedPose {
+    /// That of a deflection, by the scalar models.
+    pub fn of(robot: &Robot, load: &Load, deflection: &Deflection) -> Self {
+        let Deflection { lengths, unloaded, loaded } = deflection;
+        let frequency = || DirectProblem::new(robot, lengths, load)?.lowest_frequency(&loaded.equilibrium);
+        Self {
+            displacement: deflection.displacement(),
+            tensions: [unloaded, loaded].map(|solution| solution.equilibrium.end_tensions(robot, lengths)),
+            residuals: [unloaded, loaded].map(|solution| solution.report.residual),
+            least_stiffness: loaded.stability.least_stiffness(),
+            lowest_frequency: frequency().ok(),
+            slack: loaded.report.slack.clone(),
+            scalar: Some(ScalarReason::OneByOne),
+        }
+    }
+}
+
+/// What `load` does at every pose that the inverse model answered without it, the lengths kept: the figures
+/// of [`deflection_from`].
+///
+/// Robots with six free motions and a cable for each of them, over pulleys with vertical axes or none, are
+/// answered in the lanes of the vector unit unless the load has a moment. No answer depends on the others.
+///
+/// # Errors
+/// Those of [`deflection_from`], for each pose.
+pub fn loaded_poses(
+    robot: &Robot,
+    wanted: &[&InverseSolution],
+    load: &Load,
+) -> Vec<Result<LoadedPose, StaticsError>> {
+    let reason = ScalarReason::of_all(robot, load).or(load.validate().err().map(|_| ScalarReason::OneByOne));
+    let found = match (reason, PlacedRobot::of(robot)) {
+        (None, Some(placed)) => dispatch(Batch { placed: &placed, wanted, load }),
+        (reason, _) => vec![Err(reason.unwrap_or(ScalarReason::OneByOne)); wanted.len()],
+    };
+    let alone = |wanted: &InverseSolution, why| {
+        let deflection = deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?;
+        Ok(LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, load, &deflection) })
+    };
+    wanted.iter().zip(found).map(|(wanted, found)| found.or_else(|why| alone(wanted, why))).collect()
+}
+
+/// Poses for the lanes.
+struct Batch<'a> {
+    placed: &'a PlacedRobot<'a>,
+    wanted: &'a [&'a InverseSolution],
+    load: &'a Load,
+}
+
+impl WithSimd for Batch<'_> {
+    type Output = Vec<Result<LoadedPose, ScalarReason>>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Self { placed, wanted, load } = self;
+        let mut found = Vec::with_capacity(wanted.len());
+        for wanted in wanted.chunks(Lanes::<S>::COUNT) {
+            InLanes { simd, placed, wanted, load }.answer(&mut found);
+        }
+        found
+    }
+}
+
+/// Poses, one for each lane; lanes without a pose of their own repeat the last one.
+struct InLanes<'a, S> {
+    simd: S,
+    placed: &'a PlacedRobot<'a>,
+    wanted: &'a [&'a InverseSolution],
+    load: &'a Load,
+}
+
+/// An equilibrium in each lane.
+struct Settled<S: Simd> {
+    found: Mask<S>,
+    residual: LaneResidual<S>,
+    /// Of each cable at the platform and at its exit.
+    tensions: SmallVec<[[Lanes<S>; 2]; 8]>,
+}
+
+/// The stiffness at an equilibrium, in numbers.
+struct Figures<S: Simd> {
+    /// Whether it is positive definite.
+    stable: Mask<S>,
+    /// Its least eigenvalue in (dp, ℓ dφ) [N/m].
+    least_stiffness: Lanes<S>,
+    /// (2π f)² of the lowest natural frequency [1/s²], with the lanes whose mass matrix is positive definite;
+    /// `None` without an inertia.
+    square: Option<(Lanes<S>, Mask<S>)>,
+}
+
+impl<S: Simd> InLanes<'_, S> {
+    #[inline(always)]
+    fn answer(&self, answers: &mut Vec<Result<LoadedPose, ScalarReason>>) {
+        let Self { placed, load, .. } = *self;
+        let (mut robots, zero) = (self.wound(), self.all(0.0));
+        let everywhere = zero.less_or_equal(zero);
+        let mut platform = LinearizedPlatform::new(zero, robots.cables.len());
+        if robots.cables.iter().any(|cable| cable.guided.is_some()) {
+            platform.free = vec![FreeLength::fixed(zero); robots.cables.len()];
+        }
+        let mut carried = PlatformLoad { weight: robots.weight, force: [zero; 3] };
+        robots.linearise(&carried, &mut platform, everywhere);
+        let unloaded = self.settled(&mut robots, &mut platform, &carried, everywhere);
+        let stood = robots.position;
+        let mut loaded = None;
+        if *load != Load::none() {
+            let force = placed.to_level(load.wrench.force);
+            let added = PlatformLoad {
+                weight: self.all(load.payload * placed.robot.gravity.magnitude()),
+                force: three!(|k| self.all(force[k])),
+            };
+            // The first step follows the linearisation at hand.
+            let wrench = added.wrench(&robots.center);
+            platform.gradient = six!(|k| platform.gradient[k] - wrench[k]);
+            carried = PlatformLoad { weight: carried.weight + added.weight, force: added.force };
+            loaded = Some(self.settled(&mut robots, &mut platform, &carried, unloaded.found));
+        }
+        let displacement = three!(|k| robots.position[k] - stood[k]);
+        let figures = self.figures(&robots, &mut platform, &carried);
+        self.read(
+            &robots,
+            &displacement,
+            (&unloaded, loaded.as_ref().unwrap_or(&unloaded)),
+            &figures,
+            answers,
+        );
+    }
+
+    #[inline(always)]
+    fn all(&self, value: f64) -> Lanes<S> {
+        Lanes::splat(self.simd, value)
+    }
+
+    /// The robot with its cables as the inverse model wound them.
+    #[inline(always)]
+    fn wound(&self) -> Robots<'_, S> {
+        let Self { simd, placed, wanted, .. } = *self;
+        let poses: SmallVec<[&Pose; MAX_LANES]> =
+            wanted.iter().map(|wanted| &wanted.equilibrium.pose).collect();
+        let (mut robots, frame) = placed.at(simd, &poses);
+        robots.frame.extend(frame);
+        for (i, cable) in robots.cables.iter_mut().enumerate() {
+            let length = each(simd, wanted, &|wanted| wanted.lengths[i]);
+            cable.force = [
+                each(simd, wanted, &|wanted| wanted.equilibrium.cable_forces[i].x),
+                each(simd, wanted, &|wanted| wanted.equilibrium.cable_forces[i].y),
+            ];
+            cable.length = match &mut cable.guided {
+                None => length,
+                Some(guided) => {
+                    guided.whole_length = length;
+                    each(simd, wanted, &|wanted| free_length(placed.robot, i, wanted))
+                }
+            };
+        }
+        robots
+    }
+
+    /// Newton's method from a linearisation, in the lanes `alive`.
+    #[inline(always)]
+    fn settled(
+        &self,
+        robots: &mut Robots<'_, S>,
+        platform: &mut LinearizedPlatform<S>,
+        carried: &PlatformLoad<S>,
+        alive: Mask<S>,
+    ) -> Settled<S> {
+        let (found, residual) = robots.settle(carried, platform, &self.placed.scale, alive);
+        let mut tensions = SmallVec::new();
+        for cable in &robots.cables {
+            let [fx, fz] = cable.force;
+            let exit = fz - cable.weight_per_length * cable.length;
+            tensions.push([(fx * fx + fz * fz).sqrt(), (fx * fx + exit * exit).sqrt()]);
+        }
+        Settled { found, residual, tensions }
+    }
+
+    /// Stability and softest motions of the equilibrium at hand.
+    #[inline(always)]
+    fn figures(
+        &self,
+        robots: &Robots<'_, S>,
+        platform: &mut LinearizedPlatform<S>,
+        carried: &PlatformLoad<S>,
+    ) -> Figures<S> {
+        let robot = self.placed.robot;
+        let mut longest = self.all(0.0);
+        for cable in &robots.cables {
+            longest = longest.max(cable.guided.as_ref().map_or(cable.length, |guided| guided.whole_length));
+        }
+        let arm = (longest * 1e-3).max(self.all(robot.platform_size()));
+        let stiffness = robots.stiffness(carried, platform);
+        let inverse = arm.recip();
+        let mut scaled = stiffness;
+        for row in 0..6 {
+            for column in row.max(3)..6 {
+                scaled[row][column] = scaled[row][column] * inverse;
+                if row >= 3 {
+                    scaled[row][column] = scaled[row][column] * inverse;
+                }
+            }
+        }
+        let stable = SymmetricFactors::new(scaled).positive;
+        let square = robot.platform.inertia.map(|inertia| {
+            let mass = SymmetricFactors::new(self.mass_matrix(robots, &inertia));
+            (least_eigenvalue(mass.reduced(&stiffness)), mass.positive)
+        });
+        Figures { stable, least_stiffness: least_eigenvalue(scaled), square }
+    }
+
+    /// M of (V1) with the payload at the centre of mass [kg, kg m, kg m²], its upper triangle.
+    #[inline(always)]
+    fn mass_matrix(&self, robots: &Robots<'_, S>, inertia: &Matrix3<f64>) -> Lanes6x6<S> {
+        let (zero, mass) = (self.all(0.0), self.placed.robot.platform.mass + self.load.payload);
+        let [x, y, z] = robots.center;
+        let [mx, my, mz] = three!(|k| robots.center[k] * mass);
+        let m = self.all(mass);
+        let mut matrix = [[zero; 6]; 6];
+        (matrix[0][0], matrix[1][1], matrix[2][2]) = (m, m, m);
+        (matrix[0][4], matrix[0][5]) = (mz, -my);
+        (matrix[1][3], matrix[1][5]) = (-mz, mx);
+        (matrix[2][3], matrix[2][4]) = (my, -mx);
+        (matrix[3][3], matrix[4][4], matrix[5][5]) = (my * y + mz * z, mx * x + mz * z, mx * x + my * y);
+        (matrix[3][4], matrix[3][5], matrix[4][5]) = (-(mx * y), -(mx * z), -(my * z));
+        // R J_c Rᵀ
+        for (j, first) in robots.frame.iter().enumerate() {
+            for (k, second) in robots.frame.iter().enumerate() {
+                for row in 0..3 {
+                    for column in row..3 {
+                        matrix[3 + row][3 + column] += first[row] * second[column] * inertia[(j, k)];
+                    }
+                }
+            }
+        }
+        matrix
+    }
+
+    /// The answer of each lane, or the first link that failed; without a load the second equilibrium is the
+    /// first.
+    #[inline(always)]
+    fn read(
+        &self,
+        robots: &Robots<'_, S>,
+        displacement: &Lanes3<S>,
+        (unloaded, loaded): (&Settled<S>, &Settled<S>),
+        figures: &Figures<S>,
+        answers: &mut Vec<Result<LoadedPose, ScalarReason>>,
+    ) {
+        let Self { placed: PlacedRobot { robot, .. }, wanted, .. } = *self;
+        let stands = unloaded.found.to_array();
+        let carries = (loaded.found & figures.stable).to_array();
+        let displacement = three!(|k| displacement[k].to_array());
+        let least_stiffness = figures.least_stiffness.to_array();
+        let square = figures.square.map(|(square, positive)| (square.to_array(), positive.to_array()));
+        let residuals = [unloaded.residual.norms(), loaded.residual.norms()];
+        let tensions = [&unloaded.tensions, &loaded.tensions].map(|settled| {
+            let arrays = settled.iter().map(|[one, other]| [one.to_array(), other.to_array()]);
+            arrays.collect::<SmallVec<[_; 8]>>()
+        });
+        let spans: SmallVec<[_; 8]> =
+            robots.cables.iter().map(|cable| cable.span(&robots.position).end.map(Lanes::to_array)).collect();
+        for (lane, wanted) in wanted.iter().enumerate() {
+            if !(stands[lane] && carries[lane]) {
+                answers.push(Err(if stands[lane] { ScalarReason::Loaded } else { ScalarReason::Unloaded }));
+                continue;
+            }
+            let is_slack = |i: &usize| {
+                let [h, z] = spans[*i].map(|of| of[lane]);
+                let cable = robot.cable(*i);
+                let at_rest = wanted.lengths[*i] * (1.0 + cable.strain(0.0));
+                at_rest >= cable.straight_length(Vector2::new(h, z))
+            };
+            let of_lane = |ends: &[[f64; MAX_LANES]; 2]| ends.map(|of| of[lane]);
+            answers.push(Ok(LoadedPose {
+                displacement: self.placed.to_base(Vector3::from_fn(|k, _| displacement[k][lane])),
+                tensions: [0, 1].map(|k: usize| tensions[k].iter().map(of_lane).collect()),
+                residuals: residuals.map(|residuals| residuals[lane]),
+                least_stiffness: least_stiffness[lane],
+                lowest_frequency: square
+                    .filter(|(_, positive)| positive[lane])
+                    .map(|(square, _)| square[lane].max(0.0).sqrt() / TAU),
+                slack: (0..robot.cables.len()).filter(is_slack).collect(),
+                scalar: None,
+            }));
+        }
+    }
+}
+
+/// Unstrained length beyond the leave point of a cable over a guide [m].
+fn free_length(robot: &Robot, i: usize, wanted: &InverseSolution) -> f64 {
+    let (unstrained_length, force) = (wanted.lengths[i], wanted.equilibrium.cable_forces[i]);
+    Catenary { cable: robot.cable(i), unstrained_length, force }.free().unstrained_length
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inverse::inverse;
+    use crate::lanes::simd::Scalar;
+
+    #[test]
+    fn neither_vector_unit_nor_neighbours_change_a_bit_of_a_pose() {
+        let mut robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json")).unwrap();
+        robot.cables[3].lead = 2.0;
+        let load = Load::payload(50.0);
+        let pose = |k| Pose::at(0.4 * f64::from(k) - 4.0, 0.4, 1.6);
+        let wanted: Vec<_> =
+            (0..21).map(|k| inverse(&robot, &pose(k), &Load::none(), None).unwrap()).collect();
+        let wanted: Vec<_> = wanted.iter().collect();
+        let placed = PlacedRobot::of(&robot).unwrap();
+        let batch = |wanted| Batch { placed: &placed, wanted, load: &load };
+        let scalar = batch(&wanted[..]).with_simd(Scalar);
+        assert_eq!(scalar, dispatch(batch(&wanted[..])));
+        assert_eq!(scalar[3..], dispatch(batch(&wanted[3..])));
+        assert!(scalar.iter().filter(|found| found.is_ok()).count() > 15);
+    }
+
+    #[test]
+    fn a_moment_is_left_to_the_scalar_models() {
+        let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap();
+        let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
+        let moment = Load::wrench(cdpr_robot::Wrench { force: Vector3::zeros(), moment: Vector3::z() });
+        let found = loaded_poses(&robot, &[&wanted], &moment).remove(0).unwrap();
+        assert_eq!(found.scalar, Some(ScalarReason::Moment));
+        let none = loaded_poses(&robot, &[&wanted], &Load::none()).remove(0).unwrap();
+        assert_eq!((none.scalar, none.displacement), (None, Vector3::zeros()));
+    }
+}

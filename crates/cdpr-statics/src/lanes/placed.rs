@@ -1,0 +1,120 @@
+//! One robot at several poses, one in each lane, in its level frame.
+
+use crate::lanes::algebra::{Frame, rotated, three};
+use crate::lanes::cable::{Guided, LaneCable};
+use crate::lanes::newton::{Layout, Robots, Scale};
+use crate::lanes::reason::ScalarReason;
+use crate::lanes::simd::{Lanes, MAX_LANES, Simd};
+use crate::state::{Load, rounding_of_closure};
+use cdpr_cable::PiecewiseLaw;
+use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
+use cdpr_robot::{Matrix3, Pose, Robot, RobotCable, Vector3, Vector6};
+use smallvec::SmallVec;
+
+/// Segments of the elastic law of each cable; none of a linear one.
+pub(crate) fn laws(robot: &Robot) -> Vec<Vec<LaneSegment>> {
+    let law = |cable: &RobotCable| cable.properties.law.as_ref().map(PiecewiseLaw::lane_segments);
+    robot.cables.iter().map(|cable| law(cable).unwrap_or_default()).collect()
+}
+
+/// A robot whose poses fill the lanes.
+pub(crate) struct PlacedRobot<'a> {
+    pub(crate) robot: &'a Robot,
+    laws: Vec<Vec<LaneSegment>>,
+    /// Lengths that positions are compared with, at any pose.
+    pub(crate) scale: Scale,
+}
+
+impl<'a> PlacedRobot<'a> {
+    /// `None` for a robot that is not one for the lanes.
+    pub(crate) fn of(robot: &'a Robot) -> Option<Self> {
+        if ScalarReason::of_all(robot, &Load::none()).is_some() {
+            return None;
+        }
+        let exits = || robot.cables.iter().map(|cable| cable.exit_point);
+        let size = exits().map(|b| exits().map(|c| (b - c).norm()).fold(0.0, f64::max)).fold(0.0, f64::max);
+        let farthest = exits().map(|exit| exit.norm()).fold(0.0, f64::max);
+        let scale = Scale {
+            size,
+            characteristic_length: robot.platform_size().max(1e-3 * size),
+            // Of two cables that begin as far apart one has half of this length. The last steps keep their
+            // stiffness, and those of slack cables end at the bound: a fifth of it.
+            rounding: rounding_of_closure(0.1 * size, farthest),
+        };
+        Some(Self { robot, laws: laws(robot), scale })
+    }
+
+    /// Components in the level frame of a vector in the base frame.
+    pub(crate) fn to_level(&self, v: Vector3<f64>) -> Vector3<f64> {
+        self.robot.gravity.level().map_or(v, |level| level * v)
+    }
+
+    /// Components in the base frame of a vector in the level frame.
+    pub(crate) fn to_base(&self, v: Vector3<f64>) -> Vector3<f64> {
+        self.robot.gravity.level().map_or(v, |level| level.tr_mul(&v))
+    }
+
+    /// A wrench or a twist after `turn`.
+    pub(crate) fn both(
+        &self,
+        turn: fn(&Self, Vector3<f64>) -> Vector3<f64>,
+        v: &Vector6<f64>,
+    ) -> Vector6<f64> {
+        let [first, second] = [0, 3].map(|row| turn(self, v.fixed_rows::<3>(row).into()));
+        Vector6::new(first.x, first.y, first.z, second.x, second.y, second.z)
+    }
+
+    /// The robot at poses, lane by lane, with the columns of its platform frames; its cables have neither
+    /// force nor length yet. Lanes without a pose of their own repeat the last one.
+    #[inline(always)]
+    pub(crate) fn at<S: Simd>(&self, simd: S, poses: &[&Pose]) -> (Robots<'_, S>, Frame<S>) {
+        let Self { robot, ref laws, .. } = *self;
+        let all = |value: f64| Lanes::splat(simd, value);
+        let point = |v: Vector3<f64>| three!(|k| all(v[k]));
+        let mut positions = [Vector3::zeros(); MAX_LANES];
+        let mut rotations = [Matrix3::zeros(); MAX_LANES];
+        for (lane, (position, rotation)) in positions.iter_mut().zip(&mut rotations).enumerate() {
+            let pose = poses[lane.min(poses.len() - 1)];
+            *position = self.to_level(pose.position);
+            let turned = pose.rotation.matrix();
+            *rotation = robot.gravity.level().map_or(*turned, |level| level * turned);
+        }
+        let frame =
+            three!(|column| three!(|row| Lanes::from_fn(simd, |lane| rotations[lane][(row, column)])));
+        let gravity = robot.gravity.magnitude();
+        let mut robots = Robots {
+            layout: Layout::Robots,
+            cables: SmallVec::with_capacity(robot.cables.len()),
+            position: three!(|k| Lanes::from_fn(simd, |lane| positions[lane][k])),
+            center: rotated(&frame, &point(robot.platform.center_of_mass)),
+            frame: SmallVec::new(),
+            weight: all(robot.platform.mass * gravity),
+        };
+        for (i, cable) in robot.cables.iter().enumerate() {
+            let properties = &cable.properties;
+            let guide = cable.guide(robot.gravity.level()).map(|guide| LaneGuide {
+                lead: all(guide.lead),
+                radius: all(guide.radius),
+                signed_radius: all(guide.radius * guide.entry.axis()[2]),
+            });
+            robots.cables.push(LaneCable {
+                law: &laws[i],
+                weight_per_length: all(properties.linear_density * gravity),
+                axial_flexibility: all(properties.axial_stiffness()).recip(),
+                exit_point: point(self.to_level(cable.exit_point)),
+                anchor_arm: rotated(&frame, &point(cable.anchor_point)),
+                length: all(0.0),
+                force: [all(0.0); 2],
+                guided: guide.map(|guide| Box::new(Guided { guide, whole_length: all(0.0) })),
+            });
+        }
+        (robots, frame)
+    }
+}
+
+/// A number of each lane; lanes without one of their own repeat the last one.
+#[inline(always)]
+pub(crate) fn each<S: Simd, T>(simd: S, items: &[T], value: &dyn Fn(&T) -> f64) -> Lanes<S> {
+    let last = items.len() - 1;
+    Lanes::from_fn(simd, |lane| value(&items[lane.min(last)]))
+}
