@@ -5,6 +5,7 @@ mod adjoint;
 mod algebra;
 mod cable;
 mod chain;
+mod free;
 mod held;
 mod level;
 mod limits;

@@ -33,7 +33,8 @@ use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
 use crate::inverse::NEARLY_ROUNDING;
 use crate::lanes::algebra::{Lanes3, Lanes6, halves, replace, six, three};
-use crate::lanes::cable::{FreeLength, LaneCable};
+use crate::lanes::cable::LaneCable;
+use crate::lanes::free::{FreeMotion, rest};
 use crate::lanes::held::HeldCable;
 use crate::lanes::limits::limits_at;
 use crate::lanes::minimum::is_least;
@@ -41,7 +42,7 @@ use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, Pla
 use crate::lanes::program::{Row, newton, within_limits};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::{FOLDED, Field};
-use cdpr_robot::{CableEnd, TensionLimits};
+use cdpr_robot::{CableEnd, Robot, TensionLimits};
 
 /// Robots at their wanted pose.
 pub(crate) struct ChainStart<'a, S: Simd> {
@@ -52,6 +53,8 @@ pub(crate) struct ChainStart<'a, S: Simd> {
     pub(crate) multipliers: Lanes6<S>,
     /// Weight of the payload, and the force of the load at P.
     pub(crate) payload: PlatformLoad<S>,
+    /// The free coordinates of robots with fewer cables than motions; mostly none.
+    pub(crate) free: Vec<FreeMotion<S>>,
 }
 
 /// The tensions that a cable may have, and the one that is preferred.
@@ -63,8 +66,19 @@ pub(crate) struct Choice {
     pub(crate) limits: TensionLimits,
     /// Where the greatest tension is limited.
     pub(crate) max_at: CableEnd,
+    /// The lesser one of the greatest tension and the breaking force [N].
+    pub(crate) bearable: f64,
     /// The shape that the nominal robot gives it.
     pub(crate) shape: Shape,
+}
+
+impl Choice {
+    /// What cable `i` of a robot may have.
+    pub(crate) fn new(robot: &Robot, i: usize, reference: f64, shape: Shape) -> Self {
+        let limits = robot.limits(i);
+        let breaking_force = robot.cables[i].properties.breaking_force.unwrap_or(f64::MAX);
+        Self { reference, limits, max_at: robot.max_at(i), bearable: breaking_force.min(limits.max), shape }
+    }
 }
 
 /// What a cable that is nearly a parabola keeps when its ends move; of a guided one, its part beyond the
@@ -116,7 +130,7 @@ const LAST_OWN_CHANGE: f64 = 1e-6;
 
 /// The same for tensions that are still to be offset: their error then changes no position by more than 1e-12
 /// m.
-const LAST_DISTRIBUTION: f64 = 1e-9;
+pub(crate) const LAST_DISTRIBUTION: f64 = 1e-9;
 
 /// Step of a cable that sags, relative to its horizontal force, from which on the point that it leads to is
 /// compared with others. Without the comparison 14 of 15 040 rows of random robots in `tests/any_lanes.rs`
@@ -131,7 +145,7 @@ pub(crate) const SAGGING: f64 = 0.02;
 const LEAST_CURVATURE: f64 = 0.01;
 
 /// Iterations for the tensions, whose limits may change on the way.
-const MAX_DISTRIBUTIONS: usize = 20;
+pub(crate) const MAX_DISTRIBUTIONS: usize = 20;
 
 /// What is kept of the links of a chain.
 pub(crate) trait Keep<'a, S: Simd> {
@@ -157,7 +171,7 @@ pub(crate) fn observe<'a, S: Simd>(
     shared: &Shared,
     keep: &mut impl Keep<'a, S>,
 ) -> Outcome<S> {
-    let ChainStart { mut robots, offsets, multipliers, payload } = begin;
+    let ChainStart { mut robots, offsets, multipliers, payload, mut free } = begin;
     let robots = &mut robots;
     let zero = robots.weight.all(0.0);
     let mut spans = Vec::with_capacity(robots.cables.len());
@@ -179,8 +193,10 @@ pub(crate) fn observe<'a, S: Simd>(
     let mut set_points = offsets;
     let mut multipliers = multipliers;
     let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
-    let (converged, sound) =
-        distribute(robots, &weight, &mut multipliers, &mut set_points, &spans, shared, keep);
+    let (converged, sound) = match free.is_empty() {
+        true => distribute(robots, &weight, &mut multipliers, &mut set_points, &spans, shared, keep),
+        false => rest(robots, &mut free, &mut set_points, &mut spans, shared),
+    };
     let mut platform = LinearizedPlatform::new(zero, spans.len());
     let held = hold(robots, &mut platform, &set_points, &spans, shared);
     keep.state(robots);
@@ -353,9 +369,7 @@ pub(crate) fn hold<S: Simd>(
     let zero = robots.weight.all(0.0);
     let compared = [shared.tension, shared.scale.size];
     let mut all = zero.less_or_equal(zero);
-    if robots.cables.iter().any(|cable| cable.guided.is_some()) {
-        platform.free = vec![FreeLength::fixed(zero); spans.len()];
-    }
+    platform.follow_guides(robots);
     let cables = robots.cables.iter_mut().zip(&mut platform.cables);
     for (i, ((span, set_point), (cable, linearized))) in spans.iter().zip(set_points).zip(cables).enumerate()
     {

@@ -105,17 +105,15 @@ impl<'a> Setting<'a> {
     fn of(robot: &'a Robot, load: &'a Load) -> Option<Self> {
         let guided = robot.cables.iter().any(|cable| cable.guide(None).is_some());
         // A moment of the load matters to the stability alone.
-        if guided || ScalarReason::of_all(robot, &Load::none()).is_some() || robot.gravity.level().is_some() {
+        if guided
+            || ScalarReason::of_all(robot, &Load::none(), &[]).is_some()
+            || robot.gravity.level().is_some()
+        {
             return None;
         }
         let reference = robot.reference();
         let nowhere = Shape { tangent: [0.0; 2], chord_force: 0.0, sag_force: 0.0, longer: 0.0 };
-        let choice = |(i, reference): (usize, &f64)| Choice {
-            reference: *reference,
-            limits: robot.limits(i),
-            max_at: robot.max_at(i),
-            shape: nowhere,
-        };
+        let choice = |(i, reference): (usize, &f64)| Choice::new(robot, i, *reference, nowhere);
         let choices: Vec<_> = reference.iter().enumerate().map(choice).collect();
         let law = |cable: &RobotCable| cable.properties.law.as_ref().map(PiecewiseLaw::lane_segments);
         let exits = || robot.cables.iter().map(|cable| cable.exit_point);
@@ -220,7 +218,9 @@ impl<'a> Setting<'a> {
 
 impl Near {
     fn of(robot: &Robot, pose: &Pose, solution: &InverseSolution) -> Self {
-        let shapes = (0..robot.cables.len()).map(|i| shape(robot, pose, i, solution)).collect();
+        let shapes = (0..robot.cables.len())
+            .map(|i| shape(robot, i, solution.lengths[i], &solution.equilibrium))
+            .collect();
         Self { position: pose.position, shapes, multipliers: solution.multipliers }
     }
 }
