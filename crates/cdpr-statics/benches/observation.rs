@@ -1,11 +1,12 @@
 //! Observations of perturbed robots: one by the scalar chain, many in the lanes of the vector unit, over
-//! their number and over the number of cables, without and with the derivatives by all parameters.
+//! their number and over the number of cables, without and with the derivatives by all parameters; and of
+//! robots with free coordinates.
 
 #![allow(clippy::unwrap_used)]
 
 mod problems;
 
-use cdpr_robot::{Parameter, Pose, Pulley, Robot, Vector3};
+use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Vector3};
 use cdpr_statics::{Load, Observer};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use problems::common::robots;
@@ -107,7 +108,28 @@ fn observation(criterion: &mut Criterion) {
             b.iter(|| counted(|| observer.observe_all_slopes(black_box(&rows))));
         });
     }
+    for (robot, pose, free) in on_four_cables() {
+        let load = Load::payload(0.1 * robot.platform.mass);
+        let observer = Observer::with_free(&robot, &pose, &load, &free).unwrap();
+        let rows: Vec<f64> = shares(&robot, BATCH).iter().map(|deviation| 0.1 * deviation).collect();
+        let found = observer.observe_all(&rows);
+        assert!(found.iter().all(|found| found.as_ref().unwrap().scalar.is_none()), "{}", robot.name);
+        group.bench_function(BenchmarkId::new("free", &robot.name), |b| {
+            b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
+        });
+    }
     group.finish();
+}
+
+/// Robots whose four cables leave roll and pitch free, without pulleys.
+fn on_four_cables() -> [(Robot, Pose, [Coordinate; 2]); 2] {
+    let [_, (mut cogiro, at), ..] = robots();
+    cogiro.cables = [0, 2, 4, 6].map(|i| cogiro.cables[i].clone()).to_vec();
+    cogiro.name += ", four cables";
+    let mut grab = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
+    grab.cables.iter_mut().for_each(|cable| cable.pulley = None);
+    let free = [Coordinate::Roll, Coordinate::Pitch];
+    [(cogiro, at, free), (grab, Pose::at(1.2, -0.2, -0.3), free)]
 }
 
 criterion_group! {

@@ -44,6 +44,7 @@ use cdpr_cable::Catenary;
 use cdpr_robot::{Pose, Robot, Vector6};
 use cdpr_tension::Bound;
 use feasible::{holds, search};
+pub(crate) use free::{BESIDE, FreeBranch};
 pub use free::{FreeSolution, FreeSolutions, held_at, inverse_free};
 pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub(crate) use in_turn::InTurn;

@@ -6,6 +6,7 @@ mod algebra;
 mod cable;
 mod chain;
 mod eigen;
+mod free;
 mod held;
 mod level;
 mod limits;
@@ -17,6 +18,7 @@ mod placed;
 mod poses;
 mod program;
 mod reason;
+mod shared;
 mod simd;
 mod tracker;
 

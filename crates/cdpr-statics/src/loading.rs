@@ -9,7 +9,9 @@ mod stiffness;
 pub use deflection::{
     Deflection, PoseDeflections, deflection, deflection_free, deflection_from, deflections, wound_lengths,
 };
-pub(crate) use deflection::{Wound, deflection_near, wind, wind_free, wind_from, wind_near};
+pub(crate) use deflection::{
+    Wound, deflection_beside, deflection_near, wind, wind_free, wind_from, wind_near,
+};
 pub use follow::follow;
 pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 pub use modes::{NaturalMode, PoseModes, modes_at};

@@ -19,6 +19,7 @@ mod hysteresis;
 mod inverse;
 mod models;
 mod modes;
+mod observation_free;
 mod observation_motions;
 mod observation_slopes;
 mod observer;

@@ -4,7 +4,7 @@ use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answe
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::{Parameter, Vector3};
-use cdpr_statics::{Load, Observer, StaticsError, deflection_free, held_at};
+use cdpr_statics::{Observer, StaticsError};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
@@ -39,8 +39,7 @@ impl Robot {
     /// deviations: deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
     /// payload, force, moment: one load for all, as in `deflection`.
     /// free: names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
-    ///     one with fewer cables than free motions; deviating robots are wound for the pose that it finds,
-    ///     one at a time.
+    ///     one with fewer cables than free motions; deviating robots are wound for the pose that it finds.
     ///
     /// Raises InputError; for one robot NoSolutionError.
     #[pyo3(signature = (pose, deviations, *, payload=None, force=None, moment=None, free=None))]
@@ -73,25 +72,14 @@ impl Robot {
         }
         let cases = Cases::of(&[&rows])?;
         let (wanted, load) = (pose.pose(0)?, loads.load(0)?);
-        let lanes = Observer::new(&self.robot, &wanted, &load)?;
-        let found = match &free[..] {
-            [] => wanted,
-            _ => held_at(&self.robot, &wanted, &Load::none(), &free)?.equilibrium.pose,
-        };
-        let alone = |row: &[f64]| {
-            let moved = self.robot.perturbed(row)?;
-            let deflection = deflection_free(&moved.robot, &found, &moved.tension_offsets, &load, &free)?;
-            Ok(deflection.displacement())
-        };
+        let lanes = Observer::with_free(&self.robot, &wanted, &load, &free)?;
         let outcomes = run(py, |stop| {
             let part = |part: &[f64]| -> Vec<Result<Vector3<f64>, StaticsError>> {
                 if stop.load(Ordering::Relaxed) {
                     Vec::new()
-                } else if free.is_empty() {
+                } else {
                     let observed = lanes.observe_all(part).into_iter();
                     observed.map(|robot| robot.map(|robot| robot.displacement)).collect()
-                } else {
-                    part.chunks(parameters).map(alone).collect()
                 }
             };
             rows.all().par_chunks(PART * parameters).flat_map_iter(part).collect::<Vec<_>>()

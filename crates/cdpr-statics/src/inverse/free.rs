@@ -16,6 +16,8 @@
 //! and from others that fill two boxes around them evenly. Each is an equilibrium for its lengths, and the
 //! stiffness with these lengths held says whether it is stable.
 
+mod nearby;
+
 use super::feasible::straight;
 use super::held::{Row, Strand};
 use super::question::Question;
@@ -27,6 +29,7 @@ use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
 use cdpr_robot::{Coordinate, Plane, Pose, Robot, Rotation3, Vector3, Vector6};
 use nalgebra::{DMatrix, DVector};
+pub(crate) use nearby::FreeBranch;
 
 /// Lengths with which the platform rests where some coordinates are those of a wanted pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,7 +140,7 @@ const SAME: f64 = 1e-7;
 
 /// A stable solution nearer to the given pose than this, in radians and relative to the longest span, is
 /// taken for the nearest.
-const BESIDE: f64 = 0.03;
+pub(crate) const BESIDE: f64 = 0.03;
 
 /// Half of a difference of an angle [rad], or of a position relative to the longest span.
 const DIFFERENCE: f64 = 1e-5;
@@ -326,8 +329,14 @@ impl<'a> Search<'a> {
     /// The solution that the search leads to from the given coordinates, if it is stable, within the limits
     /// of tension and so close that no other needs to be looked for.
     fn beside(&self) -> Result<Option<FreeSolution>, StaticsError> {
-        let Question { robot, pose, load, .. } = self.question;
         let Outcome::Found(point, iterations) = self.descend(self.start(0)) else { return Ok(None) };
+        self.accepted(point, iterations)
+    }
+
+    /// A solution, if it is stable, within the limits of tension and so close to the given coordinates that
+    /// no other needs to be looked for.
+    fn accepted(&self, point: Point, iterations: usize) -> Result<Option<FreeSolution>, StaticsError> {
+        let Question { robot, pose, load, .. } = self.question;
         let HeldPose { lengths, equilibrium } = point.held;
         if self.distance(pose, &equilibrium.pose) > BESIDE {
             return Ok(None);

@@ -26,9 +26,10 @@ use crate::equations::vector::{cross, dot, wrench};
 use crate::lanes::adjoint::cable::{Answer, CableSlopes, TensionSlopes, torque};
 use crate::lanes::algebra::{Lanes3, Lanes6, SymmetricFactors, halves, replace, six, three};
 use crate::lanes::cable::LaneCable;
-use crate::lanes::chain::{Keep, Shared};
+use crate::lanes::chain::Keep;
 use crate::lanes::limits::plain_limits_at;
 use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots};
+use crate::lanes::shared::Shared;
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::Field;
 

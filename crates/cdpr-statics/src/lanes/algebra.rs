@@ -1,6 +1,6 @@
 //! Vectors and systems of six equations in lanes.
 
-use crate::equations::vector::wrench;
+use crate::equations::vector::{dot, wrench};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::Field;
 
@@ -138,6 +138,38 @@ impl<S: Simd> SymmetricFactors<S> {
         }
         rows
     }
+}
+
+/// The solution of six equations whose matrix has the columns `columns`, by orthogonalisation: it needs no
+/// choice of pivots, which lanes cannot make.
+// Indices as in the formula.
+#[allow(clippy::needless_range_loop)]
+#[inline(always)]
+pub(crate) fn solve_columns<S: Simd>(columns: &Lanes6x6<S>, right: &Lanes6<S>) -> Lanes6<S> {
+    let (mut columns, mut right) = (*columns, *right);
+    let mut upper = columns;
+    let mut x = right;
+    for k in 0..6 {
+        let column = columns[k];
+        let inverse = dot(&column, &column).recip();
+        for later in k + 1..6 {
+            let share = dot(&column, &columns[later]) * inverse;
+            upper[k][later] = share;
+            for row in 0..6 {
+                columns[later][row] -= column[row] * share;
+            }
+        }
+        x[k] = dot(&column, &right) * inverse;
+        for row in 0..6 {
+            right[row] -= column[row] * x[k];
+        }
+    }
+    for k in (0..6).rev() {
+        for later in k + 1..6 {
+            x[k] -= upper[k][later] * x[later];
+        }
+    }
+    x
 }
 
 /// The columns of a frame.

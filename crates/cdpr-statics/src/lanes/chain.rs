@@ -33,15 +33,16 @@ use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
 use crate::inverse::NEARLY_ROUNDING;
 use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, halves, replace, six, three};
-use crate::lanes::cable::{FreeLength, LaneCable, Shape};
+use crate::lanes::cable::{FreeLength, LaneCable};
+use crate::lanes::free::{FreeMotion, rest};
 use crate::lanes::held::HeldCable;
 use crate::lanes::limits::limits_at;
 use crate::lanes::minimum::is_least;
-use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots, Scale};
+use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots};
 use crate::lanes::program::{Row, newton, within_limits};
+use crate::lanes::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::{FOLDED, Field};
-use cdpr_robot::{CableEnd, TensionLimits};
 
 /// Robots at their wanted pose.
 pub(crate) struct ChainStart<'a, S: Simd> {
@@ -52,32 +53,8 @@ pub(crate) struct ChainStart<'a, S: Simd> {
     pub(crate) multipliers: Lanes6<S>,
     /// Weight of the payload, and the force of the load at P.
     pub(crate) payload: PlatformLoad<S>,
-}
-
-/// The tensions that a cable may have, and the one that is preferred.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Choice {
-    /// r [N].
-    pub(crate) reference: f64,
-    /// Least and greatest tension allowed [N].
-    pub(crate) limits: TensionLimits,
-    /// Where the greatest tension is limited.
-    pub(crate) max_at: CableEnd,
-    /// The shape that the nominal robot gives it.
-    pub(crate) shape: Shape<f64>,
-}
-
-/// What all robots of a batch share.
-#[derive(Clone, Debug)]
-pub(crate) struct Shared {
-    /// For each cable.
-    pub(crate) choices: Vec<Choice>,
-    /// Sum of the tensions that changes are compared with [N].
-    pub(crate) tension: f64,
-    /// Sum of the forces that their balance is compared with [N].
-    pub(crate) forces: f64,
-    /// Lengths that positions are compared with.
-    pub(crate) scale: Scale,
+    /// The free coordinates of robots with fewer cables than motions; mostly none.
+    pub(crate) free: Vec<FreeMotion<S>>,
 }
 
 /// The answer for every robot.
@@ -100,10 +77,6 @@ const LAST_CHANGE: f64 = 1e-7;
 /// sum. What is left of it is of second order: for a cable near its least tension 1e-12 of its length.
 const LAST_OWN_CHANGE: f64 = 1e-6;
 
-/// The same for tensions that are still to be offset: their error then changes no position by more than 1e-12
-/// m.
-const LAST_DISTRIBUTION: f64 = 1e-9;
-
 /// Step of a cable that sags, relative to its horizontal force, from which on the point that it leads to is
 /// compared with others. Without the comparison 14 of 15 040 rows of random robots in `tests/any_lanes.rs`
 /// have another minimum than the scalar models find near the nominal robot (27 000 cases), with it one of
@@ -115,9 +88,6 @@ pub(crate) const SAGGING: f64 = 0.02;
 
 /// Least curvature of a step, relative to that of a straight cable.
 const LEAST_CURVATURE: f64 = 0.01;
-
-/// Iterations for the tensions, whose limits may change on the way.
-const MAX_DISTRIBUTIONS: usize = 20;
 
 /// What is kept of the links of a chain.
 pub(crate) trait Keep<'a, S: Simd> {
@@ -146,7 +116,7 @@ pub(crate) fn observe<'a, S: Simd>(
     shared: &Shared,
     keep: &mut impl Keep<'a, S>,
 ) -> Outcome<S> {
-    let ChainStart { mut robots, offsets, multipliers, payload } = begin;
+    let ChainStart { mut robots, offsets, multipliers, payload, mut free } = begin;
     let robots = &mut robots;
     let zero = robots.weight.all(0.0);
     let mut spans = Vec::with_capacity(robots.cables.len());
@@ -158,8 +128,10 @@ pub(crate) fn observe<'a, S: Simd>(
     let mut set_points = offsets;
     let mut multipliers = multipliers;
     let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
-    let (converged, sound) =
-        distribute(robots, &weight, &mut multipliers, &mut set_points, &spans, shared, keep);
+    let (converged, sound) = match free.is_empty() {
+        true => distribute(robots, &weight, &mut multipliers, &mut set_points, &spans, shared, keep),
+        false => rest(robots, &mut free, &mut set_points, &mut spans, shared),
+    };
     let mut platform = LinearizedPlatform::new(zero, spans.len());
     let held = hold(robots, &mut platform, &set_points, &spans, shared);
     keep.state(robots);
@@ -333,9 +305,7 @@ pub(crate) fn hold<S: Simd>(
     let zero = robots.weight.all(0.0);
     let compared = [shared.tension, shared.scale.size];
     let mut all = zero.less_or_equal(zero);
-    if robots.cables.iter().any(|cable| cable.guided.is_some()) {
-        platform.free = vec![FreeLength::fixed(zero); spans.len()];
-    }
+    platform.follow_guides(robots);
     let cables = robots.cables.iter_mut().zip(&mut platform.cables);
     for (i, ((span, set_point), (cable, linearized))) in spans.iter().zip(set_points).zip(cables).enumerate()
     {

@@ -173,6 +173,37 @@ impl<S: Simd> HeldCable<S> {
     }
 }
 
+/// How a cable at its held ends answers to a motion of its anchor point in its plane, at constant fx.
+#[derive(Clone, Copy)]
+pub(crate) struct EndSlopes<S: Simd> {
+    /// dz by (d_h, d_z) [N/m].
+    pub(crate) rise: Lanes2<S>,
+    /// dL by it.
+    pub(crate) length: Lanes2<S>,
+}
+
+impl<S: Simd> EndSlopes<S> {
+    /// A cable without guide, from its response: the solution of (L1) for any c.
+    #[inline(always)]
+    fn plain(response: &Response<Lanes<S>>) -> Self {
+        let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
+        let inverse = (ex * zz - ez * xz).recip();
+        Self { rise: [-(ez * inverse), ex * inverse], length: [zz * inverse, -(xz * inverse)] }
+    }
+}
+
+impl<S: Simd> HeldCable<S> {
+    /// A cable between its ends, with its answer to their motion.
+    #[inline(always)]
+    pub(crate) fn with_end_slopes(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> (Self, EndSlopes<S>) {
+        let response = cable.response();
+        match &cable.guided {
+            None => (Self::plain(cable, span, &response), EndSlopes::plain(&response)),
+            Some(guided) => Leaving { guided, cable, span }.leave(&response),
+        }
+    }
+}
+
 /// A cable over a pulley. With `e = |d(x, z)/dLf|` of the part beyond the leave point, τ the direction there
 /// and ρ the radius with its sign, a turn α of τ winds ρ α off the wheel, along τ: forces are those of
 /// the part with a fixed leave point, and
@@ -182,7 +213,8 @@ impl<S: Simd> HeldCable<S> {
 /// fz'' = fz''|B - ρ α' α'|B/(τ x C_z)
 /// ```
 ///
-/// where `|B` stands for a fixed leave point and C_z for the second column of the flexibility.
+/// where `|B` stands for a fixed leave point and C_z for the second column of the flexibility. A motion of A
+/// at constant fx changes lengths in the same way.
 struct Leaving<'a, 'b, S: Simd> {
     guided: &'a Guided<S>,
     cable: &'a LaneCable<'b, S>,
@@ -194,11 +226,19 @@ impl<S: Simd> WithSimd for Leaving<'_, '_, S> {
 
     #[inline(always)]
     fn with_simd<Same: Simd>(self, _: Same) -> HeldCable<S> {
+        let response = self.cable.response();
+        self.leave(&response).0
+    }
+}
+
+impl<S: Simd> Leaving<'_, '_, S> {
+    #[inline(always)]
+    fn leave(&self, response: &Response<Lanes<S>>) -> (HeldCable<S>, EndSlopes<S>) {
         let Self { guided, cable, span } = self;
         let LeavePoint { position, tangent: [tx, tz], tension_inv, .. } = guided.leave_point(cable);
         let span = Span { plane: span.plane, end: span.misclosure(position) };
-        let response = cable.response();
-        let mut held = HeldCable::plain(cable, &span, &response);
+        let mut held = HeldCable::plain(cable, &span, response);
+        let mut ends = EndSlopes::plain(response);
         let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
         let wound = guided.guide.signed_radius;
         let per_turn = wound / (ex * tx + ez * tz);
@@ -206,12 +246,16 @@ impl<S: Simd> WithSimd for Leaving<'_, '_, S> {
         let whole = (per_turn * falling + 1.0).recip();
         let [dz, longer] = held.closing;
         held.closing[1] += per_turn * whole * (tx * tension_inv * dz - falling * longer);
+        for k in 0..2 {
+            let turn = tx * tension_inv * ends.rise[k] - falling * ends.length[k];
+            ends.length[k] += per_turn * whole * turn;
+        }
         let turn = (tx * held.rise - tz) * tension_inv - falling * held.length_slope;
         held.length_slope += per_turn * whole * turn;
         let bend = wound * whole * turn * turn / (tx * zz - tz * xz);
         let [_, uz] = response.direction;
         held.curvatures[0] -= uz * bend;
         held.curvatures[1] -= bend;
-        held
+        (held, ends)
     }
 }

@@ -75,7 +75,8 @@ pub fn loaded_poses(
     wanted: &[&InverseSolution],
     load: &Load,
 ) -> Vec<Result<LoadedPose, StaticsError>> {
-    let reason = ScalarReason::of_all(robot, load).or(load.validate().err().map(|_| ScalarReason::OneByOne));
+    let reason =
+        ScalarReason::of_all(robot, load, &[]).or(load.validate().err().map(|_| ScalarReason::OneByOne));
     let found = match (reason, PlacedRobot::of(robot)) {
         (None, Some(placed)) => dispatch(Batch { placed: &placed, wanted, load }),
         (reason, _) => vec![Err(reason.unwrap_or(ScalarReason::OneByOne)); wanted.len()],

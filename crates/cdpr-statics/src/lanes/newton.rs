@@ -122,7 +122,7 @@ pub(crate) struct LinearizedPlatform<S: Simd> {
 }
 
 impl<S: Simd> LinearizedPlatform<S> {
-    /// Storage for a linearised platform, all zero.
+    /// Storage for a linearised platform, all zero, of robots with plain cables.
     #[inline(always)]
     pub(crate) fn new(zero: Lanes<S>, cables: usize) -> Self {
         let cable = LinearizedCable {
@@ -137,6 +137,20 @@ impl<S: Simd> LinearizedPlatform<S> {
             gradient: [zero; 6],
             factored: SymmetricFactors::new([[zero; 6]; 6]),
         }
+    }
+
+    /// Makes room for the lengths beyond leave points.
+    #[inline(always)]
+    pub(crate) fn follow_guides(&mut self, robots: &Robots<'_, S>) {
+        if robots.cables.iter().any(|cable| cable.guided.is_some()) {
+            self.free = vec![FreeLength::fixed(robots.weight.all(0.0)); robots.cables.len()];
+        }
+    }
+
+    /// The lanes whose stiffness is positive definite.
+    #[inline(always)]
+    pub(crate) fn is_stable(&self) -> Mask<S> {
+        self.factored.positive
     }
 
     /// The twist by which the platform gives way to a small wrench.
@@ -428,7 +442,12 @@ impl<S: Simd> Robots<'_, S> {
 
 /// φ x v, and v + a φ x v + b φ x (φ x v).
 #[inline(always)]
-fn rotate<S: Simd>(v: &Lanes3<S>, rotation: &Lanes3<S>, a: Lanes<S>, b: Lanes<S>) -> (Lanes3<S>, Lanes3<S>) {
+pub(crate) fn rotate<S: Simd>(
+    v: &Lanes3<S>,
+    rotation: &Lanes3<S>,
+    a: Lanes<S>,
+    b: Lanes<S>,
+) -> (Lanes3<S>, Lanes3<S>) {
     let once = cross(rotation, v);
     let twice = cross(rotation, &once);
     (once, three!(|k| v[k] + a * once[k] + b * twice[k]))

@@ -2,8 +2,9 @@
 //!
 //! Robots with cables that are linear or have an elastic law, taut or sagging, at their limits or not, behind
 //! leads and over pulleys with vertical axes or without, are observed in the lanes of the vector unit
-//! (`lanes/chain.rs`), each from the tensions of the nominal robot. Any other robot is observed by the scalar
-//! models, which decide on every failure.
+//! (`lanes/chain.rs`), each from the tensions of the nominal robot, and with fewer cables than free motions
+//! also from its free coordinates (`lanes/free.rs`). Any other robot is observed by the scalar models, which
+//! decide on every failure.
 //!
 //! Where the sum of squares of the inverse model has several local minima, a perturbed robot is observed in
 //! the one that it shares with the nominal robot, as long as it exists. [`deflection`] of the same robot may
@@ -13,22 +14,25 @@ mod motions;
 mod slopes;
 
 use crate::error::StaticsError;
-use crate::inverse::{Branch, InverseSolution};
+use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution};
 use crate::lanes::algebra::{Frame, rotated, six, three};
 use crate::lanes::cable::{Guided, LaneCable, Shape};
-use crate::lanes::chain::{ChainStart, Choice, Outcome, Shared, observe};
+use crate::lanes::chain::{ChainStart, Outcome, observe};
+use crate::lanes::free::FreeMotion;
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::{Layout, PlatformLoad, Robots, Scale};
 use crate::lanes::placed::laws;
 use crate::lanes::reason::ScalarReason;
+use crate::lanes::shared::{Choice, Shared};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
-use crate::loading::{Deflection, deflection, deflection_near};
+use crate::loading::{Deflection, deflection, deflection_beside, deflection_near};
 use crate::problem::DirectProblem;
-use crate::state::{Load, Residual, rounding_of_closure};
+use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
 use cdpr_cable::Catenary;
 use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
 use cdpr_robot::{
-    Axis, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector2, Vector3, Vector6,
+    Axis, Coordinate, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector2,
+    Vector3, Vector6,
 };
 pub use motions::ObservationMotion;
 pub use slopes::ObservationSlopes;
@@ -71,16 +75,26 @@ pub struct Observer<'a> {
     pose: Pose,
     load: Load,
     layout: ParameterLayout,
-    /// The inverse model of the nominal robot; `None` where it has no answer.
-    branch: Option<Branch>,
+    wanted: Wanted,
     /// What the lanes start from, or why they would find nothing.
     nominal: Result<Nominal, ScalarReason>,
+}
+
+/// The inverse model of the nominal robot, from which that of a deviating one is found.
+#[derive(Clone, Debug)]
+enum Wanted {
+    /// At a whole pose; `None` where it has no answer.
+    Pose(Option<Branch>),
+    /// Where it rests with free coordinates.
+    Rest(FreeBranch),
 }
 
 /// The nominal robot at the wanted pose.
 #[derive(Clone, Debug)]
 struct Nominal {
     multipliers: Vector6<f64>,
+    /// The free coordinates in the order of [`Coordinate::ALL`].
+    free: Vec<Coordinate>,
     /// Segments of the elastic law of each cable; none of a linear one.
     laws: Vec<Vec<LaneSegment>>,
     shared: Shared,
@@ -95,9 +109,41 @@ impl<'a> Observer<'a> {
         robot.validate()?;
         load.validate()?;
         let (solution, branch) = Branch::of(robot, pose).ok().unzip();
-        let nominal = Nominal::new(robot, pose, load, solution);
+        let solution = solution.map(|InverseSolution { lengths, equilibrium, multipliers, .. }| {
+            (HeldPose { lengths, equilibrium }, multipliers)
+        });
+        let nominal = Nominal::new(robot, load, solution, &[]);
         let layout = ParameterLayout::of(robot);
-        Ok(Self { robot, pose: *pose, load: *load, layout, branch, nominal })
+        Ok(Self { robot, pose: *pose, load: *load, layout, wanted: Wanted::Pose(branch), nominal })
+    }
+
+    /// As [`Observer::new`], of a robot with fewer cables than free motions: the `free` coordinates of the
+    /// pose are found where the platform rests, those of deviating robots from those of the nominal one.
+    ///
+    /// # Errors
+    /// Those of [`Observer::new`] and of [`crate::held_at`].
+    pub fn with_free(
+        robot: &'a Robot,
+        pose: &Pose,
+        load: &Load,
+        free: &[Coordinate],
+    ) -> Result<Self, StaticsError> {
+        if free.is_empty() {
+            return Self::new(robot, pose, load);
+        }
+        robot.validate()?;
+        load.validate()?;
+        let branch = FreeBranch::of(robot, pose, free)?;
+        let rest = branch.rest();
+        let pose = rest.equilibrium.pose;
+        let nominal = Nominal::new(robot, load, Some((rest.clone(), Vector6::zeros())), free);
+        let layout = ParameterLayout::of(robot);
+        Ok(Self { robot, pose, load: *load, layout, wanted: Wanted::Rest(branch), nominal })
+    }
+
+    /// The wanted pose; its free coordinates are those of the nominal robot.
+    pub fn pose(&self) -> &Pose {
+        &self.pose
     }
 
     /// Deflection of the robot with `deviations` added to its parameters, in the order of [`Parameter::of`].
@@ -141,9 +187,10 @@ impl<'a> Observer<'a> {
     fn deflection(&self, deviations: &[f64]) -> Result<Deflection, StaticsError> {
         let perturbed = self.robot.perturbed(deviations)?;
         let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
-        match &self.branch {
-            Some(branch) => deflection_near(branch, robot, &self.pose, offsets, &self.load),
-            None => deflection(robot, &self.pose, offsets, &self.load),
+        match &self.wanted {
+            Wanted::Pose(Some(branch)) => deflection_near(branch, robot, &self.pose, offsets, &self.load),
+            Wanted::Pose(None) => deflection(robot, &self.pose, offsets, &self.load),
+            Wanted::Rest(branch) => deflection_beside(branch, robot, offsets, &self.load),
         }
     }
 }
@@ -151,42 +198,50 @@ impl<'a> Observer<'a> {
 impl Nominal {
     fn new(
         robot: &Robot,
-        pose: &Pose,
         load: &Load,
-        solution: Option<InverseSolution>,
+        solution: Option<(HeldPose, Vector6<f64>)>,
+        free: &[Coordinate],
     ) -> Result<Self, ScalarReason> {
-        if let Some(why) = ScalarReason::of_all(robot, load) {
+        if let Some(why) = ScalarReason::of_all(robot, load, free) {
             return Err(why);
         }
-        let solution = solution.ok_or(ScalarReason::NominalRobot)?;
-        let problem = DirectProblem { robot, lengths: &solution.lengths, load: *load };
+        let (HeldPose { lengths, equilibrium }, multipliers) = solution.ok_or(ScalarReason::NominalRobot)?;
+        let (pose, tension) = (&equilibrium.pose, equilibrium.tensions().iter().sum());
+        let problem = DirectProblem { robot, lengths: &lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let reference = robot.reference();
-        let choice = |(i, reference): (usize, &f64)| Choice {
-            reference: *reference,
-            limits: robot.limits(i),
-            max_at: robot.max_at(i),
-            shape: shape(robot, pose, i, &solution),
+        let choice = |(i, reference): (usize, &f64)| {
+            Choice::new(robot, i, *reference, shape(robot, i, lengths[i], &equilibrium))
         };
         let shared = Shared {
             choices: reference.iter().enumerate().map(choice).collect(),
-            tension: solution.tensions.iter().sum(),
-            forces: solution.tensions.iter().sum(),
+            tension,
+            forces: tension,
             scale: Scale {
                 size: problem.size(),
                 characteristic_length: problem.characteristic_length(),
                 rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
             },
         };
-        Ok(Self { multipliers: solution.multipliers, laws: laws(robot), shared })
+        let mut free = free.to_vec();
+        free.sort_unstable();
+        Ok(Self { multipliers, free, laws: laws(robot), shared })
+    }
+
+    /// Why a lane is left that finds no tensions, and one that must not take them.
+    fn no_tensions(&self) -> [ScalarReason; 2] {
+        match self.free.is_empty() {
+            true => [ScalarReason::Tensions, ScalarReason::Folded],
+            false => [ScalarReason::FreeCoordinates; 2],
+        }
     }
 }
 
 /// The shape of a cable at the wanted pose.
-pub(crate) fn shape(robot: &Robot, pose: &Pose, i: usize, solution: &InverseSolution) -> Shape<f64> {
-    let (unstrained_length, force) = (solution.lengths[i], solution.equilibrium.cable_forces[i]);
+pub(crate) fn shape(robot: &Robot, i: usize, unstrained_length: f64, held: &Equilibrium) -> Shape<f64> {
+    let force = held.cable_forces[i];
     let cable = Catenary { cable: robot.cable(i), unstrained_length, force };
-    let span = robot.span(pose, i);
+    let span = robot.span(&held.pose, i);
     let (mut chord, mut height) = (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
     let free = cable.free();
     if cable.cable.guide.is_some() {
@@ -227,7 +282,8 @@ impl WithSimd for Batch<'_> {
             let rows = Rows::new(simd, rows, layout);
             let (start, level, valid) = rows.robots(robot, pose, load, nominal);
             let outcome = observe(start, &nominal.shared, &mut ());
-            found.extend(read(&outcome, level.as_ref(), valid).into_iter().take(count));
+            let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions());
+            found.extend(answers.into_iter().take(count));
         }
         found
     }
@@ -239,13 +295,14 @@ fn read<S: Simd>(
     outcome: &Outcome<S>,
     level: Option<&LevelFrame<S>>,
     [sound, upright]: [Mask<S>; 2],
+    [no_tensions, none_to_take]: [ScalarReason; 2],
 ) -> [Result<Observation, ScalarReason>; MAX_LANES] {
     let [converged, unfolded, held, standing, answered] = outcome.passed;
     let links = [
         (sound, ScalarReason::InvalidRobot),
         (upright, ScalarReason::Pulleys),
-        (converged, ScalarReason::Tensions),
-        (unfolded, ScalarReason::Folded),
+        (converged, no_tensions),
+        (unfolded, none_to_take),
         (held, ScalarReason::Lengths),
         (standing, ScalarReason::Unloaded),
         (answered, ScalarReason::Loaded),
@@ -353,6 +410,7 @@ impl<'a, S: Simd> Rows<'a, S> {
                 weight: gravity * load.payload,
                 force: three!(|k| self.all(load.wrench.force[k])),
             },
+            free: self.motions(pose, &nominal.free),
         };
         for (i, cable) in robot.cables.iter().enumerate() {
             let density = self.parameter(layout.linear_density(), cable.properties.linear_density);
@@ -387,6 +445,21 @@ impl<'a, S: Simd> Rows<'a, S> {
             start.rotate(level);
         }
         (start, level, [sound, upright])
+    }
+
+    /// The motions of free coordinates.
+    #[inline(always)]
+    fn motions(&self, pose: &Pose, free: &[Coordinate]) -> Vec<FreeMotion<S>> {
+        let (_, pitch, yaw) = pose.rotation.euler_angles();
+        let mut motions = Vec::with_capacity(free.len());
+        for coordinate in free {
+            let motion = coordinate.motion(yaw, pitch);
+            motions.push(match coordinate.is_angle() {
+                false => FreeMotion::Along(three!(|k| self.all(motion[k]))),
+                true => FreeMotion::About(three!(|k| self.all(motion[3 + k]))),
+            });
+        }
+        motions
     }
 
     /// The platform frame at the wanted pose by its columns, in the level frames.
@@ -444,7 +517,10 @@ impl<S: Simd> ChainStart<'_, S> {
     /// Rotates the robots from the base frame into their level frames.
     #[inline(always)]
     fn rotate(&mut self, level: &LevelFrame<S>) {
-        let Self { robots, multipliers, payload, .. } = self;
+        let Self { robots, multipliers, payload, free, .. } = self;
+        for motion in free {
+            *motion.axis() = level.to_level(motion.axis());
+        }
         for cable in &mut robots.cables {
             cable.exit_point = level.to_level(&cable.exit_point);
             cable.anchor_arm = level.to_level(&cable.anchor_arm);
@@ -493,6 +569,36 @@ mod tests {
                 assert_eq!(scalar, widest);
                 assert!(scalar.iter().filter(|found| found.is_ok()).count() > 90);
             }
+        }
+    }
+
+    #[test]
+    fn the_vector_unit_changes_no_bit_of_robots_with_free_coordinates() {
+        let mut robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json")).unwrap();
+        robot.cables = [0, 2, 4, 6].map(|i| robot.cables[i].clone()).to_vec();
+        let tilted = Robot { gravity: Vector3::new(0.1, -0.2, -9.8).into(), ..robot.clone() };
+        let mut guided = robot.clone();
+        for cable in &mut guided.cables {
+            (cable.pulley, cable.lead) = (Some(Pulley { radius: 0.045, axis: Vector3::z() }), 1.0);
+        }
+        for robot in [&robot, &tilted, &guided] {
+            let (pose, free) = (Pose::at(1.0, 0.5, 2.0), [Coordinate::Pitch, Coordinate::Roll]);
+            let observer = &Observer::with_free(robot, &pose, &Load::payload(9.0), &free).unwrap();
+            let half = Parameter::of(robot).into_iter().map(|parameter| match parameter {
+                Parameter::Mass => 1.0,
+                Parameter::LinearDensity => 0.001,
+                Parameter::YoungsModulus => 1e9,
+                Parameter::Tilt(..) => 0.0,
+                _ => 0.001,
+            });
+            let half: Vec<f64> = half.collect();
+            let deviations: Vec<f64> = (0..half.len() * 100)
+                .map(|i| half[i % half.len()] * ((i * 37 % 101) as f64 / 50.0 - 1.0))
+                .collect();
+            let scalar = Batch { observer, deviations: &deviations }.with_simd(Scalar);
+            let widest = dispatch(Batch { observer, deviations: &deviations });
+            assert_eq!(scalar, widest);
+            assert!(scalar.iter().filter(|found| found.is_ok()).count() > 90);
         }
     }
 }

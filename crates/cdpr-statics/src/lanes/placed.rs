@@ -28,7 +28,7 @@ pub(crate) struct PlacedRobot<'a> {
 impl<'a> PlacedRobot<'a> {
     /// `None` for a robot that is not one for the lanes.
     pub(crate) fn of(robot: &'a Robot) -> Option<Self> {
-        if ScalarReason::of_all(robot, &Load::none()).is_some() {
+        if ScalarReason::of_all(robot, &Load::none(), &[]).is_some() {
             return None;
         }
         let exits = || robot.cables.iter().map(|cable| cable.exit_point);

@@ -14,12 +14,13 @@ use crate::error::StaticsError;
 use crate::inverse::{InTurn, InverseSolution};
 use crate::lanes::algebra::{Lanes2, Lanes6, six, three};
 use crate::lanes::cable::Shape;
-use crate::lanes::chain::{Choice, Keep, SAGGING, Shared, distribute, hold};
+use crate::lanes::chain::{Keep, SAGGING, distribute, hold};
 use crate::lanes::held::HeldCable;
 use crate::lanes::minimum::is_least;
 use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots};
 use crate::lanes::observer::shape;
 use crate::lanes::placed::{PlacedRobot, each};
+use crate::lanes::shared::{Choice, Shared};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
@@ -103,12 +104,7 @@ impl<'a> Setting<'a> {
         let placed = PlacedRobot::of(robot)?;
         let reference = robot.reference();
         let nowhere = Shape { tangent: [0.0; 2], chord_force: 0.0, sag_force: 0.0, longer: 0.0 };
-        let choice = |(i, reference): (usize, &f64)| Choice {
-            reference: *reference,
-            limits: robot.limits(i),
-            max_at: robot.max_at(i),
-            shape: nowhere,
-        };
+        let choice = |(i, reference): (usize, &f64)| Choice::new(robot, i, *reference, nowhere);
         let choices: Vec<_> = reference.iter().enumerate().map(choice).collect();
         // No more than the sum of all tensions, or twice as much.
         let least: f64 = choices.iter().map(|choice| choice.limits.min).sum();
@@ -205,7 +201,8 @@ impl<'a> Setting<'a> {
     /// What an answer of the scalar model is for the next pose.
     fn near(&self, pose: &Pose, solution: &InverseSolution) -> Near {
         let robot = self.placed.robot;
-        let shapes = (0..robot.cables.len()).map(|i| shape(robot, pose, i, solution)).collect();
+        let shape = |i: usize| shape(robot, i, solution.lengths[i], &solution.equilibrium);
+        let shapes = (0..robot.cables.len()).map(shape).collect();
         let multipliers = self.placed.both(PlacedRobot::to_level, &solution.multipliers);
         Near { position: pose.position, shapes, multipliers }
     }

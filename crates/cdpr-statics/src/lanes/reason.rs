@@ -1,7 +1,7 @@
 //! Why a robot is left to the scalar models.
 
 use crate::state::Load;
-use cdpr_robot::{CableEnd, Robot, Vector3};
+use cdpr_robot::{CableEnd, Coordinate, Robot, Vector3};
 
 /// Why an observation is made by the scalar models and not in the lanes of the vector unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -10,9 +10,11 @@ pub enum ScalarReason {
     OneByOne,
     /// Another output than a displacement was asked for.
     Output,
-    /// Coordinates of the pose are free.
+    /// Coordinates of the pose are free, and no stable rest was found close to that of the nominal robot,
+    /// with taut cables and tensions within their limits.
     FreeCoordinates,
-    /// There are fewer cables than free motions, or the platform is a point or moves in a plane.
+    /// There are fewer cables than free motions and no coordinate is free, or one cable alone, or the
+    /// platform is a point or moves in a plane.
     FewCables,
     /// Cables run over pulleys whose axes are not vertical.
     Pulleys,
@@ -35,8 +37,8 @@ pub enum ScalarReason {
     Unloaded,
     /// No stable equilibrium with the load was found.
     Loaded,
-    /// Derivatives were asked for that lanes do not have: of cables over guides, and where those by some
-    /// parameter may differ on its two sides or do not exist.
+    /// Derivatives were asked for that lanes do not have: of cables over guides, with free coordinates, and
+    /// where those by some parameter may differ on its two sides or do not exist.
     Derivatives,
 }
 
@@ -71,15 +73,17 @@ impl ScalarReason {
     }
 
     /// Why all robots like this one under this load are left to the scalar models, if they are.
-    pub(crate) fn of_all(robot: &Robot, load: &Load) -> Option<Self> {
+    pub(crate) fn of_all(robot: &Robot, load: &Load, free: &[Coordinate]) -> Option<Self> {
         // A greatest tension at the exit point has a closed form for linear cables only.
         let laws_at_exits = robot
             .cables
             .iter()
             .enumerate()
             .any(|(i, cable)| cable.properties.law.is_some() && robot.max_at(i) == CableEnd::Exit);
+        // Nothing resists the rotation about a single cable.
+        let enough = robot.is_fully_actuated() || (robot.cables.len() > 1 && !free.is_empty());
         let reasons = [
-            (!robot.freedoms().are_all() || !robot.is_fully_actuated(), Self::FewCables),
+            (!robot.freedoms().are_all() || !enough, Self::FewCables),
             ((0..robot.cables.len()).any(|i| robot.cable(i).leaves_its_plane()), Self::Pulleys),
             (laws_at_exits, Self::Laws),
             // A moment has no potential: pivots do not show whether its equilibria are stable.

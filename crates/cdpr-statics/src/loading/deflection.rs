@@ -7,7 +7,9 @@
 use crate::direct::{DirectSolution, Start, direct};
 use crate::equations::FORCES;
 use crate::error::StaticsError;
-use crate::inverse::{Branch, HeldPose, InverseSolution, held_at, inverse, lengths_for_tensions, limits_at};
+use crate::inverse::{
+    Branch, FreeBranch, HeldPose, InverseSolution, held_at, inverse, lengths_for_tensions, limits_at,
+};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, rounding_of_closure};
 use cdpr_robot::{Coordinate, Pose, Robot, TensionLimits, Vector3, Vector6, Wrench};
@@ -131,6 +133,21 @@ pub fn deflection_free(
     deflection_from(robot, lengths, load, &equilibrium)
 }
 
+/// [`deflection_free`] of a robot that differs a little from the one whose rest is known.
+///
+/// # Errors
+/// Those of [`deflection_free`].
+pub(crate) fn deflection_beside(
+    branch: &FreeBranch,
+    robot: &Robot,
+    tension_offsets: &[f64],
+    load: &Load,
+) -> Result<Deflection, StaticsError> {
+    check_offsets(robot, tension_offsets)?;
+    let (_, HeldPose { lengths, equilibrium }) = wind_rest(robot, tension_offsets, branch.nearby(robot)?)?;
+    deflection_from(robot, lengths, load, &equilibrium)
+}
+
 /// The rest of a platform with `free` coordinates, without and with the offsets of tension set-points.
 pub(crate) fn wind_free(
     robot: &Robot,
@@ -139,7 +156,15 @@ pub(crate) fn wind_free(
     free: &[Coordinate],
 ) -> Result<(HeldPose, HeldPose), StaticsError> {
     check_offsets(robot, tension_offsets)?;
-    let held = held_at(robot, pose, &Load::none(), free)?;
+    wind_rest(robot, tension_offsets, held_at(robot, pose, &Load::none(), free)?)
+}
+
+/// A rest without and with the offsets of tension set-points.
+fn wind_rest(
+    robot: &Robot,
+    tension_offsets: &[f64],
+    held: HeldPose,
+) -> Result<(HeldPose, HeldPose), StaticsError> {
     if tension_offsets.iter().all(|offset| *offset == 0.0) {
         return Ok((held.clone(), held));
     }

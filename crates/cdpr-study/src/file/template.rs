@@ -32,7 +32,8 @@ The study runs as it is. Replace by what you know of your robot:
 All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE --out results";
 
 /// How many observations a template makes: few enough for any robot, and for Sobol' indices with intervals.
-/// With free coordinates each takes thousands of times as long, and the measures of sensitivity are left out.
+/// With free coordinates each that the scalar models have to search for takes thousands of times as long, and
+/// the measures of sensitivity are left out.
 struct Size {
     observations: usize,
     replicates: usize,

@@ -1,7 +1,6 @@
 //! The output of a study for one robot whose parameters deviate.
 //!
-//! Deflections of robots with a cable for every free motion are observed in lanes ([`Observer`]); all else by
-//! the scalar models, one robot at a time.
+//! Deflections are observed in lanes ([`Observer`]); all else by the scalar models, one robot at a time.
 
 use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
@@ -10,7 +9,7 @@ use cdpr_robot::{Coordinate, Parameter, Perturbed, Pose, Robot, Vector3, Vector6
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, ObservationMotion,
     ObservationSlopes, Observer, ScalarReason, Start, StaticsError, deflection_free, derivatives_free,
-    direct, held_at, wound_lengths,
+    direct, wound_lengths,
 };
 use std::borrow::Cow;
 
@@ -25,7 +24,7 @@ pub struct OutputObserver<'a> {
     free: &'a [Coordinate],
     /// The nominal robot.
     nominal: Deflection,
-    /// Observes deflections of robots with a cable for every free motion.
+    /// Observes deflections.
     lanes: Observer<'a>,
 }
 
@@ -40,15 +39,11 @@ pub(crate) struct Observing<'a> {
 
 impl<'a> OutputObserver<'a> {
     /// # Errors
-    /// Those of [`Observer::new`] and [`held_at`].
+    /// Those of [`Observer::with_free`].
     pub(crate) fn new(of: Observing<'a>, nominal: &Deflection) -> Result<Self, StaticsError> {
         let Observing { robot, pose, load, output, free } = of;
-        let lanes = Observer::new(robot, &pose, &load)?;
-        let pose = match free {
-            [] => pose,
-            _ => held_at(robot, &pose, &Load::none(), free)?.equilibrium.pose,
-        };
-        Ok(Self { robot, pose, load, output, free, nominal: nominal.clone(), lanes })
+        let lanes = Observer::with_free(robot, &pose, &load, free)?;
+        Ok(Self { robot, pose: *lanes.pose(), load, output, free, nominal: nominal.clone(), lanes })
     }
 
     /// The output of the nominal robot in its unit.
@@ -65,7 +60,7 @@ impl<'a> OutputObserver<'a> {
     /// Observes any number of robots: `deviations` has a row of all parameters for each, one after the other.
     /// A robot without the output is an error with the reason.
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Measured, StaticsError>> {
-        if self.output == Output::Deflection && self.free.is_empty() {
+        if self.output == Output::Deflection {
             let outcomes = self.lanes.observe_all(deviations).into_iter();
             return outcomes.map(|found| found.map(Measured::from)).collect();
         }
@@ -75,7 +70,7 @@ impl<'a> OutputObserver<'a> {
                 Output::Position => MeasuredQuantity::Displacement(self.displaced(&perturbed)?),
                 _ => self.of_deflection(&perturbed.robot, &self.deflection(&perturbed)?)?.quantity,
             };
-            Ok(Measured { quantity, scalar: Some(self.why_scalar()) })
+            Ok(Measured { quantity, scalar: Some(ScalarReason::Output) })
         };
         self.rows(deviations).map(observed).collect()
     }
@@ -84,7 +79,7 @@ impl<'a> OutputObserver<'a> {
     pub(crate) fn observe_all_motions(&self, deviations: &[f64]) -> Vec<Result<Measured, StaticsError>> {
         let moved =
             |motion, scalar| Measured { quantity: MeasuredQuantity::Motion(Box::new(motion)), scalar };
-        if self.output == Output::Deflection && self.free.is_empty() {
+        if self.output == Output::Deflection {
             let in_lanes = |found: ObservationMotion| {
                 let Observation { displacement: p, scalar, .. } = found.observation;
                 let r = found.rotation;
@@ -99,23 +94,15 @@ impl<'a> OutputObserver<'a> {
                 Output::Position => self.moved(&perturbed)?,
                 _ => self.deflection(&perturbed)?.motion(),
             };
-            Ok(moved(motion, Some(self.why_scalar())))
+            Ok(moved(motion, Some(ScalarReason::Output)))
         };
         self.rows(deviations).map(observed).collect()
     }
 
-    fn why_scalar(&self) -> ScalarReason {
-        if self.free.is_empty() { ScalarReason::Output } else { ScalarReason::FreeCoordinates }
-    }
-
     /// Displacements under the load [m] of any number of robots, whatever the output is.
     pub fn displacements(&self, deviations: &[f64]) -> Vec<Result<Vector3<f64>, StaticsError>> {
-        if self.free.is_empty() {
-            let outcomes = self.lanes.observe_all(deviations).into_iter();
-            return outcomes.map(|found| found.map(|found| found.displacement)).collect();
-        }
-        let displacement = |row: &[f64]| Ok(self.deflection(&self.robot.perturbed(row)?)?.displacement());
-        self.rows(deviations).map(displacement).collect()
+        let outcomes = self.lanes.observe_all(deviations).into_iter();
+        outcomes.map(|found| found.map(|found| found.displacement)).collect()
     }
 
     fn rows<'b>(&self, deviations: &'b [f64]) -> impl Iterator<Item = &'b [f64]> {

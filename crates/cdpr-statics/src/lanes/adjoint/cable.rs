@@ -22,7 +22,7 @@ use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable, Span};
 use crate::lanes::algebra::{Lanes2, Lanes3, three};
 use crate::lanes::cable::LaneCable;
-use crate::lanes::chain::Choice;
+use crate::lanes::shared::Choice;
 use crate::lanes::simd::{Lanes, Simd, WithSimd};
 use cdpr_cable::kernel::{
     Field, LaneSegment, Lanewise, Response, Tangent, lane_end, lane_law_end, lane_law_response, lane_response,

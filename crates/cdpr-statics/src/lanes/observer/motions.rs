@@ -70,7 +70,10 @@ impl WithSimd for MotionBatch<'_> {
             let mut frames = Frames { before: SmallVec::new(), last: SmallVec::new() };
             let outcome = observe(start, &nominal.shared, &mut frames);
             let [unloaded, loaded] = [&frames.before, &frames.last].map(|of| in_base(of, level.as_ref()));
-            let answers = read(&outcome, level.as_ref(), valid).into_iter().enumerate().take(count);
+            let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions())
+                .into_iter()
+                .enumerate()
+                .take(count);
             found.extend(answers.map(|(lane, answer)| {
                 let at = |frame: &Columns| {
                     let rotation = Matrix3::from_fn(|row, column| frame[column][row][lane]);

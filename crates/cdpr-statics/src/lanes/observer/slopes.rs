@@ -1,7 +1,7 @@
 //! Observations with the derivatives of |dp| by all parameters.
 
-use super::{Batch, Observation, Observer, Rows, read};
-use crate::derivatives::{Derivatives, derivatives, derivatives_near};
+use super::{Batch, Observation, Observer, Rows, Wanted, read};
+use crate::derivatives::{Derivatives, derivatives, derivatives_free, derivatives_near};
 use crate::equations::vector::dot;
 use crate::error::StaticsError;
 use crate::lanes::adjoint::{Adjoint, Record, adjoint};
@@ -49,9 +49,12 @@ impl Observer<'_> {
     pub fn observe_slopes(&self, deviations: &[f64]) -> Result<ObservationSlopes, StaticsError> {
         let perturbed = self.robot.perturbed(deviations)?;
         let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
-        let found = match &self.branch {
-            Some(branch) => derivatives_near(branch, robot, &self.pose, offsets, &self.load)?,
-            None => derivatives(robot, &self.pose, offsets, &self.load)?,
+        let found = match &self.wanted {
+            Wanted::Pose(Some(branch)) => derivatives_near(branch, robot, &self.pose, offsets, &self.load)?,
+            Wanted::Pose(None) => derivatives(robot, &self.pose, offsets, &self.load)?,
+            Wanted::Rest(branch) => {
+                derivatives_free(robot, &self.pose, offsets, &self.load, branch.coordinates())?
+            }
         };
         let rms = found.rms()?.into_iter().take(self.layout.count()).collect();
         let Derivatives { deflection, .. } = found;
@@ -73,7 +76,7 @@ impl WithSimd for SlopesBatch<'_> {
             Ok(nominal) => nominal,
             Err(why) => return vec![Err(*why); deviations.len() / parameters],
         };
-        if robot.cables.iter().any(|cable| cable.guide(None).is_some()) {
+        if !nominal.free.is_empty() || robot.cables.iter().any(|cable| cable.guide(None).is_some()) {
             return vec![Err(ScalarReason::Derivatives); deviations.len() / parameters];
         }
         let mut found = Vec::with_capacity(deviations.len() / parameters);
@@ -92,7 +95,7 @@ impl WithSimd for SlopesBatch<'_> {
                 decided = adjoint.decided.to_array();
                 rows.write_slopes(robot, adjoint, level.as_ref(), &mut slopes);
             }
-            let answers = read(&outcome, level.as_ref(), valid);
+            let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions());
             for (lane, answer) in answers.into_iter().enumerate().take(count) {
                 found.push(match answer {
                     Ok(_) if !decided[lane] => Err(ScalarReason::Derivatives),

@@ -1,0 +1,49 @@
+//! What all robots of a batch share.
+
+use crate::lanes::cable::Shape;
+use crate::lanes::newton::Scale;
+use cdpr_robot::{CableEnd, Robot, TensionLimits};
+
+/// A change of tensions that are still to be offset below this, relative to the longest cable or the sum of
+/// tensions, is the last one: their error then changes no position by more than 1e-12 m.
+pub(crate) const LAST_DISTRIBUTION: f64 = 1e-9;
+
+/// Iterations for the tensions, whose limits may change on the way.
+pub(crate) const MAX_DISTRIBUTIONS: usize = 20;
+
+/// The tensions that a cable may have, and the one that is preferred.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Choice {
+    /// r [N].
+    pub(crate) reference: f64,
+    /// Least and greatest tension allowed [N].
+    pub(crate) limits: TensionLimits,
+    /// Where the greatest tension is limited.
+    pub(crate) max_at: CableEnd,
+    /// The lesser one of the greatest tension and the breaking force [N].
+    pub(crate) bearable: f64,
+    /// The shape that the nominal robot gives it.
+    pub(crate) shape: Shape<f64>,
+}
+
+impl Choice {
+    /// What cable `i` of a robot may have.
+    pub(crate) fn new(robot: &Robot, i: usize, reference: f64, shape: Shape<f64>) -> Self {
+        let limits = robot.limits(i);
+        let breaking_force = robot.cables[i].properties.breaking_force.unwrap_or(f64::MAX);
+        Self { reference, limits, max_at: robot.max_at(i), bearable: breaking_force.min(limits.max), shape }
+    }
+}
+
+/// What all robots of a batch share.
+#[derive(Clone, Debug)]
+pub(crate) struct Shared {
+    /// For each cable.
+    pub(crate) choices: Vec<Choice>,
+    /// Sum of the tensions that changes are compared with [N].
+    pub(crate) tension: f64,
+    /// Sum of the forces that their balance is compared with [N].
+    pub(crate) forces: f64,
+    /// Lengths that positions are compared with.
+    pub(crate) scale: Scale,
+}
