@@ -35,8 +35,8 @@ pub enum ScalarReason {
     Unloaded,
     /// No stable equilibrium with the load was found.
     Loaded,
-    /// Derivatives were asked for that lanes do not have: of cables over guides, and where those by some
-    /// parameter may differ on its two sides or do not exist.
+    /// Derivatives were asked for that lanes do not have: those by some parameter may differ on its two sides
+    /// or do not exist, or a tension is at its greatest value where the cable leaves a pulley.
     Derivatives,
 }
 
