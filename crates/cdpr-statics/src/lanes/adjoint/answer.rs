@@ -115,10 +115,8 @@ impl<S: Simd> Answer<Lanes<S>> {
     /// k_a of a cable over a guide [N/m].
     #[inline(always)]
     pub(super) fn skew_stiffness(&self) -> Option<Lanes<S>> {
-        match &self.guide {
-            None => None,
-            Some(guide) => Some(guide.asymmetry / self.response.determinant),
-        }
+        let guide = self.guide.as_ref()?;
+        Some(guide.asymmetry / self.response.determinant)
     }
 }
 
