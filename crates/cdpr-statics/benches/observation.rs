@@ -103,7 +103,9 @@ fn observation(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("robots", &robot.name), |b| {
             b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
         });
-        assert!(observer.observe_all_slopes(&rows).iter().all(Result::is_ok), "{}", robot.name);
+        let found = observer.observe_all_slopes(&rows).into_iter().map(Result::unwrap);
+        let in_lanes = found.filter(|found| found.observation.scalar.is_none()).count();
+        assert!(in_lanes > BATCH * 7 / 8, "{}: {in_lanes}", robot.name);
         group.bench_function(BenchmarkId::new("slopes", &robot.name), |b| {
             b.iter(|| counted(|| observer.observe_all_slopes(black_box(&rows))));
         });

@@ -11,6 +11,14 @@
 //!
 //! (C22) gives the flexibility in the plane; across it A swings about the axis, x/fx with the distance x from
 //! D. Only the angle α needs more than a root or a quotient, and only where L is asked for.
+//!
+//! (C24) gives the derivatives of A at constant force and length. If the axis k turns by dκ within the plane,
+//! towards the cable, u turns by -k dκ and ψ by dκ; m stays normal to τ. If k turns across the plane, u and m
+//! turn with it by cos ψ/sin ψ and 1/sin ψ of its angle:
+//!
+//! ```text
+//! dA/dκ = -ρ e_z + r/(1 + ε) dA/dL  in the plane,      r (1 + cos ψ)/sin ψ = B_x/τ_x  across it     (C31)
+//! ```
 
 use super::field::Lanewise;
 use super::response::Response;
@@ -57,6 +65,30 @@ pub struct LaneWay<T> {
     /// κ [m/N] and τ - γ q of (C22).
     kappa: T,
     coupled: [T; 2],
+    /// α [rad].
+    elevation: T,
+    /// a + d [m].
+    guided: T,
+    /// 1 + ε(T0), and its inverse.
+    stretch: T,
+    stretch_inv: T,
+}
+
+/// Derivatives of the end of a cable over a guide at constant force and length, (C24) and (C31).
+#[derive(Clone, Copy, Debug)]
+pub struct LaneEndSlopes<T> {
+    /// Per weight per length [m²/N].
+    pub per_weight: [T; 2],
+    /// Per axial flexibility 1/EA [N m].
+    pub per_flexibility: [T; 2],
+    /// Per lead [m/m].
+    pub per_lead: [T; 2],
+    /// Per radius of the pulley [m/m].
+    pub per_radius: [T; 2],
+    /// Per turn of the axis k towards the cable, in its plane [m/rad].
+    pub per_axis: [T; 2],
+    /// Across the plane, per turn of k across it [m/rad].
+    pub across_per_axis: T,
 }
 
 impl<T: Lanewise> LaneGuide<T> {
@@ -81,7 +113,8 @@ impl<T: Lanewise> LaneGuide<T> {
     #[inline(always)]
     pub fn way(&self, w: T, free: T, leave: LeavePoint<T>, [stretch, flexibility]: [T; 2]) -> LaneWay<T> {
         let LeavePoint { tangent: [tx, tz], tension_inv, .. } = leave;
-        let guided = self.lead + self.radius * FRAC_PI_2 - self.signed_radius * elevation([tx, tz]);
+        let elevation = elevation([tx, tz]);
+        let guided = self.lead + self.radius * FRAC_PI_2 - self.signed_radius * elevation;
         let stretch_inv = stretch.recip();
         let across = self.signed_radius * stretch_inv * tension_inv;
         let kappa = guided * flexibility * stretch_inv;
@@ -98,18 +131,63 @@ impl<T: Lanewise> LaneGuide<T> {
             end_per_length: [tx * paid_out, tz * paid_out],
             kappa,
             coupled: [tx - gamma * qx, tz - gamma * qz],
+            elevation,
+            guided,
+            stretch,
+            stretch_inv,
+        }
+    }
+
+    /// k_z: 1 for a cable that enters from below, -1 from above, 0 without a pulley.
+    #[inline(always)]
+    pub fn upwards(&self) -> T {
+        T::select(self.radius.at_most(0.0), self.radius * 0.0, self.signed_radius / self.radius)
+    }
+
+    /// How the end moves with what the cable of `way` and this guide are. The part beyond the leave point has
+    /// the unstrained length `free` [m], and an end that moves by `heavier` per weight per length and by
+    /// `softer` per axial flexibility.
+    #[inline(always)]
+    pub fn end_slopes(
+        &self,
+        way: &LaneWay<T>,
+        [axial_flexibility, free]: [T; 2],
+        [heavier, softer]: [[T; 2]; 2],
+    ) -> LaneEndSlopes<T> {
+        let LaneWay { leave: LeavePoint { position, tangent: [tx, tz], .. }, stretch_inv, .. } = *way;
+        let [ex, ez] = way.end_per_length;
+        let hung = way.kappa * tz * free * way.free_per_length;
+        let strained = (way.stretch + -1.0) / axial_flexibility;
+        let softened = way.guided * strained * stretch_inv * stretch_inv;
+        let upwards = self.upwards();
+        let wound = (-(upwards * way.elevation) + FRAC_PI_2) * stretch_inv;
+        let unwound = self.radius * stretch_inv;
+        LaneEndSlopes {
+            per_weight: [heavier[0] - hung * tx, heavier[1] - hung * tz],
+            per_flexibility: [softer[0] + softened * ex, softer[1] + softened * ez],
+            per_lead: [-(ex * stretch_inv), -(ez * stretch_inv)],
+            per_radius: [-(upwards * tz) + 1.0 - wound * ex, upwards * tx - wound * ez],
+            per_axis: [unwound * ex, unwound * ez - self.signed_radius],
+            across_per_axis: position[0] / tx,
         }
     }
 }
 
 impl<T: Lanewise> LaneWay<T> {
+    /// Half the difference `dx/dfz - dz/dfx` of the flexibility (C22) [m/N].
+    #[inline(always)]
+    pub fn asymmetry(&self) -> T {
+        let Self { leave: LeavePoint { tangent: [tx, tz], .. }, kappa, coupled: [px, pz], .. } = *self;
+        kappa * (tx * pz - tz * px) * 0.5
+    }
+
     /// The response of the whole cable from that of its free part to `fx` [N] forwards, (C22), (C23).
     #[inline(always)]
     pub fn response(&self, fx: T, free: &Response<T>) -> Response<T> {
         let Self { leave: LeavePoint { position, tangent: [tx, tz], .. }, kappa, coupled: [px, pz], .. } =
             *self;
         let [xx, xz, zz] = free.flexibility;
-        let twist = kappa * (tx * pz - tz * px) * 0.5;
+        let twist = self.asymmetry();
         let mixed = (tx * pz + tz * px) * 0.5;
         let more = xx * tz * pz + zz * tx * px - xz * mixed * 2.0;
         Response {
@@ -128,11 +206,14 @@ mod tests {
     use super::*;
     use crate::cable::Cable;
     use crate::catenary::Catenary;
+    use crate::catenary::spatial::SpatialCable;
     use crate::guide::{Entry, Guide};
-    use crate::kernel::{LaneSegment, lane_law_response, lane_law_stretch, lane_response};
+    use crate::kernel::{
+        LaneSegment, Tangent, lane_end, lane_law_end, lane_law_response, lane_law_stretch, lane_response,
+    };
     use crate::law::{ElasticLaw, PiecewiseLaw, Segment};
     use approx::assert_relative_eq;
-    use nalgebra::Vector2;
+    use nalgebra::{Vector2, Vector3};
     use proptest::prelude::*;
 
     fn law() -> PiecewiseLaw {
@@ -180,6 +261,8 @@ mod tests {
         close(way.length, unstrained_length, unstrained_length);
         close(way.leave.position[0], point.x, guide.radius + f64::MIN_POSITIVE);
         close(way.leave.position[1], point.y, guide.radius + f64::MIN_POSITIVE);
+        close(way.asymmetry(), catenary.asymmetry(), way.kappa);
+        compare_slopes(catenary, &in_lanes, &way, segments);
         let size = expected.flexibility[0] + expected.flexibility[2];
         for k in 0..3 {
             close(found.flexibility[k], expected.flexibility[k], size);
@@ -212,6 +295,47 @@ mod tests {
                 assert_relative_eq!(slope, slopes[k], epsilon = 1e-5 * scale + error);
             }
             assert_relative_eq!(way.free_per_length, slopes[2], epsilon = 1e-6);
+        }
+    }
+
+    fn compare_slopes(
+        catenary: &Catenary,
+        guide: &LaneGuide<f64>,
+        way: &LaneWay<f64>,
+        segments: &[LaneSegment],
+    ) {
+        let Catenary { cable, force, .. } = *catenary;
+        let (w, flexibility, free) =
+            (cable.weight_per_length, 1.0 / cable.axial_stiffness, catenary.free_length());
+        let force = <[f64; 2]>::from(force).map(Tangent::constant);
+        let end = |w, flexibility| {
+            let free = Tangent::constant(free);
+            let end = match segments {
+                [] => lane_end(w, flexibility, free, force),
+                law => lane_law_end(law, w, flexibility, free, force),
+            };
+            end.end.map(|component| component.slope)
+        };
+        let heavier = end(Tangent::input(w), Tangent::constant(flexibility));
+        let softer = end(Tangent::constant(w), Tangent::input(flexibility));
+        let found = guide.end_slopes(way, [flexibility, free], [heavier, softer]);
+        let close = |found: [f64; 2], expected: Vector2<f64>, scale: f64| {
+            assert_relative_eq!(Vector2::from(found), expected, epsilon = 1e-10 * scale);
+        };
+        let weight = catenary.end_per_weight();
+        close(found.per_weight, weight, weight.norm());
+        let softer = catenary.end_per_stiffness() * -cable.axial_stiffness.powi(2);
+        close(found.per_flexibility, softer, softer.norm());
+        let [lead, radius] = catenary.end_per_guide().unwrap();
+        close(found.per_lead, lead, 1.0);
+        if guide.radius > 0.0 {
+            close(found.per_radius, radius, 3.0);
+            let force = Vector3::new(catenary.force.x, 0.0, catenary.force.y);
+            let unstrained_length = catenary.unstrained_length;
+            let axis = SpatialCable { cable, unstrained_length, force }.slopes().per_axis;
+            close(found.per_axis, Vector2::new(axis[(0, 0)], axis[(2, 0)]), guide.radius);
+            assert_relative_eq!(axis[(1, 0)], 0.0, epsilon = 1e-10);
+            close([found.across_per_axis, 0.0], Vector2::new(axis[(1, 1)], axis[(2, 1)]), axis.norm());
         }
     }
 

@@ -5,12 +5,13 @@
 //! stiffness of the platform and `G = sum wrenches + w_ex`,
 //!
 //! ```text
-//! H y = ±(n, 0),      ±n·dp = y·( ∂G + sum [k_L; s x k_L] dL )                                   (L10)
+//! Hᵀ y = ±(n, 0),     ±n·dp = y·( ∂G + sum [k_L; s x k_L] dL )                                   (L10)
 //! ```
 //!
-//! so that one twist y stands for all parameters; it moves anchor point i by `y_p + y_r x s_i`. What it takes
-//! from the lengths, Λ_i, goes over (L9) to the set-points and, with `a_i = Λ_i dL_i/dt_i`, to the inverse
-//! model. With c_i and D_i of (D6) and the tensions without active bound free,
+//! so that one twist y stands for all parameters; it moves anchor point i by `y_p + y_r x s_i`. H is symmetric
+//! but for cables over guides (`transpose.rs`). What y takes from the lengths, Λ_i, goes over (L9) to the
+//! set-points and, with `a_i = Λ_i dL_i/dt_i`, to the inverse model. With c_i and D_i of (D6) and the tensions
+//! without active bound free,
 //!
 //! ```text
 //! [ sum_free c_i c_iᵀ/D_i ] η = sum_free c_i a_i/D_i,      α_i = (a_i - c_i·η)/D_i               (L11)
@@ -19,19 +20,24 @@
 //!
 //! The number of parameters does not matter: each cable is evaluated once more at each of its four states.
 
+mod answer;
 mod cable;
+mod transpose;
 
 use crate::equations::LinearizedCable;
 use crate::equations::vector::{cross, dot, wrench};
-use crate::lanes::adjoint::cable::{Answer, CableSlopes, TensionSlopes, torque};
-use crate::lanes::algebra::{Lanes3, Lanes6, SymmetricFactors, halves, replace, six, three};
+use crate::lanes::adjoint::answer::Answer;
+pub(crate) use crate::lanes::adjoint::cable::GuideSlopes;
+use crate::lanes::adjoint::cable::{CableSlopes, TensionSlopes, torque};
+use crate::lanes::adjoint::transpose::transpose;
+use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, SymmetricFactors, halves, replace, six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::Keep;
-use crate::lanes::limits::plain_limits_at;
 use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots};
 use crate::lanes::shared::Shared;
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::Field;
+use cdpr_robot::CableEnd;
 
 /// Two tensions that differ by a smaller share may be the same.
 const SAME: f64 = 1e-9;
@@ -54,6 +60,8 @@ pub(crate) struct Record<'a, S: Simd> {
 /// A cable with the tension of the inverse model.
 struct Chosen<'a, S: Simd> {
     cable: LaneCable<'a, S>,
+    /// Least and greatest tension [N].
+    limits: Lanes2<S>,
     /// Whether its tension is at either limit.
     sides: [Mask<S>; 2],
 }
@@ -67,9 +75,16 @@ impl<'a, S: Simd> Record<'a, S> {
 
 impl<'a, S: Simd> Keep<'a, S> for Record<'a, S> {
     #[inline(always)]
-    fn chosen(&mut self, i: usize, cable: &LaneCable<'a, S>, sides: [Mask<S>; 2], last: Mask<S>) {
+    fn chosen(
+        &mut self,
+        i: usize,
+        cable: &LaneCable<'a, S>,
+        limits: &Lanes2<S>,
+        sides: [Mask<S>; 2],
+        last: Mask<S>,
+    ) {
         let Some(before) = self.optimum.get_mut(i) else {
-            return self.optimum.push(Chosen { cable: cable.clone(), sides });
+            return self.optimum.push(Chosen { cable: cable.clone(), limits: *limits, sides });
         };
         let old = &mut before.cable;
         old.length.replace(cable.length, last);
@@ -118,6 +133,8 @@ pub(crate) struct CableAdjoint<S: Simd> {
     pub(crate) flexibility: Lanes<S>,
     /// By the offset of its tension set-point [m/N].
     pub(crate) offset: Lanes<S>,
+    /// By its guide; zero without one.
+    pub(crate) guide: GuideSlopes<S>,
 }
 
 /// Derivatives of |dp| for the robots of `record`; the frame of each is its rotation matrix, by columns.
@@ -133,8 +150,14 @@ pub(crate) fn adjoint<S: Simd>(
     let square = dot(displacement, displacement);
     let least = NO_DEFLECTION * shared.scale.size;
     let rms_inv = square.sqrt().recip();
-    let none =
-        CableAdjoint { exit: [zero; 3], anchor: [zero; 3], weight: zero, flexibility: zero, offset: zero };
+    let none = CableAdjoint {
+        exit: [zero; 3],
+        anchor: [zero; 3],
+        weight: zero,
+        flexibility: zero,
+        offset: zero,
+        guide: GuideSlopes::none(zero),
+    };
     let mut found = Adjoint {
         cables: vec![none; wound.cables.len()],
         weight: zero,
@@ -147,8 +170,9 @@ pub(crate) fn adjoint<S: Simd>(
     let own = PlatformLoad { weight: unloaded.weight, force: [zero; 3] };
     let load = PlatformLoad { weight: unloaded.weight + payload.weight, force: payload.force };
     let back = three!(|k| -(displacement[k] * rms_inv));
-    found.at_rest(unloaded, &own, &back, &mut lengths);
-    found.at_rest(loaded, &load, &three!(|k| -back[k]), &mut lengths);
+    let arm = shared.scale.characteristic_length;
+    found.at_rest(unloaded, &own, &back, &mut lengths, arm);
+    found.at_rest(loaded, &load, &three!(|k| -back[k]), &mut lengths, arm);
     // From here on the slopes by the set-points.
     for ((cable, found_cable), slope) in wound.cables.iter().zip(&mut found.cables).zip(&mut lengths) {
         let span = cable.span(&wound.position);
@@ -159,6 +183,7 @@ pub(crate) fn adjoint<S: Simd>(
         add(&mut found.turn, &torque(&[zero; 3], &[zero; 3], &r, &slopes.span));
     }
     found.of_tensions(record, wound, &lengths, shared);
+    found.turn_axes(wound);
     Some(found)
 }
 
@@ -174,6 +199,9 @@ impl<S: Simd> CableAdjoint<S> {
         }
         self.weight += slopes.weight;
         self.flexibility += slopes.flexibility;
+        if let Some(guide) = &slopes.guide {
+            self.guide.add(guide);
+        }
     }
 }
 
@@ -210,6 +238,7 @@ impl<S: Simd> Adjoint<S> {
         load: &PlatformLoad<S>,
         motion: &Lanes3<S>,
         lengths: &mut [Lanes<S>],
+        arm: f64,
     ) {
         let zero = load.weight.all(0.0);
         let all = zero.less_or_equal(zero);
@@ -222,7 +251,12 @@ impl<S: Simd> Adjoint<S> {
             answers.push(answer);
         }
         robots.assemble(load, &mut platform, all);
-        let twist = platform.moved(&[motion[0], motion[1], motion[2], zero, zero, zero]);
+        let right = [motion[0], motion[1], motion[2], zero, zero, zero];
+        let mut twist = platform.moved(&right);
+        if robots.cables.iter().any(|cable| cable.guided.is_some()) {
+            let converged = transpose(robots, &platform, &answers, &right, &mut twist, arm);
+            self.decided = self.decided & converged;
+        }
         let (moved, turned) = halves(&twist);
         let cables = robots.cables.iter().zip(&platform.cables).zip(&answers).zip(&mut self.cables);
         for ((((cable, linearized), answer), found), length) in cables.zip(lengths) {
@@ -258,7 +292,7 @@ impl<S: Simd> Adjoint<S> {
         for Chosen { cable, .. } in &record.optimum {
             largest = largest.max(dot(&cable.force, &cable.force).sqrt());
         }
-        for (i, Chosen { cable, sides }) in record.optimum.iter().enumerate() {
+        for (i, Chosen { cable, limits, sides }) in record.optimum.iter().enumerate() {
             let choice = &shared.choices[i];
             let span = cable.span(&wound.position);
             let slopes = TensionSlopes::of(cable, &span);
@@ -269,9 +303,12 @@ impl<S: Simd> Adjoint<S> {
             let slope = tension + -choice.reference - dot(&slopes.force_per_tension, &motion);
             let on_bound = sides[0] | sides[1];
             let kept = !slope.abs().less_or_equal(largest * NO_MULTIPLIER);
-            let limits = plain_limits_at(cable, &span, (choice.limits, choice.max_at));
-            let set_point = SetPoint::new(tension, record.offsets[i], limits, *sides);
+            let set_point = SetPoint::new(tension, record.offsets[i], *limits, *sides);
             self.decided = self.decided & set_point.decided & (kept | !on_bound);
+            if let (CableEnd::Exit, Some(guided)) = (choice.max_at, &cable.guided) {
+                // The scalar models have no derivatives of the limit at a leave point that moves.
+                self.decided = self.decided & (!(set_point.over | sides[1]) | guided.fixed());
+            }
             let a = per_set_point[i];
             self.cables[i].offset += set_point.offset.select(a, zero);
             let by_tension = set_point.follows.select(a, zero);
@@ -294,7 +331,7 @@ impl<S: Simd> Adjoint<S> {
         for (i, (span, slopes, motion, column, curvature_inv, by_tension, mut by_bound)) in
             cables.into_iter().enumerate()
         {
-            let Chosen { cable, sides } = &record.optimum[i];
+            let Chosen { cable, sides, .. } = &record.optimum[i];
             let swung = cross(&turned, &cable.anchor_arm);
             let twisted = three!(|k| moved[k] + swung[k]);
             // a_i - c_i·η
@@ -317,6 +354,19 @@ impl<S: Simd> Adjoint<S> {
         self.add_weight(wound, wound.weight, &six!(|k| -balanced[k]));
         for value in balanced {
             self.decided = self.decided & (value * 0.0).less_or_equal(zero);
+        }
+    }
+
+    /// Adds to the derivatives by turns of gravity that the axes k of pulleys stay: by `-k x`(that by k).
+    #[inline(always)]
+    fn turn_axes(&mut self, robots: &Robots<'_, S>) {
+        for (cable, found) in robots.cables.iter().zip(&self.cables) {
+            if let Some(guided) = &cable.guided {
+                let [x, y, _] = found.guide.axis;
+                let upwards = guided.guide.upwards();
+                self.turn[0] += y * upwards;
+                self.turn[1] -= x * upwards;
+            }
         }
     }
 }

@@ -117,8 +117,14 @@ impl<S: Simd> Guided<S> {
         self.guide.leave_point(cable.weight_per_length, cable.length, cable.force)
     }
 
+    /// The lanes in which it has no pulley, and the leave point does not move.
     #[inline(always)]
-    fn way(&self, cable: &LaneCable<'_, S>) -> LaneWay<Lanes<S>> {
+    pub(crate) fn fixed(&self) -> Mask<S> {
+        self.guide.radius.less_or_equal(self.guide.radius.all(0.0))
+    }
+
+    #[inline(always)]
+    pub(crate) fn way(&self, cable: &LaneCable<'_, S>) -> LaneWay<Lanes<S>> {
         let leave = self.leave_point(cable);
         let flexibility = cable.axial_flexibility;
         let stretch = match cable.law {

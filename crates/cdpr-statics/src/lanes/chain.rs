@@ -91,9 +91,17 @@ const LEAST_CURVATURE: f64 = 0.01;
 
 /// What is kept of the links of a chain.
 pub(crate) trait Keep<'a, S: Simd> {
-    /// Cable `i` with its tension of the inverse model, found in the lanes `last`; `sides` are those where it
-    /// is at either limit.
-    fn chosen(&mut self, _i: usize, _cable: &LaneCable<'a, S>, _sides: [Mask<S>; 2], _last: Mask<S>) {}
+    /// Cable `i` with its tension of the inverse model, found in the lanes `last`; its limits, and the lanes
+    /// where it is at either of them.
+    fn chosen(
+        &mut self,
+        _i: usize,
+        _cable: &LaneCable<'a, S>,
+        _limits: &Lanes2<S>,
+        _sides: [Mask<S>; 2],
+        _last: Mask<S>,
+    ) {
+    }
 
     /// The multipliers of the inverse model.
     fn multipliers(&mut self, _multipliers: &Lanes6<S>) {}
@@ -267,8 +275,8 @@ pub(crate) fn distribute<'a, S: Simd>(
             }
             let cables = rows.iter().zip(&all_held).zip(&mut robots.cables).zip(&mut *offsets);
             for (i, ((((row, held), cable), offset), [least, greatest])) in cables.zip(&limits).enumerate() {
-                keep.chosen(i, cable, row.sides, last);
                 let (least, greatest) = (*least, *greatest);
+                keep.chosen(i, cable, &[least, greatest], row.sides, last);
                 let tension = dot(&cable.force, &cable.force).sqrt();
                 let chosen = row.sides[0].select(least, row.sides[1].select(greatest, tension));
                 let set_point = (chosen + *offset).max(least);

@@ -1,36 +1,20 @@
-//! What the adjoint of an observation takes from each cable: how its force and its length answer to its ends
-//! and its material.
+//! What the adjoint of an observation takes from each cable: derivatives of an output by its ends, its
+//! material and its guide.
 //!
-//! At constant force and length the end of a cable moves by `e_w dw + e_f dφ` with its weight per length w
-//! and its axial flexibility `φ = 1/EA`. With `y = d(h, z) - e_w dw - e_f dφ`, C the flexibility, K its
-//! inverse and e the end per length, the force at A changes by
-//!
-//! ```text
-//! df = K (y - e dL)   in the plane,      k_l dl   across it                                           (L8)
-//! ```
-//!
-//! where the length is given. Where the tension is, the force can only turn: with u its direction, n̂ across
-//! it in the plane, `N = C n̂` and `Δ = e x N`,
-//!
-//! ```text
-//! df = n̂ (e x y)/Δ + f_t dt,      dL = (y x N - det C dt)/Δ,      f_t = u - n̂ (e x C u)/Δ        (L9)
-//! ```
-//!
-//! Second derivatives of the force by its tension are those of (L9) along `(f_t, L_t)`, found by tangents.
+//! They follow from how its force and its length answer, (L8) and (L9). Second derivatives of the force by its
+//! tension are those of (L9) along `(f_t, L_t)`, found by tangents.
 
 use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable, Span};
+use crate::lanes::adjoint::answer::{Answer, GuideAnswer, Held};
 use crate::lanes::algebra::{Lanes2, Lanes3, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::shared::Choice;
-use crate::lanes::simd::{Lanes, Simd, WithSimd};
-use cdpr_cable::kernel::{
-    Field, LaneSegment, Lanewise, Response, Tangent, lane_end, lane_law_end, lane_law_response, lane_response,
-};
+use crate::lanes::simd::{Lanes, Simd};
+use cdpr_cable::kernel::{Field, Tangent};
 use cdpr_robot::CableEnd;
 
 /// Derivatives of an output by what one cable is, at one equilibrium.
-#[derive(Clone, Copy)]
 pub(super) struct CableSlopes<S: Simd> {
     /// By the vector from its exit to its anchor point [1/m].
     pub(super) span: Lanes3<S>,
@@ -38,6 +22,35 @@ pub(super) struct CableSlopes<S: Simd> {
     pub(super) weight: Lanes<S>,
     /// By its axial flexibility [N].
     pub(super) flexibility: Lanes<S>,
+    /// By its guide.
+    pub(super) guide: Option<GuideSlopes<S>>,
+}
+
+/// Derivatives of an output by the guide of one cable.
+#[derive(Clone, Copy)]
+pub(crate) struct GuideSlopes<S: Simd> {
+    /// By the lead [1/m].
+    pub(crate) lead: Lanes<S>,
+    /// By the radius of the pulley [1/m].
+    pub(crate) radius: Lanes<S>,
+    /// By the direction k of its axis [1].
+    pub(crate) axis: Lanes3<S>,
+}
+
+impl<S: Simd> GuideSlopes<S> {
+    #[inline(always)]
+    pub(super) fn none(zero: Lanes<S>) -> Self {
+        Self { lead: zero, radius: zero, axis: [zero; 3] }
+    }
+
+    #[inline(always)]
+    pub(super) fn add(&mut self, more: &Self) {
+        self.lead += more.lead;
+        self.radius += more.radius;
+        for k in 0..3 {
+            self.axis[k] += more.axis[k];
+        }
+    }
 }
 
 impl<S: Simd> CableSlopes<S> {
@@ -65,63 +78,7 @@ impl<S: Simd> CableSlopes<S> {
     }
 }
 
-/// A cable that is given its force and its length.
-pub(super) struct Answer<T> {
-    pub(super) response: Response<T>,
-    /// e_w.
-    per_weight: [T; 2],
-    /// e_f.
-    per_flexibility: [T; 2],
-}
-
-/// A cable to be evaluated: law, weight per length, axial flexibility and length, force at A.
-struct Question<'a, T> {
-    law: &'a [LaneSegment],
-    numbers: [T; 3],
-    force: [T; 2],
-}
-
-impl<T: Lanewise> WithSimd for Question<'_, T> {
-    type Output = Answer<T>;
-
-    #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        let Self { law, numbers: [w, flexibility, length], force } = self;
-        let response = match law {
-            [] => lane_response(w, flexibility, length, force),
-            law => lane_law_response(law, w, flexibility, length, force),
-        };
-        let (constant, force) = (
-            [Tangent::constant(w), Tangent::constant(flexibility)],
-            [Tangent::constant(force[0]), Tangent::constant(force[1])],
-        );
-        let length = Tangent::constant(length);
-        let [heavier, softer] = match law {
-            [] => [
-                lane_end(Tangent::input(w), constant[1], length, force).end,
-                lane_end(constant[0], Tangent::input(flexibility), length, force).end,
-            ],
-            law => [
-                lane_law_end(law, Tangent::input(w), constant[1], length, force).end,
-                lane_law_end(law, constant[0], Tangent::input(flexibility), length, force).end,
-            ],
-        };
-        Answer {
-            response,
-            per_weight: [heavier[0].slope, heavier[1].slope],
-            per_flexibility: [softer[0].slope, softer[1].slope],
-        }
-    }
-}
-
 impl<S: Simd> Answer<Lanes<S>> {
-    /// The answer of a cable to the force and the length that it has.
-    #[inline(always)]
-    pub(super) fn of(cable: &LaneCable<'_, S>) -> Self {
-        let numbers = [cable.weight_per_length, cable.axial_flexibility, cable.length];
-        cable.length.apart(Question { law: cable.law, numbers, force: cable.force })
-    }
-
     /// Slopes of an output that falls by `twisted`·df with the force (L8) on a cable of given length, and
     /// its derivative by the length.
     #[inline(always)]
@@ -132,7 +89,11 @@ impl<S: Simd> Answer<Lanes<S>> {
     ) -> (CableSlopes<S>, Lanes<S>) {
         let [xx, xz, zz] = linearized.stiffness;
         let (plane, [h, z]) = (linearized.plane, linearized.plane.project(*twisted));
-        let pulled = [xx * h + xz * z, xz * h + zz * z];
+        let mut pulled = [xx * h + xz * z, xz * h + zz * z];
+        if let Some(skew) = self.skew_stiffness() {
+            pulled[0] += skew * z;
+            pulled[1] -= skew * h;
+        }
         let across = sideways(&plane, twisted) * linearized.lateral_stiffness;
         let slopes = self.slopes(&plane, [-pulled[0], -pulled[1]], -across);
         (slopes, dot(&pulled, &self.response.end_per_length))
@@ -146,7 +107,7 @@ impl<S: Simd> Answer<Lanes<S>> {
         plane: &CablePlane<Lanes<S>>,
         share: Lanes<S>,
     ) -> (CableSlopes<S>, Lanes<S>) {
-        let held = Held::of(&self.response);
+        let held = Held::of(self);
         let along = [held.length_per_end[0] * share, held.length_per_end[1] * share];
         (self.slopes(plane, along, share.all(0.0)), held.length_per_tension * share)
     }
@@ -158,6 +119,24 @@ impl<S: Simd> Answer<Lanes<S>> {
             span: in_space(plane, along, across),
             weight: -dot(&along, &self.per_weight),
             flexibility: -dot(&along, &self.per_flexibility),
+            guide: match &self.guide {
+                None => None,
+                Some(guide) => Some(guide.slopes(plane, &along, across)),
+            },
+        }
+    }
+}
+
+impl<S: Simd> GuideAnswer<Lanes<S>> {
+    /// Slopes of an output that grows by `along`·y in the plane and by `across` for each motion across it.
+    #[inline(always)]
+    fn slopes(&self, plane: &CablePlane<Lanes<S>>, along: &Lanes2<S>, across: Lanes<S>) -> GuideSlopes<S> {
+        let end = &self.end;
+        let forwards = -dot(along, &end.per_axis);
+        GuideSlopes {
+            lead: -dot(along, &end.per_lead),
+            radius: -dot(along, &end.per_radius),
+            axis: in_space(plane, [forwards, across.all(0.0)], -(across * end.across_per_axis)),
         }
     }
 }
@@ -175,39 +154,6 @@ fn in_space<S: Simd>(plane: &CablePlane<Lanes<S>>, along: Lanes2<S>, across: Lan
     [x - plane.azimuth[1] * across, y + plane.azimuth[0] * across, z]
 }
 
-/// A cable between held ends whose tension is given, equation (L9).
-struct Held<T> {
-    /// n̂.
-    normal: [T; 2],
-    /// (-e_z, e_x)/Δ, by which the end turns the force.
-    turn_per_end: [T; 2],
-    /// (N_z, -N_x)/Δ.
-    length_per_end: [T; 2],
-    /// f_t.
-    force_per_tension: [T; 2],
-    /// -det C/Δ.
-    length_per_tension: T,
-}
-
-impl<T: Lanewise> Held<T> {
-    #[inline(always)]
-    fn of(response: &Response<T>) -> Self {
-        let ([xx, xz, zz], [ux, uz]) = (response.flexibility, response.direction);
-        let [ex, ez] = response.end_per_length;
-        let across = [xz * ux - xx * uz, zz * ux - xz * uz];
-        let inverse = (ex * across[1] - ez * across[0]).recip();
-        let stretched = [xx * ux + xz * uz, xz * ux + zz * uz];
-        let turned = (ez * stretched[0] - ex * stretched[1]) * inverse;
-        Self {
-            normal: [-uz, ux],
-            turn_per_end: [-(ez * inverse), ex * inverse],
-            length_per_end: [across[1] * inverse, -(across[0] * inverse)],
-            force_per_tension: [ux - uz * turned, uz + ux * turned],
-            length_per_tension: -(response.determinant * inverse),
-        }
-    }
-}
-
 /// A cable between held ends with the derivatives of (L9) by its tension.
 pub(super) struct TensionSlopes<S: Simd> {
     plane: CablePlane<Lanes<S>>,
@@ -222,17 +168,8 @@ pub(super) struct TensionSlopes<S: Simd> {
 impl<S: Simd> TensionSlopes<S> {
     #[inline(always)]
     pub(super) fn of(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
-        let first = Held::of(&cable.response());
-        let along = |value, slope| Tangent { value, slope };
-        let [x, z] = first.force_per_tension;
-        let numbers = [
-            Tangent::constant(cable.weight_per_length),
-            Tangent::constant(cable.axial_flexibility),
-            along(cable.length, first.length_per_tension),
-        ];
-        let force = [along(cable.force[0], x), along(cable.force[1], z)];
-        let answer = cable.length.apart(Question { law: cable.law, numbers, force });
-        let held = Held::of(&answer.response);
+        let answer = Answer::along_tension(cable);
+        let held = Held::of(&answer);
         let [x, z] = held.force_per_tension;
         Self {
             plane: span.plane,
@@ -260,12 +197,25 @@ impl<S: Simd> TensionSlopes<S> {
         };
         let (one, zero) = (Tangent::constant(share.all(1.0)), Tangent::constant(share.all(0.0)));
         let lateral = answer.response.lateral_flexibility.recip();
-        let across =
-            sideways(plane, force) * lateral.value + sideways(plane, twisted) * share * lateral.slope;
+        let [beside, beside_twice] = [sideways(plane, force), sideways(plane, twisted) * share];
+        let across = beside * lateral.value + beside_twice * lateral.slope;
+        let guide = match &answer.guide {
+            None => None,
+            Some(guide) => {
+                let swung = lateral * guide.end.across_per_axis;
+                let across = beside * swung.value + beside_twice * swung.slope;
+                Some(GuideSlopes {
+                    lead: -of(guide.end.per_lead),
+                    radius: -of(guide.end.per_radius),
+                    axis: in_space(plane, [-of(guide.end.per_axis), share.all(0.0)], -across),
+                })
+            }
+        };
         CableSlopes {
             span: in_space(plane, [of([one, zero]), of([zero, one])], across),
             weight: -of(answer.per_weight),
             flexibility: -of(answer.per_flexibility),
+            guide,
         }
     }
 }

@@ -4,14 +4,15 @@ use super::{Batch, Observation, Observer, Rows, Wanted, read};
 use crate::derivatives::{Derivatives, derivatives, derivatives_free, derivatives_near};
 use crate::equations::vector::dot;
 use crate::error::StaticsError;
-use crate::lanes::adjoint::{Adjoint, Record, adjoint};
+use crate::lanes::adjoint::{Adjoint, GuideSlopes, Record, adjoint};
 use crate::lanes::algebra::three;
 use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
+use crate::lanes::newton::Robots;
 use crate::lanes::reason::ScalarReason;
-use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
+use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_cable::kernel::Field;
-use cdpr_robot::{Axis, Parameter, Robot};
+use cdpr_robot::{Axis, Parameter, Robot, RobotCable, TiltAxis};
 
 /// The deflection of one perturbed robot, with the derivatives of its length.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +29,8 @@ impl Observer<'_> {
     ///
     /// A slope times the range of its parameter agrees with [`Observer::observe_slopes`] to 1e-11 of the
     /// longest cable (docs/VALIDATION.md). Robots in which left and right derivatives may differ are left to
-    /// the scalar models, and so are those with pulleys or leads.
+    /// the scalar models, and so are those in which a tension is at its greatest value where the cable leaves
+    /// a pulley.
     pub fn observe_all_slopes(&self, deviations: &[f64]) -> Vec<Result<ObservationSlopes, StaticsError>> {
         self.each(
             deviations,
@@ -76,7 +78,7 @@ impl WithSimd for SlopesBatch<'_> {
             Ok(nominal) => nominal,
             Err(why) => return vec![Err(*why); deviations.len() / parameters],
         };
-        if !nominal.free.is_empty() || robot.cables.iter().any(|cable| cable.guide(None).is_some()) {
+        if !nominal.free.is_empty() {
             return vec![Err(ScalarReason::Derivatives); deviations.len() / parameters];
         }
         let mut found = Vec::with_capacity(deviations.len() / parameters);
@@ -87,12 +89,13 @@ impl WithSimd for SlopesBatch<'_> {
             let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
             start.robots.frame.extend(rows.frame(pose, level.as_ref()));
             let payload = start.payload.clone();
+            let rolling = rows.rolling(robot, &start.robots);
             let mut record = Record::new(start.offsets.clone(), start.multipliers);
             let outcome = observe(start, &nominal.shared, &mut record);
             let adjoint = adjoint(&record, &outcome.displacement, &payload, &nominal.shared);
             let mut decided = [false; MAX_LANES];
             if let Some(adjoint) = &adjoint {
-                decided = adjoint.decided.to_array();
+                decided = (adjoint.decided & rolling).to_array();
                 rows.write_slopes(robot, adjoint, level.as_ref(), &mut slopes);
             }
             let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions());
@@ -112,6 +115,19 @@ impl WithSimd for SlopesBatch<'_> {
 }
 
 impl<S: Simd> Rows<'_, S> {
+    /// The lanes whose pulleys have radii: that of a pulley without one has a derivative on one side alone.
+    #[inline(always)]
+    fn rolling(&self, robot: &Robot, robots: &Robots<'_, S>) -> Mask<S> {
+        let zero = self.all(0.0);
+        let mut rolling = zero.less_or_equal(zero);
+        for (cable, in_lanes) in robot.cables.iter().zip(&robots.cables) {
+            if let (Some(_), Some(guided)) = (&cable.pulley, &in_lanes.guided) {
+                rolling = rolling & !guided.fixed();
+            }
+        }
+        rolling
+    }
+
     /// Writes the slopes by all parameters from those by what the robots are in their level frames.
     #[inline(always)]
     fn write_slopes(
@@ -161,8 +177,39 @@ impl<S: Simd> Rows<'_, S> {
         for (i, of) in adjoint.cables.iter().enumerate() {
             slopes[layout.tension_offset(i)] = of.offset.to_array();
         }
+        for (i, (cable, of)) in robot.cables.iter().zip(&adjoint.cables).enumerate() {
+            if cable.pulley.is_some() || cable.lead != 0.0 {
+                self.write_guide(i, cable, &of.guide, level, slopes);
+            }
+        }
         slopes[layout.mass()] = (adjoint.weight * gravity).to_array();
         slopes[layout.linear_density()] = by_density.to_array();
         slopes[layout.youngs_modulus()] = by_modulus.to_array();
+    }
+    /// Writes the slopes by the guide of cable `i`.
+    fn write_guide(
+        &self,
+        i: usize,
+        cable: &RobotCable,
+        of: &GuideSlopes<S>,
+        level: Option<&LevelFrame<S>>,
+        slopes: &mut [[f64; MAX_LANES]],
+    ) {
+        let mut write = |parameter: Parameter, slope: Lanes<S>| {
+            if let Some(index) = self.layout.index(parameter) {
+                slopes[index] = slope.to_array();
+            }
+        };
+        write(Parameter::Lead(i), of.lead);
+        write(Parameter::PulleyRadius(i), of.radius);
+        let Some(pulley) = &cable.pulley else { return };
+        let axis = match level {
+            None => of.axis,
+            Some(level) => level.to_base(&of.axis),
+        };
+        for about in TiltAxis::ALL {
+            let turned = about.of(pulley).cross(&pulley.axis.normalize());
+            write(Parameter::Tilt(i, about), dot(&axis, &three!(|k| self.all(turned[k]))));
+        }
     }
 }

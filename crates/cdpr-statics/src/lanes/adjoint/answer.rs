@@ -1,0 +1,271 @@
+//! How a cable answers to its ends, its material and its guide, for the adjoint of an observation.
+//!
+//! At constant force and length the end of a cable moves by `e_w dw + e_f dφ` with its weight per length w
+//! and its axial flexibility `φ = 1/EA`. With `y = d(h, z) - e_w dw - e_f dφ`, C the flexibility, K its
+//! inverse and e the end per length, the force at A changes by
+//!
+//! ```text
+//! df = K (y - e dL)   in the plane,      k_l dl   across it                                           (L8)
+//! ```
+//!
+//! where the length is given. Where the tension is, the force can only turn: with u its direction, n̂ across
+//! it in the plane, `N = C n̂` and `Δ = e x N`,
+//!
+//! ```text
+//! df = n̂ (e x y)/Δ + f_t dt,      dL = (y x N - det C dt)/Δ,      f_t = u - n̂ (e x C u)/Δ        (L9)
+//! ```
+//!
+//! Over a guide y also loses what lead, radius and axis move, (C24) and (C31), and with the weight of the
+//! cable C has the skew part `a = (dx/dfz - dz/dfx)/2` of (C22). So does K:
+//!
+//! ```text
+//! K = K_s + k_a (e_z e_hᵀ - e_h e_zᵀ),      k_a = a/det C                                         (L17)
+//! ```
+
+use crate::equations::vector::dot;
+use crate::lanes::algebra::Lanes3;
+use crate::lanes::cable::{Guided, LaneCable};
+use crate::lanes::simd::{Lanes, Simd, WithSimd};
+use cdpr_cable::kernel::{
+    LaneEndSlopes, LaneGuide, LaneSegment, Lanewise, Response, Tangent, lane_end, lane_law_end,
+    lane_law_response, lane_law_stretch, lane_response,
+};
+
+/// A cable that is given its force and its length.
+pub(super) struct Answer<T> {
+    /// The response, with the determinant of the whole C.
+    pub(super) response: Response<T>,
+    /// e_w.
+    pub(super) per_weight: [T; 2],
+    /// e_f.
+    pub(super) per_flexibility: [T; 2],
+    /// What a guide adds.
+    pub(super) guide: Option<Box<GuideAnswer<T>>>,
+}
+
+/// How a cable answers to what guides it.
+pub(super) struct GuideAnswer<T> {
+    /// a [m/N].
+    asymmetry: T,
+    pub(super) end: LaneEndSlopes<T>,
+}
+
+impl<T: Lanewise> GuideAnswer<T> {
+    /// dx/dfz and dz/dfx from their mean.
+    #[inline(always)]
+    fn mixed(&self, mean: T) -> [T; 2] {
+        [mean + self.asymmetry, mean - self.asymmetry]
+    }
+}
+
+/// A cable to be evaluated: law, weight per length, axial flexibility and length, force at A.
+#[derive(Clone, Copy)]
+struct Question<'a, T> {
+    law: &'a [LaneSegment],
+    numbers: [T; 3],
+    force: [T; 2],
+}
+
+impl<T: Lanewise> WithSimd for Question<'_, T> {
+    type Output = Answer<T>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
+        let Self { law, numbers: [w, flexibility, length], force } = self;
+        let response = match law {
+            [] => lane_response(w, flexibility, length, force),
+            law => lane_law_response(law, w, flexibility, length, force),
+        };
+        let (constant, force) = (
+            [Tangent::constant(w), Tangent::constant(flexibility)],
+            [Tangent::constant(force[0]), Tangent::constant(force[1])],
+        );
+        let length = Tangent::constant(length);
+        let [heavier, softer] = match law {
+            [] => [
+                lane_end(Tangent::input(w), constant[1], length, force).end,
+                lane_end(constant[0], Tangent::input(flexibility), length, force).end,
+            ],
+            law => [
+                lane_law_end(law, Tangent::input(w), constant[1], length, force).end,
+                lane_law_end(law, constant[0], Tangent::input(flexibility), length, force).end,
+            ],
+        };
+        Answer {
+            response,
+            per_weight: [heavier[0].slope, heavier[1].slope],
+            per_flexibility: [softer[0].slope, softer[1].slope],
+            guide: None,
+        }
+    }
+}
+
+impl<S: Simd> Answer<Lanes<S>> {
+    /// The answer of a cable to the force and the length that it has.
+    #[inline(always)]
+    pub(super) fn of(cable: &LaneCable<'_, S>) -> Self {
+        let numbers = [cable.weight_per_length, cable.axial_flexibility, cable.length];
+        let question = Question { law: cable.law, numbers, force: cable.force };
+        match &cable.guided {
+            None => cable.length.apart(question),
+            Some(guided) => over_guide(guided.guide, question, cable.length),
+        }
+    }
+
+    /// k_a of a cable over a guide [N/m].
+    #[inline(always)]
+    pub(super) fn skew_stiffness(&self) -> Option<Lanes<S>> {
+        let guide = self.guide.as_ref()?;
+        Some(guide.asymmetry / self.response.determinant)
+    }
+}
+
+impl<S: Simd> Answer<Tangent<Lanes<S>>> {
+    /// The answer of a cable between held ends with its derivatives by the tension.
+    #[inline(always)]
+    pub(super) fn along_tension(cable: &LaneCable<'_, S>) -> Self {
+        let [x, z, longer] = match &cable.guided {
+            None => {
+                let response = cable.response();
+                let [_, mixed, _] = response.flexibility;
+                let first = Held::of_flexibility(&response, [mixed, mixed]);
+                [first.force_per_tension[0], first.force_per_tension[1], first.length_per_tension]
+            }
+            Some(guided) => first_over_guide(guided, cable),
+        };
+        let along = |value, slope| Tangent { value, slope };
+        let numbers = [
+            Tangent::constant(cable.weight_per_length),
+            Tangent::constant(cable.axial_flexibility),
+            along(cable.length, longer),
+        ];
+        let force = [along(cable.force[0], x), along(cable.force[1], z)];
+        let question = Question { law: cable.law, numbers, force };
+        match &cable.guided {
+            None => cable.length.apart(question),
+            Some(guided) => {
+                let LaneGuide { lead, radius, signed_radius } = guided.guide;
+                let guide = LaneGuide {
+                    lead: Tangent::constant(lead),
+                    radius: Tangent::constant(radius),
+                    signed_radius: Tangent::constant(signed_radius),
+                };
+                over_guide(guide, question, cable.length)
+            }
+        }
+    }
+}
+
+/// The answer of a cable over a guide, whose length is that beyond its leave point; `lanes` are those of the
+/// vector unit.
+#[cold]
+#[inline(never)]
+fn over_guide<S: Simd, T: Lanewise>(
+    guide: LaneGuide<T>,
+    question: Question<'_, T>,
+    lanes: Lanes<S>,
+) -> Answer<T> {
+    lanes.apart(OverGuide { guide, question })
+}
+
+struct OverGuide<'a, T> {
+    guide: LaneGuide<T>,
+    question: Question<'a, T>,
+}
+
+impl<T: Lanewise> WithSimd for OverGuide<'_, T> {
+    type Output = Answer<T>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, same: Same) -> Answer<T> {
+        let Self { guide, question } = self;
+        let Question { law, numbers: [w, flexibility, free], force } = question;
+        let beyond = question.with_simd(same);
+        let leave = guide.leave_point(w, free, force);
+        let stretch = match law {
+            [] => [leave.tension * flexibility + 1.0, flexibility],
+            law => lane_law_stretch(law, flexibility, leave.tension),
+        };
+        let way = guide.way(w, free, leave, stretch);
+        let end = guide.end_slopes(&way, [flexibility, free], [beyond.per_weight, beyond.per_flexibility]);
+        let (response, asymmetry) = (way.response(force[0], &beyond.response), way.asymmetry());
+        let determinant = response.determinant + asymmetry * asymmetry;
+        Answer {
+            response: Response { determinant, ..response },
+            per_weight: end.per_weight,
+            per_flexibility: end.per_flexibility,
+            guide: Some(Box::new(GuideAnswer { asymmetry, end })),
+        }
+    }
+}
+
+/// How the force at A and the length beyond the leave point change with the tension of a cable between held
+/// ends: f_t of (L9), and dLf by (C21).
+#[cold]
+#[inline(never)]
+fn first_over_guide<S: Simd>(guided: &Guided<S>, cable: &LaneCable<'_, S>) -> Lanes3<S> {
+    cable.length.apart(First(guided, cable))
+}
+
+struct First<'a, 'b, S: Simd>(&'a Guided<S>, &'a LaneCable<'b, S>);
+
+impl<S: Simd> WithSimd for First<'_, '_, S> {
+    type Output = Lanes3<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Lanes3<S> {
+        let Self(guided, cable) = self;
+        let way = guided.way(cable);
+        let (response, a) = (way.response(cable.force[0], &cable.response()), way.asymmetry());
+        let [_, mixed, _] = response.flexibility;
+        let determinant = response.determinant + a * a;
+        let held = Held::of_flexibility(&Response { determinant, ..response }, [mixed + a, mixed - a]);
+        let [x, z] = held.force_per_tension;
+        let longer = way.free_per_length * held.length_per_tension;
+        [x, z, longer + dot(&way.free_per_force, &held.force_per_tension)]
+    }
+}
+
+/// A cable between held ends whose tension is given, equation (L9).
+pub(super) struct Held<T> {
+    /// n̂.
+    pub(super) normal: [T; 2],
+    /// (-e_z, e_x)/Δ, by which the end turns the force.
+    pub(super) turn_per_end: [T; 2],
+    /// (N_z, -N_x)/Δ.
+    pub(super) length_per_end: [T; 2],
+    /// f_t.
+    pub(super) force_per_tension: [T; 2],
+    /// -det C/Δ.
+    pub(super) length_per_tension: T,
+}
+
+impl<T: Lanewise> Held<T> {
+    #[inline(always)]
+    pub(super) fn of(answer: &Answer<T>) -> Self {
+        let Answer { response, guide, .. } = answer;
+        let [_, mixed, _] = response.flexibility;
+        match guide {
+            None => Self::of_flexibility(response, [mixed, mixed]),
+            Some(guide) => Self::of_flexibility(response, guide.mixed(mixed)),
+        }
+    }
+
+    /// The cable with this response, dx/dfz and dz/dfx.
+    #[inline(always)]
+    fn of_flexibility(response: &Response<T>, [xz, zx]: [T; 2]) -> Self {
+        let ([xx, _, zz], [ux, uz]) = (response.flexibility, response.direction);
+        let [ex, ez] = response.end_per_length;
+        let across = [xz * ux - xx * uz, zz * ux - zx * uz];
+        let inverse = (ex * across[1] - ez * across[0]).recip();
+        let stretched = [xx * ux + xz * uz, zx * ux + zz * uz];
+        let turned = (ez * stretched[0] - ex * stretched[1]) * inverse;
+        Self {
+            normal: [-uz, ux],
+            turn_per_end: [-(ez * inverse), ex * inverse],
+            length_per_end: [across[1] * inverse, -(across[0] * inverse)],
+            force_per_tension: [ux - uz * turned, uz + ux * turned],
+            length_per_tension: -(response.determinant * inverse),
+        }
+    }
+}
