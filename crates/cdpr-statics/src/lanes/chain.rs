@@ -21,7 +21,7 @@
 //!      R1 = (t + û_z dz - r) t' + J·λ,   R2 = sum w + w_ex,   h = t'² + (t - r) t'' + λ·w''
 //! ```
 //!
-//! Where steps pass limits of the tensions, `program.rs` finds those within them.
+//! Where steps pass limits of the tensions, `chain/program.rs` finds those within them.
 //!
 //! For a parabola fz is linear in fx and w'' zero; for a cable that is not taut it is that of the
 //! inextensible catenary ([`HeldCable::curvature`]). A cable near the least tension of its
@@ -29,18 +29,24 @@
 //!
 //! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
 
+pub(crate) mod free;
+pub(crate) mod limits;
+pub(crate) mod minimum;
+mod program;
+pub(crate) mod shared;
+
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
 use crate::inverse::NEARLY_ROUNDING;
 use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, halves, replace, six, three};
-use crate::lanes::cable::{FreeLength, LaneCable};
-use crate::lanes::free::{FreeMotion, rest};
+use crate::lanes::cable::LaneCable;
+use crate::lanes::chain::free::{FreeMotion, rest};
+use crate::lanes::chain::limits::limits_at;
+use crate::lanes::chain::minimum::is_least;
+use crate::lanes::chain::program::{Row, newton, within_limits};
+use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::held::HeldCable;
-use crate::lanes::limits::limits_at;
-use crate::lanes::minimum::is_least;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots};
-use crate::lanes::program::{Row, newton, within_limits};
-use crate::lanes::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::{FOLDED, Field};
 

@@ -3,7 +3,7 @@
 //! Robots with cables that are linear or have an elastic law, taut or sagging, at their limits or not, behind
 //! leads and over pulleys with vertical axes or without, are observed in the lanes of the vector unit
 //! (`lanes/chain.rs`), each from the tensions of the nominal robot, and with fewer cables than free motions
-//! also from its free coordinates (`lanes/free.rs`). Any other robot is observed by the scalar models, which
+//! also from its free coordinates (`lanes/chain/free.rs`). Any other robot is observed by the scalar models, which
 //! decide on every failure.
 //!
 //! Where the sum of squares of the inverse model has several local minima, a perturbed robot is observed in
@@ -17,13 +17,13 @@ use crate::error::StaticsError;
 use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution};
 use crate::lanes::algebra::{Frame, rotated, six, three};
 use crate::lanes::cable::{Guided, LaneCable, Shape};
+use crate::lanes::chain::free::FreeMotion;
+use crate::lanes::chain::shared::laws;
+use crate::lanes::chain::shared::{Choice, Shared};
 use crate::lanes::chain::{ChainStart, Outcome, observe};
-use crate::lanes::free::FreeMotion;
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::{Layout, PlatformLoad, Robots, Scale};
-use crate::lanes::placed::laws;
 use crate::lanes::reason::ScalarReason;
-use crate::lanes::shared::{Choice, Shared};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{Deflection, deflection, deflection_beside, deflection_near};
 use crate::problem::DirectProblem;

@@ -8,24 +8,28 @@
 //! next one is first asked for a proof that it has none, from the tensions that came nearest there. No answer
 //! depends on the vector unit, because no sequence of a block knows another.
 
+mod loaded;
+mod placed;
+
 use crate::equations::Span;
 use crate::equations::vector::{dot, wrench};
 use crate::error::StaticsError;
 use crate::inverse::{InTurn, InverseSolution};
 use crate::lanes::algebra::{Lanes2, Lanes6, six, three};
 use crate::lanes::cable::Shape;
+use crate::lanes::chain::minimum::is_least;
+use crate::lanes::chain::shared::{Choice, Shared};
 use crate::lanes::chain::{Keep, SAGGING, distribute, hold};
 use crate::lanes::held::HeldCable;
-use crate::lanes::minimum::is_least;
 use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots};
 use crate::lanes::observer::shape;
-use crate::lanes::placed::{PlacedRobot, each};
-use crate::lanes::shared::{Choice, Shared};
+use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
 use cdpr_robot::{Pose, Robot, Vector2, Vector3, Vector6};
 use cdpr_tension::Bound;
+pub use loaded::{LoadedPose, loaded_poses};
 use smallvec::SmallVec;
 
 /// Poses that are cut into sequences together.

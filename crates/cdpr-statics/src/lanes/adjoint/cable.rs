@@ -9,7 +9,7 @@ use crate::equations::{CablePlane, LinearizedCable, Span};
 use crate::lanes::adjoint::answer::{Answer, GuideAnswer, Held};
 use crate::lanes::algebra::{Lanes2, Lanes3, three};
 use crate::lanes::cable::LaneCable;
-use crate::lanes::shared::Choice;
+use crate::lanes::chain::shared::Choice;
 use crate::lanes::simd::{Lanes, Simd};
 use cdpr_cable::kernel::{Field, Tangent};
 use cdpr_robot::CableEnd;

@@ -12,7 +12,7 @@ use crate::lanes::algebra::{Lanes3, Lanes6x6, SymmetricFactors, six, three};
 use crate::lanes::cable::FreeLength;
 use crate::lanes::eigen::least_eigenvalue;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, PlatformLoad, Robots};
-use crate::lanes::placed::{PlacedRobot, each};
+use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{Deflection, deflection_from};
@@ -348,7 +348,7 @@ mod tests {
 
     #[test]
     fn neither_vector_unit_nor_neighbours_change_a_bit_of_a_pose() {
-        let mut robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json")).unwrap();
+        let mut robot = Robot::from_json(include_str!("../../../../../data/robots/cogiro.json")).unwrap();
         robot.cables[3].lead = 2.0;
         let load = Load::payload(50.0);
         let pose = |k| Pose::at(0.4 * f64::from(k) - 4.0, 0.4, 1.6);
@@ -365,7 +365,7 @@ mod tests {
 
     #[test]
     fn a_moment_is_left_to_the_scalar_models() {
-        let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap();
+        let robot = Robot::from_json(include_str!("../../../../../data/robots/caroca.json")).unwrap();
         let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
         let moment = Load::wrench(cdpr_robot::Wrench { force: Vector3::zeros(), moment: Vector3::z() });
         let found = loaded_poses(&robot, &[&wanted], &moment).remove(0).unwrap();

@@ -23,10 +23,10 @@ use crate::equations::Span;
 use crate::equations::vector::{cross, dot};
 use crate::inverse::{BESIDE, NEARLY_ROUNDING};
 use crate::lanes::algebra::{Lanes3, Lanes6, add, six, solve_columns, three};
+use crate::lanes::chain::limits::limits_at;
+use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::held::HeldCable;
-use crate::lanes::limits::limits_at;
 use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots, rotate};
-use crate::lanes::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::{FOLDED, Field};
 

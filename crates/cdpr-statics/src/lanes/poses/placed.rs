@@ -2,20 +2,14 @@
 
 use crate::lanes::algebra::{Frame, rotated, three};
 use crate::lanes::cable::{Guided, LaneCable};
+use crate::lanes::chain::shared::laws;
 use crate::lanes::newton::{Layout, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Simd};
 use crate::state::{Load, rounding_of_closure};
-use cdpr_cable::PiecewiseLaw;
 use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
-use cdpr_robot::{Matrix3, Pose, Robot, RobotCable, Vector3, Vector6};
+use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6};
 use smallvec::SmallVec;
-
-/// Segments of the elastic law of each cable; none of a linear one.
-pub(crate) fn laws(robot: &Robot) -> Vec<Vec<LaneSegment>> {
-    let law = |cable: &RobotCable| cable.properties.law.as_ref().map(PiecewiseLaw::lane_segments);
-    robot.cables.iter().map(|cable| law(cable).unwrap_or_default()).collect()
-}
 
 /// A robot whose poses fill the lanes.
 pub(crate) struct PlacedRobot<'a> {

@@ -2,7 +2,9 @@
 
 use crate::lanes::cable::Shape;
 use crate::lanes::newton::Scale;
-use cdpr_robot::{CableEnd, Robot, TensionLimits};
+use cdpr_cable::PiecewiseLaw;
+use cdpr_cable::kernel::LaneSegment;
+use cdpr_robot::{CableEnd, Robot, RobotCable, TensionLimits};
 
 /// A change of tensions that are still to be offset below this, relative to the longest cable or the sum of
 /// tensions, is the last one: their error then changes no position by more than 1e-12 m.
@@ -46,4 +48,10 @@ pub(crate) struct Shared {
     pub(crate) forces: f64,
     /// Lengths that positions are compared with.
     pub(crate) scale: Scale,
+}
+
+/// Segments of the elastic law of each cable; none of a linear one.
+pub(crate) fn laws(robot: &Robot) -> Vec<Vec<LaneSegment>> {
+    let law = |cable: &RobotCable| cable.properties.law.as_ref().map(PiecewiseLaw::lane_segments);
+    robot.cables.iter().map(|cable| law(cable).unwrap_or_default()).collect()
 }
