@@ -238,14 +238,12 @@ impl<S: Simd> InLanes<'_, S> {
         }
         let arm = (longest * 1e-3).max(self.all(robot.platform_size()));
         let stiffness = robots.stiffness(carried, platform);
-        let inverse = arm.recip();
+        let (one, inverse) = (self.all(1.0), arm.recip());
+        let scale = [one, one, one, inverse, inverse, inverse];
         let mut scaled = stiffness;
-        for row in 0..6 {
-            for column in row.max(3)..6 {
-                scaled[row][column] = scaled[row][column] * inverse;
-                if row >= 3 {
-                    scaled[row][column] = scaled[row][column] * inverse;
-                }
+        for (row, per_row) in scaled.iter_mut().zip(&scale) {
+            for (element, per_column) in row.iter_mut().zip(&scale) {
+                *element = *element * *per_row * *per_column;
             }
         }
         let stable = SymmetricFactors::new(scaled).positive;
