@@ -382,8 +382,7 @@ class Robot:
         deviations: deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
         payload, force, moment: one load for all, as in `deflection`.
         free: names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
-            one with fewer cables than free motions; deviating robots are wound for the pose that it finds,
-            one at a time.
+            one with fewer cables than free motions; deviating robots are wound for the pose that it finds.
 
         Raises InputError; for one robot NoSolutionError.
         """
