@@ -47,7 +47,7 @@ use crate::lanes::chain::program::{Row, newton, within_limits};
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::held::HeldCable;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots};
-use crate::lanes::simd::{Lanes, Mask, Simd};
+use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::{FOLDED, Field};
 
 /// Robots at their wanted pose.
@@ -95,6 +95,9 @@ pub(crate) const SAGGING: f64 = 0.02;
 /// Least curvature of a step, relative to that of a straight cable.
 const LEAST_CURVATURE: f64 = 0.01;
 
+/// Who keeps the links of a chain.
+pub(crate) type Keeper<'k, 'a, S> = Option<&'k mut (dyn Keep<'a, S> + 'k)>;
+
 /// What is kept of the links of a chain.
 pub(crate) trait Keep<'a, S: Simd> {
     /// Cable `i` with its tension of the inverse model, found in the lanes `last`; its limits, and the lanes
@@ -119,19 +122,40 @@ pub(crate) trait Keep<'a, S: Simd> {
     fn state(&mut self, _robots: &Robots<'a, S>) {}
 }
 
-/// Nothing is kept.
-impl<S: Simd> Keep<'_, S> for () {}
-
 /// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at
-/// the wanted pose.
+/// the wanted pose. All observers share one function for each vector unit.
 #[inline(always)]
-pub(crate) fn observe<'a, S: Simd>(
-    begin: ChainStart<'a, S>,
-    shared: &Shared,
-    keep: &mut impl Keep<'a, S>,
+pub(crate) fn observe<'b, 'a, S: Simd>(
+    begin: &'b mut ChainStart<'a, S>,
+    shared: &'b Shared,
+    keep: Keeper<'b, 'a, S>,
 ) -> Outcome<S> {
-    let ChainStart { mut robots, offsets, multipliers, payload, mut free } = begin;
-    let robots = &mut robots;
+    let simd = begin.robots.weight;
+    simd.apart(Chain { begin, shared, keep })
+}
+
+struct Chain<'b, 'a, S: Simd> {
+    begin: &'b mut ChainStart<'a, S>,
+    shared: &'b Shared,
+    keep: Keeper<'b, 'a, S>,
+}
+
+impl<S: Simd> WithSimd for Chain<'_, '_, S> {
+    type Output = Outcome<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Outcome<S> {
+        chain(self.begin, self.shared, self.keep)
+    }
+}
+
+#[inline(always)]
+fn chain<'a, S: Simd>(
+    begin: &mut ChainStart<'a, S>,
+    shared: &Shared,
+    mut keep: Keeper<'_, 'a, S>,
+) -> Outcome<S> {
+    let ChainStart { robots, offsets: set_points, multipliers, payload, free } = begin;
     let zero = robots.weight.all(0.0);
     let mut spans = Vec::with_capacity(robots.cables.len());
     for (cable, choice) in robots.cables.iter_mut().zip(&shared.choices) {
@@ -139,29 +163,36 @@ pub(crate) fn observe<'a, S: Simd>(
         cable.take(&choice.shape.all(zero), &span);
         spans.push(span);
     }
-    let mut set_points = offsets;
-    let mut multipliers = multipliers;
     let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
     let (converged, sound) = match free.is_empty() {
-        true => distribute(robots, &weight, &mut multipliers, &mut set_points, &spans, shared, keep),
-        false => rest(robots, &mut free, &mut set_points, &mut spans, shared),
+        true => {
+            let keep = keep.as_mut().map(|keep| &mut **keep as _);
+            distribute(robots, &weight, multipliers, set_points, &spans, shared, keep)
+        }
+        false => rest(robots, free, set_points, &mut spans, shared),
     };
     let mut platform = LinearizedPlatform::new(zero, spans.len());
-    let held = hold(robots, &mut platform, &set_points, &spans, shared);
-    keep.state(robots);
+    let held = hold(robots, &mut platform, set_points, &spans, shared);
+    if let Some(keep) = &mut keep {
+        keep.state(robots);
+    }
 
     let own = PlatformLoad { weight: robots.weight, force: [zero; 3] };
     robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
     let (standing, unloaded) = robots.settle(&own, &mut platform, &shared.scale, converged & sound & held);
     let stood = robots.position;
-    keep.state(robots);
+    if let Some(keep) = &mut keep {
+        keep.state(robots);
+    }
 
     let load = PlatformLoad { weight: own.weight + payload.weight, force: payload.force };
     // The first step follows the linearisation at hand.
     let added = payload.wrench(&robots.center);
     platform.gradient = six!(|k| platform.gradient[k] - added[k]);
     let (answered, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
-    keep.state(robots);
+    if let Some(keep) = &mut keep {
+        keep.state(robots);
+    }
     // Eq. (4)
     let displacement = three!(|k| robots.position[k] - stood[k]);
     Outcome { passed: [converged, sound, held, standing, answered], displacement, unloaded, loaded }
@@ -178,7 +209,7 @@ pub(crate) fn distribute<'a, S: Simd>(
     offsets: &mut [Lanes<S>],
     spans: &[Span<Lanes<S>>],
     shared: &Shared,
-    keep: &mut impl Keep<'a, S>,
+    mut keep: Keeper<'_, 'a, S>,
 ) -> (Mask<S>, Mask<S>) {
     let zero = robots.weight.all(0.0);
     let compared = [shared.tension, shared.scale.size];
@@ -195,7 +226,9 @@ pub(crate) fn distribute<'a, S: Simd>(
     for ((cable, span), choice) in robots.cables.iter_mut().zip(spans).zip(&shared.choices) {
         limits.push(limits_at(cable, span, (choice.limits, choice.max_at), compared));
     }
-    keep.limits(&limits);
+    if let Some(keep) = &mut keep {
+        keep.limits(&limits);
+    }
     for _ in 0..MAX_DISTRIBUTIONS {
         all_held.clear();
         convex.clear();
@@ -279,10 +312,15 @@ pub(crate) fn distribute<'a, S: Simd>(
                     within = within & (least | !doubted);
                 }
             }
+            if let Some(keep) = &mut keep {
+                let cables = robots.cables.iter().zip(&limits).zip(&rows).enumerate();
+                for (i, ((cable, limits), row)) in cables {
+                    keep.chosen(i, cable, limits, row.sides, last);
+                }
+            }
             let cables = rows.iter().zip(&all_held).zip(&mut robots.cables).zip(&mut *offsets);
-            for (i, ((((row, held), cable), offset), [least, greatest])) in cables.zip(&limits).enumerate() {
+            for ((((row, held), cable), offset), [least, greatest]) in cables.zip(&limits) {
                 let (least, greatest) = (*least, *greatest);
-                keep.chosen(i, cable, &[least, greatest], row.sides, last);
                 let tension = dot(&cable.force, &cable.force).sqrt();
                 let chosen = row.sides[0].select(least, row.sides[1].select(greatest, tension));
                 let set_point = (chosen + *offset).max(least);
@@ -302,7 +340,9 @@ pub(crate) fn distribute<'a, S: Simd>(
             break;
         }
     }
-    keep.multipliers(multipliers);
+    if let Some(keep) = &mut keep {
+        keep.multipliers(multipliers);
+    }
     (!going, within)
 }
 

@@ -280,8 +280,8 @@ impl WithSimd for Batch<'_> {
         for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows::new(simd, rows, layout);
-            let (start, level, valid) = rows.robots(robot, pose, load, nominal);
-            let outcome = observe(start, &nominal.shared, &mut ());
+            let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
+            let outcome = observe(&mut start, &nominal.shared, None);
             let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions());
             found.extend(answers.into_iter().take(count));
         }

@@ -294,7 +294,7 @@ impl<S: Simd> InLanes<'_, S> {
             &mut set_points,
             &spans,
             shared,
-            &mut limits,
+            Some(&mut limits),
         );
         let mut platform = LinearizedPlatform::new(zero, spans.len());
         let held = hold(&mut robots, &mut platform, &set_points, &spans, shared);

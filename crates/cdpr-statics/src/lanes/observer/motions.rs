@@ -68,7 +68,7 @@ impl WithSimd for MotionBatch<'_> {
             let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
             start.robots.frame.extend(rows.frame(pose, level.as_ref()));
             let mut frames = Frames { before: SmallVec::new(), last: SmallVec::new() };
-            let outcome = observe(start, &nominal.shared, &mut frames);
+            let outcome = observe(&mut start, &nominal.shared, Some(&mut frames));
             let [unloaded, loaded] = [&frames.before, &frames.last].map(|of| in_base(of, level.as_ref()));
             let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions())
                 .into_iter()

@@ -91,7 +91,7 @@ impl WithSimd for SlopesBatch<'_> {
             let payload = start.payload.clone();
             let rolling = rows.rolling(robot, &start.robots);
             let mut record = Record::new(start.offsets.clone(), start.multipliers);
-            let outcome = observe(start, &nominal.shared, &mut record);
+            let outcome = observe(&mut start, &nominal.shared, Some(&mut record));
             let adjoint = adjoint(&record, &outcome.displacement, &payload, &nominal.shared);
             let mut decided = [false; MAX_LANES];
             if let Some(adjoint) = &adjoint {
