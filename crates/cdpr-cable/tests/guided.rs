@@ -272,3 +272,34 @@ fn an_end_within_the_wheel_or_behind_it_is_refused() {
     let error = end_force(&cable, 6.0, Vector2::new(3.0, 0.0)).unwrap_err().to_string();
     assert!(error.contains("pulley.radius is -0.1"), "{error}");
 }
+
+/// Near the rim of its wheel a cable hangs down almost vertically, whatever the direction of its whole span.
+#[test]
+fn the_least_tension_over_a_pulley_is_that_of_all_chord_forces() {
+    for (radius, lead, depth) in [(0.05, 0.0, 3.0), (0.7, 2.0, 20.0), (0.3, 0.0, 0.5)] {
+        let guide = Guide { lead, radius, entry: Entry::Upwards };
+        let cable = Cable { guide: Some(guide), ..Cable::linear(2.0, 1e5) };
+        for beyond in [1e-4, 1e-2, 1.0, 30.0] {
+            let end = Vector2::new(radius * (2.0 + beyond), -depth);
+            let least = HeldCable::at_least_tension(&cable, end).unwrap();
+            let weight = cable.weight_per_length * end.norm();
+            let mut lowest = f64::INFINITY;
+            for k in -60..=20 {
+                let sigma = weight * 10f64.powf(f64::from(k) / 10.0);
+                if let Ok(held) = HeldCable::at_chord_force(&cable, end, sigma) {
+                    lowest = lowest.min(held.tension());
+                }
+            }
+            assert!(
+                least.tension() <= lowest + 1e-9 * weight,
+                "{radius} {beyond}: {} {lowest}",
+                least.tension()
+            );
+            assert!(
+                least.tension() >= lowest - 0.02 * weight,
+                "{radius} {beyond}: {} {lowest}",
+                least.tension()
+            );
+        }
+    }
+}

@@ -8,11 +8,13 @@ mod chain;
 mod eigen;
 mod held;
 mod level;
+mod load;
 mod newton;
 mod observer;
 mod poses;
 mod reason;
 mod simd;
+mod skew;
 mod tracker;
 
 pub use observer::{Observation, ObservationMotion, ObservationSlopes, Observer};

@@ -80,7 +80,7 @@ fn any_number_of_cables_fills_the_lanes() {
 }
 
 #[test]
-fn slack_cables_and_moments_are_left_to_the_direct_model() {
+fn slack_cables_and_moments_are_those_of_the_direct_model() {
     let robot = caroca();
     let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none(), None).unwrap();
     let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
@@ -88,7 +88,9 @@ fn slack_cables_and_moments_are_left_to_the_direct_model() {
     slack[1] += 0.3;
     let mut moment = Load::payload(20.0);
     moment.wrench.moment = Vector3::new(5.0, -3.0, 2.0);
-    for (lengths, load) in [(&slack, Load::none()), (&slack, moment), (&wanted.lengths, Load::none())] {
+    for (lengths, load) in
+        [(&slack, Load::none()), (&slack, moment), (&wanted.lengths, moment), (&wanted.lengths, Load::none())]
+    {
         let before = tracker.equilibrium().clone();
         let expected = direct(&robot, lengths, &load, Start::Near(&before)).unwrap().equilibrium.pose;
         let found = tracker.update(lengths, &load).unwrap().pose;

@@ -146,7 +146,12 @@ impl<'a> HeldCable<'a> {
     /// # Errors
     /// As [`HeldCable::at_chord_force`], and for a cable without weight, which may be slack.
     pub fn at_least_tension(cable: &Cable<'a>, end: Vector2<f64>) -> Result<Self, CableError> {
-        least_tension_from(cable, end.norm(), |sigma| Self::at_chord_force(cable, end, sigma))
+        let mut chord = end.norm();
+        if let Some(guide) = &cable.guide {
+            let (_, _, beyond) = straightened(cable, guide, end)?;
+            chord *= beyond.x.max(VERTICAL * beyond.norm()) / end.x.max(VERTICAL * chord);
+        }
+        least_tension_from(cable, chord, |sigma| Self::at_chord_force(cable, end, sigma))
     }
 
     /// Tension t at A [N].
@@ -344,7 +349,11 @@ impl ByChordForce for HeldCable<'_> {
     }
 }
 
-/// The cable of least tension at A over a span of the length `chord` [m]; `first` has a chord force [N].
+/// The cable of least tension at A; `first` has a chord force [N].
+///
+/// Weight per length times `chord` [m] is the scale of chord forces. It is the chord of a plain cable; over a
+/// guide, where the chord from the leave point covers the horizontal distance h' of the whole one, c over h,
+/// it is `c h'/h`, because both have the same fx.
 pub(crate) fn least_tension_from<Held: ByChordForce>(
     cable: &Cable,
     chord: f64,

@@ -267,7 +267,9 @@ impl<'a> HeldSpatialCable<'a> {
     /// # Errors
     /// As [`HeldCable::at_least_tension`].
     pub fn at_least_tension(cable: &Cable<'a>, end: Vector3<f64>) -> Result<Self, CableError> {
-        least_tension_from(cable, end.norm(), |sigma| Self::at_chord_force(cable, end, sigma))
+        let (_, _, beyond) = straightened(cable, end)?;
+        let chord = beyond.norm() / per_horizontal(beyond) * per_horizontal(end);
+        least_tension_from(cable, chord, |sigma| Self::at_chord_force(cable, end, sigma))
     }
 
     /// The derivatives of a cable whose end is at `end` [m] from D.

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! so that one twist y stands for all parameters; it moves anchor point i by `y_p + y_r x s_i`. H is symmetric
-//! but for cables over guides (`transpose.rs`). What y takes from the lengths, Λ_i, goes over (L9) to the
+//! but under a moment and for cables over guides (`lanes/skew.rs`). What y takes from the lengths, Λ_i, goes over (L9) to the
 //! set-points and, with `a_i = Λ_i dL_i/dt_i`, to the inverse model. With c_i and D_i of (D6) and the tensions
 //! without active bound free,
 //!
@@ -22,20 +22,20 @@
 
 mod answer;
 mod cable;
-mod transpose;
 
 use crate::equations::LinearizedCable;
 use crate::equations::vector::{cross, dot, wrench};
 use crate::lanes::adjoint::answer::Answer;
 pub(crate) use crate::lanes::adjoint::cable::GuideSlopes;
 use crate::lanes::adjoint::cable::{CableSlopes, TensionSlopes, torque};
-use crate::lanes::adjoint::transpose::transpose;
 use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, SymmetricFactors, halves, replace, six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::Keep;
 use crate::lanes::chain::shared::Shared;
-use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots};
+use crate::lanes::load::PlatformLoad;
+use crate::lanes::newton::{LinearizedPlatform, Robots};
 use crate::lanes::simd::{Lanes, Mask, Simd};
+use crate::lanes::skew::Skew;
 use cdpr_cable::kernel::Field;
 use cdpr_robot::CableEnd;
 
@@ -167,8 +167,8 @@ pub(crate) fn adjoint<S: Simd>(
         decided: zero.all(least * least).less_or_equal(square),
     };
     let mut lengths = vec![zero; wound.cables.len()];
-    let own = PlatformLoad { weight: unloaded.weight, force: [zero; 3] };
-    let load = PlatformLoad { weight: unloaded.weight + payload.weight, force: payload.force };
+    let own = PlatformLoad::weight(unloaded.weight);
+    let load = payload.on(unloaded.weight);
     let back = three!(|k| -(displacement[k] * rms_inv));
     let arm = shared.scale.characteristic_length;
     found.at_rest(unloaded, &own, &back, &mut lengths, arm);
@@ -185,6 +185,26 @@ pub(crate) fn adjoint<S: Simd>(
     found.of_tensions(record, wound, &lengths, shared);
     found.turn_axes(wound);
     Some(found)
+}
+
+/// What the symmetric part of the transposed stiffness lacks.
+#[inline(always)]
+fn transposed_skew<S: Simd>(
+    robots: &Robots<'_, S>,
+    load: &PlatformLoad<S>,
+    platform: &LinearizedPlatform<S>,
+    answers: &[Answer<Lanes<S>>],
+) -> Skew<S> {
+    let mut skew = Skew { moment: None, guided: Vec::new() };
+    if let Some([x, y, z]) = load.moment {
+        skew.moment = Some([-x, -y, -z]);
+    }
+    for ((cable, linearized), answer) in robots.cables.iter().zip(&platform.cables).zip(answers) {
+        if let Some(stiffness) = answer.skew_stiffness() {
+            skew.guided.push((cable.anchor_arm, linearized.plane, stiffness));
+        }
+    }
+    skew
 }
 
 impl<S: Simd> CableAdjoint<S> {
@@ -252,10 +272,10 @@ impl<S: Simd> Adjoint<S> {
         }
         robots.assemble(load, &mut platform, all);
         let right = [motion[0], motion[1], motion[2], zero, zero, zero];
-        let mut twist = platform.moved(&right);
-        if robots.cables.iter().any(|cable| cable.guided.is_some()) {
-            let converged = transpose(robots, &platform, &answers, &right, &mut twist, arm);
-            self.decided = self.decided & converged;
+        let mut twist = platform.factored.solve(&right);
+        let skew = transposed_skew(robots, load, &platform, &answers);
+        if skew.moment.is_some() || !skew.guided.is_empty() {
+            self.decided = self.decided & skew.refine(&platform.factored, &right, &mut twist, arm);
         }
         let (moved, turned) = halves(&twist);
         let cables = robots.cables.iter().zip(&platform.cables).zip(&answers).zip(&mut self.cables);

@@ -46,7 +46,8 @@ use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::program::{Row, newton, within_limits};
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::held::HeldCable;
-use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, PlatformLoad, Robots};
+use crate::lanes::load::PlatformLoad;
+use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, Robots};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::{FOLDED, Field};
 
@@ -57,7 +58,7 @@ pub(crate) struct ChainStart<'a, S: Simd> {
     pub(crate) offsets: Vec<Lanes<S>>,
     /// λ to start from.
     pub(crate) multipliers: Lanes6<S>,
-    /// Weight of the payload, and the force of the load at P.
+    /// Weight of the payload, and the force and moment of the load at P.
     pub(crate) payload: PlatformLoad<S>,
     /// The free coordinates of robots with fewer cables than motions; mostly none.
     pub(crate) free: Vec<FreeMotion<S>>,
@@ -163,7 +164,7 @@ fn chain<'a, S: Simd>(
         cable.take(&choice.shape.all(zero), &span);
         spans.push(span);
     }
-    let weight = PlatformLoad { weight: robots.weight, force: [zero; 3] }.wrench(&robots.center);
+    let weight = PlatformLoad::weight(robots.weight).wrench(&robots.center);
     let (converged, sound) = match free.is_empty() {
         true => {
             let keep = keep.as_mut().map(|keep| &mut **keep as _);
@@ -177,7 +178,7 @@ fn chain<'a, S: Simd>(
         keep.state(robots);
     }
 
-    let own = PlatformLoad { weight: robots.weight, force: [zero; 3] };
+    let own = PlatformLoad::weight(robots.weight);
     robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
     let (standing, unloaded) = robots.settle(&own, &mut platform, &shared.scale, converged & sound & held);
     let stood = robots.position;
@@ -185,7 +186,7 @@ fn chain<'a, S: Simd>(
         keep.state(robots);
     }
 
-    let load = PlatformLoad { weight: own.weight + payload.weight, force: payload.force };
+    let load = payload.on(own.weight);
     // The first step follows the linearisation at hand.
     let added = payload.wrench(&robots.center);
     platform.gradient = six!(|k| platform.gradient[k] - added[k]);

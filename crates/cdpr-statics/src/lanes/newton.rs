@@ -9,7 +9,9 @@ use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable};
 use crate::lanes::algebra::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, replace, six, three};
 use crate::lanes::cable::{FreeLength, LaneCable};
+use crate::lanes::load::PlatformLoad;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
+use crate::lanes::skew::Skew;
 use crate::state::Residual;
 use cdpr_cable::kernel::{FOLDED, Field, LaneEnd};
 use cdpr_robot::Robot;
@@ -95,21 +97,6 @@ const LAST_OF_GUIDED: f64 = 1e-6;
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
 
-/// What acts on a platform: a weight at its centre of mass and a force at P.
-#[derive(Clone)]
-pub(crate) struct PlatformLoad<S: Simd> {
-    pub(crate) weight: Lanes<S>,
-    pub(crate) force: Lanes3<S>,
-}
-
-impl<S: Simd> PlatformLoad<S> {
-    #[inline(always)]
-    pub(crate) fn wrench(&self, center: &Lanes3<S>) -> Lanes6<S> {
-        let [x, y, z] = self.force;
-        [x, y, z - self.weight, -center[1] * self.weight, center[0] * self.weight, self.weight.all(0.0)]
-    }
-}
-
 /// The platform between linearised cables.
 pub(crate) struct LinearizedPlatform<S: Simd> {
     pub(crate) cables: SmallVec<[LinearizedCable<Lanes<S>>; INLINE]>,
@@ -118,7 +105,7 @@ pub(crate) struct LinearizedPlatform<S: Simd> {
     /// Gradient of the potential with the predicted forces.
     pub(crate) gradient: Lanes6<S>,
     /// Its derivative, factored.
-    factored: SymmetricFactors<S>,
+    pub(crate) factored: SymmetricFactors<S>,
 }
 
 impl<S: Simd> LinearizedPlatform<S> {
@@ -151,12 +138,6 @@ impl<S: Simd> LinearizedPlatform<S> {
     #[inline(always)]
     pub(crate) fn is_stable(&self) -> Mask<S> {
         self.factored.positive
-    }
-
-    /// The twist by which the platform gives way to a small wrench.
-    #[inline(always)]
-    pub(crate) fn moved(&self, wrench: &Lanes6<S>) -> Lanes6<S> {
-        self.factored.solve(wrench)
     }
 }
 
@@ -220,7 +201,8 @@ impl<S: Simd> Robots<'_, S> {
     /// Gradient of the potential with the predicted forces, and the upper triangle of its derivative.
     ///
     /// Where moments are out of balance the derivative of the gradient is not symmetric. The skew part is
-    /// dropped: it is proportional to the residual moment, which vanishes at equilibrium.
+    /// dropped: it is proportional to the residual moment, which vanishes at equilibrium, and that under a
+    /// moment takes part in the steps.
     // Indices as in the formula.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
@@ -374,7 +356,12 @@ impl<S: Simd> Robots<'_, S> {
         let mut residual = LaneResidual { closure: small_step, wrench: platform.gradient };
         for _ in 0..MAX_ITERATIONS {
             let gradient = six!(|k| -platform.gradient[k]);
-            let step = platform.factored.solve(&gradient);
+            let mut step = platform.factored.solve(&gradient);
+            if load.moment.is_some() {
+                // Where this does not converge, the steps do not either.
+                let skew = Skew { moment: load.moment, guided: Vec::new() };
+                skew.refine(&platform.factored, &gradient, &mut step, scale.characteristic_length);
+            }
             let (translation, rotation) = halves(&step);
             let turned = dot(&rotation, &rotation);
             let moved = dot(&translation, &translation)

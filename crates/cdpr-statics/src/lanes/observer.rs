@@ -22,7 +22,8 @@ use crate::lanes::chain::shared::laws;
 use crate::lanes::chain::shared::{Choice, Shared};
 use crate::lanes::chain::{ChainStart, Outcome, observe};
 use crate::lanes::level::LevelFrame;
-use crate::lanes::newton::{Layout, PlatformLoad, Robots, Scale};
+use crate::lanes::load::PlatformLoad;
+use crate::lanes::newton::{Layout, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{Deflection, deflection, deflection_beside, deflection_near};
@@ -202,7 +203,7 @@ impl Nominal {
         solution: Option<(HeldPose, Vector6<f64>)>,
         free: &[Coordinate],
     ) -> Result<Self, ScalarReason> {
-        if let Some(why) = ScalarReason::of_all(robot, load, free) {
+        if let Some(why) = ScalarReason::of_all(robot, free) {
             return Err(why);
         }
         let (HeldPose { lengths, equilibrium }, multipliers) = solution.ok_or(ScalarReason::NominalRobot)?;
@@ -406,10 +407,7 @@ impl<'a, S: Simd> Rows<'a, S> {
             },
             offsets: Vec::with_capacity(n),
             multipliers: six!(|k| self.all(nominal.multipliers[k])),
-            payload: PlatformLoad {
-                weight: gravity * load.payload,
-                force: three!(|k| self.all(load.wrench.force[k])),
-            },
+            payload: PlatformLoad::new(gravity * load.payload, &load.wrench),
             free: self.motions(pose, &nominal.free),
         };
         for (i, cable) in robot.cables.iter().enumerate() {
@@ -529,6 +527,9 @@ impl<S: Simd> ChainStart<'_, S> {
         robots.center = level.to_level(&robots.center);
         *multipliers = level.both_to_level(multipliers);
         payload.force = level.to_level(&payload.force);
+        if let Some(moment) = &mut payload.moment {
+            *moment = level.to_level(moment);
+        }
     }
 }
 

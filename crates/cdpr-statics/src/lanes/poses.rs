@@ -15,13 +15,14 @@ use crate::equations::Span;
 use crate::equations::vector::{dot, wrench};
 use crate::error::StaticsError;
 use crate::inverse::{InTurn, InverseSolution};
-use crate::lanes::algebra::{Lanes2, Lanes6, six, three};
+use crate::lanes::algebra::{Lanes2, Lanes6, six};
 use crate::lanes::cable::Shape;
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::shared::{Choice, Shared};
 use crate::lanes::chain::{Keep, SAGGING, distribute, hold};
 use crate::lanes::held::HeldCable;
-use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots};
+use crate::lanes::load::PlatformLoad;
+use crate::lanes::newton::{LinearizedPlatform, Robots};
 use crate::lanes::observer::shape;
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
@@ -274,16 +275,9 @@ impl<S: Simd> InLanes<'_, S> {
         let Setting { placed, load, shared } = self.setting;
         let (robot, zero) = (placed.robot, self.all(0.0));
         let (mut robots, spans) = self.shaped();
-        let force = placed.to_level(load.wrench.force);
-        let whole = PlatformLoad {
-            weight: self.all((robot.platform.mass + load.payload) * robot.gravity.magnitude()),
-            force: three!(|k| self.all(force[k])),
-        };
-        let mut external = whole.wrench(&robots.center);
-        let moment = placed.to_level(load.wrench.moment);
-        for k in 0..3 {
-            external[3 + k] += self.all(moment[k]);
-        }
+        let weight = self.all((robot.platform.mass + load.payload) * robot.gravity.magnitude());
+        let whole = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
+        let external = whole.wrench(&robots.center);
         let mut multipliers = six!(|k| self.each(&|asked| asked.near.multipliers[k]));
         let mut set_points = vec![zero; spans.len()];
         let mut limits = Limits(SmallVec::new());

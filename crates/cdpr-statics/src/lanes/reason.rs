@@ -1,7 +1,6 @@
 //! Why a robot is left to the scalar models.
 
-use crate::state::Load;
-use cdpr_robot::{CableEnd, Coordinate, Robot, Vector3};
+use cdpr_robot::{CableEnd, Coordinate, Robot};
 
 /// Why an observation is made by the scalar models and not in the lanes of the vector unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -20,8 +19,6 @@ pub enum ScalarReason {
     Pulleys,
     /// Cables have an elastic law, and a greatest tension at their exit points.
     Laws,
-    /// The load has a moment.
-    Moment,
     /// The nominal robot has no tensions at the pose.
     NominalRobot,
     /// The parameters of the perturbed robot are out of their ranges.
@@ -45,14 +42,13 @@ pub enum ScalarReason {
 
 impl ScalarReason {
     /// All reasons with their names in files.
-    const NAMES: [(Self, &'static str); 15] = [
+    const NAMES: [(Self, &'static str); 14] = [
         (Self::OneByOne, "one_by_one"),
         (Self::Output, "output"),
         (Self::FreeCoordinates, "free_coordinates"),
         (Self::FewCables, "few_cables"),
         (Self::Pulleys, "pulleys"),
         (Self::Laws, "laws"),
-        (Self::Moment, "moment"),
         (Self::NominalRobot, "nominal_robot"),
         (Self::InvalidRobot, "invalid_robot"),
         (Self::Tensions, "tensions"),
@@ -73,8 +69,8 @@ impl ScalarReason {
         Self::NAMES.iter().find(|(_, known)| *known == name).map(|(reason, _)| *reason)
     }
 
-    /// Why all robots like this one under this load are left to the scalar models, if they are.
-    pub(crate) fn of_all(robot: &Robot, load: &Load, free: &[Coordinate]) -> Option<Self> {
+    /// Why all robots like this one are left to the scalar models, if they are.
+    pub(crate) fn of_all(robot: &Robot, free: &[Coordinate]) -> Option<Self> {
         // A greatest tension at the exit point has a closed form for linear cables only.
         let laws_at_exits = robot
             .cables
@@ -87,8 +83,6 @@ impl ScalarReason {
             (!robot.freedoms().are_all() || !enough, Self::FewCables),
             ((0..robot.cables.len()).any(|i| robot.cable(i).leaves_its_plane()), Self::Pulleys),
             (laws_at_exits, Self::Laws),
-            // A moment has no potential: pivots do not show whether its equilibria are stable.
-            (load.wrench.moment != Vector3::zeros(), Self::Moment),
         ];
         reasons.into_iter().find(|(holds, _)| *holds).map(|(_, reason)| reason)
     }
@@ -103,6 +97,6 @@ mod tests {
         for (reason, name) in ScalarReason::NAMES {
             assert_eq!((reason.name(), ScalarReason::named(name)), (name, Some(reason)));
         }
-        assert_eq!(ScalarReason::NAMES[14].0 as usize, 14, "the last reason is the last of the list");
+        assert_eq!(ScalarReason::NAMES[13].0 as usize, 13, "the last reason is the last of the list");
     }
 }

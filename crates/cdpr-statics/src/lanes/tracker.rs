@@ -3,11 +3,12 @@
 use crate::direct::{Start, direct};
 use crate::error::StaticsError;
 use crate::lanes::cable::LaneCable;
-use crate::lanes::newton::{Layout, LinearizedPlatform, PlatformLoad, Robots, Scale, in_lanes};
+use crate::lanes::load::PlatformLoad;
+use crate::lanes::newton::{Layout, LinearizedPlatform, Robots, Scale, in_lanes};
 use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
-use cdpr_robot::{Matrix3, Robot, Vector3, orthonormalized};
+use cdpr_robot::{Matrix3, Robot, Vector3, Wrench, orthonormalized};
 use smallvec::SmallVec;
 
 /// Follows the stable equilibrium of a robot while its cables are wound and its load changes.
@@ -70,10 +71,7 @@ impl<'a> Tracker<'a> {
     /// Those of [`direct`]; the equilibrium is then the one before.
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let problem = DirectProblem::new(self.robot, lengths, load)?;
-        // A moment has no potential: pivots do not show whether its equilibria are stable.
-        let found = load.wrench.moment == Vector3::zeros()
-            && in_lanes(self.robot)
-            && dispatch(Update { tracker: self, problem: &problem });
+        let found = in_lanes(self.robot) && dispatch(Update { tracker: self, problem: &problem });
         if !found {
             let solution = direct(self.robot, lengths, load, Start::Near(&self.equilibrium))?;
             self.residual = solution.report.residual;
@@ -153,10 +151,10 @@ impl WithSimd for Update<'_, '_> {
                 guided: None,
             });
         }
-        let load = PlatformLoad {
-            weight: robots.weight + problem.load.payload * robot.gravity.magnitude(),
-            force: vector(simd, &to_level(problem.load.wrench.force)),
-        };
+        let weight = robots.weight + problem.load.payload * robot.gravity.magnitude();
+        let Wrench { force, moment } = problem.load.wrench;
+        let wrench = Wrench { force: to_level(force), moment: to_level(moment) };
+        let load = PlatformLoad::new(weight, &wrench);
         let size = problem.size();
         let rounding = rounding_of_closure(size, pose.position.norm() + *farthest);
         let scale = Scale { size, characteristic_length: problem.characteristic_length(), rounding };

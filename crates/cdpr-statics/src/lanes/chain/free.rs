@@ -26,7 +26,8 @@ use crate::lanes::algebra::{Lanes3, Lanes6, add, six, solve_columns, three};
 use crate::lanes::chain::limits::limits_at;
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::held::HeldCable;
-use crate::lanes::newton::{LinearizedPlatform, PlatformLoad, Robots, rotate};
+use crate::lanes::load::PlatformLoad;
+use crate::lanes::newton::{LinearizedPlatform, Robots, rotate};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::{FOLDED, Field};
 
@@ -154,7 +155,7 @@ impl<S: Simd> Rest<'_, '_, S> {
         let Self { robots, free, spans, frame, shared, .. } = self;
         let zero = robots.weight.all(0.0);
         let (cables, compared) = (spans.len(), [shared.tension, shared.scale.size]);
-        let own = PlatformLoad { weight: robots.weight, force: [zero; 3] };
+        let own = PlatformLoad::weight(robots.weight);
         let mut balance = own.wrench(&robots.center);
         let mut columns = [[zero; 6]; MOTIONS];
         let mut all_held = Vec::with_capacity(cables);
@@ -257,7 +258,7 @@ impl<S: Simd> Rest<'_, '_, S> {
         }
         let mut platform = LinearizedPlatform::new(zero, robots.cables.len());
         platform.follow_guides(robots);
-        let own = PlatformLoad { weight: robots.weight, force: [zero; 3] };
+        let own = PlatformLoad::weight(robots.weight);
         robots.linearise(&own, &mut platform, zero.less_or_equal(zero));
         platform.is_stable()
     }

@@ -11,7 +11,8 @@ use crate::inverse::InverseSolution;
 use crate::lanes::algebra::{Lanes3, Lanes6x6, SymmetricFactors, six, three};
 use crate::lanes::cable::FreeLength;
 use crate::lanes::eigen::least_eigenvalue;
-use crate::lanes::newton::{LaneResidual, LinearizedPlatform, PlatformLoad, Robots};
+use crate::lanes::load::PlatformLoad;
+use crate::lanes::newton::{LaneResidual, LinearizedPlatform, Robots};
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
@@ -66,7 +67,7 @@ impl LoadedPose {
 /// of [`deflection_from`].
 ///
 /// Robots with six free motions and a cable for each of them, over pulleys with vertical axes or none, are
-/// answered in the lanes of the vector unit unless the load has a moment. No answer depends on the others.
+/// answered in the lanes of the vector unit. No answer depends on the others.
 ///
 /// # Errors
 /// Those of [`deflection_from`], for each pose.
@@ -75,8 +76,7 @@ pub fn loaded_poses(
     wanted: &[&InverseSolution],
     load: &Load,
 ) -> Vec<Result<LoadedPose, StaticsError>> {
-    let reason =
-        ScalarReason::of_all(robot, load, &[]).or(load.validate().err().map(|_| ScalarReason::OneByOne));
+    let reason = ScalarReason::of_all(robot, &[]).or(load.validate().err().map(|_| ScalarReason::OneByOne));
     let found = match (reason, PlacedRobot::of(robot)) {
         (None, Some(placed)) => dispatch(Batch { placed: &placed, wanted, load }),
         (reason, _) => vec![Err(reason.unwrap_or(ScalarReason::OneByOne)); wanted.len()],
@@ -146,21 +146,18 @@ impl<S: Simd> InLanes<'_, S> {
         if robots.cables.iter().any(|cable| cable.guided.is_some()) {
             platform.free = vec![FreeLength::fixed(zero); robots.cables.len()];
         }
-        let mut carried = PlatformLoad { weight: robots.weight, force: [zero; 3] };
+        let mut carried = PlatformLoad::weight(robots.weight);
         robots.linearise(&carried, &mut platform, everywhere);
         let unloaded = self.settled(&mut robots, &mut platform, &carried, everywhere);
         let stood = robots.position;
         let mut loaded = None;
         if *load != Load::none() {
-            let force = placed.to_level(load.wrench.force);
-            let added = PlatformLoad {
-                weight: self.all(load.payload * placed.robot.gravity.magnitude()),
-                force: three!(|k| self.all(force[k])),
-            };
+            let weight = self.all(load.payload * placed.robot.gravity.magnitude());
+            let added = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
             // The first step follows the linearisation at hand.
             let wrench = added.wrench(&robots.center);
             platform.gradient = six!(|k| platform.gradient[k] - wrench[k]);
-            carried = PlatformLoad { weight: carried.weight + added.weight, force: added.force };
+            carried = added.on(carried.weight);
             loaded = Some(self.settled(&mut robots, &mut platform, &carried, unloaded.found));
         }
         let displacement = three!(|k| robots.position[k] - stood[k]);
@@ -362,12 +359,9 @@ mod tests {
     }
 
     #[test]
-    fn a_moment_is_left_to_the_scalar_models() {
+    fn no_load_moves_nothing() {
         let robot = Robot::from_json(include_str!("../../../../../data/robots/caroca.json")).unwrap();
         let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
-        let moment = Load::wrench(cdpr_robot::Wrench { force: Vector3::zeros(), moment: Vector3::z() });
-        let found = loaded_poses(&robot, &[&wanted], &moment).remove(0).unwrap();
-        assert_eq!(found.scalar, Some(ScalarReason::Moment));
         let none = loaded_poses(&robot, &[&wanted], &Load::none()).remove(0).unwrap();
         assert_eq!((none.scalar, none.displacement), (None, Vector3::zeros()));
     }

@@ -6,9 +6,9 @@ use crate::lanes::chain::shared::laws;
 use crate::lanes::newton::{Layout, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Simd};
-use crate::state::{Load, rounding_of_closure};
+use crate::state::rounding_of_closure;
 use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
-use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6, Wrench};
 use smallvec::SmallVec;
 
 /// A robot whose poses fill the lanes.
@@ -22,7 +22,7 @@ pub(crate) struct PlacedRobot<'a> {
 impl<'a> PlacedRobot<'a> {
     /// `None` for a robot that is not one for the lanes.
     pub(crate) fn of(robot: &'a Robot) -> Option<Self> {
-        if ScalarReason::of_all(robot, &Load::none(), &[]).is_some() {
+        if ScalarReason::of_all(robot, &[]).is_some() {
             return None;
         }
         let exits = || robot.cables.iter().map(|cable| cable.exit_point);
@@ -46,6 +46,11 @@ impl<'a> PlacedRobot<'a> {
     /// Components in the base frame of a vector in the level frame.
     pub(crate) fn to_base(&self, v: Vector3<f64>) -> Vector3<f64> {
         self.robot.gravity.level().map_or(v, |level| level.tr_mul(&v))
+    }
+
+    /// Components in the level frame of a wrench in the base frame.
+    pub(crate) fn wrench_to_level(&self, wrench: &Wrench) -> Wrench {
+        Wrench { force: self.to_level(wrench.force), moment: self.to_level(wrench.moment) }
     }
 
     /// A wrench or a twist after `turn`.
