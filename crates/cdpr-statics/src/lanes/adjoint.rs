@@ -35,7 +35,7 @@ use crate::lanes::chain::shared::Shared;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LinearizedPlatform, Robots};
 use crate::lanes::simd::{Lanes, Mask, Simd};
-use crate::lanes::skew::Skew;
+use crate::lanes::skew::{Skew, SkewCable};
 use cdpr_cable::kernel::Field;
 use cdpr_robot::CableEnd;
 
@@ -201,7 +201,8 @@ fn transposed_skew<S: Simd>(
     }
     for ((cable, linearized), answer) in robots.cables.iter().zip(&platform.cables).zip(answers) {
         if let Some(stiffness) = answer.skew_stiffness() {
-            skew.guided.push((cable.anchor_arm, linearized.plane, stiffness));
+            let (arm, plane) = (cable.anchor_arm, linearized.plane);
+            skew.guided.push(SkewCable { arm, plane, stiffness });
         }
     }
     skew

@@ -31,8 +31,17 @@ const MAX_ITERATIONS: usize = 10;
 pub(crate) struct Skew<S: Simd> {
     /// M, or -M of the transposed system [N m].
     pub(crate) moment: Option<Lanes3<S>>,
-    /// The arm, the plane and k_a of each cable that has one; of the transposed system only.
-    pub(crate) guided: Vec<(Lanes3<S>, CablePlane<Lanes<S>>, Lanes<S>)>,
+    /// Cables over guides; of the transposed system only.
+    pub(crate) guided: Vec<SkewCable<S>>,
+}
+
+/// The skew stiffness of one cable.
+pub(crate) struct SkewCable<S: Simd> {
+    /// s [m].
+    pub(crate) arm: Lanes3<S>,
+    pub(crate) plane: CablePlane<Lanes<S>>,
+    /// k_a [N/m].
+    pub(crate) stiffness: Lanes<S>,
 }
 
 impl<S: Simd> Skew<S> {
@@ -59,10 +68,10 @@ impl<S: Simd> Skew<S> {
                 right[3 + k] += twisted[k] * 0.5;
             }
         }
-        for (arm, plane, skew) in &self.guided {
+        for SkewCable { arm, plane, stiffness } in &self.guided {
             let swung = cross(&turned, arm);
             let [h, z] = plane.project(three!(|k| moved[k] + swung[k]));
-            add(right, arm, &plane.lift([-(*skew * z), *skew * h]));
+            add(right, arm, &plane.lift([-(*stiffness * z), *stiffness * h]));
         }
     }
 }
