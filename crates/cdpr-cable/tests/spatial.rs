@@ -218,3 +218,23 @@ proptest! {
 fn horizontal(v: Vector3<f64>) -> f64 {
     v.x.hypot(v.y)
 }
+
+/// The axis hardly tilts, so that the least tension is nearly that of a vertical one, near the rim of the wheel
+/// and far from it.
+#[test]
+fn the_least_tension_over_a_tilted_axis_is_near_that_over_a_vertical_one() {
+    let tilt = 1e-6_f64;
+    let axis = [tilt.sin(), 0.0, tilt.cos()];
+    for (radius, depth) in [(0.05, 3.0), (0.7, 20.0)] {
+        let of = |entry| Cable { guide: Some(Guide { lead: 0.0, radius, entry }), ..Cable::linear(2.0, 1e5) };
+        for beyond in [1e-2, 1.0, 30.0] {
+            let (x, z) = (radius * (2.0 + beyond), -depth);
+            let upright = HeldCable::at_least_tension(&of(Entry::Upwards), Vector2::new(x, z)).unwrap();
+            let tilted = of(Entry::Along(axis));
+            let tilted = HeldSpatialCable::at_least_tension(&tilted, Vector3::new(x, 0.0, z)).unwrap();
+            let weight = 2.0 * depth;
+            let [upright, tilted] = [upright.tension(), tilted.tension()];
+            assert!((upright - tilted).abs() < 1e-3 * weight, "{radius} {beyond}: {upright} {tilted}");
+        }
+    }
+}
