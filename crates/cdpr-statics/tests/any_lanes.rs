@@ -237,8 +237,8 @@ fn lanes_answer_as_the_scalar_models_do_for_any_robot() {
 #[test]
 fn robots_on_which_the_models_once_disagreed() {
     // The first has several minima, the next two free cables that hardly span all wrenches; the next has
-    // limits at pulleys that hardly leave any tensions, and the last one a cable that hangs down from the rim of
-    // its wheel.
+    // limits at pulleys that hardly leave any tensions, and the last one a cable that hangs down from the
+    // rim of its wheel.
     for seed in [139_742, 269_138, 139_731, 90_976, 887_043] {
         let different = |(what, ..): &(String, f64, bool)| what == "DIFFERENT" || what == "LANES ONLY";
         assert!(!outcomes(seed).iter().any(different), "robot {seed}");
