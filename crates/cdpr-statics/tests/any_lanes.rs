@@ -2,8 +2,8 @@
 
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{
-    CableEnd, CableProperties, OwnLimits, Parameter, Platform, Pose, Pulley, Robot, RobotCable, Rotation3,
-    TensionLimits, TensionReference, Vector3,
+    CableEnd, CableProperties, OwnLimits, Parameter, Plane, Platform, Pose, Pulley, Robot, RobotCable,
+    Rotation3, TensionLimits, TensionReference, Vector3,
 };
 use cdpr_statics::{Load, Observation, Observer, ScalarReason, deflection, inverse};
 use rand::{RngExt, SeedableRng};
@@ -40,7 +40,7 @@ fn in_cube(rng: &mut ChaCha8Rng) -> Vector3<f64> {
 /// Robots of 1 m to 300 m with 6 to 16 cables, suspended or held from all sides, level or not; straight
 /// cables and such that weigh more than the platform; with limits and preferred tensions that are active or
 /// not, linear or with an elastic law; with pulleys with vertical axes, on some cables or all, and leads;
-/// under a payload, a force and a moment.
+/// points and platforms that move in a plane, on fewer cables; under a payload, a force and a moment.
 /// `None` where the robot cannot be held.
 pub(crate) fn case(seed: u64) -> Option<Case> {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
@@ -94,6 +94,7 @@ pub(crate) fn case(seed: u64) -> Option<Case> {
         tension_reference,
         cables,
     };
+    hold_motions(&mut robot, &mut ChaCha8Rng::seed_from_u64(seed ^ 0x401d));
     let guided = lead(&mut robot, size, &mut ChaCha8Rng::seed_from_u64(seed ^ 0x5eed));
     let pose = Pose {
         position: in_cube(rng) * (0.2 * size),
@@ -137,6 +138,19 @@ pub(crate) fn case(seed: u64) -> Option<Case> {
     Some(Case { robot, pose, load, rows, longest })
 }
 
+/// Makes one robot of ten a point and one planar, on as many cables as that takes or more.
+fn hold_motions(robot: &mut Robot, rng: &mut ChaCha8Rng) {
+    let (point, planar) = (rng.random_bool(0.1), rng.random_bool(0.1));
+    robot.platform.point = point;
+    if planar {
+        robot.plane = Some([Plane::Xy, Plane::Xz, Plane::Yz][rng.random_range(0..3)]);
+    }
+    let least = robot.freedoms().count();
+    if least < 6 {
+        robot.cables.truncate(rng.random_range(least..=least + 6));
+    }
+}
+
 /// Gives three robots of ten pulleys or leads.
 fn lead(robot: &mut Robot, size: f64, rng: &mut ChaCha8Rng) -> bool {
     if !rng.random_bool(0.3) {
@@ -164,13 +178,19 @@ fn anew(robot: &Robot, pose: &Pose, load: &Load, row: &[f64], found: &Observatio
     anew.map_or(f64::INFINITY, |anew| (anew.displacement() - found.displacement).norm())
 }
 
-/// What became of each perturbed robot, with the distance between both answers, and whether it has pulleys or
-/// leads.
-fn outcomes(seed: u64) -> Vec<(String, f64, bool)> {
+/// Robots that are told apart, with the number of rows in lanes that each case must have at least.
+const KINDS: [(&str, f64); 3] =
+    [("plain cables", 0.2), ("pulleys and leads", 0.08), ("points and planar platforms", 0.1)];
+
+/// What became of each perturbed robot, with the distance between both answers, and the kind of robot.
+fn outcomes(seed: u64) -> Vec<(String, f64, usize)> {
     let Some(Case { robot, pose, load, rows, longest }) = case(seed) else {
-        return vec![("not held".to_owned(), 0.0, false)];
+        return vec![("not held".to_owned(), 0.0, 0)];
     };
-    let guided = (0..robot.cables.len()).any(|i| robot.cable(i).guide.is_some());
+    let kind = match robot.freedoms().are_all() {
+        true => usize::from((0..robot.cables.len()).any(|i| robot.cable(i).guide.is_some())),
+        false => 2,
+    };
     let observer = Observer::new(&robot, &pose, &load).unwrap();
     let found = observer.observe_all(&rows);
     let compared = |(row, found): (&[f64], &Result<_, _>)| {
@@ -202,7 +222,7 @@ fn outcomes(seed: u64) -> Vec<(String, f64, bool)> {
         }
     };
     let rows = rows.chunks(Parameter::of(&robot).len());
-    rows.zip(&found).map(compared).map(|(what, error)| (what, error, guided)).collect()
+    rows.zip(&found).map(compared).map(|(what, error)| (what, error, kind)).collect()
 }
 
 #[test]
@@ -211,9 +231,8 @@ fn lanes_answer_as_the_scalar_models_do_for_any_robot() {
     let all: Vec<_> = (0..cases).into_par_iter().flat_map_iter(outcomes).collect();
     println!("{cases} random robots, {ROWS} perturbed ones of each:");
     let mut refused = 0;
-    for (guided, kind, least) in [(false, "plain cables", cases / 3), (true, "pulleys and leads", cases / 10)]
-    {
-        let these = || all.iter().filter(|(.., of)| *of == guided);
+    for (number, (kind, least)) in KINDS.into_iter().enumerate() {
+        let these = || all.iter().filter(|(.., of)| *of == number);
         let mut counts = BTreeMap::<&str, u64>::new();
         for (outcome, ..) in these() {
             *counts.entry(outcome).or_default() += 1;
@@ -228,7 +247,7 @@ fn lanes_answer_as_the_scalar_models_do_for_any_robot() {
         let quantile = |q: f64| errors[((errors.len() - 1) as f64 * q) as usize];
         println!("differences: {:.1e} {:.1e} {:.1e}", quantile(0.5), quantile(0.999), quantile(1.0));
         let of = |outcome: &str| counts.get(outcome).copied().unwrap_or_default();
-        assert!(of("lanes") > least, "{kind}: {counts:?}");
+        assert!(of("lanes") as f64 > least * cases as f64, "{kind}: {counts:?}");
         refused += of("DIFFERENT") + of("LANES ONLY");
     }
     assert_eq!(refused, 0);
@@ -237,10 +256,10 @@ fn lanes_answer_as_the_scalar_models_do_for_any_robot() {
 #[test]
 fn robots_on_which_the_models_once_disagreed() {
     // The first has several minima, the next two free cables that hardly span all wrenches; the next has
-    // limits at pulleys that hardly leave any tensions, and the last one a cable that hangs down from the
-    // rim of its wheel.
-    for seed in [139_742, 269_138, 139_731, 90_976, 887_043] {
-        let different = |(what, ..): &(String, f64, bool)| what == "DIFFERENT" || what == "LANES ONLY";
+    // limits at pulleys that hardly leave any tensions, the next one a cable that hangs down from the rim of
+    // its wheel, and in the last one steps converge slowly.
+    for seed in [139_742, 269_138, 139_731, 90_976, 887_043, 870_474] {
+        let different = |(what, ..): &(String, f64, usize)| what == "DIFFERENT" || what == "LANES ONLY";
         assert!(!outcomes(seed).iter().any(different), "robot {seed}");
     }
 }

@@ -9,9 +9,9 @@
 //! ```
 //!
 //! so that one twist y stands for all parameters; it moves anchor point i by `y_p + y_r x s_i`. H is symmetric
-//! but under a moment and for cables over guides (`lanes/skew.rs`). What y takes from the lengths, Λ_i, goes over (L9) to the
-//! set-points and, with `a_i = Λ_i dL_i/dt_i`, to the inverse model. With c_i and D_i of (D6) and the tensions
-//! without active bound free,
+//! but under a moment and for cables over guides (`lanes/skew.rs`). What y takes from the lengths, Λ_i, goes
+//! over (L9) to the set-points and, with `a_i = Λ_i dL_i/dt_i`, to the inverse model. With c_i and D_i of (D6)
+//! and the tensions without active bound free,
 //!
 //! ```text
 //! [ sum_free c_i c_iᵀ/D_i ] η = sum_free c_i a_i/D_i,      α_i = (a_i - c_i·η)/D_i               (L11)
@@ -28,7 +28,9 @@ use crate::equations::vector::{cross, dot, wrench};
 use crate::lanes::adjoint::answer::Answer;
 pub(crate) use crate::lanes::adjoint::cable::GuideSlopes;
 use crate::lanes::adjoint::cable::{CableSlopes, TensionSlopes, torque};
-use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, SymmetricFactors, halves, replace, six, three};
+use crate::lanes::algebra::{
+    Lanes2, Lanes3, Lanes6, SymmetricFactors, halves, hold, hold_matrix, replace, six, three,
+};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::Keep;
 use crate::lanes::chain::shared::Shared;
@@ -195,7 +197,7 @@ fn transposed_skew<S: Simd>(
     platform: &LinearizedPlatform<S>,
     answers: &[Answer<Lanes<S>>],
 ) -> Skew<S> {
-    let mut skew = Skew { moment: None, guided: Vec::new() };
+    let mut skew = Skew { freedoms: robots.freedoms, moment: None, guided: Vec::new() };
     if let Some([x, y, z]) = load.moment {
         skew.moment = Some([-x, -y, -z]);
     }
@@ -334,7 +336,8 @@ impl<S: Simd> Adjoint<S> {
             self.cables[i].offset += set_point.offset.select(a, zero);
             let by_tension = set_point.follows.select(a, zero);
             // -c_i
-            let column = wrench(&cable.anchor_arm, &slopes.force_per_tension);
+            let mut column = wrench(&cable.anchor_arm, &slopes.force_per_tension);
+            hold(wound.freedoms, &mut column);
             let curvature = -dot(&slopes.curvature, &motion) + 1.0;
             let curvature_inv = on_bound.select(zero, curvature.recip());
             for row in 0..6 {
@@ -347,6 +350,7 @@ impl<S: Simd> Adjoint<S> {
             let by_bound = set_point.over.select(a, zero);
             cables.push((span, slopes, motion, column, curvature_inv, by_tension, by_bound));
         }
+        hold_matrix(wound.freedoms, &mut matrix, zero + 1.0);
         let balanced = SymmetricFactors::new(matrix).solve(&right);
         let (moved, turned) = halves(&balanced);
         for (i, (span, slopes, motion, column, curvature_inv, by_tension, mut by_bound)) in

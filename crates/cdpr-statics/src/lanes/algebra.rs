@@ -3,6 +3,7 @@
 use crate::equations::vector::{dot, wrench};
 use crate::lanes::simd::{Lanes, Mask, Simd};
 use cdpr_cable::kernel::Field;
+use cdpr_robot::Freedoms;
 
 /// A vector in a cable's vertical plane: along e_h, along e_z.
 pub(crate) type Lanes2<S> = [Lanes<S>; 2];
@@ -186,6 +187,35 @@ pub(crate) use {components, six, three};
 #[inline(always)]
 pub(crate) fn halves<S: Simd>(wrench: &Lanes6<S>) -> (Lanes3<S>, Lanes3<S>) {
     (three!(|k| wrench[k]), three!(|k| wrench[3 + k]))
+}
+
+/// Leaves no component of a wrench or a twist along the motions that are held.
+#[inline(always)]
+pub(crate) fn hold<S: Simd>(freedoms: Freedoms, v: &mut Lanes6<S>) {
+    if !freedoms.are_all() {
+        for (k, component) in v.iter_mut().enumerate() {
+            if !freedoms.contains(k) {
+                *component = component.all(0.0);
+            }
+        }
+    }
+}
+
+/// The same of the upper triangle of a matrix, with `diagonal` for those motions.
+#[inline(always)]
+pub(crate) fn hold_matrix<S: Simd>(freedoms: Freedoms, matrix: &mut Lanes6x6<S>, diagonal: Lanes<S>) {
+    if freedoms.are_all() {
+        return;
+    }
+    for (row, elements) in matrix.iter_mut().enumerate() {
+        match freedoms.contains(row) {
+            true => hold(freedoms, elements),
+            false => {
+                *elements = [diagonal.all(0.0); 6];
+                elements[row] = diagonal;
+            }
+        }
+    }
 }
 
 /// Takes over other components in the lanes that are `going`.

@@ -12,10 +12,13 @@
 use crate::equations::{LinearizedCable, Span, between};
 use crate::lanes::algebra::{Lanes2, Lanes3, replace};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
+use crate::state::Equilibrium;
+use cdpr_cable::Catenary;
 use cdpr_cable::kernel::{
     Field, LaneEnd, LaneGuide, LaneSegment, LaneWay, LeavePoint, Response, lane_end, lane_law_end,
     lane_law_response, lane_law_strain, lane_law_stretch, lane_response,
 };
+use cdpr_robot::{Robot, Vector2};
 
 /// A cable of every robot, or several cables of one.
 #[derive(Clone)]
@@ -53,6 +56,28 @@ pub(crate) struct Shape<T> {
 }
 
 impl Shape<f64> {
+    /// That of cable `i` where a robot is held.
+    pub(crate) fn of(robot: &Robot, i: usize, unstrained_length: f64, held: &Equilibrium) -> Self {
+        let force = held.cable_forces[i];
+        let cable = Catenary { cable: robot.cable(i), unstrained_length, force };
+        let span = robot.span(&held.pose, i);
+        let (mut chord, mut height) =
+            (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
+        let free = cable.free();
+        if cable.cable.guide.is_some() {
+            let across = (span.norm_squared() - height * height).max(0.0).sqrt();
+            let end = Vector2::new(across, height) - cable.leave_point();
+            (chord, height) = (end.norm(), end.y);
+        }
+        let chord_force = chord / free.response().lateral_flexibility;
+        Self {
+            tangent: [force.x / free.exit_tension(), free.exit_vertical_force() / free.exit_tension()],
+            chord_force,
+            sag_force: force.y - chord_force * height / chord,
+            longer: free.unstrained_length - chord,
+        }
+    }
+
     /// The same in all lanes.
     #[inline(always)]
     pub(crate) fn all<S: Simd>(&self, lanes: Lanes<S>) -> Shape<Lanes<S>> {

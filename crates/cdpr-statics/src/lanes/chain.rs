@@ -38,13 +38,13 @@ pub(crate) mod shared;
 use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
 use crate::inverse::NEARLY_ROUNDING;
-use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, halves, replace, six, three};
+use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, halves, hold, replace, six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::free::{FreeMotion, rest};
 use crate::lanes::chain::limits::limits_at;
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::program::{Row, newton, within_limits};
-use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
+use crate::lanes::chain::shared::{LAST_DISTRIBUTION, LAST_REMAINDER, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, Robots};
@@ -164,6 +164,7 @@ fn chain<'a, S: Simd>(
         cable.take(&choice.shape.all(zero), &span);
         spans.push(span);
     }
+    let freedoms = robots.freedoms;
     let weight = PlatformLoad::weight(robots.weight).wrench(&robots.center);
     let (converged, sound) = match free.is_empty() {
         true => {
@@ -173,7 +174,7 @@ fn chain<'a, S: Simd>(
         false => rest(robots, free, set_points, &mut spans, shared),
     };
     let mut platform = LinearizedPlatform::new(zero, spans.len());
-    let held = hold(robots, &mut platform, set_points, &spans, shared);
+    let held = wind(robots, &mut platform, set_points, &spans, shared);
     if let Some(keep) = &mut keep {
         keep.state(robots);
     }
@@ -188,7 +189,8 @@ fn chain<'a, S: Simd>(
 
     let load = payload.on(own.weight);
     // The first step follows the linearisation at hand.
-    let added = payload.wrench(&robots.center);
+    let mut added = payload.wrench(&robots.center);
+    hold(freedoms, &mut added);
     platform.gradient = six!(|k| platform.gradient[k] - added[k]);
     let (answered, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
     if let Some(keep) = &mut keep {
@@ -212,7 +214,7 @@ pub(crate) fn distribute<'a, S: Simd>(
     shared: &Shared,
     mut keep: Keeper<'_, 'a, S>,
 ) -> (Mask<S>, Mask<S>) {
-    let zero = robots.weight.all(0.0);
+    let (zero, freedoms) = (robots.weight.all(0.0), robots.freedoms);
     let compared = [shared.tension, shared.scale.size];
     let last_change = zero.all(LAST_DISTRIBUTION);
     let unbalanced = NEARLY_ROUNDING * shared.forces;
@@ -220,6 +222,7 @@ pub(crate) fn distribute<'a, S: Simd>(
     let mut going = zero.less_or_equal(zero);
     let mut within = going;
     let mut jumped = !going;
+    let mut before = zero.all(1.0);
     let mut all_held = Vec::with_capacity(spans.len());
     let mut convex = Vec::with_capacity(spans.len());
     let mut rows = Vec::with_capacity(spans.len());
@@ -245,6 +248,8 @@ pub(crate) fn distribute<'a, S: Simd>(
                 balance[k] += pull[k];
             }
             let along = span.plane.force_on_platform([zero.all(1.0), held.rise]);
+            let mut slope = wrench(&cable.anchor_arm, &along);
+            hold(freedoms, &mut slope);
             // w''·λ of a vertical force.
             let [sx, sy, _] = cable.anchor_arm;
             let lifted = multipliers[2] + sy * multipliers[3] - sx * multipliers[4];
@@ -254,13 +259,14 @@ pub(crate) fn distribute<'a, S: Simd>(
             convex.push((square * LEAST_CURVATURE).less_or_equal(curvature));
             let curvature = curvature.abs().max(square * LEAST_CURVATURE);
             rows.push(Row::new(
-                wrench(&cable.anchor_arm, &along),
+                slope,
                 (held.closed + -choice.reference) * held.tension_slope,
                 curvature.recip(),
                 multipliers,
             ));
             all_held.push(held);
         }
+        hold(freedoms, &mut balance);
         let (mut step, _) = newton(&rows, &balance);
         let mut outside = zero.less_or_equal(zero);
         outside = outside & !outside;
@@ -298,7 +304,9 @@ pub(crate) fn distribute<'a, S: Simd>(
         let (force, moment) = halves(&balance);
         let balanced = dot(&force, &force).less_or_equal(zero.all(unbalanced * unbalanced))
             & dot(&moment, &moment).less_or_equal(zero.all(unbalanced * arm * unbalanced * arm));
-        let last = going & settled & balanced & moved.less_or_equal(last_change);
+        let ends = moved.less_or_equal(last_change) & (moved * moved).less_or_equal(before * LAST_REMAINDER);
+        let last = going & settled & balanced & ends;
+        before = moved;
         if last.any() {
             // Elsewhere a stationary point may be no minimum: the scalar models decide.
             for (row, convex) in rows.iter().zip(&convex) {
@@ -350,7 +358,7 @@ pub(crate) fn distribute<'a, S: Simd>(
 /// Lengths that give the tensions `set_points` at the wanted pose, and the cables linearised there. Returns
 /// the lanes where all were found.
 #[inline(always)]
-pub(crate) fn hold<S: Simd>(
+pub(crate) fn wind<S: Simd>(
     robots: &mut Robots<'_, S>,
     platform: &mut LinearizedPlatform<S>,
     set_points: &[Lanes<S>],

@@ -7,21 +7,18 @@
 use crate::direct::MAX_STRAIN;
 use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable};
-use crate::lanes::algebra::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, replace, six, three};
+use crate::lanes::algebra::{
+    Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, hold, hold_matrix, replace, six, three,
+};
 use crate::lanes::cable::{FreeLength, LaneCable};
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
 use crate::lanes::skew::Skew;
 use crate::state::Residual;
 use cdpr_cable::kernel::{FOLDED, Field, LaneEnd};
-use cdpr_robot::Robot;
+use cdpr_robot::Freedoms;
 use smallvec::{SmallVec, smallvec};
 use std::array::from_fn;
-
-/// Whether a robot is one for the lanes: plain cables, six free motions, and cables for all of them.
-pub(crate) fn in_lanes(robot: &Robot) -> bool {
-    robot.has_plain_cables() && robot.freedoms().are_all() && robot.is_fully_actuated()
-}
 
 /// What the lanes hold.
 #[derive(Clone)]
@@ -40,6 +37,8 @@ const INLINE: usize = 4;
 #[derive(Clone)]
 pub(crate) struct Robots<'a, S: Simd> {
     pub(crate) layout: Layout<S>,
+    /// The motions that are free; what holds the others takes any wrench.
+    pub(crate) freedoms: Freedoms,
     pub(crate) cables: SmallVec<[LaneCable<'a, S>; INLINE]>,
     /// Position of the platform [m].
     pub(crate) position: Lanes3<S>,
@@ -173,7 +172,8 @@ impl<S: Simd> Robots<'_, S> {
         }
     }
 
-    /// The upper triangle of the stiffness here (S5), with all cables linearised anew.
+    /// The upper triangle of the stiffness here (S5), with all cables linearised anew; one on the diagonal for
+    /// motions that are held.
     #[inline(always)]
     pub(crate) fn stiffness(
         &self,
@@ -198,7 +198,8 @@ impl<S: Simd> Robots<'_, S> {
         platform.factored.replace(&SymmetricFactors::new(hessian), going);
     }
 
-    /// Gradient of the potential with the predicted forces, and the upper triangle of its derivative.
+    /// Gradient of the potential with the predicted forces, and the upper triangle of its derivative, which has
+    /// one on the diagonal for motions that are held.
     ///
     /// Where moments are out of balance the derivative of the gradient is not symmetric. The skew part is
     /// dropped: it is proportional to the residual moment, which vanishes at equilibrium, and that under a
@@ -239,7 +240,10 @@ impl<S: Simd> Robots<'_, S> {
         hessian[3][5] += load.weight * cx * 0.5;
         hessian[4][5] += load.weight * cy * 0.5;
         let wrench = load.wrench(&self.center);
-        (six!(|k| gradient[k] - wrench[k]), hessian)
+        let mut gradient = six!(|k| gradient[k] - wrench[k]);
+        hold(self.freedoms, &mut gradient);
+        hold_matrix(self.freedoms, &mut hessian, zero + 1.0);
+        (gradient, hessian)
     }
 
     /// The value in the lanes of cable `i` that count, zero in the others.
@@ -326,7 +330,10 @@ impl<S: Simd> Robots<'_, S> {
         }
         residual.closure = self.largest(residual.closure);
         residual.wrench = six!(|k| self.total(residual.wrench[k]) - wrench[k]);
-        replace(&mut platform.gradient, &six!(|k| self.total(gradient[k]) - wrench[k]), near);
+        gradient = six!(|k| self.total(gradient[k]) - wrench[k]);
+        hold(self.freedoms, &mut residual.wrench);
+        hold(self.freedoms, &mut gradient);
+        replace(&mut platform.gradient, &gradient, near);
         tensions = self.total(tensions) + load.weight;
         let (force, moment) = halves(&residual.wrench);
         let unbalanced =
@@ -359,7 +366,7 @@ impl<S: Simd> Robots<'_, S> {
             let mut step = platform.factored.solve(&gradient);
             if load.moment.is_some() {
                 // Where this does not converge, the steps do not either.
-                let skew = Skew { moment: load.moment, guided: Vec::new() };
+                let skew = Skew { freedoms: self.freedoms, moment: load.moment, guided: Vec::new() };
                 skew.refine(&platform.factored, &gradient, &mut step, scale.characteristic_length);
             }
             let (translation, rotation) = halves(&step);

@@ -3,41 +3,30 @@
 //! Robots with cables that are linear or have an elastic law, taut or sagging, at their limits or not, behind
 //! leads and over pulleys with vertical axes or without, are observed in the lanes of the vector unit
 //! (`lanes/chain.rs`), each from the tensions of the nominal robot, and with fewer cables than free motions
-//! also from its free coordinates (`lanes/chain/free.rs`). Any other robot is observed by the scalar models, which
-//! decide on every failure.
+//! also from its free coordinates (`lanes/chain/free.rs`). Any other robot is observed by the scalar models,
+//! which decide on every failure.
 //!
 //! Where the sum of squares of the inverse model has several local minima, a perturbed robot is observed in
 //! the one that it shares with the nominal robot, as long as it exists. [`deflection`] of the same robot may
 //! find another.
 
 mod motions;
+mod rows;
 mod slopes;
 
 use crate::error::StaticsError;
 use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution};
-use crate::lanes::algebra::{Frame, rotated, six, three};
-use crate::lanes::cable::{Guided, LaneCable, Shape};
-use crate::lanes::chain::free::FreeMotion;
-use crate::lanes::chain::shared::laws;
-use crate::lanes::chain::shared::{Choice, Shared};
-use crate::lanes::chain::{ChainStart, Outcome, observe};
+use crate::lanes::algebra::three;
+use crate::lanes::chain::{Outcome, observe};
 use crate::lanes::level::LevelFrame;
-use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::{Layout, Robots, Scale};
+use crate::lanes::observer::rows::{Nominal, Rows};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{Deflection, deflection, deflection_beside, deflection_near};
-use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
-use cdpr_cable::Catenary;
-use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
-use cdpr_robot::{
-    Axis, Coordinate, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector2,
-    Vector3, Vector6,
-};
+use crate::state::{Load, Residual};
+use cdpr_robot::{Coordinate, ParameterLayout, Pose, Robot, Vector3, Vector6};
 pub use motions::ObservationMotion;
 pub use slopes::ObservationSlopes;
-use smallvec::SmallVec;
 use std::array::from_fn;
 
 /// The deflection of one perturbed robot.
@@ -88,17 +77,6 @@ enum Wanted {
     Pose(Option<Branch>),
     /// Where it rests with free coordinates.
     Rest(FreeBranch),
-}
-
-/// The nominal robot at the wanted pose.
-#[derive(Clone, Debug)]
-struct Nominal {
-    multipliers: Vector6<f64>,
-    /// The free coordinates in the order of [`Coordinate::ALL`].
-    free: Vec<Coordinate>,
-    /// Segments of the elastic law of each cable; none of a linear one.
-    laws: Vec<Vec<LaneSegment>>,
-    shared: Shared,
 }
 
 impl<'a> Observer<'a> {
@@ -169,7 +147,8 @@ impl<'a> Observer<'a> {
         })
     }
 
-    /// The answers of the lanes, and of `alone` to rows that they leave, for a reason, or that are incomplete.
+    /// The answers of the lanes, and of `alone` to rows that they leave, for a reason, or that are
+    /// incomplete.
     fn each<'o, T>(
         &'o self,
         deviations: &'o [f64],
@@ -193,69 +172,6 @@ impl<'a> Observer<'a> {
             Wanted::Pose(None) => deflection(robot, &self.pose, offsets, &self.load),
             Wanted::Rest(branch) => deflection_beside(branch, robot, offsets, &self.load),
         }
-    }
-}
-
-impl Nominal {
-    fn new(
-        robot: &Robot,
-        load: &Load,
-        solution: Option<(HeldPose, Vector6<f64>)>,
-        free: &[Coordinate],
-    ) -> Result<Self, ScalarReason> {
-        if let Some(why) = ScalarReason::of_all(robot, free) {
-            return Err(why);
-        }
-        let (HeldPose { lengths, equilibrium }, multipliers) = solution.ok_or(ScalarReason::NominalRobot)?;
-        let (pose, tension) = (&equilibrium.pose, equilibrium.tensions().iter().sum());
-        let problem = DirectProblem { robot, lengths: &lengths, load: *load };
-        let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
-        let reference = robot.reference();
-        let choice = |(i, reference): (usize, &f64)| {
-            Choice::new(robot, i, *reference, shape(robot, i, lengths[i], &equilibrium))
-        };
-        let shared = Shared {
-            choices: reference.iter().enumerate().map(choice).collect(),
-            tension,
-            forces: tension,
-            scale: Scale {
-                size: problem.size(),
-                characteristic_length: problem.characteristic_length(),
-                rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
-            },
-        };
-        let mut free = free.to_vec();
-        free.sort_unstable();
-        Ok(Self { multipliers, free, laws: laws(robot), shared })
-    }
-
-    /// Why a lane is left that finds no tensions, and one that must not take them.
-    fn no_tensions(&self) -> [ScalarReason; 2] {
-        match self.free.is_empty() {
-            true => [ScalarReason::Tensions, ScalarReason::Folded],
-            false => [ScalarReason::FreeCoordinates; 2],
-        }
-    }
-}
-
-/// The shape of a cable at the wanted pose.
-pub(crate) fn shape(robot: &Robot, i: usize, unstrained_length: f64, held: &Equilibrium) -> Shape<f64> {
-    let force = held.cable_forces[i];
-    let cable = Catenary { cable: robot.cable(i), unstrained_length, force };
-    let span = robot.span(&held.pose, i);
-    let (mut chord, mut height) = (span.norm(), robot.gravity.level().map_or(span, |level| level * span).z);
-    let free = cable.free();
-    if cable.cable.guide.is_some() {
-        let across = (span.norm_squared() - height * height).max(0.0).sqrt();
-        let end = Vector2::new(across, height) - cable.leave_point();
-        (chord, height) = (end.norm(), end.y);
-    }
-    let chord_force = chord / free.response().lateral_flexibility;
-    Shape {
-        tangent: [force.x / free.exit_tension(), free.exit_vertical_force() / free.exit_tension()],
-        chord_force,
-        sag_force: force.y - chord_force * height / chord,
-        longer: free.unstrained_length - chord,
     }
 }
 
@@ -330,213 +246,11 @@ fn read<S: Simd>(
     })
 }
 
-/// Rows of deviations, one for each lane; lanes without a row of their own repeat the last one.
-struct Rows<'a, S> {
-    simd: S,
-    rows: [&'a [f64]; MAX_LANES],
-    layout: &'a ParameterLayout,
-}
-
-impl<'a, S: Simd> Rows<'a, S> {
-    #[inline(always)]
-    fn new(simd: S, rows: &'a [f64], layout: &'a ParameterLayout) -> Self {
-        let (parameters, mut each) = (layout.count(), [rows; MAX_LANES]);
-        let last = rows.len() - parameters;
-        for (lane, row) in each.iter_mut().enumerate() {
-            *row = &rows[last.min(lane * parameters)..];
-        }
-        Self { simd, rows: each, layout }
-    }
-
-    #[inline(always)]
-    fn all(&self, value: f64) -> Lanes<S> {
-        Lanes::splat(self.simd, value)
-    }
-
-    /// One parameter, in the order of [`Parameter::of`]: its nominal value and deviations.
-    #[inline(always)]
-    fn parameter(&self, index: usize, nominal: f64) -> Lanes<S> {
-        let mut values = [0.0; MAX_LANES];
-        for (value, row) in values[..Lanes::<S>::COUNT].iter_mut().zip(&self.rows) {
-            *value = row[index];
-        }
-        Lanes::from_array(self.simd, &values) + nominal
-    }
-
-    #[inline(always)]
-    fn point(&self, first: usize, nominal: &Vector3<f64>) -> [Lanes<S>; 3] {
-        [
-            self.parameter(first, nominal.x),
-            self.parameter(first + 1, nominal.y),
-            self.parameter(first + 2, nominal.z),
-        ]
-    }
-
-    /// The perturbed robots in their level frames, these frames where they are not the base frame, and the
-    /// lanes whose robot is valid, and whose pulleys have vertical axes.
-    #[inline(always)]
-    fn robots<'n>(
-        &self,
-        robot: &Robot,
-        pose: &Pose,
-        load: &Load,
-        nominal: &'n Nominal,
-    ) -> (ChainStart<'n, S>, Option<LevelFrame<S>>, [Mask<S>; 2]) {
-        let n = robot.cables.len();
-        let (layout, frame) = (self.layout, self.frame(pose, None));
-        let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
-        let mass = self.parameter(layout.mass(), robot.platform.mass);
-        let mut sound = tiny.less_or_equal(mass);
-        let (level, gravity) = match layout.index(Parameter::Gravity(Axis::X)) {
-            None => (None, self.all(robot.gravity.magnitude())),
-            Some(first) => {
-                let vector = self.point(first, &robot.gravity.vector());
-                let (level, magnitude, directed) = LevelFrame::of_gravity(&vector);
-                sound = sound & directed;
-                (Some(level), magnitude)
-            }
-        };
-        let mut start = ChainStart {
-            robots: Robots {
-                layout: Layout::Robots,
-                cables: SmallVec::with_capacity(n),
-                position: three!(|k| self.all(pose.position[k])),
-                center: rotated(&frame, &self.point(layout.center_of_mass(), &robot.platform.center_of_mass)),
-                frame: SmallVec::new(),
-                weight: mass * gravity,
-            },
-            offsets: Vec::with_capacity(n),
-            multipliers: six!(|k| self.all(nominal.multipliers[k])),
-            payload: PlatformLoad::new(gravity * load.payload, &load.wrench),
-            free: self.motions(pose, &nominal.free),
-        };
-        for (i, cable) in robot.cables.iter().enumerate() {
-            let density = self.parameter(layout.linear_density(), cable.properties.linear_density);
-            let modulus = self.parameter(layout.youngs_modulus(), cable.properties.youngs_modulus);
-            let offset = self.parameter(layout.tension_offset(i), 0.0);
-            // NaN is not equal to itself.
-            sound = sound
-                & zero.less_or_equal(density)
-                & tiny.less_or_equal(modulus)
-                & offset.less_or_equal(offset);
-            start.offsets.push(offset);
-            start.robots.cables.push(LaneCable {
-                law: &nominal.laws[i],
-                weight_per_length: density * gravity,
-                axial_flexibility: (modulus * cable.properties.section).recip(),
-                exit_point: self.point(layout.exit_point(i), &cable.exit_point),
-                anchor_arm: rotated(&frame, &self.point(layout.anchor_point(i), &cable.anchor_point)),
-                length: zero,
-                force: [zero; 2],
-                guided: None,
-            });
-        }
-        let mut upright = zero.less_or_equal(zero);
-        for (i, cable) in robot.cables.iter().enumerate() {
-            if cable.pulley.is_some() || cable.lead != 0.0 {
-                let (guide, valid, vertical) = self.guide(i, cable, level.as_ref());
-                start.robots.cables[i].guided = Some(Box::new(Guided { guide, whole_length: zero }));
-                (sound, upright) = (sound & valid, upright & vertical);
-            }
-        }
-        if let Some(level) = &level {
-            start.rotate(level);
-        }
-        (start, level, [sound, upright])
-    }
-
-    /// The motions of free coordinates.
-    #[inline(always)]
-    fn motions(&self, pose: &Pose, free: &[Coordinate]) -> Vec<FreeMotion<S>> {
-        let (_, pitch, yaw) = pose.rotation.euler_angles();
-        let mut motions = Vec::with_capacity(free.len());
-        for coordinate in free {
-            let motion = coordinate.motion(yaw, pitch);
-            motions.push(match coordinate.is_angle() {
-                false => FreeMotion::Along(three!(|k| self.all(motion[k]))),
-                true => FreeMotion::About(three!(|k| self.all(motion[3 + k]))),
-            });
-        }
-        motions
-    }
-
-    /// The platform frame at the wanted pose by its columns, in the level frames.
-    #[inline(always)]
-    fn frame(&self, pose: &Pose, level: Option<&LevelFrame<S>>) -> Frame<S> {
-        from_fn(|k| {
-            let column = three!(|row| self.all(pose.rotation.matrix()[(row, k)]));
-            level.map_or(column, |level| level.to_level(&column))
-        })
-    }
-
-    /// A parameter that not every robot has.
-    #[inline(always)]
-    fn further(&self, parameter: Parameter, nominal: f64) -> Lanes<S> {
-        match self.layout.index(parameter) {
-            Some(index) => self.parameter(index, nominal),
-            None => self.all(nominal),
-        }
-    }
-
-    /// The guide of a cable, and the lanes in which it is valid, and vertical.
-    #[inline(always)]
-    fn guide(
-        &self,
-        i: usize,
-        cable: &RobotCable,
-        level: Option<&LevelFrame<S>>,
-    ) -> (LaneGuide<Lanes<S>>, Mask<S>, Mask<S>) {
-        let zero = self.all(0.0);
-        let lead = self.further(Parameter::Lead(i), cable.lead);
-        let mut guide = LaneGuide { lead, radius: zero, signed_radius: zero };
-        let mut vertical = zero.less_or_equal(zero);
-        if let Some(Pulley { radius, axis }) = cable.pulley {
-            let radius = self.further(Parameter::PulleyRadius(i), radius);
-            let axis = three!(|k| self.all(axis[k]));
-            let [x, y, z] = match level {
-                None => axis,
-                Some(level) => level.to_level(&axis),
-            };
-            let tolerance = z * Pulley::VERTICAL;
-            vertical = (x * x + y * y).less_or_equal(tolerance * tolerance);
-            for about in TiltAxis::ALL {
-                let tilt = self.further(Parameter::Tilt(i, about), 0.0);
-                vertical = vertical & tilt.less_or_equal(zero) & zero.less_or_equal(tilt);
-            }
-            vertical = vertical | radius.less_or_equal(zero);
-            let upwards = zero.less_or_equal(z);
-            guide = LaneGuide { radius, signed_radius: upwards.select(radius, -radius), ..guide };
-        }
-        (guide, zero.less_or_equal(guide.lead) & zero.less_or_equal(guide.radius), vertical)
-    }
-}
-
-impl<S: Simd> ChainStart<'_, S> {
-    /// Rotates the robots from the base frame into their level frames.
-    #[inline(always)]
-    fn rotate(&mut self, level: &LevelFrame<S>) {
-        let Self { robots, multipliers, payload, free, .. } = self;
-        for motion in free {
-            *motion.axis() = level.to_level(motion.axis());
-        }
-        for cable in &mut robots.cables {
-            cable.exit_point = level.to_level(&cable.exit_point);
-            cable.anchor_arm = level.to_level(&cable.anchor_arm);
-        }
-        robots.position = level.to_level(&robots.position);
-        robots.center = level.to_level(&robots.center);
-        *multipliers = level.both_to_level(multipliers);
-        payload.force = level.to_level(&payload.force);
-        if let Some(moment) = &mut payload.moment {
-            *moment = level.to_level(moment);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lanes::simd::Scalar;
+    use cdpr_robot::{Parameter, Pulley};
 
     #[test]
     fn the_vector_unit_changes_no_bit() {

@@ -15,15 +15,14 @@ use crate::equations::Span;
 use crate::equations::vector::{dot, wrench};
 use crate::error::StaticsError;
 use crate::inverse::{InTurn, InverseSolution};
-use crate::lanes::algebra::{Lanes2, Lanes6, six};
+use crate::lanes::algebra::{Lanes2, Lanes6, hold, six};
 use crate::lanes::cable::Shape;
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::shared::{Choice, Shared};
-use crate::lanes::chain::{Keep, SAGGING, distribute, hold};
+use crate::lanes::chain::{Keep, SAGGING, distribute, wind};
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LinearizedPlatform, Robots};
-use crate::lanes::observer::shape;
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
@@ -206,7 +205,7 @@ impl<'a> Setting<'a> {
     /// What an answer of the scalar model is for the next pose.
     fn near(&self, pose: &Pose, solution: &InverseSolution) -> Near {
         let robot = self.placed.robot;
-        let shape = |i: usize| shape(robot, i, solution.lengths[i], &solution.equilibrium);
+        let shape = |i: usize| Shape::of(robot, i, solution.lengths[i], &solution.equilibrium);
         let shapes = (0..robot.cables.len()).map(shape).collect();
         let multipliers = self.placed.both(PlacedRobot::to_level, &solution.multipliers);
         Near { position: pose.position, shapes, multipliers }
@@ -277,7 +276,8 @@ impl<S: Simd> InLanes<'_, S> {
         let (mut robots, spans) = self.shaped();
         let weight = self.all((robot.platform.mass + load.payload) * robot.gravity.magnitude());
         let whole = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
-        let external = whole.wrench(&robots.center);
+        let mut external = whole.wrench(&robots.center);
+        hold(robots.freedoms, &mut external);
         let mut multipliers = six!(|k| self.each(&|asked| asked.near.multipliers[k]));
         let mut set_points = vec![zero; spans.len()];
         let mut limits = Limits(SmallVec::new());
@@ -291,7 +291,7 @@ impl<S: Simd> InLanes<'_, S> {
             Some(&mut limits),
         );
         let mut platform = LinearizedPlatform::new(zero, spans.len());
-        let held = hold(&mut robots, &mut platform, &set_points, &spans, shared);
+        let held = wind(&mut robots, &mut platform, &set_points, &spans, shared);
         let Limits(limits) = limits;
         let found = converged & sound & held;
         let found = found & self.is_least(&robots, &spans, &multipliers, &limits);

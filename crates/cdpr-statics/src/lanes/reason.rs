@@ -13,7 +13,7 @@ pub enum ScalarReason {
     /// with taut cables and tensions within their limits.
     FreeCoordinates,
     /// There are fewer cables than free motions and no coordinate is free, or one cable alone, or the
-    /// platform is a point or moves in a plane.
+    /// platform moves in a plane and gravity is a vector.
     FewCables,
     /// Cables run over pulleys whose axes are not vertical.
     Pulleys,
@@ -77,10 +77,12 @@ impl ScalarReason {
             .iter()
             .enumerate()
             .any(|(i, cable)| cable.properties.law.is_some() && robot.max_at(i) == CableEnd::Exit);
+        // The level frame, which deviates with gravity, holds other motions than the base frame.
+        let inclined = robot.plane.is_some() && robot.gravity.is_vector();
         // Nothing resists the rotation about a single cable.
         let enough = robot.is_fully_actuated() || (robot.cables.len() > 1 && !free.is_empty());
         let reasons = [
-            (!robot.freedoms().are_all() || !enough, Self::FewCables),
+            (inclined || !enough, Self::FewCables),
             ((0..robot.cables.len()).any(|i| robot.cable(i).leaves_its_plane()), Self::Pulleys),
             (laws_at_exits, Self::Laws),
         ];

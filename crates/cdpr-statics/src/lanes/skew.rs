@@ -19,8 +19,9 @@
 
 use crate::equations::CablePlane;
 use crate::equations::vector::{cross, dot};
-use crate::lanes::algebra::{Lanes3, Lanes6, SymmetricFactors, add, halves, replace, six, three};
+use crate::lanes::algebra::{Lanes3, Lanes6, SymmetricFactors, add, halves, hold, replace, six, three};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
+use cdpr_robot::Freedoms;
 
 /// A change of the solution below this part of it ends (L18).
 const LAST_CHANGE: f64 = 1e-13;
@@ -29,6 +30,7 @@ const MAX_ITERATIONS: usize = 10;
 
 /// What the symmetric part of a system lacks.
 pub(crate) struct Skew<S: Simd> {
+    pub(crate) freedoms: Freedoms,
     /// M, or -M of the transposed system [N m].
     pub(crate) moment: Option<Lanes3<S>>,
     /// Cables over guides; of the transposed system only.
@@ -73,6 +75,7 @@ impl<S: Simd> Skew<S> {
             let [h, z] = plane.project(three!(|k| moved[k] + swung[k]));
             add(right, arm, &plane.lift([-(*stiffness * z), *stiffness * h]));
         }
+        hold(self.freedoms, right);
     }
 }
 

@@ -4,7 +4,8 @@ use crate::direct::{Start, direct};
 use crate::error::StaticsError;
 use crate::lanes::cable::LaneCable;
 use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::{Layout, LinearizedPlatform, Robots, Scale, in_lanes};
+use crate::lanes::newton::{Layout, LinearizedPlatform, Robots, Scale};
+use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
@@ -31,6 +32,8 @@ pub struct Tracker<'a> {
     robot: &'a Robot,
     equilibrium: Equilibrium,
     residual: Residual,
+    /// Whether the robot is one for the lanes.
+    in_lanes: bool,
     /// Largest distance of an exit point from the origin [m].
     farthest: f64,
 }
@@ -49,7 +52,9 @@ impl<'a> Tracker<'a> {
         robot.validate()?;
         let solution = direct(robot, lengths, load, Start::Near(start))?;
         let farthest = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
-        Ok(Self { robot, residual: solution.report.residual, equilibrium: solution.equilibrium, farthest })
+        let in_lanes = robot.has_plain_cables() && ScalarReason::of_all(robot, &[]).is_none();
+        let (equilibrium, residual) = (solution.equilibrium, solution.report.residual);
+        Ok(Self { robot, equilibrium, residual, in_lanes, farthest })
     }
 
     /// The current equilibrium.
@@ -71,7 +76,7 @@ impl<'a> Tracker<'a> {
     /// Those of [`direct`]; the equilibrium is then the one before.
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let problem = DirectProblem::new(self.robot, lengths, load)?;
-        let found = in_lanes(self.robot) && dispatch(Update { tracker: self, problem: &problem });
+        let found = self.in_lanes && dispatch(Update { tracker: self, problem: &problem });
         if !found {
             let solution = direct(self.robot, lengths, load, Start::Near(&self.equilibrium))?;
             self.residual = solution.report.residual;
@@ -92,7 +97,7 @@ impl WithSimd for Update<'_, '_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
-        let Self { tracker: Tracker { robot, equilibrium, residual, farthest }, problem } = self;
+        let Self { tracker: Tracker { robot, equilibrium, residual, farthest, .. }, problem } = self;
         let pose = &mut equilibrium.pose;
         let n = problem.cables();
         let (count, zero) = (Lanes::<S>::COUNT, Lanes::splat(simd, 0.0));
@@ -104,6 +109,7 @@ impl WithSimd for Update<'_, '_> {
         let to_base = |v: Vector3<f64>| level.map_or(v, |level| level.tr_mul(&v));
         let mut robots = Robots {
             layout: Layout::Cables(last),
+            freedoms: robot.freedoms(),
             cables: SmallVec::new(),
             position: vector(simd, &to_level(pose.position)),
             center: vector(simd, &to_level(pose.rotation * robot.platform.center_of_mass)),

@@ -10,7 +10,8 @@
 //! ```
 //!
 //! and the balance by `[dF; s x dF + ds x F]` and by the lever of the weight. Newton's steps solve the six
-//! equations for as many unknowns. Angles are those of R = Rz(yaw) Ry(pitch) Rx(roll): with the axes at R,
+//! equations for as many unknowns, the last of which are the reactions of what holds a point or a planar
+//! platform. Angles are those of R = Rz(yaw) Ry(pitch) Rx(roll): with the axes at R,
 //!
 //! ```text
 //! R' = Rot(e_z, dyaw) Rot(Rz e_y, dpitch) Rot(R e_x, droll) R                                      (L16)
@@ -22,7 +23,7 @@
 use crate::equations::Span;
 use crate::equations::vector::{cross, dot};
 use crate::inverse::{BESIDE, NEARLY_ROUNDING};
-use crate::lanes::algebra::{Lanes3, Lanes6, add, six, solve_columns, three};
+use crate::lanes::algebra::{Lanes3, Lanes6, add, hold, six, solve_columns, three};
 use crate::lanes::chain::limits::limits_at;
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::held::HeldCable;
@@ -182,6 +183,10 @@ impl<S: Simd> Rest<'_, '_, S> {
         for (motion, column) in free.iter().zip(&mut columns[cables..]) {
             motion.add_lever(column, &motion.of(&robots.center), &[zero, zero, -robots.weight]);
         }
+        let held = (0..MOTIONS).filter(|k| !robots.freedoms.contains(*k));
+        for (k, column) in held.zip(&mut columns[cables + free.len()..]) {
+            column[k] = zero.all(1.0);
+        }
         let per_arm = 1.0 / shared.scale.characteristic_length;
         for column in columns.iter_mut().chain([&mut balance]) {
             for moment in &mut column[3..] {
@@ -189,6 +194,7 @@ impl<S: Simd> Rest<'_, '_, S> {
             }
         }
         let step = solve_columns(&columns, &six!(|k| -balance[k]));
+        hold(robots.freedoms, &mut balance);
         let mut moved = zero;
         for (i, (span, cable)) in spans.iter().zip(&mut robots.cables).enumerate() {
             let (mut held, ends) = all_held[i];

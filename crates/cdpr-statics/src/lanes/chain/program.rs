@@ -106,7 +106,8 @@ pub(crate) fn newton<S: Simd>(rows: &[Row<S>], balance: &Lanes6<S>) -> (Lanes6<S
         }
     }
     let forces = (matrix[0][0] + matrix[1][1] + matrix[2][2]) * ELASTICITY;
-    let moments = (matrix[3][3] + matrix[4][4] + matrix[5][5]) * ELASTICITY;
+    // A point takes no moments at all: its rotations then do not change.
+    let moments = (matrix[3][3] + matrix[4][4] + matrix[5][5]) * ELASTICITY + f64::MIN_POSITIVE;
     for k in 0..3 {
         matrix[k][k] += forces;
         matrix[3 + k][3 + k] += moments;

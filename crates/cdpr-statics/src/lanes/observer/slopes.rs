@@ -1,6 +1,6 @@
 //! Observations with the derivatives of |dp| by all parameters.
 
-use super::{Batch, Observation, Observer, Rows, Wanted, read};
+use super::{Batch, Observation, Observer, Wanted, read};
 use crate::derivatives::{Derivatives, derivatives, derivatives_free, derivatives_near};
 use crate::equations::vector::dot;
 use crate::error::StaticsError;
@@ -9,6 +9,7 @@ use crate::lanes::algebra::three;
 use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::Robots;
+use crate::lanes::observer::rows::Rows;
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_cable::kernel::Field;

@@ -2,13 +2,13 @@
 //!
 //! From the cables that the inverse model wound, both equilibria follow by Newton's method of
 //! `lanes/newton.rs`. The stiffness K of the loaded platform is linearised at the second one. Its least
-//! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it, and that of
-//! `K v = (2π f)² M v` with the mass matrix of (V1) gives the lowest natural frequency. What a lane does not
-//! decide is left to the scalar models.
+//! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it, and that
+//! of `K v = (2π f)² M v` with the mass matrix of (V1) gives the lowest natural frequency. What a lane does
+//! not decide is left to the scalar models.
 
 use crate::error::StaticsError;
 use crate::inverse::InverseSolution;
-use crate::lanes::algebra::{Lanes3, Lanes6x6, SymmetricFactors, six, three};
+use crate::lanes::algebra::{Lanes3, Lanes6x6, SymmetricFactors, hold, hold_matrix, six, three};
 use crate::lanes::cable::FreeLength;
 use crate::lanes::eigen::least_eigenvalue;
 use crate::lanes::load::PlatformLoad;
@@ -21,7 +21,7 @@ use crate::problem::DirectProblem;
 use crate::state::{Load, Residual};
 use cdpr_cable::Catenary;
 use cdpr_cable::kernel::Field;
-use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
+use cdpr_robot::{Freedoms, Matrix3, Pose, Robot, Vector2, Vector3};
 use smallvec::SmallVec;
 use std::f64::consts::TAU;
 
@@ -66,8 +66,8 @@ impl LoadedPose {
 /// What `load` does at every pose that the inverse model answered without it, the lengths kept: the figures
 /// of [`deflection_from`].
 ///
-/// Robots with six free motions and a cable for each of them, over pulleys with vertical axes or none, are
-/// answered in the lanes of the vector unit. No answer depends on the others.
+/// Robots with a cable for every free motion, over pulleys with vertical axes or none, are answered
+/// in the lanes of the vector unit. No answer depends on the others.
 ///
 /// # Errors
 /// Those of [`deflection_from`], for each pose.
@@ -155,7 +155,8 @@ impl<S: Simd> InLanes<'_, S> {
             let weight = self.all(load.payload * placed.robot.gravity.magnitude());
             let added = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
             // The first step follows the linearisation at hand.
-            let wrench = added.wrench(&robots.center);
+            let mut wrench = added.wrench(&robots.center);
+            hold(robots.freedoms, &mut wrench);
             platform.gradient = six!(|k| platform.gradient[k] - wrench[k]);
             carried = added.on(carried.weight);
             loaded = Some(self.settled(&mut robots, &mut platform, &carried, unloaded.found));
@@ -244,11 +245,13 @@ impl<S: Simd> InLanes<'_, S> {
             }
         }
         let stable = SymmetricFactors::new(scaled).positive;
-        let square = robot.platform.inertia.map(|inertia| {
+        let turns = (3..6).any(|k| robots.freedoms.contains(k));
+        let inertia = robot.platform.inertia.or((!turns).then(Matrix3::zeros));
+        let square = inertia.map(|inertia| {
             let mass = SymmetricFactors::new(self.mass_matrix(robots, &inertia));
-            (least_eigenvalue(mass.reduced(&stiffness)), mass.positive)
+            (least(robots.freedoms, mass.reduced(&stiffness)), mass.positive)
         });
-        Figures { stable, least_stiffness: least_eigenvalue(scaled), square }
+        Figures { stable, least_stiffness: least(robots.freedoms, scaled), square }
     }
 
     /// M of (V1) with the payload at the centre of mass [kg, kg m, kg m²], its upper triangle.
@@ -275,6 +278,7 @@ impl<S: Simd> InLanes<'_, S> {
                 }
             }
         }
+        hold_matrix(robots.freedoms, &mut matrix, m);
         matrix
     }
 
@@ -327,6 +331,18 @@ impl<S: Simd> InLanes<'_, S> {
             }));
         }
     }
+}
+
+/// The least eigenvalue of the free motions.
+#[inline(always)]
+fn least<S: Simd>(freedoms: Freedoms, mut matrix: Lanes6x6<S>) -> Lanes<S> {
+    let mut trace = matrix[0][0];
+    for k in 1..6 {
+        trace += matrix[k][k];
+    }
+    // No less than any eigenvalue of a stable stiffness.
+    hold_matrix(freedoms, &mut matrix, trace);
+    least_eigenvalue(matrix)
 }
 
 /// Unstrained length beyond the leave point of a cable over a guide [m].

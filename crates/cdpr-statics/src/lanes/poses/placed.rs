@@ -83,6 +83,7 @@ impl<'a> PlacedRobot<'a> {
         let gravity = robot.gravity.magnitude();
         let mut robots = Robots {
             layout: Layout::Robots,
+            freedoms: robot.freedoms(),
             cables: SmallVec::with_capacity(robot.cables.len()),
             position: three!(|k| Lanes::from_fn(simd, |lane| positions[lane][k])),
             center: rotated(&frame, &point(robot.platform.center_of_mass)),

@@ -1,0 +1,279 @@
+//! The nominal robot, and robots that deviate from it, one in each lane.
+
+use crate::inverse::HeldPose;
+use crate::lanes::algebra::{Frame, hold, rotated, six, three};
+use crate::lanes::cable::{Guided, LaneCable, Shape};
+use crate::lanes::chain::ChainStart;
+use crate::lanes::chain::free::FreeMotion;
+use crate::lanes::chain::shared::{Choice, Shared, laws};
+use crate::lanes::level::LevelFrame;
+use crate::lanes::load::PlatformLoad;
+use crate::lanes::newton::{Layout, Robots, Scale};
+use crate::lanes::reason::ScalarReason;
+use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
+use crate::problem::DirectProblem;
+use crate::state::{Load, rounding_of_closure};
+use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
+use cdpr_robot::{
+    Axis, Coordinate, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector3, Vector6,
+};
+use smallvec::SmallVec;
+use std::array::from_fn;
+
+/// The nominal robot at the wanted pose.
+#[derive(Clone, Debug)]
+pub(crate) struct Nominal {
+    multipliers: Vector6<f64>,
+    /// The free coordinates in the order of [`Coordinate::ALL`].
+    pub(crate) free: Vec<Coordinate>,
+    /// Segments of the elastic law of each cable; none of a linear one.
+    laws: Vec<Vec<LaneSegment>>,
+    pub(crate) shared: Shared,
+}
+
+impl Nominal {
+    pub(crate) fn new(
+        robot: &Robot,
+        load: &Load,
+        solution: Option<(HeldPose, Vector6<f64>)>,
+        free: &[Coordinate],
+    ) -> Result<Self, ScalarReason> {
+        if let Some(why) = ScalarReason::of_all(robot, free) {
+            return Err(why);
+        }
+        let (HeldPose { lengths, equilibrium }, multipliers) = solution.ok_or(ScalarReason::NominalRobot)?;
+        let (pose, tension) = (&equilibrium.pose, equilibrium.tensions().iter().sum());
+        let problem = DirectProblem { robot, lengths: &lengths, load: *load };
+        let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
+        let reference = robot.reference();
+        let choice = |(i, reference): (usize, &f64)| {
+            Choice::new(robot, i, *reference, Shape::of(robot, i, lengths[i], &equilibrium))
+        };
+        let shared = Shared {
+            choices: reference.iter().enumerate().map(choice).collect(),
+            tension,
+            forces: tension,
+            scale: Scale {
+                size: problem.size(),
+                characteristic_length: problem.characteristic_length(),
+                rounding: rounding_of_closure(problem.size(), pose.position.norm() + exits),
+            },
+        };
+        let mut free = free.to_vec();
+        free.sort_unstable();
+        Ok(Self { multipliers, free, laws: laws(robot), shared })
+    }
+
+    /// Why a lane is left that finds no tensions, and one that must not take them.
+    pub(crate) fn no_tensions(&self) -> [ScalarReason; 2] {
+        match self.free.is_empty() {
+            true => [ScalarReason::Tensions, ScalarReason::Folded],
+            false => [ScalarReason::FreeCoordinates; 2],
+        }
+    }
+}
+
+/// Rows of deviations, one for each lane; lanes without a row of their own repeat the last one.
+pub(crate) struct Rows<'a, S> {
+    simd: S,
+    rows: [&'a [f64]; MAX_LANES],
+    pub(crate) layout: &'a ParameterLayout,
+}
+
+impl<'a, S: Simd> Rows<'a, S> {
+    #[inline(always)]
+    pub(crate) fn new(simd: S, rows: &'a [f64], layout: &'a ParameterLayout) -> Self {
+        let (parameters, mut each) = (layout.count(), [rows; MAX_LANES]);
+        let last = rows.len() - parameters;
+        for (lane, row) in each.iter_mut().enumerate() {
+            *row = &rows[last.min(lane * parameters)..];
+        }
+        Self { simd, rows: each, layout }
+    }
+
+    #[inline(always)]
+    pub(crate) fn all(&self, value: f64) -> Lanes<S> {
+        Lanes::splat(self.simd, value)
+    }
+
+    /// One parameter, in the order of [`Parameter::of`]: its nominal value and deviations.
+    #[inline(always)]
+    pub(crate) fn parameter(&self, index: usize, nominal: f64) -> Lanes<S> {
+        let mut values = [0.0; MAX_LANES];
+        for (value, row) in values[..Lanes::<S>::COUNT].iter_mut().zip(&self.rows) {
+            *value = row[index];
+        }
+        Lanes::from_array(self.simd, &values) + nominal
+    }
+
+    #[inline(always)]
+    pub(crate) fn point(&self, first: usize, nominal: &Vector3<f64>) -> [Lanes<S>; 3] {
+        [
+            self.parameter(first, nominal.x),
+            self.parameter(first + 1, nominal.y),
+            self.parameter(first + 2, nominal.z),
+        ]
+    }
+
+    /// The perturbed robots in their level frames, these frames where they are not the base frame, and the
+    /// lanes whose robot is valid, and whose pulleys have vertical axes.
+    #[inline(always)]
+    pub(crate) fn robots<'n>(
+        &self,
+        robot: &Robot,
+        pose: &Pose,
+        load: &Load,
+        nominal: &'n Nominal,
+    ) -> (ChainStart<'n, S>, Option<LevelFrame<S>>, [Mask<S>; 2]) {
+        let n = robot.cables.len();
+        let (layout, frame) = (self.layout, self.frame(pose, None));
+        let (zero, tiny) = (self.all(0.0), self.all(f64::MIN_POSITIVE));
+        let mass = self.parameter(layout.mass(), robot.platform.mass);
+        let mut sound = tiny.less_or_equal(mass);
+        let (level, gravity) = match layout.index(Parameter::Gravity(Axis::X)) {
+            None => (None, self.all(robot.gravity.magnitude())),
+            Some(first) => {
+                let vector = self.point(first, &robot.gravity.vector());
+                let (level, magnitude, directed) = LevelFrame::of_gravity(&vector);
+                sound = sound & directed;
+                (Some(level), magnitude)
+            }
+        };
+        let mut start = ChainStart {
+            robots: Robots {
+                layout: Layout::Robots,
+                freedoms: robot.freedoms(),
+                cables: SmallVec::with_capacity(n),
+                position: three!(|k| self.all(pose.position[k])),
+                center: rotated(&frame, &self.point(layout.center_of_mass(), &robot.platform.center_of_mass)),
+                frame: SmallVec::new(),
+                weight: mass * gravity,
+            },
+            offsets: Vec::with_capacity(n),
+            multipliers: six!(|k| self.all(nominal.multipliers[k])),
+            payload: PlatformLoad::new(gravity * load.payload, &load.wrench),
+            free: self.motions(pose, &nominal.free),
+        };
+        for (i, cable) in robot.cables.iter().enumerate() {
+            let density = self.parameter(layout.linear_density(), cable.properties.linear_density);
+            let modulus = self.parameter(layout.youngs_modulus(), cable.properties.youngs_modulus);
+            let offset = self.parameter(layout.tension_offset(i), 0.0);
+            // NaN is not equal to itself.
+            sound = sound
+                & zero.less_or_equal(density)
+                & tiny.less_or_equal(modulus)
+                & offset.less_or_equal(offset);
+            start.offsets.push(offset);
+            start.robots.cables.push(LaneCable {
+                law: &nominal.laws[i],
+                weight_per_length: density * gravity,
+                axial_flexibility: (modulus * cable.properties.section).recip(),
+                exit_point: self.point(layout.exit_point(i), &cable.exit_point),
+                anchor_arm: rotated(&frame, &self.point(layout.anchor_point(i), &cable.anchor_point)),
+                length: zero,
+                force: [zero; 2],
+                guided: None,
+            });
+        }
+        let mut upright = zero.less_or_equal(zero);
+        for (i, cable) in robot.cables.iter().enumerate() {
+            if cable.pulley.is_some() || cable.lead != 0.0 {
+                let (guide, valid, vertical) = self.guide(i, cable, level.as_ref());
+                start.robots.cables[i].guided = Some(Box::new(Guided { guide, whole_length: zero }));
+                (sound, upright) = (sound & valid, upright & vertical);
+            }
+        }
+        hold(robot.freedoms(), &mut start.multipliers);
+        if let Some(level) = &level {
+            start.rotate(level);
+        }
+        (start, level, [sound, upright])
+    }
+
+    /// The motions of free coordinates.
+    #[inline(always)]
+    fn motions(&self, pose: &Pose, free: &[Coordinate]) -> Vec<FreeMotion<S>> {
+        let (_, pitch, yaw) = pose.rotation.euler_angles();
+        let mut motions = Vec::with_capacity(free.len());
+        for coordinate in free {
+            let motion = coordinate.motion(yaw, pitch);
+            motions.push(match coordinate.is_angle() {
+                false => FreeMotion::Along(three!(|k| self.all(motion[k]))),
+                true => FreeMotion::About(three!(|k| self.all(motion[3 + k]))),
+            });
+        }
+        motions
+    }
+
+    /// The platform frame at the wanted pose by its columns, in the level frames.
+    #[inline(always)]
+    pub(crate) fn frame(&self, pose: &Pose, level: Option<&LevelFrame<S>>) -> Frame<S> {
+        from_fn(|k| {
+            let column = three!(|row| self.all(pose.rotation.matrix()[(row, k)]));
+            level.map_or(column, |level| level.to_level(&column))
+        })
+    }
+
+    /// A parameter that not every robot has.
+    #[inline(always)]
+    fn further(&self, parameter: Parameter, nominal: f64) -> Lanes<S> {
+        match self.layout.index(parameter) {
+            Some(index) => self.parameter(index, nominal),
+            None => self.all(nominal),
+        }
+    }
+
+    /// The guide of a cable, and the lanes in which it is valid, and vertical.
+    #[inline(always)]
+    fn guide(
+        &self,
+        i: usize,
+        cable: &RobotCable,
+        level: Option<&LevelFrame<S>>,
+    ) -> (LaneGuide<Lanes<S>>, Mask<S>, Mask<S>) {
+        let zero = self.all(0.0);
+        let lead = self.further(Parameter::Lead(i), cable.lead);
+        let mut guide = LaneGuide { lead, radius: zero, signed_radius: zero };
+        let mut vertical = zero.less_or_equal(zero);
+        if let Some(Pulley { radius, axis }) = cable.pulley {
+            let radius = self.further(Parameter::PulleyRadius(i), radius);
+            let axis = three!(|k| self.all(axis[k]));
+            let [x, y, z] = match level {
+                None => axis,
+                Some(level) => level.to_level(&axis),
+            };
+            let tolerance = z * Pulley::VERTICAL;
+            vertical = (x * x + y * y).less_or_equal(tolerance * tolerance);
+            for about in TiltAxis::ALL {
+                let tilt = self.further(Parameter::Tilt(i, about), 0.0);
+                vertical = vertical & tilt.less_or_equal(zero) & zero.less_or_equal(tilt);
+            }
+            vertical = vertical | radius.less_or_equal(zero);
+            let upwards = zero.less_or_equal(z);
+            guide = LaneGuide { radius, signed_radius: upwards.select(radius, -radius), ..guide };
+        }
+        (guide, zero.less_or_equal(guide.lead) & zero.less_or_equal(guide.radius), vertical)
+    }
+}
+
+impl<S: Simd> ChainStart<'_, S> {
+    /// Rotates the robots from the base frame into their level frames.
+    #[inline(always)]
+    fn rotate(&mut self, level: &LevelFrame<S>) {
+        let Self { robots, multipliers, payload, free, .. } = self;
+        for motion in free {
+            *motion.axis() = level.to_level(motion.axis());
+        }
+        for cable in &mut robots.cables {
+            cable.exit_point = level.to_level(&cable.exit_point);
+            cable.anchor_arm = level.to_level(&cable.anchor_arm);
+        }
+        robots.position = level.to_level(&robots.position);
+        robots.center = level.to_level(&robots.center);
+        *multipliers = level.both_to_level(multipliers);
+        payload.force = level.to_level(&payload.force);
+        if let Some(moment) = &mut payload.moment {
+            *moment = level.to_level(moment);
+        }
+    }
+}
