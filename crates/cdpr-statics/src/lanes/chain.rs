@@ -47,7 +47,7 @@ use crate::lanes::chain::program::{Row, newton, within_limits};
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, LAST_REMAINDER, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::{LaneResidual, LinearizedPlatform, MAX_ITERATIONS, Robots};
+use crate::lanes::newton::{LaneResidual, LinearizedPlatform, Robots};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::{FOLDED, Field};
 
@@ -95,6 +95,9 @@ pub(crate) const SAGGING: f64 = 0.02;
 
 /// Least curvature of a step, relative to that of a straight cable.
 const LEAST_CURVATURE: f64 = 0.01;
+
+/// Iterations for the length of a cable at its set-point.
+const MAX_ITERATIONS: usize = 8;
 
 /// Who keeps the links of a chain.
 pub(crate) type Keeper<'k, 'a, S> = Option<&'k mut (dyn Keep<'a, S> + 'k)>;

@@ -82,7 +82,11 @@ pub(crate) struct LaneResidual<S: Simd> {
     pub(crate) wrench: Lanes6<S>,
 }
 
-pub(crate) const MAX_ITERATIONS: usize = 8;
+/// Iterations at rest, of which cables that become slack need the most.
+const MAX_ITERATIONS: usize = 12;
+
+/// Greatest part of its horizontal force that Newton's step may take away from a cable.
+const GREATEST_LOSS: f64 = 0.5;
 
 /// A step below this, relative to the longest cable, ends at rest or next to it.
 ///
@@ -375,8 +379,8 @@ impl<S: Simd> Robots<'_, S> {
                 + turned * (scale.characteristic_length * scale.characteristic_length);
             // The linearisation is invalid farther away; a comparison with NaN is false, which ends the lane.
             going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
-            self.apply(&translation, &rotation, turned, platform, going);
-            let near = going & moved.less_or_equal(small_step);
+            let yielding = self.apply(&translation, &rotation, turned, platform, going);
+            let near = going & !yielding & moved.less_or_equal(small_step);
             if near.any() {
                 let (left, holds) = self.revise(load, scale, platform, near);
                 let mut done = near & holds & platform.factored.positive;
@@ -396,7 +400,8 @@ impl<S: Simd> Robots<'_, S> {
         (found, residual)
     }
 
-    /// Moves the platforms and the forces of their cables where `going`.
+    /// Moves the platforms and the forces of their cables where `going`. Returns the lanes with a cable whose
+    /// force took a part of its step alone.
     #[inline(always)]
     fn apply(
         &mut self,
@@ -405,7 +410,8 @@ impl<S: Simd> Robots<'_, S> {
         square: Lanes<S>,
         platform: &LinearizedPlatform<S>,
         going: Mask<S>,
-    ) {
+    ) -> Mask<S> {
+        let mut yielding = going & !going;
         // sin φ/φ and (1 - cos φ)/φ² to rounding for φ up to 0.1.
         let x = -square;
         let a =
@@ -417,7 +423,16 @@ impl<S: Simd> Robots<'_, S> {
         for (i, (cable, linearized)) in self.cables.iter_mut().zip(&platform.cables).enumerate() {
             let (swung, arm) = rotate(&cable.anchor_arm, rotation, a, b);
             let r = three!(|k| translation[k] + swung[k]);
-            let force = linearized.force_after(r);
+            let mut force = linearized.force_after(r);
+            // A cable that becomes slack: the step of 1/fx instead, of which fx remains positive.
+            let [fx, fz] = cable.force;
+            let lost = fx - force[0];
+            let slackening = going & !lost.less_or_equal(fx * GREATEST_LOSS);
+            if slackening.any() {
+                yielding = yielding | slackening;
+                let share = slackening.select(fx / (fx + lost), fx.all(1.0));
+                force = [fx - lost * share, fz + (force[1] - fz) * share];
+            }
             if cable.guided.is_some() {
                 let length = cable.length + platform.free[i].change(&cable.force, &force);
                 cable.length.replace(length, going);
@@ -431,6 +446,7 @@ impl<S: Simd> Robots<'_, S> {
         }
         let position = three!(|k| self.position[k] + translation[k]);
         replace(&mut self.position, &position, going);
+        yielding
     }
 }
 
