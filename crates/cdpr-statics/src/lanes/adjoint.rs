@@ -327,7 +327,10 @@ impl<S: Simd> Adjoint<S> {
             let on_bound = sides[0] | sides[1];
             let kept = !slope.abs().less_or_equal(largest * NO_MULTIPLIER);
             let set_point = SetPoint::new(tension, record.offsets[i], *limits, *sides);
-            self.decided = self.decided & set_point.decided & (kept | !on_bound);
+            // A least tension that the span demands moves with it: the scalar models have its derivatives.
+            let demanded = !limits[0].less_or_equal(zero.all(choice.limits.min));
+            let free = !demanded | (set_point.follows & !sides[0]);
+            self.decided = self.decided & set_point.decided & (kept | !on_bound) & free;
             if let (CableEnd::Exit, Some(guided)) = (choice.max_at, &cable.guided) {
                 // The scalar models have no derivatives of the limit at a leave point that moves.
                 self.decided = self.decided & (!(set_point.over | sides[1]) | guided.fixed());

@@ -24,8 +24,8 @@
 //! Where steps pass limits of the tensions, `chain/program.rs` finds those within them.
 //!
 //! For a parabola fz is linear in fx and w'' zero; for a cable that is not taut it is that of the
-//! inextensible catenary ([`HeldCable::curvature`]). A cable near the least tension of its
-//! span, which the scalar models hold there, is left to them.
+//! inextensible catenary ([`HeldCable::curvature`]). A cable that begins near the least tension of its span has
+//! it for a limit, as in the scalar models; one that comes near it on the way is left to them.
 //!
 //! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
 
@@ -41,7 +41,7 @@ use crate::inverse::NEARLY_ROUNDING;
 use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, halves, hold, replace, six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::free::{FreeMotion, rest};
-use crate::lanes::chain::limits::limits_at;
+use crate::lanes::chain::limits::{demand, limits_at, may_be_slack};
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::program::{Row, newton, within_limits};
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, LAST_REMAINDER, MAX_DISTRIBUTIONS, Shared};
@@ -169,15 +169,18 @@ fn chain<'a, S: Simd>(
     }
     let freedoms = robots.freedoms;
     let weight = PlatformLoad::weight(robots.weight).wrench(&robots.center);
-    let (converged, sound) = match free.is_empty() {
+    let Distributed { converged, sound, demanded } = match free.is_empty() {
         true => {
             let keep = keep.as_mut().map(|keep| &mut **keep as _);
             distribute(robots, &weight, multipliers, set_points, &spans, shared, keep)
         }
-        false => rest(robots, free, set_points, &mut spans, shared),
+        false => {
+            let (converged, sound) = rest(robots, free, set_points, &mut spans, shared);
+            Distributed { converged, sound, demanded: vec![converged & !converged; spans.len()] }
+        }
     };
     let mut platform = LinearizedPlatform::new(zero, spans.len());
-    let held = wind(robots, &mut platform, set_points, &spans, shared);
+    let held = wind(robots, &mut platform, set_points, &spans, (&demanded, shared));
     if let Some(keep) = &mut keep {
         keep.state(robots);
     }
@@ -205,8 +208,7 @@ fn chain<'a, S: Simd>(
 }
 
 /// The tensions nearest to their reference at the wanted pose under the wrench `external`, equations (L2) and
-/// (L3); `offsets` are added to them and become set-points, towards which cables make a first step. Returns
-/// the lanes where they were found, and those where no cable is folded and no limits exclude each other.
+/// (L3); `offsets` are added to them and become set-points, towards which cables make a first step.
 #[inline(always)]
 pub(crate) fn distribute<'a, S: Simd>(
     robots: &mut Robots<'a, S>,
@@ -216,7 +218,7 @@ pub(crate) fn distribute<'a, S: Simd>(
     spans: &[Span<Lanes<S>>],
     shared: &Shared,
     mut keep: Keeper<'_, 'a, S>,
-) -> (Mask<S>, Mask<S>) {
+) -> Distributed<S> {
     let (zero, freedoms) = (robots.weight.all(0.0), robots.freedoms);
     let compared = [shared.tension, shared.scale.size];
     let last_change = zero.all(LAST_DISTRIBUTION);
@@ -233,10 +235,9 @@ pub(crate) fn distribute<'a, S: Simd>(
     for ((cable, span), choice) in robots.cables.iter_mut().zip(spans).zip(&shared.choices) {
         limits.push(limits_at(cable, span, (choice.limits, choice.max_at), compared));
     }
-    if let Some(keep) = &mut keep {
-        keep.limits(&limits);
-    }
-    for _ in 0..MAX_DISTRIBUTIONS {
+    let mut demanded = vec![jumped; spans.len()];
+    let (mut asked, mut left) = (false, MAX_DISTRIBUTIONS);
+    while left > 0 {
         all_held.clear();
         convex.clear();
         rows.clear();
@@ -269,6 +270,23 @@ pub(crate) fn distribute<'a, S: Simd>(
             ));
             all_held.push(held);
         }
+        if !asked {
+            asked = true;
+            let mut slack = jumped;
+            for (cable, held) in robots.cables.iter().zip(&all_held) {
+                slack = slack | may_be_slack(cable, held);
+            }
+            if slack.any() {
+                let cables = robots.cables.iter_mut().zip(spans).zip(&all_held);
+                for (((cable, span), held), (limits, demanded)) in
+                    cables.zip(limits.iter_mut().zip(&mut demanded))
+                {
+                    *demanded = demand(cable, span, held, limits, compared);
+                }
+                continue;
+            }
+        }
+        left -= 1;
         hold(freedoms, &mut balance);
         let (mut step, _) = newton(&rows, &balance);
         let mut outside = zero.less_or_equal(zero);
@@ -331,15 +349,17 @@ pub(crate) fn distribute<'a, S: Simd>(
                 }
             }
             let cables = rows.iter().zip(&all_held).zip(&mut robots.cables).zip(&mut *offsets);
-            for ((((row, held), cable), offset), [least, greatest]) in cables.zip(&limits) {
-                let (least, greatest) = (*least, *greatest);
+            for ((((row, held), cable), offset), (limits, demanded)) in
+                cables.zip(limits.iter().zip(&demanded))
+            {
+                let [least, greatest] = *limits;
                 let tension = dot(&cable.force, &cable.force).sqrt();
                 let chosen = row.sides[0].select(least, row.sides[1].select(greatest, tension));
                 let set_point = (chosen + *offset).max(least);
                 let set_point = set_point.less_or_equal(greatest).select(set_point, greatest);
                 let sound = zero.less_or_equal(cable.force[0])
                     & held.slackness.less_or_equal(zero.all(FOLDED))
-                    & held.is_taut(cable)
+                    & held.is_taut(cable, *demanded)
                     & least.less_or_equal(greatest);
                 within = within & (sound | !last);
                 offset.replace(set_point, last);
@@ -353,9 +373,20 @@ pub(crate) fn distribute<'a, S: Simd>(
         }
     }
     if let Some(keep) = &mut keep {
+        keep.limits(&limits);
         keep.multipliers(multipliers);
     }
-    (!going, within)
+    Distributed { converged: !going, sound: within, demanded }
+}
+
+/// The tensions of the inverse model.
+pub(crate) struct Distributed<S: Simd> {
+    /// The lanes where they were found.
+    pub(crate) converged: Mask<S>,
+    /// Those where no cable is folded and no limits exclude each other.
+    pub(crate) sound: Mask<S>,
+    /// For each cable those where the least tension of its span was asked for.
+    pub(crate) demanded: Vec<Mask<S>>,
 }
 
 /// Lengths that give the tensions `set_points` at the wanted pose, and the cables linearised there. Returns
@@ -366,7 +397,7 @@ pub(crate) fn wind<S: Simd>(
     platform: &mut LinearizedPlatform<S>,
     set_points: &[Lanes<S>],
     spans: &[Span<Lanes<S>>],
-    shared: &Shared,
+    (demanded, shared): (&[Mask<S>], &Shared),
 ) -> Mask<S> {
     let zero = robots.weight.all(0.0);
     let compared = [shared.tension, shared.scale.size];
@@ -385,7 +416,7 @@ pub(crate) fn wind<S: Simd>(
                 }
                 Some(guided) => HeldCable::leaving(guided, cable, span),
             };
-            taut = (!going & taut) | (going & held.is_taut(cable));
+            taut = (!going & taut) | (going & held.is_taut(cable, demanded[i]));
             let fx = cable.force[0];
             let inverse = (fx * held.tension_slope).recip();
             let d = (*set_point - held.closed) * fx * inverse;

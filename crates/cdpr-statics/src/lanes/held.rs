@@ -8,7 +8,10 @@ use cdpr_cable::kernel::{Field, Lanewise, LeavePoint, Response, TAUT};
 
 /// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell.
 /// The scalar models hold cables at 0.001, which the estimate meets within a few percent.
-const ABOVE_LEAST: f64 = 0.0015;
+const NEAR_LEAST: f64 = 0.0015;
+
+/// The same of a cable that is not let below the least tension of its span.
+const AT_LEAST: f64 = 0.0005;
 
 /// Greatest part of its horizontal force that a step takes away from a cable.
 const GREATEST_LOSS: f64 = 0.9;
@@ -133,18 +136,26 @@ impl<S: Simd> HeldCable<S> {
         (z / h * narrow * more * 2.0 + cable.weight_per_length * 0.5 * of_length) * fx_inv
     }
 
-    /// Where the tension falls as cable is paid out, and is not next to the least one that the span demands,
-    /// at which the scalar models hold the cable.
+    /// Where the tension falls as cable is paid out, and is above the least one that the span demands by
+    /// `share` of itself.
     ///
     /// Newton's step towards the least tension, over ln fx, lowers it by half of
     /// `(fx t')²/(fx t' + fx² t'')`.
     #[inline(always)]
-    pub(crate) fn is_taut(&self, cable: &LaneCable<'_, S>) -> Mask<S> {
+    pub(crate) fn exceeds_least(&self, cable: &LaneCable<'_, S>, share: Lanes<S>) -> Mask<S> {
         let fx = cable.force[0];
         let slope = fx * self.tension_slope;
         let curvature = slope + fx * fx * self.curvatures[0];
         slope.all(0.0).less_or_equal(slope)
-            & (curvature * self.tension * (2.0 * ABOVE_LEAST)).less_or_equal(slope * slope)
+            & (curvature * self.tension * share * 2.0).less_or_equal(slope * slope)
+    }
+
+    /// The same, not next to the least tension, at which the scalar models hold a cable; it is known where it
+    /// is `demanded`.
+    #[inline(always)]
+    pub(crate) fn is_taut(&self, cable: &LaneCable<'_, S>, demanded: Mask<S>) -> Mask<S> {
+        let zero = cable.length.all(0.0);
+        self.exceeds_least(cable, demanded.select(zero.all(AT_LEAST), zero.all(NEAR_LEAST)))
     }
 
     /// The change of fx that brings the tension to `tension`.

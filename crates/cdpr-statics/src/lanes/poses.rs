@@ -19,7 +19,7 @@ use crate::lanes::algebra::{Lanes2, Lanes6, hold, six};
 use crate::lanes::cable::Shape;
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::shared::{Choice, Shared};
-use crate::lanes::chain::{Keep, SAGGING, distribute, wind};
+use crate::lanes::chain::{Distributed, Keep, SAGGING, distribute, wind};
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LinearizedPlatform, Robots};
@@ -281,7 +281,7 @@ impl<S: Simd> InLanes<'_, S> {
         let mut multipliers = six!(|k| self.each(&|asked| asked.near.multipliers[k]));
         let mut set_points = vec![zero; spans.len()];
         let mut limits = Limits(SmallVec::new());
-        let (converged, sound) = distribute(
+        let Distributed { converged, sound, demanded } = distribute(
             &mut robots,
             &external,
             &mut multipliers,
@@ -291,7 +291,7 @@ impl<S: Simd> InLanes<'_, S> {
             Some(&mut limits),
         );
         let mut platform = LinearizedPlatform::new(zero, spans.len());
-        let held = wind(&mut robots, &mut platform, &set_points, &spans, shared);
+        let held = wind(&mut robots, &mut platform, &set_points, &spans, (&demanded, shared));
         let Limits(limits) = limits;
         let found = converged & sound & held;
         let found = found & self.is_least(&robots, &spans, &multipliers, &limits);

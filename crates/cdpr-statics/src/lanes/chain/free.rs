@@ -233,6 +233,7 @@ impl<S: Simd> Rest<'_, '_, S> {
         let zero = robots.weight.all(0.0);
         let compared = [shared.tension, shared.scale.size];
         let mut within = zero.less_or_equal(zero);
+        let none = !within;
         let cables = robots.cables.iter_mut().zip(&**spans).zip(&mut **offsets);
         for (((cable, span), offset), choice) in cables.zip(&shared.choices) {
             let held = HeldCable::new(cable, span);
@@ -243,7 +244,7 @@ impl<S: Simd> Rest<'_, '_, S> {
             within = within
                 & zero.less_or_equal(fx)
                 & held.slackness.less_or_equal(zero.all(FOLDED))
-                & held.is_taut(cable)
+                & held.is_taut(cable, none)
                 & least.less_or_equal(held.tension)
                 & held.tension.less_or_equal(greatest)
                 & held.tension.less_or_equal(bearable)

@@ -4,12 +4,15 @@
 //! `cdpr_cable` gives in closed form: t + t²/2EA grows with the height by the weight of the cable. Over a
 //! pulley the height is that above the leave point of the cable that has this tension, and is found together
 //! with it.
+//!
+//! A span demands a least tension of a cable with weight: where the horizontal force becomes less, the tension
+//! rises again. Newton's method for its slope over the logarithm of that force finds it.
 
-use crate::equations::Span;
-use crate::lanes::algebra::Lanes2;
+use crate::equations::{ABOVE_LEAST, Span};
+use crate::lanes::algebra::{Lanes2, replace};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::held::HeldCable;
-use crate::lanes::simd::{Lanes, Simd, WithSimd};
+use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::Field;
 use cdpr_robot::{CableEnd, TensionLimits};
 
@@ -17,6 +20,9 @@ use cdpr_robot::{CableEnd, TensionLimits};
 const LAST_CHANGE: f64 = 1e-7;
 
 const MAX_ITERATIONS: usize = 8;
+
+/// Greatest change of the logarithm of a horizontal force in one step towards the least tension.
+const LONGEST_CHANGE: f64 = 0.7;
 
 /// Least and greatest tension at the platform of a cable over `span` [N]; `compared` are the tension and the
 /// length that changes are compared with. Where none is found the greatest is below zero.
@@ -47,6 +53,75 @@ pub(crate) fn plain_limits_at<S: Simd>(
     match max_at {
         CableEnd::Anchor => [least, greatest],
         CableEnd::Exit => [least, at_platform(cable, greatest, span.end[1])],
+    }
+}
+
+/// A cable whose tension exceeds the least one of its span by less than this share of it may come to it.
+const NEARBY: f64 = 0.1;
+
+/// Raises the least tension of a cable that `held` shows near the least one that its span demands, to where
+/// the scalar models hold it, and brings a cable below it there. Returns the lanes in which that was done.
+/// Where none is found the greatest tension is below zero.
+#[cold]
+#[inline(never)]
+pub(crate) fn demand<S: Simd>(
+    cable: &mut LaneCable<'_, S>,
+    span: &Span<Lanes<S>>,
+    held: &HeldCable<S>,
+    limits: &mut Lanes2<S>,
+    compared: [f64; 2],
+) -> Mask<S> {
+    cable.length.apart(Demand { cable, span, held, limits, compared })
+}
+
+/// Whether a cable may come to the least tension of its span.
+#[inline(always)]
+pub(crate) fn may_be_slack<S: Simd>(cable: &LaneCable<'_, S>, held: &HeldCable<S>) -> Mask<S> {
+    !held.exceeds_least(cable, cable.length.all(NEARBY))
+}
+
+struct Demand<'a, 'b, S: Simd> {
+    cable: &'a mut LaneCable<'b, S>,
+    span: &'a Span<Lanes<S>>,
+    held: &'a HeldCable<S>,
+    limits: &'a mut Lanes2<S>,
+    compared: [f64; 2],
+}
+
+impl<S: Simd> WithSimd for Demand<'_, '_, S> {
+    type Output = Mask<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Mask<S> {
+        let Self { cable, span, held, limits, compared } = self;
+        let zero = cable.length.all(0.0);
+        let (length, force) = (cable.length, cable.force);
+        let near = may_be_slack(cable, held);
+        let (mut at_least, mut going) = (*held, near);
+        for _ in 0..MAX_ITERATIONS {
+            let fx = cable.force[0];
+            let slope = fx * at_least.tension_slope;
+            let curvature = slope + fx * fx * at_least.curvatures[0];
+            let change = (-(slope / curvature)).max(zero.all(-LONGEST_CHANGE));
+            let change = change.less_or_equal(zero.all(LONGEST_CHANGE)).select(change, zero + LONGEST_CHANGE);
+            let moved = at_least.change(cable, fx * change, going, compared);
+            going = going & !moved.max(change.abs()).less_or_equal(zero.all(LAST_CHANGE));
+            at_least = HeldCable::new(cable, span);
+            if !going.any() {
+                break;
+            }
+        }
+        let least = zero.all(ABOVE_LEAST) * at_least.closed;
+        limits[0].replace(limits[0].max(least), near);
+        limits[1].replace(zero.all(-1.0), near & going);
+        // Beside the least tension, where it has no slope: t = t_0 + t'' d²/2.
+        let rise = (limits[0] - at_least.closed) * 2.0;
+        let d = (rise / at_least.curvatures[0]).max(zero).sqrt();
+        at_least.change(cable, d, near, compared);
+        let keeps = !near | (zero.less_or_equal(held.tension_slope) & limits[0].less_or_equal(held.closed));
+        cable.length.replace(length, keeps);
+        replace(&mut cable.force, &force, keeps);
+        near
     }
 }
 

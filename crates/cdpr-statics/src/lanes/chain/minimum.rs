@@ -53,6 +53,8 @@ pub(crate) fn is_least<S: Simd>(
     let here = lagrangian(dot(&cable.force, &cable.force).sqrt(), &cable.force, &gain, reference);
     let half_weight = cable.weight_per_length * 0.5;
     let mut is_least = here.less_or_equal(here);
+    // Beyond the least tension of the span, where it rises again, no cable is held.
+    let (mut before, mut beyond) = (*greatest * f64::INFINITY, !is_least);
     for [u, coth, stretch] in CATENARIES {
         let force = match &cable.guided {
             None => catenary(span.end, half_weight, [u, coth, stretch]).1,
@@ -69,7 +71,9 @@ pub(crate) fn is_least<S: Simd>(
             }
         };
         let there = dot(&force, &force).sqrt();
-        let allowed = least.less_or_equal(there) & there.less_or_equal(*greatest);
+        beyond = beyond | !there.less_or_equal(before);
+        before = there;
+        let allowed = !beyond & least.less_or_equal(there) & there.less_or_equal(*greatest);
         is_least = is_least & (here.less_or_equal(lagrangian(there, &force, &gain, reference)) | !allowed);
     }
     is_least
