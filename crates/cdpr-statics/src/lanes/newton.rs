@@ -85,6 +85,9 @@ pub(crate) struct LaneResidual<S: Simd> {
 /// Iterations at rest, of which cables that become slack need the most.
 const MAX_ITERATIONS: usize = 12;
 
+/// Part of its horizontal force by which a cable may change while its stiffness is kept.
+const SMALL_CHANGE: f64 = 0.01;
+
 /// Greatest part of its horizontal force that Newton's step may take away from a cable.
 const GREATEST_LOSS: f64 = 0.5;
 
@@ -379,8 +382,8 @@ impl<S: Simd> Robots<'_, S> {
                 + turned * (scale.characteristic_length * scale.characteristic_length);
             // The linearisation is invalid farther away; a comparison with NaN is false, which ends the lane.
             going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
-            let yielding = self.apply(&translation, &rotation, turned, platform, going);
-            let near = going & !yielding & moved.less_or_equal(small_step);
+            let steady = self.apply(&translation, &rotation, turned, platform, going);
+            let near = going & steady & moved.less_or_equal(small_step);
             if near.any() {
                 let (left, holds) = self.revise(load, scale, platform, near);
                 let mut done = near & holds & platform.factored.positive;
@@ -400,8 +403,8 @@ impl<S: Simd> Robots<'_, S> {
         (found, residual)
     }
 
-    /// Moves the platforms and the forces of their cables where `going`. Returns the lanes with a cable whose
-    /// force took a part of its step alone.
+    /// Moves the platforms and the forces of their cables where `going`. Returns the lanes in which no cable
+    /// changed so much that its stiffness is another one.
     #[inline(always)]
     fn apply(
         &mut self,
@@ -411,7 +414,7 @@ impl<S: Simd> Robots<'_, S> {
         platform: &LinearizedPlatform<S>,
         going: Mask<S>,
     ) -> Mask<S> {
-        let mut yielding = going & !going;
+        let mut steady = going;
         // sin φ/φ and (1 - cos φ)/φ² to rounding for φ up to 0.1.
         let x = -square;
         let a =
@@ -427,9 +430,9 @@ impl<S: Simd> Robots<'_, S> {
             // A cable that becomes slack: the step of 1/fx instead, of which fx remains positive.
             let [fx, fz] = cable.force;
             let lost = fx - force[0];
+            steady = steady & lost.abs().less_or_equal(fx * SMALL_CHANGE);
             let slackening = going & !lost.less_or_equal(fx * GREATEST_LOSS);
             if slackening.any() {
-                yielding = yielding | slackening;
                 let share = slackening.select(fx / (fx + lost), fx.all(1.0));
                 force = [fx - lost * share, fz + (force[1] - fz) * share];
             }
@@ -446,7 +449,7 @@ impl<S: Simd> Robots<'_, S> {
         }
         let position = three!(|k| self.position[k] + translation[k]);
         replace(&mut self.position, &position, going);
-        yielding
+        steady
     }
 }
 

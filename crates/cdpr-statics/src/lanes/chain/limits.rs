@@ -57,7 +57,7 @@ pub(crate) fn plain_limits_at<S: Simd>(
 }
 
 /// A cable whose tension exceeds the least one of its span by less than this share of it may come to it.
-const NEARBY: f64 = 0.1;
+const NEARBY: f64 = 0.2;
 
 /// Raises the least tension of a cable that `held` shows near the least one that its span demands, to where
 /// the scalar models hold it, and brings a cable below it there. Returns the lanes in which that was done.
