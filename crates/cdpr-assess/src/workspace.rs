@@ -14,9 +14,9 @@ use crate::clearance::{Clearance, clearance_under};
 use crate::tilt::{Tilt, tilt_at};
 use cdpr_robot::{Axis, Coordinate, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, HeldPose, InverseSolution, Limit, Load, LoadedPose, OutOfLimits,
-    Start, StaticsError, deflection_free, deflection_from, derivatives_free, derivatives_from, held_at,
-    inverse, inverse_all, is_held, loaded_poses, tensions_out_of_limits,
+    Deflection, DirectProblem, HeldPose, InverseSolution, Limit, Load, LoadedPose, OutOfLimits, PoseSlopes,
+    Start, StaticsError, deflection_free, derivatives_free, held_at, inverse, inverse_all, is_held,
+    loaded_poses, loaded_poses_slopes, tensions_out_of_limits,
 };
 use cdpr_study::{ErrorModel, Grid, StudyError};
 use rayon::prelude::*;
@@ -220,31 +220,37 @@ fn without_jumps(grid: &Grid) -> Vec<usize> {
 fn outcomes(workspace: &Workspace, poses: &[Pose]) -> Vec<Result<Held, StaticsError>> {
     let Workspace { robot, free, .. } = *workspace;
     if !free.is_empty() {
-        return poses.par_iter().map(|pose| held(workspace, pose, None)).collect();
+        return poses.par_iter().map(|pose| held_free(workspace, pose)).collect();
     }
     let wanted = inverse_all(robot, poses, &Load::none());
-    if workspace.tolerances.is_some() {
-        return poses
-            .par_iter()
-            .zip(wanted)
-            .map(|(pose, wanted)| held(workspace, pose, Some(wanted?)))
-            .collect();
-    }
     // No answer depends on those beside it.
     wanted.par_chunks(BLOCK).flat_map_iter(|wanted| loaded_from(workspace, wanted)).collect()
 }
 
-/// The results with the lengths kept from answers of the inverse model, without tolerances.
+/// The results with the lengths kept from answers of the inverse model.
 fn loaded_from(
     workspace: &Workspace,
     wanted: &[Result<InverseSolution, StaticsError>],
 ) -> Vec<Result<Held, StaticsError>> {
-    let Workspace { robot, ref load, .. } = *workspace;
+    let Workspace { robot, ref load, tolerances, .. } = *workspace;
     let answered: Vec<_> = wanted.iter().filter_map(|wanted| wanted.as_ref().ok()).collect();
-    let mut loaded = loaded_poses(robot, &answered, load).into_iter();
+    let held: Vec<Result<Held, StaticsError>> = match tolerances {
+        None => {
+            let loaded = loaded_poses(robot, &answered, load).into_iter();
+            loaded.map(|loaded| Ok(Held::new(robot, loaded?, None))).collect()
+        }
+        Some(model) => {
+            let with_slopes = |found: Result<PoseSlopes, StaticsError>| {
+                let PoseSlopes { loaded, rms } = found?;
+                Ok(Held::new(robot, loaded, rms.and_then(|slopes| Dominant::of(&slopes, model))))
+            };
+            loaded_poses_slopes(robot, &answered, load).into_iter().map(with_slopes).collect()
+        }
+    };
+    let mut held = held.into_iter();
     let one = |wanted: &Result<InverseSolution, StaticsError>| match wanted {
         Err(refusal) => Some(Err(refusal.clone())),
-        Ok(_) => Some(loaded.next()?.map(|loaded| Held::new(robot, loaded, None))),
+        Ok(_) => held.next(),
     };
     wanted.iter().filter_map(one).collect()
 }
@@ -280,15 +286,17 @@ pub fn workspace_boundary(
     let Workspace { robot, rotation, grid, ref load, free, .. } = *workspace;
     // Quicker than the inverse model to say no.
     let has_tensions = |pose: &Pose, load: &Load| is_held(robot, pose, load).unwrap_or(false);
-    let wanted = |pose: &Pose| free.is_empty().then(|| inverse(robot, pose, &Load::none(), None)).transpose();
+    let workspace = &Workspace { tolerances: None, ..*workspace };
+    let within = |held: Result<Held, StaticsError>| held.is_ok_and(|held| held.is_within_limits());
     let is_inside = |position: &Vector3<f64>| {
         let pose = Pose { position: *position, rotation };
         match (way, free) {
             (Way::Anew, []) => has_tensions(&pose, load),
             (Way::Kept, []) if !has_tensions(&pose, &Load::none()) => false,
-            (Way::Kept, _) => wanted(&pose)
-                .and_then(|wanted| held(workspace, &pose, wanted))
-                .is_ok_and(|held| held.is_within_limits()),
+            (Way::Kept, []) => {
+                loaded_from(workspace, &[inverse(robot, &pose, &Load::none(), None)]).into_iter().all(within)
+            }
+            (Way::Kept, _) => within(held_free(workspace, &pose)),
             // Free coordinates are found whatever the limits are.
             (Way::Anew, _) => tensions_anew(workspace, &pose).is_ok_and(|tensions| {
                 let within = |(i, t): (usize, &f64)| *t <= robot.limits(i).max && *t >= robot.limits(i).min;
@@ -351,30 +359,24 @@ fn check(workspace: &Workspace) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// A pose with the lengths kept by the scalar models, `wanted` without free coordinates.
-fn held(workspace: &Workspace, pose: &Pose, wanted: Option<InverseSolution>) -> Result<Held, StaticsError> {
+/// A pose with free coordinates, with the lengths kept.
+fn held_free(workspace: &Workspace, pose: &Pose) -> Result<Held, StaticsError> {
     let Workspace { robot, ref load, tolerances, free, .. } = *workspace;
     let offsets = vec![0.0; robot.cables.len()];
-    let deflected = |wanted: Option<&InverseSolution>| match wanted {
-        Some(InverseSolution { lengths, equilibrium, .. }) => {
-            deflection_from(robot, lengths.clone(), load, equilibrium)
-        }
-        None => deflection_free(robot, pose, &offsets, load, free),
-    };
     let alone = |deflection: &Deflection, dominant| {
         Held::new(robot, LoadedPose::of(robot, load, deflection), dominant)
     };
+    let deflected = || deflection_free(robot, pose, &offsets, load, free);
     let Some(model) = tolerances else {
-        return Ok(alone(&deflected(wanted.as_ref())?, None));
+        return Ok(alone(&deflected()?, None));
     };
-    let found = match &wanted {
-        Some(wanted) => derivatives_from(robot, pose, load, wanted.clone()),
-        None => derivatives_free(robot, pose, &offsets, load, free),
-    };
-    match found {
-        Ok(found) => Ok(alone(&found.deflection, Dominant::of(&found, model))),
+    match derivatives_free(robot, pose, &offsets, load, free) {
+        Ok(found) => {
+            let dominant = found.rms().ok().and_then(|slopes| Dominant::of(&slopes, model));
+            Ok(alone(&found.deflection, dominant))
+        }
         // A pose without a derivative is held nevertheless.
-        Err(StaticsError::NoDerivative { .. }) => Ok(alone(&deflected(wanted.as_ref())?, None)),
+        Err(StaticsError::NoDerivative { .. }) => Ok(alone(&deflected()?, None)),
         Err(error) => Err(error),
     }
 }
@@ -406,9 +408,8 @@ impl Held {
 }
 
 impl Dominant {
-    fn of(found: &Derivatives, model: &ErrorModel) -> Option<Self> {
-        let slopes = found.rms().ok()?;
-        let parts = model.variances(&slopes);
+    fn of(slopes: &[f64], model: &ErrorModel) -> Option<Self> {
+        let parts = model.variances(slopes);
         let variance: f64 = parts.iter().sum();
         let (input, part) = parts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
         (variance > 0.0).then(|| Self { input, share: part / variance, std: variance.sqrt() })

@@ -1,10 +1,10 @@
 //! Maps in lanes: every position is what the scalar models say of it, for robots that differ.
 
 use cdpr_assess::{Further, Workspace, WorkspacePose, compute_workspace};
-use cdpr_robot::{Matrix3, Robot, Rotation3, Vector3, Wrench};
+use cdpr_robot::{Matrix3, Parameter, Plane, Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::{
-    DirectProblem, Load, OutOfLimits, StaticsError, deflection, inverse, inverse_all, loaded_poses,
-    out_of_limits,
+    DirectProblem, Load, OutOfLimits, StaticsError, deflection, derivatives_from, inverse, inverse_all,
+    loaded_poses, loaded_poses_slopes, out_of_limits,
 };
 use cdpr_study::{Grid, GridAxis};
 
@@ -28,6 +28,9 @@ fn maps() -> Vec<Map> {
     let mut weighed = robot(CAROCA);
     weighed.platform.inertia = Some(Matrix3::new(9.0, 1.0, 0.5, 1.0, 7.0, -0.5, 0.5, -0.5, 8.0));
     weighed.platform.center_of_mass = Vector3::new(0.05, -0.03, 0.1);
+    let planar = Robot { plane: Some(Plane::Xz), name: "planar".to_owned(), ..weighed.clone() };
+    let mut point = robot(COGIRO);
+    point.platform.point = true;
     let mut led = tilted(COGIRO, Vector3::new(-0.3, 0.5, -9.8));
     for (i, cable) in led.cables.iter_mut().enumerate() {
         cable.lead = 1.0 + i as f64;
@@ -54,6 +57,18 @@ fn maps() -> Vec<Map> {
             Load { payload: 20.0, wrench: moment },
         ),
         map("CoGiRo", robot(COGIRO), [(-7.0, 7.0, 9), (-5.0, 5.0, 9), (0.5, 4.5, 3)], Load::payload(50.0)),
+        map(
+            "CAROCA in a plane, with an inertia, under force and moment",
+            planar,
+            [(-3.4, 3.4, 15), (0.0, 0.0, 1), (0.6, 3.4, 7)],
+            Load { payload: 20.0, wrench: moment },
+        ),
+        map(
+            "CoGiRo as a point, under a force",
+            point,
+            [(-7.0, 7.0, 9), (-5.0, 5.0, 9), (0.5, 4.5, 3)],
+            Load { payload: 50.0, wrench: force },
+        ),
         map(
             "CoGiRo behind leads, tilted",
             led,
@@ -132,6 +147,57 @@ fn a_map_says_of_each_position_what_the_scalar_models_say() {
         for pose in &poses {
             check(&robot, &load, pose).unwrap_or_else(|what| panic!("{name} at {:?}: {what}", pose.pose));
         }
+    }
+}
+
+#[test]
+fn derivatives_over_poses_are_those_of_the_scalar_models() {
+    for Map { name, robot, axes, load } in maps() {
+        let workspace = workspace(&robot, axes, load);
+        let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
+        let list: Vec<_> = poses.iter().map(|pose| pose.pose).collect();
+        let wanted: Vec<_> = inverse_all(&robot, &list, &Load::none()).into_iter().flatten().collect();
+        let parameters = Parameter::of(&robot);
+        let size = robot.platform_size();
+        let range = |parameter: &Parameter| match parameter {
+            Parameter::Mass => 0.05 * robot.platform.mass,
+            Parameter::LinearDensity => 0.1 * robot.cables[0].properties.linear_density,
+            Parameter::YoungsModulus => 0.2 * robot.cables[0].properties.youngs_modulus,
+            Parameter::TensionOffset(_) => 0.04 * robot.platform.mass,
+            Parameter::Gravity(_) => 0.05,
+            Parameter::Tilt(..) => 0.01,
+            _ => 0.01 * size,
+        };
+        let ranges: Vec<f64> = parameters.iter().map(range).collect();
+        let (mut in_lanes, mut worst, mut compared) = (0, 0.0_f64, 0);
+        let references: Vec<_> = wanted.iter().collect();
+        for (wanted, found) in wanted.iter().zip(loaded_poses_slopes(&robot, &references, &load)) {
+            let alone = derivatives_from(&robot, &wanted.equilibrium.pose, &load, wanted.clone());
+            let (found, alone) = match (found, alone) {
+                (Ok(found), Ok(alone)) => (found, alone),
+                (Ok(found), Err(StaticsError::NoDerivative { .. })) => {
+                    assert_eq!(found.rms, None, "{name}");
+                    continue;
+                }
+                (found, alone) => {
+                    assert_eq!(found.err().map(|e| e.kind()), alone.err().map(|e| e.kind()), "{name}");
+                    continue;
+                }
+            };
+            in_lanes += usize::from(found.loaded.scalar.is_none());
+            let (Some(slopes), Ok(alone)) = (found.rms, alone.rms()) else { continue };
+            assert_eq!(slopes.len(), parameters.len());
+            let each = || slopes.iter().zip(&alone).zip(&ranges);
+            let largest =
+                each().fold(0.0_f64, |largest, ((_, slope), range)| largest.max((slope * range).abs()));
+            let error =
+                each().fold(0.0_f64, |worst, ((one, other), range)| worst.max((one - other).abs() * range));
+            assert!(error <= 1e-7 * largest, "{name}: {error:e} of {largest:e}");
+            worst = worst.max(error / largest);
+            compared += 1;
+        }
+        println!("{name}: {in_lanes} of {} in lanes, {compared} compared, {worst:.1e}", wanted.len());
+        assert!(load == Load::none() || 2 * in_lanes > wanted.len(), "{name}");
     }
 }
 

@@ -18,7 +18,9 @@ mod tangent;
 pub use dual::Dual;
 pub use field::{Field, Lanewise, Real};
 pub use lane_guide::{LaneEndSlopes, LaneGuide, LaneWay, LeavePoint};
-pub use lane_law::{LaneSegment, lane_law_end, lane_law_response, lane_law_strain, lane_law_stretch};
+pub use lane_law::{
+    LaneSegment, lane_law_end, lane_law_energy, lane_law_response, lane_law_strain, lane_law_stretch,
+};
 pub use plane::{closure_of_limp, in_plane_stiffness, stiffness_in_space};
 pub(crate) use response::Terms;
 pub use response::{LaneEnd, Response, lane_end, lane_response, response};

@@ -155,6 +155,7 @@ impl PiecewiseLaw {
                 from: tension,
                 offset: piece.scaled_strain - tension / ratio,
                 flexibility: 1.0 / ratio,
+                energy: piece.scaled_energy,
             }
         };
         self.pieces.iter().map(of).collect()

@@ -18,6 +18,6 @@ mod skew;
 mod tracker;
 
 pub use observer::{Observation, ObservationMotion, ObservationSlopes, Observer};
-pub use poses::{LoadedPose, inverse_all, loaded_poses};
+pub use poses::{LoadedPose, PoseSlopes, inverse_all, loaded_poses, loaded_poses_slopes};
 pub use reason::ScalarReason;
 pub use tracker::Tracker;

@@ -71,8 +71,8 @@ pub use inverse::{
     tension_margin,
 };
 pub use lanes::{
-    LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observer, ScalarReason, Tracker,
-    inverse_all, loaded_poses,
+    LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observer, PoseSlopes, ScalarReason,
+    Tracker, inverse_all, loaded_poses, loaded_poses_slopes,
 };
 pub use loading::{
     CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes, PoseStiffness,

@@ -1,6 +1,6 @@
 //! Robots of several tests.
 
-use cdpr_robot::{Pose, Robot, RobotCable, Vector3};
+use cdpr_robot::{Plane, Pose, Robot, RobotCable, Vector3};
 
 pub(crate) fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
@@ -19,6 +19,19 @@ pub(crate) fn robots() -> [(Robot, Pose); 5] {
         (ipanema(), Pose::at(0.2, 0.1, 1.0)),
         (fast(), Pose::at(10.0, 5.0, 100.0)),
     ]
+}
+
+/// [`robots`] as point masses, and with platforms that move in a plane.
+pub(crate) fn points_and_planar() -> Vec<(Robot, Pose)> {
+    let held = |(robot, pose): (Robot, Pose)| {
+        let (mut point, mut planar) = (robot.clone(), robot);
+        point.platform.point = true;
+        point.name += " as a point";
+        planar.plane = Some(Plane::Xz);
+        planar.name += " in a plane";
+        [(point, pose), (planar, pose)]
+    };
+    robots().into_iter().flat_map(held).collect()
 }
 
 /// A light robot whose cables hold the platform from all sides.

@@ -1,7 +1,7 @@
 //! Derivatives of observations in lanes: those of the scalar models.
 
 use crate::any_lanes::{Case, case};
-use crate::common::{caroca, robots};
+use crate::common::{caroca, points_and_planar, robots};
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{CableEnd, Parameter, Pose, Pulley, Robot, Vector3, library};
 use cdpr_statics::{Load, Observer, ScalarReason};
@@ -110,6 +110,15 @@ fn expect_lanes(robot: &Robot, pose: &Pose, share: f64) {
 fn slopes_in_lanes_are_those_of_the_scalar_models() {
     for (robot, pose) in on_both_bases(robots()) {
         expect_lanes(&robot, &pose, 1e-9);
+    }
+}
+
+#[test]
+fn slopes_of_points_and_planar_platforms_are_those_of_the_scalar_models() {
+    for (robot, pose) in on_both_bases(points_and_planar()) {
+        if robot.plane.is_none() || !robot.gravity.is_vector() {
+            expect_lanes(&robot, &pose, 1e-9);
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Observer robots in lanes: the answers of the scalar models, whoever else is in the batch.
 
-use crate::common::{caroca, cogiro, ipanema, robots};
+use crate::common::{caroca, cogiro, ipanema, points_and_planar, robots};
 use cdpr_robot::{CableEnd, Parameter, Pose, Pulley, Robot, RobotError, TensionReference, Vector3, library};
 use cdpr_statics::{Load, Observer, Residual, ScalarReason, StaticsError};
 use rand::{RngExt, SeedableRng};
@@ -174,6 +174,22 @@ pub(crate) fn rows_by_size(robot: &Robot, pose: &Pose, count: usize, times: f64,
         };
     }
     rows
+}
+
+#[test]
+fn points_and_planar_platforms_stay_in_the_lanes() {
+    for (robot, pose) in points_and_planar() {
+        let rows = rows_by_size(&robot, &pose, 200, 1.0, 13);
+        let mut load = Load::payload(0.1 * robot.platform.mass);
+        let weight = robot.platform.mass * 9.81;
+        load.wrench.force = Vector3::new(0.02, 0.03, -0.01) * weight;
+        load.wrench.moment = Vector3::new(0.01, -0.02, 0.01) * (weight * robot.platform_size());
+        let longest = (0..robot.cables.len()).map(|i| robot.span(&pose, i).norm()).fold(0.0, f64::max);
+        let observer = Observer::new(&robot, &pose, &load).unwrap();
+        let (left, failed) = compared(&robot, &observer, &rows, 1e-13 * longest);
+        println!("{}: {left} of 200 left to the scalar models, {failed} failed there", robot.name);
+        assert!(left <= 2, "{}: {left}, {failed}", robot.name);
+    }
 }
 
 #[test]

@@ -18,6 +18,8 @@ pub struct LaneSegment {
     pub offset: f64,
     /// 1/κ_k.
     pub flexibility: f64,
+    /// W(T_k) EA, the integral of the strain over the tension up to it [N²].
+    pub energy: f64,
 }
 
 /// The segment of each lane.
@@ -107,6 +109,18 @@ pub fn lane_law_strain<T: Lanewise>(law: &[LaneSegment], axial_flexibility: T, t
 pub fn lane_law_stretch<T: Lanewise>(law: &[LaneSegment], axial_flexibility: T, tension: T) -> [T; 2] {
     let segments = at(law, axial_flexibility, tension);
     [segments.alpha + tension * segments.flexibility, segments.flexibility]
+}
+
+/// W, the integral of the strain over the tension [N], as [`crate::Cable::energy_per_length`].
+#[inline(always)]
+pub fn lane_law_energy<T: Lanewise>(law: &[LaneSegment], axial_flexibility: T, tension: T) -> T {
+    let mut scaled = tension * 0.0;
+    for LaneSegment { from, offset, flexibility, energy } in law {
+        let more = tension + -from;
+        let here = more * (more * (0.5 * flexibility) + (offset + flexibility * from)) + *energy;
+        scaled = T::select((more * -1.0).at_most(0.0), here, scaled);
+    }
+    scaled * axial_flexibility
 }
 
 /// The segments at A and at B.

@@ -25,9 +25,10 @@
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
 //! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual
 //! has that direction, if one exists and the cables are nearly straight. Bounds by the weight of each cable
-//! prove most of it; where they do not, y is tried on a grid of each cable's chord forces. Then no other
-//! start is tried. Where straight cables leave a residual, this is asked first; beside a pose that was
-//! refused it is asked from the tensions that came nearest there.
+//! prove most of it; where they do not, bounds by tangents on a grid of each cable's chord forces do, as far
+//! as `y·w_i` does not turn from convex to concave between two of them. Then no other start is tried. Where
+//! straight cables leave a residual, this is asked first; beside a pose that was refused it is asked from the
+//! tensions that came nearest there.
 
 use super::optimum::{ELASTICITY, Optimum, Point};
 use super::question::Question;

@@ -178,12 +178,25 @@ impl<'a> Strand<'a> {
         Some(low.min(high) + (sag * weight).min(0.0))
     }
 
-    /// The least of y·w over the tensions within the limits, on a grid of chord forces.
+    /// No more than y·w at any tension within the limits, from its values and tangents on a grid of chord
+    /// forces: between two of them it is either convex, and above both tangents, or concave, and above the
+    /// chord.
     ///
     /// # Errors
     /// [`CableError`] where the cable cannot be closed.
     pub(super) fn least_along(&mut self, y: &Vector6<f64>, arm: f64) -> Result<f64, CableError> {
-        Ok(self.least_of(|strand, held| y.dot(&strand.wrench(strand.ends.force(held), arm)))?.1)
+        let along = |strand: &Self, force: [f64; 3]| y.dot(&strand.wrench(force, arm));
+        let mut before: Option<[f64; 3]> = None;
+        let mut least = f64::INFINITY;
+        for held in self.grid()? {
+            let value = along(self, self.ends.force(&held));
+            let here = [held.chord_force(), value, along(self, self.ends.force_slope(&held))];
+            least = least.min(value);
+            if let Some(before) = before.replace(here) {
+                least = least.min(below_tangents(before, here));
+            }
+        }
+        Ok(least)
     }
 
     /// Its part (I6) of the Lagrangian: here, and where it is least on a grid of chord forces within the
@@ -206,23 +219,31 @@ impl<'a> Strand<'a> {
 
     /// The tension within the limits, on a grid of chord forces, at which a function is least, and its value.
     fn least_of(&mut self, function: impl Fn(&Self, &Held) -> f64) -> Result<(f64, f64), CableError> {
-        const INTERVALS: i32 = 12;
-        for side in 0..2 {
-            if !self.knows(side) {
-                self.learn(side)?;
-            }
-        }
-        let [low, high] = self.chord_forces.map(Option::unwrap_or_default);
         let mut least = (f64::NAN, f64::INFINITY);
-        let mut held = self.at(low)?;
-        for k in 0..=INTERVALS {
-            held = held.with_chord_force(low * (high / low).powf(f64::from(k) / f64::from(INTERVALS)))?;
+        for held in self.grid()? {
             let value = function(self, &held);
             if value < least.1 {
                 least = (held.tension(), value);
             }
         }
         Ok(least)
+    }
+
+    /// The cable at chord forces from limit to limit.
+    fn grid(&mut self) -> Result<Vec<Held<'a>>, CableError> {
+        const INTERVALS: u32 = 12;
+        for side in 0..2 {
+            if !self.knows(side) {
+                self.learn(side)?;
+            }
+        }
+        let [low, high] = self.chord_forces.map(Option::unwrap_or_default);
+        let mut held = self.at(low)?;
+        let next = |k: u32| {
+            held = held.with_chord_force(low * (high / low).powf(f64::from(k) / f64::from(INTERVALS)))?;
+            Ok(held.clone())
+        };
+        (0..=INTERVALS).map(next).collect()
     }
 
     /// The cable at another chord force [N].
@@ -236,6 +257,14 @@ impl<'a> Strand<'a> {
             self.held.with_chord_force(chord_force)
         }
     }
+}
+
+/// Where the tangents at two points meet between them, the value there; each point has its abscissa, value
+/// and slope.
+fn below_tangents([from, first, rising]: [f64; 3], [to, last, at_end]: [f64; 3]) -> f64 {
+    let width = to - from;
+    let share = (last - first - at_end * width) / ((rising - at_end) * width);
+    if share > 0.0 && share < 1.0 { first + rising * share * width } else { f64::INFINITY }
 }
 
 /// A cable's tension and wrench with their derivatives with respect to its chord force; moments are divided

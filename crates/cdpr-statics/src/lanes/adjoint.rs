@@ -36,7 +36,7 @@ use crate::lanes::chain::Keep;
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LinearizedPlatform, Robots};
-use crate::lanes::simd::{Lanes, Mask, Simd};
+use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use crate::lanes::skew::{Skew, SkewCable};
 use cdpr_cable::kernel::Field;
 use cdpr_robot::CableEnd;
@@ -142,6 +142,33 @@ pub(crate) struct CableAdjoint<S: Simd> {
 /// Derivatives of |dp| for the robots of `record`; the frame of each is its rotation matrix, by columns.
 #[inline(always)]
 pub(crate) fn adjoint<S: Simd>(
+    record: &Record<'_, S>,
+    displacement: &Lanes3<S>,
+    payload: &PlatformLoad<S>,
+    shared: &Shared,
+) -> Option<Adjoint<S>> {
+    payload.weight.apart(OfRecord { record, displacement, payload, shared })
+}
+
+/// Observations and maps share one function for each vector unit.
+struct OfRecord<'r, 'a, S: Simd> {
+    record: &'r Record<'a, S>,
+    displacement: &'r Lanes3<S>,
+    payload: &'r PlatformLoad<S>,
+    shared: &'r Shared,
+}
+
+impl<S: Simd> WithSimd for OfRecord<'_, '_, S> {
+    type Output = Option<Adjoint<S>>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Option<Adjoint<S>> {
+        adjoint_of(self.record, self.displacement, self.payload, self.shared)
+    }
+}
+
+#[inline(always)]
+fn adjoint_of<S: Simd>(
     record: &Record<'_, S>,
     displacement: &Lanes3<S>,
     payload: &PlatformLoad<S>,

@@ -16,7 +16,7 @@ use crate::state::Equilibrium;
 use cdpr_cable::Catenary;
 use cdpr_cable::kernel::{
     Field, LaneEnd, LaneGuide, LaneSegment, LaneWay, LeavePoint, Response, lane_end, lane_law_end,
-    lane_law_response, lane_law_strain, lane_law_stretch, lane_response,
+    lane_law_energy, lane_law_response, lane_law_strain, lane_law_stretch, lane_response,
 };
 use cdpr_robot::{Robot, Vector2};
 
@@ -258,6 +258,15 @@ impl<S: Simd> LaneCable<'_, S> {
         match self.law {
             [] => tension * self.axial_flexibility,
             law => lane_law_strain(law, self.axial_flexibility, tension),
+        }
+    }
+
+    /// The integral of the strain over the tension up to `tension`, both in newtons.
+    #[inline(always)]
+    pub(crate) fn energy(&self, tension: Lanes<S>) -> Lanes<S> {
+        match self.law {
+            [] => tension * tension * self.axial_flexibility * 0.5,
+            law => lane_law_energy(law, self.axial_flexibility, tension),
         }
     }
 

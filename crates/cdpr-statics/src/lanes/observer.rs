@@ -11,7 +11,7 @@
 //! find another.
 
 mod motions;
-mod rows;
+pub(crate) mod rows;
 mod slopes;
 
 use crate::error::StaticsError;

@@ -10,6 +10,7 @@
 
 mod loaded;
 mod placed;
+mod slopes;
 
 use crate::equations::Span;
 use crate::equations::vector::{dot, wrench};
@@ -18,7 +19,7 @@ use crate::inverse::{InTurn, InverseSolution};
 use crate::lanes::algebra::{Lanes2, Lanes6, hold, six};
 use crate::lanes::cable::Shape;
 use crate::lanes::chain::minimum::is_least;
-use crate::lanes::chain::shared::{Choice, Shared};
+use crate::lanes::chain::shared::Shared;
 use crate::lanes::chain::{Distributed, Keep, SAGGING, distribute, wind};
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
@@ -29,7 +30,7 @@ use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
 use cdpr_robot::{Pose, Robot, Vector2, Vector3, Vector6};
 use cdpr_tension::Bound;
-pub use loaded::{LoadedPose, loaded_poses};
+pub use loaded::{LoadedPose, PoseSlopes, loaded_poses, loaded_poses_slopes};
 use smallvec::SmallVec;
 
 /// Poses that are cut into sequences together.
@@ -38,19 +39,15 @@ const BLOCK: usize = 64;
 /// Sequences of a block: as many as the widest vector unit has lanes.
 const SEQUENCES: usize = MAX_LANES;
 
-/// Forces that changes are compared with, relative to the sum of tensions: steps end when even a small
-/// tension is exact to nine digits.
-const NARROWER: f64 = 0.01;
-
 /// Greatest error of (I2) in a cable, relative to the sum of tensions.
 const STATIONARY: f64 = 1e-10;
 
 /// [`inverse`] at every pose, with the robot's own reference of the tensions.
 ///
-/// Poses that follow each other should be near each other, as along the lines of a grid: robots with six free
-/// motions and a cable for each of them, over pulleys with vertical axes or none, are then answered in the
-/// lanes of the vector unit, each from the pose before it, and all others one by one. An answer found in
-/// lanes counts no iterations. It depends on the poses before it in the same call, in the last digits; it does
+/// Poses that follow each other should be near each other, as along the lines of a grid: robots with a cable
+/// for each free motion, over pulleys with vertical axes or none, are then answered in the lanes of the vector
+/// unit, each from the pose before it, and all others one by one. An answer found in lanes counts no
+/// iterations. It depends on the poses before it in the same call, in the last digits; it does
 /// not depend on the vector unit.
 ///
 /// Where (I1) has several minima, [`inverse`] takes the best that several starts lead to. An answer in lanes
@@ -106,15 +103,7 @@ impl<'a> Setting<'a> {
     /// `None` for a robot that is not one for the lanes.
     fn of(robot: &'a Robot, load: &'a Load) -> Option<Self> {
         let placed = PlacedRobot::of(robot)?;
-        let reference = robot.reference();
-        let nowhere = Shape { tangent: [0.0; 2], chord_force: 0.0, sag_force: 0.0, longer: 0.0 };
-        let choice = |(i, reference): (usize, &f64)| Choice::new(robot, i, *reference, nowhere);
-        let choices: Vec<_> = reference.iter().enumerate().map(choice).collect();
-        // No more than the sum of all tensions, or twice as much.
-        let least: f64 = choices.iter().map(|choice| choice.limits.min).sum();
-        let weight = (robot.platform.mass + load.payload) * robot.gravity.magnitude();
-        let (tension, forces) = (NARROWER * (weight + least), weight + least);
-        let shared = Shared { choices, tension, forces, scale: placed.scale };
+        let shared = placed.shared(load);
         Some(Self { placed, load, shared })
     }
 

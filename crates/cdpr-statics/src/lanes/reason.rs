@@ -1,6 +1,6 @@
 //! Why a robot is left to the scalar models.
 
-use cdpr_robot::{CableEnd, Coordinate, Robot};
+use cdpr_robot::{Coordinate, Robot};
 
 /// Why an observation is made by the scalar models and not in the lanes of the vector unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -17,8 +17,6 @@ pub enum ScalarReason {
     FewCables,
     /// Cables run over pulleys whose axes are not vertical.
     Pulleys,
-    /// Cables have an elastic law, and a greatest tension at their exit points.
-    Laws,
     /// The nominal robot has no tensions at the pose.
     NominalRobot,
     /// The parameters of the perturbed robot are out of their ranges.
@@ -42,13 +40,12 @@ pub enum ScalarReason {
 
 impl ScalarReason {
     /// All reasons with their names in files.
-    const NAMES: [(Self, &'static str); 14] = [
+    const NAMES: [(Self, &'static str); 13] = [
         (Self::OneByOne, "one_by_one"),
         (Self::Output, "output"),
         (Self::FreeCoordinates, "free_coordinates"),
         (Self::FewCables, "few_cables"),
         (Self::Pulleys, "pulleys"),
-        (Self::Laws, "laws"),
         (Self::NominalRobot, "nominal_robot"),
         (Self::InvalidRobot, "invalid_robot"),
         (Self::Tensions, "tensions"),
@@ -71,12 +68,6 @@ impl ScalarReason {
 
     /// Why all robots like this one are left to the scalar models, if they are.
     pub(crate) fn of_all(robot: &Robot, free: &[Coordinate]) -> Option<Self> {
-        // A greatest tension at the exit point has a closed form for linear cables only.
-        let laws_at_exits = robot
-            .cables
-            .iter()
-            .enumerate()
-            .any(|(i, cable)| cable.properties.law.is_some() && robot.max_at(i) == CableEnd::Exit);
         // The level frame, which deviates with gravity, holds other motions than the base frame.
         let inclined = robot.plane.is_some() && robot.gravity.is_vector();
         // Nothing resists the rotation about a single cable.
@@ -84,7 +75,6 @@ impl ScalarReason {
         let reasons = [
             (inclined || !enough, Self::FewCables),
             ((0..robot.cables.len()).any(|i| robot.cable(i).leaves_its_plane()), Self::Pulleys),
-            (laws_at_exits, Self::Laws),
         ];
         reasons.into_iter().find(|(holds, _)| *holds).map(|(_, reason)| reason)
     }
@@ -99,6 +89,6 @@ mod tests {
         for (reason, name) in ScalarReason::NAMES {
             assert_eq!((reason.name(), ScalarReason::named(name)), (name, Some(reason)));
         }
-        assert_eq!(ScalarReason::NAMES[13].0 as usize, 13, "the last reason is the last of the list");
+        assert_eq!(ScalarReason::NAMES[12].0 as usize, 12, "the last reason is the last of the list");
     }
 }

@@ -9,6 +9,7 @@ use crate::equations::{CablePlane, LinearizedCable, Span};
 use crate::lanes::adjoint::answer::{Answer, GuideAnswer, Held};
 use crate::lanes::algebra::{Lanes2, Lanes3, three};
 use crate::lanes::cable::LaneCable;
+use crate::lanes::chain::limits::at_platform;
 use crate::lanes::chain::shared::Choice;
 use crate::lanes::simd::{Lanes, Simd};
 use cdpr_cable::kernel::{Field, Tangent};
@@ -67,14 +68,13 @@ impl<S: Simd> CableSlopes<S> {
         if choice.max_at == CableEnd::Anchor {
             return;
         }
-        let flexibility = cable.axial_flexibility;
         let greatest = by_bound.all(choice.limits.max);
-        let work = greatest * (greatest * flexibility * 0.5 + 1.0) + cable.weight_per_length * *height;
-        let tension = work * 2.0 * ((work * flexibility * 2.0 + 1.0).sqrt() + 1.0).recip();
-        let by_work = by_bound / (tension * flexibility + 1.0);
+        let tension = at_platform(cable, greatest, *height);
+        let by_work = by_bound / (cable.strain(tension) + 1.0);
         self.span[2] += by_work * cable.weight_per_length;
         self.weight += by_work * *height;
-        self.flexibility += by_work * (greatest - tension) * (greatest + tension) * 0.5;
+        let energy = cable.energy(greatest) - cable.energy(tension);
+        self.flexibility += by_work * energy / cable.axial_flexibility;
     }
 }
 

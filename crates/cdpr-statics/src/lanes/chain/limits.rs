@@ -1,9 +1,9 @@
 //! The tensions at the platform that limits allow, as `inverse/limits.rs` has them.
 //!
-//! A greatest tension at the exit point of a linear cable leaves one at the platform that (C26) of
-//! `cdpr_cable` gives in closed form: t + t²/2EA grows with the height by the weight of the cable. Over a
-//! pulley the height is that above the leave point of the cable that has this tension, and is found together
-//! with it.
+//! A greatest tension at the exit point leaves one at the platform by (C26) of `cdpr_cable`: t + W(t) grows
+//! with the height by the weight of the cable. For a linear cable this is a closed form, for others Newton's
+//! method for a convex function finds it. Over a pulley the height is that above the leave point of the cable
+//! that has this tension, and is found together with it.
 //!
 //! A span demands a least tension of a cable with weight: where the horizontal force becomes less, the tension
 //! rises again. Newton's method for its slope over the logarithm of that force finds it.
@@ -20,6 +20,9 @@ use cdpr_robot::{CableEnd, TensionLimits};
 const LAST_CHANGE: f64 = 1e-7;
 
 const MAX_ITERATIONS: usize = 8;
+
+/// A law has few kinks, between which one step is nearly enough.
+const MAX_ITERATIONS_OF_LAW: usize = 30;
 
 /// Greatest change of the logarithm of a horizontal force in one step towards the least tension.
 const LONGEST_CHANGE: f64 = 0.7;
@@ -127,10 +130,41 @@ impl<S: Simd> WithSimd for Demand<'_, '_, S> {
 
 /// The tension at the platform [N] of a cable with the tension `exit` [N] at its exit, `height` [m] below it.
 #[inline(always)]
-fn at_platform<S: Simd>(cable: &LaneCable<'_, S>, exit: Lanes<S>, height: Lanes<S>) -> Lanes<S> {
+pub(crate) fn at_platform<S: Simd>(cable: &LaneCable<'_, S>, exit: Lanes<S>, height: Lanes<S>) -> Lanes<S> {
+    if !cable.law.is_empty() {
+        return exit.apart(WithLaw { cable, exit, height });
+    }
     let half = cable.axial_flexibility * 0.5;
     let whole = exit + exit * exit * half + cable.weight_per_length * height;
     whole * 2.0 * ((whole * half * 4.0 + 1.0).sqrt() + 1.0).recip()
+}
+
+/// [`at_platform`] for a cable with a law.
+struct WithLaw<'a, 'b, S: Simd> {
+    cable: &'a LaneCable<'b, S>,
+    exit: Lanes<S>,
+    height: Lanes<S>,
+}
+
+impl<S: Simd> WithSimd for WithLaw<'_, '_, S> {
+    type Output = Lanes<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Lanes<S> {
+        let Self { cable, exit, height } = self;
+        let work = exit + cable.energy(exit) + cable.weight_per_length * height;
+        let (mut tension, mut going) = (exit, exit.less_or_equal(exit));
+        for _ in 0..MAX_ITERATIONS_OF_LAW {
+            let open = tension + cable.energy(tension) - work;
+            let step = open / (cable.strain(tension) + 1.0);
+            tension.replace(tension - step, going);
+            going = going & !step.abs().less_or_equal(tension.abs() * (4.0 * f64::EPSILON));
+            if !going.any() {
+                break;
+            }
+        }
+        (going | work.less_or_equal(work.all(0.0))).select(exit.all(-1.0), tension)
+    }
 }
 
 /// The greatest tension at the platform of a cable with the tension `greatest` at its leave point.

@@ -118,7 +118,7 @@ impl WithSimd for SlopesBatch<'_> {
 impl<S: Simd> Rows<'_, S> {
     /// The lanes whose pulleys have radii: that of a pulley without one has a derivative on one side alone.
     #[inline(always)]
-    fn rolling(&self, robot: &Robot, robots: &Robots<'_, S>) -> Mask<S> {
+    pub(crate) fn rolling(&self, robot: &Robot, robots: &Robots<'_, S>) -> Mask<S> {
         let zero = self.all(0.0);
         let mut rolling = zero.less_or_equal(zero);
         for (cable, in_lanes) in robot.cables.iter().zip(&robots.cables) {
@@ -131,7 +131,7 @@ impl<S: Simd> Rows<'_, S> {
 
     /// Writes the slopes by all parameters from those by what the robots are in their level frames.
     #[inline(always)]
-    fn write_slopes(
+    pub(crate) fn write_slopes(
         &self,
         robot: &Robot,
         adjoint: &Adjoint<S>,

@@ -6,14 +6,17 @@
 //! of `K v = (2π f)² M v` with the mass matrix of (V1) gives the lowest natural frequency. What a lane does
 //! not decide is left to the scalar models.
 
+use crate::derivatives::derivatives_from;
 use crate::error::StaticsError;
 use crate::inverse::InverseSolution;
+use crate::lanes::adjoint::adjoint;
 use crate::lanes::algebra::{Lanes3, Lanes6x6, SymmetricFactors, hold, hold_matrix, six, three};
-use crate::lanes::cable::FreeLength;
+use crate::lanes::chain::Keep;
 use crate::lanes::eigen::least_eigenvalue;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, Robots};
 use crate::lanes::poses::placed::{PlacedRobot, each};
+use crate::lanes::poses::slopes::{Nominal, SlopesOfLanes};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{Deflection, deflection_from};
@@ -21,7 +24,7 @@ use crate::problem::DirectProblem;
 use crate::state::{Load, Residual};
 use cdpr_cable::Catenary;
 use cdpr_cable::kernel::Field;
-use cdpr_robot::{Freedoms, Matrix3, Pose, Robot, Vector2, Vector3};
+use cdpr_robot::{Freedoms, Matrix3, ParameterLayout, Pose, Robot, Vector2, Vector3};
 use smallvec::SmallVec;
 use std::f64::consts::TAU;
 
@@ -63,6 +66,16 @@ impl LoadedPose {
     }
 }
 
+/// A loaded robot at a pose with the derivatives of its deflection.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoseSlopes {
+    /// The robot. [`LoadedPose::scalar`] says why its derivatives were left to the scalar models.
+    pub loaded: LoadedPose,
+    /// d|dp| by every parameter in the order of [`cdpr_robot::Parameter::of`] [m per unit]; `None` where there
+    /// is none.
+    pub rms: Option<Vec<f64>>,
+}
+
 /// What `load` does at every pose that the inverse model answered without it, the lengths kept: the figures
 /// of [`deflection_from`].
 ///
@@ -76,16 +89,62 @@ pub fn loaded_poses(
     wanted: &[&InverseSolution],
     load: &Load,
 ) -> Vec<Result<LoadedPose, StaticsError>> {
-    let reason = ScalarReason::of_all(robot, &[]).or(load.validate().err().map(|_| ScalarReason::OneByOne));
-    let found = match (reason, PlacedRobot::of(robot)) {
-        (None, Some(placed)) => dispatch(Batch { placed: &placed, wanted, load }),
-        (reason, _) => vec![Err(reason.unwrap_or(ScalarReason::OneByOne)); wanted.len()],
-    };
     let alone = |wanted: &InverseSolution, why| {
         let deflection = deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?;
         Ok(LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, load, &deflection) })
     };
+    let one = |(wanted, found): (&&InverseSolution, Result<PoseSlopes, _>)| match found {
+        Ok(found) => Ok(found.loaded),
+        Err(why) => alone(wanted, why),
+    };
+    wanted.iter().zip(in_lanes(robot, wanted, load, false)).map(one).collect()
+}
+
+/// As [`loaded_poses`], with the derivatives of |dp| by all parameters, where they exist.
+///
+/// # Errors
+/// Those of [`derivatives_from`] but [`StaticsError::NoDerivative`], for each pose.
+pub fn loaded_poses_slopes(
+    robot: &Robot,
+    wanted: &[&InverseSolution],
+    load: &Load,
+) -> Vec<Result<PoseSlopes, StaticsError>> {
+    let parameters = ParameterLayout::of(robot).count();
+    let alone = |wanted: &InverseSolution, why| {
+        let found = derivatives_from(robot, &wanted.equilibrium.pose, load, wanted.clone());
+        let (deflection, rms) = match found {
+            Ok(found) => {
+                let rms = found.rms().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
+                (found.deflection, rms)
+            }
+            // A pose without a derivative is held nevertheless.
+            Err(StaticsError::NoDerivative { .. }) => {
+                (deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?, None)
+            }
+            Err(error) => return Err(error),
+        };
+        let loaded = LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, load, &deflection) };
+        Ok(PoseSlopes { loaded, rms })
+    };
+    let found = in_lanes(robot, wanted, load, true);
     wanted.iter().zip(found).map(|(wanted, found)| found.or_else(|why| alone(wanted, why))).collect()
+}
+
+/// The answers of the lanes, with derivatives or without.
+fn in_lanes(
+    robot: &Robot,
+    wanted: &[&InverseSolution],
+    load: &Load,
+    with_slopes: bool,
+) -> Vec<Result<PoseSlopes, ScalarReason>> {
+    let reason = ScalarReason::of_all(robot, &[]).or(load.validate().err().map(|_| ScalarReason::OneByOne));
+    match (reason, PlacedRobot::of(robot)) {
+        (None, Some(placed)) => {
+            let slopes = with_slopes.then(|| Nominal::new(&placed, load));
+            dispatch(Batch { placed: &placed, wanted, load, slopes: slopes.as_ref() })
+        }
+        (reason, _) => vec![Err(reason.unwrap_or(ScalarReason::OneByOne)); wanted.len()],
+    }
 }
 
 /// Poses for the lanes.
@@ -93,17 +152,18 @@ struct Batch<'a> {
     placed: &'a PlacedRobot<'a>,
     wanted: &'a [&'a InverseSolution],
     load: &'a Load,
+    slopes: Option<&'a Nominal<'a>>,
 }
 
 impl WithSimd for Batch<'_> {
-    type Output = Vec<Result<LoadedPose, ScalarReason>>;
+    type Output = Vec<Result<PoseSlopes, ScalarReason>>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Self { placed, wanted, load } = self;
+        let Self { placed, wanted, load, slopes } = self;
         let mut found = Vec::with_capacity(wanted.len());
         for wanted in wanted.chunks(Lanes::<S>::COUNT) {
-            InLanes { simd, placed, wanted, load }.answer(&mut found);
+            InLanes { simd, placed, wanted, load, slopes }.answer(&mut found);
         }
         found
     }
@@ -115,6 +175,7 @@ struct InLanes<'a, S> {
     placed: &'a PlacedRobot<'a>,
     wanted: &'a [&'a InverseSolution],
     load: &'a Load,
+    slopes: Option<&'a Nominal<'a>>,
 }
 
 /// An equilibrium in each lane.
@@ -138,19 +199,21 @@ struct Figures<S: Simd> {
 
 impl<S: Simd> InLanes<'_, S> {
     #[inline(always)]
-    fn answer(&self, answers: &mut Vec<Result<LoadedPose, ScalarReason>>) {
-        let Self { placed, load, .. } = *self;
+    fn answer(&self, answers: &mut Vec<Result<PoseSlopes, ScalarReason>>) {
+        let Self { simd, placed, wanted, load, .. } = *self;
         let (mut robots, zero) = (self.wound(), self.all(0.0));
         let everywhere = zero.less_or_equal(zero);
+        let mut record = self.slopes.map(|nominal| nominal.record(simd, placed, wanted, &robots));
         let mut platform = LinearizedPlatform::new(zero, robots.cables.len());
-        if robots.cables.iter().any(|cable| cable.guided.is_some()) {
-            platform.free = vec![FreeLength::fixed(zero); robots.cables.len()];
-        }
+        platform.follow_guides(&robots);
         let mut carried = PlatformLoad::weight(robots.weight);
         robots.linearise(&carried, &mut platform, everywhere);
         let unloaded = self.settled(&mut robots, &mut platform, &carried, everywhere);
+        if let Some(record) = &mut record {
+            record.state(&robots);
+        }
         let stood = robots.position;
-        let mut loaded = None;
+        let (mut loaded, mut payload) = (None, PlatformLoad::weight(zero));
         if *load != Load::none() {
             let weight = self.all(load.payload * placed.robot.gravity.magnitude());
             let added = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
@@ -159,15 +222,24 @@ impl<S: Simd> InLanes<'_, S> {
             hold(robots.freedoms, &mut wrench);
             platform.gradient = six!(|k| platform.gradient[k] - wrench[k]);
             carried = added.on(carried.weight);
+            payload = added;
             loaded = Some(self.settled(&mut robots, &mut platform, &carried, unloaded.found));
         }
         let displacement = three!(|k| robots.position[k] - stood[k]);
+        let slopes = match (&mut record, self.slopes) {
+            (Some(record), Some(nominal)) => {
+                record.state(&robots);
+                adjoint(record, &displacement, &payload, &nominal.shared)
+                    .map(|adjoint| nominal.slopes_of(simd, &robots, &adjoint))
+            }
+            _ => None,
+        };
         let figures = self.figures(&robots, &mut platform, &carried);
         self.read(
             &robots,
             &displacement,
             (&unloaded, loaded.as_ref().unwrap_or(&unloaded)),
-            &figures,
+            (&figures, slopes),
             answers,
         );
     }
@@ -290,8 +362,8 @@ impl<S: Simd> InLanes<'_, S> {
         robots: &Robots<'_, S>,
         displacement: &Lanes3<S>,
         (unloaded, loaded): (&Settled<S>, &Settled<S>),
-        figures: &Figures<S>,
-        answers: &mut Vec<Result<LoadedPose, ScalarReason>>,
+        (figures, slopes): (&Figures<S>, Option<SlopesOfLanes>),
+        answers: &mut Vec<Result<PoseSlopes, ScalarReason>>,
     ) {
         let Self { placed: PlacedRobot { robot, .. }, wanted, .. } = *self;
         let stands = unloaded.found.to_array();
@@ -311,6 +383,14 @@ impl<S: Simd> InLanes<'_, S> {
                 answers.push(Err(if stands[lane] { ScalarReason::Loaded } else { ScalarReason::Unloaded }));
                 continue;
             }
+            let mut rms = None;
+            if self.slopes.is_some() {
+                let Some((slopes, _)) = slopes.as_ref().filter(|(_, decided)| decided[lane]) else {
+                    answers.push(Err(ScalarReason::Derivatives));
+                    continue;
+                };
+                rms = Some(slopes.iter().map(|slope| slope[lane]).collect());
+            }
             let is_slack = |i: &usize| {
                 let [h, z] = spans[*i].map(|of| of[lane]);
                 let cable = robot.cable(*i);
@@ -318,7 +398,7 @@ impl<S: Simd> InLanes<'_, S> {
                 at_rest >= cable.straight_length(Vector2::new(h, z))
             };
             let of_lane = |ends: &[[f64; MAX_LANES]; 2]| ends.map(|of| of[lane]);
-            answers.push(Ok(LoadedPose {
+            let loaded = LoadedPose {
                 displacement: self.placed.to_base(Vector3::from_fn(|k, _| displacement[k][lane])),
                 tensions: [0, 1].map(|k: usize| tensions[k].iter().map(of_lane).collect()),
                 residuals: residuals.map(|residuals| residuals[lane]),
@@ -328,7 +408,8 @@ impl<S: Simd> InLanes<'_, S> {
                     .map(|(square, _)| square[lane].max(0.0).sqrt() / TAU),
                 slack: (0..robot.cables.len()).filter(is_slack).collect(),
                 scalar: None,
-            }));
+            };
+            answers.push(Ok(PoseSlopes { loaded, rms }));
         }
     }
 }
@@ -367,11 +448,14 @@ mod tests {
             (0..21).map(|k| inverse(&robot, &pose(k), &Load::none(), None).unwrap()).collect();
         let wanted: Vec<_> = wanted.iter().collect();
         let placed = PlacedRobot::of(&robot).unwrap();
-        let batch = |wanted| Batch { placed: &placed, wanted, load: &load };
-        let scalar = batch(&wanted[..]).with_simd(Scalar);
-        assert_eq!(scalar, dispatch(batch(&wanted[..])));
-        assert_eq!(scalar[3..], dispatch(batch(&wanted[3..])));
-        assert!(scalar.iter().filter(|found| found.is_ok()).count() > 15);
+        let nominal = Nominal::new(&placed, &load);
+        for slopes in [None, Some(&nominal)] {
+            let batch = |wanted| Batch { placed: &placed, wanted, load: &load, slopes };
+            let scalar = batch(&wanted[..]).with_simd(Scalar);
+            assert_eq!(scalar, dispatch(batch(&wanted[..])));
+            assert_eq!(scalar[3..], dispatch(batch(&wanted[3..])));
+            assert!(scalar.iter().filter(|found| found.is_ok()).count() > 15);
+        }
     }
 
     #[test]

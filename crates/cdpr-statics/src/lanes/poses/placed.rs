@@ -1,15 +1,19 @@
 //! One robot at several poses, one in each lane, in its level frame.
 
 use crate::lanes::algebra::{Frame, rotated, three};
-use crate::lanes::cable::{Guided, LaneCable};
-use crate::lanes::chain::shared::laws;
+use crate::lanes::cable::{Guided, LaneCable, Shape};
+use crate::lanes::chain::shared::{Choice, Shared, laws};
 use crate::lanes::newton::{Layout, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Simd};
-use crate::state::rounding_of_closure;
+use crate::state::{Load, rounding_of_closure};
 use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
 use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6, Wrench};
 use smallvec::SmallVec;
+
+/// Forces that changes are compared with, relative to the sum of tensions: steps end when even a small
+/// tension is exact to nine digits.
+const NARROWER: f64 = 0.01;
 
 /// A robot whose poses fill the lanes.
 pub(crate) struct PlacedRobot<'a> {
@@ -36,6 +40,19 @@ impl<'a> PlacedRobot<'a> {
             rounding: rounding_of_closure(0.1 * size, farthest),
         };
         Some(Self { robot, laws: laws(robot), scale })
+    }
+
+    /// What its poses under `load` share, from whatever shape their cables begin.
+    pub(crate) fn shared(&self, load: &Load) -> Shared {
+        let Self { robot, scale, .. } = *self;
+        let reference = robot.reference();
+        let nowhere = Shape { tangent: [0.0; 2], chord_force: 0.0, sag_force: 0.0, longer: 0.0 };
+        let choice = |(i, reference): (usize, &f64)| Choice::new(robot, i, *reference, nowhere);
+        let choices: Vec<_> = reference.iter().enumerate().map(choice).collect();
+        // No more than the sum of all tensions, or twice as much.
+        let least: f64 = choices.iter().map(|choice| choice.limits.min).sum();
+        let weight = (robot.platform.mass + load.payload) * robot.gravity.magnitude();
+        Shared { choices, tension: NARROWER * (weight + least), forces: weight + least, scale }
     }
 
     /// Components in the level frame of a vector in the base frame.
