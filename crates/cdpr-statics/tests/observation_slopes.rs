@@ -122,6 +122,19 @@ fn slopes_of_points_and_planar_platforms_are_those_of_the_scalar_models() {
     }
 }
 
+#[test]
+fn free_cables_that_do_not_span_all_wrenches_have_their_slopes_from_the_scalar_models() {
+    // On its axis four cables of IPAnema 1 carry the platform, and four are at their least tension.
+    let robot = Robot::from_json(library::named(library::ROBOTS, "ipanema-1").unwrap().text).unwrap();
+    let none = vec![0.0; Parameter::of(&robot).len()];
+    for height in [0.5, 1.0, 1.5] {
+        let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, height), &Load::payload(2.5)).unwrap();
+        let found = observer.observe_all_slopes(&none).remove(0).unwrap();
+        assert_eq!(found.observation.scalar, Some(ScalarReason::Derivatives));
+        assert_eq!(found.rms, observer.observe_slopes(&none).unwrap().rms);
+    }
+}
+
 /// All cables over pulleys that they enter from below; some over pulleys that they enter from either side,
 /// some behind leads, with an elastic law; all behind leads.
 fn guided(mut robot: Robot, pose: &Pose, case: usize) -> Robot {

@@ -47,6 +47,9 @@ const SAME: f64 = 1e-9;
 /// A multiplier of a bound below this share of the greatest tension may be rounding, as in `derivatives`.
 const NO_MULTIPLIER: f64 = 1e-7;
 
+/// A pivot below this share of its diagonal element is nearly lost in rounding.
+const NEARLY_SINGULAR: f64 = 1e-8;
+
 /// A deflection below this share of the longest cable has no direction, as in `derivatives`.
 const NO_DEFLECTION: f64 = 1e-12;
 
@@ -381,7 +384,11 @@ impl<S: Simd> Adjoint<S> {
             cables.push((span, slopes, motion, column, curvature_inv, by_tension, by_bound));
         }
         hold_matrix(wound.freedoms, &mut matrix, zero + 1.0);
-        let balanced = SymmetricFactors::new(matrix).solve(&right);
+        let factored = SymmetricFactors::new(matrix);
+        // Free cables that do not span all wrenches have derivatives on each side at most.
+        let diagonal = six!(|k| matrix[k][k]);
+        self.decided = self.decided & factored.is_regular(&diagonal, NEARLY_SINGULAR);
+        let balanced = factored.solve(&right);
         let (moved, turned) = halves(&balanced);
         for (i, (span, slopes, motion, column, curvature_inv, by_tension, mut by_bound)) in
             cables.into_iter().enumerate()
@@ -407,9 +414,6 @@ impl<S: Simd> Adjoint<S> {
             self.cables[i].add(&own, &wound.frame, &anchor);
         }
         self.add_weight(wound, wound.weight, &six!(|k| -balanced[k]));
-        for value in balanced {
-            self.decided = self.decided & (value * 0.0).less_or_equal(zero);
-        }
     }
 
     /// Adds to the derivatives by turns of gravity that the axes k of pulleys stay: by `-k x`(that by k).

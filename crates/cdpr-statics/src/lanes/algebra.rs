@@ -78,6 +78,18 @@ impl<S: Simd> SymmetricFactors<S> {
         Self { upper, pivots_inv, positive }
     }
 
+    /// The lanes in which every pivot is more than `share` of its element of `diagonal`, that of the matrix
+    /// itself: others lost as many digits, or are singular.
+    #[inline(always)]
+    pub(crate) fn is_regular(&self, diagonal: &Lanes6<S>, share: f64) -> Mask<S> {
+        let most = diagonal[0].all(share.recip());
+        let mut regular = most.less_or_equal(most);
+        for (element, pivot_inv) in diagonal.iter().zip(&self.pivots_inv) {
+            regular = regular & (*element * *pivot_inv).abs().less_or_equal(most);
+        }
+        regular
+    }
+
     /// Takes over another one in the lanes that are `going`.
     #[inline(always)]
     pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {
