@@ -177,6 +177,50 @@ pub(crate) fn rows_by_size(robot: &Robot, pose: &Pose, count: usize, times: f64,
 }
 
 #[test]
+fn robots_of_the_library_stay_in_the_lanes_wherever_they_stand() {
+    let mut robots = 0;
+    for file in library::ROBOTS {
+        let robot = Robot::from_json(file.text).unwrap();
+        let rng = &mut ChaCha8Rng::seed_from_u64(7);
+        let exits = || robot.cables.iter().map(|cable| cable.exit_point);
+        let [low, high] =
+            [exits().reduce(|a, b| a.inf(&b)), exits().reduce(|a, b| a.sup(&b))].map(Option::unwrap);
+        // Below exit points at one height.
+        let suspended = high.z - low.z < 0.3 * (high.x - low.x);
+        let mut position = || {
+            let at = Vector3::from_fn(|_, _| rng.random_range(0.1..0.9));
+            let mut position = low + at.component_mul(&(high - low));
+            if suspended {
+                position.z = low.z - at.z * (high.x - low.x);
+            }
+            position
+        };
+        let poses: Vec<Pose> = (0..200)
+            .map(|_| Pose { position: position(), ..Pose::at(0.0, 0.0, 0.0) })
+            .filter(|pose| cdpr_statics::inverse(&robot, pose, &Load::none(), None).is_ok())
+            .take(20)
+            .collect();
+        let (mut left, mut failed, mut reasons) = (0, 0, BTreeMap::<&str, usize>::new());
+        for pose in &poses {
+            let longest = (0..robot.cables.len()).map(|i| robot.span(pose, i).norm()).fold(0.0, f64::max);
+            let rows = rows_by_size(&robot, pose, 20, 1.0, 19);
+            let load = Load::payload(0.3 * robot.platform.mass);
+            let observer = Observer::new(&robot, pose, &load).unwrap();
+            let (more, fewer) = compared(&robot, &observer, &rows, 1e-12 * longest);
+            (left, failed) = (left + more, failed + fewer);
+            for why in observer.observe_all(&rows).into_iter().flatten().filter_map(|found| found.scalar) {
+                *reasons.entry(why.name()).or_default() += 1;
+            }
+        }
+        let all = 20 * poses.len();
+        println!("{}: {left} of {all} left to the scalar models ({reasons:?}), {failed} failed", file.name);
+        assert!(30 * left <= all, "{}: {left} of {all}", file.name);
+        robots += usize::from(poses.len() >= 15);
+    }
+    assert!(robots >= 14, "{robots}");
+}
+
+#[test]
 fn points_and_planar_platforms_stay_in_the_lanes() {
     for (robot, pose) in points_and_planar() {
         let rows = rows_by_size(&robot, &pose, 200, 1.0, 13);

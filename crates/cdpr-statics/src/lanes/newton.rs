@@ -100,6 +100,10 @@ const SMALL_STEP: f64 = 1e-7;
 /// their stiffness alone, so that a step leaves more than its square.
 const LAST_OF_GUIDED: f64 = 1e-6;
 
+/// Length that may be missing beyond a leave point, relative to the longest cable: its effect is known to the
+/// first order.
+const LAST_MISSING: f64 = 1e-10;
+
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
 
@@ -316,6 +320,8 @@ impl<S: Simd> Robots<'_, S> {
                 Some(guided) => {
                     let (end, missing) = guided.end(cable);
                     platform.free[i].revise(missing, near);
+                    let most = zero.all(LAST_MISSING * scale.size);
+                    failed = failed.max(missing.abs().less_or_equal(most).select(zero, zero.all(1.0)));
                     end
                 }
             };

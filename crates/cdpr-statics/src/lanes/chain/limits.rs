@@ -16,10 +16,11 @@ use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::Field;
 use cdpr_robot::{CableEnd, TensionLimits};
 
-/// A change below this, relative to the sum of tensions or the longest cable, is the last one.
+/// A change below this, relative to the sum of tensions, the longest cable and the cable's own horizontal force,
+/// is the last one.
 const LAST_CHANGE: f64 = 1e-7;
 
-const MAX_ITERATIONS: usize = 8;
+const MAX_ITERATIONS: usize = 10;
 
 /// A law has few kinks, between which one step is nearly enough.
 const MAX_ITERATIONS_OF_LAW: usize = 30;
@@ -189,7 +190,9 @@ impl<S: Simd> WithSimd for BelowPulley<'_, '_, S> {
             let [_, rise] = guided.leave_point(cable).position;
             found.replace(at_platform(cable, greatest, span.end[1] - rise), going);
             let held = HeldCable::leaving(guided, cable, span);
-            let moved = held.change(cable, held.way_to(found), going, compared);
+            let way = held.way_to(found);
+            let own = way.abs() / cable.force[0];
+            let moved = held.change(cable, way, going, compared).max(own);
             going = going & !moved.less_or_equal(moved.all(LAST_CHANGE));
             if !going.any() {
                 break;
