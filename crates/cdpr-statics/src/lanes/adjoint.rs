@@ -369,8 +369,7 @@ impl<S: Simd> Adjoint<S> {
             self.cables[i].offset += set_point.offset.select(a, zero);
             let by_tension = set_point.follows.select(a, zero);
             // -c_i
-            let mut column = wrench(&cable.anchor_arm, &slopes.force_per_tension);
-            hold(wound.freedoms, &mut column);
+            let column = hold(wound.freedoms, wrench(&cable.anchor_arm, &slopes.force_per_tension));
             let curvature = -dot(&slopes.curvature, &motion) + 1.0;
             let curvature_inv = on_bound.select(zero, curvature.recip());
             for row in 0..6 {

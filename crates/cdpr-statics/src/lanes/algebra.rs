@@ -201,16 +201,13 @@ pub(crate) fn halves<S: Simd>(wrench: &Lanes6<S>) -> (Lanes3<S>, Lanes3<S>) {
     (three!(|k| wrench[k]), three!(|k| wrench[3 + k]))
 }
 
-/// Leaves no component of a wrench or a twist along the motions that are held.
+/// A wrench or a twist without its components along the motions that are held.
 #[inline(always)]
-pub(crate) fn hold<S: Simd>(freedoms: Freedoms, v: &mut Lanes6<S>) {
-    if !freedoms.are_all() {
-        for (k, component) in v.iter_mut().enumerate() {
-            if !freedoms.contains(k) {
-                *component = component.all(0.0);
-            }
-        }
+pub(crate) fn hold<S: Simd>(freedoms: Freedoms, v: Lanes6<S>) -> Lanes6<S> {
+    if freedoms.are_all() {
+        return v;
     }
+    six!(|k| if freedoms.contains(k) { v[k] } else { v[k].all(0.0) })
 }
 
 /// The same of the upper triangle of a matrix, with `diagonal` for those motions.
@@ -221,7 +218,7 @@ pub(crate) fn hold_matrix<S: Simd>(freedoms: Freedoms, matrix: &mut Lanes6x6<S>,
     }
     for (row, elements) in matrix.iter_mut().enumerate() {
         match freedoms.contains(row) {
-            true => hold(freedoms, elements),
+            true => *elements = hold(freedoms, *elements),
             false => {
                 *elements = [diagonal.all(0.0); 6];
                 elements[row] = diagonal;

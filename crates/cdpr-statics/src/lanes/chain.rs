@@ -195,8 +195,7 @@ fn chain<'a, S: Simd>(
 
     let load = payload.on(own.weight);
     // The first step follows the linearisation at hand.
-    let mut added = payload.wrench(&robots.center);
-    hold(freedoms, &mut added);
+    let added = hold(freedoms, payload.wrench(&robots.center));
     platform.gradient = six!(|k| platform.gradient[k] - added[k]);
     let (answered, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
     if let Some(keep) = &mut keep {
@@ -252,8 +251,6 @@ pub(crate) fn distribute<'a, S: Simd>(
                 balance[k] += pull[k];
             }
             let along = span.plane.force_on_platform([zero.all(1.0), held.rise]);
-            let mut slope = wrench(&cable.anchor_arm, &along);
-            hold(freedoms, &mut slope);
             // w''·λ of a vertical force.
             let [sx, sy, _] = cable.anchor_arm;
             let lifted = multipliers[2] + sy * multipliers[3] - sx * multipliers[4];
@@ -263,7 +260,7 @@ pub(crate) fn distribute<'a, S: Simd>(
             convex.push((square * LEAST_CURVATURE).less_or_equal(curvature));
             let curvature = curvature.abs().max(square * LEAST_CURVATURE);
             rows.push(Row::new(
-                slope,
+                hold(freedoms, wrench(&cable.anchor_arm, &along)),
                 (held.closed + -choice.reference) * held.tension_slope,
                 curvature.recip(),
                 multipliers,
@@ -287,7 +284,7 @@ pub(crate) fn distribute<'a, S: Simd>(
             }
         }
         left -= 1;
-        hold(freedoms, &mut balance);
+        balance = hold(freedoms, balance);
         let (mut step, _) = newton(&rows, &balance);
         let mut outside = zero.less_or_equal(zero);
         outside = outside & !outside;

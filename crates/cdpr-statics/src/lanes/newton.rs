@@ -104,6 +104,9 @@ const LAST_OF_GUIDED: f64 = 1e-6;
 /// first order.
 const LAST_MISSING: f64 = 1e-10;
 
+/// Slackness q² from which a cable over a pulley is left to the scalar models.
+const FOLDED_ON_WHEEL: f64 = 0.9;
+
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
 
@@ -251,8 +254,7 @@ impl<S: Simd> Robots<'_, S> {
         hessian[3][5] += load.weight * cx * 0.5;
         hessian[4][5] += load.weight * cy * 0.5;
         let wrench = load.wrench(&self.center);
-        let mut gradient = six!(|k| gradient[k] - wrench[k]);
-        hold(self.freedoms, &mut gradient);
+        let gradient = hold(self.freedoms, six!(|k| gradient[k] - wrench[k]));
         hold_matrix(self.freedoms, &mut hessian, zero + 1.0);
         (gradient, hessian)
     }
@@ -336,16 +338,16 @@ impl<S: Simd> Robots<'_, S> {
             linearized.replace(&moved, near);
             tensions += self.counted(i, tension);
             let strain = cable.strain(tension + cable.weight_per_length * cable.length);
+            // A slack cable may hang from either side of its wheel.
+            let folded = if cable.guided.is_some() { FOLDED_ON_WHEEL } else { FOLDED };
             let sound = zero.less_or_equal(fx)
-                & slackness.less_or_equal(zero.all(FOLDED))
+                & slackness.less_or_equal(zero.all(folded))
                 & strain.less_or_equal(zero.all(MAX_STRAIN));
             failed = failed.max((!sound).select(zero.all(1.0), zero));
         }
         residual.closure = self.largest(residual.closure);
-        residual.wrench = six!(|k| self.total(residual.wrench[k]) - wrench[k]);
-        gradient = six!(|k| self.total(gradient[k]) - wrench[k]);
-        hold(self.freedoms, &mut residual.wrench);
-        hold(self.freedoms, &mut gradient);
+        residual.wrench = hold(self.freedoms, six!(|k| self.total(residual.wrench[k]) - wrench[k]));
+        let gradient = hold(self.freedoms, six!(|k| self.total(gradient[k]) - wrench[k]));
         replace(&mut platform.gradient, &gradient, near);
         tensions = self.total(tensions) + load.weight;
         let (force, moment) = halves(&residual.wrench);
@@ -436,9 +438,10 @@ impl<S: Simd> Robots<'_, S> {
             // A cable that becomes slack: the step of 1/fx instead, of which fx remains positive.
             let [fx, fz] = cable.force;
             let lost = fx - force[0];
-            steady = steady & lost.abs().less_or_equal(fx * SMALL_CHANGE);
-            let slackening = going & !lost.less_or_equal(fx * GREATEST_LOSS);
-            if slackening.any() {
+            let changed = going & !lost.abs().less_or_equal(fx * SMALL_CHANGE);
+            if changed.any() {
+                steady = steady & !changed;
+                let slackening = changed & !lost.less_or_equal(fx * GREATEST_LOSS);
                 let share = slackening.select(fx / (fx + lost), fx.all(1.0));
                 force = [fx - lost * share, fz + (force[1] - fz) * share];
             }

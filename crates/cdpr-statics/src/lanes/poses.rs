@@ -265,8 +265,7 @@ impl<S: Simd> InLanes<'_, S> {
         let (mut robots, spans) = self.shaped();
         let weight = self.all((robot.platform.mass + load.payload) * robot.gravity.magnitude());
         let whole = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
-        let mut external = whole.wrench(&robots.center);
-        hold(robots.freedoms, &mut external);
+        let external = hold(robots.freedoms, whole.wrench(&robots.center));
         let mut multipliers = six!(|k| self.each(&|asked| asked.near.multipliers[k]));
         let mut set_points = vec![zero; spans.len()];
         let mut limits = Limits(SmallVec::new());

@@ -75,7 +75,7 @@ impl<S: Simd> Skew<S> {
             let [h, z] = plane.project(three!(|k| moved[k] + swung[k]));
             add(right, arm, &plane.lift([-(*stiffness * z), *stiffness * h]));
         }
-        hold(self.freedoms, right);
+        *right = hold(self.freedoms, *right);
     }
 }
 

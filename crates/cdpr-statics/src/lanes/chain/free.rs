@@ -194,7 +194,7 @@ impl<S: Simd> Rest<'_, '_, S> {
             }
         }
         let step = solve_columns(&columns, &six!(|k| -balance[k]));
-        hold(robots.freedoms, &mut balance);
+        balance = hold(robots.freedoms, balance);
         let mut moved = zero;
         for (i, (span, cable)) in spans.iter().zip(&mut robots.cables).enumerate() {
             let (mut held, ends) = all_held[i];

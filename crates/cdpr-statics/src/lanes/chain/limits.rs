@@ -184,12 +184,21 @@ impl<S: Simd> WithSimd for BelowPulley<'_, '_, S> {
         let Self { cable, span, greatest, compared } = self;
         let (length, force) = (cable.length, cable.force);
         let mut going = length.less_or_equal(length);
-        let mut found = greatest;
+        let (mut found, mut taut) = (greatest, going);
+        // From a cable that is slack Newton's method may lead to a longer one of the same tension.
+        let slack = may_be_slack(cable, &HeldCable::new(cable, span));
+        if slack.any() {
+            let end = cable.held_end(span);
+            let straight = greatest * end[0] / (end[0] * end[0] + end[1] * end[1]).sqrt();
+            cable.force[0].replace(straight.max(force[0]), slack);
+            cable.hang(end, slack);
+        }
         for _ in 0..MAX_ITERATIONS {
             let Some(guided) = &cable.guided else { break };
             let [_, rise] = guided.leave_point(cable).position;
             found.replace(at_platform(cable, greatest, span.end[1] - rise), going);
             let held = HeldCable::leaving(guided, cable, span);
+            taut = (!going & taut) | (going & greatest.all(0.0).less_or_equal(held.tension_slope));
             let way = held.way_to(found);
             let own = way.abs() / cable.force[0];
             let moved = held.change(cable, way, going, compared).max(own);
@@ -199,6 +208,6 @@ impl<S: Simd> WithSimd for BelowPulley<'_, '_, S> {
             }
         }
         (cable.length, cable.force) = (length, force);
-        going.select(length.all(-1.0), found)
+        (going | !taut).select(length.all(-1.0), found)
     }
 }

@@ -183,7 +183,7 @@ impl<'a, S: Simd> Rows<'a, S> {
                 (sound, upright) = (sound & valid, upright & vertical);
             }
         }
-        hold(robot.freedoms(), &mut start.multipliers);
+        start.multipliers = hold(robot.freedoms(), start.multipliers);
         if let Some(level) = &level {
             start.rotate(level);
         }

@@ -218,8 +218,7 @@ impl<S: Simd> InLanes<'_, S> {
             let weight = self.all(load.payload * placed.robot.gravity.magnitude());
             let added = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
             // The first step follows the linearisation at hand.
-            let mut wrench = added.wrench(&robots.center);
-            hold(robots.freedoms, &mut wrench);
+            let wrench = hold(robots.freedoms, added.wrench(&robots.center));
             platform.gradient = six!(|k| platform.gradient[k] - wrench[k]);
             carried = added.on(carried.weight);
             payload = added;
