@@ -1,5 +1,5 @@
-//! `cargo xtask statistics`: how often the estimators of cdpr-sensitivity are right; with `peers` beside those
-//! of SALib and OpenTURNS.
+//! `cargo xtask statistics`: how often the estimators of cdpr-sensitivity are right; with `peers` beside
+//! those of SALib and OpenTURNS.
 //!
 //! The tables are those of `crates/cdpr-sensitivity/examples/statistics`. Its rows of all measures, and the
 //! values that count as true, are in `target/statistics`; `xtask/peers/statistics.py` reads the latter and
@@ -44,8 +44,8 @@ fn example(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     done(cargo_command(&example).args(arguments).current_dir(root()))
 }
 
-/// Runs our studies and those of the others, one after the other on one thread, and prints a table. The second
-/// argument is a part of the names of measures.
+/// Runs our studies and those of the others, one after the other on one thread, and prints a table. The
+/// second argument is a part of the names of measures.
 fn peers(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     let studies = arguments.first().map_or("100", String::as_str);
     let part = arguments.get(1).map_or("", String::as_str);

@@ -96,7 +96,8 @@ fn pack(file: &Path, packed: &Path) -> Outcome {
     Ok(fs::write(packed, output.stdout)?)
 }
 
-/// Says where the products are not those of the sources: a warning, because the models may agree nevertheless.
+/// Says where the products are not those of the sources: a warning, because the models may agree
+/// nevertheless.
 fn check_sources() -> Outcome {
     let (known, now) = (fs::read_to_string(web().join("dist/SOURCES"))?, checksum()?);
     if known.trim() != now {

@@ -80,8 +80,8 @@ impl<'a> Path<'a> {
     /// The next pose.
     ///
     /// # Errors
-    /// Those of [`InversePath::solve`] and of [`deflection_from`]. The path goes on from the last pose with an
-    /// answer.
+    /// Those of [`InversePath::solve`] and of [`deflection_from`]. The path goes on from the last pose with
+    /// an answer.
     pub fn solve(&mut self, pose: &Pose) -> Result<PathPose, StaticsError> {
         let Self { robot, load, .. } = *self;
         let found = self.lengths.solve(pose, &Load::none(), None)?;

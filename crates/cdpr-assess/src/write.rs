@@ -100,8 +100,8 @@ pub struct FoundRegion {
 /// Reads the boundary of a workspace from its folder.
 ///
 /// # Errors
-/// [`StudyError::Read`] for a folder without the results of a workspace; [`StudyError::Invalid`] for a workspace
-/// without a boundary, and for a file that has been changed.
+/// [`StudyError::Read`] for a folder without the results of a workspace; [`StudyError::Invalid`] for a
+/// workspace without a boundary, and for a file that has been changed.
 pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
     #[derive(Deserialize)]
     struct Summary {

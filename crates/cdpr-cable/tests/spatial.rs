@@ -219,8 +219,8 @@ fn horizontal(v: Vector3<f64>) -> f64 {
     v.x.hypot(v.y)
 }
 
-/// The axis hardly tilts, so that the least tension is nearly that of a vertical one, near the rim of the wheel
-/// and far from it.
+/// The axis hardly tilts, so that the least tension is nearly that of a vertical one, near the rim of the
+/// wheel and far from it.
 #[test]
 fn the_least_tension_over_a_tilted_axis_is_near_that_over_a_vertical_one() {
     let tilt = 1e-6_f64;

@@ -46,7 +46,8 @@ fn cell(row: &Row, cable: usize, length: f64, expected: String) -> CalibrationEr
 ///
 /// # Errors
 /// [`CalibrationError::Column`] naming two columns that fit far better the other way round, one that does
-/// with the other sign, or one that fits nowhere; [`CalibrationError::Cell`] for a row that stands out in this way.
+/// with the other sign, or one that fits nowhere; [`CalibrationError::Cell`] for a row that stands out in
+/// this way.
 pub(crate) fn check_columns(robot: &Robot, rows: &[Row]) -> Result<(), CalibrationError> {
     let measured: Vec<(Vector3<f64>, &Row, &Vec<f64>)> = rows
         .iter()
@@ -59,7 +60,8 @@ pub(crate) fn check_columns(robot: &Robot, rows: &[Row]) -> Result<(), Calibrati
         return Ok(());
     }
     let n = robot.cables.len();
-    // Misfit of column i with cable j, with the coordinates of the position in this order and with these signs.
+    // Misfit of column i with cable j, with the coordinates of the position in this order and with these
+    // signs.
     let misfit = |i: usize, j: usize, order: [usize; 3], sign: [f64; 3]| {
         let square = |(position, row, lengths): &(Vector3<f64>, &Row, &Vec<f64>)| {
             let position = Vector3::from(order.map(|k| sign[k] * position[k]));

@@ -13,8 +13,8 @@
 //! | `std_` before one of these | its standard deviation in this row; of an orientation `std_rx_rad` ... |
 //! | `cov_x_m_y_m` | covariance of two of these in this row |
 //!
-//! The JSON form has the same names, and null for what was not measured. Lengths may be in `m` or `mm`, angles
-//! in `deg` or `rad`, forces in `n` or `kn`.
+//! The JSON form has the same names, and null for what was not measured. Lengths may be in `m` or `mm`,
+//! angles in `deg` or `rad`, forces in `n` or `kn`.
 
 mod columns;
 mod row;

@@ -199,8 +199,8 @@ impl Unknowns {
         Self::free(robot, &["a", "b", "mass", "youngs_modulus"]).unwrap_or_else(|_| Self::none())
     }
 
-    /// The inputs of an error model or, without one, the named parameters or groups, `none` or the usual ones,
-    /// where each of the groups `share` has one deviation.
+    /// The inputs of an error model or, without one, the named parameters or groups, `none` or the usual
+    /// ones, where each of the groups `share` has one deviation.
     ///
     /// # Errors
     /// As [`Unknowns::free`] and [`Unknowns::share`].

@@ -52,8 +52,8 @@ enum Command {
     Stiffness(RobotAtFreePose),
     /// Find what a robot can carry at a pose, and how far its tensions stay from their limits.
     ///
-    /// With the tensions distributed anew by the winches, and with the lengths kept. A set of wrenches may act
-    /// beside the load; the figures are those of the wrench that leaves the least.
+    /// With the tensions distributed anew by the winches, and with the lengths kept. A set of wrenches may
+    /// act beside the load; the figures are those of the wrench that leaves the least.
     #[command(after_help = "Examples:
   cdpr capacity data/robots/cogiro.json --pose 0,0,2
   cdpr capacity data/robots/caroca.json --pose 0,0,1.75 --payload 50 --wrench-box 50,50,50,10,10,10")]
@@ -142,8 +142,8 @@ enum Command {
     Report(study::report::Settings),
     /// Analyse a table of inputs and outputs, wherever it comes from: which inputs matter, and how.
     ///
-    /// A table is CSV, Parquet (if built with it) or a folder of results. Rows without a number in an input are
-    /// left out, those without one in an output are failed observations of it; both are named.
+    /// A table is CSV, Parquet (if built with it) or a folder of results. Rows without a number in an input
+    /// are left out, those without one in an output are failed observations of it; both are named.
     #[command(after_help = "Examples:
   cdpr analyse data/tables/ishigami.csv
   cdpr analyse results --table mechanical --limit 'rms_mm<1.4' --out analysis

@@ -1,5 +1,5 @@
-//! What a page carries so that a robot computes in it: scripts and modules, packed, and the policy under which
-//! they run.
+//! What a page carries so that a robot computes in it: scripts and modules, packed, and the policy under
+//! which they run.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;

@@ -2,8 +2,8 @@
 //!
 //! Static figures are the SVG files of this crate, byte for byte. plotly.js (`vendor/plotly`) draws the robot
 //! and the surfaces in space from data that the page holds as JSON, and the explorer lets the reader move the
-//! robot; both are packed. maud escapes everything that comes from files. A content security policy allows the
-//! scripts of the page by their hashes, and forbids every connection.
+//! robot; both are packed. maud escapes everything that comes from files. A content security policy allows
+//! the scripts of the page by their hashes, and forbids every connection.
 
 mod analysis;
 mod calibration;

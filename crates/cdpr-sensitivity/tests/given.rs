@@ -187,7 +187,8 @@ fn delta_and_pawn_of_a_normal_sum_are_those_by_quadrature() {
 
 #[test]
 fn lower_bounds_of_delta_are_above_it_as_seldom_as_their_level_allows() {
-    // δ of a step y = 1 for x1 > 0.7 with the probability p = 0.3 is the mean of |1 - p| and |p|: 2 p (1 - p).
+    // δ of a step y = 1 for x1 > 0.7 with the probability p = 0.3 is the mean of |1 - p| and |p|: 2 p (1 -
+    // p).
     let (tables, exact) = (100, [2.0 * 0.3 * 0.7, 0.0]);
     let mut above = [0; 2];
     for seed in 0..tables {

@@ -188,8 +188,8 @@ fn outputs(
     ]
 }
 
-/// A planar robot on two cables, four cables of CoGiRo, and GRAB with cables that yield and have a weight; each
-/// with a pose, its free coordinates and a payload [kg].
+/// A planar robot on two cables, four cables of CoGiRo, and GRAB with cables that yield and have a weight;
+/// each with a pose, its free coordinates and a payload [kg].
 pub(crate) fn with_few_cables() -> [(Robot, Pose, Vec<Coordinate>, f64); 3] {
     let points = [[[-3.0, 0.0, 4.0], [-0.3, 0.0, 0.1]], [[3.0, 0.0, 4.0], [0.3, 0.0, 0.1]]];
     let platform = Platform::new(8.0, Vector3::new(0.02, 0.0, -0.1));

@@ -105,8 +105,8 @@ pub(crate) fn farthest(one: &Value, other: &Value) -> (f64, String) {
     }
 }
 
-/// By how much the rounding of poses and lengths may be larger in a field: in millimetres, in the tensions of an
-/// optimum, and in differences of nearly equal numbers, such as effects and the least of eigenvalues.
+/// By how much the rounding of poses and lengths may be larger in a field: in millimetres, in the tensions of
+/// an optimum, and in differences of nearly equal numbers, such as effects and the least of eigenvalues.
 fn amplified(key: &str) -> f64 {
     match key {
         "effects" | "least_stiffness" | "softest" | "motions" | "frequencies" => 1e5,

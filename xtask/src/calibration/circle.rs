@@ -1,5 +1,6 @@
-//! The example of docs/calibration.md from its beginning: tolerances, study, plan, campaign, calibrated robot,
-//! study with what is left. Prints its figures, and writes its pictures and the robot that later studies take.
+//! The example of docs/calibration.md from its beginning: tolerances, study, plan, campaign, calibrated
+//! robot, study with what is left. Prints its figures, and writes its pictures and the robot that later
+//! studies take.
 
 use crate::answer::{answer, number, output, parsed, write};
 use crate::cargo::root;

@@ -114,8 +114,8 @@ impl Problem<'_> {
     }
 }
 
-/// A basis of the combinations of the first `columns` unknowns that the data do not tell, one a row, each with
-/// an unknown that is in no other.
+/// A basis of the combinations of the first `columns` unknowns that the data do not tell, one a row, each
+/// with an unknown that is in no other.
 fn unidentifiable(data: &Decomposed, columns: usize) -> DMatrix<f64> {
     let combinations: Vec<usize> = (0..data.values.len()).filter(|k| !data.tells(*k)).collect();
     let mut rows = DMatrix::from_fn(combinations.len(), columns, |k, j| data.vectors[(combinations[k], j)]);

@@ -27,8 +27,8 @@ impl Problem<'_> {
         Ok((state, (self.differences(&compared), poses)))
     }
 
-    /// Unknown offsets and scales of winches where they fit the lengths that hold the measured poses best, and
-    /// zero for all other unknowns.
+    /// Unknown offsets and scales of winches where they fit the lengths that hold the measured poses best,
+    /// and zero for all other unknowns.
     fn winches(&self) -> Vec<f64> {
         let unknowns = self.model.unknowns;
         let mut x = vec![0.0; unknowns.all.len()];

@@ -1,11 +1,10 @@
 //! Patterns of residuals, which noise does not make: a trend against place or load, means of consecutive rows
 //! that do not average out.
 //!
-//! With the residuals ρ of a column and a coordinate u of their rows, artanh of the correlation r has, without
-//! a trend, a standard deviation of nearly `1/sqrt(n - 3)` (Fisher 1921). The mean over m consecutive rows
-//! has the variance `σ²/m` if
-//! rows do not depend on each other (Allan 1966): the ratio of the two tells drifts and errors of the model
-//! that change slowly from pose to pose.
+//! With the residuals ρ of a column and a coordinate u of their rows, artanh of the correlation r has,
+//! without a trend, a standard deviation of nearly `1/sqrt(n - 3)` (Fisher 1921). The mean over m consecutive
+//! rows has the variance `σ²/m` if rows do not depend on each other (Allan 1966): the ratio of the two tells
+//! drifts and errors of the model that change slowly from pose to pose.
 //!
 //! What is left of a wrong model is mostly curved, because the parameters take what is straight. Of the n
 //! residuals of a column, polynomials of second degree in the place explain the share R². By chance alone
@@ -29,8 +28,8 @@ pub struct Trend {
     pub against: &'static str,
     /// Correlation, -1 to 1; with a polynomial 0 to 1.
     pub correlation: f64,
-    /// Its artanh over the standard deviation of that without a trend; of a polynomial, that of a normal law with
-    /// the same probability.
+    /// Its artanh over the standard deviation of that without a trend; of a polynomial, that of a normal law
+    /// with the same probability.
     pub standard_deviations: f64,
 }
 

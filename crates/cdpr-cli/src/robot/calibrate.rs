@@ -37,7 +37,8 @@ pub(crate) struct Settings {
     /// Where a marker stands on the platform: x,y,z [m], once for each in their order.
     #[arg(long = "marker", value_parser = arguments::components::<3>, allow_hyphen_values = true)]
     markers: Vec<[f64; 3]>,
-    /// Least and greatest deviation of a parameter or group, or of an error of a sensor: mass=-2:2,r=-1e-3:1e-3.
+    /// Least and greatest deviation of a parameter or group, or of an error of a sensor:
+    /// mass=-2:2,r=-1e-3:1e-3.
     #[arg(long, value_delimiter = ',', value_parser = bounds, allow_hyphen_values = true)]
     bounds: Vec<(String, [f64; 2])>,
     /// How great residuals count: by their squares, or less (outliers).

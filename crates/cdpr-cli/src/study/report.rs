@@ -17,7 +17,8 @@ pub(crate) struct Settings {
     /// File for the report; `report.html` in the folder if left out.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Folder that `cdpr workspace --boundary` has written for the robot: its region is drawn around the robot.
+    /// Folder that `cdpr workspace --boundary` has written for the robot: its region is drawn around the
+    /// robot.
     #[arg(long, value_name = "FOLDER")]
     workspace: Option<PathBuf>,
     /// How the path of the report is printed.

@@ -36,7 +36,8 @@ fn polynomial(x: &[f64]) -> (f64, Vec<f64>) {
 
 #[test]
 fn a_polynomial_is_found_from_fewer_points_than_terms() {
-    // Skewed laws need a few points more; the tail of a lognormal law with a deviation of 0.5 takes more than 96.
+    // Skewed laws need a few points more; the tail of a lognormal law with a deviation of 0.5 takes more than
+    // 96.
     let laws = [
         (Law::Uniform { min: -1.0, max: 2.0 }, 24),
         (Law::Normal { mean: 1.0, std: 0.5 }, 24),

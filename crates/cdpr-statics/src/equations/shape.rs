@@ -21,7 +21,8 @@ pub struct CableShape {
 }
 
 impl DirectProblem<'_> {
-    /// The sag of every cable at an equilibrium [m]: the greatest distance across its chord, beyond its pulley.
+    /// The sag of every cable at an equilibrium [m]: the greatest distance across its chord, beyond its
+    /// pulley.
     ///
     /// # Errors
     /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable.

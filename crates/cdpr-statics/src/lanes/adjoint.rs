@@ -8,10 +8,10 @@
 //! Hᵀ y = ±(n, 0),     ±n·dp = y·( ∂G + sum [k_L; s x k_L] dL )                                   (L10)
 //! ```
 //!
-//! so that one twist y stands for all parameters; it moves anchor point i by `y_p + y_r x s_i`. H is symmetric
-//! but under a moment and for cables over guides (`lanes/skew.rs`). What y takes from the lengths, Λ_i, goes
-//! over (L9) to the set-points and, with `a_i = Λ_i dL_i/dt_i`, to the inverse model. With c_i and D_i of (D6)
-//! and the tensions without active bound free,
+//! so that one twist y stands for all parameters; it moves anchor point i by `y_p + y_r x s_i`. H is
+//! symmetric but under a moment and for cables over guides (`lanes/skew.rs`). What y takes from the lengths,
+//! Λ_i, goes over (L9) to the set-points and, with `a_i = Λ_i dL_i/dt_i`, to the inverse model. With c_i and
+//! D_i of (D6) and the tensions without active bound free,
 //!
 //! ```text
 //! [ sum_free c_i c_iᵀ/D_i ] η = sum_free c_i a_i/D_i,      α_i = (a_i - c_i·η)/D_i               (L11)

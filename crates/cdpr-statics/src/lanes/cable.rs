@@ -319,8 +319,8 @@ impl<S: Simd> LaneCable<'_, S> {
         }
     }
 
-    /// In lanes that are `far` from the shape that the cable had: takes over the vertical force and the length
-    /// of the inextensible catenary to `end` with its horizontal force, stretched by its tension.
+    /// In lanes that are `far` from the shape that the cable had: takes over the vertical force and the
+    /// length of the inextensible catenary to `end` with its horizontal force, stretched by its tension.
     ///
     /// With u = w h/(2 fx) and S = sinh u/u, `u coth u = sqrt(u² + 1/S²)` in (L4). A cable beyond
     /// [`STEEPEST`], where the series of S² ends, keeps what it has.

@@ -24,8 +24,8 @@
 //! Where steps pass limits of the tensions, `chain/program.rs` finds those within them.
 //!
 //! For a parabola fz is linear in fx and w'' zero; for a cable that is not taut it is that of the
-//! inextensible catenary ([`HeldCable::curvature`]). A cable that begins near the least tension of its span has
-//! it for a limit, as in the scalar models; one that comes near it on the way is left to them.
+//! inextensible catenary ([`HeldCable::curvature`]). A cable that begins near the least tension of its span
+//! has it for a limit, as in the scalar models; one that comes near it on the way is left to them.
 //!
 //! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
 

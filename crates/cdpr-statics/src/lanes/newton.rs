@@ -186,8 +186,8 @@ impl<S: Simd> Robots<'_, S> {
         }
     }
 
-    /// The upper triangle of the stiffness here (S5), with all cables linearised anew; one on the diagonal for
-    /// motions that are held.
+    /// The upper triangle of the stiffness here (S5), with all cables linearised anew; one on the diagonal
+    /// for motions that are held.
     #[inline(always)]
     pub(crate) fn stiffness(
         &self,
@@ -212,8 +212,8 @@ impl<S: Simd> Robots<'_, S> {
         platform.factored.replace(&SymmetricFactors::new(hessian), going);
     }
 
-    /// Gradient of the potential with the predicted forces, and the upper triangle of its derivative, which has
-    /// one on the diagonal for motions that are held.
+    /// Gradient of the potential with the predicted forces, and the upper triangle of its derivative, which
+    /// has one on the diagonal for motions that are held.
     ///
     /// Where moments are out of balance the derivative of the gradient is not symmetric. The skew part is
     /// dropped: it is proportional to the residual moment, which vanishes at equilibrium, and that under a

@@ -45,10 +45,10 @@ const STATIONARY: f64 = 1e-10;
 /// [`inverse`] at every pose, with the robot's own reference of the tensions.
 ///
 /// Poses that follow each other should be near each other, as along the lines of a grid: robots with a cable
-/// for each free motion, over pulleys with vertical axes or none, are then answered in the lanes of the vector
-/// unit, each from the pose before it, and all others one by one. An answer found in lanes counts no
-/// iterations. It depends on the poses before it in the same call, in the last digits; it does
-/// not depend on the vector unit.
+/// for each free motion, over pulleys with vertical axes or none, are then answered in the lanes of the
+/// vector unit, each from the pose before it, and all others one by one. An answer found in lanes counts no
+/// iterations. It depends on the poses before it in the same call, in the last digits; it does not depend on
+/// the vector unit.
 ///
 /// Where (I1) has several minima, [`inverse`] takes the best that several starts lead to. An answer in lanes
 /// with a cable that sags is proved to be the least of all on a grid of its tensions.

@@ -32,9 +32,9 @@ pub enum ScalarReason {
     Unloaded,
     /// No stable equilibrium with the load was found.
     Loaded,
-    /// Derivatives were asked for that lanes do not have: with free coordinates, where those by some parameter
-    /// may differ on its two sides or do not exist, and where a tension is at its greatest value at the leave
-    /// point of a pulley.
+    /// Derivatives were asked for that lanes do not have: with free coordinates, where those by some
+    /// parameter may differ on its two sides or do not exist, and where a tension is at its greatest value at
+    /// the leave point of a pulley.
     Derivatives,
 }
 

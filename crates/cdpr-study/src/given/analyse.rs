@@ -61,8 +61,8 @@ const NAMED: usize = 10;
 
 /// Analyses a table.
 ///
-/// Rows in which an input is not a finite number are left out. A row in which an output is not a finite number
-/// counts as a failed observation of this output.
+/// Rows in which an input is not a finite number are left out. A row in which an output is not a finite
+/// number counts as a failed observation of this output.
 ///
 /// # Errors
 /// [`StudyError::Invalid`] for a name that no column of numbers has, an input that is an output, no input or

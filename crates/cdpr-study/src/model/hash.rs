@@ -10,7 +10,8 @@ use serde::Serialize;
 
 impl Study {
     /// Hash of everything that determines the observations: robot, error models, poses, payload, output,
-    /// seed, version of the program and of its designs. Names, titles, numbers of observations and statistics do not enter.
+    /// seed, version of the program and of its designs. Names, titles, numbers of observations and statistics
+    /// do not enter.
     ///
     /// # Errors
     /// A study that was read successfully has no errors here.

@@ -1,8 +1,8 @@
 //! What the adjoint of an observation takes from each cable: derivatives of an output by its ends, its
 //! material and its guide.
 //!
-//! They follow from how its force and its length answer, (L8) and (L9). Second derivatives of the force by its
-//! tension are those of (L9) along `(f_t, L_t)`, found by tangents.
+//! They follow from how its force and its length answer, (L8) and (L9). Second derivatives of the force by
+//! its tension are those of (L9) along `(f_t, L_t)`, found by tangents.
 
 use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable, Span};

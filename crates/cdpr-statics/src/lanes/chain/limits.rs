@@ -5,8 +5,8 @@
 //! method for a convex function finds it. Over a pulley the height is that above the leave point of the cable
 //! that has this tension, and is found together with it.
 //!
-//! A span demands a least tension of a cable with weight: where the horizontal force becomes less, the tension
-//! rises again. Newton's method for its slope over the logarithm of that force finds it.
+//! A span demands a least tension of a cable with weight: where the horizontal force becomes less, the
+//! tension rises again. Newton's method for its slope over the logarithm of that force finds it.
 
 use crate::equations::{ABOVE_LEAST, Span};
 use crate::lanes::algebra::{Lanes2, replace};
@@ -16,8 +16,8 @@ use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::kernel::Field;
 use cdpr_robot::{CableEnd, TensionLimits};
 
-/// A change below this, relative to the sum of tensions, the longest cable and the cable's own horizontal force,
-/// is the last one.
+/// A change below this, relative to the sum of tensions, the longest cable and the cable's own horizontal
+/// force, is the last one.
 const LAST_CHANGE: f64 = 1e-7;
 
 const MAX_ITERATIONS: usize = 10;

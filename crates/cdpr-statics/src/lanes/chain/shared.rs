@@ -10,8 +10,8 @@ use cdpr_robot::{CableEnd, Robot, RobotCable, TensionLimits};
 /// tensions, is the last one: their error then changes no position by more than 1e-12 m.
 pub(crate) const LAST_DISTRIBUTION: f64 = 1e-9;
 
-/// The square of such a change over the change before it, which is what slowly converging steps leave: an upper
-/// bound.
+/// The square of such a change over the change before it, which is what slowly converging steps leave: an
+/// upper bound.
 pub(crate) const LAST_REMAINDER: f64 = 1e-11;
 
 /// Iterations for the tensions, whose limits may change on the way.

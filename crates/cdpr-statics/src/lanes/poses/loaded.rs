@@ -71,8 +71,8 @@ impl LoadedPose {
 pub struct PoseSlopes {
     /// The robot. [`LoadedPose::scalar`] says why its derivatives were left to the scalar models.
     pub loaded: LoadedPose,
-    /// d|dp| by every parameter in the order of [`cdpr_robot::Parameter::of`] [m per unit]; `None` where there
-    /// is none.
+    /// d|dp| by every parameter in the order of [`cdpr_robot::Parameter::of`] [m per unit]; `None` where
+    /// there is none.
     pub rms: Option<Vec<f64>>,
 }
 
@@ -416,9 +416,9 @@ impl<S: Simd> InLanes<'_, S> {
 /// The least eigenvalue of the free motions.
 #[inline(always)]
 fn least<S: Simd>(freedoms: Freedoms, mut matrix: Lanes6x6<S>) -> Lanes<S> {
-    let mut trace = matrix[0][0];
-    for k in 1..6 {
-        trace += matrix[k][k];
+    let mut trace = matrix[0][0].all(0.0);
+    for (k, row) in matrix.iter().enumerate() {
+        trace += row[k];
     }
     // No less than any eigenvalue of a stable stiffness.
     hold_matrix(freedoms, &mut matrix, trace);
