@@ -182,8 +182,8 @@ fn anew(robot: &Robot, pose: &Pose, load: &Load, row: &[f64], found: &Observatio
 const KINDS: [(&str, f64); 3] =
     [("plain cables", 0.2), ("pulleys and leads", 0.08), ("points and planar platforms", 0.1)];
 
-/// Whether one of both equilibria of the scalar models lies farther away than the lanes go: there are several
-/// then.
+/// Whether the scalar models turn the platform by more than 0.5 rad to one of both equilibria: it has several
+/// then, and the lanes another one.
 fn turns_over(robot: &Robot, pose: &Pose, load: &Load, row: &[f64]) -> bool {
     let perturbed = robot.perturbed(row).unwrap();
     deflection(&perturbed.robot, pose, &perturbed.tension_offsets, load).is_ok_and(|found| {
@@ -219,7 +219,7 @@ fn outcomes(seed: u64) -> Vec<(String, f64, usize)> {
                     return ("lanes, the least of several minima".to_owned(), error);
                 }
                 if error > AGREEMENT && turns_over(&robot, &pose, &load, row) {
-                    return ("lanes, a nearer equilibrium".to_owned(), error);
+                    return ("TURNED OVER ALONE".to_owned(), error);
                 }
                 if error > AGREEMENT {
                     let [ours, theirs] = [found, &alone].map(|found| found.displacement.transpose());
@@ -261,7 +261,7 @@ fn lanes_answer_as_the_scalar_models_do_for_any_robot() {
         println!("differences: {:.1e} {:.1e} {:.1e}", quantile(0.5), quantile(0.999), quantile(1.0));
         let of = |outcome: &str| counts.get(outcome).copied().unwrap_or_default();
         assert!(of("lanes") as f64 > least * cases as f64, "{kind}: {counts:?}");
-        refused += of("DIFFERENT") + of("LANES ONLY");
+        refused += of("DIFFERENT") + of("LANES ONLY") + of("TURNED OVER ALONE");
     }
     assert_eq!(refused, 0);
 }
@@ -272,7 +272,9 @@ fn robots_on_which_the_models_once_disagreed() {
     // limits at pulleys that hardly leave any tensions, the next one a cable that hangs down from the rim of
     // its wheel, and in the last one steps converge slowly.
     for seed in [139_742, 269_138, 139_731, 90_976, 887_043, 870_474] {
-        let different = |(what, ..): &(String, f64, usize)| what == "DIFFERENT" || what == "LANES ONLY";
+        let different = |(what, ..): &(String, f64, usize)| {
+            ["DIFFERENT", "LANES ONLY", "TURNED OVER ALONE"].contains(&what.as_str())
+        };
         assert!(!outcomes(seed).iter().any(different), "robot {seed}");
     }
 }
