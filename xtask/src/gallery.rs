@@ -25,8 +25,8 @@ const REMARKS: [(&str, &str); 1] = [(
 const LIVE: &str = "# Robots to move
 
 Choose a robot; it computes in the frame below, in this browser and without a connection. [The
-explorer](explorer.md) says what one can do with it, and `cdpr explore NAME` writes its page as a file. The pages
-are part of the book that `cargo xtask dist` makes.
+explorer](explorer.md) says what one can do with it, and `cdpr explore NAME` writes its page as a file. The
+pages are part of the book that `cargo xtask dist` makes.
 
 ";
 

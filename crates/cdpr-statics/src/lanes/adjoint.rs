@@ -384,7 +384,7 @@ impl<S: Simd> Adjoint<S> {
         }
         hold_matrix(wound.freedoms, &mut matrix, zero + 1.0);
         let factored = SymmetricFactors::new(matrix);
-        // Free cables that do not span all wrenches have derivatives on each side at most.
+        // Free cables that do not span all wrenches make this matrix singular.
         let diagonal = six!(|k| matrix[k][k]);
         self.decided = self.decided & factored.is_regular(&diagonal, NEARLY_SINGULAR);
         let balanced = factored.solve(&right);

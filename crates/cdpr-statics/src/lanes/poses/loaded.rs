@@ -71,8 +71,8 @@ impl LoadedPose {
 pub struct PoseSlopes {
     /// The robot. [`LoadedPose::scalar`] says why its derivatives were left to the scalar models.
     pub loaded: LoadedPose,
-    /// d|dp| by every parameter in the order of [`cdpr_robot::Parameter::of`] [m per unit]; `None` where
-    /// there is none.
+    /// Derivatives of |dp| by every parameter, in the order of [`cdpr_robot::Parameter::of`] [m per unit];
+    /// `None` where |dp| is not differentiable.
     pub rms: Option<Vec<f64>>,
 }
 
