@@ -14,13 +14,14 @@
 //! uncertainty that remains has the covariance
 //!
 //! ```text
-//! C = (1 + AᵀA)⁻¹ = sum v_k v_kᵀ/(1 + s_k²)                                                       (K2)
+//! C = (1 + AᵀA)⁻¹ = sum v_k v_kᵀ/(1 + s_k²)                                                    (K2)
 //! ```
 //!
-//! With the triangular factor of `C⁻¹ = RᵀR`, a further pose with the matrix B adds the information, in bits,
+//! With the triangular factor of `C⁻¹ = RᵀR`, a further pose with the matrix B adds the information,
+//! in bits,
 //!
 //! ```text
-//! ½ log2 det(1 + B C Bᵀ) = ½ log2 det(1 + YᵀY),      Rᵀ Y = Bᵀ                                    (K3)
+//! ½ log2 det(1 + B C Bᵀ) = ½ log2 det(1 + YᵀY),      Rᵀ Y = Bᵀ                               (K3)
 //! ```
 //!
 //! which is the sum of log2 of the diagonal of the triangular factor of `[Y; 1]`; the factor of `[R; B]` is

@@ -12,12 +12,12 @@
 //! (C22) gives the flexibility in the plane; across it A swings about the axis, x/fx with the distance x from
 //! D. Only the angle α needs more than a root or a quotient, and only where L is asked for.
 //!
-//! (C24) gives the derivatives of A at constant force and length. If the axis k turns by dκ within the plane,
-//! towards the cable, u turns by -k dκ and ψ by dκ; m stays normal to τ. If k turns across the plane, u and m
-//! turn with it by cos ψ/sin ψ and 1/sin ψ of its angle:
+//! (C24) gives the derivatives of A at constant force and length. If the axis k turns by dκ within the
+//! plane, towards the cable, u turns by -k dκ and ψ by dκ; m stays normal to τ. If k turns across the plane,
+//! u and m turn with it by cos ψ/sin ψ and 1/sin ψ of its angle:
 //!
 //! ```text
-//! dA/dκ = -ρ e_z + r/(1 + ε) dA/dL  in the plane,      r (1 + cos ψ)/sin ψ = B_x/τ_x  across it     (C31)
+//! dA/dκ = -ρ e_z + r/(1 + ε) dA/dL  in the plane,      r (1 + cos ψ)/sin ψ = B_x/τ_x  across it  (C31)
 //! ```
 
 use super::field::Lanewise;

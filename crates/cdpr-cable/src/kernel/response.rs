@@ -71,9 +71,9 @@
 //! ```
 //!
 //! Where `fz V0 < 0` (the cable dips below both ends) `T T0 + fz V0` is computed as
-//! `fx² (fx² + fz² + V0²)/(T T0 - fz V0)`, so that nothing cancels for a cable that hangs folded (`fx -> 0`).
-//! A taut cable, `q² <= 0.02`, does not need the choice: there `-fz V0 <= (w L/2)² = q² s²/4`, a fiftieth of
-//! `T T0`.
+//! `fx² (fx² + fz² + V0²)/(T T0 - fz V0)`, so that nothing cancels for a cable that hangs folded
+//! (`fx -> 0`). A taut cable, `q² <= 0.02`, does not need the choice: there
+//! `-fz V0 <= (w L/2)² = q² s²/4`, a fiftieth of `T T0`.
 
 use super::field::{Field, Lanewise, Real};
 use super::series::{SERIES_LIMIT, TAUT, psi_by_halves, psi_of_slack, psi_of_taut};

@@ -48,7 +48,7 @@ pub(super) fn psi_of_taut<T: Field>(q2: T) -> T {
 /// With `q' = q/(1 + sqrt(1 - q²))` is `atanh(q) = 2 atanh(q')`, and
 ///
 /// ```text
-/// q'² = q²/(1 + c)²,    ψ(q²) = (1 + 2 ψ(q'²)/(1 + c)) / (1 + c)²,    c'² = 2 c/(1 + c)            (C27)
+/// q'² = q²/(1 + c)²,    ψ(q²) = (1 + 2 ψ(q'²)/(1 + c)) / (1 + c)²,    c'² = 2 c/(1 + c)     (C27)
 /// ```
 ///
 /// in which nothing cancels. Each cable is halved until it is [`TAUT`], by its own q² alone.
@@ -79,7 +79,8 @@ pub(super) fn psi_by_halves<T: Lanewise>(q2: T, cosine: T) -> T {
 /// Three times halved it is below π/16, where the series of ψ holds for a negative square:
 ///
 /// ```text
-/// tan(α/2) = z/(1 + x),      tan(α/2) = tan α/(1 + sqrt(1 + tan² α)),      atan q = q (1 - q² ψ(-q²))  (C29)
+/// tan(α/2) = z/(1 + x),      tan(α/2) = tan α/(1 + sqrt(1 + tan² α))
+/// atan q = q (1 - q² ψ(-q²))                                                            (C29)
 /// ```
 #[inline(always)]
 pub(super) fn elevation<T: Field>([x, z]: [T; 2]) -> T {
