@@ -44,7 +44,9 @@ use crate::lanes::chain::free::{FreeMotion, rest};
 use crate::lanes::chain::limits::{demand, limits_at, may_be_slack};
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::program::{Row, newton, within_limits};
-use crate::lanes::chain::shared::{LAST_DISTRIBUTION, LAST_REMAINDER, MAX_DISTRIBUTIONS, Shared};
+use crate::lanes::chain::shared::{
+    LAST_DISTRIBUTION, LAST_REMAINDER, LAST_SHARE, MAX_DISTRIBUTIONS, Shared,
+};
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, Robots};
@@ -235,7 +237,7 @@ pub(crate) fn distribute<'a, S: Simd>(
         limits.push(limits_at(cable, span, (choice.limits, choice.max_at), compared));
     }
     let mut demanded = vec![jumped; spans.len()];
-    let (mut asked, mut left) = (false, MAX_DISTRIBUTIONS);
+    let (mut asked, mut left) = (!shared.may_be_slack, MAX_DISTRIBUTIONS);
     while left > 0 {
         all_held.clear();
         convex.clear();
@@ -260,12 +262,18 @@ pub(crate) fn distribute<'a, S: Simd>(
             convex.push((square * LEAST_CURVATURE).less_or_equal(curvature));
             let curvature = curvature.abs().max(square * LEAST_CURVATURE);
             rows.push(Row::new(
-                hold(freedoms, wrench(&cable.anchor_arm, &along)),
+                wrench(&cable.anchor_arm, &along),
                 (held.closed + -choice.reference) * held.tension_slope,
                 curvature.recip(),
                 multipliers,
             ));
             all_held.push(held);
+        }
+        if !freedoms.are_all() {
+            balance = hold(freedoms, balance);
+            for row in &mut rows {
+                row.slope = hold(freedoms, row.slope);
+            }
         }
         if !asked {
             asked = true;
@@ -284,7 +292,6 @@ pub(crate) fn distribute<'a, S: Simd>(
             }
         }
         left -= 1;
-        balance = hold(freedoms, balance);
         let (mut step, _) = newton(&rows, &balance);
         let mut outside = zero.less_or_equal(zero);
         outside = outside & !outside;
@@ -319,11 +326,28 @@ pub(crate) fn distribute<'a, S: Simd>(
             }
         }
         replace(multipliers, &six!(|k| multipliers[k] + step[k]), going);
-        let (force, moment) = halves(&balance);
-        let balanced = dot(&force, &force).less_or_equal(zero.all(unbalanced * unbalanced))
-            & dot(&moment, &moment).less_or_equal(zero.all(unbalanced * arm * unbalanced * arm));
-        let ends = moved.less_or_equal(last_change) & (moved * moved).less_or_equal(before * LAST_REMAINDER);
-        let last = going & settled & balanced & ends;
+        let small =
+            moved.less_or_equal(last_change) & (moved * moved).less_or_equal(before * LAST_REMAINDER);
+        let mut ends = going & moved.less_or_equal(zero.all(LAST_SHARE.sqrt()));
+        if ends.any() {
+            for ((row, held), cable) in rows.iter().zip(&all_held).zip(&robots.cables) {
+                let d = bounded.select(row.value(), row.wanted - row.change);
+                ends = ends & held.is_last(cable, d, LAST_SHARE);
+            }
+        }
+        let mut last = settled & (ends | (going & small));
+        if last.any() {
+            for row in &rows {
+                let d = bounded.select(row.value(), row.wanted - row.change);
+                for k in 0..6 {
+                    balance[k] += row.slope[k] * d;
+                }
+            }
+            let (force, moment) = halves(&balance);
+            last = last
+                & dot(&force, &force).less_or_equal(zero.all(unbalanced * unbalanced))
+                & dot(&moment, &moment).less_or_equal(zero.all(unbalanced * arm * unbalanced * arm));
+        }
         before = moved;
         if last.any() {
             // Elsewhere a stationary point may be no minimum: the scalar models decide.

@@ -87,13 +87,13 @@ impl<S: Simd> HeldCable<S> {
         let here = (longer[1] * xx - longer[0] * xz) * inverse;
         let closing =
             [(longer[0] * miss[1] - longer[1] * miss[0]) * inverse, (zz * miss[0] - xz * miss[1]) * inverse];
-        // Closing turns a taut cable, whose 1/û_x is t', and its slope with it.
-        let taut = response.slackness.at_most(TAUT);
-        let tilt = taut.select(closing[0] * response.tension_inv, here.all(0.0));
+        // Closing turns the force, and its slope, which is nearly that of the chord, by what dL leaves of it.
+        let fx_inv = cable.force[0].recip();
+        let tilt = closing[0] * response.tension_inv;
+        let rise = here + (closing[0] - cable.weight_per_length * closing[1] * 0.5) * fx_inv;
         let across = ux * here - uz;
-        let rise = here + tilt * (ux + uz * here);
         let tension_slope = ux + uz * rise + across * ux * tilt;
-        let bent = rise.all(0.0);
+        let bent = response.slackness * (here * (2.0 / 3.0) - across * ux) * fx_inv;
         let mut held = Self {
             tension: response.tension,
             closed: response.tension + uz * closing[0],
@@ -105,6 +105,7 @@ impl<S: Simd> HeldCable<S> {
             tension_slope,
             curvatures: [bent, bent],
         };
+        let taut = response.slackness.at_most(TAUT);
         if !<Lanes<S> as Lanewise>::all(taut) {
             held.curvatures[1] = taut.select(bent, held.curvature(cable, span));
         }
@@ -162,6 +163,17 @@ impl<S: Simd> HeldCable<S> {
     #[inline(always)]
     pub(crate) fn way_to(&self, tension: Lanes<S>) -> Lanes<S> {
         (tension - self.closed) / self.tension_slope
+    }
+
+    /// Whether the steps that follow `d` change no tension by more than about `share` of itself, as far as is
+    /// known of a taut cable without guide: with the relative change y of force and length, closing it
+    /// included, a step leaves y² of its nonlinearity, and y q² of what is neglected of its sag.
+    #[inline(always)]
+    pub(crate) fn is_last(&self, cable: &LaneCable<'_, S>, d: Lanes<S>, share: f64) -> Mask<S> {
+        let ([fx, _], length) = (cable.force, cable.length);
+        let whole = fx * length;
+        let change = (d.abs() + self.closing[0].abs()) * length + self.closing[1].abs() * fx;
+        (change * (change + self.slackness * whole)).less_or_equal(whole * whole * share)
     }
 
     /// Changes fx by `d` where `going`. Returns the largest relative change made.

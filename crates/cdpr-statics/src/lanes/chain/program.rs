@@ -24,7 +24,7 @@ use crate::lanes::simd::{Lanes, Mask, Simd};
 #[derive(Clone, Copy)]
 pub(crate) struct Row<S: Simd> {
     /// J.
-    slope: Lanes6<S>,
+    pub(crate) slope: Lanes6<S>,
     /// 1/h.
     curvature_inv: Lanes<S>,
     /// -(c + J·λ)/h, the step without limits.

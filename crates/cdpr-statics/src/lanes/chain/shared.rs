@@ -14,6 +14,10 @@ pub(crate) const LAST_DISTRIBUTION: f64 = 1e-9;
 /// upper bound.
 pub(crate) const LAST_REMAINDER: f64 = 1e-11;
 
+/// Part of its own tension by which the steps after the last one would change a taut cable: far below what
+/// changes a position by 1e-12 of a cable's length, as its sag is at most 0.02 of that.
+pub(crate) const LAST_SHARE: f64 = 5e-10;
+
 /// Iterations for the tensions, whose limits may change on the way.
 pub(crate) const MAX_DISTRIBUTIONS: usize = 20;
 
@@ -52,6 +56,8 @@ pub(crate) struct Shared {
     pub(crate) forces: f64,
     /// Lengths that positions are compared with.
     pub(crate) scale: Scale,
+    /// Whether a cable may come near the least tension of its span.
+    pub(crate) may_be_slack: bool,
 }
 
 /// Segments of the elastic law of each cable; none of a linear one.

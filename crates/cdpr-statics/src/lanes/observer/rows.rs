@@ -1,5 +1,6 @@
 //! The nominal robot, and robots that deviate from it, one in each lane.
 
+use crate::equations::Ends;
 use crate::inverse::HeldPose;
 use crate::lanes::algebra::{Frame, hold, rotated, six, three};
 use crate::lanes::cable::{Guided, LaneCable, Shape};
@@ -19,6 +20,9 @@ use cdpr_robot::{
 };
 use smallvec::SmallVec;
 use std::array::from_fn;
+
+/// What deviating robots may change of a tension and of the least one of its span, as a ratio.
+const DEVIATION: f64 = 2.0;
 
 /// The nominal robot at the wanted pose.
 #[derive(Clone, Debug)]
@@ -42,14 +46,17 @@ impl Nominal {
             return Err(why);
         }
         let (HeldPose { lengths, equilibrium }, multipliers) = solution.ok_or(ScalarReason::NominalRobot)?;
-        let (pose, tension) = (&equilibrium.pose, equilibrium.tensions().iter().sum());
+        let (pose, tensions) = (&equilibrium.pose, equilibrium.tensions());
+        let tension = tensions.iter().sum();
         let problem = DirectProblem { robot, lengths: &lengths, load: *load };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let reference = robot.reference();
         let choice = |(i, reference): (usize, &f64)| {
             Choice::new(robot, i, *reference, Shape::of(robot, i, lengths[i], &equilibrium))
         };
+        let near_least = |i: usize| tensions[i] <= DEVIATION * Ends::of(robot, pose, i).floor();
         let shared = Shared {
+            may_be_slack: (0..robot.cables.len()).any(near_least),
             choices: reference.iter().enumerate().map(choice).collect(),
             tension,
             forces: tension,
