@@ -13,6 +13,9 @@ const NEAR_LEAST: f64 = 0.0015;
 /// The same of a cable that is not let below the least tension of its span.
 const AT_LEAST: f64 = 0.0005;
 
+/// q² up to which the force of a cable that is being closed turns nearly as its chord.
+const NEARLY_CHORD: f64 = 0.1;
+
 /// Greatest part of its horizontal force that a step takes away from a cable.
 const GREATEST_LOSS: f64 = 0.9;
 
@@ -89,8 +92,10 @@ impl<S: Simd> HeldCable<S> {
             [(longer[0] * miss[1] - longer[1] * miss[0]) * inverse, (zz * miss[0] - xz * miss[1]) * inverse];
         // Closing turns the force, and its slope, which is nearly that of the chord, by what dL leaves of it.
         let fx_inv = cable.force[0].recip();
-        let tilt = closing[0] * response.tension_inv;
-        let rise = here + (closing[0] - cable.weight_per_length * closing[1] * 0.5) * fx_inv;
+        let turns = response.slackness.at_most(NEARLY_CHORD);
+        let tilt = turns.select(closing[0] * response.tension_inv, here.all(0.0));
+        let turn = (closing[0] - cable.weight_per_length * closing[1] * 0.5) * fx_inv;
+        let rise = here + turns.select(turn, here.all(0.0));
         let across = ux * here - uz;
         let tension_slope = ux + uz * rise + across * ux * tilt;
         let bent = response.slackness * (here * (2.0 / 3.0) - across * ux) * fx_inv;
@@ -173,7 +178,8 @@ impl<S: Simd> HeldCable<S> {
         let ([fx, _], length) = (cable.force, cable.length);
         let whole = fx * length;
         let change = (d.abs() + self.closing[0].abs()) * length + self.closing[1].abs() * fx;
-        (change * (change + self.slackness * whole)).less_or_equal(whole * whole * share)
+        let sag = self.slackness.at_most(NEARLY_CHORD).select(self.slackness, fx.all(1.0));
+        (change * (change + sag * whole)).less_or_equal(whole * whole * share)
     }
 
     /// Changes fx by `d` where `going`. Returns the largest relative change made.
